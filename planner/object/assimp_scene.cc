@@ -2,17 +2,22 @@
 
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
+#include <assimp/metadata.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <array>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/object/text_scanner.h"
 
 namespace regrasp::object {
@@ -89,6 +94,65 @@ void AddMesh(const aiMesh& mesh, const aiMatrix4x4& placement, PolygonSoup& soup
   }
 }
 
+struct Unit {
+  std::string name;
+  double metres = 1;
+};
+
+/// One that has a name, or "units of 0.3 m".
+Unit UnitOf(double metres) {
+  static const std::vector<Unit> kNamed = {{"metres", 1},
+                                           {"centimetres", 0.01},
+                                           {"millimetres", 0.001},
+                                           {"inches", 0.0254},
+                                           {"feet", 0.3048}};
+  constexpr double kSame = 1e-6;  // files have it rounded
+  for (const Unit& named : kNamed) {
+    if (std::abs(metres - named.metres) <= kSame * named.metres) return named;
+  }
+  return {"units of " + FormatShort(metres) + " m", metres};
+}
+
+/// Of a COLLADA file; nullopt where it has no element for it.
+std::optional<Unit> ColladaUnit(std::string_view bytes) {
+  constexpr std::string_view kElement = "<unit", kAttribute = "meter=";
+  const std::size_t from = bytes.find(kElement);
+  if (from == std::string_view::npos) return std::nullopt;
+  const std::string_view element = bytes.substr(from, bytes.find('>', from) - from);
+  const std::size_t at = element.find(kAttribute);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view value = element.substr(at + kAttribute.size());
+  if (value.empty()) return std::nullopt;
+  const auto metres = ParseDouble(value.substr(1, value.find(value[0], 1) - 1));
+  if (!metres || !(*metres > 0)) return std::nullopt;
+  return UnitOf(*metres);
+}
+
+/// Of an FBX file, which has it in centimetres.
+std::optional<Unit> FbxUnit(const aiScene& scene) {
+  float centimetres = 0;
+  if (scene.mMetaData == nullptr || !scene.mMetaData->Get("UnitScaleFactor", centimetres) ||
+      !(centimetres > 0)) {
+    return std::nullopt;
+  }
+  return UnitOf(double{centimetres} / 100);
+}
+
+/// Brings a surface into metres where the file says what its unit is. assimp has done so with
+/// COLLADA, and glTF is in metres.
+void ApplyUnit(const aiScene& scene, std::string_view bytes, const std::string& file,
+               PolygonSoup& soup) {
+  const std::string ending = LowerCase(std::filesystem::path(file).extension().string());
+  std::optional<Unit> unit;
+  if (ending == ".glb" || ending == ".gltf") unit = UnitOf(1);
+  if (ending == ".dae") unit = ColladaUnit(bytes);
+  if (ending == ".fbx") unit = FbxUnit(scene);
+  if (!unit) return;
+  soup.unit = unit->name;
+  if (ending != ".fbx") return;
+  for (Eigen::Vector3d& vertex : soup.vertices) vertex *= unit->metres;
+}
+
 }  // namespace
 
 PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
@@ -122,6 +186,7 @@ PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
       stack.push_back({visit.node->mChildren[c], placement});
     }
   }
+  ApplyUnit(*scene, bytes, file, soup);
   return soup;
 }
 

@@ -40,6 +40,11 @@ std::string MeasuresText(const BodyMeasures& body) {
   return FormatLength(body.diameter_m) + " across, " + thick + FormatMass(body.mass_kg);
 }
 
+std::string UnitText(const std::string& unit) {
+  if (unit.empty()) return "";
+  return "; its file is in " + unit + (unit == "metres" ? "" : ", read as metres");
+}
+
 std::string SizeWarning(const BodyMeasures& body, double scale) {
   if (body.diameter_m >= kSmallestUsual && body.diameter_m <= kLargestUsual) return "";
   const double units = body.diameter_m / scale;

@@ -30,6 +30,10 @@ inline constexpr double kLargestUsual = 2;
 /// "10.4 cm across, 216 g".
 [[nodiscard]] std::string MeasuresText(const BodyMeasures& body);
 
+/// What an object's file says of its unit (ObjectFile::unit), to stand behind its size: "; its file
+/// is in inches, read as metres"; empty where it says nothing.
+[[nodiscard]] std::string UnitText(const std::string& unit);
+
 /// Of a body below kSmallestUsual or above kLargestUsual, what to look at; otherwise empty. A unit
 /// of length in which it is 2 to 40 cm across is guessed: "millimetres? use --scale 0.001".
 /// @param scale  metres per unit of the object, as the body was measured with.

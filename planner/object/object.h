@@ -189,6 +189,7 @@ struct ObjectFile {
   std::string sha256;  ///< of the file's bytes
   std::unique_ptr<const Object> object;
   std::optional<RepairRecord> repair = std::nullopt;  ///< where it is not the file's own surface
+  std::string unit = {};                              ///< as PolygonSoup::unit
 };
 
 /// Reads a solid (OBJ, OFF, PLY, STL in double precision; every other format through assimp in a

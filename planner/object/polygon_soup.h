@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 namespace regrasp::object {
@@ -13,6 +14,8 @@ struct PolygonSoup {
   /// Of each facet whether it is no part of what was scanned or drawn: it fills a gap of a repaired
   /// surface. Empty where none is.
   std::vector<bool> invented = {};
+  /// Where the file says what its unit of length is: its name, "inches"; vertices are in metres.
+  std::string unit = {};
 };
 
 }  // namespace regrasp::object

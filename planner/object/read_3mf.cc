@@ -196,12 +196,20 @@ Model ParseModel(const std::string& text) {
   return std::move(parsing.model);
 }
 
-double MetresOf(const std::string& unit) {
-  static const std::map<std::string, double> kMetres = {{"micron", 1e-6},     {"millimeter", 1e-3},
-                                                        {"centimeter", 0.01}, {"inch", 0.0254},
-                                                        {"foot", 0.3048},     {"meter", 1}};
-  const auto found = kMetres.find(unit);
-  if (found == kMetres.end()) throw InputError("its unit " + Quoted(unit) + " is not one of 3MF");
+struct Unit {
+  double metres;
+  const char* name;
+};
+
+const Unit& UnitOf(const std::string& unit) {
+  static const std::map<std::string, Unit> kUnits = {{"micron", {1e-6, "micrometres"}},
+                                                     {"millimeter", {1e-3, "millimetres"}},
+                                                     {"centimeter", {0.01, "centimetres"}},
+                                                     {"inch", {0.0254, "inches"}},
+                                                     {"foot", {0.3048, "feet"}},
+                                                     {"meter", {1, "metres"}}};
+  const auto found = kUnits.find(unit);
+  if (found == kUnits.end()) throw InputError("its unit " + Quoted(unit) + " is not one of 3MF");
   return found->second;
 }
 
@@ -252,10 +260,13 @@ class Placer {
 
 PolygonSoup Read3mf(std::string_view bytes) {
   const Model model = ParseModel(ReadModel(bytes));
-  const Affine3d metres(Eigen::Scaling(MetresOf(model.unit)));
+  const Unit& unit = UnitOf(model.unit);
+  const Affine3d metres(Eigen::Scaling(unit.metres));
   Placer placer(model);
   for (const Placed& item : model.items) placer.Place({item.object, metres * item.transform});
-  return placer.soup();
+  PolygonSoup soup = placer.soup();
+  soup.unit = unit.name;
+  return soup;
 }
 
 }  // namespace regrasp::object

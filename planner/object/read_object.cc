@@ -54,6 +54,7 @@ ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
   } else {
     const PolygonSoup soup = ParseSoup(path, ending, bytes, reading.deadline);
     std::string().swap(bytes);  // large files are read in little memory
+    file.unit = soup.unit;
     file.object = std::make_unique<Polyhedron>(Polyhedron::FromSoup(soup, path.string(), reading));
   }
   reading.deadline.Check();

@@ -20,6 +20,19 @@ bool Take(std::string_view& bytes, T& value) {
   return true;
 }
 
+void AppendText(std::string& bytes, const std::string& text) {
+  Append(bytes, std::uint64_t{text.size()});
+  bytes += text;
+}
+
+bool TakeText(std::string_view& bytes, std::string& text) {
+  std::uint64_t size = 0;
+  if (!Take(bytes, size) || bytes.size() < size) return false;
+  text = bytes.substr(0, size);
+  bytes.remove_prefix(size);
+  return true;
+}
+
 bool TakeVertices(std::string_view& bytes, PolygonSoup& soup) {
   std::uint64_t count = 0;
   if (!Take(bytes, count)) return false;
@@ -49,6 +62,7 @@ bool TakeFacets(std::string_view& bytes, PolygonSoup& soup) {
 
 std::string SoupToBytes(const PolygonSoup& soup) {
   std::string bytes;
+  AppendText(bytes, soup.unit);
   Append(bytes, std::uint64_t{soup.vertices.size()});
   for (const auto& vertex : soup.vertices) {
     for (const double x : vertex) Append(bytes, x);
@@ -63,7 +77,8 @@ std::string SoupToBytes(const PolygonSoup& soup) {
 
 std::optional<PolygonSoup> SoupFromBytes(std::string_view bytes) {
   PolygonSoup soup;
-  if (!TakeVertices(bytes, soup) || !TakeFacets(bytes, soup) || !bytes.empty()) {
+  if (!TakeText(bytes, soup.unit) || !TakeVertices(bytes, soup) || !TakeFacets(bytes, soup) ||
+      !bytes.empty()) {
     return std::nullopt;
   }
   return soup;
