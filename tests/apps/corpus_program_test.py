@@ -4,6 +4,9 @@ assimp-testmodels with the outcome that is expected of it, so that a change of b
 tests/data/corpus.tsv has a line a file: package, file, and "accepted", "repaired STAGE" or "refused
 WORDS". `python3 tests/apps/corpus_program_test.py --programs DIR --source DIR --write` writes it
 anew; read the difference before you commit it. Where a package is missing its files are skipped.
+
+`--write` takes two options, for a maintainer who has the time: `--largest BYTES` takes files up to
+that size, and `--table FILE` writes elsewhere. Compare two tables that two versions wrote.
 """
 
 import concurrent.futures
@@ -22,6 +25,7 @@ CGAL_ARCHIVE = "/usr/share/doc/libcgal-demo/data.tar.gz"
 ASSIMP_MODELS = "/usr/share/assimp/models"
 SURFACES = (".3mf", ".dae", ".glb", ".gltf", ".obj", ".off", ".pcd", ".ply", ".pwn", ".stl", ".xyz")
 LARGEST = 100_000  # bytes: the whole takes a minute
+TABLE = None  # elsewhere than in tests/data
 
 
 def surfaces(folder):
@@ -82,7 +86,7 @@ class Corpus(ProgramCase):
                     for (package, name, _), outcome in zip(files, found)}
 
     def table(self):
-        return os.path.join(program_case.ARGUMENTS.source, "tests", "data", "corpus.tsv")
+        return TABLE or os.path.join(program_case.ARGUMENTS.source, "tests", "data", "corpus.tsv")
 
     def test_every_file_ends_as_expected(self):
         with open(self.table(), encoding="utf-8") as file:
@@ -105,7 +109,19 @@ class Write(Corpus):
                 file.write(f"{package}\t{name}\t{outcome}\n")
 
 
+def take_option(name):
+    """The value of an option of this script, taken out of the arguments."""
+    if name not in sys.argv:
+        return None
+    at = sys.argv.index(name)
+    value = sys.argv[at + 1]
+    del sys.argv[at:at + 2]
+    return value
+
+
 if __name__ == "__main__":
+    LARGEST = int(take_option("--largest") or LARGEST)
+    TABLE = take_option("--table")
     if "--write" in sys.argv:
         sys.argv.remove("--write")
         sys.argv.append("Write")
