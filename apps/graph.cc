@@ -114,6 +114,8 @@ int GraphProgram::Run() const {
   CheckUsage();
   const object::ObjectFile object = common.ReadObjectFile(kProgram);
   planning::PlanRequest request = common.RequestFor(*object.object);
+  const auto given_points = common.ReadGivenPoints();
+  if (given_points) request.given_points = &*given_points;
   request.last_resort = !no_lazy;
   request.graph = tasks;
   const planning::Planner& planner = common.PlannerFor(request);

@@ -16,6 +16,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/criteria/reach.h"
 #include "planner/gait/explain_gait.h"
@@ -67,6 +68,8 @@ std::string CheckerComplaint(const plan::PlanCheck& check) {
          failed->kind + ": " + failed->detail;
 }
 
+using GivenPoints = std::optional<std::vector<Eigen::Vector3d>>;
+
 struct PlanProgram {
   PlannerOptions common;
   std::string start;
@@ -89,7 +92,7 @@ struct PlanProgram {
   planning::GraspChoice Choose(const std::string& option, const std::string& value,
                                const object::Object& object) const;
   planning::PlanRequest RequestFor(const object::Object& object) const;
-  planning::PlanResult Find(const object::ObjectFile& object) const;
+  planning::PlanResult Find(const object::ObjectFile& object, const GivenPoints& given) const;
   planning::PlanResult FindInHand(const object::ObjectFile& object) const;
   void CheckEnds() const;
   void CheckOutput() const;
@@ -185,8 +188,10 @@ planning::PlanRequest PlanProgram::RequestFor(const object::Object& object) cons
   return request;
 }
 
-planning::PlanResult PlanProgram::Find(const object::ObjectFile& object) const {
+planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
+                                       const GivenPoints& given) const {
   planning::PlanRequest request = RequestFor(*object.object);
+  if (given) request.given_points = &*given;
   const planning::Planner& planner = common.PlannerFor(request);
   request.start = Choose("--start", start, *object.object);
   request.goal = Choose("--goal", goal, *object.object);
@@ -244,6 +249,9 @@ planning::PlanResult PlanProgram::FindInHand(const object::ObjectFile& object) c
   for (const planning::PlanOption option : planning::OptionsOf(asked)) {
     if (option == planning::PlanOption::kExplain) continue;
     throw InputError(planning::OptionName(option) + ": no option of plans for a hand");
+  }
+  if (common.contacts_given) {
+    throw InputError("--contacts given: no option of plans for a hand");
   }
   const auto* solid = dynamic_cast<const object::Polyhedron*>(object.object.get());
   if (solid == nullptr) throw InputError("--hand: hands hold solids, and no planar objects");
@@ -303,7 +311,8 @@ int PlanProgram::Run() const {
   const object::BodyMeasures body = object::MeasureBody(*object.object, common.scale);
   const std::vector<std::string> doubts = {object::SizeWarning(body, common.scale),
                                            common.friction.warning()};
-  planning::PlanResult result = hand.given() ? FindInHand(object) : Find(object);
+  const GivenPoints given = common.ReadGivenPoints();
+  planning::PlanResult result = hand.given() ? FindInHand(object) : Find(object, given);
   if (!result.plan) {
     PrintError(kProgram, result.message);
     return kExitNegative;
@@ -312,12 +321,19 @@ int PlanProgram::Run() const {
   result.plan->object_sha256 = object.sha256;
   result.plan->repair = object.repair;
   result.plan->patch_radius = common.PatchRadius(*object.object);
+  result.plan->at_given_points = given.has_value();
   result.plan->half_angle = common.friction.required_half_angle();
   result.plan->scale = common.scale;
   certificate::AddCertificates(*object.object, *result.plan);
-  const plan::PlanCheck check = plan::CheckPlan(*object.object, *result.plan);
+  plan::CheckOptions options;
+  if (given) options.given_points = &*given;
+  const plan::PlanCheck check = plan::CheckPlan(*object.object, *result.plan, options);
   if (!check.passed()) result.warnings.push_back(CheckerComplaint(check));
   result.warnings.push_back(plan::InventedContactsWarning(*object.object, check.located));
+  if (given) {
+    const double off = plan::FarthestFromPoints(check.located, *given) * common.scale;
+    result.notes.push_back("contacts: at given points, at most " + FormatLength(off) + " off");
+  }
   const std::string text = plan::FormatPlan(*result.plan);
   if (output == "-") {
     std::cout << text;
@@ -329,8 +345,8 @@ int PlanProgram::Run() const {
     if (!warning.empty()) PrintMessage(kProgram, "warning: " + warning);
   }
   if (common.quiet) return kExitDone;
-  PrintMessage(kProgram,
-               object.file + ": " + object::MeasuresText(body) + " at the density of water");
+  PrintMessage(kProgram, object.file + ": " + object::MeasuresText(body) +
+                             " at the density of water" + object::UnitText(object.unit));
   PrintSummary(result, check);
   return kExitDone;
 }

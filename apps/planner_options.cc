@@ -10,6 +10,7 @@
 #include "planner/base/error.h"
 #include "planner/base/memory.h"
 #include "planner/base/number.h"
+#include "planner/object/given_points.h"
 #include "planner/object/reading.h"
 #include "planner/registry/registry.h"
 #include "planner/repair/repair.h"
@@ -78,9 +79,7 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
       {{"adaptive", planning::Spanning::kAdaptive}, {"uniform", planning::Spanning::kUniform}},
       "How wide cones of focus cells are: adaptive, as the normals allow, or uniform, all of the "
       "friction's half-angle; of polygon and polyhedron (default adaptive)");
-  AddInteger(app, "--contacts", contacts, roadmap::kFewestClusters, roadmap::kMaxClusteredContacts,
-             "Contact points of the roadmap: spread evenly over the surface, on a mesh at the "
-             "centres of its facets (default 60, in clusters 1000)");
+  AddContacts(app);
   AddInteger(app, "--clusters", clusters, roadmap::kFewestClusters, roadmap::kMostClusters,
              "Clusters that the roadmap sorts its contact points into: it looks at all grasps of "
              "their representatives only (default: 50 where there are more than " +
@@ -96,6 +95,33 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
             "building a graph give up; a plan then depends on the machine",
             "S");
   AddQuiet(app, quiet);
+}
+
+void PlannerOptions::AddContacts(CLI::App& app) {
+  const auto parse = [this](const std::string& text) {
+    contacts_given = text == "given";
+    if (contacts_given) {
+      contacts.reset();
+    } else {
+      contacts = ParseInteger<int>("--contacts", text, roadmap::kFewestClusters,
+                                   roadmap::kMaxClusteredContacts);
+    }
+  };
+  app.add_option_function<std::string>(
+         "--contacts", parse,
+         "Contact points of the roadmap: so many spread evenly over the surface, on a mesh at the "
+         "centres of its facets, or given, at points that the object's file gives (of a cloud its "
+         "points, of a mesh its vertices) and nowhere else (default 60, in clusters 1000)")
+      ->type_name("N|given");
+}
+
+std::optional<std::vector<Eigen::Vector3d>> PlannerOptions::ReadGivenPoints() const {
+  if (!contacts_given) return std::nullopt;
+  ProgressLine progress(quiet);
+  object::Reading reading;
+  reading.progress = progress.reporter();
+  reading.deadline = deadline();
+  return object::ReadGivenPoints(object, reading);
 }
 
 planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const {

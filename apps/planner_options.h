@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/options.h"
 #include "apps/repair_options.h"
@@ -26,6 +27,7 @@ struct PlannerOptions {
   planning::Spanning spanning = planning::Spanning::kAdaptive;
   std::uint64_t seed = 0;
   std::optional<int> contacts;
+  bool contacts_given = false;  ///< at the points that the object's file gives
   std::optional<int> clusters;
   double scale = 1;
   std::optional<double> time_limit_s;
@@ -40,6 +42,10 @@ struct PlannerOptions {
   /// @throws TimeUp  the time limit came.
   /// @param program  that says so.
   [[nodiscard]] object::ObjectFile ReadObjectFile(const std::string& program) const;
+
+  /// The points that contacts are to be at (PlanRequest::given_points); none where all of the
+  /// surface takes them. Reads the object's file again.
+  [[nodiscard]] std::optional<std::vector<Eigen::Vector3d>> ReadGivenPoints() const;
 
   /// What a fingertip feels of the surface, where normals are to be taken with caution: --patch,
   /// and of repaired objects.
@@ -59,6 +65,7 @@ struct PlannerOptions {
   [[nodiscard]] const planning::Planner& PlannerFor(const planning::PlanRequest& request) const;
 
  private:
+  void AddContacts(CLI::App& app);
   /// Radians: what is left of the friction once the patch's normals may be its facets'.
   [[nodiscard]] double PlannedHalfAngle() const;
   [[nodiscard]] Deadline deadline() const;

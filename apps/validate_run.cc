@@ -24,6 +24,8 @@
 #include "planner/base/stopwatch.h"
 #include "planner/criteria/reach.h"
 #include "planner/kinematics/hand_file.h"
+#include "planner/object/body_measures.h"
+#include "planner/object/given_points.h"
 #include "planner/object/reading.h"
 #include "planner/plan/invented_contacts.h"
 #include "planner/plan/plan_io.h"
@@ -46,9 +48,11 @@ constexpr double kSampleInterval_s = 5e-4;
 /// What the files on the command line ask for.
 struct Task {
   object::ObjectFile object;
-  std::string file_text;              ///< of the plan or of the grasp
-  plan::Plan plan;                    ///< of a grasp: without steps
-  grasp::Grasp grasp;                 ///< empty for a plan
+  std::string file_text;  ///< of the plan or of the grasp
+  plan::Plan plan;        ///< of a grasp: without steps
+  grasp::Grasp grasp;     ///< empty for a plan
+  /// That the object's file gives, where the plan's contacts are at them.
+  std::vector<Eigen::Vector3d> given_points;
   std::string start_text, goal_text;  ///< of --start and --goal; empty where they are not given
   std::optional<kinematics::HandFile> hand;  ///< of --hand
 };
@@ -99,6 +103,17 @@ void CheckRepair(const ValidateOptions& options, const plan::Plan& plan) {
   }
 }
 
+void ReadGivenPoints(const std::string& object_path, const object::Reading& reading, Task& task) {
+  if (!task.plan.at_given_points) return;
+  if (task.plan.repair && !task.object.repair) {
+    throw InputError(object_path + ": the contacts of the plan are at points of " +
+                     task.plan.object_file +
+                     "; give that file (--object), not what a repair made "
+                     "of it");
+  }
+  task.given_points = object::ReadGivenPoints(object_path, reading);
+}
+
 void ReadPlanTask(const ValidateOptions& options, const object::Reading& reading, Task& task) {
   std::error_code error;
   const bool named_by_plan = std::filesystem::is_directory(options.object_path, error);
@@ -111,6 +126,7 @@ void ReadPlanTask(const ValidateOptions& options, const object::Reading& reading
   task.object = ReadObjectOf(task.plan, object_path, reading);
   CheckPlanFits(task.plan, task.object,
                 {options.plan_path, object_path, options.allow_object_change, options.scale});
+  ReadGivenPoints(object_path, reading, task);
 }
 
 Task ReadTask(const ValidateOptions& options) {
@@ -173,6 +189,7 @@ struct CheckTask {
     check.half_angle = options.friction.half_angle();
     check.finger_radius = options.replay.finger_radius;
     check.allow_undecided = options.allow_undecided;
+    if (task.plan.at_given_points) check.given_points = &task.given_points;
     if (!options.start.empty()) {
       start = plan::ParseGrasp(task.start_text, options.start, object);
       check.start = &start;
@@ -249,6 +266,10 @@ render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task&
   if (solid == nullptr || !task.plan.roadmap) {
     throw InputError("--show-clusters: " + options.InputPath() +
                      " was not made on a roadmap of clustered contact points");
+  }
+  if (task.plan.at_given_points) {
+    throw InputError("--show-clusters: " + options.InputPath() +
+                     " has its contacts at given points, whose clusters are not drawn");
   }
   frame.clusters = roadmap::DescribeClusters(*solid, task.plan.half_angle, *task.plan.roadmap);
   return frame;
@@ -412,6 +433,7 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   ExpectFree(folder, OwnResults(folder), NamesOfResults(options, task));
   const object::Object& object = *task.object.object;
   report::Report report = Check(options, task, samples);
+  report.measures += object::UnitText(task.object.unit);
   report.object_file = task.object.file;
   report.object_sha256 = task.object.sha256;
   report.plan_file = std::filesystem::path(options.InputPath()).filename().string();

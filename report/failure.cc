@@ -6,6 +6,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
+#include "planner/object/given_points.h"
 #include "planner/object/object.h"
 #include "planner/plan/locate.h"
 
@@ -116,6 +117,9 @@ std::string MendOf(const ReportStep& step, const Report& report) {
              "few";
     case Reason::kUnreachable:
       return MendReach(step.fault());
+    case Reason::kOffPoint:
+      return "contacts at points that the object's file gives, joined by switches (plan --contacts "
+             "given)";
     case Reason::kHandJumps:
       return "a path in every step whose first state is the last one before it, with all joints of "
              "the hand";
@@ -180,6 +184,11 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
     case Reason::kUnreachable:
       return "a finger comes straight along the normal, and keeps clear of the object and the "
              "others";
+    case Reason::kOffPoint:
+      return "the plan says that its contacts are at points that the object's file gives: no "
+             "farther than " +
+             FormatShort(object::kAtGivenPoint) +
+             " of the object's diameter from one, and none moves along the surface";
     case Reason::kHandJumps:
       return "hand and object go on from where they are, to 1e-9 m and, of the object, 1e-8 rad, "
              "of "

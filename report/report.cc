@@ -179,6 +179,9 @@ Report Validate(const object::Object& object, const plan::Plan& plan,
   report.planner = plan.planner;
   report.half_angle = check.half_angle.value_or(plan.half_angle);
   report.finger_radius = check.finger_radius ? check.finger_radius : plan.finger_radius;
+  if (plan.at_given_points && check.given_points != nullptr) {
+    report.farthest_from_points = plan::FarthestFromPoints(checked.located, *check.given_points);
+  }
   for (const plan::StepCheck& step : checked.steps) report.steps.emplace_back().check = step;
   const int passing = CountPassing(checked.steps);
   MeasureRegions(object, checked.located, passing, report);

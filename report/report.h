@@ -87,6 +87,8 @@ struct Report {
   double half_angle = 0;  ///< checked against, radians
   /// Of the fingers, the object's unit of length; points where none.
   std::optional<double> finger_radius = std::nullopt;
+  /// Of a plan whose contacts are at points of the object's file: the largest distance from one.
+  std::optional<double> farthest_from_points = std::nullopt;
   std::optional<sim::ReplaySettings> settings;  ///< none where nothing was replayed
   std::vector<ReportStep> steps;
   /// Of a single grasp instead of a plan: the only entry is its hold.

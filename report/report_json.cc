@@ -137,7 +137,12 @@ Json MakeStep(const ReportStep& step, const Report& report) {
 
 Json MakePlan(const Report& report) {
   if (report.grasp) return nullptr;
-  return {{"file", report.plan_file}, {"sha256", report.plan_sha256}, {"planner", report.planner}};
+  Json json = {
+      {"file", report.plan_file}, {"sha256", report.plan_sha256}, {"planner", report.planner}};
+  if (report.farthest_from_points) {
+    json["farthest_from_given_point"] = *report.farthest_from_points;
+  }
+  return json;
 }
 
 Json MakeGrasp(const Report& report) {

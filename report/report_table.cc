@@ -4,6 +4,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
 #include "planner/base/text_table.h"
 #include "planner/grasp/quality.h"
 #include "report/failure.h"
@@ -122,6 +123,10 @@ std::string FormatUndecided(const Report& report) {
 /// What was held, and how hard.
 std::string FormatBody(const Report& report) {
   return (report.measures.empty() ? "" : "object: " + report.measures + "\n") +
+         (report.farthest_from_points
+              ? "contacts: at given points, at most " +
+                    FormatLength(*report.farthest_from_points * report.scale) + " off\n"
+              : "") +
          (report.settings ? "squeeze: " + SqueezeText(*report.settings) + "\n" : "");
 }
 

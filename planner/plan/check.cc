@@ -6,6 +6,8 @@
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
+#include "planner/object/given_points.h"
 #include "planner/plan/check_step.h"
 #include "planner/plan/locate.h"
 #include "planner/plan/same_grasp.h"
@@ -81,6 +83,39 @@ void CheckGoal(const CheckContext& context, const CheckOptions& options, const F
   }
 }
 
+/// The contacts that an entry makes.
+std::vector<FingerContact> ContactsMade(const Plan& plan, EntryIndex entry) {
+  if (entry == EntryIndex(0)) return plan.initial;
+  const Step& step = StepOf(plan, entry);
+  if (const auto* finger_switch = std::get_if<Switch>(&step)) return finger_switch->place;
+  if (const auto* align = std::get_if<Align>(&step)) return align->waypoints.back();
+  return {};
+}
+
+/// A plan at given points has every contact at one of them, and no finger moves along the surface,
+/// where there are others.
+void CheckPoints(const CheckContext& context, const CheckOptions& options,
+                 const FingerGrasp& before, StepCheck& check) {
+  if (!Passed(check) || !context.plan.at_given_points || options.given_points == nullptr) return;
+  const double most = object::kAtGivenPoint * context.object.diameter() + context.tolerance();
+  for (const FingerContact& made : ContactsMade(context.plan, check.index)) {
+    const Eigen::Vector3d& p = made.contact.p;
+    const Eigen::Vector3d& nearest = object::NearestPoint(*options.given_points, p);
+    const FingerContact* held = FindFinger(before, made.finger);
+    const bool moves = held != nullptr && (held->contact.p - p).norm() > context.tolerance();
+    if ((nearest - p).norm() <= most && !moves) continue;
+    check.reason = Reason::kOffPoint;
+    check.detail = "finger " + std::to_string(made.finger) +
+                   (moves ? " moves along the surface between given points"
+                          : " is " + FormatLength((nearest - p).norm() * context.plan.scale) +
+                                " from the nearest given point");
+    check.fault.fingers = {made.finger};
+    check.fault.found = made.contact;
+    check.fault.expected = {{nearest, made.contact.n, made.contact.face}};
+    return;
+  }
+}
+
 /// What the hand's check found of an entry that has no other fault.
 void TakeHandFault(const CheckOptions& options, StepCheck& check) {
   if (!Passed(check)) return;
@@ -139,6 +174,17 @@ std::string WeakestStepText(const std::vector<StepCheck>& steps, double half_ang
 
 bool PlanCheck::passed() const { return !steps.empty() && std::ranges::all_of(steps, Passed); }
 
+double FarthestFromPoints(const Plan& plan, const std::vector<Eigen::Vector3d>& points) {
+  double farthest = 0;
+  for (EntryIndex entry{0}; entry <= std::ssize(plan.steps); ++entry) {
+    for (const FingerContact& made : ContactsMade(plan, entry)) {
+      const Eigen::Vector3d& p = made.contact.p;
+      farthest = std::max(farthest, (object::NearestPoint(points, p) - p).norm());
+    }
+  }
+  return farthest;
+}
+
 PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckOptions& options) {
   if (plan.dimension != object.dimension()) {
     throw InputError("plan: /object/dimension: is " + std::to_string(plan.dimension) +
@@ -159,6 +205,7 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
       options.allow_undecided,
       options.judge_force_closure};
   result.steps.push_back(CheckHold(context));
+  CheckPoints(context, options, {}, result.steps.back());
   CheckStart(context, options, result.steps.back());
   TakeHandFault(options, result.steps.back());
   FingerGrasp holding = context.plan.initial;
@@ -170,6 +217,7 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
     }
     result.steps.push_back(CheckStep(context, holding, step));
     result.steps.back().index = index;
+    CheckPoints(context, options, holding, result.steps.back());
     TakeHandFault(options, result.steps.back());
     holding = GraspAfter(holding, step);
   }

@@ -54,6 +54,9 @@ struct CheckOptions {
   /// Found by whoever checks the hand that the plan is for (sim/hand/check_hand.h); each fails its
   /// entry, where that has no other fault.
   std::vector<HandFault> hand_faults = {};
+  /// The points that the object's file gives, for plans that are `at_given_points`; null: whether
+  /// contacts are there is not asked.
+  const std::vector<Eigen::Vector3d>* given_points = nullptr;
   /// Aligns pass with up to kMostUndecided undecided intervals in each motion between waypoints.
   bool allow_undecided = false;
 };
@@ -89,5 +92,10 @@ struct PlanCheck {
 /// @throws std::invalid_argument  the friction half-angle is not in (0, π/2).
 [[nodiscard]] PlanCheck CheckPlan(const object::Object& object, const Plan& plan,
                                   const CheckOptions& options = {});
+
+/// The largest distance of a plan's contacts to the nearest of the given points, the object's unit
+/// of length. @pre there is a point.
+[[nodiscard]] double FarthestFromPoints(const Plan& plan,
+                                        const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace regrasp::plan

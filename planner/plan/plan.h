@@ -107,6 +107,9 @@ struct Plan {
   /// length: grasps at rest are force closure with the patches' normals too. None where they need
   /// not be.
   std::optional<double> patch_radius = std::nullopt;
+  /// Whether every contact is at a point that the object's file gives (object/given_points.h), and
+  /// fingers move by switches only.
+  bool at_given_points = false;
   std::optional<RoadmapNote> roadmap = std::nullopt;
   std::optional<HandUse> hand = std::nullopt;  ///< that it is for; none: fingers without one
   FingerGrasp initial;

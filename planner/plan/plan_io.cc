@@ -148,6 +148,11 @@ double ReadPatchRadius(const JsonReader& json, const Plan& plan) {
   return ReadRadius(json);
 }
 
+bool ReadContactPlaces(const JsonReader& json, const Plan& plan) {
+  if (plan.dimension == 2) json.Fail("only surfaces give points");
+  return json.OneOf({"given"}) == "given";
+}
+
 RoadmapNote ReadRoadmapNote(const JsonReader& json) {
   RoadmapNote note;
   note.contacts = json.Member("contacts").Integer(1, std::numeric_limits<int>::max());
@@ -218,6 +223,7 @@ Plan ParsePlan(std::string_view text, const std::string& name) {
   if (root.Has("finger_radius")) plan.finger_radius = ReadRadius(root.Member("finger_radius"));
   if (root.Has("patch_radius"))
     plan.patch_radius = ReadPatchRadius(root.Member("patch_radius"), plan);
+  if (root.Has("contacts")) plan.at_given_points = ReadContactPlaces(root.Member("contacts"), plan);
   if (root.Has("roadmap")) plan.roadmap = ReadRoadmapNote(root.Member("roadmap"));
   if (root.Has("hand")) plan.hand = ReadHandUse(root.Member("hand"));
   plan.initial = ReadFingerGrasp(root.Member("initial").Member("contacts"), plan.dimension);
@@ -248,6 +254,7 @@ std::string FormatPlan(const Plan& plan) {
   json["planner"] = plan.planner;
   if (plan.finger_radius) json["finger_radius"] = *plan.finger_radius;
   if (plan.patch_radius) json["patch_radius"] = *plan.patch_radius;
+  if (plan.at_given_points) json["contacts"] = "given";
   if (plan.roadmap) json["roadmap"] = RoadmapNoteJson(*plan.roadmap);
   if (plan.hand) json["hand"] = HandUseJson(*plan.hand);
   json["initial"]["contacts"] = FingerGraspJson(plan.initial, plan.dimension);

@@ -28,6 +28,8 @@ std::string_view ReasonName(Reason reason) {
       return "not-proved";
     case Reason::kUnreachable:
       return "unreachable";
+    case Reason::kOffPoint:
+      return "off-point";
     case Reason::kHandJumps:
       return "hand-jumps";
     case Reason::kTipOffContact:

@@ -25,6 +25,7 @@ enum class Reason {
   kNotForceClosure,
   kNotProved,
   kUnreachable,
+  kOffPoint,
   kHandJumps,
   kTipOffContact,
   kJointLimit,

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "planner/base/deadline.h"
 #include "planner/criteria/grasp_criteria.h"
@@ -71,6 +73,8 @@ struct PlanRequest {
   /// Contact points of a roadmap, and clusters that they are sorted into; nullopt: by the object.
   std::optional<int> contact_points = std::nullopt;
   std::optional<int> clusters = std::nullopt;
+  /// If not null, contacts are at these points only (object/given_points.h); outlives the request.
+  const std::vector<Eigen::Vector3d>* given_points = nullptr;
   /// Of a roadmap of clusters: whether the grasps of all contact points are searched where the
   /// representatives do not join start and goal.
   bool last_resort = true;

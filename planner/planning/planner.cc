@@ -28,6 +28,8 @@ std::string OptionName(PlanOption option) {
       return "--spanning uniform";
     case PlanOption::kContactPoints:
       return "--contacts";
+    case PlanOption::kGivenPoints:
+      return "--contacts given";
     case PlanOption::kClusters:
       return "--clusters";
     case PlanOption::kNoLastResort:
@@ -54,6 +56,7 @@ std::vector<PlanOption> OptionsOf(const PlanRequest& request) {
   add(request.objective == Objective::kRegions, PlanOption::kRegions);
   add(request.spanning == Spanning::kUniform, PlanOption::kUniformSpanning);
   add(request.contact_points.has_value(), PlanOption::kContactPoints);
+  add(request.given_points != nullptr, PlanOption::kGivenPoints);
   add(request.clusters.has_value(), PlanOption::kClusters);
   add(!request.last_resort, PlanOption::kNoLastResort);
   add(request.effort.has_value(), PlanOption::kEffort);

@@ -23,6 +23,7 @@ enum class PlanOption {
   kRegions,
   kUniformSpanning,
   kContactPoints,
+  kGivenPoints,
   kClusters,
   kNoLastResort,
   kEffort,

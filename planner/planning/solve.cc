@@ -12,6 +12,7 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
+#include "planner/object/given_points.h"
 #include "planner/plan/plan_reach.h"
 #include "planner/sampling/draw_grasp.h"
 #include "planner/sampling/no_grasp.h"
@@ -59,6 +60,8 @@ class GraspResolver {
       Check(choice);
       return choice;
     }
+    // Of the surface only the given points take fingers, and those the planner has.
+    if (request_.given_points != nullptr) choice.kind = Kind::kRandom;
     if (choice.kind == Kind::kRandom && planner_.traits().has_graph) return choice;
     RandomStream random(request_.seed, use);
     choice.grasp = sampling::DrawOnSurface(*request_.object, scope_.contacts_drawn, evaluator_,
@@ -82,6 +85,13 @@ class GraspResolver {
             ContactsAtSamePoint(grasp, criteria::kSamePoint * request_.object->diameter())) {
       refuse("contacts " + std::to_string(pair->first) + " and " + std::to_string(pair->second) +
              " are at the same point");
+    }
+    for (std::size_t i = 0; i < grasp.size() && request_.given_points != nullptr; ++i) {
+      const double off =
+          (object::NearestPoint(*request_.given_points, grasp[i].p) - grasp[i].p).norm();
+      if (off <= object::kAtGivenPoint * request_.object->diameter()) continue;
+      refuse("contact " + std::to_string(i) + " is " + FormatShort(off) +
+             " from the nearest of the given points");
     }
     CheckForceClosure(grasp, refuse);
     if (const auto obstacle = plan::FindRestObstacle(*request_.object, plan::FingersInOrder(grasp),

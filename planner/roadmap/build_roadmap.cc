@@ -9,6 +9,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/roadmap/find_contact.h"
 #include "planner/sampling/contact_points.h"
+#include "planner/sampling/given_contacts.h"
 
 namespace regrasp::roadmap {
 
@@ -50,7 +51,10 @@ std::vector<grasp::Contact> SpreadContacts(const planning::PlanRequest& request)
   CheckSize(size);
   request.progress("spreading " + std::to_string(size.contacts) + " contact points");
   std::vector<grasp::Contact> contacts =
-      sampling::SpreadContactPoints(SolidOf(request), size.contacts, request.seed);
+      request.given_points == nullptr
+          ? sampling::SpreadContactPoints(SolidOf(request), size.contacts, request.seed)
+          : sampling::GivenContacts(SolidOf(request), *request.given_points, kRoadmapContacts,
+                                    size.contacts, request.seed);
   std::erase_if(contacts, [&](const grasp::Contact& contact) {
     return request.object->IsRough(contact.face, contact.p) ||
            !criteria::CanReach(*request.object, contact, request.hand.fingertip_radius);
@@ -79,7 +83,8 @@ ClusteredRoadmap BuildClusteredRoadmap(const planning::PlanRequest& request) {
                                              .seed = request.seed,
                                              .progress = request.progress,
                                              .finger_radius = request.hand.fingertip_radius,
-                                             .deadline = request.deadline});
+                                             .deadline = request.deadline,
+                                             .given_points = request.given_points});
 }
 
 }  // namespace regrasp::roadmap

@@ -27,8 +27,10 @@ struct RoadmapSize {
 };
 [[nodiscard]] RoadmapSize SizeOf(const planning::PlanRequest& request);
 
-/// Contact points spread over the surface that fingers of the hand reach.
+/// Contact points spread over the surface, or over the points that are given, that fingers of the
+/// hand reach.
 /// @throws std::invalid_argument  there are to be fewer than four or too many.
+/// @throws NoGrasp  too few of the given points take a finger.
 [[nodiscard]] std::vector<grasp::Contact> SpreadContacts(const planning::PlanRequest& request);
 
 /// The contact points, `joined` first, tested for force closure in all fours.
@@ -38,6 +40,7 @@ struct RoadmapSize {
 
 /// The roadmap of representatives of clusters.
 /// @throws std::invalid_argument  there are to be fewer than four contact points or too many.
+/// @throws NoGrasp  too few of the given points take a finger.
 [[nodiscard]] ClusteredRoadmap BuildClusteredRoadmap(const planning::PlanRequest& request);
 
 }  // namespace regrasp::roadmap

@@ -7,6 +7,7 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/criteria/reach.h"
 #include "planner/sampling/contact_points.h"
+#include "planner/sampling/given_contacts.h"
 
 namespace regrasp::roadmap {
 
@@ -32,7 +33,10 @@ ContactClusters ClusterContacts(const object::Polyhedron& solid,
   }
   options.progress("choosing contact points");
   std::vector<grasp::Contact> contacts =
-      sampling::MeshContacts(solid, options.contacts, options.seed);
+      options.given_points == nullptr
+          ? sampling::MeshContacts(solid, options.contacts, options.seed)
+          : sampling::GivenContacts(solid, *options.given_points, kFewestClusters + 1,
+                                    options.contacts, options.seed);
   CountedProgress progress(options.progress, "testing the clearance of contact points",
                            std::ssize(contacts));
   std::erase_if(contacts, [&](const grasp::Contact& contact) {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 #include "planner/base/deadline.h"
 #include "planner/object/polyhedron.h"
@@ -26,11 +28,14 @@ struct ClusteredRoadmapOptions {
   std::function<void(std::string_view)> progress = [](std::string_view) {};
   double finger_radius = 0;  ///< of fingers that are not points (reach.h)
   Deadline deadline = {};    ///< when building ends by TimeUp
+  /// If not null, contact points are at these points only (sampling/given_contacts.h).
+  const std::vector<Eigen::Vector3d>* given_points = nullptr;
 };
 
 /// The contact points of a mesh at which a fingertip has clearance, in clusters; no more clusters
 /// than contact points less one.
 /// @throws std::invalid_argument  an option is out of its range.
+/// @throws NoGrasp  too few of the given points take a finger.
 [[nodiscard]] ContactClusters ClusterContacts(const object::Polyhedron& solid,
                                               const ClusteredRoadmapOptions& options);
 

@@ -65,8 +65,9 @@ RoadmapPlanner::RoadmapPlanner()
            .in_space = planning::PlannerScope{kRoadmapFingers,
                                               {kRoadmapContacts, kRoadmapContacts},
                                               {kRoadmapContacts, kRoadmapContacts}},
-           .options = {planning::PlanOption::kContactPoints, planning::PlanOption::kClusters,
-                       planning::PlanOption::kNoLastResort, planning::PlanOption::kQueries}}) {}
+           .options = {planning::PlanOption::kContactPoints, planning::PlanOption::kGivenPoints,
+                       planning::PlanOption::kClusters, planning::PlanOption::kNoLastResort,
+                       planning::PlanOption::kQueries}}) {}
 
 std::optional<MemoryNeed> RoadmapPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {

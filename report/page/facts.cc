@@ -52,6 +52,10 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
   FactList facts;
   facts.Add("Object", report.object_file + (report.dimension == 2 ? ", planar" : ", a solid"));
   if (!report.planner.empty()) facts.Add("Planner", report.planner);
+  if (report.farthest_from_points) {
+    facts.Add("Contacts", "at given points, at most " +
+                              LengthText(*report.farthest_from_points * report.scale) + " off");
+  }
   facts.Add("Friction", FormatDegrees(Degrees(report.half_angle)) +
                             " (μ = " + NumberText(std::tan(report.half_angle)) + ")");
   if (report.grasp) AddGrasp(report, facts);

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <functional>
 
 #include "check_expectations.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/object/given_points.h"
 #include "sample_plans.h"
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/solids.h"
@@ -123,6 +125,68 @@ std::vector<Control> ForPlan(std::vector<Control> controls, const Plan& plan) {
     if (control.index < 0) control.index += static_cast<int>(plan.steps.size()) + 1;
   }
   return controls;
+}
+
+/// The sample plan's hold and first switch.
+Plan SwitchOnly() {
+  Plan plan = CubePlan();
+  plan.steps.resize(1);
+  plan.goal = ContactsOf(GraspAfter(plan.initial, plan.steps[0]));
+  plan.at_given_points = true;
+  return plan;
+}
+
+/// Where the contacts of a plan are.
+std::vector<Eigen::Vector3d> PointsOf(Plan plan) {
+  std::vector<Eigen::Vector3d> points;
+  for (const FingerContact& finger : plan.initial) points.push_back(finger.contact.p);
+  for (const FingerContact& finger : SwitchOf(plan, 0).place) points.push_back(finger.contact.p);
+  return points;
+}
+
+TEST(CheckPlan, APlanAtGivenPointsHasItsContactsThere) {
+  const object::Polyhedron cube = MakeCube();
+  Plan plan = SwitchOnly();
+  std::vector<Eigen::Vector3d> points = PointsOf(plan);
+  ExpectPasses(CheckPlan(cube, plan, {.given_points = &points}), "at the points");
+  points.front() += 0.9 * object::kAtGivenPoint * cube.diameter() * Eigen::Vector3d::UnitX();
+  ExpectPasses(CheckPlan(cube, plan, {.given_points = &points}), "close to them");
+  const double off = 2 * object::kAtGivenPoint * cube.diameter();
+  points = PointsOf(plan);
+  points.back() += off * Eigen::Vector3d::UnitX();
+  const PlanCheck failed = CheckPlan(cube, plan, {.given_points = &points});
+  ExpectFails(failed, 1, Reason::kOffPoint, "a placed contact elsewhere");
+  EXPECT_NEAR(FarthestFromPoints(failed.located, points), off, 1e-12);
+  points.front() += off * Eigen::Vector3d::UnitY();
+  ExpectFails(CheckPlan(cube, plan, {.given_points = &points}), 0, Reason::kOffPoint,
+              "an initial contact elsewhere");
+  ExpectPasses(CheckPlan(cube, plan), "where the points are not known");
+  plan.at_given_points = false;
+  ExpectPasses(CheckPlan(cube, plan, {.given_points = &points}), "a plan that promises nothing");
+}
+
+TEST(CheckPlan, APlanAtGivenPointsHasNoAligns) {
+  const object::Polyhedron cube = MakeCube();
+  Plan plan = CubePlan();
+  plan.at_given_points = true;
+  std::vector<Eigen::Vector3d> points;
+  for (const Step& step : plan.steps) {
+    const auto* align = std::get_if<Align>(&step);
+    for (const FingerContact& finger : align ? align->waypoints.back() : FingerGrasp()) {
+      points.push_back(finger.contact.p);
+    }
+    const auto* placing = std::get_if<Switch>(&step);
+    for (const FingerContact& finger : placing ? placing->place : FingerGrasp()) {
+      points.push_back(finger.contact.p);
+    }
+  }
+  for (const FingerContact& finger : plan.initial) points.push_back(finger.contact.p);
+  const PlanCheck check = CheckPlan(cube, plan, {.given_points = &points});
+  const auto failed = std::ranges::find_if(
+      check.steps, [](const StepCheck& step) { return step.reason != Reason::kNone; });
+  ASSERT_NE(failed, check.steps.end());
+  EXPECT_EQ(failed->kind, "align");
+  EXPECT_EQ(failed->reason, Reason::kOffPoint);
 }
 
 TEST(CheckPlan, FailsEveryControlInSpaceForItsReason) {

@@ -55,6 +55,7 @@ void ExpectSamePlan(const Plan& a, const Plan& b) {
   EXPECT_EQ(a.planner, b.planner);
   EXPECT_EQ(a.finger_radius, b.finger_radius);
   EXPECT_EQ(a.patch_radius, b.patch_radius);
+  EXPECT_EQ(a.at_given_points, b.at_given_points);
   ExpectSameGrasp(a.initial, b.initial);
   ASSERT_EQ(a.goal.size(), b.goal.size());
   for (std::size_t i = 0; i < a.goal.size(); ++i) ExpectSameContact(a.goal[i], b.goal[i]);
@@ -185,6 +186,16 @@ TEST(PlanIo, KeepsTheRadiusOfPatchesOfSolids) {
   plan.patch_radius = 0.02;
   EXPECT_EQ(Complaint(FormatPlan(plan)),
             "plan.json: /patch_radius: only solids have rough surfaces");
+}
+
+TEST(PlanIo, KeepsThatContactsAreAtGivenPointsOfASurface) {
+  EXPECT_FALSE(Json::parse(FormatPlan(CubePlan())).contains("contacts"));
+  Plan plan = CubePlan();
+  plan.at_given_points = true;
+  ExpectSamePlan(ParsePlan(FormatPlan(plan), "plan.json"), plan);
+  plan = SquarePlan();
+  plan.at_given_points = true;
+  EXPECT_EQ(Complaint(FormatPlan(plan)), "plan.json: /contacts: only surfaces give points");
 }
 
 TEST(PlanIo, WritesRoundHalfAnglesRound) {

@@ -34,6 +34,8 @@ std::vector<std::pair<PlanOption, PlanRequest>> OneOptionEach() {
   add(PlanOption::kRegions, [](PlanRequest& r) { r.objective = Objective::kRegions; });
   add(PlanOption::kUniformSpanning, [](PlanRequest& r) { r.spanning = Spanning::kUniform; });
   add(PlanOption::kContactPoints, [](PlanRequest& r) { r.contact_points = 0; });
+  static const std::vector<Eigen::Vector3d> kPoints;
+  add(PlanOption::kGivenPoints, [](PlanRequest& r) { r.given_points = &kPoints; });
   add(PlanOption::kClusters, [](PlanRequest& r) { r.clusters = 0; });
   add(PlanOption::kNoLastResort, [](PlanRequest& r) { r.last_resort = false; });
   add(PlanOption::kEffort, [](PlanRequest& r) { r.effort = 0; });
