@@ -1,8 +1,6 @@
 #include "planner/gait/gait_search.h"
 
 #include <algorithm>
-#include <array>
-#include <tuple>
 
 #include "planner/gait/move_path.h"
 
@@ -28,8 +26,8 @@ constexpr double kNotYetGoal = 3;
 constexpr double kPutBack = 0.1;
 /// Steps that it is put back for each turn that it had.
 constexpr double kAnotherTurn = 2;
-/// Nodes from which a path goes on, beside those of the straight one.
-constexpr int kTriedNodes = 40;
+/// Nodes from which a hold is carried on in vain.
+constexpr int kPatience = 40;
 /// Of the nodes that a grasp comes to: those drawn to switch fingers at, beside those of its path.
 constexpr int kNodesBeside = 2;
 
@@ -58,19 +56,19 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, const Parki
                        const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random)
     : setup_(setup),
       grid_(grid),
-      parking_(parking),
-      ends_(ends),
+      start_(ends.start),
+      goal_(ends.goal),
       most_holding_(static_cast<int>(std::max(
           {static_cast<std::size_t>(kFewestHolding), ends.start.size(), ends.goal.size()}))),
       memory_(memory),
       random_(random),
-      reach_(setup.scene, setup.inverse, setup.points, grid),
+      carrier_(setup, grid, parking),
       expanded_at_(grid.steps() + 1, 0) {
   counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
   ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
-    Rest rest{.holding = std::move(holding), .node = grid_.goal()};
-    if (LetFreeFingersWait(rest)) goals_.push_back(rest.holding);
+    Hold hold{std::move(holding)};
+    if (carrier_.LetFreeFingersWait(hold, grid.goal())) goal_.AddWay(std::move(hold.holding));
   });
 }
 
@@ -79,13 +77,10 @@ const std::vector<GaitSearch::Candidate>& GaitSearch::CandidatesAt(FingerIndex f
   std::vector<Candidate>& candidates = found->second;
   if (!is_new) return candidates;
   const auto look_at = [&](int point, bool is_goal) {
-    if (reach_.Find(finger, point, node) == nullptr) return;
-    candidates.push_back({point, is_goal, reach_.RunEnd(finger, point, node)});
+    if (carrier_.reach().Find(finger, point, node) == nullptr) return;
+    candidates.push_back({point, is_goal, carrier_.reach().RunEnd(finger, point, node)});
   };
-  std::set<int> goals;
-  for (const Holding& goal : goals_) {
-    if (goal[finger] != kNone) goals.insert(goal[finger]);
-  }
+  const std::set<int> goals = goal_.ContactsOf(finger);
   for (const int point : goals) look_at(point, true);
   // At each node some of the contacts, at others others; more where few are within reach.
   const int count = static_cast<int>(setup_.points.size());
@@ -110,158 +105,37 @@ bool GaitSearch::IsGrasp(const Holding& holding) {
   return set.size() >= kFewestHolding && memory_.Admits(set);
 }
 
-Keyframe GaitSearch::FrameAt(const Rest& rest, int node) {
-  Keyframe frame{grid_.PoseAt(node), rest.waiting};
-  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (rest.holding[finger] == kNone) continue;
-    frame.postures[finger] = *reach_.Find(finger, rest.holding[finger], node);
-  }
-  return frame;
-}
-
-/// Whether a rest's fingers may stand as they do at a node: where they hold, they reach.
-bool GaitSearch::IsPassable(const Rest& rest, int node) {
-  const Keyframe frame = FrameAt(rest, node);
-  if (!setup_.scene.KeepsOffPalm(frame.pose)) return false;
-  std::vector<PlacedFinger> placed;
-  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (frame.postures[finger].size() == 0) continue;
-    placed.push_back(setup_.scene.Place(finger, frame.postures[finger]));
-    for (std::size_t other = 0; other + 1 < placed.size(); ++other) {
-      if (!setup_.scene.KeepApart(placed[other], placed.back())) return false;
-    }
-    if (rest.holding[finger] == kNone &&
-        !setup_.scene.KeepsOffObject(placed.back(), frame.pose, TipContact::kFree)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool GaitSearch::LetFreeFingersWait(Rest& rest) {
-  rest.waiting.resize(setup_.scene.finger_count());
-  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (rest.holding[finger] == kNone) continue;
-    if (reach_.Find(finger, rest.holding[finger], rest.node) == nullptr) return false;
-  }
-  if (!IsPassable(rest, rest.node)) return false;
-  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (rest.holding[finger] != kNone || rest.waiting[finger].size() > 0) continue;
-    const auto waits_at = [&](const Posture& posture) {
-      rest.waiting[finger] = posture;
-      return IsPassable(rest, rest.node);
-    };
-    if (std::ranges::none_of(parking_[finger], waits_at)) return false;
-  }
-  return true;
-}
-
-bool GaitSearch::CanFollow(const Rest& rest, int node, int neighbour) {
-  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (rest.holding[finger] == kNone) continue;
-    if (!reach_.CanFollow(finger, rest.holding[finger], node, neighbour)) return false;
-  }
-  return true;
-}
-
-void GaitSearch::CarryOn(Rest& rest) {
-  rest.from = {{rest.node, rest.node}};
-  rest.end = rest.node;
-  for (int next = grid_.Onward(rest.node); next != PoseGrid::kNoNode; next = grid_.Onward(next)) {
-    if (!CanFollow(rest, rest.end, next) || !IsPassable(rest, next)) break;
-    rest.from.emplace(next, rest.end);
-    rest.end = next;
-  }
-}
-
-/// Best first by steps, near the track before far from it.
-void GaitSearch::CarryAround(Rest& rest) {
-  using Key = std::tuple<int, bool, int, int>;  // step, is goal, units beside the track, order
-  const auto key_of = [&](int node, int order) {
-    return Key(grid_.StepOf(node), grid_.IsGoal(node), -grid_.OffTrack(node), -order);
-  };
-  std::priority_queue<std::pair<Key, int>> queue;
-  rest.from = {{rest.node, rest.node}};
-  std::set<int> tried = {rest.node};
-  queue.push({key_of(rest.node, 0), rest.node});
-  std::pair<Key, int> best = queue.top();
-  int stuck = 0;
-  while (!queue.empty() && stuck < kTriedNodes * (1 + rest.turns)) {
-    const auto top = queue.top();
-    queue.pop();
-    if (best.first < top.first) {
-      best = top;
-    } else {
-      ++stuck;
-    }
-    const bool is_goal = grid_.IsGoal(best.second);
-    if (is_goal && IsGoalGrasp(rest.holding)) break;
-    for (const int next : grid_.Neighbours(top.second)) {
-      if (tried.contains(next) || !CanFollow(rest, top.second, next)) continue;
-      tried.insert(next);
-      if (!IsPassable(rest, next)) continue;
-      rest.from.emplace(next, top.second);
-      queue.push({key_of(next, static_cast<int>(tried.size())), next});
-    }
-  }
-  rest.end = best.second;
-}
-
-std::vector<int> GaitSearch::PathTo(const Rest& rest, int node) {
-  std::vector<int> path = {node};
-  while (path.back() != rest.node) path.push_back(rest.from.at(path.back()));
-  std::ranges::reverse(path);
-  return path;
-}
-
-bool GaitSearch::IsGoalGrasp(const Holding& holding) const {
-  if (ends_.goal.empty()) return true;
-  return CountHolding(holding) == static_cast<int>(ends_.goal.size()) &&
-         std::ranges::all_of(ends_.goal, [&](int point) { return Holds(holding, point); });
-}
-
-int GaitSearch::DistanceFromGoal(const Holding& holding) {
-  int least = ends_.goal.empty() ? 0 : setup_.scene.finger_count() + 1;
-  for (const Holding& goal : goals_) {
-    int distance = 0;
-    for (std::size_t i = 0; i < goal.size(); ++i) {
-      distance += static_cast<int>(goal[i] != holding[i]);
-    }
-    least = std::min(least, distance);
-  }
-  return least;
-}
-
 double GaitSearch::ScoreOf(const Rest& rest, int last) {
   double sum = 0;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (rest.holding[finger] == kNone) continue;
-    sum += reach_.RunEnd(finger, rest.holding[finger], rest.node);
+    if (rest.hold.holding[finger] == kNone) continue;
+    sum += carrier_.reach().RunEnd(finger, rest.hold.holding[finger], rest.node);
   }
-  return last + kSingleFinger * sum / CountHolding(rest.holding) -
-         kOffTrack * grid_.OffTrack(rest.node) - kNotYetGoal * DistanceFromGoal(rest.holding);
+  return last + kSingleFinger * sum / CountHolding(rest.hold.holding) -
+         kOffTrack * grid_.OffTrack(rest.node) -
+         kNotYetGoal * goal_.DistanceFrom(rest.hold.holding);
 }
 
 bool GaitSearch::Add(Rest rest) {
-  if (!IsGrasp(rest.holding)) return false;
-  std::vector<int>& taken = taken_[rest.holding];
+  if (!IsGrasp(rest.hold.holding)) return false;
+  std::vector<int>& taken = taken_[rest.hold.holding];
   if (std::ranges::find(taken, rest.node) != taken.end()) return false;
   taken.push_back(rest.node);
   ++counts_.grasps;
-  if (!LetFreeFingersWait(rest)) {
+  if (!carrier_.LetFreeFingersWait(rest.hold, rest.node)) {
     ++counts_.colliding;
     return false;
   }
-  CarryOn(rest);
-  rest.score = ScoreOf(rest, grid_.StepOf(rest.end));
+  rest.carried = carrier_.StraightOn(rest.hold, rest.node);
+  rest.score = ScoreOf(rest, grid_.StepOf(rest.carried.end));
   queue_.push({rest.score, static_cast<int>(rests_.size())});
   rests_.push_back(std::move(rest));
   return true;
 }
 
 void GaitSearch::AddGivenStart() {
-  ForEachAssignment(ends_.start, setup_.scene.finger_count(), [&](Holding holding) {
-    Add({.holding = std::move(holding), .node = grid_.start()});
+  ForEachAssignment(start_, setup_.scene.finger_count(), [&](Holding holding) {
+    Add({.hold = {std::move(holding)}, .node = grid_.start()});
   });
 }
 
@@ -281,7 +155,7 @@ void GaitSearch::AddFirstRests() {
         holding[finger] = candidates[static_cast<std::size_t>(place * candidates.size())].point;
       }
       if (CountHolding(holding) == kFewestHolding) {
-        Add({.holding = std::move(holding), .node = grid_.start()});
+        Add({.hold = {std::move(holding)}, .node = grid_.start()});
       }
     }
   } while (std::ranges::prev_permutation(chosen).found);
@@ -290,35 +164,35 @@ void GaitSearch::AddFirstRests() {
 std::vector<GaitSearch::Rest> GaitSearch::SwitchesFrom(const Rest& from, int node) {
   std::vector<Rest> found;
   const auto consider = [&](FingerIndex placed, int point, FingerIndex released) {
-    Rest rest{.holding = from.holding, .waiting = from.waiting, .node = node};
+    Rest rest{.hold = from.hold, .node = node};
     rest.placed = placed;
     rest.released = released;
     if (placed.valid()) {
-      rest.holding[placed] = point;
-      rest.waiting[placed] = {};
+      rest.hold.holding[placed] = point;
+      rest.hold.waiting[placed] = {};
     }
-    if (released.valid()) rest.holding[released] = kNone;
-    const int holding = CountHolding(rest.holding);
-    if (holding < kFewestHolding || holding > most_holding_ || !IsGrasp(rest.holding)) return;
+    if (released.valid()) rest.hold.holding[released] = kNone;
+    const int holding = CountHolding(rest.hold.holding);
+    if (holding < kFewestHolding || holding > most_holding_ || !IsGrasp(rest.hold.holding)) return;
     int last = grid_.steps();
     for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-      if (rest.holding[finger] == kNone) continue;
-      last = std::min(last, reach_.RunEnd(finger, rest.holding[finger], node));
+      if (rest.hold.holding[finger] == kNone) continue;
+      last = std::min(last, carrier_.reach().RunEnd(finger, rest.hold.holding[finger], node));
     }
     rest.score = ScoreOf(rest, last);
     found.push_back(std::move(rest));
   };
   const auto release_one = [&](FingerIndex placed, int point) {
     for (FingerIndex released{0}; released < setup_.scene.finger_count(); ++released) {
-      if (from.holding[released] != kNone) consider(placed, point, released);
+      if (from.hold.holding[released] != kNone) consider(placed, point, released);
     }
   };
   for (FingerIndex placed{0}; placed < setup_.scene.finger_count(); ++placed) {
-    if (from.holding[placed] != kNone) continue;
+    if (from.hold.holding[placed] != kNone) continue;
     int tried = 0;
     for (const Candidate& candidate : CandidatesAt(placed, node)) {
       if (tried == kTriedContacts) break;
-      if (Holds(from.holding, candidate.point)) continue;
+      if (Holds(from.hold.holding, candidate.point)) continue;
       ++tried;
       consider(placed, candidate.point, {});
       release_one(placed, candidate.point);
@@ -335,9 +209,9 @@ void GaitSearch::SwitchAt(int index, int node) {
   for (Rest& rest : SwitchesFrom(from, node)) {
     if (taken == kTakenUp) break;
     // The way there passes a grasp of all fingers.
-    Rest all = rest;
-    if (rest.released.valid()) all.holding[rest.released] = from.holding[rest.released];
-    if (!IsPassable(all, rest.node)) continue;
+    Hold all = rest.hold;
+    if (rest.released.valid()) all.holding[rest.released] = from.hold.holding[rest.released];
+    if (!carrier_.IsPassable(all, rest.node)) continue;
     rest.parent = index;
     if (Add(std::move(rest))) ++taken;
   }
@@ -345,14 +219,15 @@ void GaitSearch::SwitchAt(int index, int node) {
 
 void GaitSearch::Expand(int index) {
   const Rest& rest = rests_[index];
-  const std::vector<int> path = PathTo(rest, rest.end);
+  const std::vector<int> path = rest.carried.PathTo(rest.carried.end);
   const std::size_t last = path.size() - 1;
   std::set<int> nodes = {path[last], path[last / 2], path[last - std::min<std::size_t>(last, 2)],
                          path[0]};
   std::erase_if(nodes, [&](int node) { return rest.switched_at.contains(node); });
   for (int i = 0; i < kNodesBeside; ++i) {
-    nodes.insert(
-        std::next(rest.from.begin(), static_cast<int>(random_.Index(rest.from.size())))->first);
+    nodes.insert(std::next(rest.carried.from.begin(),
+                           static_cast<int>(random_.Index(rest.carried.from.size())))
+                     ->first);
   }
   for (const int node : nodes) {
     if (rests_[index].switched_at.insert(node).second) SwitchAt(index, node);
@@ -360,7 +235,7 @@ void GaitSearch::Expand(int index) {
   // Somewhere else it may be worth another turn.
   Rest& again = rests_[index];
   ++again.turns;
-  if (again.switched_at.size() < again.from.size()) {
+  if (again.switched_at.size() < again.carried.from.size()) {
     queue_.push({again.score - kAnotherTurn * again.turns, index});
   }
 }
@@ -375,8 +250,8 @@ Surroundings GaitSearch::Around(const Keyframe& frame, FingerIndex moving) const
 }
 
 bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
-  const int point = rest.holding[rest.placed];
-  const Posture touching = *reach_.Find(rest.placed, point, rest.node);
+  const int point = rest.hold.holding[rest.placed];
+  const Posture touching = *carrier_.reach().Find(rest.placed, point, rest.node);
   const auto path = FindPathToContact(
       setup_.scene, setup_.inverse[rest.placed], rest.placed, before.postures[rest.placed],
       TargetAt(setup_.scene.finger(rest.placed), setup_.points[point], before.pose), touching,
@@ -395,7 +270,7 @@ bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
 /// To where the finger is to wait, or else no farther than above its contact.
 bool GaitSearch::Release(Rest& rest, const Keyframe& before) {
   const FingerIndex finger = rest.released;
-  const int point = rests_[rest.parent].holding[finger];
+  const int point = rests_[rest.parent].hold.holding[finger];
   const Surroundings around = Around(before, finger);
   const auto up =
       FindWayUp(setup_.scene, setup_.inverse[finger], finger,
@@ -403,13 +278,13 @@ bool GaitSearch::Release(Rest& rest, const Keyframe& before) {
                 before.postures[finger], around);
   if (!up) return false;
   const auto onward =
-      FindFreePath(setup_.scene, finger, up->back(), rest.waiting[finger], around, random_);
+      FindFreePath(setup_.scene, finger, up->back(), rest.hold.waiting[finger], around, random_);
   FingerPath path = *up;
   if (onward) {
     path.insert(path.end(), onward->begin() + 1, onward->end());
   } else {
-    rest.waiting[finger] = up->back();
-    if (!IsPassable(rest, rest.node)) return false;
+    rest.hold.waiting[finger] = up->back();
+    if (!carrier_.IsPassable(rest.hold, rest.node)) return false;
   }
   Stretch stretch{Stretch::Kind::kRelease, finger, point, {}};
   for (const Posture& posture : path) {
@@ -423,7 +298,7 @@ bool GaitSearch::Release(Rest& rest, const Keyframe& before) {
 const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int node) {
   const auto [found, is_new] = rest.moves.try_emplace(node);
   if (!is_new) return found->second;
-  const std::vector<int> path = PathTo(rest, node);
+  const std::vector<int> path = rest.carried.PathTo(node);
   // What lies beyond a node that can't be reached can't be reached either.
   const bool beyond = std::ranges::any_of(path.begin() + 1, path.end() - 1, [&](int between) {
     const auto move = rest.moves.find(between);
@@ -432,7 +307,7 @@ const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int node) {
   if (!beyond) {
     std::vector<Eigen::Isometry3d> poses;
     for (std::size_t i = 1; i < path.size(); ++i) poses.push_back(grid_.PoseAt(path[i]));
-    auto move = FindMove(setup_, rest.holding, rest.at, poses);
+    auto move = FindMove(setup_, rest.hold.holding, rest.at, poses);
     if (move) found->second = std::move(*move);
   }
   if (found->second.empty()) ++counts_.no_move;
@@ -442,7 +317,7 @@ const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int node) {
 /// From the parent's rest along its path, then the switch.
 bool GaitSearch::WorkOutWay(Rest& rest) {
   if (rest.parent < 0) {
-    rest.at = FrameAt(rest, rest.node);
+    rest.at = carrier_.FrameAt(rest.hold, rest.node);
     return true;
   }
   Rest& parent = rests_[rest.parent];
@@ -468,19 +343,19 @@ bool GaitSearch::WorkOutWay(Rest& rest) {
 /// The whole gait, where a rest's path leads to the goal and is free.
 std::optional<Gait> GaitSearch::GaitFrom(int index) {
   Rest& rest = rests_[index];
-  if (!grid_.IsGoal(rest.end) || !IsGoalGrasp(rest.holding)) return std::nullopt;
+  if (!grid_.IsGoal(rest.carried.end) || !goal_.IsHeldBy(rest.hold.holding)) return std::nullopt;
   std::vector<Keyframe> last_move;
-  if (rest.end != rest.node) {
-    last_move = MoveFrom(rest, rest.end);
+  if (rest.carried.end != rest.node) {
+    last_move = MoveFrom(rest, rest.carried.end);
     if (last_move.empty()) {
-      rest.end = rest.from.at(rest.end);
+      rest.carried.end = rest.carried.from.at(rest.carried.end);
       return std::nullopt;
     }
   }
   std::vector<int> chain;
   for (int i = index; i >= 0; i = rests_[i].parent) chain.push_back(i);
   std::ranges::reverse(chain);
-  Gait gait{rests_[chain.front()].holding, rests_[chain.front()].at, {}};
+  Gait gait{rests_[chain.front()].hold.holding, rests_[chain.front()].at, {}};
   for (const int i : chain) {
     gait.stretches.insert(gait.stretches.end(), rests_[i].way.begin(), rests_[i].way.end());
   }
@@ -495,8 +370,8 @@ int GaitSearch::PopNext() {
     const Waiting top = queue_.top();
     queue_.pop();
     const Rest& rest = rests_[top.rest];
-    const double score =
-        rest.score - kAnotherTurn * rest.turns - kPutBack * expanded_at_[grid_.StepOf(rest.end)];
+    const double score = rest.score - kAnotherTurn * rest.turns -
+                         kPutBack * expanded_at_[grid_.StepOf(rest.carried.end)];
     if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
     queue_.push({score, top.rest});
   }
@@ -504,24 +379,26 @@ int GaitSearch::PopNext() {
 
 /// Whether the same grasp was expanded that passes the rest's node.
 bool GaitSearch::WasExpandedAt(const Rest& rest) const {
-  const auto found = passed_.find(rest.holding);
+  const auto found = passed_.find(rest.hold.holding);
   return found != passed_.end() &&
          std::ranges::find(found->second, rest.node) != found->second.end();
 }
 
 std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& deadline) {
-  if (!begun_) ends_.start.empty() ? AddFirstRests() : AddGivenStart();
+  if (!begun_) start_.empty() ? AddFirstRests() : AddGivenStart();
   begun_ = true;
   while (!queue_.empty() && counts_.expanded < most_expanded) {
     if (deadline.IsOver()) return std::nullopt;
     const int index = PopNext();
     Rest& rest = rests_[index];
     if (rest.turns == 0 && (WasExpandedAt(rest) || !WorkOutWay(rest))) continue;
-    CarryAround(rest);
+    rest.carried = carrier_.Around(
+        rest.hold, rest.node, kPatience * (1 + rest.turns),
+        [&](int node) { return grid_.IsGoal(node) && goal_.IsHeldBy(rest.hold.holding); });
     if (std::optional<Gait> gait = GaitFrom(index)) return gait;
-    std::vector<int>& passed = passed_[rest.holding];
-    for (const auto& [node, from] : rest.from) passed.push_back(node);
-    const int last = grid_.StepOf(rest.end);
+    std::vector<int>& passed = passed_[rest.hold.holding];
+    for (const auto& [node, from] : rest.carried.from) passed.push_back(node);
+    const int last = grid_.StepOf(rest.carried.end);
     counts_.farthest = std::max(counts_.farthest, last);
     ++counts_.expanded;
     ++expanded_at_[last];

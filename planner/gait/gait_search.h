@@ -9,11 +9,12 @@
 #include "planner/base/deadline.h"
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_memory.h"
+#include "planner/gait/carrier.h"
 #include "planner/gait/finger_path.h"
 #include "planner/gait/gait.h"
+#include "planner/gait/goal_grasp.h"
 #include "planner/gait/hand_setup.h"
 #include "planner/gait/pose_grid.h"
-#include "planner/gait/reach_map.h"
 
 namespace regrasp::gait {
 
@@ -45,7 +46,7 @@ class GaitSearch {
              const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random);
 
   /// Whether some fingers can hold the goal grasp, if there is one, at the goal pose.
-  [[nodiscard]] bool GoalIsHeld() const { return ends_.goal.empty() || !goals_.empty(); }
+  [[nodiscard]] bool GoalIsHeld() const { return goal_.IsWithinReach(); }
 
   /// Goes on until so many rests were expanded in all calls together.
   /// @returns nullopt where none was found until then, or until the deadline.
@@ -58,13 +59,11 @@ class GaitSearch {
  private:
   /// A grasp, and the nodes of the grid that it can be carried to.
   struct Rest {
-    Holding holding;
-    std::vector<Posture> waiting = {};  ///< of fingers that hold nothing, by finger
-    int node = 0;                       ///< at which it was taken
-    std::map<int, int> from = {};       ///< of each node that it comes to the one before
-    int end = 0;                        ///< the farthest of them
-    std::set<int> switched_at = {};     ///< nodes, in earlier turns
-    int turns = 0;                      ///< that it had
+    Hold hold;
+    int node = 0;                    ///< at which it was taken
+    Carried carried = {};            ///< to where
+    std::set<int> switched_at = {};  ///< nodes, in earlier turns
+    int turns = 0;                   ///< that it had
     double score = 0;
     int parent = -1;
     FingerIndex placed = {}, released = {};  ///< not valid: none
@@ -97,19 +96,7 @@ class GaitSearch {
   /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
   bool Add(Rest rest);
   [[nodiscard]] bool IsGrasp(const Holding& holding);
-  /// Finds postures for fingers that hold nothing and have none.
-  [[nodiscard]] bool LetFreeFingersWait(Rest& rest);
-  /// Finds how far the grasp can be carried straight on, and also beside the track.
-  void CarryOn(Rest& rest);
-  void CarryAround(Rest& rest);
-  [[nodiscard]] static std::vector<int> PathTo(const Rest& rest, int node);
-  [[nodiscard]] bool CanFollow(const Rest& rest, int node, int neighbour);
-  [[nodiscard]] bool IsPassable(const Rest& rest, int node);
-  [[nodiscard]] Keyframe FrameAt(const Rest& rest, int node);
   [[nodiscard]] bool WasExpandedAt(const Rest& rest) const;
-  [[nodiscard]] bool IsGoalGrasp(const Holding& holding) const;
-  /// Fingers that would have to be placed or lifted, at least.
-  [[nodiscard]] int DistanceFromGoal(const Holding& holding);
   [[nodiscard]] double ScoreOf(const Rest& rest, int last);
   [[nodiscard]] bool WorkOutWay(Rest& rest);
   /// The next rest in turn.
@@ -124,18 +111,17 @@ class GaitSearch {
 
   const HandSetup& setup_;
   const PoseGrid& grid_;
-  const Parking& parking_;
-  GaitEnds ends_;
+  std::vector<int> start_;  ///< the grasp to begin with; none: any
+  GoalGrasp goal_;
   int most_holding_;
   criteria::GraspMemory& memory_;
   RandomStream& random_;
-  ReachMap reach_;
+  Carrier carrier_;
   std::vector<Rest> rests_;
   std::priority_queue<Waiting> queue_;
   /// Of each grasp the nodes at which it was taken up, and those that an expanded rest passes.
   std::map<Holding, std::vector<int>> taken_, passed_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
-  std::vector<Holding> goals_;    ///< ways to hold the goal grasp at the goal pose
   std::vector<int> expanded_at_;  ///< rests, by the step that they end at
   GaitCounts counts_;
   bool begun_ = false;
