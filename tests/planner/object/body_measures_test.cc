@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <tuple>
+
 #include "tests/fixtures/models.h"
 
 namespace regrasp::object {
@@ -17,6 +20,19 @@ TEST(BodyMeasures, OfACubeOfSixCentimetresAreThoseOfWater) {
   EXPECT_EQ(body.thickness_m, 0);
   EXPECT_EQ(MeasuresText(body), "10.4 cm across, 216 g");
   EXPECT_NEAR(MeasureBody(*cube.object, 1, 2 * kUsualDensity).mass_kg, 0.432, 1e-9);
+}
+
+/// The same tetrahedron, 1 m along each axis, in files that name a unit; what is read is in
+/// metres.
+TEST(BodyMeasures, FilesSayTheirUnit) {
+  for (const auto& [name, unit] :
+       {std::tuple("centimetres.dae", "centimetres"), {"millimetres.fbx", "millimetres"}}) {
+    const ObjectFile file = ReadObject(std::string(REGRASP_TEST_DATA) + "/objects/good/" + name);
+    EXPECT_NEAR(file.object->diameter(), std::sqrt(2), 1e-6) << name;
+    EXPECT_THAT(UnitText(file.unit), HasSubstr(unit)) << name;
+    EXPECT_THAT(UnitText(file.unit), HasSubstr("read as metres")) << name;
+  }
+  EXPECT_EQ(UnitText(ReadModel("cube.obj").unit), "");
 }
 
 TEST(BodyMeasures, OfAPolygonAreThoseOfAPrism) {

@@ -71,7 +71,7 @@ TEST(MeshReaders, AllFormatsGiveTheSameBody) {
         << entry.path();
     ++compared;
   }
-  EXPECT_EQ(compared, 18);
+  EXPECT_EQ(compared, 19);
 }
 
 /// Writes 1.5 as 1,5 and 1000 as 1.000.
@@ -99,7 +99,7 @@ TEST(MeshReaders, ReadTheSameUnderAnyLocale) {
   EXPECT_EQ(ReadObj("v 0.5 1.25 1000.5\n", "t").vertices.at(0), Vector3d(0.5, 1.25, 1000.5));
   std::setlocale(LC_ALL, c_before.c_str());
   std::locale::global(before);
-  EXPECT_EQ(read, 19);
+  EXPECT_EQ(read, 20);
 }
 
 constexpr ChildLimits kLimits{std::size_t{4} << 30, std::chrono::seconds(5),
