@@ -4,21 +4,37 @@ import struct
 import zlib
 
 
-def png_pixels(data):
-    """Width, and rows of RGB triples, of a PNG of 8 bits a channel without interlace."""
-    width, height = struct.unpack(">II", data[16:24])
-    assert data[24:26] == b"\x08\x02", "RGB"
+def png_size(data):
+    """Width and height of a PNG."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    return struct.unpack(">II", data[16:24])
+
+
+def png_rows(data):
+    """The pixel rows of a PNG of 8 bits a channel, as the filtered bytes that stand in it."""
+    width, height = png_size(data)
+    assert data[24] == 8 and data[25] in (2, 6), "RGB or RGBA"
     packed, at = b"", 8
     while at < len(data):
         length = struct.unpack(">I", data[at:at + 4])[0]
         if data[at + 4:at + 8] == b"IDAT":
             packed += data[at + 8:at + 8 + length]
         at += length + 12
-    raw, stride = zlib.decompress(packed), 3 * width
+    stride = 1 + width * (3 if data[25] == 2 else 4)
+    raw = zlib.decompress(packed)
+    assert len(raw) == stride * height
+    return [raw[y * stride:(y + 1) * stride] for y in range(height)]
+
+
+def png_pixels(data):
+    """Rows of RGB triples, of a PNG of 8 bits a channel without transparency and interlace."""
+    assert data[25] == 2, "RGB"
+    filtered = png_rows(data)
+    stride = len(filtered[0]) - 1
     before, rows = bytearray(stride), []
-    for y in range(height):
-        kind = raw[y * (stride + 1)]
-        row = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+    for line in filtered:
+        kind = line[0]
+        row = bytearray(line[1:])
         for i in range(stride):
             left = row[i - 3] if i >= 3 else 0
             corner = before[i - 3] if i >= 3 else 0

@@ -9,43 +9,19 @@ import math
 import os
 import re
 import shutil
-import struct
 import subprocess
 import threading
-import zlib
 import xml.etree.ElementTree as ElementTree
 
 import program_case
+from picture_pixels import png_rows, png_size
 from program_case import ProgramCase
-
-
-def png_size(data):
-    """Width and height in the header of a PNG file."""
-    assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    return struct.unpack(">II", data[16:24])
-
 
 XHTML = "{http://www.w3.org/1999/xhtml}"
 SVG = "{http://www.w3.org/2000/svg}"
 
 # Far above what the browser needs for a page.
 BROWSER_SECONDS = 120
-
-
-def png_rows(data):
-    """The pixel rows of a PNG of 8 bits a channel, as the filtered bytes that stand in it."""
-    width, height = png_size(data)
-    assert data[24] == 8 and data[25] in (2, 6), "RGB or RGBA"
-    packed, at = b"", 8
-    while at < len(data):
-        length = struct.unpack(">I", data[at:at + 4])[0]
-        if data[at + 4:at + 8] == b"IDAT":
-            packed += data[at + 8:at + 8 + length]
-        at += length + 12
-    stride = 1 + width * (3 if data[25] == 2 else 4)
-    raw = zlib.decompress(packed)
-    assert len(raw) == stride * height
-    return [raw[y * stride:(y + 1) * stride] for y in range(height)]
 
 
 def inked_rows(data):
