@@ -13,6 +13,7 @@
 #include "render/frames/body_shape.h"
 #include "render/frames/camera.h"
 #include "render/frames/canvas.h"
+#include "render/frames/extent.h"
 #include "render/frames/fault_overlay.h"
 #include "render/frames/finger_glyph.h"
 #include "render/frames/turn_arrow.h"
@@ -133,41 +134,6 @@ void LayFlat(std::vector<Shape>& shapes) {
     mesh->pose.linear() << Vector3d::UnitZ().cross(axis), Vector3d::UnitZ(), axis;
   }
 }
-
-/// Points whose pictures bound the pictures of shapes.
-class Extent {
- public:
-  /// @param axes    of the camera.
-  /// @param meshes  what MeshInstance names; outlives this object.
-  Extent(const Eigen::Matrix3d& axes, const std::vector<FacetMesh>& meshes)
-      : axes_(axes), meshes_(meshes) {}
-
-  void operator()(const Ball& ball) {
-    for (const double sign : {-1.0, 1.0}) {
-      for (const int axis : {0, 1})
-        points_.push_back(ball.centre + sign * ball.radius * axes_.col(axis));
-    }
-  }
-  void operator()(const Rod& rod) { AddEnds(rod); }
-  void operator()(const Line& line) { AddEnds(line); }
-  void operator()(const MeshInstance& instance) {
-    for (const auto& corners : meshes_[instance.mesh].triangles) {
-      for (const Vector3d& p : corners) points_.push_back(instance.pose * p);
-    }
-  }
-  template <class Form>
-  void AddEnds(const Form& form) {
-    for (const Vector3d& end : {form.from, form.to}) (*this)(Ball{end, form.radius});
-  }
-  void Add(const std::variant<Ball, Rod, Line, MeshInstance>& form) { std::visit(*this, form); }
-
-  [[nodiscard]] const std::vector<Vector3d>& points() const { return points_; }
-
- private:
-  const Eigen::Matrix3d& axes_;
-  const std::vector<FacetMesh>& meshes_;
-  std::vector<Vector3d> points_;
-};
 
 int EvenShare(double share, int side) { return 2 * static_cast<int>(share * side / 2); }
 
