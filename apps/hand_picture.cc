@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
+#include "planner/plan/hand_path.h"
 
 namespace regrasp::apps {
 namespace {
@@ -44,21 +45,6 @@ Eigen::AngleAxisd TurnFrom(const HandState& a, const HandState& b) {
   return Eigen::AngleAxisd(a.pose.linear().transpose() * b.pose.linear());
 }
 
-/// As plan::HandPath says of what is between two states.
-HandState Mix(const HandState& a, const HandState& b, double share) {
-  HandState state = a;
-  const Eigen::AngleAxisd turn = TurnFrom(a, b);
-  state.pose.linear() =
-      a.pose.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
-  state.pose.translation() += share * (b.pose.translation() - a.pose.translation());
-  for (std::size_t i = 0; i < a.joints.size(); ++i) {
-    for (std::size_t k = 0; k < a.joints[i].size(); ++k) {
-      state.joints[i][k] += share * (b.joints[i][k] - a.joints[i][k]);
-    }
-  }
-  return state;
-}
-
 /// From one state to the next, in pictures.
 double MotionBetween(const HandState& a, const HandState& b) {
   double turn = TurnFrom(a, b).angle();
@@ -83,7 +69,7 @@ std::vector<HandState> Spread(const plan::HandPath& path) {
     const double at = along.back() * picture / count;
     const auto next = std::ranges::upper_bound(along, at) - along.begin();
     const double share = (at - along[next - 1]) / (along[next] - along[next - 1]);
-    states.push_back(Mix(path[next - 1], path[next], share));
+    states.push_back(plan::StateBetween(path[next - 1], path[next], share));
   }
   return states;
 }

@@ -9,6 +9,7 @@
 
 #include "apps/help.h"
 #include "apps/view_options.h"
+#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "render/picture/moving_picture.h"
@@ -166,6 +167,25 @@ void AddReplay(CLI::App& app, ValidateOptions& options) {
       "finger those that cannot slide roll, all at once");
 }
 
+/// Of the replay by a hand.
+void AddHandReplay(CLI::App& app, ValidateOptions& options) {
+  AddChoice<bool>(app, "--replay", options.replay_by_hand, {{"points", false}, {"hand", true}},
+                  "Who carries the plan out: points, ideal fingers without a hand, or hand, the "
+                  "model of --hand with its own actuators, gravity and friction (default points)");
+  constexpr double kMetre = 1e3;
+  AddNumber(app, "--tolerance-mm", options.tolerance_mm, {0, kMetre, false, true},
+            "How far the object may be from its planned place; with --replay hand, half of it at "
+            "rest (default 2)",
+            "MM");
+  AddNumber(app, "--tolerance-deg", options.tolerance_deg, {0, 180, false, true},
+            "How far the object may be turned from its plan; with --replay hand, half of it at "
+            "rest (default 5)",
+            "DEG");
+  AddChoice<bool>(app, "--feedback", options.feedback, {{"pose", true}, {"none", false}},
+                  "What the hand knows of the object; with --replay hand. pose: joint targets are "
+                  "corrected by its pose, as a camera sees it; none: they are not (default pose)");
+}
+
 void AddTrials(CLI::App& app, ValidateOptions& options) {
   constexpr int kMostTrials = 1'000'000;
   const NumberRange share{0, sim::kMostError};
@@ -285,6 +305,8 @@ void ValidateOptions::AddTo(CLI::App& app) {
   AddBodies(app, *this);
   BeginGroup(app, "Replay");
   AddReplay(app, *this);
+  BeginGroup(app, "Replay by a hand");
+  AddHandReplay(app, *this);
   BeginGroup(app, "Trials with noise");
   AddTrials(app, *this);
   BeginGroup(app, "Pictures");
@@ -323,6 +345,16 @@ void ValidateOptions::Finish(const CLI::App& app) {
     refuse({"--jobs", "--time-limit", "--fresh"}, kSeveralPlans);
     if (!for_grasp()) plan_path = plans.front();
   }
+  if (replay_by_hand) {
+    if (hand.empty()) throw InputError("--replay hand: needs the hand (--hand)");
+    refuse({"--protocol", "--stress", "--tolerance", "--align", "--finger-radius", "--trials",
+            "--export-mjcf", "--trajectory"},
+           "goes with --replay points");
+  } else {
+    refuse({"--tolerance-mm", "--tolerance-deg", "--feedback"}, "goes with --replay hand");
+  }
+  tolerance.length_m = 1e-3 * tolerance_mm;
+  tolerance.angle_rad = Radians(tolerance_deg);
   if (!animates()) refuse({kAnimateSize}, "goes with --animate or --video");
   animation_crop = frame.crop && animation_width == 0;
   if (animation_width == 0) {

@@ -38,7 +38,12 @@ struct ValidateOptions {
   std::string goal;
   std::string hand;  ///< of a plan for a hand: its file; empty: the hand is not checked
   double clearance_m = sim::HandCheckOptions().clearance_m;
-  std::string verify;  ///< a report whose proofs are checked; nothing else is done
+  bool replay_by_hand = false;  ///< on the hand's own model, not by ideal fingers
+  bool feedback = true;         ///< of that replay: joint targets follow the object's pose
+  double tolerance_mm = 2;      ///< of the same
+  double tolerance_deg = 5;
+  sim::HandTolerance tolerance;  ///< after Finish
+  std::string verify;            ///< a report whose proofs are checked; nothing else is done
   FrictionOptions friction;
   RepairOptions repair;  ///< of a grasp's object; a plan holds its own
   std::optional<double> scale;

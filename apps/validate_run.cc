@@ -34,6 +34,7 @@
 #include "report/junit.h"
 #include "report/page/report_page.h"
 #include "report/report.h"
+#include "sim/actuation/hand_replay.h"
 #include "sim/hand/check_hand.h"
 #include "sim/replay/trajectory.h"
 #include "sim/scene/scaling.h"
@@ -216,6 +217,24 @@ struct CheckTask {
   plan::CheckOptions check;
 };
 
+/// Replays by the hand of the task.
+report::Replayer HandReplayer(const ValidateOptions& options, const Task& task,
+                              const sim::ReplayObserver& observer) {
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*task.object.object);
+  sim::HandReplayOptions by_hand;
+  by_hand.tolerance = options.tolerance;
+  by_hand.feedback = options.feedback;
+  by_hand.mass_kg = sim::BodyOf(solid, task.plan.scale, options.replay).mass_kg;
+  by_hand.shake = options.replay.shake;
+  by_hand.squeeze_N = options.replay.squeeze_N;
+  return [by_hand, &task, &solid, on_progress = observer.on_progress](
+             const plan::Plan& located, double half_angle, int entries) {
+    sim::HandReplayOptions now = by_hand;
+    now.half_angle = half_angle;
+    return sim::ReplayHand(*task.hand, solid, located, now, {{}, on_progress}, entries);
+  };
+}
+
 report::Report Check(const ValidateOptions& options, const Task& task, Samples& samples) {
   const object::Object& object = *task.object.object;
   CheckTask given(options, task);
@@ -226,8 +245,11 @@ report::Report Check(const ValidateOptions& options, const Task& task, Samples& 
   }
   progress.Report(options.for_grasp() ? "checking the grasp" : "checking the plan");
   const sim::ReplayObserver observer = MakeObserver(options, progress, samples);
-  if (!options.for_grasp())
-    return report::Validate(object, task.plan, given.check, options.replay, observer);
+  if (!options.for_grasp()) {
+    return report::Validate(
+        object, task.plan, given.check, options.replay, observer,
+        options.replay_by_hand ? HandReplayer(options, task, observer) : report::Replayer());
+  }
   return report::ValidateGrasp(object, task.grasp, task.plan.half_angle, task.plan.scale,
                                options.replay, observer);
 }

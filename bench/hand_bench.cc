@@ -1,8 +1,10 @@
 // How often and how fast hands turn objects, or join two grasps at one pose (--pairs), each plan
-// judged by the checker of hands; and what inverse kinematics and a rest cost. All times are of the
-// processor. Ends with the rows of a table in Markdown.
+// judged by the checker of hands and, with --replay, carried out by the hand's own actuators; and
+// what inverse kinematics and a rest cost. All times are of the processor. Ends with the rows of a
+// table in Markdown.
 //
-//   hand_bench [--seeds N] [--limit SECONDS] [--axis z] [--degrees 90] [--pairs] HAND.json ...
+//   hand_bench [--seeds N] [--limit SECONDS] [--axis z] [--degrees 90] [--pairs]
+//              [--replay] [--plan-mu 0.5] [--min-quality 0.06] [--friction-factor 1] HAND.json ...
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -12,6 +14,7 @@
 #include <ctime>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -23,8 +26,10 @@
 #include "planner/base/text_table.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/hand_file.h"
+#include "planner/object/body_measures.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/locate.h"
+#include "sim/actuation/hand_replay.h"
 #include "sim/hand/check_hand.h"
 
 namespace {
@@ -115,6 +120,27 @@ std::vector<Body> MakeBodies() {
   return bodies;
 }
 
+/// What became of plans that were replayed by their hand.
+struct Replays {
+  int count = 0;
+  int passed = 0;
+  std::vector<double> end_m;    ///< off the plan at the end, of those that passed
+  std::vector<double> end_deg;  ///< the same
+  double simulated = 0;         ///< seconds, without the shakes
+  double seconds = 0;           ///< of the processor, with them
+  std::map<std::string, int> reasons;
+
+  void Add(const Replays& more) {
+    count += more.count;
+    passed += more.passed;
+    end_m.insert(end_m.end(), more.end_m.begin(), more.end_m.end());
+    end_deg.insert(end_deg.end(), more.end_deg.begin(), more.end_deg.end());
+    simulated += more.simulated;
+    seconds += more.seconds;
+    for (const auto& [reason, times] : more.reasons) reasons[reason] += times;
+  }
+};
+
 struct Outcome {
   int asked = 0;
   int found = 0;
@@ -122,6 +148,7 @@ struct Outcome {
   int switches = 0;
   std::vector<double> seconds;  ///< of those that were found
   double checking = 0;
+  Replays replays;
 };
 
 /// What is asked of the hands.
@@ -130,6 +157,10 @@ struct Contest {
   double limit_s = 10;
   gait::Turn turn;
   bool pairs = false;
+  bool replay = false;
+  double plan_mu = kMu;
+  double min_quality = criteria::GraspCriteria().min_quality;
+  double friction_factor = 1;
 };
 
 Deadline DeadlineIn(double seconds) {
@@ -164,15 +195,39 @@ std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
   return request;
 }
 
-Outcome Run(const Contest& contest, const std::string& hand_file, const kinematics::HandModel& hand,
-            const Body& body) {
+void Replay(const Contest& contest, const kinematics::HandFile& file, const Body& body,
+            const plan::Plan& plan, Replays& replays) {
+  sim::HandReplayOptions options;
+  options.half_angle = std::atan(kMu);
+  options.friction_factor = contest.friction_factor;
+  options.mass_kg = object::MeasureBody(body.solid, body.scale).mass_kg;
+  const Clock::time_point begin = Now();
+  const sim::ReplayResult result = sim::ReplayHand(file, body.solid, plan, options);
+  replays.seconds += SecondsSince(begin);
+  ++replays.count;
+  for (const sim::StepReplay& step : result.steps) replays.simulated += step.hand->simulated_s;
+  const sim::StepReplay& last = result.steps.back();
+  if (last.reason != plan::Reason::kNone) {
+    ++replays.reasons[std::string(plan::ReasonName(last.reason))];
+    std::cerr << body.name << ": step " << last.index << " of " << plan.steps.size() << ": "
+              << last.detail << '\n';
+    return;
+  }
+  ++replays.passed;
+  replays.end_m.push_back(last.hand->rest_off_m);
+  replays.end_deg.push_back(Degrees(last.hand->rest_off_rad));
+}
+
+Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Body& body) {
+  const kinematics::HandModel& hand = file.hand;
   Outcome outcome;
   for (int seed = 1; seed <= contest.seeds; ++seed) {
     gait::GaitRequest request;
     request.hand = &hand;
     request.solid = &body.solid;
     request.scale = body.scale;
-    request.criteria.half_angle = std::atan(kMu);
+    request.criteria.half_angle = std::atan(contest.plan_mu);
+    request.criteria.min_quality = contest.min_quality;
     request.turn = contest.turn;
     request.seed = seed;
     if (contest.pairs) {
@@ -192,11 +247,13 @@ Outcome Run(const Contest& contest, const std::string& hand_file, const kinemati
     outcome.switches +=
         static_cast<int>(std::ranges::count(plan.steps, std::string("switch"), plan::StepKind));
     const Clock::time_point check = Now();
-    const auto faults = sim::CheckHand(hand_file, body.solid, plan);
+    const auto faults = sim::CheckHand(file, body.solid, plan);
     outcome.checking += SecondsSince(check);
     if (!faults.empty() || !plan::CheckPlan(body.solid, plan).passed()) {
       ++outcome.rejected;
       if (!faults.empty()) std::cerr << "rejected: " << faults.front().detail << '\n';
+    } else if (contest.replay) {
+      Replay(contest, file, body, plan, outcome.replays);
     }
   }
   return outcome;
@@ -206,6 +263,10 @@ double Median(std::vector<double> values) {
   if (values.empty()) return 0;
   std::ranges::sort(values);
   return (values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2;
+}
+
+double Largest(const std::vector<double>& values) {
+  return values.empty() ? 0 : *std::ranges::max_element(values);
 }
 
 /// Microseconds of a solve for a place that the finger's tip can be in.
@@ -292,36 +353,54 @@ std::string Range(const std::vector<double>& values, int digits) {
          FormatFixed(*std::ranges::max_element(values), digits);
 }
 
+/// What became of the replays of a hand.
+void PrintReplays(const Replays& replays) {
+  if (replays.count == 0) return;
+  std::printf(
+      "replays: %d of %d pass; at the end %.2f mm and %.2f degrees off (median), %.2f mm and "
+      "%.2f degrees (worst); %.0f s simulated, %.3f s of processor time a second\n",
+      replays.passed, replays.count, 1e3 * Median(replays.end_m), Median(replays.end_deg),
+      1e3 * Largest(replays.end_m), Largest(replays.end_deg), replays.simulated,
+      replays.seconds / replays.simulated);
+  for (const auto& [reason, times] : replays.reasons) {
+    std::printf("  %s: %d\n", reason.c_str(), times);
+  }
+}
+
 /// @returns its row of the table.
 std::string RunHand(const Contest& contest, const std::string& file,
                     const std::vector<Body>& bodies) {
-  const kinematics::HandModel hand = kinematics::ReadHand(file);
+  const kinematics::HandFile read = kinematics::ReadHandFile(file);
+  const kinematics::HandModel& hand = read.hand;
   std::printf("\n%s, %zu fingers\n", hand.name.c_str(), hand.fingers.size());
   TimeInverse(hand.fingers.front());
   TimeRest(hand, bodies[1]);
   std::vector<TextRow> rows = {{"object", "found", "rejected", "median s", "longest s",
-                                "switches a plan", "check s a plan"}};
+                                "switches a plan", "check s a plan", "replays passed"}};
   Outcome all;
   std::vector<double> medians;
   std::vector<double> switches;
   for (const Body& body : bodies) {
-    const Outcome outcome = Run(contest, file, hand, body);
+    const Outcome outcome = Run(contest, read, body);
     all.asked += outcome.asked;
     all.found += outcome.found;
     all.rejected += outcome.rejected;
+    all.replays.Add(outcome.replays);
     const double plans = std::max(1, outcome.found);
     if (outcome.found > 0) {
       medians.push_back(Median(outcome.seconds));
       switches.push_back(outcome.switches / plans);
     }
-    const double longest = outcome.seconds.empty() ? 0 : *std::ranges::max_element(outcome.seconds);
-    rows.push_back({body.name,
-                    std::to_string(outcome.found) + " of " + std::to_string(outcome.asked),
-                    std::to_string(outcome.rejected), FormatFixed(Median(outcome.seconds), 2),
-                    FormatFixed(longest, 2), FormatFixed(outcome.switches / plans, 1),
-                    FormatFixed(outcome.checking / plans, 2)});
+    const double longest = Largest(outcome.seconds);
+    rows.push_back(
+        {body.name, std::to_string(outcome.found) + " of " + std::to_string(outcome.asked),
+         std::to_string(outcome.rejected), FormatFixed(Median(outcome.seconds), 2),
+         FormatFixed(longest, 2), FormatFixed(outcome.switches / plans, 1),
+         FormatFixed(outcome.checking / plans, 2),
+         std::to_string(outcome.replays.passed) + " of " + std::to_string(outcome.replays.count)});
   }
   std::printf("%s", FormatRows(rows).c_str());
+  PrintReplays(all.replays);
   std::fflush(stdout);
   return "| " + hand.name + ", " + std::to_string(hand.fingers.size()) + " fingers | " +
          std::to_string(all.found) + " of " + std::to_string(all.asked) + " | " +
@@ -342,6 +421,11 @@ int main(int argc, char** argv) {
   app.add_option("--axis", axis, "x, y or z of the object")->check(CLI::IsMember({"x", "y", "z"}));
   app.add_option("--degrees", degrees, "Of the turn");
   app.add_flag("--pairs", contest.pairs, "Two grasps at one pose instead of a turn");
+  app.add_flag("--replay", contest.replay, "Also carry plans out by the hand's own actuators");
+  app.add_option("--plan-mu", contest.plan_mu,
+                 "Friction that is planned with, of 0.8 that there is");
+  app.add_option("--min-quality", contest.min_quality, "Of the grasps of plans");
+  app.add_option("--friction-factor", contest.friction_factor, "Friction in replays, over 0.8");
   app.add_option("hands", hands, "Hand files")->required();
   CLI11_PARSE(app, argc, argv);
   try {

@@ -45,6 +45,10 @@ std::string MendFriction(const ReportStep& step) {
 
 /// By the likely cause of a replay that fails what the analysis passes.
 std::string MendReplay(const ReportStep& step, const Report& report) {
+  if (report.settings && report.settings->hand) {
+    return "a plan with more to spare (plan at less friction than is checked, --min-quality 0.05 "
+           "or more), moves in which tips roll less, or a larger --tolerance-mm, --tolerance-deg";
+  }
   const bool shaken = report.settings && report.settings->shake > 0;
   switch (step.disagreement ? step.disagreement->cause : Cause::kUnknown) {
     case Cause::kConcaveCorner:
@@ -70,6 +74,9 @@ std::string MendReplay(const ReportStep& step, const Report& report) {
 
 /// A clearance helps only where there is one.
 std::string MendCollision(const plan::Fault& fault) {
+  if (fault.hand && !fault.hand->gap_m) {
+    return "a plan whose links keep a larger --clearance, or in which tips roll less";
+  }
   const bool apart = fault.hand && fault.hand->gap_m && *fault.hand->gap_m > 0;
   if (!apart) return "a way around, or other contacts: no --clearance allows links in each other";
   return "a way around, other contacts, or a --clearance below the " +
@@ -130,6 +137,9 @@ std::string MendOf(const ReportStep& step, const Report& report) {
       return "a posture within the limits, or a contact that the finger reaches within them";
     case Reason::kHandCollides:
       return MendCollision(step.fault());
+    case Reason::kTorqueLimit:
+      return "a smaller --squeeze, a lighter object (--mass), or postures in which the finger has "
+             "more strength";
     case Reason::kSimulationUnstable:
       return "another --squeeze or --mass, a smaller --shake, or the right --scale where the "
              "object is of no usual size";
@@ -148,8 +158,20 @@ std::string MendOf(const ReportStep& step, const Report& report) {
   return "";
 }
 
+/// Of a replay by a hand.
+std::string HandToleranceText(const sim::HandTolerance& tolerance) {
+  return "the object may be " + FormatLength(tolerance.length_m) + " and " +
+         FormatDegrees(Degrees(tolerance.angle_rad)) +
+         " from where the plan has it (--tolerance-mm, --tolerance-deg), at rest half of that; a "
+         "tip that holds may slip by " +
+         FormatLength(tolerance.slip_m);
+}
+
 /// How much may move or slip.
 std::string ToleranceText(const Report& report) {
+  if (report.settings && report.settings->hand) {
+    return HandToleranceText(report.settings->hand->tolerance);
+  }
   if (!report.settings) return "more than the --tolerance of the object's diameter";
   return "up to " + FormatLength(report.settings->tolerance * report.settings->diameter_m) +
          ", --tolerance " + FormatShort(report.settings->tolerance) +
@@ -202,6 +224,8 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
     case Reason::kHandCollides:
       return "the links of the hand keep the clearance from each other, the palm and the object, "
              "on all of the path; a tip that touches may be 0.3 mm in the surface";
+    case Reason::kTorqueLimit:
+      return "no actuator of the hand stands at the limit of its force for longer than 50 ms";
     case Reason::kSimulationUnstable:
       return "the simulation came to no end, so nothing is known of the step";
     case Reason::kContactLost:

@@ -23,10 +23,7 @@ int CountPassing(const std::vector<plan::StepCheck>& steps) {
   return static_cast<int>(std::find_if(steps.begin(), steps.end(), fails) - steps.begin());
 }
 
-void Replay(const object::Object& object, const plan::Plan& located,
-            const sim::ReplayOptions& options, const sim::ReplayObserver& observer, int count,
-            Report& report) {
-  sim::ReplayResult result = sim::ReplayPlan(object, located, options, observer, count);
+void TakeReplay(sim::ReplayResult result, Report& report) {
   report.settings = result.settings;
   for (sim::StepReplay& step : result.steps) {
     report.steps[step.index].replay = std::move(step);
@@ -65,7 +62,8 @@ void ExamineSteps(const object::Object& object, const plan::Plan& located, int c
   for (plan::EntryIndex index{0}; index < count; ++index) {
     ReportStep& step = report.steps[index];
     step.needs = sim::NeedsOfEntry(located, index, object.wrench_frame(), report.half_angle);
-    if (!step.replay) continue;
+    // What is known of likely causes is known of ideal fingers.
+    if (!step.replay || report.settings->hand) continue;
     step.disagreement =
         sim::ExplainDisagreement({object, located, step.check, *step.replay, *report.settings});
   }
@@ -170,7 +168,7 @@ std::vector<std::string> Report::warnings() const {
 
 Report Validate(const object::Object& object, const plan::Plan& plan,
                 const plan::CheckOptions& check, const sim::ReplayOptions& replay,
-                const sim::ReplayObserver& observer) {
+                const sim::ReplayObserver& observer, const Replayer& replayer) {
   const plan::PlanCheck checked = plan::CheckPlan(object, plan, check);
   Report report;
   report.scale = plan.scale;
@@ -190,7 +188,9 @@ Report Validate(const object::Object& object, const plan::Plan& plan,
     sim::ReplayOptions options = replay;
     options.half_angle = report.half_angle;
     options.finger_radius = report.finger_radius;
-    Replay(object, checked.located, options, observer, passing, report);
+    TakeReplay(replayer ? replayer(checked.located, report.half_angle, passing)
+                        : sim::ReplayPlan(object, checked.located, options, observer, passing),
+               report);
     ExamineSteps(object, checked.located, passing, report);
   }
   SkipAfterFailure(report.steps);

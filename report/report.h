@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -112,15 +113,22 @@ struct Report {
   [[nodiscard]] std::vector<std::string> warnings() const;
 };
 
+/// Replays the first `entries` of a plan that is located, at a friction half-angle in radians.
+using Replayer =
+    std::function<sim::ReplayResult(const plan::Plan& located, double half_angle, int entries)>;
+
 /// Checks a plan analytically and replays the steps that pass, up to the first that fails: a step
 /// that fails the analytic check is not replayed, and what follows a failed step is skipped. Both
 /// use the friction of `check` where it is given, otherwise the plan's.
 ///
 /// Files' names and digests, and frames, are left to the caller.
+/// @param replayer  replays instead of sim::ReplayPlan, where there is one; `replay` then says what
+///                  the object weighs.
 /// @throws InputError  the plan's dimension is not the object's, or the body cannot be simulated.
 [[nodiscard]] Report Validate(const object::Object& object, const plan::Plan& plan,
                               const plan::CheckOptions& check, const sim::ReplayOptions& replay,
-                              const sim::ReplayObserver& observer = {});
+                              const sim::ReplayObserver& observer = {},
+                              const Replayer& replayer = {});
 
 /// Holds one grasp: the report of a plan without steps whose hand has just the fingers of the
 /// grasp, numbered in its order, with what is said of a single grasp.

@@ -38,6 +38,7 @@ Json MakeSettings(const Report& report) {
   settings["finger_mass_kg"] = replay.finger_mass_kg;
   settings["finger_stiffness_N_m"] = replay.finger_stiffness_N_m;
   settings["timestep_s"] = replay.timestep_s;
+  if (replay.hand) settings["hand"] = HandSettingsJson(*replay.hand);
   return settings;
 }
 

@@ -43,6 +43,14 @@ Json MotionJson(const sim::StepMotion& motion) {
           {"shake_margin_deg", DegreesOrNull(sim::SmallestMargin(motion.shake_margins))}};
 }
 
+Json HandJson(const sim::HandMeasures& measures) {
+  return {{"rest_displacement_m", measures.rest_off_m},
+          {"rest_rotation_deg", Degrees(measures.rest_off_rad)},
+          {"roll_m", measures.roll_m},
+          {"torque_share", measures.torque_share},
+          {"simulated_s", measures.simulated_s}};
+}
+
 }  // namespace
 
 const char* ProtocolName(sim::Protocol protocol) {
@@ -63,23 +71,39 @@ const char* SqueezeSourceName(sim::SqueezeSource source) {
       return "shake";
     case sim::SqueezeSource::kHand:
       return "hand";
+    case sim::SqueezeSource::kTorques:
+      return "torques";
     case sim::SqueezeSource::kGiven:
       return "option";
   }
   return "";
 }
 
+Json HandSettingsJson(const sim::HandReplaySettings& settings) {
+  return {{"tolerance_m", settings.tolerance.length_m},
+          {"tolerance_deg", Degrees(settings.tolerance.angle_rad)},
+          {"tolerance_at_rest", settings.tolerance.at_rest},
+          {"slip_m", settings.tolerance.slip_m},
+          {"lost_s", settings.tolerance.lost_s},
+          {"limit_s", settings.tolerance.limit_s},
+          {"feedback", settings.feedback ? "pose" : "none"},
+          {"servo_stiffness_Nm_rad", {settings.least_stiffness, settings.largest_stiffness}},
+          {"derived_servos", settings.derived_servos}};
+}
+
 Json SimulationJson(const sim::StepReplay& replay) {
-  return {{"displacement_m", replay.displacement_m},
-          {"rotation_deg", replay.rotation_deg},
-          {"motion_m", replay.moved_m},
-          {"slip_m", replay.slip_m},
-          {"contact_lost", replay.contact_lost},
-          {"cone_margin_deg",
-           {{"motion", DegreesOrNull(sim::SmallestMargin(replay.motion_margins))},
-            {"rest", DegreesOrNull(sim::SmallestMargin(replay.rest_margins))},
-            {"shakes", DegreesOrNull(sim::SmallestMargin(replay.shake_margins))}}},
-          {"fingers", FingersJson(replay)}};
+  Json json = {{"displacement_m", replay.displacement_m},
+               {"rotation_deg", replay.rotation_deg},
+               {"motion_m", replay.moved_m},
+               {"slip_m", replay.slip_m},
+               {"contact_lost", replay.contact_lost},
+               {"cone_margin_deg",
+                {{"motion", DegreesOrNull(sim::SmallestMargin(replay.motion_margins))},
+                 {"rest", DegreesOrNull(sim::SmallestMargin(replay.rest_margins))},
+                 {"shakes", DegreesOrNull(sim::SmallestMargin(replay.shake_margins))}}},
+               {"fingers", FingersJson(replay)}};
+  if (replay.hand) json["hand"] = HandJson(*replay.hand);
+  return json;
 }
 
 Json ProtocolsJson(const sim::StepReplay& replay) {

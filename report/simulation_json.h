@@ -16,6 +16,9 @@ namespace regrasp::report {
 /// The member `simulation` of an entry: motion, slip, cone margins.
 [[nodiscard]] Json SimulationJson(const sim::StepReplay& replay);
 
+/// The member `hand` of the settings, of a replay by a hand.
+[[nodiscard]] Json HandSettingsJson(const sim::HandReplaySettings& settings);
+
 /// The member `protocols`: what each protocol that ran says.
 [[nodiscard]] Json ProtocolsJson(const sim::StepReplay& replay);
 

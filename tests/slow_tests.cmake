@@ -51,6 +51,7 @@ set(regrasp_slow_tests
   FrameTest.DrawsTheLargest*
   GraphOracle.*
   GraphProgram.*
+  HandReplayTest.*
   HostileFiles.AnyPart*
   HostileFiles.GraspsOfFar*
   */ImprovePathCases.Repaired*

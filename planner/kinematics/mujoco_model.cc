@@ -71,6 +71,10 @@ ModelPtr Compile(const fs::path& path, const ModelText& text) {
   throw std::logic_error("CompileModel: a child's end");
 }
 
+InputError Refused(const fs::path& path, const std::runtime_error& error) {
+  return InputError(path.string() + ": MuJoCo does not take the model: " + error.what());
+}
+
 /// As newer versions do it: critical damping of the inertia at rest that an actuator moves, times
 /// the ratio.
 std::vector<double> DampingsOf(const mjModel& model, const std::vector<DampingRatio>& ratios) {
@@ -114,9 +118,19 @@ CompiledModel CompileModel(const fs::path& path) {
   } catch (const EnvironmentError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw InputError(path.string() + ": MuJoCo does not take the model: " + error.what());
+    throw Refused(path, error);
   }
   return compiled;
+}
+
+ModelPtr CompileText(const fs::path& path, const ModelText& text) {
+  try {
+    return Compile(path, text);
+  } catch (const EnvironmentError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw Refused(path, error);
+  }
 }
 
 DataPtr AtRest(const mjModel& model) {

@@ -24,6 +24,11 @@ struct CompiledModel {
 /// @throws InputError  names the file and says what is wrong, or what MuJoCo says of it.
 [[nodiscard]] CompiledModel CompileModel(const std::filesystem::path& path);
 
+/// Compiles a text, in a limited child process.
+/// @param path  of the model that the text was read from: meshes are looked for beside it.
+/// @throws InputError  what MuJoCo says against it.
+[[nodiscard]] ModelPtr CompileText(const std::filesystem::path& path, const ModelText& text);
+
 /// Bodies, geoms and joints as the model has them at rest (qpos0), in world coordinates.
 [[nodiscard]] DataPtr AtRest(const mjModel& model);
 

@@ -38,6 +38,8 @@ std::string_view ReasonName(Reason reason) {
       return "joint-limit";
     case Reason::kHandCollides:
       return "hand-collides";
+    case Reason::kTorqueLimit:
+      return "torque-limit";
     case Reason::kSimulationUnstable:
       return "simulation-unstable";
     case Reason::kContactLost:

@@ -30,6 +30,7 @@ enum class Reason {
   kTipOffContact,
   kJointLimit,
   kHandCollides,
+  kTorqueLimit,
   kSimulationUnstable,
   kContactLost,
   kSlipped,

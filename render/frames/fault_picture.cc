@@ -96,6 +96,7 @@ class FaultSketch {
   [[nodiscard]] std::string PlaceText() const {
     if (reason_ == Reason::kStartDiffers) return "start";
     if (reason_ == Reason::kGoalNotReached) return "goal";
+    if (reason_ == Reason::kObjectMoved && fault_.hand) return "planned here";
     return "was here";
   }
 

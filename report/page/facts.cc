@@ -43,6 +43,15 @@ void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
   facts.Add("Squeeze", SqueezeText(settings));
   facts.Add("Shake", NumberText(100 * settings.shake) + " % of the squeeze");
   if (settings.protocol == sim::Protocol::kFixed) facts.Add("Protocol", "fixed squeeze");
+  if (settings.hand) {
+    const sim::HandTolerance& tolerance = settings.hand->tolerance;
+    facts.Add("Replay", settings.hand->feedback
+                            ? "by the hand's own actuators, corrected by the object's pose"
+                            : "by the hand's own actuators");
+    facts.Add("Tolerance", LengthText(tolerance.length_m) + ", " +
+                               FormatDegrees(Degrees(tolerance.angle_rad)) + " off the plan");
+    return;
+  }
   facts.Add("Tolerance", LengthText(settings.tolerance * settings.diameter_m));
 }
 

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "planner/base/error.h"
+#include "planner/plan/hand_path.h"
 #include "sim/hand/hand_body.h"
 #include "sim/hand/hand_finding.h"
 
@@ -16,6 +17,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using plan::HandState;
 using plan::Reason;
+using plan::StateBetween;
 
 constexpr double kSameJoint = 1e-9;  // radians
 constexpr double kSamePlace = 1e-9;  // metres
@@ -63,21 +65,6 @@ double TurnBetween(const Isometry3d& a, const Isometry3d& b) {
 
 bool IsSamePlace(const Isometry3d& a, const Isometry3d& b) {
   return (a.translation() - b.translation()).norm() <= kSamePlace && TurnBetween(a, b) <= kSameTurn;
-}
-
-HandState Mix(const HandState& a, const HandState& b, double share = 0.5) {
-  HandState middle;
-  middle.pose.translation() = (1 - share) * a.pose.translation() + share * b.pose.translation();
-  const Eigen::AngleAxisd turn(a.pose.linear().transpose() * b.pose.linear());
-  middle.pose.linear() =
-      a.pose.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
-  middle.joints = a.joints;
-  for (std::size_t i = 0; i < middle.joints.size(); ++i) {
-    for (std::size_t k = 0; k < middle.joints[i].size(); ++k) {
-      middle.joints[i][k] = (1 - share) * a.joints[i][k] + share * b.joints[i][k];
-    }
-  }
-  return middle;
 }
 
 class Checker {
@@ -294,7 +281,7 @@ std::optional<Checker::Conflict> Checker::FindConflict(const HandState& from, co
   }
   const double object_bound = (to.pose.translation() - from.pose.translation()).norm() +
                               TurnBetween(from.pose, to.pose) * object_reach_;
-  const HandState middle = Mix(from, to);
+  const HandState middle = StateBetween(from, to, 0.5);
   if (auto fault = CheckTips(follow, middle, kTipInMove, when)) return *fault;
   const std::optional<NearPair> near = FindNear(middle, bounds, object_bound, touching);
   if (!near) return std::nullopt;
@@ -313,8 +300,8 @@ HandFinding Checker::WorstOf(const NearPair& near, const NamedPath& path, std::s
   const auto state_at = [&](std::size_t sample) {
     const double along = stretch * static_cast<double>(sample) / kMostSamples;
     const auto step = std::min(static_cast<std::size_t>(along), last - index);
-    return Mix(path.states[index + step - 1], path.states[index + step],
-               along - static_cast<double>(step));
+    return StateBetween(path.states[index + step - 1], path.states[index + step],
+                        along - static_cast<double>(step));
   };
   for (std::size_t sample = 0; sample <= kMostSamples; ++sample) {
     gaps.push_back(near.other < 0 ? GapToObject(body_, state_at(sample), near.part, triangles_)

@@ -43,6 +43,8 @@ struct StepReplay : StepMotion {
   FingerMargins rest_margins;    ///< at rest after the step
   std::optional<StepMotion> adapted, fixed;  ///< of each protocol that ran
   std::vector<DirectionStress> stress;       ///< where it was asked for, in each direction
+  /// Of a replay by a hand: displacement, rotation and motion are then from the planned pose.
+  std::optional<HandMeasures> hand = std::nullopt;
 };
 
 struct ReplayResult {

@@ -4,45 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "planner/base/error.h"
 #include "planner/mujoco/handles.h"
 #include "planner/mujoco/memory_files.h"
+#include "sim/scene/engine_hooks.h"
 
 namespace regrasp::sim {
 
 using Eigen::Vector3d;
 
 namespace {
-
-/// Called by the engine where it would otherwise end the process.
-[[noreturn]] void ThrowError(const char* message) {
-  throw UnstableError(std::string("engine error: ") + message);
-}
-
-/// The engine counts warnings of a simulation in mjData, where Step looks; printing and the log
-/// file are what this replaces.
-void IgnoreWarning(const char* /*message*/) {}
-
-/// Takes the engine's two global hooks while a simulation lives.
-class EngineHooks {
- public:
-  EngineHooks() : error_(mju_user_error), warning_(mju_user_warning) {
-    mju_user_error = ThrowError;
-    mju_user_warning = IgnoreWarning;
-  }
-  ~EngineHooks() {
-    mju_user_error = error_;
-    mju_user_warning = warning_;
-  }
-  EngineHooks(const EngineHooks&) = delete;
-  EngineHooks& operator=(const EngineHooks&) = delete;
-
- private:
-  void (*error_)(const char*);
-  void (*warning_)(const char*);
-};
 
 using mujoco::DataPtr;
 using mujoco::ModelPtr;
@@ -57,11 +29,6 @@ ModelPtr LoadModel(const std::string& mjcf) {
   if (!model) throw EnvironmentError(std::string("MuJoCo refuses the scene: ") + error.data());
   return model;
 }
-
-/// The warnings that mean that a step is not to be trusted; the others are of the renderer.
-constexpr std::array kFatalWarnings = {mjWARN_INERTIA, mjWARN_CONTACTFULL, mjWARN_CNSTRFULL,
-                                       mjWARN_BADQPOS, mjWARN_BADQVEL,     mjWARN_BADQACC,
-                                       mjWARN_BADCTRL};
 
 }  // namespace
 
@@ -216,14 +183,7 @@ void Engine::SetLoad(const Vector3d& force, const Vector3d& torque) {
 void Engine::Step() {
   mjData& d = *impl_->data;
   mj_step(impl_->model.get(), &d);
-  for (const mjtWarning warning : kFatalWarnings) {
-    if (d.warning[warning].number == 0) continue;
-    throw UnstableError(mju_warningText(warning, d.warning[warning].lastinfo));
-  }
-  const bool finite =
-      std::all_of(d.qpos, d.qpos + impl_->model->nq, [](mjtNum x) { return std::isfinite(x); }) &&
-      std::all_of(d.qvel, d.qvel + impl_->model->nv, [](mjtNum x) { return std::isfinite(x); });
-  if (!finite) throw UnstableError("the state is not finite");
+  CheckState(*impl_->model, d);
 }
 
 Engine::State Engine::Save() const {
@@ -241,8 +201,7 @@ void Engine::Restore(const State& state) {
   std::ranges::copy(state.qpos, d.qpos);
   std::ranges::copy(state.qvel, d.qvel);
   std::ranges::copy(state.qacc_warmstart, d.qacc_warmstart);
-  // A warning of what happened since the state was saved is not one of the state.
-  for (const mjtWarning warning : kFatalWarnings) d.warning[warning].number = 0;
+  ForgetWarnings(d);
 }
 
 }  // namespace regrasp::sim

@@ -42,6 +42,18 @@ struct DirectionStress {
   double analysis = 0;
 };
 
+/// What a replay by a hand measures of a step, against the plan.
+struct HandMeasures {
+  double off_m = 0;       ///< largest distance of the object's centroid from its planned place
+  double off_rad = 0;     ///< the same of its orientation
+  double rest_off_m = 0;  ///< at rest after the step
+  double rest_off_rad = 0;
+  double slip_m = 0;        ///< largest slide of a holding tip
+  double roll_m = 0;        ///< largest way of a contact on the object while its finger holds
+  double torque_share = 0;  ///< largest torque of an actuator over its limit
+  double simulated_s = 0;   ///< without the shakes
+};
+
 /// A finger of a grasp, by its number in the hand, and what it needs of its own friction.
 struct NeedOfFinger {
   FingerIndex finger = {};

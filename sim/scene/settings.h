@@ -22,6 +22,7 @@ enum class SqueezeSource {
   kShake,  ///< such that the weight is a tenth of the shake (scaling.h)
   kHand,   ///< what a hand applies (hand_squeeze.h)
   kGiven,
+  kTorques,  ///< what the torques of a hand allow (sim/actuation/torque_squeeze.h)
 };
 
 /// How the replay is set up. What is left out is derived from the body (sim/scene/scaling.h).
@@ -49,6 +50,25 @@ struct ReplayOptions {
                                 ///< it in the plane, which carries a planar object's weight
 };
 
+/// What a replay by a hand may be off.
+struct HandTolerance {
+  double length_m = 2e-3;     ///< of the object's centroid from its planned place
+  double angle_rad = 0.0873;  ///< of its orientation: 5°
+  double at_rest = 0.5;       ///< share of both that is allowed at rest
+  double slip_m = 1e-3;       ///< of a holding tip along the surface
+  double lost_s = 0.02;       ///< of a holding tip without a force
+  double limit_s = 0.05;      ///< of an actuator at the limit of its force
+};
+
+/// What a replay by a hand ran with beside the rest.
+struct HandReplaySettings {
+  HandTolerance tolerance;
+  bool feedback = true;          ///< joint targets are corrected by the object's measured offset
+  double least_stiffness = 0;    ///< of the servos of joints, N m / rad
+  double largest_stiffness = 0;  ///< the same
+  bool derived_servos = false;   ///< some actuators of the model are no servos: they are made so
+};
+
 /// The values that the replay ran with.
 struct ReplaySettings {
   double mu = 0;
@@ -73,6 +93,8 @@ struct ReplaySettings {
   double mass_factor = 1;        ///< the object's true mass over `mass_kg`
   double patch_size_m = 0;       ///< half the side of a contact patch
   double patch_thickness_m = 0;  ///< of the prism under a contact patch
+  /// Of a replay by a hand; what is of ideal fingers alone is then 0.
+  std::optional<HandReplaySettings> hand = std::nullopt;
 };
 
 }  // namespace regrasp::sim

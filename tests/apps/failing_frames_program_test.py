@@ -12,7 +12,8 @@ SIZE = (320, 240)
 EMPTY_CELL = (238, 240, 244)
 
 # Nothing, and what only plans for a hand fail for: gait_program_test.py has their frames.
-OF_HANDS = (None, "hand-jumps", "tip-off-contact", "joint-limit", "hand-collides")
+OF_HANDS = (None, "hand-jumps", "tip-off-contact", "joint-limit", "hand-collides",
+            "torque-limit")
 
 
 class FailingFrames(ProgramCase):

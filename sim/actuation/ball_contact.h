@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "planner/object/polyhedron.h"
+
+namespace regrasp::sim {
+
+/// A point of a surface that is near a ball.
+struct NearPoint {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d outward = Eigen::Vector3d::UnitZ();  ///< from the point to the ball's centre
+  double distance = 0;                                 ///< to the centre
+};
+
+/// Where balls touch the true surface of a solid, faceted and not convex as it may be: the engine
+/// collides convex shapes only, and finds contacts of meshes to a tolerance.
+class BallContact {
+ public:
+  /// @param scale  metres per unit of the solid.
+  BallContact(const object::Polyhedron& solid, double scale);
+
+  /// The points where the distance from `centre` is a local minimum over the surface and at most
+  /// `reach`, nearest first: one over a face or an edge, two in a groove. Of triangles that face
+  /// away nothing is told: the centre is outside, or in the surface by less than the ball's radius.
+  /// @param centre  in the solid's frame, metres.
+  [[nodiscard]] std::vector<NearPoint> Find(const Eigen::Vector3d& centre, double reach) const;
+
+ private:
+  struct Triangle {
+    std::array<Eigen::Vector3d, 3> corners;
+    Eigen::Vector3d middle;
+    double radius;  ///< of a ball about the middle
+  };
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace regrasp::sim

@@ -1,0 +1,194 @@
+#include "sim/actuation/hand_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/grasp/grasp_forces.h"
+#include "planner/kinematics/finger_kinematics.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using kinematics::Posture;
+
+/// Of the integral of the object's offset, 1/s.
+constexpr double kIntegralGain = 8;
+/// Of damped least squares, metres; and the pull towards the planned joints in its null space, of a
+/// step.
+constexpr double kDamping = 5e-3;
+constexpr double kPull = 0.02;
+/// In which what a free finger is off goes, seconds.
+constexpr double kOffsetTime = 0.1;
+
+Vector3d RotationVector(const Matrix3d& turn) {
+  const Eigen::AngleAxisd angle(turn);
+  return angle.angle() * angle.axis();
+}
+
+Matrix3d Turned(const Vector3d& vector) {
+  const double angle = vector.norm();
+  return angle > 0 ? Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix()
+                   : Matrix3d::Identity();
+}
+
+Vector3d Limited(const Vector3d& vector, double most) {
+  const double norm = vector.norm();
+  return norm > most ? Vector3d(vector * (most / norm)) : vector;
+}
+
+}  // namespace
+
+Posture PostureOf(const kinematics::Finger& finger, const std::vector<double>& angles) {
+  Posture posture(finger.drives);
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    posture[finger.joints[k].drive] = angles[k] / finger.joints[k].ratio;
+  }
+  return posture;
+}
+
+HandControl::HandControl(HandWorld& world, const object::Polyhedron& solid, double scale,
+                         const HandControlSettings& settings)
+    : world_(world),
+      solid_(solid),
+      scale_(scale),
+      reach_(scale * solid.diameter() / 2),
+      settings_(settings),
+      planned_(world.state()) {
+  for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
+    fingers_.push_back({});
+    fingers_.back().target = world.posture(f);
+    fingers_.back().offset = Posture::Zero(fingers_.back().target.size());
+  }
+}
+
+void HandControl::Steer(const plan::HandState& planned) { planned_ = planned; }
+
+Posture HandControl::PlannedPosture(FingerIndex finger) const {
+  return PostureOf(world_.hand().fingers[finger], planned_.joints[finger]);
+}
+
+void HandControl::Attach(FingerIndex finger) {
+  Finger& state = fingers_[finger];
+  state.mode = Mode::kAttached;
+  state.centre_O = world_.object_pose().inverse() * world_.tip(finger);
+  const kinematics::TipState tip = kinematics::TipAt(world_.hand().fingers[finger], state.target);
+  state.bias = CorrectedPose() * state.centre_O - tip.centre;
+}
+
+void HandControl::Detach(FingerIndex finger) {
+  Finger& state = fingers_[finger];
+  state.mode = Mode::kFree;
+  state.keeps_offset = true;
+  state.offset = state.target - PlannedPosture(finger);
+}
+
+void HandControl::LetOffsetGo(FingerIndex finger) { fingers_[finger].keeps_offset = false; }
+
+void HandControl::LeadTip(FingerIndex finger, const Vector3d& centre_O) {
+  fingers_[finger].mode = Mode::kLed;
+  fingers_[finger].centre_O = centre_O;
+}
+
+void HandControl::CopyState(const HandControl& other) {
+  planned_ = other.planned_;
+  holding_ = other.holding_;
+  fingers_ = other.fingers_;
+  shift_ = other.shift_;
+  turn_ = other.turn_;
+  step_ = other.step_;
+}
+
+Isometry3d HandControl::CorrectedPose() const {
+  const Vector3d centre = planned_.pose * world_.centroid_O();
+  return Eigen::Translation3d(centre + shift_) * Isometry3d(Turned(turn_)) *
+         Eigen::Translation3d(-centre) * planned_.pose;
+}
+
+void HandControl::Measure() {
+  const Isometry3d pose = world_.object_pose();
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
+    Finger& finger = fingers_[f];
+    if (finger.mode == Mode::kAttached) finger.centre_O = pose.inverse() * world_.tip(f);
+  }
+  if (!settings_.feedback) return;
+  const Vector3d off = planned_.pose * world_.centroid_O() - pose * world_.centroid_O();
+  const Vector3d turned = RotationVector(planned_.pose.linear() * pose.linear().transpose());
+  shift_ = Limited(shift_ + kIntegralGain * kPeriod * off, kMostOffset);
+  turn_ = Limited(turn_ + kIntegralGain * kPeriod * turned, kMostOffset / reach_);
+}
+
+std::vector<Vector3d> HandControl::ForcesOf(const std::vector<FingerIndex>& fingers) const {
+  std::vector<Vector3d> forces(fingers_.size(), Vector3d::Zero());
+  if (fingers.empty()) return forces;
+  const Isometry3d pose = world_.object_pose();
+  grasp::Grasp contacts;
+  for (const FingerIndex f : fingers) {
+    const TipTouch touch = world_.touch(f);
+    contacts.push_back({touch.point_O / scale_, touch.inward_O, {}});
+  }
+  const Vector3d down = -settings_.weight_N * (pose.linear().transpose() * world_.hand().up);
+  const grasp::GraspForces planned =
+      grasp::ComputeGraspForces(contacts, solid_.wrench_frame(), settings_.half_angle,
+                                {down, Vector3d::Zero()}, settings_.squeeze_N);
+  for (std::size_t i = 0; i < fingers.size(); ++i) {
+    forces[fingers[i]] = pose.linear() * planned.forces[i];
+  }
+  return forces;
+}
+
+void HandControl::PlanForces() {
+  const bool mixes = holding_.share < 1 && holding_.from != holding_.to;
+  const std::vector<Vector3d> to = ForcesOf(holding_.to);
+  const std::vector<Vector3d> from = mixes ? ForcesOf(holding_.from) : to;
+  const double share = mixes ? holding_.share : 1;
+  const Isometry3d pose = world_.object_pose();
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
+    fingers_[f].force = holding_.strength * ((1 - share) * from[f] + share * to[f]);
+    const TipTouch touch = world_.touch(f);
+    fingers_[f].contact = pose * touch.point_O;
+    const Vector3d inward = pose.linear() * touch.inward_O;
+    const double missing = kTouchForce - fingers_[f].force.dot(inward);
+    if (fingers_[f].mode == Mode::kAttached && missing > 0) fingers_[f].force += missing * inward;
+  }
+}
+
+void HandControl::FollowTip(FingerIndex finger) {
+  Finger& state = fingers_[finger];
+  const kinematics::Finger& chain = world_.hand().fingers[finger];
+  const Isometry3d pose = state.mode == Mode::kLed ? world_.object_pose() : CorrectedPose();
+  const Vector3d wanted =
+      pose * state.centre_O - (state.mode == Mode::kAttached ? state.bias : Vector3d::Zero());
+  const kinematics::TipState tip = kinematics::TipAt(chain, state.target);
+  const auto& J = tip.jacobian;
+  const Matrix3d inverse =
+      (J * J.transpose() + kDamping * kDamping * Matrix3d::Identity()).inverse();
+  const Posture pull = kPull * (PlannedPosture(finger) - state.target);
+  const Vector3d way = wanted - tip.centre;
+  const Posture change = pull + J.transpose() * (inverse * (way - J * pull));
+  state.target = (state.target + change).cwiseMax(chain.lower).cwiseMin(chain.upper);
+}
+
+void HandControl::Step() {
+  const int period = static_cast<int>(std::lround(kPeriod / world_.timestep()));
+  if (step_ % period == 0) {
+    Measure();
+    PlanForces();
+  }
+  ++step_;
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
+    Finger& finger = fingers_[f];
+    if (finger.mode == Mode::kFree) {
+      if (!finger.keeps_offset) finger.offset *= 1 - world_.timestep() / kOffsetTime;
+      finger.target = PlannedPosture(f) + finger.offset;
+    } else {
+      FollowTip(f);
+    }
+    world_.Command(f, finger.target, world_.BalancingTorques(f, finger.contact, finger.force));
+  }
+  world_.Step();
+}
+
+}  // namespace regrasp::sim

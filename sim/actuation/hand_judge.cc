@@ -1,0 +1,211 @@
+#include "sim/actuation/hand_judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
+#include "planner/kinematics/finger_kinematics.h"
+#include "sim/hand/hand_finding.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using plan::Reason;
+
+/// Links are looked at every hundredth of a second.
+constexpr int kLinkSteps = 10;
+/// Newtons: a finger that presses with less holds nothing.
+constexpr double kNoForce = 1e-3;
+/// Of a limit: no actuator gives more.
+constexpr double kAtLimit = 0.999;
+
+}  // namespace
+
+HandJudge::HandJudge(const HandWorld& world, const object::Polyhedron& solid, double scale,
+                     const HandTolerance& tolerance)
+    : world_(world), surface_(solid, scale), tolerance_(tolerance) {
+  for (const kinematics::Finger& finger : world.hand().fingers) {
+    fingers_.push_back({});
+    fingers_.back().at_limit.assign(finger.drives, 0);
+  }
+}
+
+void HandJudge::Start() {
+  measures_ = {};
+  breach_.reset();
+  for (Finger& finger : fingers_) std::ranges::fill(finger.at_limit, 0);
+}
+
+void HandJudge::CopyState(const HandJudge& other) {
+  phase_ = other.phase_;
+  push_ = other.push_;
+  fingers_ = other.fingers_;
+  measures_ = other.measures_;
+  breach_ = other.breach_;
+  steps_ = other.steps_;
+}
+
+void HandJudge::WatchContacts(const plan::FingerGrasp& grasp, double scale) {
+  for (const plan::FingerContact& held : grasp) {
+    const TipTouch touch = world_.touch(held.finger);
+    const double off =
+        std::isfinite(touch.gap)
+            ? std::max((touch.point_O - scale * held.contact.p).norm(), std::abs(touch.gap))
+            : touch.gap;
+    if (off <= tolerance_.slip_m) continue;
+    const std::string how = std::isfinite(off) ? FormatLength(off) + " from" : "far from";
+    const int joints = static_cast<int>(world_.hand().fingers[held.finger].joints.size());
+    Fail(Reason::kContactLost,
+         FingerText(world_.hand(), held.finger) + " is " + how + " its contact",
+         {how, {held.finger}, {{held.finger, joints}}, world_.tip(held.finger)});
+  }
+}
+
+void HandJudge::SetHolding(FingerIndex finger, bool holds) {
+  Finger& state = fingers_[finger];
+  state.holds = holds;
+  state.without_force = 0;
+  state.slip.setZero();
+  state.first_O = world_.touch(finger).point_O;
+}
+
+void HandJudge::Fail(Reason reason, const std::string& what, Marks marks) {
+  if (breach_) return;
+  HandBreach& breach = breach_.emplace();
+  breach.reason = reason;
+  breach.detail = what + (phase_.empty() ? "" : " " + phase_);
+  breach.fault.fingers = std::move(marks.fingers);
+  breach.fault.push = push_;
+  plan::HandFaultPlace& place = breach.fault.hand.emplace();
+  place.state = world_.state();
+  place.links = std::move(marks.links);
+  place.number = std::move(marks.number);
+  place.at = marks.at;
+  place.pose = marks.pose;
+}
+
+void HandJudge::WatchObject(const Isometry3d& planned, double share, double& off_m,
+                            double& off_rad) {
+  const Isometry3d pose = world_.object_pose();
+  const Vector3d& centre = world_.centroid_O();
+  const double off = (pose * centre - planned * centre).norm();
+  const double turned = Eigen::AngleAxisd(pose.linear().transpose() * planned.linear()).angle();
+  off_m = std::max(off_m, off);
+  off_rad = std::max(off_rad, turned);
+  const double most_m = share * tolerance_.length_m;
+  const double most_rad = share * tolerance_.angle_rad;
+  if (off <= most_m && turned <= most_rad) return;
+  const bool by_length = off / most_m >= turned / most_rad;
+  const std::string number =
+      by_length ? FormatLength(off, 2) + " off" : FormatDegrees(Degrees(turned)) + " off";
+  const std::string limit = by_length ? FormatLength(most_m) : FormatDegrees(Degrees(most_rad));
+  Fail(Reason::kObjectMoved,
+       "the object is " + (by_length ? FormatLength(off) : FormatDegrees(Degrees(turned))) +
+           " from where the plan has it, of " + limit + " allowed",
+       {.number = number, .pose = planned});
+}
+
+void HandJudge::WatchFinger(FingerIndex f) {
+  Finger& state = fingers_[f];
+  const double dt = world_.timestep();
+  const std::string name = FingerText(world_.hand(), f);
+  const int joints = static_cast<int>(world_.hand().fingers[f].joints.size());
+  if (state.holds) {
+    const TipTouch touch = world_.touch(f);
+    state.slip += dt * touch.sliding_O;
+    state.without_force = touch.force.norm() > kNoForce ? 0 : state.without_force + dt;
+    const double slip = state.slip.norm();
+    measures_.slip_m = std::max(measures_.slip_m, slip);
+    if (std::isfinite(touch.gap)) {
+      measures_.roll_m = std::max(measures_.roll_m, (touch.point_O - state.first_O).norm());
+    }
+    if (state.without_force > tolerance_.lost_s) {
+      Fail(Reason::kContactLost, name + " has lost its contact",
+           {"no force", {f}, {{f, joints}}, world_.tip(f)});
+    } else if (slip > tolerance_.slip_m) {
+      Fail(Reason::kSlipped,
+           name + " slipped by " + FormatLength(slip) + ", of " + FormatLength(tolerance_.slip_m) +
+               " allowed,",
+           {FormatLength(slip, 2) + " slipped", {f}, {{f, joints}}, world_.tip(f)});
+    }
+  }
+  for (std::size_t drive = 0; drive < state.at_limit.size(); ++drive) {
+    const double share = world_.load_share(f, static_cast<int>(drive));
+    measures_.torque_share = std::max(measures_.torque_share, share);
+    double& seconds = state.at_limit[drive];
+    seconds = share >= kAtLimit ? seconds + dt : 0;
+    if (seconds <= tolerance_.limit_s) continue;
+    const kinematics::Finger& chain = world_.hand().fingers[f];
+    const auto joint =
+        std::ranges::find(chain.joints, static_cast<int>(drive), &kinematics::Joint::drive);
+    const int number = static_cast<int>(joint - chain.joints.begin());
+    Fail(Reason::kTorqueLimit,
+         "the actuator of joint " + joint->name + " of " + name + " is at its limit of " +
+             FormatShort(world_.servo(f, static_cast<int>(drive)).limit, 3) +
+             " N·m for longer than " + FormatShort(1e3 * tolerance_.limit_s) + " ms",
+         {FormatShort(world_.servo(f, static_cast<int>(drive)).limit, 3) + " N·m",
+          {f},
+          {{f, number + 1}},
+          kinematics::FramesOf(chain, world_.posture(f))[number].translation()});
+  }
+}
+
+void HandJudge::WatchLinks() {
+  const Isometry3d to_object = world_.object_pose().inverse();
+  const auto meets = [&](const kinematics::LinkShape& link, const Isometry3d& pose) {
+    return !link.is_tip && !surface_.IsApart(collision::Moved(to_object * pose, link.shape), 0);
+  };
+  const kinematics::HandModel& hand = world_.hand();
+  for (const kinematics::LinkShape& link : hand.palm) {
+    if (!meets(link, Isometry3d::Identity())) continue;
+    Fail(Reason::kHandCollides, "the palm touches the object",
+         {.number = "touches", .links = {{FingerIndex(), 0}}});
+  }
+  for (FingerIndex f{0}; f < std::ssize(hand.fingers); ++f) {
+    const kinematics::JointFrames frames = kinematics::FramesOf(hand.fingers[f], world_.posture(f));
+    for (const kinematics::LinkShape& link : hand.fingers[f].shapes) {
+      if (!meets(link, frames[link.after - 1])) continue;
+      Fail(Reason::kHandCollides, link.link + " of " + FingerText(hand, f) + " touches the object",
+           {.number = "touches", .fingers = {f}, .links = {{f, link.after}}});
+    }
+  }
+  WatchSelfContact();
+}
+
+void HandJudge::WatchSelfContact() {
+  const auto contact = world_.self_contact();
+  if (!contact) return;
+  Marks marks{FormatLength(contact->depth, 2) + " inside"};
+  marks.at = contact->at;
+  const kinematics::HandModel& hand = world_.hand();
+  for (const std::string& body : {contact->first, contact->second}) {
+    for (FingerIndex f{0}; f < std::ssize(hand.fingers); ++f) {
+      for (const kinematics::LinkShape& link : hand.fingers[f].shapes) {
+        if (link.link != body) continue;
+        marks.links.push_back({f, link.after});
+        if (std::ranges::find(marks.fingers, f) == marks.fingers.end()) marks.fingers.push_back(f);
+        break;
+      }
+    }
+  }
+  Fail(Reason::kHandCollides,
+       contact->first + " goes " + FormatLength(contact->depth) + " into " + contact->second,
+       std::move(marks));
+}
+
+void HandJudge::Watch(const Isometry3d& planned) {
+  measures_.simulated_s += world_.timestep();
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) WatchFinger(f);
+  if (steps_++ % kLinkSteps == 0) WatchLinks();
+  WatchObject(planned, 1, measures_.off_m, measures_.off_rad);
+}
+
+void HandJudge::WatchRest(const Isometry3d& planned) {
+  WatchObject(planned, tolerance_.at_rest, measures_.rest_off_m, measures_.rest_off_rad);
+}
+
+}  // namespace regrasp::sim

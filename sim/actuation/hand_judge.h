@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/collision/surface_tree.h"
+#include "planner/plan/reason.h"
+#include "sim/actuation/hand_world.h"
+#include "sim/scene/measured.h"
+#include "sim/scene/settings.h"
+
+namespace regrasp::sim {
+
+/// What a step breaks first.
+struct HandBreach {
+  plan::Reason reason = plan::Reason::kNone;
+  std::string detail;
+  plan::Fault fault;
+};
+
+/// Judges a replay by a hand while it runs.
+class HandJudge {
+ public:
+  HandJudge(const HandWorld& world, const object::Polyhedron& solid, double scale,
+            const HandTolerance& tolerance);
+
+  /// What another judge of the same world has seen.
+  void CopyState(const HandJudge& other);
+  /// A step begins.
+  void Start();
+  void SetPhase(std::string phase) { phase_ = std::move(phase); }
+  /// What fails from now on fails under this push.
+  void SetPush(plan::FaultPush push) { push_ = std::move(push); }
+  /// Fingers are to be at these contacts, before any of them presses.
+  void WatchContacts(const plan::FingerGrasp& grasp, double scale);
+  /// A finger holds from now on, or no more; its slide counts from here.
+  void SetHolding(FingerIndex finger, bool holds);
+  /// After every step of the world. @param planned  where the object should be.
+  void Watch(const Eigen::Isometry3d& planned);
+  /// The object is at rest and should be there.
+  void WatchRest(const Eigen::Isometry3d& planned);
+
+  [[nodiscard]] const std::optional<HandBreach>& breach() const { return breach_; }
+  [[nodiscard]] const HandMeasures& measures() const { return measures_; }
+
+ private:
+  struct Finger {
+    bool holds = false;
+    double without_force = 0;
+    Eigen::Vector3d slip = Eigen::Vector3d::Zero();
+    Eigen::Vector3d first_O = Eigen::Vector3d::Zero();
+    std::vector<double> at_limit;  ///< seconds, by drive
+  };
+  void WatchObject(const Eigen::Isometry3d& planned, double share, double& off_m, double& off_rad);
+  void WatchFinger(FingerIndex finger);
+  void WatchLinks();
+  /// What is drawn of a breach.
+  struct Marks {
+    std::string number;
+    std::vector<FingerIndex> fingers = {};
+    std::vector<plan::HandLink> links = {};
+    std::optional<Eigen::Vector3d> at = std::nullopt;
+    std::optional<Eigen::Isometry3d> pose = std::nullopt;  ///< where the object should be
+  };
+  void Fail(plan::Reason reason, const std::string& what, Marks marks);
+  void WatchSelfContact();
+
+  const HandWorld& world_;
+  collision::SurfaceTree surface_;
+  HandTolerance tolerance_;
+  std::string phase_;
+  std::optional<plan::FaultPush> push_;
+  std::vector<Finger> fingers_;
+  HandMeasures measures_;
+  std::optional<HandBreach> breach_;
+  int steps_ = 0;
+};
+
+}  // namespace regrasp::sim

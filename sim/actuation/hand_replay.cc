@@ -1,0 +1,378 @@
+#include "sim/actuation/hand_replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "planner/base/angle.h"
+#include "planner/kinematics/finger_kinematics.h"
+#include "planner/plan/hand_path.h"
+#include "sim/actuation/hand_control.h"
+#include "sim/actuation/hand_judge.h"
+#include "sim/actuation/timed_path.h"
+#include "sim/actuation/torque_squeeze.h"
+#include "sim/measure/push.h"
+#include "sim/scene/engine.h"
+#include "sim/scene/scaling.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using plan::HandState;
+
+// Durations, seconds.
+constexpr double kTakeHold = 0.3;
+constexpr double kHandover = 0.25;
+constexpr double kSettle = 0.3;
+constexpr double kPushRamp = 0.05;
+constexpr double kPushHold = 0.1;
+// A finger comes straight down from this height, until it feels this, metres and newtons.
+constexpr double kHeight = 8e-3;
+constexpr double kDescent = 0.02;  // m/s
+constexpr double kDeepest = 4e-3;  // below the planned place
+constexpr double kTouched = 0.05;
+/// A finger that has left this far does as planned again, metres.
+constexpr double kClear = 2e-3;
+
+/// The step fails; nothing more is to be done.
+struct StepFails {};
+
+/// A finger on its way down to a contact, in the object's frame.
+struct Coming {
+  FingerIndex finger;
+  Vector3d touching;  ///< where the ball's centre is to be
+  Vector3d outward;
+  double height = 0;                  ///< from which it goes down
+  Vector3d aside = Vector3d::Zero();  ///< what it is off sideways then
+  bool down = false;
+};
+
+class Replay {
+ public:
+  Replay(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
+         const HandControlSettings& control, const HandReplayOptions& options,
+         const HandReplayObserver& observer)
+      : world_(world),
+        plan_(plan),
+        shake_(options.shake * control.squeeze_N),
+        radius_(plan.scale * solid.diameter() / 2),
+        observer_(observer),
+        judge_(world, solid, plan.scale, options.tolerance),
+        control_(world, solid, plan.scale, control),
+        state_(plan.hand->initial) {}
+
+  StepReplay Carry(plan::EntryIndex index) {
+    StepReplay step;
+    step.index = index;
+    judge_.Start();
+    try {
+      Perform(index);
+      Rest();
+      step.snapshot = SnapshotNow();
+      Shake();
+    } catch (const StepFails&) {
+      step.snapshot = SnapshotNow();
+    } catch (const UnstableError& error) {
+      step.reason = plan::Reason::kSimulationUnstable;
+      step.detail = std::string("the simulation became unstable: ") + error.what();
+    }
+    Describe(step);
+    return step;
+  }
+
+ private:
+  void Perform(plan::EntryIndex index) {
+    if (index == 0) {
+      TakeHold();
+      return;
+    }
+    const plan::Step& step = plan::StepOf(plan_, index);
+    if (const auto* move = std::get_if<plan::Move>(&step)) Move(move->path);
+    if (const auto* change = std::get_if<plan::Switch>(&step)) Switch(*change);
+  }
+
+  void Describe(StepReplay& step) const {
+    const HandMeasures& measures = judge_.measures();
+    step.hand = measures;
+    step.displacement_m = measures.off_m;
+    step.rotation_deg = Degrees(measures.off_rad);
+    step.moved_m = measures.off_m + radius_ * measures.off_rad;
+    step.drift_m = measures.rest_off_m + radius_ * measures.rest_off_rad;
+    step.slip_m = measures.slip_m;
+    const auto& breach = judge_.breach();
+    if (!breach || step.reason != plan::Reason::kNone) return;
+    step.reason = breach->reason;
+    step.detail = breach->detail;
+    step.fault = breach->fault;
+    step.contact_lost = breach->reason == plan::Reason::kContactLost;
+  }
+
+  /// What is seen, in the object's frame: pictures put it where hand and object are.
+  [[nodiscard]] plan::Snapshot SnapshotNow() const {
+    plan::Snapshot snapshot;
+    snapshot.time_s = world_.time();
+    const Isometry3d to_object = world_.object_pose().inverse();
+    for (const FingerIndex f : holding_) {
+      const TipTouch touch = world_.touch(f);
+      plan::FingerState& finger = snapshot.fingers.emplace_back();
+      finger.finger = f;
+      finger.role = plan::FingerRole::kHolding;
+      finger.tip_W = to_object * world_.tip(f);
+      finger.contact_W = touch.point_O;
+      finger.normal_W = touch.inward_O;
+      finger.force_W = to_object.linear() * touch.force;
+      snapshot.fingertip_radius_m = world_.hand().fingers[f].tip.radius;
+    }
+    return snapshot;
+  }
+
+  void Tick() {
+    control_.Steer(state_);
+    control_.Step();
+    judge_.Watch(state_.pose);
+    if (judge_.breach()) throw StepFails();
+  }
+
+  /// @param on_tick  told the share of the time that is over.
+  template <typename OnTick>
+  void Run(double seconds, const OnTick& on_tick) {
+    const int steps = std::max(1, static_cast<int>(std::lround(seconds / world_.timestep())));
+    for (int i = 1; i <= steps; ++i) {
+      on_tick(static_cast<double>(i) / steps);
+      Tick();
+      if (observer_.on_step && !shaking_) observer_.on_step(world_);
+    }
+  }
+
+  void TakeHold() {
+    judge_.SetPhase("while the hand takes hold");
+    for (const plan::FingerContact& held : plan_.initial) {
+      control_.Attach(held.finger);
+      holding_.push_back(held.finger);
+    }
+    judge_.WatchContacts(plan_.initial, plan_.scale);
+    if (judge_.breach()) throw StepFails();
+    // Something holds the object until the fingers do.
+    world_.PinObject(true);
+    Run(kTakeHold, [&](double share) { control_.SetHolding({holding_, holding_, 1, share}); });
+    world_.PinObject(false);
+    for (const FingerIndex f : holding_) judge_.SetHolding(f, true);
+  }
+
+  void Move(const plan::HandPath& path) {
+    judge_.SetPhase("during the move");
+    const TimedPath timed(path, kHeldJoints);
+    const double duration = timed.duration();
+    Run(duration, [&](double share) { state_ = timed.At(share * duration); });
+  }
+
+  void Switch(const plan::Switch& change) {
+    std::vector<FingerIndex> after = holding_;
+    for (const plan::FingerContact& placed : change.place) after.push_back(placed.finger);
+    std::erase_if(after, [&](FingerIndex f) {
+      return std::ranges::find(change.release, f) != change.release.end();
+    });
+    if (!change.place.empty()) PlaceFingers(change);
+    judge_.SetPhase("while forces are handed over");
+    for (const FingerIndex f : change.release) judge_.SetHolding(f, false);
+    Run(kHandover, [&](double share) { control_.SetHolding({holding_, after, share, 1}); });
+    control_.SetHolding({after, after, 1, 1});
+    for (const FingerIndex f : after) {
+      if (std::ranges::find(holding_, f) == holding_.end()) judge_.SetHolding(f, true);
+    }
+    holding_ = after;
+    if (!change.release.empty()) ReleaseFingers(change);
+  }
+
+  void PlaceFingers(const plan::Switch& change) {
+    judge_.SetPhase("while a finger comes");
+    const plan::HandPath& path = change.motion->place;
+    std::vector<Coming> coming;
+    for (const plan::FingerContact& placed : change.place) {
+      const double radius = world_.hand().fingers[placed.finger].tip.radius;
+      const Vector3d outward = -placed.contact.n;
+      coming.push_back({placed.finger, plan_.scale * placed.contact.p + radius * outward, outward});
+    }
+    const TimedPath timed(path, kFreeJoints);
+    const double duration = timed.duration();
+    const double begin = world_.time();
+    // Freely until the first of them is straight above its contact …
+    bool above = false;
+    while (!above && world_.time() - begin < duration) {
+      Run(world_.timestep(), [&](double) { state_ = timed.At(world_.time() - begin); });
+      above = std::ranges::any_of(coming, [this](const Coming& finger) {
+        return (PlannedTip(finger.finger) - finger.touching).norm() < kHeight;
+      });
+    }
+    // … then down along the normal to where the object really is.
+    Descend(path.back(), coming);
+    state_ = path.back();
+  }
+
+  /// Where the plan has a finger's tip now, in the object's frame.
+  [[nodiscard]] Vector3d PlannedTip(FingerIndex finger) const {
+    const kinematics::Finger& chain = world_.hand().fingers[finger];
+    return state_.pose.inverse() *
+           kinematics::TipAt(chain, PostureOf(chain, state_.joints[finger])).centre;
+  }
+
+  void Descend(const HandState& end, std::vector<Coming>& coming) {
+    double way = 0;
+    for (Coming& finger : coming) {
+      const Vector3d off =
+          world_.object_pose().inverse() * world_.tip(finger.finger) - finger.touching;
+      finger.height = std::max(0.0, finger.outward.dot(off));
+      finger.aside = off - finger.height * finger.outward;
+      way = std::max(way, finger.height);
+    }
+    const HandState begin = state_;
+    const double seconds = (way + kDeepest) / kDescent;
+    const auto steps = static_cast<int>(std::lround(seconds / world_.timestep()));
+    for (int i = 1; i <= steps && !std::ranges::all_of(coming, &Coming::down); ++i) {
+      const double gone = kDescent * world_.timestep() * i;
+      Run(world_.timestep(), [&](double) {
+        state_ = plan::StateBetween(begin, end, way > 0 ? std::min(1.0, gone / way) : 1);
+        for (const Coming& finger : coming) {
+          if (finger.down) continue;
+          // What it is off sideways goes in the first half of the way.
+          const double aside = way > 0 ? std::max(0.0, 1 - 2 * gone / way) : 0;
+          control_.LeadTip(
+              finger.finger,
+              finger.touching + (finger.height - gone) * finger.outward + aside * finger.aside);
+        }
+      });
+      for (Coming& finger : coming) {
+        if (finger.down || world_.touch(finger.finger).force.norm() < kTouched) continue;
+        finger.down = true;
+        control_.Attach(finger.finger);
+      }
+    }
+    for (const Coming& finger : coming) {
+      if (!finger.down) control_.Attach(finger.finger);
+    }
+  }
+
+  void ReleaseFingers(const plan::Switch& change) {
+    judge_.SetPhase("while a finger leaves");
+    for (const FingerIndex f : change.release) control_.Detach(f);
+    const TimedPath timed(change.motion->release, kFreeJoints);
+    const double duration = timed.duration();
+    std::vector<FingerIndex> near = change.release;
+    Run(duration, [&](double share) {
+      state_ = timed.At(share * duration);
+      std::erase_if(near, [this](FingerIndex f) {
+        if (world_.touch(f).gap < kClear) return false;
+        control_.LetOffsetGo(f);
+        return true;
+      });
+    });
+    for (const FingerIndex f : near) control_.LetOffsetGo(f);
+  }
+
+  void Rest() {
+    judge_.SetPhase("coming to rest");
+    Run(kSettle, [](double) {});
+    judge_.SetPhase("at rest");
+    judge_.WatchRest(state_.pose);
+    if (judge_.breach()) throw StepFails();
+  }
+
+  /// Pushes and turns the object in twelve directions, each from the same rest.
+  void Shake() {
+    if (shake_ == 0) return;
+    shaking_ = true;
+    const HandWorld::State rest = world_.Save();
+    const HandControl control = control_;
+    const HandJudge judge = judge_;
+    for (const Push& push : PushDirections(3)) {
+      const std::string name = PushText(push, shake_, radius_);
+      judge_.SetPhase("under " + name);
+      const grasp::Wrench wrench = PushWrench(push, shake_);
+      const Vector3d torque = radius_ * wrench.torque_over_radius;
+      judge_.SetPush({wrench.force, torque, name});
+      Run(kPushRamp, [&](double share) { world_.SetLoad(share * wrench.force, share * torque); });
+      Run(kPushHold, [](double) {});
+      judge_.WatchRest(state_.pose);
+      if (judge_.breach()) throw StepFails();
+      world_.SetLoad(Vector3d::Zero(), Vector3d::Zero());
+      world_.Restore(rest);
+      control_.CopyState(control);
+      judge_.CopyState(judge);
+    }
+    shaking_ = false;
+  }
+
+  HandWorld& world_;
+  const plan::Plan& plan_;
+  double shake_;   ///< newtons
+  double radius_;  ///< half the object's diameter, metres
+  const HandReplayObserver& observer_;
+  HandJudge judge_;
+  HandControl control_;
+  HandState state_;                   ///< planned now
+  std::vector<FingerIndex> holding_;  ///< since the last rest
+  bool shaking_ = false;
+};
+
+ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& solid,
+                          const plan::Plan& plan, const HandControlSettings& control,
+                          const HandReplayOptions& options) {
+  ReplaySettings s;
+  s.mu = std::tan(control.half_angle);
+  s.mass_kg = options.mass_kg;
+  s.squeeze_N = control.squeeze_N;
+  s.squeeze_source = options.squeeze_N ? SqueezeSource::kGiven : SqueezeSource::kTorques;
+  s.shake = options.shake;
+  s.protocol = Protocol::kFixed;
+  s.gravity_m_s2 = kGravity;
+  s.diameter_m = plan.scale * solid.diameter();
+  s.tolerance = options.tolerance.length_m / s.diameter_m;
+  s.fingertip_radius_m = world.hand().fingers.front().tip.radius;
+  s.timestep_s = world.timestep();
+  s.friction_factor = options.friction_factor;
+  s.mass_factor = options.mass_factor;
+  HandReplaySettings& hand = s.hand.emplace();
+  hand.tolerance = options.tolerance;
+  hand.feedback = options.feedback;
+  hand.least_stiffness = std::numeric_limits<double>::infinity();
+  for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
+    for (int drive = 0; drive < world.hand().fingers[f].drives; ++drive) {
+      const DriveServo& servo = world.servo(f, drive);
+      hand.least_stiffness = std::min(hand.least_stiffness, servo.stiffness);
+      hand.largest_stiffness = std::max(hand.largest_stiffness, servo.stiffness);
+      hand.derived_servos = hand.derived_servos || servo.derived;
+    }
+  }
+  return s;
+}
+
+}  // namespace
+
+ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedron& solid,
+                        const plan::Plan& plan, const HandReplayOptions& options,
+                        const HandReplayObserver& observer, int steps) {
+  const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
+  const double half_angle = options.half_angle.value_or(plan.half_angle);
+  HandWorld world(file, solid, plan.scale,
+                  {options.friction_factor * std::tan(half_angle),
+                   options.mass_factor * options.mass_kg, kGravity, options.force_factor});
+  HandControlSettings control{half_angle, 0, options.mass_kg * kGravity, options.feedback};
+  control.squeeze_N = options.squeeze_N.value_or(
+      TorqueSqueeze(world, solid, plan, entries, half_angle, control.weight_N));
+  ReplayResult result;
+  result.settings = SettingsOf(world, solid, plan, control, options);
+  world.Place(plan.hand->initial);
+  Replay replay(world, solid, plan, control, options, observer);
+  for (plan::EntryIndex index{0}; index < entries; ++index) {
+    result.steps.push_back(replay.Carry(index));
+    if (observer.on_progress) observer.on_progress(int{index} + 1, entries);
+    if (result.steps.back().reason != plan::Reason::kNone) break;
+  }
+  return result;
+}
+
+}  // namespace regrasp::sim

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "planner/kinematics/hand_file.h"
+#include "planner/object/polyhedron.h"
+#include "planner/plan/plan.h"
+#include "sim/actuation/hand_world.h"
+#include "sim/replay/replay.h"
+
+namespace regrasp::sim {
+
+struct HandReplayOptions {
+  HandTolerance tolerance;
+  bool feedback = true;              ///< joint targets are corrected by the object's offset
+  std::optional<double> half_angle;  ///< friction, radians; the plan's where left out
+  double mass_kg = 0;
+  std::optional<double> squeeze_N;  ///< otherwise derived (DeriveSqueeze)
+  double shake = 0.01;              ///< over the squeeze; a torque also over R
+  double friction_factor = 1;       ///< the world's friction over the one that the hand believes
+  double mass_factor = 1;           ///< the object's true mass over the one that it believes
+  double force_factor = 1;          ///< of the limits of all actuators, times what the model has
+};
+
+/// What a replay tells while it runs; both may be empty.
+struct HandReplayObserver {
+  std::function<void(const HandWorld&)> on_step;  ///< after every step of the world but in shakes
+  std::function<void(int done, int total)> on_progress;  ///< after every entry
+};
+
+/// Replays a plan for a hand on the hand's own model in MuJoCo (HandWorld), under HandControl:
+/// takes hold, carries out each step, comes to rest and is shaken there.
+///
+/// What a pass means: with this friction and this mass the hand's actuators, as its model has them,
+/// carried the object along the plan to within the tolerance, and nothing but its fingertips held
+/// it. It believes nothing of the analytic check.
+///
+/// Deterministic: the same plan gives the same bits.
+/// @param plan   located, with a hand.
+/// @param steps  how many entries to replay, hold included; all where negative.
+/// @throws InputError  the hand's model cannot be simulated.
+[[nodiscard]] ReplayResult ReplayHand(const kinematics::HandFile& file,
+                                      const object::Polyhedron& solid, const plan::Plan& plan,
+                                      const HandReplayOptions& options,
+                                      const HandReplayObserver& observer = {}, int steps = -1);
+
+}  // namespace regrasp::sim

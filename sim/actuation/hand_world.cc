@@ -1,0 +1,559 @@
+#include "sim/actuation/hand_world.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <utility>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/kinematics/finger_kinematics.h"
+#include "planner/kinematics/mujoco_model.h"
+#include "sim/scene/engine_hooks.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using kinematics::XmlElement;
+
+constexpr const char* kObject = "regrasp_object";
+constexpr double kTimestep = 1e-3;
+/// Contacts of tips: a constraint that comes back within five steps, and friction ten times as
+/// hard as the normal, so that what sticks creeps little.
+constexpr mjtNum kContactTime = 5e-3;
+constexpr double kFrictionHardness = 100;
+/// Of servos that the model leaves out: what a small electric finger has.
+constexpr double kServoStiffness = 2;
+constexpr double kServoDamping = 0.1;
+/// What holds joints of no finger.
+constexpr double kFrozen = 1e3;
+/// Surface farther than this from a tip is not looked for, metres.
+constexpr double kNear = 5e-3;
+
+std::string Numbers(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : " ") + FormatDouble(value);
+  return text;
+}
+
+XmlElement Element(std::string name, std::vector<std::pair<std::string, std::string>> attributes,
+                   std::vector<XmlElement> children = {}) {
+  XmlElement element;
+  element.name = std::move(name);
+  element.attributes = std::move(attributes);
+  element.children = std::move(children);
+  return element;
+}
+
+Vector3d VectorAt(const mjtNum* values, int index) {
+  return Eigen::Map<const Vector3d>(values + std::ptrdiff_t{3} * index);
+}
+
+Isometry3d PoseAt(const mjData& data, int body) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation() = VectorAt(data.xpos, body);
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  pose.linear() = Eigen::Map<const RowMajor>(data.xmat + std::ptrdiff_t{9} * body);
+  return pose;
+}
+
+/// The object as the engine has it: a free body at its centroid, with the axes of its frame.
+XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass) {
+  const object::MassProperties& properties = solid.mass_properties();
+  const Matrix3d inertia = mass / properties.volume * scale * scale * properties.inertia;
+  return Element("body", {{"name", kObject}},
+                 {Element("freejoint", {}),
+                  Element("inertial", {{"pos", "0 0 0"},
+                                       {"mass", FormatDouble(mass)},
+                                       {"fullinertia",
+                                        Numbers({inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                                                 inertia(0, 1), inertia(0, 2), inertia(1, 2)})}}),
+                  Element("geom", {{"name", kObject},
+                                   {"type", "sphere"},
+                                   {"size", "0.001"},
+                                   {"contype", "0"},
+                                   {"conaffinity", "0"}})});
+}
+
+/// The hand's model with the object in it, and with the couplings of the hand's file.
+kinematics::ModelText SceneText(const kinematics::HandFile& file, const object::Polyhedron& solid,
+                                double scale, double mass) {
+  kinematics::ModelText text = file.compiled->text;
+  XmlElement& root = text.root;
+  if (root.name != "mujoco") {
+    throw InputError(file.description.model +
+                     ": a URDF model is not replayed yet: convert it to MJCF");
+  }
+  std::erase_if(root.children, [](const XmlElement& child) {
+    return child.name == "keyframe" || child.name == "size" || child.name == "sensor";
+  });
+  root.children.push_back(Element("size", {{"njmax", "2000"}, {"nconmax", "400"}}));
+  root.children.push_back(Element("worldbody", {}, {ObjectBody(solid, scale, mass)}));
+  std::vector<XmlElement> couplings;
+  for (const auto& coupling : file.description.couplings) {
+    couplings.push_back(
+        Element("joint", {{"joint1", coupling.joint},
+                          {"joint2", coupling.follows},
+                          {"polycoef", "0 " + FormatDouble(coupling.ratio) + " 0 0 0"}}));
+  }
+  if (!couplings.empty()) root.children.push_back(Element("equality", {}, std::move(couplings)));
+  return text;
+}
+
+/// Two directions at right angles to a unit vector and to each other.
+std::pair<Vector3d, Vector3d> Tangents(const Vector3d& normal) {
+  const Vector3d first = normal.unitOrthogonal();
+  return {first, normal.cross(first)};
+}
+
+}  // namespace
+
+struct HandWorld::Impl {
+  struct DriveActuator {
+    int actuator = -1;
+    double moment = 0;  ///< torque of the drive for each newton (metre) of the actuator
+    DriveServo servo;
+  };
+  struct FingerState {
+    std::vector<int> joints;  ///< of the model
+    int tip_body = 0;
+    int tip_geom = 0;
+    std::vector<DriveActuator> drives;
+  };
+
+  EngineHooks hooks;
+  kinematics::HandModel hand;
+  BallContact surface;
+  HandWorldOptions options;
+  kinematics::ModelPtr model;
+  kinematics::DataPtr data;
+  Isometry3d palm = Isometry3d::Identity();  ///< in the engine's world
+  Vector3d centroid;
+  double object_reach = 0;  ///< from the centroid
+  int object_body = 0, object_geom = 0, object_qpos = 0;
+  std::vector<FingerState> fingers;
+  std::vector<int> frozen;  ///< joints
+  bool pinned = false;      ///< the object
+  std::set<std::pair<int, int>> touching_at_rest;
+
+  Impl(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
+       const HandWorldOptions& given)
+      : hand(file.hand), surface(solid, scale), options(given) {
+    model = kinematics::CompileText(file.compiled->text.files.front(),
+                                    SceneText(file, solid, scale, options.mass_kg));
+    data.reset(mj_makeData(model.get()));
+    if (!data) throw EnvironmentError("MuJoCo has no memory for a hand");
+    centroid = scale * solid.mass_properties().centroid;
+    for (const Vector3d& vertex : solid.vertices()) {
+      object_reach = std::max(object_reach, (scale * vertex - centroid).norm());
+    }
+    FindParts(file);
+    Freeze();
+    FindServos();
+    model->opt.timestep = kTimestep;
+    model->opt.cone = mjCONE_ELLIPTIC;
+    model->opt.impratio = kFrictionHardness;
+    const Vector3d gravity = -options.gravity_m_s2 * (palm.linear() * hand.up);
+    std::copy_n(gravity.data(), 3, model->opt.gravity);
+    mj_collision(model.get(), data.get());
+    for (int i = 0; i < data->ncon; ++i) touching_at_rest.insert(BodiesOf(data->contact[i]));
+  }
+
+  [[nodiscard]] int Id(int kind, const std::string& name) const {
+    const int id = mj_name2id(model.get(), kind, name.c_str());
+    if (id < 0) throw InputError("the hand's model has no \"" + name + "\"");
+    return id;
+  }
+
+  void FindParts(const kinematics::HandFile& file) {
+    object_body = Id(mjOBJ_BODY, kObject);
+    object_geom = model->body_geomadr[object_body];
+    object_qpos = model->jnt_qposadr[model->body_jntadr[object_body]];
+    mj_forward(model.get(), data.get());
+    palm = PoseAt(*data, Id(mjOBJ_BODY, file.description.palm));
+    for (const kinematics::Finger& finger : hand.fingers) {
+      FingerState& state = fingers.emplace_back();
+      for (const kinematics::Joint& joint : finger.joints) {
+        state.joints.push_back(Id(mjOBJ_JOINT, joint.name));
+      }
+      state.tip_body = Id(mjOBJ_BODY, finger.tip.body);
+      if (model->body_geomnum[state.tip_body] == 0) {
+        throw InputError(file.description.model + ": the body " + finger.tip.body + " has no geom");
+      }
+      state.tip_geom = model->body_geomadr[state.tip_body];
+    }
+  }
+
+  void Freeze() {
+    for (int joint = 0; joint < model->njnt; ++joint) {
+      const bool of_finger = std::ranges::any_of(fingers, [&](const FingerState& finger) {
+        return std::ranges::find(finger.joints, joint) != finger.joints.end();
+      });
+      if (of_finger || model->jnt_bodyid[joint] == object_body) continue;
+      if (model->jnt_type[joint] != mjJNT_HINGE && model->jnt_type[joint] != mjJNT_SLIDE) continue;
+      frozen.push_back(joint);
+      model->dof_armature[model->jnt_dofadr[joint]] += kFrozen;
+    }
+  }
+
+  /// Which actuator turns each drive, and its law.
+  void FindServos() {
+    mj_forward(model.get(), data.get());
+    for (std::size_t i = 0; i < fingers.size(); ++i) {
+      const kinematics::Finger& finger = hand.fingers[i];
+      for (int drive = 0; drive < finger.drives; ++drive) {
+        fingers[i].drives.push_back(FindServo(finger, fingers[i].joints, drive));
+      }
+    }
+  }
+
+  [[nodiscard]] DriveActuator FindServo(const kinematics::Finger& finger,
+                                        const std::vector<int>& joints, int drive) {
+    DriveActuator found;
+    for (int actuator = 0; actuator < model->nu; ++actuator) {
+      double moment = 0;
+      for (std::size_t k = 0; k < joints.size(); ++k) {
+        if (finger.joints[k].drive != drive) continue;
+        const int dof = model->jnt_dofadr[joints[k]];
+        moment += finger.joints[k].ratio *
+                  data->actuator_moment[std::ptrdiff_t{actuator} * model->nv + dof];
+      }
+      if (std::abs(moment) > std::abs(found.moment)) {
+        found.actuator = actuator;
+        found.moment = moment;
+      }
+    }
+    if (found.actuator < 0) {
+      throw InputError("no actuator of the hand's model turns joint " + finger.joints[drive].name);
+    }
+    const int a = found.actuator;
+    const mjtNum* bias = model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
+    const bool servo = model->actuator_biastype[a] == mjBIAS_AFFINE && bias[1] < 0;
+    DriveServo& law = found.servo;
+    law.derived = !servo;
+    law.stiffness = servo ? -bias[1] * found.moment * found.moment : kServoStiffness;
+    law.damping = servo ? -bias[2] * found.moment * found.moment : kServoDamping;
+    // What is asked of a servo is a torque: its limit is that of its force, wherever the angle is
+    // that it would have to steer for. Of a motor the control is the force.
+    if (servo) model->actuator_ctrllimited[a] = 0;
+    mjtNum* range = model->actuator_forcerange + std::ptrdiff_t{2} * a;
+    double limit = std::numeric_limits<double>::infinity();
+    if (model->actuator_forcelimited[a] != 0) limit = std::min(-range[0], range[1]);
+    if (!servo && model->actuator_ctrllimited[a] != 0) {
+      const mjtNum* control = model->actuator_ctrlrange + std::ptrdiff_t{2} * a;
+      const double gain = std::abs(model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a]);
+      limit = std::min(limit, gain * std::min(-control[0], control[1]));
+    }
+    if (std::isfinite(limit)) {
+      limit *= options.force_factor;
+      range[0] = -limit;
+      range[1] = limit;
+      model->actuator_forcelimited[a] = 1;
+      law.limit = limit * std::abs(found.moment);
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::pair<int, int> BodiesOf(const mjContact& contact) const {
+    return std::minmax(model->geom_bodyid[contact.geom1], model->geom_bodyid[contact.geom2]);
+  }
+
+  [[nodiscard]] Isometry3d ObjectInWorld() const {
+    Isometry3d pose = PoseAt(*data, object_body);
+    pose.translation() -= pose.linear() * centroid;
+    return pose;
+  }
+
+  [[nodiscard]] kinematics::Posture PostureOf(FingerIndex finger) const {
+    const kinematics::Finger& chain = hand.fingers[finger];
+    // Joints that share a drive do so to the softness of a constraint: their mean.
+    kinematics::Posture sum = kinematics::Posture::Zero(chain.drives);
+    VectorXd count = VectorXd::Zero(chain.drives);
+    for (std::size_t k = 0; k < chain.joints.size(); ++k) {
+      const kinematics::Joint& joint = chain.joints[k];
+      sum[joint.drive] += data->qpos[model->jnt_qposadr[fingers[finger].joints[k]]] / joint.ratio;
+      ++count[joint.drive];
+    }
+    return sum.cwiseQuotient(count);
+  }
+
+  /// The centre of the tip's ball, whatever coupled joints do.
+  [[nodiscard]] Vector3d BallInWorld(FingerIndex finger) const {
+    const FingerState& state = fingers[finger];
+    return PoseAt(*data, state.tip_body) * ball_in_body[finger];
+  }
+  std::vector<Vector3d> ball_in_body;
+  std::vector<std::optional<NearPoint>> nearest;  ///< to each tip, in the object's frame
+
+  /// The ball's speed where it is at `point`, of a body.
+  [[nodiscard]] Vector3d SpeedAt(int body, const Vector3d& point) const {
+    const mjtNum* velocity = data->cvel + std::ptrdiff_t{6} * body;
+    const Vector3d about = VectorAt(data->subtree_com, model->body_rootid[body]);
+    const Vector3d turning(velocity[0], velocity[1], velocity[2]);
+    const Vector3d moving(velocity[3], velocity[4], velocity[5]);
+    return moving + turning.cross(point - about);
+  }
+
+  void AddTipContacts() {
+    const Isometry3d pose = ObjectInWorld();
+    const Isometry3d to_object = pose.inverse();
+    for (FingerIndex finger{0}; finger < std::ssize(fingers); ++finger) {
+      const double radius = hand.fingers[finger].tip.radius;
+      const Vector3d centre = to_object * BallInWorld(finger);
+      nearest[finger].reset();
+      if ((centre - centroid).norm() > object_reach + radius + kNear) continue;
+      const std::vector<NearPoint> found = surface.Find(centre, radius + kNear);
+      if (!found.empty()) nearest[finger] = found.front();
+      for (const NearPoint& near : found) {
+        if (near.distance < radius) AddContact(finger, near, pose);
+      }
+    }
+  }
+
+  void AddContact(FingerIndex finger, const NearPoint& near, const Isometry3d& pose) {
+    mjContact contact = {};
+    contact.dist = near.distance - hand.fingers[finger].tip.radius;
+    const Vector3d normal = pose.linear() * near.outward;
+    const Vector3d at = pose * near.point + contact.dist / 2 * normal;
+    const auto [first, second] = Tangents(normal);
+    std::copy_n(at.data(), 3, contact.pos);
+    std::copy_n(normal.data(), 3, contact.frame);
+    std::copy_n(first.data(), 3, contact.frame + 3);
+    std::copy_n(second.data(), 3, contact.frame + 6);
+    contact.friction[0] = contact.friction[1] = options.mu;
+    contact.friction[2] = contact.friction[3] = contact.friction[4] = mjMINMU;
+    contact.solref[0] = kContactTime;
+    contact.solref[1] = 1;
+    constexpr mjtNum kImpedance[mjNIMP] = {0.95, 0.99, 0.0001, 0.5, 2};
+    std::copy_n(kImpedance, mjNIMP, contact.solimp);
+    contact.dim = 3;
+    contact.geom1 = object_geom;
+    contact.geom2 = fingers[finger].tip_geom;
+    mj_addContact(model.get(), data.get(), &contact);
+  }
+};
+
+HandWorld::HandWorld(const kinematics::HandFile& file, const object::Polyhedron& solid,
+                     double scale, const HandWorldOptions& options)
+    : impl_(std::make_unique<Impl>(file, solid, scale, options)) {
+  for (const auto& tip : file.description.tips) impl_->ball_in_body.push_back(tip.centre);
+  impl_->nearest.resize(impl_->fingers.size());
+}
+HandWorld::~HandWorld() = default;
+
+const kinematics::HandModel& HandWorld::hand() const { return impl_->hand; }
+double HandWorld::time() const { return impl_->data->time; }
+double HandWorld::timestep() const { return impl_->model->opt.timestep; }
+const Vector3d& HandWorld::centroid_O() const { return impl_->centroid; }
+
+void HandWorld::Place(const plan::HandState& state) {
+  Impl& impl = *impl_;
+  mj_resetData(impl.model.get(), impl.data.get());
+  for (std::size_t i = 0; i < impl.fingers.size(); ++i) {
+    for (std::size_t k = 0; k < impl.fingers[i].joints.size(); ++k) {
+      impl.data->qpos[impl.model->jnt_qposadr[impl.fingers[i].joints[k]]] = state.joints[i][k];
+    }
+  }
+  const Isometry3d pose = impl.palm * state.pose;
+  const Vector3d centre = pose * impl.centroid;
+  const Eigen::Quaterniond turn(pose.linear());
+  mjtNum* q = impl.data->qpos + impl.object_qpos;
+  std::copy_n(centre.data(), 3, q);
+  q[3] = turn.w();
+  q[4] = turn.x();
+  q[5] = turn.y();
+  q[6] = turn.z();
+  mj_forward(impl.model.get(), impl.data.get());
+  impl.AddTipContacts();
+}
+
+plan::HandState HandWorld::state() const {
+  plan::HandState state{object_pose(), {}};
+  for (const Impl::FingerState& finger : impl_->fingers) {
+    state.joints.emplace_back();
+    for (const int joint : finger.joints) {
+      state.joints.back().push_back(impl_->data->qpos[impl_->model->jnt_qposadr[joint]]);
+    }
+  }
+  return state;
+}
+
+Isometry3d HandWorld::object_pose() const { return impl_->palm.inverse() * impl_->ObjectInWorld(); }
+
+kinematics::Posture HandWorld::posture(FingerIndex finger) const {
+  return impl_->PostureOf(finger);
+}
+
+Vector3d HandWorld::tip(FingerIndex finger) const {
+  return impl_->palm.inverse() * impl_->BallInWorld(finger);
+}
+
+TipTouch HandWorld::touch(FingerIndex finger) const {
+  const Impl& impl = *impl_;
+  TipTouch touch;
+  const Isometry3d pose = impl.ObjectInWorld();
+  const std::optional<NearPoint>& near = impl.nearest[finger];
+  if (!near) return touch;
+  touch.point_O = near->point;
+  touch.inward_O = -near->outward;
+  touch.gap = near->distance - impl.hand.fingers[finger].tip.radius;
+  Vector3d force = Vector3d::Zero();
+  for (int i = 0; i < impl.data->ncon; ++i) {
+    const mjContact& contact = impl.data->contact[i];
+    if (contact.geom1 != impl.object_geom || contact.geom2 != impl.fingers[finger].tip_geom) {
+      continue;
+    }
+    mjtNum local[6];
+    mj_contactForce(impl.model.get(), impl.data.get(), i, local);
+    // The engine gives the force on the second geom.
+    for (int k = 0; k < 3; ++k) force -= local[k] * VectorAt(contact.frame, k);
+  }
+  touch.force = impl.palm.linear().transpose() * force;
+  const Vector3d at = pose * touch.point_O;
+  const Vector3d speed =
+      pose.linear().transpose() *
+      (impl.SpeedAt(impl.fingers[finger].tip_body, at) - impl.SpeedAt(impl.object_body, at));
+  touch.sliding_O = speed - speed.dot(touch.inward_O) * touch.inward_O;
+  return touch;
+}
+
+std::optional<HandWorld::SelfContact> HandWorld::self_contact() const {
+  const Impl& impl = *impl_;
+  for (int i = 0; i < impl.data->ncon; ++i) {
+    const mjContact& contact = impl.data->contact[i];
+    if (contact.dist > 0 || contact.geom1 == impl.object_geom) continue;
+    const auto bodies = impl.BodiesOf(contact);
+    if (impl.touching_at_rest.contains(bodies)) continue;
+    const auto name = [&](int body) -> std::string {
+      const char* found = mj_id2name(impl.model.get(), mjOBJ_BODY, body);
+      return found != nullptr ? found : "body " + std::to_string(body);
+    };
+    return SelfContact{name(bodies.first), name(bodies.second),
+                       impl.palm.inverse() * VectorAt(contact.pos, 0), -contact.dist};
+  }
+  return std::nullopt;
+}
+
+const DriveServo& HandWorld::servo(FingerIndex finger, int drive) const {
+  return impl_->fingers[finger].drives[drive].servo;
+}
+
+double HandWorld::load_share(FingerIndex finger, int drive) const {
+  const Impl::DriveActuator& found = impl_->fingers[finger].drives[drive];
+  if (!std::isfinite(found.servo.limit)) return 0;
+  return std::abs(impl_->data->actuator_force[found.actuator] * found.moment) / found.servo.limit;
+}
+
+VectorXd HandWorld::BalancingTorques(FingerIndex finger, const Vector3d& at,
+                                     const Vector3d& force) const {
+  const Impl& impl = *impl_;
+  const Impl::FingerState& state = impl.fingers[finger];
+  const kinematics::Finger& chain = impl.hand.fingers[finger];
+  const Vector3d at_W = impl.palm * at;
+  const Vector3d force_W = impl.palm.linear() * force;
+  VectorXd torques = VectorXd::Zero(chain.drives);
+  for (std::size_t k = 0; k < state.joints.size(); ++k) {
+    const int joint = state.joints[k];
+    const Vector3d axis = VectorAt(impl.data->xaxis, joint);
+    const Vector3d lever = at_W - VectorAt(impl.data->xanchor, joint);
+    const double weight = impl.data->qfrc_bias[impl.model->jnt_dofadr[joint]];
+    torques[chain.joints[k].drive] +=
+        chain.joints[k].ratio * (axis.dot(lever.cross(force_W)) + weight);
+  }
+  return torques;
+}
+
+void HandWorld::Command(FingerIndex finger, const kinematics::Posture& target,
+                        const VectorXd& torques) {
+  Impl& impl = *impl_;
+  const kinematics::Posture now = impl.PostureOf(finger);
+  for (int drive = 0; drive < now.size(); ++drive) {
+    const Impl::DriveActuator& found = impl.fingers[finger].drives[drive];
+    const int a = found.actuator;
+    const double gain = impl.model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a];
+    const double length = impl.data->actuator_length[a];
+    const double off = (target[drive] - now[drive]) * found.moment;
+    double force = torques[drive] / found.moment;
+    if (found.servo.derived) {
+      const double speed = impl.data->actuator_velocity[a];
+      force += (found.servo.stiffness * off - found.servo.damping * speed) /
+               (found.moment * found.moment);
+      impl.data->ctrl[a] = force / gain;
+      continue;
+    }
+    const mjtNum* bias = impl.model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
+    impl.data->ctrl[a] = (force - bias[0] - bias[1] * (length + off)) / gain;
+  }
+}
+
+void HandWorld::SetLoad(const Vector3d& force, const Vector3d& torque) {
+  mjtNum* load = impl_->data->xfrc_applied + std::ptrdiff_t{6} * impl_->object_body;
+  const Vector3d force_W = impl_->palm.linear() * force;
+  const Vector3d torque_W = impl_->palm.linear() * torque;
+  std::copy_n(force_W.data(), 3, load);
+  std::copy_n(torque_W.data(), 3, load + 3);
+}
+
+void HandWorld::PinObject(bool on) { impl_->pinned = on; }
+
+void HandWorld::Step() {
+  const mjModel* m = impl_->model.get();
+  mjData* d = impl_->data.get();
+  // As mj_step, with the contacts of the tips in between.
+  mj_kinematics(m, d);
+  mj_comPos(m, d);
+  mj_tendon(m, d);
+  mj_crb(m, d);
+  mj_factorM(m, d);
+  mj_collision(m, d);
+  impl_->AddTipContacts();
+  mj_makeConstraint(m, d);
+  mj_transmission(m, d);
+  mj_projectConstraint(m, d);
+  mj_fwdVelocity(m, d);
+  mjtNum* object = d->qpos + impl_->object_qpos;
+  std::array<mjtNum, 7> place;
+  std::copy_n(object, 7, place.begin());
+  mj_step2(m, d);
+  if (impl_->pinned) {
+    std::ranges::copy(place, object);
+    std::fill_n(d->qvel + m->body_dofadr[impl_->object_body], 6, 0);
+  }
+  for (const int joint : impl_->frozen) {
+    d->qpos[m->jnt_qposadr[joint]] = m->qpos0[m->jnt_qposadr[joint]];
+    d->qvel[m->jnt_dofadr[joint]] = 0;
+  }
+  CheckState(*m, *d);
+}
+
+HandWorld::State HandWorld::Save() const {
+  const mjModel& m = *impl_->model;
+  const mjData& d = *impl_->data;
+  return {d.time,
+          {d.qpos, d.qpos + m.nq},
+          {d.qvel, d.qvel + m.nv},
+          {d.act, d.act + m.na},
+          {d.qacc_warmstart, d.qacc_warmstart + m.nv}};
+}
+
+void HandWorld::Restore(const State& state) {
+  mjData& d = *impl_->data;
+  d.time = state.time;
+  std::ranges::copy(state.qpos, d.qpos);
+  std::ranges::copy(state.qvel, d.qvel);
+  std::ranges::copy(state.act, d.act);
+  std::ranges::copy(state.warmstart, d.qacc_warmstart);
+  ForgetWarnings(d);
+  mj_forward(impl_->model.get(), &d);
+  impl_->AddTipContacts();
+}
+
+}  // namespace regrasp::sim

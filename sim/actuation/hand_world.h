@@ -1,0 +1,113 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/kinematics/hand_file.h"
+#include "planner/object/polyhedron.h"
+#include "planner/plan/plan.h"
+#include "sim/actuation/ball_contact.h"
+
+namespace regrasp::sim {
+
+/// What the world of a hand is made of.
+struct HandWorldOptions {
+  double mu = 0;
+  double mass_kg = 0;
+  double gravity_m_s2 = 9.81;  ///< against the hand's up direction
+  double force_factor = 1;     ///< of the limits of all actuators, times what the model has
+};
+
+/// The servo of a drive (kinematics::Finger::drives) as the hand's model has it.
+struct DriveServo {
+  double stiffness = 0;                                    ///< N m / rad
+  double damping = 0;                                      ///< N m s / rad, of the actuator alone
+  double limit = std::numeric_limits<double>::infinity();  ///< largest torque, N m
+  bool derived = false;  ///< the model has no servo: its stiffness and damping are chosen here
+};
+
+/// Where a fingertip and the object touch.
+struct TipTouch {
+  Eigen::Vector3d point_O = Eigen::Vector3d::Zero();  ///< of the surface, nearest to the tip
+  Eigen::Vector3d inward_O = Eigen::Vector3d::Zero();
+  double gap = std::numeric_limits<double>::infinity();  ///< negative: the ball is in the surface
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();       ///< on the object, newtons
+  Eigen::Vector3d sliding_O = Eigen::Vector3d::Zero();  ///< speed of the tip along the surface, m/s
+};
+
+/// A hand's own model in MuJoCo, its palm fixed, and a free object that only its fingertips hold.
+///
+/// The tips are balls that touch the object's true surface (BallContact), with friction and no
+/// torsion; other links collide with each other as the model has it. Joints of no finger stay where
+/// they are at rest. All in the palm's frame, metres, newtons, seconds; O is the object's frame
+/// (its file's axes and origin, in metres).
+class HandWorld {
+ public:
+  struct State {
+    double time = 0;
+    std::vector<double> qpos, qvel, act, warmstart;
+  };
+
+  /// @throws InputError  the hand's model does not allow it.
+  HandWorld(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
+            const HandWorldOptions& options);
+  ~HandWorld();
+  HandWorld(const HandWorld&) = delete;
+  HandWorld& operator=(const HandWorld&) = delete;
+
+  [[nodiscard]] const kinematics::HandModel& hand() const;
+  [[nodiscard]] double time() const;
+  [[nodiscard]] double timestep() const;
+  [[nodiscard]] const Eigen::Vector3d& centroid_O() const;
+
+  /// Hand and object at once, at rest.
+  void Place(const plan::HandState& state);
+  [[nodiscard]] plan::HandState state() const;
+  [[nodiscard]] Eigen::Isometry3d object_pose() const;
+  [[nodiscard]] kinematics::Posture posture(FingerIndex finger) const;
+  [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
+  /// As in the last step; without a place where the surface is farther than 5 mm.
+  [[nodiscard]] TipTouch touch(FingerIndex finger) const;
+  /// Two links that are in each other and are not so at rest, if any.
+  struct SelfContact {
+    std::string first, second;  ///< the model's bodies
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    double depth = 0;
+  };
+  [[nodiscard]] std::optional<SelfContact> self_contact() const;
+
+  [[nodiscard]] const DriveServo& servo(FingerIndex finger, int drive) const;
+  /// What the actuator of a drive does now, over its limit; 0 where it has none.
+  [[nodiscard]] double load_share(FingerIndex finger, int drive) const;
+  /// The torques of the drives with which a force at the tip's contact and the weight of the links
+  /// balance.
+  /// @param force  of the tip on the object.
+  [[nodiscard]] Eigen::VectorXd BalancingTorques(FingerIndex finger, const Eigen::Vector3d& at,
+                                                 const Eigen::Vector3d& force) const;
+  /// The servos steer for a posture, with torques besides.
+  void Command(FingerIndex finger, const kinematics::Posture& target,
+               const Eigen::VectorXd& torques);
+  /// A force and a torque about the centroid on the object, besides its weight.
+  void SetLoad(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+
+  /// While on, the object stays where it is.
+  void PinObject(bool on);
+
+  /// One time step.
+  /// @throws UnstableError
+  void Step();
+
+  [[nodiscard]] State Save() const;
+  void Restore(const State& state);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace regrasp::sim

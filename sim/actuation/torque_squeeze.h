@@ -1,0 +1,22 @@
+#pragma once
+
+#include "planner/object/polyhedron.h"
+#include "planner/plan/plan.h"
+#include "sim/actuation/hand_world.h"
+
+namespace regrasp::sim {
+
+/// The sum of the normal forces with which a hand holds an object, newtons: as much as
+/// kTorqueShare of the limits of its actuators allow in every rest of the plan, and no more than
+/// kMostWeights, or kEnough where that is more.
+/// @param world    its hand and object are moved to the rests.
+/// @param entries  how many of the plan count, the hold first.
+[[nodiscard]] double TorqueSqueeze(HandWorld& world, const object::Polyhedron& solid,
+                                   const plan::Plan& plan, int entries, double half_angle,
+                                   double weight);
+
+inline constexpr double kTorqueShare = 0.4;
+inline constexpr double kMostWeights = 12;
+inline constexpr double kEnough = 4;  ///< newtons
+
+}  // namespace regrasp::sim

@@ -1,0 +1,57 @@
+#include "sim/scene/engine_hooks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "sim/scene/engine.h"
+
+namespace regrasp::sim {
+namespace {
+
+/// Called by the engine where it would otherwise end the process.
+[[noreturn]] void ThrowError(const char* message) {
+  throw UnstableError(std::string("engine error: ") + message);
+}
+
+/// The engine counts warnings of a simulation in mjData, where CheckState looks; printing and the
+/// log file are what this replaces.
+void IgnoreWarning(const char* /*message*/) {}
+
+/// The warnings that mean that a step is not to be trusted; the others are of the renderer.
+constexpr std::array kFatalWarnings = {mjWARN_INERTIA, mjWARN_CONTACTFULL, mjWARN_CNSTRFULL,
+                                       mjWARN_BADQPOS, mjWARN_BADQVEL,     mjWARN_BADQACC,
+                                       mjWARN_BADCTRL};
+
+bool AreFinite(const mjtNum* values, int count) {
+  return std::all_of(values, values + count, [](mjtNum x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+EngineHooks::EngineHooks() : error_(mju_user_error), warning_(mju_user_warning) {
+  mju_user_error = ThrowError;
+  mju_user_warning = IgnoreWarning;
+}
+
+EngineHooks::~EngineHooks() {
+  mju_user_error = error_;
+  mju_user_warning = warning_;
+}
+
+void CheckState(const mjModel& model, const mjData& data) {
+  for (const mjtWarning warning : kFatalWarnings) {
+    if (data.warning[warning].number == 0) continue;
+    throw UnstableError(mju_warningText(warning, data.warning[warning].lastinfo));
+  }
+  if (!AreFinite(data.qpos, model.nq) || !AreFinite(data.qvel, model.nv)) {
+    throw UnstableError("the state is not finite");
+  }
+}
+
+void ForgetWarnings(mjData& data) {
+  for (const mjtWarning warning : kFatalWarnings) data.warning[warning].number = 0;
+}
+
+}  // namespace regrasp::sim

@@ -1,0 +1,201 @@
+#include "sim/actuation/hand_replay.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "planner/base/angle.h"
+#include "planner/gait/plan_of_gait.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/plan/locate.h"
+#include "sim/scene/scaling.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Vector3d;
+using plan::Reason;
+
+const kinematics::HandFile& Hand() {
+  static const kinematics::HandFile file =
+      kinematics::ReadHandFile(std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring5.json");
+  return file;
+}
+
+const object::Polyhedron& Cube() {
+  static const object::ObjectFile file =
+      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/cube.obj");
+  return dynamic_cast<const object::Polyhedron&>(*file.object);
+}
+
+constexpr double kScale = 0.8333;  // 5 cm
+constexpr double kMu = 0.8;
+
+HandReplayOptions Options() {
+  HandReplayOptions options;
+  options.half_angle = std::atan(kMu);
+  options.mass_kg = 0.125;
+  return options;
+}
+
+ReplayResult ReplayOf(const plan::Plan& plan, const HandReplayOptions& options = Options()) {
+  return ReplayHand(Hand(), Cube(), plan, options);
+}
+
+Reason ReasonOf(const ReplayResult& result) { return result.steps.back().reason; }
+
+/// A turn of 90° with a switch, planned with less friction than there is, that passes; made once.
+const plan::Plan& GoodPlan() {
+  static const plan::Plan plan = [] {
+    constexpr int kSeeds = 30;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      gait::GaitRequest request;
+      request.hand = &Hand().hand;
+      request.solid = &Cube();
+      request.scale = kScale;
+      request.criteria.half_angle = std::atan(0.5);
+      request.criteria.min_quality = 0.06;
+      request.turn = {Vector3d::UnitZ(), Radians(90)};
+      request.seed = seed;
+      const gait::GaitResult found = gait::FindGait(request);
+      if (!found.gait) continue;
+      const plan::Plan made =
+          plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+      const bool switches = std::ranges::any_of(made.steps, [](const plan::Step& step) {
+        return std::holds_alternative<plan::Switch>(step);
+      });
+      if (switches && ReasonOf(ReplayOf(made)) == Reason::kNone) return made;
+    }
+    ADD_FAILURE() << "no plan passes";
+    return plan::Plan();
+  }();
+  return plan;
+}
+
+TEST(HandReplayTest, AGoodPlanEndsWhereItShouldWithinTheToleranceAllAlong) {
+  const ReplayResult result = ReplayOf(GoodPlan());
+  ASSERT_EQ(result.steps.size(), GoodPlan().steps.size() + 1);
+  for (const StepReplay& step : result.steps) {
+    EXPECT_EQ(step.reason, Reason::kNone) << step.detail;
+    ASSERT_TRUE(step.hand);
+    EXPECT_LE(step.hand->off_m, 2e-3);
+    EXPECT_LE(step.hand->rest_off_m, 1e-3);
+    EXPECT_LE(step.hand->slip_m, 1e-3);
+    EXPECT_LT(step.hand->torque_share, 1);
+    EXPECT_GT(step.hand->simulated_s, 0);
+    EXPECT_GE(step.snapshot.fingers.size(), 3U);
+    // What the fingers push with carries the weight, up to what the servos add.
+    Vector3d sum = Vector3d::Zero();
+    for (const plan::FingerState& finger : step.snapshot.fingers) sum += finger.force_W;
+    EXPECT_NEAR(sum.norm(), 0.125 * kGravity, 0.05) << step.index;
+  }
+}
+
+TEST(HandReplayTest, TheSamePlanGivesTheSameBits) {
+  const ReplayResult a = ReplayOf(GoodPlan());
+  const ReplayResult b = ReplayOf(GoodPlan());
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  for (std::size_t i = 0; i < a.steps.size(); ++i) {
+    EXPECT_EQ(a.steps[i].hand->off_m, b.steps[i].hand->off_m);
+    EXPECT_EQ(a.steps[i].hand->rest_off_rad, b.steps[i].hand->rest_off_rad);
+    EXPECT_EQ(a.steps[i].hand->slip_m, b.steps[i].hand->slip_m);
+  }
+}
+
+/// The friction half-angle that the weakest rest of a plan needs.
+double NeededHalfAngle(const plan::Plan& plan) {
+  plan::FingerGrasp holding = plan.initial;
+  double most = 0;
+  const auto look = [&] {
+    const auto required =
+        grasp::ComputeRequiredHalfAngle(plan::ContactsOf(holding), Cube().wrench_frame());
+    most = std::max(most, required->upper);
+  };
+  look();
+  for (const plan::Step& step : plan.steps) {
+    holding = plan::GraspAfter(holding, step);
+    look();
+  }
+  return most;
+}
+
+TEST(HandReplayTest, NothingHoldsAtNineTenthsOfTheFrictionThatIsNeeded) {
+  HandReplayOptions options = Options();
+  options.friction_factor = 0.9 * std::tan(NeededHalfAngle(GoodPlan())) / kMu;
+  ASSERT_LT(options.friction_factor, 1);
+  const ReplayResult result = ReplayOf(GoodPlan(), options);
+  EXPECT_THAT(ReasonOf(result), testing::AnyOf(Reason::kSlipped, Reason::kObjectMoved,
+                                               Reason::kContactLost, Reason::kHandCollides))
+      << result.steps.back().detail;
+}
+
+TEST(HandReplayTest, AnObjectThatIsTooHeavyFalls) {
+  const double squeeze = ReplayOf(GoodPlan()).settings.squeeze_N;
+  HandReplayOptions options = Options();
+  // Vertical faces: friction carries no more, and this is a fifth more.
+  options.mass_factor = 1.2 * kMu * squeeze / (options.mass_kg * kGravity);
+  EXPECT_NE(ReasonOf(ReplayOf(GoodPlan(), options)), Reason::kNone);
+}
+
+TEST(HandReplayTest, ActuatorsOfHalfTheForceStandAtTheirLimits) {
+  HandReplayOptions options = Options();
+  // Nearly all that the torques allow, once, and then half of it is missing.
+  options.squeeze_N = 1.7 * ReplayOf(GoodPlan()).settings.squeeze_N;
+  options.shake = 0;
+  double share = 0;
+  for (const StepReplay& step : ReplayOf(GoodPlan(), options).steps) {
+    share = std::max(share, step.hand->torque_share);
+  }
+  EXPECT_GT(share, 0.5);
+  EXPECT_LT(share, 1);
+  options.force_factor = 0.5;
+  const ReplayResult result = ReplayOf(GoodPlan(), options);
+  EXPECT_EQ(ReasonOf(result), Reason::kTorqueLimit) << result.steps.back().detail;
+  EXPECT_THAT(result.steps.back().detail, testing::HasSubstr("is at its limit of 0.5 N"));
+}
+
+struct Control {
+  const char* name;
+  std::function<void(plan::Plan&)> change;
+};
+
+TEST(HandReplayTest, APlanThatIsBrokenFails) {
+  const std::vector<Control> controls = {
+      {"the pose is 5 mm off",
+       [](plan::Plan& plan) { plan.hand->initial.pose.translation().x() += 5e-3; }},
+      {"a switch is left out",
+       [](plan::Plan& plan) {
+         const auto at = std::ranges::find_if(plan.steps, [](const plan::Step& step) {
+           return std::holds_alternative<plan::Switch>(step);
+         });
+         ASSERT_NE(at, plan.steps.end());
+         plan.steps.erase(at);
+       }},
+  };
+  for (const Control& control : controls) {
+    plan::Plan plan = GoodPlan();
+    control.change(plan);
+    const ReplayResult result = ReplayOf(plan);
+    EXPECT_NE(ReasonOf(result), Reason::kNone) << control.name;
+    EXPECT_FALSE(result.steps.back().detail.empty()) << control.name;
+  }
+}
+
+TEST(HandReplayTest, AFailureTellsWhereHandAndObjectWere) {
+  plan::Plan plan = GoodPlan();
+  plan.hand->initial.pose.translation().x() += 5e-3;
+  const ReplayResult result = ReplayOf(plan);
+  const StepReplay& last = result.steps.back();
+  EXPECT_EQ(last.reason, Reason::kContactLost);
+  ASSERT_TRUE(last.fault.hand);
+  EXPECT_EQ(last.fault.hand->state.joints.size(), 5U);
+  EXPECT_TRUE(last.fault.hand->at);
+  EXPECT_FALSE(last.fault.hand->number.empty());
+}
+
+}  // namespace
+}  // namespace regrasp::sim
