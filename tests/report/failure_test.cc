@@ -56,7 +56,7 @@ TEST(Failure, SaysForEveryReasonWhatItIsHeldAgainstAndWhatWouldMendIt) {
     EXPECT_NE(failure.mend, "") << failure.reason;
     said.insert(failure.reason);
   }
-  EXPECT_EQ(said.size(), 22u);
+  EXPECT_EQ(said.size(), 23u);
 }
 
 TEST(Failure, AsksForTheFrictionThatIsNeededRoundedUp) {
