@@ -240,6 +240,11 @@ struct HandWorld::Impl {
     DriveServo& law = found.servo;
     law.derived = !servo;
     law.stiffness = servo ? -bias[1] * found.moment * found.moment : kServoStiffness;
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const kinematics::Joint& joint = finger.joints[k];
+      if (joint.drive != drive) continue;
+      law.friction += joint.ratio * joint.ratio * model->dof_damping[model->jnt_dofadr[joints[k]]];
+    }
     law.damping = servo ? -bias[2] * found.moment * found.moment : kServoDamping;
     // What is asked of a servo is a torque: its limit is that of its force, wherever the angle is
     // that it would have to steer for. Of a motor the control is the force.

@@ -55,6 +55,40 @@ class Gait(ProgramCase):
         self.assertEqual([step["kind"] for step in report["steps"]][1:],
                          [step["kind"] for step in plan["steps"]])
 
+    def test_the_hand_itself_carries_a_plan_out(self):
+        """Planned with less friction than there is: tips roll, which a plan leaves out."""
+        ring5 = self.hand("ring5")
+        turn = ("--object", self.model("cube.obj"), "--scale", "0.8333", "--mu", "0.5",
+                "--min-quality", "0.06", "--hand", ring5, "--turn", "z 30")
+        self.assert_done(*turn, "--output", "plan.json")
+        plan = json.loads(self.read("plan.json"))
+        by_hand = ("--hand", ring5, "--replay", "hand", "--mu", "0.8")
+        done, report = self.validate(plan, *by_hand)
+        self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
+        self.assertEqual(report["settings"]["squeeze_source"], "torques")
+        self.assertEqual(report["settings"]["hand"]["tolerance_m"], 0.002)
+        for step in report["steps"]:
+            self.assertLess(step["simulation"]["displacement_m"], 2e-3)
+            self.assertLess(step["simulation"]["hand"]["rest_displacement_m"], 1e-3)
+            self.assertLess(step["simulation"]["hand"]["torque_share"], 1)
+        # Ten micrometres are not kept; and no hand holds 20 kg.
+        for more, reasons in ((("--tolerance-mm", "0.01"), ("object-moved",)),
+                              (("--mass", "20"), ("torque-limit", "object-moved", "slipped",
+                                                  "contact-lost"))):
+            done, report = self.validate(plan, *by_hand, *more)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn([step["reason"] for step in report["steps"] if step["reason"]][0],
+                          reasons)
+            self.assertIn("allowed" if more[0] == "--tolerance-mm" else "verdict", done.stdout)
+        for more, words in ((("--replay", "hand"), "needs the hand"),
+                            (("--hand", ring5, "--feedback", "none"), "goes with --replay hand"),
+                            (("--hand", ring5, "--replay", "hand", "--trials", "2"),
+                             "goes with --replay points")):
+            done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
+                                    *more, program="validate")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(words, done.stderr)
+
     def test_a_plan_goes_from_given_grasps_and_poses_to_others(self):
         plan = self.plan_in_hand()
         # To where its first switch leads.

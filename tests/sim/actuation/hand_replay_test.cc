@@ -9,6 +9,8 @@
 #include <string>
 
 #include "planner/base/angle.h"
+#include "planner/base/file.h"
+#include "planner/base/number.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/locate.h"
@@ -183,6 +185,46 @@ TEST(HandReplayTest, APlanThatIsBrokenFails) {
     EXPECT_NE(ReasonOf(result), Reason::kNone) << control.name;
     EXPECT_FALSE(result.steps.back().detail.empty()) << control.name;
   }
+}
+
+/// The hand with another range of a joint, degrees.
+kinematics::HandFile HandWithRange(const std::string& joint, double lower, double upper) {
+  const std::string folder = std::string(REGRASP_SOURCE_DIR) + "/models/hands/";
+  std::string model = ReadFile(folder + "ring5.xml");
+  const std::size_t at = model.find("range=\"", model.find("name=\"" + joint + "\"")) + 7;
+  model.replace(at, model.find('"', at) - at, FormatDouble(lower) + " " + FormatDouble(upper));
+  const std::string to = testing::TempDir();
+  WriteFile(to + "ring5.xml", model);
+  WriteFile(to + "narrow.json", ReadFile(folder + "ring5.json"));
+  return kinematics::ReadHandFile(to + "narrow.json");
+}
+
+TEST(HandReplayTest, AJointThatStopsHalfWayFails) {
+  // The joint of a finger that holds from the beginning which goes farthest in the first move.
+  const auto& path =
+      std::get<plan::Move>(*std::ranges::find_if(GoodPlan().steps, [](const plan::Step& step) {
+        return std::holds_alternative<plan::Move>(step);
+      })).path;
+  FingerIndex finger;
+  int joint = 0;
+  double farthest = 0;
+  for (const plan::FingerContact& held : GoodPlan().initial) {
+    for (int k = 0; k < 4; ++k) {
+      const double way = path.back().joints[held.finger][k] - path.front().joints[held.finger][k];
+      if (std::abs(way) <= std::abs(farthest)) continue;
+      finger = held.finger;
+      joint = k;
+      farthest = way;
+    }
+  }
+  ASSERT_GT(std::abs(farthest), 0.1);
+  const kinematics::Joint& narrowed = Hand().hand.fingers[finger].joints[joint];
+  const double stop = Degrees(path.front().joints[finger][joint] + 0.3 * farthest);
+  const kinematics::HandFile hand =
+      farthest > 0 ? HandWithRange(narrowed.name, Degrees(narrowed.lower), stop)
+                   : HandWithRange(narrowed.name, stop, Degrees(narrowed.upper));
+  const ReplayResult result = ReplayHand(hand, Cube(), GoodPlan(), Options());
+  EXPECT_NE(ReasonOf(result), Reason::kNone);
 }
 
 TEST(HandReplayTest, AFailureTellsWhereHandAndObjectWere) {
