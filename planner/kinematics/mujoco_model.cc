@@ -1,8 +1,11 @@
 #include "planner/kinematics/mujoco_model.h"
 
+#include <sys/mman.h>
+
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "planner/base/error.h"
@@ -28,7 +31,7 @@ constexpr const char* kBinaryName = "hand.mjb";
 [[noreturn]] void ThrowError(const char* message) { throw std::runtime_error(message); }
 void IgnoreWarning(const char* /*message*/) {}
 
-std::string CompileToBytes(const fs::path& path, const ModelText& text) {
+ModelPtr Load(const fs::path& path, const ModelText& text) {
   mju_user_error = ThrowError;
   mju_user_warning = IgnoreWarning;
   mujoco::MemoryFiles files;
@@ -38,9 +41,26 @@ std::string CompileToBytes(const fs::path& path, const ModelText& text) {
     if (!mesh.alias.empty()) files.Add(mesh.alias, ReadFile(mesh.path));
   }
   std::array<char, 1000> error{};
-  const ModelPtr model(
+  ModelPtr model(
       mj_loadXML(path.c_str(), files.get(), error.data(), static_cast<int>(error.size())));
   if (!model) throw std::runtime_error(error.data());
+  return model;
+}
+
+std::string SaveMjcf(const fs::path& path, const ModelText& text) {
+  const ModelPtr model = Load(path, text);
+  // MuJoCo writes to files alone.
+  const std::string name = "/proc/self/fd/" + std::to_string(memfd_create("mjcf", 0));
+  std::array<char, 1000> error{};
+  if (mj_saveLastXML(name.c_str(), model.get(), error.data(), static_cast<int>(error.size())) ==
+      0) {
+    throw std::runtime_error(error.data());
+  }
+  return ReadFile(name);
+}
+
+std::string CompileToBytes(const fs::path& path, const ModelText& text) {
+  const ModelPtr model = Load(path, text);
   std::string bytes(static_cast<std::size_t>(mj_sizeModel(model.get())), '\0');
   mj_saveModel(model.get(), nullptr, bytes.data(), static_cast<int>(bytes.size()));
   return bytes;
@@ -54,13 +74,13 @@ ModelPtr FromBytes(const std::string& bytes) {
   return model;
 }
 
+/// What a child with a model makes of it.
 /// @throws std::runtime_error  what MuJoCo says against the model.
-ModelPtr Compile(const fs::path& path, const ModelText& text) {
-  const object::ChildResult result =
-      object::RunInLimitedChild([&] { return CompileToBytes(path, text); }, kLimits);
+std::string InChild(const std::function<std::string()>& task) {
+  const object::ChildResult result = object::RunInLimitedChild(task, kLimits);
   switch (result.end) {
     case object::ChildEnd::kDone:
-      return FromBytes(result.bytes);
+      return result.bytes;
     case object::ChildEnd::kThrew:
       throw std::runtime_error(OneLine(result.bytes));
     case object::ChildEnd::kTookTooLong:
@@ -69,6 +89,11 @@ ModelPtr Compile(const fs::path& path, const ModelText& text) {
       throw std::runtime_error("it crashes on the model, or needs more than 4 GiB");
   }
   throw std::logic_error("CompileModel: a child's end");
+}
+
+/// @throws std::runtime_error  what MuJoCo says against the model.
+ModelPtr Compile(const fs::path& path, const ModelText& text) {
+  return FromBytes(InChild([&] { return CompileToBytes(path, text); }));
 }
 
 InputError Refused(const fs::path& path, const std::runtime_error& error) {
@@ -127,6 +152,20 @@ ModelPtr CompileText(const fs::path& path, const ModelText& text) {
   try {
     return Compile(path, text);
   } catch (const EnvironmentError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw Refused(path, error);
+  }
+}
+
+ModelText AsMjcf(const fs::path& path, const ModelText& text) {
+  try {
+    ModelText mjcf = text;
+    mjcf.root = ParseXml(InChild([&] { return SaveMjcf(path, text); }), path.string());
+    return mjcf;
+  } catch (const EnvironmentError&) {
+    throw;
+  } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& error) {
     throw Refused(path, error);

@@ -29,6 +29,10 @@ struct CompiledModel {
 /// @throws InputError  what MuJoCo says against it.
 [[nodiscard]] ModelPtr CompileText(const std::filesystem::path& path, const ModelText& text);
 
+/// A text as MJCF, whatever it is: what MuJoCo made of it, in a limited child process.
+/// @throws InputError  what MuJoCo says against it.
+[[nodiscard]] ModelText AsMjcf(const std::filesystem::path& path, const ModelText& text);
+
 /// Bodies, geoms and joints as the model has them at rest (qpos0), in world coordinates.
 [[nodiscard]] DataPtr AtRest(const mjModel& model);
 

@@ -60,12 +60,6 @@ HandControl::HandControl(HandWorld& world, const object::Polyhedron& solid, doub
   for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
     fingers_.push_back({});
     fingers_.back().target = world.posture(f);
-    fingers_.back().planned = fingers_.back().target;
-    fingers_.back().damping = Posture::Zero(fingers_.back().target.size());
-    for (int drive = 0; drive < fingers_.back().target.size(); ++drive) {
-      const DriveServo& servo = world.servo(f, drive);
-      fingers_.back().damping[drive] = servo.damping + servo.friction;
-    }
     fingers_.back().offset = Posture::Zero(fingers_.back().target.size());
   }
 }
@@ -192,13 +186,7 @@ void HandControl::Step() {
     } else {
       FollowTip(f);
     }
-    // Of the plan, and not of the target: that follows the tip, and would undo its damping.
-    const Posture planned = PlannedPosture(f);
-    const Eigen::VectorXd speed = (planned - finger.planned) / world_.timestep();
-    finger.planned = planned;
-    world_.Command(f, finger.target,
-                   world_.BalancingTorques(f, finger.contact, finger.force) +
-                       finger.damping.cwiseProduct(speed));
+    world_.Command(f, finger.target, world_.BalancingTorques(f, finger.contact, finger.force));
   }
   world_.Step();
 }

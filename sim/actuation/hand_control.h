@@ -38,8 +38,7 @@ struct HoldingFingers {
 ///   follow by damped least squares, near the planned ones.
 /// - The planned pose is moved by the integral of the object's measured offset, at most
 /// kMostOffset.
-/// - Torques overcome the damping of the joints at their planned speed, and balance the
-///   weight of the links and the planned forces at the contacts as measured:
+/// - Torques balance the weight of the links and the planned forces at the contacts as measured:
 ///   those that hold the object's weight with the largest margin inside the cones, anew every
 ///   hundredth of a second.
 /// - A free finger follows the planned joints; what it was off when it came free goes in a tenth of
@@ -84,8 +83,6 @@ class HandControl {
     Eigen::Vector3d centre_O = Eigen::Vector3d::Zero();
     Eigen::Vector3d bias = Eigen::Vector3d::Zero();  ///< of its target when it was attached
     kinematics::Posture target;
-    kinematics::Posture planned;  ///< at the last step
-    Eigen::VectorXd damping;  ///< of the drives, N m s / rad
     kinematics::Posture offset;  ///< of a free finger from the planned joints
     bool keeps_offset = false;
     Eigen::Vector3d force = Eigen::Vector3d::Zero();

@@ -30,9 +30,10 @@ constexpr double kTimestep = 1e-3;
 /// hard as the normal, so that what sticks creeps little.
 constexpr mjtNum kContactTime = 5e-3;
 constexpr double kFrictionHardness = 100;
-/// Of servos that the model leaves out: what a small electric finger has.
+/// Of servos that the model leaves out, as small electric fingers have them: N m / rad, and the
+/// inertia of a motor behind its gear, kg m².
 constexpr double kServoStiffness = 2;
-constexpr double kServoDamping = 0.1;
+constexpr double kServoInertia = 1e-3;
 /// What holds joints of no finger.
 constexpr double kFrozen = 1e3;
 /// Surface farther than this from a tip is not looked for, metres.
@@ -83,15 +84,46 @@ XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass
                                    {"conaffinity", "0"}})});
 }
 
+/// The largest torque of a joint by its URDF; 0 where it does not say.
+double EffortOf(const XmlElement& robot, const std::string& name) {
+  for (const XmlElement& joint : robot.children) {
+    const std::string* found = joint.name == "joint" ? joint.Find("name") : nullptr;
+    const XmlElement* limit = joint.Child("limit");
+    if (found == nullptr || *found != name || limit == nullptr) continue;
+    const std::string* effort = limit->Find("effort");
+    return effort == nullptr ? 0 : ParseDouble(*effort).value_or(0);
+  }
+  return 0;
+}
+
+/// A URDF has no actuators: each drive of a finger gets a motor, as strong as the joint may be.
+kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
+  const kinematics::ModelText& urdf = file.compiled->text;
+  kinematics::ModelText text = kinematics::AsMjcf(urdf.files.front(), urdf);
+  std::vector<XmlElement> motors;
+  for (const kinematics::Finger& finger : file.hand.fingers) {
+    for (int drive = 0; drive < finger.drives; ++drive) {
+      const auto leads = std::ranges::find_if(finger.joints, [&](const kinematics::Joint& joint) {
+        return joint.drive == drive && joint.ratio == 1;
+      });
+      const std::string& name = leads->name;
+      XmlElement& motor = motors.emplace_back(Element("motor", {{"joint", name}}));
+      const double effort = EffortOf(urdf.root, name);
+      if (effort <= 0) continue;
+      motor.Set("forcelimited", "true");
+      motor.Set("forcerange", Numbers({-effort, effort}));
+    }
+  }
+  text.root.children.push_back(Element("actuator", {}, std::move(motors)));
+  return text;
+}
+
 /// The hand's model with the object in it, and with the couplings of the hand's file.
 kinematics::ModelText SceneText(const kinematics::HandFile& file, const object::Polyhedron& solid,
                                 double scale, double mass) {
   kinematics::ModelText text = file.compiled->text;
+  if (text.root.name == "robot") text = UrdfWithMotors(file);
   XmlElement& root = text.root;
-  if (root.name != "mujoco") {
-    throw InputError(file.description.model +
-                     ": a URDF model is not replayed yet: convert it to MJCF");
-  }
   std::erase_if(root.children, [](const XmlElement& child) {
     return child.name == "keyframe" || child.name == "size" || child.name == "sensor";
   });
@@ -240,12 +272,8 @@ struct HandWorld::Impl {
     DriveServo& law = found.servo;
     law.derived = !servo;
     law.stiffness = servo ? -bias[1] * found.moment * found.moment : kServoStiffness;
-    for (std::size_t k = 0; k < joints.size(); ++k) {
-      const kinematics::Joint& joint = finger.joints[k];
-      if (joint.drive != drive) continue;
-      law.friction += joint.ratio * joint.ratio * model->dof_damping[model->jnt_dofadr[joints[k]]];
-    }
-    law.damping = servo ? -bias[2] * found.moment * found.moment : kServoDamping;
+    law.damping = -bias[2] * found.moment * found.moment;
+    if (!servo) law.damping = MakeCritical(finger, joints, drive, law.stiffness);
     // What is asked of a servo is a torque: its limit is that of its force, wherever the angle is
     // that it would have to steer for. Of a motor the control is the force.
     if (servo) model->actuator_ctrllimited[a] = 0;
@@ -265,6 +293,21 @@ struct HandWorld::Impl {
       law.limit = limit * std::abs(found.moment);
     }
     return found;
+  }
+
+  /// @returns the critical damping of what a drive moves, which has the inertia of a small gear
+  /// motor at least.
+  [[nodiscard]] double MakeCritical(const kinematics::Finger& finger,
+                                    const std::vector<int>& joints, int drive, double stiffness) {
+    double inertia = 0;
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      if (finger.joints[k].drive != drive) continue;
+      const int dof = model->jnt_dofadr[joints[k]];
+      inertia += model->dof_M0[dof] - model->dof_armature[dof];
+      model->dof_armature[dof] = std::max(model->dof_armature[dof], kServoInertia);
+      inertia += model->dof_armature[dof];
+    }
+    return 2 * std::sqrt(stiffness * inertia);
   }
 
   [[nodiscard]] std::pair<int, int> BodiesOf(const mjContact& contact) const {

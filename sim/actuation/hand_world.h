@@ -27,7 +27,6 @@ struct HandWorldOptions {
 struct DriveServo {
   double stiffness = 0;                                    ///< N m / rad
   double damping = 0;                                      ///< N m s / rad, of the actuator alone
-  double friction = 0;   ///< N m s / rad, of the joints themselves
   double limit = std::numeric_limits<double>::infinity();  ///< largest torque, N m
   bool derived = false;  ///< the model has no servo: its stiffness and damping are chosen here
 };
