@@ -4,7 +4,7 @@
 // table in Markdown.
 //
 //   hand_bench [--seeds N] [--limit SECONDS] [--axis z] [--degrees 90] [--pairs]
-//              [--replay] [--plan-mu 0.5] [--min-quality 0.06] [--friction-factor 1] HAND.json ...
+//              [--replay] [--plan-mu 0.5] [--min-quality 0.06] [--of-critical 0.9] HAND.json ...
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -160,7 +160,7 @@ struct Contest {
   bool replay = false;
   double plan_mu = kMu;
   double min_quality = criteria::GraspCriteria().min_quality;
-  double friction_factor = 1;
+  std::optional<double> of_critical;
 };
 
 Deadline DeadlineIn(double seconds) {
@@ -195,11 +195,22 @@ std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
   return request;
 }
 
+/// That the weakest rest of a plan needs.
+double CriticalFriction(const Body& body, const plan::Plan& plan) {
+  double most = 0;
+  for (const plan::StepCheck& step : plan::CheckPlan(body.solid, plan).steps) {
+    if (step.required) most = std::max(most, step.required->upper);
+  }
+  return std::tan(most);
+}
+
 void Replay(const Contest& contest, const kinematics::HandFile& file, const Body& body,
             const plan::Plan& plan, Replays& replays) {
   sim::HandReplayOptions options;
   options.half_angle = std::atan(kMu);
-  options.friction_factor = contest.friction_factor;
+  if (contest.of_critical) {
+    options.friction_factor = *contest.of_critical * CriticalFriction(body, plan) / kMu;
+  }
   options.mass_kg = object::MeasureBody(body.solid, body.scale).mass_kg;
   const Clock::time_point begin = Now();
   const sim::ReplayResult result = sim::ReplayHand(file, body.solid, plan, options);
@@ -425,7 +436,8 @@ int main(int argc, char** argv) {
   app.add_option("--plan-mu", contest.plan_mu,
                  "Friction that is planned with, of 0.8 that there is");
   app.add_option("--min-quality", contest.min_quality, "Of the grasps of plans");
-  app.add_option("--friction-factor", contest.friction_factor, "Friction in replays, over 0.8");
+  app.add_option("--of-critical", contest.of_critical,
+                 "Friction in replays, over what the weakest rest needs (default: 0.8)");
   app.add_option("hands", hands, "Hand files")->required();
   CLI11_PARSE(app, argc, argv);
   try {

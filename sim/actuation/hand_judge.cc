@@ -154,47 +154,72 @@ void HandJudge::WatchFinger(FingerIndex f) {
   }
 }
 
-void HandJudge::WatchLinks() {
-  const Isometry3d to_object = world_.object_pose().inverse();
-  const auto meets = [&](const kinematics::LinkShape& link, const Isometry3d& pose) {
-    return !link.is_tip && !surface_.IsApart(collision::Moved(to_object * pose, link.shape), 0);
-  };
+std::vector<HandJudge::PlacedLink> HandJudge::PlaceLinks() const {
   const kinematics::HandModel& hand = world_.hand();
-  for (const kinematics::LinkShape& link : hand.palm) {
-    if (!meets(link, Isometry3d::Identity())) continue;
-    Fail(Reason::kHandCollides, "the palm touches the object",
-         {.number = "touches", .links = {{FingerIndex(), 0}}});
+  std::vector<PlacedLink> placed;
+  const auto add = [&](FingerIndex f, int index, const kinematics::LinkShape& link,
+                       const Isometry3d& pose) {
+    PlacedLink& one = placed.emplace_back();
+    one.part = {f, index};
+    one.link = &link;
+    one.shape = collision::Moved(pose, link.shape);
+    one.ball = collision::BallAround(one.shape);
+  };
+  for (std::size_t i = 0; i < hand.palm.size(); ++i) {
+    add({}, static_cast<int>(i), hand.palm[i], Isometry3d::Identity());
   }
   for (FingerIndex f{0}; f < std::ssize(hand.fingers); ++f) {
     const kinematics::JointFrames frames = kinematics::FramesOf(hand.fingers[f], world_.posture(f));
-    for (const kinematics::LinkShape& link : hand.fingers[f].shapes) {
-      if (!meets(link, frames[link.after - 1])) continue;
-      Fail(Reason::kHandCollides, link.link + " of " + FingerText(hand, f) + " touches the object",
-           {.number = "touches", .fingers = {f}, .links = {{f, link.after}}});
+    const std::vector<kinematics::LinkShape>& links = hand.fingers[f].shapes;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      add(f, static_cast<int>(i), links[i], frames[links[i].after - 1]);
     }
   }
-  WatchSelfContact();
+  return placed;
 }
 
-void HandJudge::WatchSelfContact() {
-  const auto contact = world_.self_contact();
-  if (!contact) return;
-  Marks marks{FormatLength(contact->depth, 2) + " inside"};
-  marks.at = contact->at;
-  const kinematics::HandModel& hand = world_.hand();
-  for (const std::string& body : {contact->first, contact->second}) {
-    for (FingerIndex f{0}; f < std::ssize(hand.fingers); ++f) {
-      for (const kinematics::LinkShape& link : hand.fingers[f].shapes) {
-        if (link.link != body) continue;
-        marks.links.push_back({f, link.after});
-        if (std::ranges::find(marks.fingers, f) == marks.fingers.end()) marks.fingers.push_back(f);
-        break;
-      }
+std::string HandJudge::LinkText(const PlacedLink& placed) const {
+  return placed.link->link + " of " +
+         (placed.part.finger.valid() ? FingerText(world_.hand(), placed.part.finger) : "the palm");
+}
+
+HandJudge::Marks HandJudge::MarksOf(std::initializer_list<const PlacedLink*> links) {
+  Marks marks{"touch"};
+  Vector3d sum = Vector3d::Zero();
+  for (const PlacedLink* placed : links) {
+    const FingerIndex f = placed->part.finger;
+    marks.links.push_back({f, placed->link->after});
+    sum += placed->ball.centre;
+    if (f.valid() && std::ranges::find(marks.fingers, f) == marks.fingers.end()) {
+      marks.fingers.push_back(f);
     }
   }
-  Fail(Reason::kHandCollides,
-       contact->first + " goes " + FormatLength(contact->depth) + " into " + contact->second,
-       std::move(marks));
+  marks.at = sum / static_cast<double>(links.size());
+  return marks;
+}
+
+void HandJudge::WatchLinks() {
+  const Isometry3d to_object = world_.object_pose().inverse();
+  const std::vector<PlacedLink> placed = PlaceLinks();
+  for (const PlacedLink& link : placed) {
+    if (link.link->is_tip || surface_.IsApart(collision::Moved(to_object, link.shape), 0)) continue;
+    Fail(Reason::kHandCollides, LinkText(link) + " touches the object", MarksOf({&link}));
+  }
+  for (auto a = placed.begin(); a != placed.end(); ++a) {
+    for (auto b = a + 1; b != placed.end(); ++b) {
+      const double near = a->ball.radius + b->ball.radius;
+      if ((a->ball.centre - b->ball.centre).squaredNorm() > near * near) continue;
+      if (MayTouch(a->part, b->part) || collision::AreApart(a->shape, b->shape, 0)) continue;
+      Fail(Reason::kHandCollides, LinkText(*a) + " touches " + LinkText(*b), MarksOf({&*a, &*b}));
+    }
+  }
+}
+
+bool HandJudge::MayTouch(const kinematics::HandModel::Part& a,
+                         const kinematics::HandModel::Part& b) const {
+  const std::pair<kinematics::HandModel::Part, kinematics::HandModel::Part> pair =
+      std::minmax(a, b);
+  return std::ranges::find(world_.hand().ignored, pair) != world_.hand().ignored.end();
 }
 
 void HandJudge::Watch(const Isometry3d& planned) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,7 +66,18 @@ class HandJudge {
     std::optional<Eigen::Isometry3d> pose = std::nullopt;  ///< where the object should be
   };
   void Fail(plan::Reason reason, const std::string& what, Marks marks);
-  void WatchSelfContact();
+  struct PlacedLink {
+    kinematics::HandModel::Part part;
+    const kinematics::LinkShape* link = nullptr;
+    collision::ConvexShape shape;  ///< in the palm's frame
+    collision::Ball ball;          ///< around it
+  };
+  [[nodiscard]] std::vector<PlacedLink> PlaceLinks() const;
+  [[nodiscard]] std::string LinkText(const PlacedLink& placed) const;
+  [[nodiscard]] static Marks MarksOf(std::initializer_list<const PlacedLink*> links);
+  /// Near each other by construction.
+  [[nodiscard]] bool MayTouch(const kinematics::HandModel::Part& a,
+                              const kinematics::HandModel::Part& b) const;
 
   const HandWorld& world_;
   collision::SurfaceTree surface_;

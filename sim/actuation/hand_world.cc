@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <set>
 #include <utility>
 
 #include "planner/base/error.h"
@@ -174,7 +173,6 @@ struct HandWorld::Impl {
   std::vector<FingerState> fingers;
   std::vector<int> frozen;  ///< joints
   bool pinned = false;      ///< the object
-  std::set<std::pair<int, int>> touching_at_rest;
 
   Impl(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
        const HandWorldOptions& given)
@@ -195,8 +193,10 @@ struct HandWorld::Impl {
     model->opt.impratio = kFrictionHardness;
     const Vector3d gravity = -options.gravity_m_s2 * (palm.linear() * hand.up);
     std::copy_n(gravity.data(), 3, model->opt.gravity);
-    mj_collision(model.get(), data.get());
-    for (int i = 0; i < data->ncon; ++i) touching_at_rest.insert(BodiesOf(data->contact[i]));
+    // Links that touch anything are a failure and not a matter of forces: HandJudge looks.
+    std::fill_n(model->geom_contype, model->ngeom, 0);
+    std::fill_n(model->geom_conaffinity, model->ngeom, 0);
+    model->npair = 0;
   }
 
   [[nodiscard]] int Id(int kind, const std::string& name) const {
@@ -308,10 +308,6 @@ struct HandWorld::Impl {
       inertia += model->dof_armature[dof];
     }
     return 2 * std::sqrt(stiffness * inertia);
-  }
-
-  [[nodiscard]] std::pair<int, int> BodiesOf(const mjContact& contact) const {
-    return std::minmax(model->geom_bodyid[contact.geom1], model->geom_bodyid[contact.geom2]);
   }
 
   [[nodiscard]] Isometry3d ObjectInWorld() const {
@@ -471,23 +467,6 @@ TipTouch HandWorld::touch(FingerIndex finger) const {
       (impl.SpeedAt(impl.fingers[finger].tip_body, at) - impl.SpeedAt(impl.object_body, at));
   touch.sliding_O = speed - speed.dot(touch.inward_O) * touch.inward_O;
   return touch;
-}
-
-std::optional<HandWorld::SelfContact> HandWorld::self_contact() const {
-  const Impl& impl = *impl_;
-  for (int i = 0; i < impl.data->ncon; ++i) {
-    const mjContact& contact = impl.data->contact[i];
-    if (contact.dist > 0 || contact.geom1 == impl.object_geom) continue;
-    const auto bodies = impl.BodiesOf(contact);
-    if (impl.touching_at_rest.contains(bodies)) continue;
-    const auto name = [&](int body) -> std::string {
-      const char* found = mj_id2name(impl.model.get(), mjOBJ_BODY, body);
-      return found != nullptr ? found : "body " + std::to_string(body);
-    };
-    return SelfContact{name(bodies.first), name(bodies.second),
-                       impl.palm.inverse() * VectorAt(contact.pos, 0), -contact.dist};
-  }
-  return std::nullopt;
 }
 
 const DriveServo& HandWorld::servo(FingerIndex finger, int drive) const {

