@@ -320,6 +320,7 @@ int PlanProgram::Run() const {
   result.plan->object_file = object.file;
   result.plan->object_sha256 = object.sha256;
   result.plan->repair = object.repair;
+  result.plan->shells = common.repair.shells();
   result.plan->patch_radius = common.PatchRadius(*object.object);
   result.plan->at_given_points = given.has_value();
   result.plan->half_angle = common.friction.required_half_angle();

@@ -31,7 +31,9 @@ std::string WrongObject(const plan::Plan& plan, const object::ObjectFile& object
 }  // namespace
 
 object::ObjectFile ReadObjectOf(const plan::Plan& plan, const std::string& path,
-                                const object::Reading& reading) {
+                                const object::Reading& asked) {
+  object::Reading reading = asked;
+  reading.shells = plan.shells;
   if (!plan.repair || Sha256(ReadFile(path)) == plan.repair->sha256) {
     return object::ReadObject(path, reading);
   }

@@ -18,7 +18,8 @@ struct PlanAndObject {
 };
 
 /// Reads the object of a plan; where the plan is for a repaired one, repairs it in the same way
-/// again. The solid that the program `repair` wrote does as well.
+/// again, and of several closed shells makes what the plan says. The solid that the program
+/// `repair` wrote does as well.
 /// @throws InputError  as ReadObject and ReadRepaired.
 [[nodiscard]] object::ObjectFile ReadObjectOf(const plan::Plan& plan, const std::string& path,
                                               const object::Reading& reading);

@@ -165,7 +165,12 @@ Deadline PlannerOptions::deadline() const {
 
 object::ObjectFile PlannerOptions::ReadObjectFile(const std::string& program) const {
   ProgressLine progress(quiet);
-  const object::Reading reading{progress.reporter(), deadline(), patch_felt(), allow_invented};
+  object::Reading reading{progress.reporter(), deadline(), patch_felt(), allow_invented};
+  reading.shells = repair.shells();
+  reading.on_shells = [&](const std::string& text) {
+    progress.Clear();
+    if (!quiet) PrintMessage(program, object + ": " + text);
+  };
   if (!repair.wanted()) {
     object::ObjectFile file = object::ReadObject(object, reading);
     if (patch && *patch > 0 && file.object->dimension() == 2) {

@@ -62,7 +62,8 @@ int RepairProgram::Run() const {
   CheckOutputsDiffer({{"--object", object}}, outputs);
   CheckOutputsWritable(outputs);
   ProgressLine progress(quiet);
-  const object::Reading reading{progress.reporter(), {}};
+  object::Reading reading{progress.reporter(), {}};
+  reading.shells = options.shells();
   const object::SoupFile file = object::ReadSoup(object, reading);
   try {
     const repair::Repaired repaired = repair::Repair(file.soup, object, options.Get(), reading);

@@ -30,11 +30,25 @@ std::vector<CLI::Option*> AddAll(CLI::App& app, double& max_deviation_percent,
                     "THICKNESS")};
 }
 
+void AddShells(CLI::App& app, std::optional<object::Shells>& shells) {
+  AddChoice<std::optional<object::Shells>>(
+      app, "--shells", shells,
+      {{"union", object::Shells::kUnion}, {"largest", object::Shells::kLargest}},
+      "What several closed shells are: union, all are one rigid body, also beside each other; "
+      "largest, the one of the largest volume and its cavities is the object (default: refused, "
+      "but "
+      "for a solid and its cavities)");
+}
+
 }  // namespace
 
-void RepairOptions::AddTo(CLI::App& app) { AddAll(app, max_deviation_percent_, options_); }
+void RepairOptions::AddTo(CLI::App& app) {
+  AddShells(app, shells_);
+  AddAll(app, max_deviation_percent_, options_);
+}
 
 void RepairOptions::AddWithSwitch(CLI::App& app) {
+  AddShells(app, shells_);
   CLI::Option* repair = app.add_flag(
       "--repair", wanted_,
       "Make a solid of a scan or a broken mesh; as the program repair does; fingers keep off what "

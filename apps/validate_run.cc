@@ -90,8 +90,12 @@ void CheckOutputs(const ValidateOptions& options) {
   CheckOutputsWritable(outputs);
 }
 
-/// A plan says itself how its object was repaired.
+/// A plan says itself how its object was repaired, and which of its shells it is.
 void CheckRepair(const ValidateOptions& options, const plan::Plan& plan) {
+  if (options.repair.shells() && options.repair.shells() != plan.shells) {
+    throw InputError("--shells: " + options.plan_path + ": /object/shells says " +
+                     (plan.shells ? "otherwise" : "nothing: the plan's object is one solid"));
+  }
   if (!options.repair.wanted()) return;
   if (!plan.repair) {
     throw InputError("--repair: " + options.plan_path +
@@ -132,9 +136,14 @@ void ReadPlanTask(const ValidateOptions& options, const object::Reading& reading
 
 Task ReadTask(const ValidateOptions& options) {
   ProgressLine progress(options.quiet);
-  const object::Reading reading = {progress.reporter(), {}};
+  object::Reading reading = {progress.reporter(), {}};
   Task task;
   if (options.for_grasp()) {
+    reading.shells = options.repair.shells();
+    reading.on_shells = [&](const std::string& text) {
+      progress.Clear();
+      if (!options.quiet) PrintMessage(kValidateName, options.object_path + ": " + text);
+    };
     task.object = options.repair.wanted()
                       ? repair::ReadRepaired(options.object_path, options.repair.Get(), reading)
                       : object::ReadObject(options.object_path, reading);

@@ -18,6 +18,7 @@ set(regrasp_slow_tests
   apps.reach
   apps.real_meshes
   apps.repair
+  apps.shells
   apps.smooth_models
   apps.trials
   apps.validate

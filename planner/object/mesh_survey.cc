@@ -5,7 +5,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <map>
-#include <numbers>
+#include <numeric>
 #include <set>
 #include <span>
 
@@ -16,6 +16,7 @@
 #include "planner/object/same_corners.h"
 #include "planner/object/self_intersection.h"
 #include "planner/object/size_limits.h"
+#include "planner/object/surface_parts.h"
 #include "planner/object/triangle_mesh.h"
 #include "planner/object/weld.h"
 
@@ -88,84 +89,12 @@ void SurveyBorders(const WeldedSoup& soup, const std::vector<EdgeSide>& sides, M
   survey.borders = static_cast<int>(length.size());
 }
 
-/// The connected parts of the surface: at an edge with more than two facets nothing is joined.
-struct Parts {
-  std::vector<int> of_facet;  ///< −1: the facet is dropped
-  std::vector<bool> closed;
-  std::vector<std::vector<int>> facets;
-};
-
-Parts FindParts(const WeldedSoup& soup, const std::vector<EdgeSide>& sides) {
-  Sets joined(soup.facets.size());
-  ForEachEdge(sides, [&](std::span<const EdgeSide> edge) {
-    if (edge.size() == 2) joined.union_set(edge[0].facet, edge[1].facet);
-  });
-  Parts parts{std::vector<int>(soup.facets.size(), -1), {}, {}};
-  std::vector<int> number(soup.facets.size(), -1);  // of the part that a set is
-  for (int f = 0; f < std::ssize(soup.facets); ++f) {
-    if (soup.facets[f].empty()) continue;
-    int& part = number[joined.find_set(f)];
-    if (part < 0) {
-      part = static_cast<int>(parts.facets.size());
-      parts.facets.emplace_back();
-    }
-    parts.of_facet[f] = part;
-    parts.facets[part].push_back(f);
-  }
-  // A part is closed where its facets run along each edge as often one way as the other.
-  parts.closed.assign(parts.facets.size(), true);
-  std::map<int, int> balance;
-  ForEachEdge(sides, [&](std::span<const EdgeSide> edge) {
-    balance.clear();
-    for (const EdgeSide& side : edge) balance[parts.of_facet[side.facet]] += side.forward ? 1 : -1;
-    for (const auto& [part, sum] : balance) {
-      if (sum != 0) parts.closed[part] = false;
-    }
-  });
-  return parts;
-}
-
-/// Calls `visit` with the corners of the triangles of a fan of each facet.
-template <class Visit>
-void ForEachFanTriangle(const WeldedSoup& soup, const std::vector<int>& facets,
-                        const Visit& visit) {
-  for (const int f : facets) {
-    const std::vector<int>& corners = soup.facets[f];
-    for (std::size_t k = 2; k < corners.size(); ++k) {
-      visit(soup.vertices[corners[0]], soup.vertices[corners[k - 1]], soup.vertices[corners[k]]);
-    }
-  }
-}
-
-double VolumeOf(const WeldedSoup& soup, const std::vector<int>& facets) {
-  const Vector3d from = soup.vertices[soup.facets[facets[0]][0]];
-  double volume = 0;
-  ForEachFanTriangle(soup, facets, [&](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-    volume += (a - from).dot((b - from).cross(c - from)) / 6;
-  });
-  return volume;
-}
-
-/// How often a closed shell winds about a point that is not on it: the sum of the solid angles
-/// (Van Oosterom, Strackee 1983) over 4π.
-double WindingNumber(const WeldedSoup& soup, const std::vector<int>& facets,
-                     const Vector3d& point) {
-  double half_angles = 0;
-  ForEachFanTriangle(soup, facets, [&](const Vector3d& p, const Vector3d& q, const Vector3d& r) {
-    const Vector3d a = p - point, b = q - point, c = r - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    half_angles +=
-        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  });
-  return half_angles / (2 * std::numbers::pi);
-}
-
 /// No more triangles are summed up to find which shells lie inside another: half a second.
 constexpr std::size_t kMostSolidAngles = 10'000'000;
 
 /// Finds the closed shells that lie inside another without meeting it.
 /// @param part  of each shell.
-void FindInside(const WeldedSoup& soup, const Parts& parts, const std::vector<int>& part,
+void FindInside(const WeldedSoup& soup, const SurfaceParts& parts, const std::vector<int>& part,
                 MeshSurvey& survey) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const int p : part) {
@@ -194,7 +123,8 @@ void FindInside(const WeldedSoup& soup, const Parts& parts, const std::vector<in
 }
 
 /// The closed parts, the largest first, and which shell each part is.
-std::vector<int> CollectShells(const WeldedSoup& soup, const Parts& parts, MeshSurvey& survey) {
+std::vector<int> CollectShells(const WeldedSoup& soup, const SurfaceParts& parts,
+                               MeshSurvey& survey) {
   std::vector<std::pair<int, double>> found;
   for (int p = 0; p < std::ssize(parts.facets); ++p) {
     if (parts.closed[p]) found.emplace_back(p, VolumeOf(soup, parts.facets[p]));
@@ -211,8 +141,8 @@ std::vector<int> CollectShells(const WeldedSoup& soup, const Parts& parts, MeshS
   return part;
 }
 
-void SurveyCrossings(const TriangleMesh& mesh, const Parts& parts, const std::vector<int>& part,
-                     const Deadline& deadline, MeshSurvey& survey) {
+void SurveyCrossings(const TriangleMesh& mesh, const SurfaceParts& parts,
+                     const std::vector<int>& part, const Deadline& deadline, MeshSurvey& survey) {
   std::vector<int> shell_of_part(parts.facets.size(), -1);
   for (std::size_t s = 0; s < part.size(); ++s) shell_of_part[part[s]] = static_cast<int>(s);
   const auto shell_of = [&](TriangleIndex t) {
@@ -249,13 +179,23 @@ std::string ShellsText(const MeshSurvey& survey) {
             " of them overlap, ";
   }
   if (inside > 0) text += least + Count(inside, "lies", "lie") + " inside another, ";
-  double sum = 0;
-  for (const ClosedShell& shell : survey.shells) sum += std::abs(shell.volume);
-  const double share = sum > 0 ? 100 * std::abs(survey.shells[0].volume) / sum : 0;
-  return text + "the largest has " + std::to_string(std::lround(share)) + " % of the volume)";
+  std::vector<double> volumes;
+  for (const ClosedShell& shell : survey.shells) volumes.push_back(std::abs(shell.volume));
+  return text + "with " + SharesText(volumes) + " of the volume)";
 }
 
 }  // namespace
+
+std::string SharesText(const std::vector<double>& volumes) {
+  constexpr std::size_t kListed = 5;
+  const double sum = std::reduce(volumes.begin(), volumes.end());
+  std::string list;
+  for (std::size_t i = 0; i < std::min(volumes.size(), kListed); ++i) {
+    const double percent = sum > 0 ? 100 * volumes[i] / sum : 0;
+    list += (i == 0 ? "" : ", ") + FormatShort(percent, 3) + " %";
+  }
+  return volumes.size() > kListed ? list + ", …" : list;
+}
 
 MeshSurvey SurveyMesh(const PolygonSoup& soup, const Deadline& deadline) {
   MeshSurvey survey;
@@ -268,7 +208,7 @@ MeshSurvey SurveyMesh(const PolygonSoup& soup, const Deadline& deadline) {
   deadline.Check();
   const std::vector<EdgeSide> sides = SortedEdgeSides(welded.facets, welded.vertices.size());
   SurveyBorders(welded, sides, survey);
-  const Parts parts = FindParts(welded, sides);
+  const SurfaceParts parts = FindParts(welded, sides);
   const std::vector<int> part = CollectShells(welded, parts, survey);
   SurveyCrossings(mesh, parts, part, deadline, survey);
   FindInside(welded, parts, part, survey);

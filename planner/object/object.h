@@ -42,7 +42,8 @@ struct Face {
 /// A *face* is a maximal set of coplanar neighbouring facets in space, an edge in the plane. Planar
 /// objects live in the plane z = 0 of the same vectors, so that contacts, plans, the checker and
 /// the pictures are written once. All lengths are the object file's own units. An Object is valid
-/// by construction: closed, oriented, free of self-intersection, one solid. It does not change.
+/// by construction: closed, oriented, free of self-intersection, one solid, or several that are
+/// asked for as one rigid body (shells.h). It does not change.
 class Object {
  public:
   virtual ~Object() = default;

@@ -10,6 +10,7 @@
 #include "planner/object/face_joining.h"
 #include "planner/object/face_tree.h"
 #include "planner/object/facet_triangulation.h"
+#include "planner/object/largest_shell.h"
 #include "planner/object/mend_soup.h"
 #include "planner/object/mesh_survey.h"
 #include "planner/object/patch_normal.h"
@@ -45,7 +46,8 @@ void CheckEdges(const TriangleMesh& mesh, double diameter, const std::string& na
 
 /// Faces as the sums of their facets: the normals are not of length 1 yet.
 std::vector<Face> AddFacets(const TriangleMesh& mesh, const SurfaceTopology& topology,
-                            const std::vector<FaceIndex>& face_of_triangle, int outside) {
+                            const std::vector<FaceIndex>& face_of_triangle,
+                            const std::vector<bool>& enclosed) {
   std::vector<Face> faces(1 + *std::ranges::max_element(face_of_triangle));
   const auto face_beyond = [&](TriangleIndex t, int k) {
     return face_of_triangle[topology.neighbor[t][k]];
@@ -62,7 +64,7 @@ std::vector<Face> AddFacets(const TriangleMesh& mesh, const SurfaceTopology& top
     const Vector3d vector = DoubleAreaVector(mesh, t) / 2;
     face.inward_normal -= vector;
     face.measure += vector.norm();
-    face.enclosed = topology.shell[t] != outside;
+    face.enclosed = enclosed[topology.shell[t]];
     for (int k = 0; k < 3; ++k) {
       const int from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
       const FaceIndex beyond = face_beyond(t, k);
@@ -74,12 +76,12 @@ std::vector<Face> AddFacets(const TriangleMesh& mesh, const SurfaceTopology& top
   return faces;
 }
 
-/// @param outside  the shell that is no cavity.
+/// @param enclosed  of each shell.
 /// @throws MeshError  kBadSize where a face has no normal.
 std::vector<Face> MakeFaces(const TriangleMesh& mesh, const SurfaceTopology& topology,
-                            const std::vector<FaceIndex>& face_of_triangle, int outside,
-                            const std::string& name) {
-  std::vector<Face> faces = AddFacets(mesh, topology, face_of_triangle, outside);
+                            const std::vector<FaceIndex>& face_of_triangle,
+                            const std::vector<bool>& enclosed, const std::string& name) {
+  std::vector<Face> faces = AddFacets(mesh, topology, face_of_triangle, enclosed);
   for (FaceIndex f{0}; f < std::ssize(faces); ++f) {
     Vector3d& normal = faces[f].inward_normal;
     if (!(normal.stableNorm() > kLeastFlatness * faces[f].measure)) {
@@ -126,14 +128,24 @@ Surface MakeSurface(const WeldedSoup& soup, double diameter, const std::string& 
   return {std::move(mesh), std::move(topology), diameter};
 }
 
+/// Of all shells, or of the largest where that is chosen.
+Surface MakeChosenSurface(const WeldedSoup& soup, const std::string& name, const Reading& reading) {
+  std::optional<LargestShell> largest;
+  if (reading.shells == Shells::kLargest) largest = FindLargestShell(soup);
+  const WeldedSoup& chosen = largest ? largest->soup : soup;
+  Surface surface = MakeSurface(chosen, DiameterOf(chosen, name), name);
+  if (largest) reading.on_shells(largest->text);
+  return surface;
+}
+
 /// Only a soup that is no such surface is mended: one that is stays as it is, to the bit.
-Surface MakeMendedSurface(WeldedSoup soup, double diameter, const std::string& name) {
+Surface MakeMendedSurface(WeldedSoup soup, const std::string& name, const Reading& reading) {
   try {
-    return MakeSurface(soup, diameter, name);
+    return MakeChosenSurface(soup, name, reading);
   } catch (const MeshError&) {
-    if (!MendSoup(soup, diameter)) throw;
+    if (!MendSoup(soup, DiameterOf(soup, name))) throw;
   }
-  return MakeSurface(soup, DiameterOf(soup, name), name);
+  return MakeChosenSurface(soup, name, reading);
 }
 
 /// Whether a defect is one of those that SurveyMesh counts.
@@ -152,13 +164,27 @@ bool IsSurveyed(MeshDefect defect) {
   }
 }
 
+/// Which choice among several closed shells would help.
+std::string ShellsHint(MeshDefect first, const MeshSurvey& survey, std::optional<Shells> choice) {
+  if (survey.shells.size() < 2) return "";
+  if (first == MeshDefect::kSeveralSolids) {
+    return "; --shells union takes all of them as one body, --shells largest the largest alone";
+  }
+  const bool overlap = std::ranges::any_of(survey.shells, &ClosedShell::overlaps);
+  if (!overlap || survey.open_parts > 0) return "";
+  return choice == Shells::kUnion ? "; --shells union takes shells that do not meet; --repair "
+                                    "makes one body of those that do"
+                                  : "; --shells largest would take the largest shell alone";
+}
+
 /// What was found first, and then all that is wrong.
 MeshError WithSurvey(const MeshError& first, const PolygonSoup& soup, const Reading& reading) {
   try {
     if (!reading.counts_defects || !IsSurveyed(first.defect())) return first;
     reading.Begin("counting what is wrong with " + std::to_string(soup.facets.size()) + " facets");
-    const std::string all = SurveyText(SurveyMesh(soup, reading.deadline));
-    return {first.defect(), first.what() + ("; in all " + all)};
+    const MeshSurvey survey = SurveyMesh(soup, reading.deadline);
+    return {first.defect(), first.what() + ("; in all " + SurveyText(survey)) +
+                                ShellsHint(first.defect(), survey, reading.shells)};
   } catch (const TimeUp&) {
     return first;
   }
@@ -189,16 +215,16 @@ Polyhedron Polyhedron::Check(const PolygonSoup& soup, const std::string& name,
   const std::string facets = std::to_string(soup.facets.size()) + " facets";
   reading.Begin("checking " + facets);
   WeldedSoup welded = WeldVertices(soup, name);
-  const double first_diameter = DiameterOf(welded, name);
   reading.Begin("triangulating " + facets);
-  auto [mesh, topology, diameter] = MakeMendedSurface(std::move(welded), first_diameter, name);
+  auto [mesh, topology, diameter] = MakeMendedSurface(std::move(welded), name, reading);
   reading.Begin("looking for intersections of " + facets);
   CheckSelfIntersection(mesh, name, reading.deadline);
   reading.Begin("joining " + facets + " to faces");
-  const int outside = OrientSolid(mesh, topology, name);
+  const SolidShells shells = OrientSolid(mesh, topology, reading.shells, name);
+  if (!shells.text.empty()) reading.on_shells(shells.text);
   std::vector<FaceIndex> face_of_triangle =
       JoinCoplanarFacets(mesh, topology, diameter, soup.invented);
-  std::vector<Face> faces = MakeFaces(mesh, topology, face_of_triangle, outside, name);
+  std::vector<Face> faces = MakeFaces(mesh, topology, face_of_triangle, shells.enclosed, name);
   MarkInvented(mesh, face_of_triangle, soup.invented, faces);
   for (Face& face : faces) {
     face.barred = face.enclosed || (face.invented && !reading.allow_invented);

@@ -50,6 +50,10 @@ ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
   const std::string ending = LowerCase(path.extension().string());
   ObjectFile file{path.filename().string(), Sha256(bytes), nullptr};
   if (ending == ".wkt") {
+    if (reading.shells) {
+      throw InputError(path.string() +
+                       ": a polygon, which has no shells to choose from (--shells)");
+    }
     file.object = std::make_unique<Polygon>(Polygon::FromWkt(bytes, path.string()));
   } else {
     const PolygonSoup soup = ParseSoup(path, ending, bytes, reading.deadline);

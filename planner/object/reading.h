@@ -8,6 +8,7 @@
 
 #include "planner/base/deadline.h"
 #include "planner/object/object.h"
+#include "planner/object/shells.h"
 
 namespace regrasp::object {
 
@@ -28,6 +29,10 @@ struct Reading {
   std::optional<FeltPatch> patch = std::nullopt;  ///< places that are rough by it take no fingers
   bool allow_invented = false;                    ///< faces that a repair invented take fingers
   bool counts_defects = true;  ///< a refusal counts all that is wrong (mesh_survey.h)
+  std::optional<Shells> shells = std::nullopt;  ///< a surface that is accepted without: no matter
+  /// Told in words what became of several closed shells, where it is not what it is without a
+  /// choice.
+  std::function<void(const std::string&)> on_shells = [](const std::string&) {};
 
   /// Between two stages; they are not interrupted, but for assimp, whose process is ended.
   /// @throws TimeUp  the deadline came.

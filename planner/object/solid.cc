@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "planner/object/mesh_defect.h"
 #include "planner/object/surface_mesh.h"
@@ -50,10 +51,14 @@ double Extent(const CGAL::Bbox_3& box) {
   return std::max({box.x_span(), box.y_span(), box.z_span()});
 }
 
-void Turn(TriangleMesh& mesh, SurfaceTopology& topology) {
-  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  // Edges 0→1, 1→2, 2→0 have become 1→0, 2→1, 0→2 and start at corners 2, 1, 0.
-  for (auto& neighbor : topology.neighbor) std::swap(neighbor[0], neighbor[2]);
+/// @param turned  of each shell whether it is turned.
+void Turn(TriangleMesh& mesh, SurfaceTopology& topology, const std::vector<bool>& turned) {
+  for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
+    if (!turned[topology.shell[t]]) continue;
+    std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    // Edges 0→1, 1→2, 2→0 have become 1→0, 2→1, 0→2 and start at corners 2, 1, 0.
+    std::swap(topology.neighbor[t][0], topology.neighbor[t][2]);
+  }
 }
 
 /// Says of points whether they are inside a shell. Shells do not touch, so one vertex of another
@@ -109,22 +114,124 @@ void CheckCavities(const TriangleMesh& mesh, const std::vector<Shell>& shells, s
   }
 }
 
+/// What the shells are of the union of all solids.
+struct Union {
+  std::vector<bool> turned;    ///< inside out, as the file has them
+  std::vector<bool> kept;      ///< they bound it
+  std::vector<bool> enclosed;  ///< they lie inside another
+  int solids = 0;              ///< of those that are kept the ones that are no cavities
+};
+
+/// Shells do not touch, so that those about one are in each other in turn. Counted from outside,
+/// the surface winds about what lies between two of them once more or once less; where that is 0
+/// there is no material.
+Union FindUnion(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
+  std::vector<std::size_t> order(shells.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::ranges::greater(),
+                           [&](std::size_t s) { return std::abs(shells[s].volume); });
+  std::vector<std::unique_ptr<Inside>> inside;
+  for (const Shell& shell : shells) inside.push_back(std::make_unique<Inside>(mesh, shell));
+  Union all{std::vector<bool>(shells.size()), std::vector<bool>(shells.size()),
+            std::vector<bool>(shells.size())};
+  std::vector<int> sign(shells.size());
+  for (auto here = order.begin(); here != order.end(); ++here) {
+    const std::size_t s = *here;
+    int winding = 0;
+    for (auto about = order.begin(); about != here; ++about) {
+      if (!inside[*about]->Contains(shells[s])) continue;
+      all.turned[s] = all.turned[*about];  // at last that of the innermost
+      all.enclosed[s] = true;
+      winding += sign[*about];
+    }
+    // What has nothing about it cannot be a cavity.
+    if (winding == 0) all.turned[s] = shells[s].volume < 0;
+    sign[s] = (shells[s].volume < 0) == all.turned[s] ? 1 : -1;
+    all.kept[s] = (winding > 0) != (winding + sign[s] > 0);
+    all.solids += all.kept[s] && sign[s] > 0;
+  }
+  return all;
+}
+
+/// Drops the vertices that no triangle has; the others keep their order.
+void DropUnusedVertices(TriangleMesh& mesh) {
+  std::vector<int> number(mesh.vertices.size(), -1);
+  for (const auto& triangle : mesh.triangles) {
+    for (const int v : triangle) number[v] = 0;
+  }
+  int next = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    mesh.vertices[next] = mesh.vertices[v];
+    mesh.vertex_in_file[next] = mesh.vertex_in_file[v];
+    number[v] = next++;
+  }
+  mesh.vertices.resize(next);
+  mesh.vertex_in_file.resize(next);
+  for (auto& triangle : mesh.triangles) {
+    for (int& v : triangle) v = number[v];
+  }
+}
+
+/// Drops the triangles of shells that are not kept.
+void Keep(TriangleMesh& mesh, const SurfaceTopology& topology, const std::vector<bool>& kept) {
+  const auto keep = [&](auto& of_triangles) {
+    std::size_t next = 0;
+    for (TriangleIndex t{0}; t < std::ssize(topology.shell); ++t) {
+      if (kept[topology.shell[t]]) of_triangles[next++] = of_triangles[t];
+    }
+    of_triangles.resize(next);
+  };
+  keep(mesh.triangles);
+  keep(mesh.facet_of_triangle);
+  keep(mesh.flat_of_triangle);
+  DropUnusedVertices(mesh);
+}
+
+SolidShells Unite(TriangleMesh& mesh, SurfaceTopology& topology, const std::vector<Shell>& shells,
+                  const std::string& name) {
+  const Union all = FindUnion(mesh, shells);
+  const auto left_out = std::ranges::count(all.kept, false);
+  Turn(mesh, topology, all.turned);
+  SolidShells result;
+  // Shells keep their order, and so their numbers, but for those that are left out.
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    if (all.kept[s]) result.enclosed.push_back(all.enclosed[s]);
+  }
+  if (left_out > 0) {
+    Keep(mesh, topology, all.kept);
+    topology = ComputeTopology(mesh, name);
+  }
+  if (all.solids == 1 && left_out == 0) return result;
+  result.text = std::to_string(shells.size()) + " closed shells are one body of " +
+                std::to_string(all.solids) + (all.solids == 1 ? " solid" : " solids");
+  if (left_out > 0) {
+    result.text += "; " + std::to_string(left_out) + (left_out == 1 ? " lies" : " lie") +
+                   " in its material and bound" + (left_out == 1 ? "s" : "") + " nothing";
+  }
+  return result;
+}
+
 }  // namespace
 
-int OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology, const std::string& name) {
+SolidShells OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology, std::optional<Shells> choice,
+                        const std::string& name) {
   const std::vector<Shell> shells = CollectShells(mesh, topology);
   const auto largest = std::ranges::max_element(
       shells, {}, [](const Shell& shell) { return std::abs(shell.volume); });
   if (std::abs(largest->volume) <= kVolumeRounding * largest->area * Extent(largest->box)) {
     throw MeshError(MeshDefect::kEmpty, name + ": empty: the surface encloses no volume");
   }
+  if (choice == Shells::kUnion) return Unite(mesh, topology, shells, name);
   const double orientation = largest->volume > 0 ? 1 : -1;
   const auto outside = largest - shells.begin();
   if (shells.size() > 1) {
     CheckCavities(mesh, shells, static_cast<std::size_t>(outside), orientation, name);
   }
-  if (orientation < 0) Turn(mesh, topology);
-  return static_cast<int>(outside);
+  if (orientation < 0) Turn(mesh, topology, std::vector<bool>(shells.size(), true));
+  SolidShells result{std::vector<bool>(shells.size(), true), ""};
+  result.enclosed[outside] = false;
+  return result;
 }
 
 }  // namespace regrasp::object

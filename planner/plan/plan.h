@@ -10,6 +10,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
 #include "planner/object/object.h"
+#include "planner/object/shells.h"
 
 namespace regrasp::plan {
 
@@ -96,6 +97,8 @@ struct Plan {
   std::string object_sha256;
   /// Where the object is a solid that a repair made of the file's surface.
   std::optional<object::RepairRecord> repair = std::nullopt;
+  /// What was made of several closed shells, where that was asked.
+  std::optional<object::Shells> shells = std::nullopt;
   double scale = 1;  ///< metres per unit of the object's file
   int dimension = 3;
   double half_angle = 0;  ///< friction half-angle, radians

@@ -99,6 +99,14 @@ Json RepairJson(const object::RepairRecord& repair) {
   return json;
 }
 
+constexpr char kUnion[] = "union";
+constexpr char kLargest[] = "largest";
+
+object::Shells ReadShells(const JsonReader& json) {
+  return json.OneOf({kUnion, kLargest}) == kUnion ? object::Shells::kUnion
+                                                  : object::Shells::kLargest;
+}
+
 void ReadObjectPart(const JsonReader& json, Plan& plan) {
   plan.object_file = json.Member("file").String();
   if (plan.object_file.find('\0') != std::string::npos) {
@@ -110,6 +118,7 @@ void ReadObjectPart(const JsonReader& json, Plan& plan) {
   if (!(plan.scale > 0)) json.Member("scale").Fail("must be positive");
   plan.dimension = json.Member("dimension").Integer(2, 3);
   if (json.Has("repair")) plan.repair = ReadRepair(json.Member("repair"));
+  if (json.Has("shells")) plan.shells = ReadShells(json.Member("shells"));
 }
 
 double ReadHalfAngle(const JsonReader& json) {
@@ -249,6 +258,9 @@ std::string FormatPlan(const Plan& plan) {
                     {"scale", plan.scale},
                     {"dimension", plan.dimension}};
   if (plan.repair) json["object"]["repair"] = RepairJson(*plan.repair);
+  if (plan.shells) {
+    json["object"]["shells"] = *plan.shells == object::Shells::kUnion ? kUnion : kLargest;
+  }
   json["friction"]["half_angle_deg"] = WrittenDegrees(plan.half_angle);
   json["fingers"] = plan.fingers;
   json["planner"] = plan.planner;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <queue>
 
 #include "planner/repair/surface_distance.h"
@@ -58,10 +59,18 @@ double Radius(const Triangle& t) {
   return std::max({(t[0] - centre).norm(), (t[1] - centre).norm(), (t[2] - centre).norm()});
 }
 
-/// Its four similar parts.
-std::array<Triangle, 4> Quarters(const Triangle& t) {
-  const Vector3d a = (t[1] + t[2]) / 2, b = (t[2] + t[0]) / 2, c = (t[0] + t[1]) / 2;
-  return {Triangle{t[0], c, b}, Triangle{c, t[1], a}, Triangle{b, a, t[2]}, Triangle{a, b, c}};
+/// Its two parts, cut across the longest edge: slivers then need as many parts as they are long,
+/// and not the square of it.
+std::array<Triangle, 2> Halves(const Triangle& t) {
+  std::size_t longest = 0;
+  double length = -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double edge = (t[(k + 1) % 3] - t[k]).squaredNorm();
+    if (edge > length) length = edge, longest = k;
+  }
+  const Vector3d &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
+  const Vector3d middle = (a + b) / 2;
+  return {Triangle{a, middle, c}, Triangle{middle, b, c}};
 }
 
 struct Sample {
@@ -103,32 +112,47 @@ double Mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
-/// The largest distance from above. The distance to a surface changes by no more than one goes, so
-/// that a piece of a facet has none beyond its centre's plus its radius; the piece that may have
-/// the largest is cut into four until it cannot matter.
+/// The largest distance of a triangle's points to a surface from above, by what is nearest to its
+/// centre. The distance to a surface changes by no more than one goes; and the one to a convex set,
+/// such as a single triangle, is largest at a corner.
+double FarthestOf(const Triangle& t, const SurfaceDistance& surface,
+                  const SurfaceDistance::Closest& nearest) {
+  double at_corners = 0;
+  for (const Vector3d& corner : t) {
+    at_corners = std::max(at_corners, surface.DistanceTo(corner, nearest));
+  }
+  return std::min(at_corners, (nearest.point - Centre(t)).norm() + Radius(t));
+}
+
+/// The largest distance from above: the piece of a facet that may have it is halved until it cannot
+/// matter.
 double BoundDistance(const PolygonSoup& from, const SurfaceDistance& to, double least,
                      double accuracy) {
   struct Piece {
     double bound;
     Triangle triangle;
+    SurfaceDistance::Closest closest;  ///< to its centre
     bool operator<(const Piece& other) const { return bound < other.bound; }
   };
   std::priority_queue<Piece> pieces;
   double largest = least;
   int looked = 0;
+  std::optional<SurfaceDistance::Closest> near;
   const auto look = [&](const Triangle& t) {
     ++looked;
-    const double distance = to.DistanceTo(Centre(t));
-    largest = std::max(largest, distance);
-    const double bound = distance + Radius(t);
-    if (bound > largest + accuracy) pieces.push({bound, t});
+    const Vector3d centre = Centre(t);
+    near = to.FindClosest(centre, near);
+    largest = std::max(largest, (near->point - centre).norm());
+    const double bound = FarthestOf(t, to, *near);
+    if (bound > largest + accuracy) pieces.push({bound, t, *near});
   };
   for (std::size_t f = 0; f < from.facets.size(); ++f) look(TriangleOf(from, f));
   while (!pieces.empty() && pieces.top().bound > largest + accuracy) {
     if (looked > kMostPieces) return pieces.top().bound;
     const Triangle t = pieces.top().triangle;
+    near = pieces.top().closest;
     pieces.pop();
-    for (const Triangle& quarter : Quarters(t)) look(quarter);
+    for (const Triangle& half : Halves(t)) look(half);
   }
   return largest + accuracy;
 }
@@ -190,23 +214,25 @@ void CompareSeen(const PolygonSoup& solid, const std::vector<Sample>& samples,
 }
 
 /// True iff a point of the triangle, of those looked at, is farther than `distance`.
-bool ReachesBeyond(const Triangle& t, const SurfaceDistance& surface, double distance,
-                   double step) {
-  const double at_centre = surface.DistanceTo(Centre(t));
-  if (at_centre > distance) return true;
-  const double radius = Radius(t);
-  if (at_centre + radius <= distance || radius <= step) return false;
-  return std::ranges::any_of(
-      Quarters(t), [&](const Triangle& q) { return ReachesBeyond(q, surface, distance, step); });
+/// @param near  found for a point nearby; then for one of the triangle.
+bool ReachesBeyond(const Triangle& t, const SurfaceDistance& surface, double distance, double step,
+                   std::optional<SurfaceDistance::Closest>& near) {
+  near = surface.FindClosest(Centre(t), near);
+  if ((near->point - Centre(t)).norm() > distance) return true;
+  if (Radius(t) <= step || FarthestOf(t, surface, *near) <= distance) return false;
+  return std::ranges::any_of(Halves(t), [&](const Triangle& half) {
+    return ReachesBeyond(half, surface, distance, step, near);
+  });
 }
 
 void FindInvented(const PolygonSoup& solid, const SurfaceDistance& to_original, double diameter,
                   Comparison& comparison) {
   double area = 0, invented = 0;
+  std::optional<SurfaceDistance::Closest> near;
   for (std::size_t f = 0; f < solid.facets.size(); ++f) {
     const Triangle t = TriangleOf(solid, f);
     const bool is_invented =
-        ReachesBeyond(t, to_original, kInventedDistance * diameter, kInventedStep * diameter);
+        ReachesBeyond(t, to_original, kInventedDistance * diameter, kInventedStep * diameter, near);
     comparison.invented.push_back(is_invented);
     area += AreaVector(t).norm();
     if (is_invented) invented += AreaVector(t).norm();
@@ -225,11 +251,30 @@ double ThinShare(const std::vector<Sample>& samples, const SurfaceDistance& soli
 
 std::vector<double> Distances(const std::vector<Sample>& samples, const SurfaceDistance& to) {
   std::vector<double> distances;
-  for (const Sample& sample : samples) distances.push_back(to.DistanceTo(sample.point));
+  std::optional<SurfaceDistance::Closest> near;  // samples of a facet follow each other
+  for (const Sample& sample : samples) {
+    near = to.FindClosest(sample.point, near);
+    distances.push_back((near->point - sample.point).norm());
+  }
   return distances;
 }
 
 }  // namespace
+
+PolygonSoup OriginalOfPart(const PolygonSoup& original, const PolygonSoup& all,
+                           const PolygonSoup& part) {
+  /// What is nearest to both is the part's; coordinates may have been rounded.
+  constexpr double kSame = 1e-9;
+  const SurfaceDistance to_all(all), to_part(part);
+  PolygonSoup its{original.vertices, {}};
+  for (std::size_t f = 0; f < original.facets.size(); ++f) {
+    const Vector3d centre = Centre(TriangleOf(original, f));
+    if (to_part.DistanceTo(centre) <= to_all.DistanceTo(centre) * (1 + kSame)) {
+      its.facets.push_back(original.facets[f]);
+    }
+  }
+  return its;
+}
 
 Comparison Compare(const PolygonSoup& original, const PolygonSoup& solid, double diameter) {
   const SurfaceDistance to_original(original), to_solid(solid);

@@ -45,4 +45,11 @@ inline constexpr double kThinWall = 0.004;
 [[nodiscard]] Comparison Compare(const object::PolygonSoup& original,
                                  const object::PolygonSoup& solid, double diameter);
 
+/// Of an original what a part of its solids was made from: the facets whose centre is no nearer to
+/// another part.
+/// @param all  the part and all others.
+[[nodiscard]] object::PolygonSoup OriginalOfPart(const object::PolygonSoup& original,
+                                                 const object::PolygonSoup& all,
+                                                 const object::PolygonSoup& part);
+
 }  // namespace regrasp::repair

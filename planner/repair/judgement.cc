@@ -1,10 +1,10 @@
 #include "planner/repair/judgement.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include "planner/base/number.h"
 #include "planner/object/mesh_defect.h"
+#include "planner/object/mesh_survey.h"
 #include "planner/object/polyhedron.h"
 #include "planner/repair/repair.h"
 
@@ -14,22 +14,14 @@ namespace {
 
 std::string Percent(double share) { return FormatShort(100 * share, 3) + " %"; }
 
-/// "67.3 %, 30.2 %, 2.48 %", the first few of them.
-std::string SharesText(const std::vector<double>& shares) {
-  constexpr std::size_t kListed = 5;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(shares.size(), kListed); ++i) {
-    list += (i == 0 ? "" : ", ") + Percent(shares[i]);
-  }
-  return shares.size() > kListed ? list + ", …" : list;
-}
-
 }  // namespace
 
-Judgement JudgeSurface(const object::PolygonSoup& soup, const Deadline& deadline) {
+Judgement JudgeSurface(const object::PolygonSoup& soup, const object::Reading& asked) {
   object::Reading reading;
-  reading.deadline = deadline;
+  reading.deadline = asked.deadline;
   reading.counts_defects = false;
+  // The largest is taken by a stage, so that its original is known.
+  if (asked.shells == object::Shells::kUnion) reading.shells = asked.shells;
   const std::string name = "surface";
   try {
     (void)object::Polyhedron::FromSoup(soup, name, reading);
@@ -47,7 +39,9 @@ Judgement JudgeParts(const std::vector<double>& volume_shares,
   if (options.part || volume_shares.size() < 2 || volume_shares[1] <= kSmallPart) return {};
   return {Shortfall::kNotChosen,
           std::to_string(volume_shares.size()) + " solids beside each other, with " +
-              SharesText(volume_shares) + " of the volume; --part K takes one (1: the largest)"};
+              object::SharesText(volume_shares) +
+              " of the volume; --part K takes one (1: the largest), --shells union all as one "
+              "body"};
 }
 
 Judgement JudgeShape(const Comparison& comparison, const Original& original,

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/deadline.h"
 #include "planner/object/object.h"
 #include "planner/object/polygon_soup.h"
+#include "planner/object/reading.h"
 #include "planner/repair/comparison.h"
 #include "planner/repair/stage_report.h"
 
@@ -21,8 +21,11 @@ struct Judgement {
 };
 
 /// Whether the reader takes a surface: kNoSolid or kSeveralSolids where not.
+/// @param reading  its deadline, and whether several solids beside each other are taken as one body
+///                 (Shells::kUnion).
 /// @throws TimeUp  the deadline came.
-[[nodiscard]] Judgement JudgeSurface(const object::PolygonSoup& soup, const Deadline& deadline);
+[[nodiscard]] Judgement JudgeSurface(const object::PolygonSoup& soup,
+                                     const object::Reading& reading);
 
 /// Whether it is clear which one of several solids is meant; kNotChosen where not.
 /// @param volume_shares  of each, largest first.

@@ -1,5 +1,6 @@
 #include "planner/repair/ladder.h"
 
+#include <chrono>
 #include <functional>
 #include <string_view>
 #include <utility>
@@ -77,7 +78,7 @@ class Ladder {
     climbed_.attempt.stages.emplace_back();
     last().stage = "read";
     last().facets = soup_.facets.size();
-    if (!Passes(JudgeSurface(soup_, reading_.deadline))) return false;
+    if (!Passes(JudgeSurface(soup_, reading_))) return false;
     climbed_.solid = soup_;              // with the marks of an earlier repair
     climbed_.comparison.seen_share = 1;  // and all differences are none
     return true;
@@ -157,11 +158,17 @@ class Ladder {
     return coarse && Accepts(*coarse);
   }
 
+  /// How long a stage may take. What unites shells may go round for ever where they touch along
+  /// edges; it takes 5 s for 23,000 facets, and others come after it.
+  static std::chrono::seconds TimeOf(std::string_view stage) {
+    return stage == "unite-shells" ? std::chrono::seconds(60) : kStageTime;
+  }
+
   /// @returns nullopt where the stage failed; the report says so.
   std::optional<PolygonSoup> Run(const std::string& stage,
                                  const std::function<StageResult()>& task) {
     reading_.Begin("repairing " + name_ + ": " + stage);
-    StageRun run = RunStage(task, reading_.deadline);
+    StageRun run = RunStage(task, reading_.deadline, TimeOf(stage));
     StageReport& report = climbed_.attempt.stages.emplace_back();
     report.stage = stage;
     report.outcome = run.failure;
@@ -174,15 +181,20 @@ class Ladder {
   /// Judges what the last stage made, of several solids the one that is taken.
   /// @returns how it differs from the original, where nothing is wrong with it.
   std::optional<Comparison> Judge(PolygonSoup& soup) {
-    Judgement judgement = JudgeSurface(soup, reading_.deadline);
+    Judgement judgement = JudgeSurface(soup, reading_);
     Passes(judgement);
+    std::optional<PolygonSoup> its_original;
     if (judgement.shortfall == Shortfall::kSeveralSolids) {
+      const PolygonSoup all = soup;
       if (!TakesPart(soup)) return std::nullopt;
-      judgement = JudgeSurface(soup, reading_.deadline);
+      judgement = JudgeSurface(soup, reading_);
+      // What was asked to be left out is not missing.
+      if (options_.part) its_original = OriginalOfPart(original_.soup, all, soup);
     }
     if (!Passes(judgement)) return std::nullopt;
     reading_.Begin("repairing " + name_ + ": measuring what changed");
-    Comparison comparison = Compare(original_.soup, soup, original_.diameter);
+    Comparison comparison =
+        Compare(its_original ? *its_original : original_.soup, soup, original_.diameter);
     if (!Passes(JudgeShape(comparison, original_, options_))) return std::nullopt;
     return comparison;
   }

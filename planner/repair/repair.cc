@@ -62,7 +62,9 @@ NotRepaired::NotRepaired(const std::string& name, Attempt attempt)
     : InputError(RefusalText(name, attempt)), attempt_(std::move(attempt)) {}
 
 Repaired Repair(const PolygonSoup& soup, const std::string& name,
-                const object::RepairOptions& options, const object::Reading& reading) {
+                const object::RepairOptions& asked, const object::Reading& reading) {
+  object::RepairOptions options = asked;
+  if (reading.shells == object::Shells::kLargest) options.part = options.part.value_or(1);
   Climbed climbed = Climb(soup, name, options, reading);
   if (!climbed.solid) throw NotRepaired(name, std::move(climbed.attempt));
   Repaired repaired{std::move(climbed.attempt), *std::move(climbed.solid), 0,
@@ -75,6 +77,7 @@ Repaired Repair(const PolygonSoup& soup, const std::string& name,
   TurnOutwards(repaired.solid);
   object::Reading silent;
   silent.deadline = reading.deadline;
+  silent.shells = reading.shells;
   repaired.volume =
       object::Polyhedron::FromSoup(repaired.solid, name, silent).mass_properties().volume;
   return repaired;

@@ -47,7 +47,8 @@ class NotRepaired : public InputError {
 ///
 /// A surface that is a solid already comes out as it is (stage "read"). Deviation is
 /// Comparison::seen_most over the diameter. What an earlier repair marked as invented stays so. The
-/// same surface gives the same bytes.
+/// same surface gives the same bytes. With Reading::shells the union of solids beside each other is
+/// a solid too, and of several that are left the largest is the part that is taken.
 /// @param name  how messages call it.
 /// @throws NotRepaired  no stage gives such a solid.
 /// @throws TimeUp  the deadline came.

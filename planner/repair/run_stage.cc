@@ -10,10 +10,8 @@ namespace regrasp::repair {
 
 namespace {
 
-/// A stage takes seconds on a scan, a minute on a million facets.
-constexpr object::ChildLimits kLimits{.memory_bytes = std::size_t{8} << 30,
-                                      .processor = std::chrono::seconds(300),
-                                      .wall = std::chrono::minutes(10)};
+constexpr std::size_t kMemoryBytes = std::size_t{8} << 30;
+constexpr std::chrono::minutes kWallTime{10};
 
 /// The facts in one line, then the surface.
 std::string ToBytes(const StageResult& result) {
@@ -30,9 +28,11 @@ std::optional<StageResult> FromBytes(const std::string& bytes) {
 
 }  // namespace
 
-StageRun RunStage(const std::function<StageResult()>& stage, const Deadline& deadline) {
+StageRun RunStage(const std::function<StageResult()>& stage, const Deadline& deadline,
+                  std::chrono::seconds processor) {
   deadline.Check();
-  object::ChildLimits limits = kLimits;
+  object::ChildLimits limits{
+      .memory_bytes = kMemoryBytes, .processor = processor, .wall = kWallTime};
   if (const auto left = deadline.left()) {
     limits.wall = std::min(limits.wall, std::chrono::ceil<std::chrono::milliseconds>(*left));
   }

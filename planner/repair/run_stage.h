@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,10 +16,13 @@ struct StageRun {
   std::string failure;
 };
 
+/// Of processor time: a stage takes seconds on a scan, a minute on a million facets.
+inline constexpr std::chrono::seconds kStageTime{300};
+
 /// Runs a stage in a child process of limited time and memory.
 /// @throws TimeUp  the deadline came.
 /// @throws EnvironmentError  no process can be started.
-[[nodiscard]] StageRun RunStage(const std::function<StageResult()>& stage,
-                                const Deadline& deadline);
+[[nodiscard]] StageRun RunStage(const std::function<StageResult()>& stage, const Deadline& deadline,
+                                std::chrono::seconds processor = kStageTime);
 
 }  // namespace regrasp::repair

@@ -5,6 +5,7 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -51,9 +52,29 @@ SurfaceDistance::SurfaceDistance(const object::PolygonSoup& soup) : tree_(new Tr
 SurfaceDistance::~SurfaceDistance() = default;
 SurfaceDistance::SurfaceDistance(SurfaceDistance&&) noexcept = default;
 
-SurfaceDistance::Closest SurfaceDistance::FindClosest(const Eigen::Vector3d& point) const {
-  const auto [p, triangle] = tree_->tree.closest_point_and_primitive(ToPoint(point));
-  return {{p.x(), p.y(), p.z()}, tree_->facets[triangle - tree_->triangles.cbegin()]};
+SurfaceDistance::Closest SurfaceDistance::FindClosest(const Eigen::Vector3d& point,
+                                                      const std::optional<Closest>& near) const {
+  const Measuring::Point_3 query = ToPoint(point);
+  // The tree's own hint is a corner, far away where triangles are long.
+  auto hint = tree_->tree.best_hint(query);
+  const auto try_hint = [&](Triangles::const_iterator triangle) {
+    const Measuring::Point_3 p = Measuring().construct_projected_point_3_object()(*triangle, query);
+    if (CGAL::squared_distance(p, query) < CGAL::squared_distance(hint.first, query)) {
+      hint = {p, triangle};
+    }
+  };
+  try_hint(hint.second);
+  if (near) try_hint(tree_->triangles.cbegin() + near->triangle);
+  const auto [p, triangle] = tree_->tree.closest_point_and_primitive(query, hint);
+  const auto number = triangle - tree_->triangles.cbegin();
+  return {{p.x(), p.y(), p.z()}, tree_->facets[number], static_cast<int>(number)};
+}
+
+double SurfaceDistance::DistanceTo(const Eigen::Vector3d& point, const Closest& found) const {
+  const Measuring::Point_3 query = ToPoint(point);
+  return std::sqrt(CGAL::squared_distance(
+      Measuring().construct_projected_point_3_object()(tree_->triangles[found.triangle], query),
+      query));
 }
 
 bool SurfaceDistance::IsHit(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const {

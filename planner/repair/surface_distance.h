@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 
 #include "planner/object/polygon_soup.h"
 
@@ -19,8 +20,13 @@ class SurfaceDistance {
   struct Closest {
     Eigen::Vector3d point;
     int facet;
+    int triangle;  ///< by which the next search knows it
   };
-  [[nodiscard]] Closest FindClosest(const Eigen::Vector3d& point) const;
+  /// @param near  what was found for a point nearby: the search is as short as that is close.
+  [[nodiscard]] Closest FindClosest(const Eigen::Vector3d& point,
+                                    const std::optional<Closest>& near = std::nullopt) const;
+  /// The distance to the one triangle that was found for another point.
+  [[nodiscard]] double DistanceTo(const Eigen::Vector3d& point, const Closest& found) const;
   [[nodiscard]] Eigen::Vector3d ClosestPoint(const Eigen::Vector3d& point) const {
     return FindClosest(point).point;
   }

@@ -53,6 +53,30 @@ TEST(Comparison, OfABoxWithALargerOneKnowsTheDistances) {
   EXPECT_EQ(grown.thin_share, 0);
 }
 
+TEST(Comparison, OfAFacetThatIsCutAnewTheBoundIsTight) {
+  // A needle of a facet lies wholly on one of the original's: its corners say so at once.
+  PolygonSoup whole{{{0, 0, 0}, {1, 0, 0}, {0, 1e-4, 0}}, {{0, 1, 2}}};
+  PolygonSoup cut = whole;
+  cut.vertices.emplace_back(0.5, 0, 0);
+  cut.facets = {{0, 3, 2}, {3, 1, 2}};
+  const Comparison same = Compare(whole, cut, 1);
+  EXPECT_LE(same.to_original.bound, 1e-3 + 1e-12);
+  EXPECT_EQ(same.invented_share, 0);
+}
+
+TEST(Comparison, OfAPartOnlyItsOwnOriginalCounts) {
+  const PolygonSoup left = Box(1);
+  PolygonSoup right = left;
+  for (Eigen::Vector3d& v : right.vertices) v.x() += 5;
+  const PolygonSoup both = Join(left, right);
+  for (const PolygonSoup& part : {left, right}) {
+    const PolygonSoup its = OriginalOfPart(both, both, part);
+    EXPECT_EQ(its.facets.size(), part.facets.size());
+    EXPECT_NEAR(Compare(its, part, 1).to_solid.largest, 0, 1e-12);
+  }
+  EXPECT_GT(Compare(both, left, 1).to_solid.largest, 1);
+}
+
 TEST(Comparison, NormalsAreThoseOfTheNearestFacet) {
   PolygonSoup flat = BoxSoup({-1, -1, 0}, {1, 1, 1});
   flat.facets.resize(1);

@@ -1,0 +1,33 @@
+#include "planner/repair/surface_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/fixtures/soups.h"
+
+namespace regrasp::repair {
+namespace {
+
+using Eigen::Vector3d;
+using namespace regrasp::testing;  // NOLINT: the meshes of objects
+
+/// Law: what was found for another point, near or far, shortens the search and does not change what
+/// is found.
+TEST(SurfaceDistance, DoesNotDependOnWhatIsFoundFirst) {
+  const SurfaceDistance sphere(SphereSoup(12));
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> anywhere(-2, 2);
+  SurfaceDistance::Closest last = sphere.FindClosest({0, 0, -3});
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d point(anywhere(random), anywhere(random), anywhere(random));
+    const SurfaceDistance::Closest found = sphere.FindClosest(point, last);
+    EXPECT_NEAR((found.point - point).norm(), sphere.DistanceTo(point), 1e-12);
+    EXPECT_NEAR(sphere.DistanceTo(point, found), sphere.DistanceTo(point), 1e-12);
+    EXPECT_GE(sphere.DistanceTo(point, last), sphere.DistanceTo(point) - 1e-12);
+    last = found;
+  }
+}
+
+}  // namespace
+}  // namespace regrasp::repair
