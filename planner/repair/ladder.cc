@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/object/diameter.h"
+#include "planner/repair/canonical_order.h"
 #include "planner/repair/judgement.h"
 #include "planner/repair/run_stage.h"
 #include "planner/repair/soup_shells.h"
@@ -175,7 +176,7 @@ class Ladder {
     if (!run.result) return std::nullopt;
     report.facts = std::move(run.result->facts);
     report.facets = run.result->soup.facets.size();
-    return std::move(run.result->soup);
+    return InCanonicalOrder(run.result->soup);
   }
 
   /// Judges what the last stage made, of several solids the one that is taken.
