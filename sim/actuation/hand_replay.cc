@@ -37,6 +37,24 @@ constexpr double kDeepest = 4e-3;  // below the planned place
 constexpr double kTouched = 0.05;
 /// A finger that has left this far does as planned again, metres.
 constexpr double kClear = 2e-3;
+constexpr double kSlowest = 0.05;  ///< rad/s
+
+/// What servos may lag behind where they steer for while they carry the object, radians.
+constexpr double kMostLag = 0.025;
+
+/// So fast that no servo lags more: a damping c makes one of stiffness k lag by c / k times the
+/// speed.
+double CarryingSpeed(const HandWorld& world) {
+  double speed = kHeldJoints;
+  for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
+    for (int drive = 0; drive < world.hand().fingers[f].drives; ++drive) {
+      const DriveServo& servo = world.servo(f, drive);
+      const double damping = servo.damping + servo.joint_damping;
+      speed = std::min(speed, kMostLag * servo.stiffness / std::max(damping, 1e-9));
+    }
+  }
+  return std::max(speed, kSlowest);
+}
 
 /// The step fails; nothing more is to be done.
 struct StepFails {};
@@ -166,7 +184,7 @@ class Replay {
 
   void Move(const plan::HandPath& path) {
     judge_.SetPhase("during the move");
-    const TimedPath timed(path, kHeldJoints);
+    const TimedPath timed(path, CarryingSpeed(world_));
     const double duration = timed.duration();
     Run(duration, [&](double share) { state_ = timed.At(share * duration); });
   }

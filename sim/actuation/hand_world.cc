@@ -272,6 +272,12 @@ struct HandWorld::Impl {
     DriveServo& law = found.servo;
     law.derived = !servo;
     law.stiffness = servo ? -bias[1] * found.moment * found.moment : kServoStiffness;
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const kinematics::Joint& joint = finger.joints[k];
+      if (joint.drive != drive) continue;
+      law.joint_damping +=
+          joint.ratio * joint.ratio * model->dof_damping[model->jnt_dofadr[joints[k]]];
+    }
     law.damping = -bias[2] * found.moment * found.moment;
     if (!servo) law.damping = MakeCritical(finger, joints, drive, law.stiffness);
     // What is asked of a servo is a torque: its limit is that of its force, wherever the angle is

@@ -25,8 +25,9 @@ struct HandWorldOptions {
 
 /// The servo of a drive (kinematics::Finger::drives) as the hand's model has it.
 struct DriveServo {
-  double stiffness = 0;                                    ///< N m / rad
-  double damping = 0;                                      ///< N m s / rad, of the actuator alone
+  double stiffness = 0;      ///< N m / rad
+  double damping = 0;        ///< N m s / rad, of the actuator alone
+  double joint_damping = 0;  ///< N m s / rad, of the joints that it turns
   double limit = std::numeric_limits<double>::infinity();  ///< largest torque, N m
   bool derived = false;  ///< the model has no servo: its stiffness and damping are chosen here
 };
