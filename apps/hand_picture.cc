@@ -57,21 +57,41 @@ double MotionBetween(const HandState& a, const HandState& b) {
   return std::max(turn / kTurnPerPicture, way / kWayPerPicture);
 }
 
+/// A state on a path, and the share of the path's steps that are behind it.
+struct Passing {
+  HandState state;
+  double share;
+};
+
 /// States along a path, evenly spread, without its two ends.
-std::vector<HandState> Spread(const plan::HandPath& path) {
+std::vector<Passing> Spread(const plan::HandPath& path) {
   std::vector<double> along = {0};
   for (std::size_t i = 1; i < path.size(); ++i) {
     along.push_back(along.back() + MotionBetween(path[i - 1], path[i]));
   }
   const int count = std::min(kMostPictures, static_cast<int>(std::ceil(along.back())));
-  std::vector<HandState> states;
+  std::vector<Passing> states;
   for (int picture = 1; picture < count; ++picture) {
     const double at = along.back() * picture / count;
     const auto next = std::ranges::upper_bound(along, at) - along.begin();
     const double share = (at - along[next - 1]) / (along[next] - along[next - 1]);
-    states.push_back(plan::StateBetween(path[next - 1], path[next], share));
+    states.push_back(
+        {plan::StateBetween(path[next - 1], path[next], share),
+         (static_cast<double>(next - 1) + share) / static_cast<double>(path.size() - 1)});
   }
   return states;
+}
+
+/// Puts fingers to where they touch, the object as it begins (Snapshot::X_WO).
+void SetContacts(const plan::FingerGrasp& grasp, double scale, plan::Snapshot& snapshot) {
+  for (plan::FingerState& finger : snapshot.fingers) {
+    const plan::FingerContact* held = plan::FindFinger(grasp, finger.finger);
+    if (held == nullptr) continue;
+    const Vector3d from_contact = finger.tip_W - finger.contact_W;
+    finger.contact_W = scale * held->contact.p;
+    finger.tip_W = finger.contact_W + from_contact;
+    finger.normal_W = held->contact.n;
+  }
 }
 
 /// The fingers that hold, without what they did to come to it.
@@ -143,6 +163,8 @@ std::vector<HandState> HandPicture::StatesOf(const plan::Plan& plan) const {
       if (!path.empty() && Fits(path.back())) states.back() = path.back();
     };
     if (const auto* move = std::get_if<plan::Move>(&step)) take(move->path);
+    const auto* align = std::get_if<plan::Align>(&step);
+    if (align != nullptr && align->motion) std::ranges::for_each(*align->motion, take);
     const auto* change = std::get_if<plan::Switch>(&step);
     if (change == nullptr || !change->motion) continue;
     take(change->motion->place);
@@ -197,14 +219,29 @@ std::vector<plan::Snapshot> HandPicture::Between(plan::EntryIndex entry,
   std::vector<plan::Snapshot> pictures;
   const auto add = [&](const plan::HandPath& path, const plan::Snapshot& seen) {
     if (!std::ranges::all_of(path, [this](const HandState& state) { return Fits(state); })) return;
-    for (const HandState& state : Spread(path)) {
+    for (const auto& [state, share] : Spread(path)) {
       pictures.push_back(seen);
+      Stand(state, pictures.back());
+    }
+  };
+  const auto add_slide = [&](const plan::HandPath& path, const plan::FingerGrasp& from,
+                             const plan::FingerGrasp& to) {
+    if (!std::ranges::all_of(path, [this](const HandState& state) { return Fits(state); })) return;
+    for (const auto& [state, share] : Spread(path)) {
+      pictures.push_back(Holding(before));
+      SetContacts(plan::GraspBetween(from, to, share), plan_.scale, pictures.back());
       Stand(state, pictures.back());
     }
   };
   if (entry == 0) return pictures;
   const plan::Step& step = plan::StepOf(plan_, entry);
   if (const auto* move = std::get_if<plan::Move>(&step)) add(move->path, Holding(before));
+  if (const auto* align = std::get_if<plan::Align>(&step); align != nullptr && align->motion) {
+    const std::size_t ways = std::min(align->motion->size(), align->waypoints.size() - 1);
+    for (std::size_t w = 0; w < ways; ++w) {
+      add_slide((*align->motion)[w], align->waypoints[w], align->waypoints[w + 1]);
+    }
+  }
   const auto* change = std::get_if<plan::Switch>(&step);
   if (change == nullptr || !change->motion) return pictures;
   add(change->motion->place, Holding(before));

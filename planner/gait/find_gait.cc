@@ -214,7 +214,7 @@ GaitResult FindGait(const GaitRequest& request) {
   for (const kinematics::Finger& finger : request.hand->fingers) inverse.emplace_back(finger);
   const collision::SurfaceTree surface(*request.solid, request.scale);
   const HandScene scene(*request.hand, surface, request.margin);
-  const HandSetup setup{scene, inverse, points};
+  const HandSetup setup{scene, inverse, points, request.scale};
   const hand::Hand fingers{static_cast<int>(request.hand->fingers.size()),
                            LargestTip(*request.hand) / request.scale};
   criteria::GraspMemory memory(*request.solid, request.criteria, fingers,

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "planner/gait/keyframe.h"
+#include "planner/grasp/contact.h"
 
 namespace regrasp::gait {
 
@@ -22,11 +23,15 @@ struct Stretch {
     kMove,     ///< the object moves, held by all fingers that hold
     kPlace,    ///< a free finger comes to its contact
     kRelease,  ///< a finger leaves its contact
+    kSlide,    ///< a finger that holds slides to another contact
   };
   Kind kind = Kind::kMove;
-  FingerIndex finger;  ///< of kPlace and kRelease
-  int contact = kNone;
+  FingerIndex finger;   ///< that is placed, released or slides
+  int contact = kNone;  ///< that it comes to or leaves
   std::vector<Keyframe> path;
+  /// Of kSlide: the contacts that it passes, and of each the number of its keyframe.
+  std::vector<grasp::Contact> along = {};
+  std::vector<int> along_at = {};
 };
 
 /// A way of fingers and object from a rest to another one.

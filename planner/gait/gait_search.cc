@@ -1,8 +1,10 @@
 #include "planner/gait/gait_search.h"
 
 #include <algorithm>
+#include <array>
 
 #include "planner/gait/move_path.h"
+#include "planner/gait/slide_path.h"
 
 namespace regrasp::gait {
 namespace {
@@ -15,7 +17,16 @@ constexpr int kTriedContacts = 24;
 /// Of all contacts one in so many is looked at from one place, if that is enough.
 constexpr int kShares = 4;
 /// Rests taken up from one place.
-constexpr int kTakenUp = 6;
+constexpr int kTakenUp = 8;
+/// With the same fingers placed, released or sliding.
+constexpr int kTakenUpOfAKind = 2;
+/// Steps that a rest is put back for each one like it that was expanded.
+constexpr double kPutBackAlike = 0.2;
+/// Contacts this near each other are alike, metres.
+constexpr double kAlike = 0.02;
+/// How far a finger slides at once, metres.
+constexpr double kLongestSlide = 0.015;
+constexpr double kLongestSlideToGoal = 0.06;
 /// What the steps that single fingers could go on are worth, beside those that all go together.
 constexpr double kSingleFinger = 0.3;
 /// What a unit beside the track costs, in steps.
@@ -57,7 +68,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, const Parki
     : setup_(setup),
       grid_(grid),
       start_(ends.start),
-      goal_(ends.goal),
+      goal_(ends.goal, setup.points),
       most_holding_(static_cast<int>(std::max(
           {static_cast<std::size_t>(kFewestHolding), ends.start.size(), ends.goal.size()}))),
       memory_(memory),
@@ -65,6 +76,16 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, const Parki
       carrier_(setup, grid, parking),
       expanded_at_(grid.steps() + 1, 0) {
   counts_.steps = grid.steps();
+  std::vector<int> centres;
+  for (const SurfacePoint& point : setup.points) {
+    const auto found = std::ranges::find_if(centres, [&](int centre) {
+      return (setup.points[centre].p - point.p).norm() < kAlike &&
+             setup.points[centre].n.dot(point.n) > 0.7;
+    });
+    if (found == centres.end()) centres.push_back(static_cast<int>(cluster_.size()));
+    cluster_.push_back(found == centres.end() ? static_cast<int>(centres.size()) - 1
+                                              : static_cast<int>(found - centres.begin()));
+  }
   if (ends.goal.empty()) return;
   ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
     Hold hold{std::move(holding)};
@@ -161,6 +182,16 @@ void GaitSearch::AddFirstRests() {
   } while (std::ranges::prev_permutation(chosen).found);
 }
 
+const tree::SurfaceRoute* GaitSearch::RouteBetween(int from, int to) {
+  const auto [found, is_new] = routes_.try_emplace({from, to});
+  if (is_new)
+    found->second =
+        tree::FindSurfaceRoute(memory_.object(), memory_.contact(from), memory_.contact(to));
+  return found->second ? &*found->second : nullptr;
+}
+
+bool GaitSearch::CanSlide(int from, int to) { return RouteBetween(from, to) != nullptr; }
+
 std::vector<GaitSearch::Rest> GaitSearch::SwitchesFrom(const Rest& from, int node) {
   std::vector<Rest> found;
   const auto consider = [&](FingerIndex placed, int point, FingerIndex released) {
@@ -182,6 +213,19 @@ std::vector<GaitSearch::Rest> GaitSearch::SwitchesFrom(const Rest& from, int nod
     rest.score = ScoreOf(rest, last);
     found.push_back(std::move(rest));
   };
+  const auto slide = [&](FingerIndex finger, int point) {
+    Rest rest{.hold = from.hold, .node = node};
+    rest.slid = finger;
+    rest.hold.holding[finger] = point;
+    if (!IsGrasp(rest.hold.holding)) return;
+    int last = grid_.steps();
+    for (FingerIndex other{0}; other < setup_.scene.finger_count(); ++other) {
+      if (rest.hold.holding[other] == kNone) continue;
+      last = std::min(last, carrier_.reach().RunEnd(other, rest.hold.holding[other], node));
+    }
+    rest.score = ScoreOf(rest, last);
+    found.push_back(std::move(rest));
+  };
   const auto release_one = [&](FingerIndex placed, int point) {
     for (FingerIndex released{0}; released < setup_.scene.finger_count(); ++released) {
       if (from.hold.holding[released] != kNone) consider(placed, point, released);
@@ -199,6 +243,17 @@ std::vector<GaitSearch::Rest> GaitSearch::SwitchesFrom(const Rest& from, int nod
     }
   }
   if (most_holding_ > kFewestHolding) release_one({}, kNone);
+  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+    const int at = from.hold.holding[finger];
+    if (at == kNone) continue;
+    for (const Candidate& candidate : CandidatesAt(finger, node)) {
+      if (Holds(from.hold.holding, candidate.point)) continue;
+      const double far = (setup_.points[at].p - setup_.points[candidate.point].p).norm();
+      if (far > (candidate.is_goal ? kLongestSlideToGoal : kLongestSlide)) continue;
+      if (!CanSlide(at, candidate.point)) continue;
+      slide(finger, candidate.point);
+    }
+  }
   std::ranges::stable_sort(found, std::greater<>(), &Rest::score);
   return found;
 }
@@ -206,14 +261,22 @@ std::vector<GaitSearch::Rest> GaitSearch::SwitchesFrom(const Rest& from, int nod
 void GaitSearch::SwitchAt(int index, int node) {
   const Rest from = rests_[index];
   int taken = 0;
+  std::map<std::array<int, 3>, int> of_kind;
   for (Rest& rest : SwitchesFrom(from, node)) {
     if (taken == kTakenUp) break;
+    int& alike = of_kind[{rest.placed, rest.released, rest.slid}];
+    if (alike == kTakenUpOfAKind) continue;
     // The way there passes a grasp of all fingers.
     Hold all = rest.hold;
+    if (rest.slid.valid()) {
+      rest.parent = index;
+      if (Add(std::move(rest))) ++taken, ++alike;
+      continue;
+    }
     if (rest.released.valid()) all.holding[rest.released] = from.hold.holding[rest.released];
     if (!carrier_.IsPassable(all, rest.node)) continue;
     rest.parent = index;
-    if (Add(std::move(rest))) ++taken;
+    if (Add(std::move(rest))) ++taken, ++alike;
   }
 }
 
@@ -295,6 +358,31 @@ bool GaitSearch::Release(Rest& rest, const Keyframe& before) {
   return true;
 }
 
+bool GaitSearch::SlideTo(Rest& rest, const Keyframe& before) {
+  const FingerIndex finger = rest.slid;
+  const std::vector<int>& holding = rests_[rest.parent].hold.holding;
+  std::vector<int> grasp = {holding[finger]};
+  for (FingerIndex other{0}; other < setup_.scene.finger_count(); ++other) {
+    if (other != finger && holding[other] != kNone) grasp.push_back(holding[other]);
+  }
+  const int point = rest.hold.holding[finger];
+  const auto slide =
+      FindSlide(setup_, memory_, finger, grasp, *RouteBetween(holding[finger], point),
+                before.postures[finger], *carrier_.reach().Find(finger, point, rest.node),
+                Around(before, finger));
+  if (!slide) return false;
+  Stretch stretch{Stretch::Kind::kSlide, finger, point, {before}, slide->contacts, {0}};
+  for (const FingerPath& path : slide->paths) {
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      stretch.path.push_back(before);
+      stretch.path.back().postures[finger] = path[i];
+    }
+    stretch.along_at.push_back(static_cast<int>(stretch.path.size()) - 1);
+  }
+  rest.way.push_back(std::move(stretch));
+  return true;
+}
+
 const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int node) {
   const auto [found, is_new] = rest.moves.try_emplace(node);
   if (!is_new) return found->second;
@@ -306,27 +394,23 @@ const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int node) {
   });
   if (!beyond) {
     std::vector<Eigen::Isometry3d> poses;
-    for (std::size_t i = 1; i < path.size(); ++i) poses.push_back(grid_.PoseAt(path[i]));
-    auto move = FindMove(setup_, rest.hold.holding, rest.at, poses);
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) poses.push_back(grid_.PoseAt(path[i]));
+    auto move =
+        FindMove(setup_, rest.hold.holding, rest.at, poses, carrier_.FrameAt(rest.hold, node));
     if (move) found->second = std::move(*move);
   }
   if (found->second.empty()) ++counts_.no_move;
   return found->second;
 }
 
-/// From the parent's rest along its path, then the switch.
+/// The switch to this rest, from where its parent brought the object.
 bool GaitSearch::WorkOutWay(Rest& rest) {
-  if (rest.parent < 0) {
-    rest.at = carrier_.FrameAt(rest.hold, rest.node);
-    return true;
-  }
-  Rest& parent = rests_[rest.parent];
-  Keyframe frame = parent.at;
-  if (parent.node != rest.node) {
-    const std::vector<Keyframe>& move = MoveFrom(parent, rest.node);
-    if (move.empty()) return false;
-    frame = move.back();
-    rest.way.push_back({Stretch::Kind::kMove, {}, kNone, move});
+  rest.at = carrier_.FrameAt(rest.hold, rest.node);
+  if (rest.parent < 0) return true;
+  Keyframe frame = carrier_.FrameAt(rests_[rest.parent].hold, rest.node);
+  if (rest.slid.valid() && !SlideTo(rest, frame)) {
+    ++counts_.no_slide;
+    return false;
   }
   if (rest.placed.valid() && !Place(rest, Keyframe(frame), frame)) {
     ++counts_.no_path;
@@ -340,29 +424,44 @@ bool GaitSearch::WorkOutWay(Rest& rest) {
   return true;
 }
 
+bool GaitSearch::IsCutOff(const Rest& rest) const {
+  return rest.is_cut_off || (rest.parent >= 0 && IsCutOff(rests_[rest.parent]));
+}
+
 /// The whole gait, where a rest's path leads to the goal and is free.
 std::optional<Gait> GaitSearch::GaitFrom(int index) {
-  Rest& rest = rests_[index];
-  if (!grid_.IsGoal(rest.carried.end) || !goal_.IsHeldBy(rest.hold.holding)) return std::nullopt;
-  std::vector<Keyframe> last_move;
-  if (rest.carried.end != rest.node) {
-    last_move = MoveFrom(rest, rest.carried.end);
-    if (last_move.empty()) {
-      rest.carried.end = rest.carried.from.at(rest.carried.end);
-      return std::nullopt;
-    }
-  }
+  Rest& last = rests_[index];
+  if (!grid_.IsGoal(last.carried.end) || !goal_.IsHeldBy(last.hold.holding)) return std::nullopt;
   std::vector<int> chain;
   for (int i = index; i >= 0; i = rests_[i].parent) chain.push_back(i);
   std::ranges::reverse(chain);
   Gait gait{rests_[chain.front()].hold.holding, rests_[chain.front()].at, {}};
+  const auto move_to = [&](Rest& rest, int node) {
+    if (rest.node == node) return true;
+    const std::vector<Keyframe>& move = MoveFrom(rest, node);
+    if (!move.empty()) gait.stretches.push_back({Stretch::Kind::kMove, {}, kNone, move});
+    return !move.empty();
+  };
   for (const int i : chain) {
-    gait.stretches.insert(gait.stretches.end(), rests_[i].way.begin(), rests_[i].way.end());
+    Rest& rest = rests_[i];
+    if (rest.parent >= 0 && !move_to(rests_[rest.parent], rest.node)) {
+      rest.is_cut_off = true;
+      return std::nullopt;
+    }
+    gait.stretches.insert(gait.stretches.end(), rest.way.begin(), rest.way.end());
   }
-  if (!last_move.empty()) {
-    gait.stretches.push_back({Stretch::Kind::kMove, {}, kNone, std::move(last_move)});
+  if (!move_to(last, last.carried.end)) {
+    last.carried.end = last.carried.from.at(last.carried.end);
+    return std::nullopt;
   }
   return gait;
+}
+
+/// What a grasp has in common with those like it.
+Holding GaitSearch::KindOf(const Holding& holding) const {
+  Holding kind;
+  for (const int point : holding) kind.push_back(point == kNone ? kNone : cluster_[point]);
+  return kind;
 }
 
 int GaitSearch::PopNext() {
@@ -371,7 +470,8 @@ int GaitSearch::PopNext() {
     queue_.pop();
     const Rest& rest = rests_[top.rest];
     const double score = rest.score - kAnotherTurn * rest.turns -
-                         kPutBack * expanded_at_[grid_.StepOf(rest.carried.end)];
+                         kPutBack * expanded_at_[grid_.StepOf(rest.carried.end)] -
+                         kPutBackAlike * expanded_like_[KindOf(rest.hold.holding)];
     if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
     queue_.push({score, top.rest});
   }
@@ -391,6 +491,10 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     if (deadline.IsOver()) return std::nullopt;
     const int index = PopNext();
     Rest& rest = rests_[index];
+    if (IsCutOff(rest)) {
+      std::erase(taken_[rest.hold.holding], rest.node);
+      continue;
+    }
     if (rest.turns == 0 && (WasExpandedAt(rest) || !WorkOutWay(rest))) continue;
     rest.carried = carrier_.Around(
         rest.hold, rest.node, kPatience * (1 + rest.turns),
@@ -402,6 +506,7 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     counts_.farthest = std::max(counts_.farthest, last);
     ++counts_.expanded;
     ++expanded_at_[last];
+    ++expanded_like_[KindOf(rest.hold.holding)];
     Expand(index);
   }
   return std::nullopt;

@@ -15,6 +15,7 @@
 #include "planner/gait/goal_grasp.h"
 #include "planner/gait/hand_setup.h"
 #include "planner/gait/pose_grid.h"
+#include "planner/tree/surface_route.h"
 
 namespace regrasp::gait {
 
@@ -23,6 +24,7 @@ struct GaitCounts {
   std::int64_t grasps = 0;     ///< rests that were looked at
   std::int64_t expanded = 0;   ///< from which fingers were switched
   std::int64_t no_path = 0;    ///< switches for which a finger found no free path
+  std::int64_t no_slide = 0;   ///< slides that a finger could not follow, or that lose the object
   std::int64_t no_move = 0;    ///< moves that a finger could not follow, or that hit something
   std::int64_t colliding = 0;  ///< grasps in which fingers hit each other
   int farthest = 0;            ///< step of the track that was reached
@@ -67,8 +69,10 @@ class GaitSearch {
     double score = 0;
     int parent = -1;
     FingerIndex placed = {}, released = {};  ///< not valid: none
-    /// Worked out when its turn comes: from the parent's rest to this one.
+    FingerIndex slid = {};
+    /// Worked out when its turn comes: the switch, from where the parent brought the object.
     std::vector<Stretch> way = {};
+    bool is_cut_off = false;  ///< the parent can't bring it there
     /// Moves that were worked out, by where they lead; empty ones can't be done.
     std::map<int, std::vector<Keyframe>> moves = {};
     Keyframe at = {};  ///< at `node`
@@ -95,16 +99,21 @@ class GaitSearch {
   [[nodiscard]] std::vector<Rest> SwitchesFrom(const Rest& rest, int node);
   /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
   bool Add(Rest rest);
+  [[nodiscard]] bool CanSlide(int from, int to);
+  [[nodiscard]] const tree::SurfaceRoute* RouteBetween(int from, int to);
   [[nodiscard]] bool IsGrasp(const Holding& holding);
   [[nodiscard]] bool WasExpandedAt(const Rest& rest) const;
   [[nodiscard]] double ScoreOf(const Rest& rest, int last);
   [[nodiscard]] bool WorkOutWay(Rest& rest);
+  [[nodiscard]] bool IsCutOff(const Rest& rest) const;
+  [[nodiscard]] Holding KindOf(const Holding& holding) const;
   /// The next rest in turn.
   [[nodiscard]] int PopNext();
   /// The move with a rest's grasp to a node that it comes to; empty where it can't be done.
   [[nodiscard]] const std::vector<Keyframe>& MoveFrom(Rest& rest, int node);
   [[nodiscard]] bool Place(Rest& rest, const Keyframe& before, Keyframe& after);
   [[nodiscard]] bool Release(Rest& rest, const Keyframe& before);
+  [[nodiscard]] bool SlideTo(Rest& rest, const Keyframe& before);
   [[nodiscard]] Surroundings Around(const Keyframe& frame, FingerIndex moving) const;
   [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
@@ -117,11 +126,14 @@ class GaitSearch {
   criteria::GraspMemory& memory_;
   RandomStream& random_;
   Carrier carrier_;
+  std::map<std::pair<int, int>, std::optional<tree::SurfaceRoute>> routes_;
   std::vector<Rest> rests_;
   std::priority_queue<Waiting> queue_;
   /// Of each grasp the nodes at which it was taken up, and those that an expanded rest passes.
   std::map<Holding, std::vector<int>> taken_, passed_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
+  std::vector<int> cluster_;
+  std::map<Holding, int> expanded_like_;
   std::vector<int> expanded_at_;  ///< rests, by the step that they end at
   GaitCounts counts_;
   bool begun_ = false;

@@ -1,8 +1,17 @@
 #include "planner/gait/goal_grasp.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace regrasp::gait {
+namespace {
+
+/// What it costs not to be there, and metres along the surface that cost as much as a finger that
+/// does not hold at all.
+constexpr double kNear = 0.3;
+constexpr double kFar = 0.08;
+
+}  // namespace
 
 bool GoalGrasp::IsHeldBy(const Holding& holding) const {
   if (points_.empty()) return true;
@@ -12,13 +21,20 @@ bool GoalGrasp::IsHeldBy(const Holding& holding) const {
          });
 }
 
-int GoalGrasp::DistanceFrom(const Holding& holding) const {
-  int least = points_.empty() ? 0 : static_cast<int>(holding.size()) + 1;
+/// Of a finger that holds at one contact and should at another one.
+double GoalGrasp::DistanceBetween(int from, int to) const {
+  if (from == to) return 0;
+  if (from == kNone || to == kNone) return 1;
+  const double apart = (surface_[from].p - surface_[to].p).norm();
+  const double turned = 1 - surface_[from].n.dot(surface_[to].n);
+  return std::min(1.0, kNear + apart / kFar + turned / 2);
+}
+
+double GoalGrasp::DistanceFrom(const Holding& holding) const {
+  double least = points_.empty() ? 0 : std::numeric_limits<double>::infinity();
   for (const Holding& way : ways_) {
-    int distance = 0;
-    for (std::size_t i = 0; i < way.size(); ++i) {
-      distance += static_cast<int>(way[i] != holding[i]);
-    }
+    double distance = 0;
+    for (std::size_t i = 0; i < way.size(); ++i) distance += DistanceBetween(holding[i], way[i]);
     least = std::min(least, distance);
   }
   return least;

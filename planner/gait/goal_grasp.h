@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/gait/gait.h"
+#include "planner/gait/reach_map.h"
 
 namespace regrasp::gait {
 
@@ -11,8 +12,10 @@ namespace regrasp::gait {
 /// hold it.
 class GoalGrasp {
  public:
-  /// @param points  its contacts, by number; none: any grasp will do.
-  explicit GoalGrasp(std::vector<int> points) : points_(std::move(points)) {}
+  /// @param points   its contacts, by number; none: any grasp will do.
+  /// @param surface  what numbers mean; outlives this object.
+  GoalGrasp(std::vector<int> points, const std::vector<SurfacePoint>& surface)
+      : points_(std::move(points)), surface_(surface) {}
 
   /// A way that the hand can hold it, at the goal pose.
   void AddWay(Holding way) { ways_.push_back(std::move(way)); }
@@ -20,13 +23,16 @@ class GoalGrasp {
   [[nodiscard]] const std::vector<int>& points() const { return points_; }
   [[nodiscard]] bool IsWithinReach() const { return points_.empty() || !ways_.empty(); }
   [[nodiscard]] bool IsHeldBy(const Holding& holding) const;
-  /// Fingers that would have to be placed or lifted, at least.
-  [[nodiscard]] int DistanceFrom(const Holding& holding) const;
+  /// Fingers that are not where they should be, those that hold by how far they are from there.
+  [[nodiscard]] double DistanceFrom(const Holding& holding) const;
   /// Contacts that a finger may end with.
   [[nodiscard]] std::set<int> ContactsOf(FingerIndex finger) const;
 
  private:
+  [[nodiscard]] double DistanceBetween(int from, int to) const;
+
   std::vector<int> points_;
+  const std::vector<SurfacePoint>& surface_;
   std::vector<Holding> ways_;
 };
 

@@ -13,6 +13,7 @@ struct HandSetup {
   const HandScene& scene;
   const std::vector<kinematics::InverseKinematics>& inverse;  ///< by finger
   const std::vector<SurfacePoint>& points;
+  double scale = 1;  ///< metres per unit of the object's file
 };
 
 /// By finger: postures in which it may wait while it holds nothing, the best first.

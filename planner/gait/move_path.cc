@@ -37,17 +37,28 @@ bool TipsStay(const HandSetup& setup, const Holding& holding, const Keyframe& mi
   return true;
 }
 
+bool IsSameBranch(const Keyframe& a, const Keyframe& b) {
+  for (std::size_t finger = 0; finger < a.postures.size(); ++finger) {
+    if ((a.postures[finger] - b.postures[finger]).cwiseAbs().maxCoeff() > kSameBranch) return false;
+  }
+  return true;
+}
+
 /// Appends the keyframes of the way to the next pose. @returns whether there is one.
+/// @param last  the keyframe there, where it is given.
 bool AppendWay(const HandSetup& setup, const Holding& holding, const Touching& touching,
-               const Eigen::Isometry3d& to, std::vector<Keyframe>& path) {
+               const Eigen::Isometry3d& to, const Keyframe* last, std::vector<Keyframe>& path) {
   const Eigen::Isometry3d from = path.back().pose;
   double at = 0;
   double stride = 1;
   while (at < 1) {
     const double next = std::min(1.0, at + stride);
-    const auto frame =
-        Follow(setup, holding, path.back(), next == 1 ? to : Between(from, to, next));
+    auto frame = Follow(setup, holding, path.back(), next == 1 ? to : Between(from, to, next));
     if (!frame) return false;
+    if (next == 1 && last != nullptr) {
+      if (!IsSameBranch(*frame, *last)) return false;
+      frame = *last;
+    }
     if (!TipsStay(setup, holding, Between(path.back(), *frame, 0.5))) {
       stride /= 2;
       if (stride < kShortestStep) return false;
@@ -64,15 +75,17 @@ bool AppendWay(const HandSetup& setup, const Holding& holding, const Touching& t
 
 std::optional<std::vector<Keyframe>> FindMove(const HandSetup& setup, const Holding& holding,
                                               const Keyframe& from,
-                                              const std::vector<Eigen::Isometry3d>& poses) {
+                                              const std::vector<Eigen::Isometry3d>& poses,
+                                              const Keyframe& to) {
   Touching touching;
   for (const int point : holding) {
     touching.push_back(point == kNone ? TipContact::kFree : TipContact::kTouching);
   }
   std::vector<Keyframe> path = {from};
   for (const Eigen::Isometry3d& pose : poses) {
-    if (!AppendWay(setup, holding, touching, pose, path)) return std::nullopt;
+    if (!AppendWay(setup, holding, touching, pose, nullptr, path)) return std::nullopt;
   }
+  if (!AppendWay(setup, holding, touching, to.pose, &to, path)) return std::nullopt;
   return path;
 }
 

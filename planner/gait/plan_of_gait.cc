@@ -13,10 +13,38 @@ plan::HandState StateOf(const Keyframe& frame, const kinematics::HandModel& hand
   return state;
 }
 
-plan::HandPath PathOf(const Stretch& stretch, const kinematics::HandModel& hand) {
+/// The states of some keyframes of a stretch.
+plan::HandPath PathOf(const Stretch& stretch, int first, int last,
+                      const kinematics::HandModel& hand) {
   plan::HandPath path;
-  for (const Keyframe& frame : stretch.path) path.push_back(StateOf(frame, hand));
+  for (int i = first; i <= last; ++i) path.push_back(StateOf(stretch.path[i], hand));
   return path;
+}
+
+plan::HandPath PathOf(const Stretch& stretch, const kinematics::HandModel& hand) {
+  return PathOf(stretch, 0, static_cast<int>(stretch.path.size()) - 1, hand);
+}
+
+plan::FingerGrasp GraspAtEnd(const plan::Plan& plan) {
+  plan::FingerGrasp holding = plan.initial;
+  for (const plan::Step& step : plan.steps) holding = plan::GraspAfter(holding, step);
+  return holding;
+}
+
+/// One finger slides, the others stay where they are.
+plan::Align SlideOf(const Stretch& stretch, const plan::FingerGrasp& holding,
+                    const kinematics::HandModel& hand) {
+  plan::Align align;
+  align.motion.emplace();
+  for (std::size_t i = 0; i < stretch.along.size(); ++i) {
+    align.waypoints.push_back(holding);
+    for (plan::FingerContact& held : align.waypoints.back()) {
+      if (held.finger == stretch.finger) held.contact = stretch.along[i];
+    }
+    if (i == 0) continue;
+    align.motion->push_back(PathOf(stretch, stretch.along_at[i - 1], stretch.along_at[i], hand));
+  }
+  return align;
 }
 
 /// The switch before, if it has only placed another finger so far, or a new one.
@@ -46,7 +74,6 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
     if (gait.initial[finger] == kNone) continue;
     plan.initial.push_back({finger, contacts[gait.initial[finger]]});
   }
-  plan::FingerGrasp holding = plan.initial;
   for (const Stretch& stretch : gait.stretches) {
     switch (stretch.kind) {
       case Stretch::Kind::kMove:
@@ -58,6 +85,9 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
             plan::Switch{{placed}, {}, plan::SwitchMotion{PathOf(stretch, hand), {}}});
         break;
       }
+      case Stretch::Kind::kSlide:
+        plan.steps.emplace_back(SlideOf(stretch, GraspAtEnd(plan), hand));
+        break;
       case Stretch::Kind::kRelease: {
         plan::Switch& last = SwitchThatReleases(stretch.finger, plan.steps);
         last.release.push_back(stretch.finger);
@@ -66,8 +96,7 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
       }
     }
   }
-  for (const plan::Step& step : plan.steps) holding = plan::GraspAfter(holding, step);
-  plan.goal = plan::ContactsOf(holding);
+  plan.goal = plan::ContactsOf(GraspAtEnd(plan));
   return plan;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner/motion/contact_motion.h"
+
 namespace regrasp::plan {
 
 const char* StepKind(const Step& step) {
@@ -26,6 +28,16 @@ FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step) {
   });
   after.insert(after.end(), finger_switch.place.begin(), finger_switch.place.end());
   return after;
+}
+
+FingerGrasp GraspBetween(const FingerGrasp& from, const FingerGrasp& to, double share) {
+  FingerGrasp between = from;
+  for (FingerContact& held : between) {
+    const FingerContact* next = FindFinger(to, held.finger);
+    if (next == nullptr) continue;
+    held.contact = motion::ContactMotion(held.contact, next->contact).At(share);
+  }
+  return between;
 }
 
 FingerGrasp FingersInOrder(const grasp::Grasp& grasp) {

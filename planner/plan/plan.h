@@ -67,11 +67,16 @@ struct Switch {
 /// waypoints that follow each other, pieces whose forces are in the order of the first of the two.
 using AlignCertificate = std::vector<motion::MotionSegments>;
 
+/// An align as a hand does it: a path for each pair of waypoints that follow each other, its states
+/// at equal shares of the way. The first state of each is the last one before it.
+using AlignMotion = std::vector<HandPath>;
+
 /// The holding fingers move together along the surface, straight from waypoint to waypoint, all at
 /// the same rate. The first waypoint is the grasp before the step.
 struct Align {
   std::vector<FingerGrasp> waypoints;
   std::optional<AlignCertificate> certificate = std::nullopt;
+  std::optional<AlignMotion> motion = std::nullopt;  ///< of a plan for a hand
 };
 
 /// The object moves in the hand: all fingers keep their contacts and go with it. To fingers without
@@ -138,6 +143,11 @@ using EntryIndex = Index<struct EntryTag>;
 /// The grasp after `step` when `before` holds. Fingers keep their order; a placed finger comes
 /// last. Fingers of `release` that do not hold are ignored: the checker reports them.
 [[nodiscard]] FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step);
+
+/// The fingers of `from` on their way to a next waypoint of an align; those that it lacks stay.
+/// @param share  of the way, 0 to 1.
+[[nodiscard]] FingerGrasp GraspBetween(const FingerGrasp& from, const FingerGrasp& to,
+                                       double share);
 
 /// Finger 0 at the first contact, 1 at the next.
 [[nodiscard]] FingerGrasp FingersInOrder(const grasp::Grasp& grasp);

@@ -34,13 +34,20 @@ void ExpectForces(const JsonReader& json, std::size_t found, std::size_t fingers
             std::to_string(found));
 }
 
-AlignCertificate ReadCertificate(const JsonReader& json, const Align& step, int dimension) {
-  const std::vector<JsonReader> motions = json.Elements();
-  if (motions.size() + 1 != step.waypoints.size()) {
-    json.Fail("expected " + std::to_string(step.waypoints.size() - 1) +
-              " lists of pieces, one for each waypoint but the last, found " +
-              std::to_string(motions.size()));
+/// The elements of a list with one for each waypoint of an align but the last.
+/// @param what  they are lists of.
+std::vector<JsonReader> ElementsByWay(const JsonReader& json, const Align& step,
+                                      const std::string& what) {
+  std::vector<JsonReader> ways = json.Elements();
+  if (ways.size() + 1 != step.waypoints.size()) {
+    json.Fail("expected " + std::to_string(step.waypoints.size() - 1) + " lists of " + what +
+              ", one for each waypoint but the last, found " + std::to_string(ways.size()));
   }
+  return ways;
+}
+
+AlignCertificate ReadCertificate(const JsonReader& json, const Align& step, int dimension) {
+  const std::vector<JsonReader> motions = ElementsByWay(json, step, "pieces");
   AlignCertificate certificate;
   for (std::size_t w = 0; w < motions.size(); ++w) {
     certificate.push_back(ReadMotionSegments(motions[w], dimension));
@@ -66,6 +73,12 @@ Align ReadAlign(const JsonReader& json, int dimension) {
   }
   if (json.Has("certificate")) {
     step.certificate = ReadCertificate(json.Member("certificate"), step, dimension);
+  }
+  if (json.Has("motion")) {
+    step.motion.emplace();
+    for (const JsonReader& way : ElementsByWay(json.Member("motion"), step, "states")) {
+      step.motion->push_back(ReadHandPath(way));
+    }
   }
   return step;
 }
@@ -204,6 +217,10 @@ Json AlignJson(const Align& step, int dimension) {
     for (const motion::MotionSegments& pieces : *step.certificate) {
       json["certificate"].push_back(MotionSegmentsJson(pieces, dimension));
     }
+  }
+  if (step.motion) {
+    json["motion"] = Json::array();
+    for (const HandPath& path : *step.motion) json["motion"].push_back(HandPathJson(path));
   }
   return json;
 }

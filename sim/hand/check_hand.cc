@@ -102,8 +102,12 @@ class Checker {
   }
 
  private:
-  /// Which fingers may touch, by finger: at these contacts.
-  using Touching = std::vector<const plan::FingerContact*>;
+  /// How the hand stands at an instant, and the contacts that tips are at.
+  struct Instant {
+    HandState state;
+    plan::FingerGrasp holding;
+  };
+  static Instant MiddleOf(const Instant& a, const Instant& b);
 
   [[nodiscard]] int finger_count() const { return static_cast<int>(body_.hand().fingers.size()); }
   [[nodiscard]] Vector3d BallAt(const plan::FingerContact& held, const Isometry3d& pose) const {
@@ -122,22 +126,27 @@ class Checker {
   MaybeFault CheckStep(const plan::Step& step);
   MaybeFault CheckMove(const plan::Move& move);
   MaybeFault CheckSwitch(const plan::Switch& change);
+  MaybeFault CheckAlign(const plan::Align& align);
+  MaybeFault CheckSlide(const NamedPath& path, const plan::FingerGrasp& from,
+                        const plan::FingerGrasp& to);
   MaybeFault CheckFingersGo(const NamedPath& path, const plan::FingerGrasp& moving,
                             const plan::FingerGrasp& still);
+  MaybeFault CheckStaysPut(const HandState& now, const HandState& before,
+                           const std::string& what) const;
   MaybeFault CheckGoal() const;
-  /// Everything between a state of a path and the one before. @param follow  tips that keep their
-  /// contacts.
-  MaybeFault CheckPath(const NamedPath& path, std::size_t index, const Touching& touching,
-                       const plan::FingerGrasp& follow);
+  /// Everything between two instants that follow each other on a path.
+  /// @param index  of the second one's state.
+  /// @param others  contacts that fingers come to or leave.
+  MaybeFault CheckPath(const NamedPath& path, std::size_t index, const Instant& from,
+                       const Instant& to, const plan::FingerGrasp& others);
   using Conflict = std::variant<HandFinding, NearPair>;
-  std::optional<Conflict> FindConflict(const HandState& from, const HandState& to,
-                                       const Touching& touching, const plan::FingerGrasp& follow,
-                                       const std::string& when);
-  std::optional<NearPair> FindNear(const HandState& middle, const std::vector<double>& bounds,
-                                   double object_bound, const Touching& touching);
+  std::optional<Conflict> FindConflict(const Instant& from, const Instant& to,
+                                       const plan::FingerGrasp& others, const std::string& when);
+  std::optional<NearPair> FindNear(const Instant& middle, const std::vector<double>& bounds,
+                                   double object_bound, const plan::FingerGrasp& others);
   HandFinding WorstOf(const NearPair& near, const NamedPath& path, std::size_t index);
   [[nodiscard]] double NeededFromObject(int part, const Isometry3d& pose,
-                                        const Touching& touching) const;
+                                        const plan::FingerContact* touched) const;
 
   HandBody& body_;
   const plan::Plan& plan_;
@@ -221,9 +230,7 @@ MaybeFault Checker::CheckRest() {
   const NamedPath path{still};
   if (auto fault = CheckLimits(path, 0)) return fault;
   if (auto fault = CheckTips(holding_, state_, kTipAtRest, "")) return fault;
-  Touching touching(finger_count(), nullptr);
-  for (const plan::FingerContact& held : holding_) touching[held.finger] = &held;
-  return CheckPath(path, 1, touching, {});
+  return CheckPath(path, 1, {state_, holding_}, {state_, holding_}, {});
 }
 
 /// Where the plan has no posture of this hand the picture shows that of its model.
@@ -237,29 +244,32 @@ HandFinding Checker::AtModelsRest(HandFinding finding) const {
   return finding;
 }
 
-double Checker::NeededFromObject(int part, const Isometry3d& pose, const Touching& touching) const {
+double Checker::NeededFromObject(int part, const Isometry3d& pose,
+                                 const plan::FingerContact* touched) const {
   const HandPart& owner = body_.parts()[part];
-  if (!owner.is_tip || touching[owner.finger] == nullptr) return clearance_;
-  const double off = (body_.TipCentre(owner.finger) - BallAt(*touching[owner.finger], pose)).norm();
+  if (!owner.is_tip || touched == nullptr) return clearance_;
+  const double off = (body_.TipCentre(owner.finger) - BallAt(*touched, pose)).norm();
   return off <= kApproach ? -kTipDepth : clearance_;
 }
 
 /// Something that is nearer in the middle of an interval than what moves in it allows.
-std::optional<NearPair> Checker::FindNear(const HandState& middle,
-                                          const std::vector<double>& bounds, double object_bound,
-                                          const Touching& touching) {
-  body_.SetJoints(middle.joints);
+std::optional<NearPair> Checker::FindNear(const Instant& middle, const std::vector<double>& bounds,
+                                          double object_bound, const plan::FingerGrasp& others) {
+  body_.SetJoints(middle.state.joints);
   const int count = static_cast<int>(body_.parts().size());
   std::vector<Solid> placed;
   for (int part = 0; part < count; ++part) placed.push_back(body_.Place(part));
-  const Isometry3d to_object = middle.pose.inverse();
+  const Isometry3d to_object = middle.state.pose.inverse();
   for (int a = 0; a < count; ++a) {
     for (int b = a + 1; b < count; ++b) {
       if (body_.MayTouch(a, b)) continue;
       if (HaveGap(placed[a], placed[b], clearance_ + (bounds[a] + bounds[b]) / 2)) continue;
       return NearPair{a, b, clearance_};
     }
-    const double needed = NeededFromObject(a, middle.pose, touching);
+    const FingerIndex finger = body_.parts()[a].finger;
+    const plan::FingerContact* touched = plan::FindFinger(middle.holding, finger);
+    if (touched == nullptr) touched = plan::FindFinger(others, finger);
+    const double needed = NeededFromObject(a, middle.state.pose, touched);
     Solid part = placed[a];
     for (Vector3d& point : part.points) point = to_object * point;
     part.centre = to_object * part.centre;
@@ -271,24 +281,27 @@ std::optional<NearPair> Checker::FindNear(const HandState& middle,
   return std::nullopt;
 }
 
-std::optional<Checker::Conflict> Checker::FindConflict(const HandState& from, const HandState& to,
-                                                       const Touching& touching,
-                                                       const plan::FingerGrasp& follow,
+Checker::Instant Checker::MiddleOf(const Instant& a, const Instant& b) {
+  return {StateBetween(a.state, b.state, 0.5), plan::GraspBetween(a.holding, b.holding, 0.5)};
+}
+
+std::optional<Checker::Conflict> Checker::FindConflict(const Instant& from, const Instant& to,
+                                                       const plan::FingerGrasp& others,
                                                        const std::string& when) {
   std::vector<double> bounds;
   for (int part = 0; part < static_cast<int>(body_.parts().size()); ++part) {
-    bounds.push_back(body_.MotionBound(part, from.joints, to.joints));
+    bounds.push_back(body_.MotionBound(part, from.state.joints, to.state.joints));
   }
-  const double object_bound = (to.pose.translation() - from.pose.translation()).norm() +
-                              TurnBetween(from.pose, to.pose) * object_reach_;
-  const HandState middle = StateBetween(from, to, 0.5);
-  if (auto fault = CheckTips(follow, middle, kTipInMove, when)) return *fault;
-  const std::optional<NearPair> near = FindNear(middle, bounds, object_bound, touching);
+  const double object_bound = (to.state.pose.translation() - from.state.pose.translation()).norm() +
+                              TurnBetween(from.state.pose, to.state.pose) * object_reach_;
+  const Instant middle = MiddleOf(from, to);
+  if (auto fault = CheckTips(middle.holding, middle.state, kTipInMove, when)) return *fault;
+  const std::optional<NearPair> near = FindNear(middle, bounds, object_bound, others);
   if (!near) return std::nullopt;
   const double largest = std::max(object_bound, *std::ranges::max_element(bounds));
   if (largest < kFinest) return *near;
-  if (auto conflict = FindConflict(from, middle, touching, follow, when)) return conflict;
-  return FindConflict(middle, to, touching, follow, when);
+  if (auto conflict = FindConflict(from, middle, others, when)) return conflict;
+  return FindConflict(middle, to, others, when);
 }
 
 /// The same pair where the rest of the path brings it nearest: what is only just too near where it
@@ -322,10 +335,9 @@ HandFinding Checker::WorstOf(const NearPair& near, const NamedPath& path, std::s
   return PartsCollide(body_, state, near.part, near.other, needed, when);
 }
 
-MaybeFault Checker::CheckPath(const NamedPath& path, std::size_t index, const Touching& touching,
-                              const plan::FingerGrasp& follow) {
-  const auto conflict = FindConflict(path.states[index - 1], path.states[index], touching, follow,
-                                     path.After(index - 1));
+MaybeFault Checker::CheckPath(const NamedPath& path, std::size_t index, const Instant& from,
+                              const Instant& to, const plan::FingerGrasp& others) {
+  const auto conflict = FindConflict(from, to, others, path.After(index - 1));
   if (!conflict) return std::nullopt;
   if (const auto* finding = std::get_if<HandFinding>(&*conflict)) return *finding;
   return WorstOf(std::get<NearPair>(*conflict), path, index);
@@ -334,14 +346,13 @@ MaybeFault Checker::CheckPath(const NamedPath& path, std::size_t index, const To
 MaybeFault Checker::CheckMove(const plan::Move& move) {
   if (auto fault = CheckContinues(move.path)) return fault;
   const NamedPath path{move.path, "path"};
-  Touching touching(finger_count(), nullptr);
-  for (const plan::FingerContact& held : holding_) touching[held.finger] = &held;
   for (std::size_t i = 0; i < move.path.size(); ++i) {
     if (auto fault = CheckLimits(path, i)) return fault;
     const double tolerance = i + 1 == move.path.size() ? kTipAtRest : kTipInMove;
     if (auto fault = CheckTips(holding_, move.path[i], tolerance, path.InState(i))) return fault;
     if (i == 0) continue;
-    if (auto fault = CheckPath(path, i, touching, holding_)) return fault;
+    const Instant from{move.path[i - 1], holding_};
+    if (auto fault = CheckPath(path, i, from, {move.path[i], holding_}, {})) return fault;
   }
   state_ = move.path.back();
   return std::nullopt;
@@ -353,18 +364,59 @@ MaybeFault Checker::CheckFingersGo(const NamedPath& path, const plan::FingerGras
   if (moving.empty()) return std::nullopt;
   const plan::HandPath& states = path.states;
   if (auto fault = CheckContinues(states)) return fault;
-  Touching touching(finger_count(), nullptr);
-  for (const plan::FingerContact& held : still) touching[held.finger] = &held;
-  for (const plan::FingerContact& held : moving) touching[held.finger] = &held;
   for (std::size_t i = 1; i < states.size(); ++i) {
-    if (!IsSamePlace(states[i].pose, states[i - 1].pose)) {
-      return ObjectJumps(states[i], states[i - 1].pose, "moves while fingers switch: it is");
-    }
+    if (auto fault = CheckStaysPut(states[i], states[i - 1], "switch")) return fault;
     if (auto fault = CheckLimits(path, i)) return fault;
     if (auto fault = CheckTips(still, states[i], kTipAtRest, path.InState(i))) return fault;
-    if (auto fault = CheckPath(path, i, touching, still)) return fault;
+    if (auto fault = CheckPath(path, i, {states[i - 1], still}, {states[i], still}, moving)) {
+      return fault;
+    }
   }
   state_ = states.back();
+  return std::nullopt;
+}
+
+MaybeFault Checker::CheckStaysPut(const HandState& now, const HandState& before,
+                                  const std::string& what) const {
+  if (IsSamePlace(now.pose, before.pose)) return std::nullopt;
+  return ObjectJumps(now, before.pose, "moves while fingers " + what + ": it is");
+}
+
+/// From one waypoint of an align to the next, at equal shares of the way.
+MaybeFault Checker::CheckSlide(const NamedPath& path, const plan::FingerGrasp& from,
+                               const plan::FingerGrasp& to) {
+  const plan::HandPath& states = path.states;
+  if (auto fault = CheckContinues(states)) return fault;
+  const auto at = [&](std::size_t i) -> Instant {
+    return {states[i],
+            plan::GraspBetween(from, to,
+                               static_cast<double>(i) / static_cast<double>(states.size() - 1))};
+  };
+  if (states.size() < 2) return NoSuchPath(path.name + " has one state", state_);
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    const Instant now = at(i);
+    if (auto fault = CheckStaysPut(now.state, states[i - 1], "slide")) return fault;
+    if (auto fault = CheckLimits(path, i)) return fault;
+    const double tolerance = i + 1 == states.size() ? kTipAtRest : kTipInMove;
+    if (auto fault = CheckTips(now.holding, now.state, tolerance, path.InState(i))) return fault;
+    if (auto fault = CheckPath(path, i, at(i - 1), now, {})) return fault;
+  }
+  state_ = states.back();
+  return std::nullopt;
+}
+
+MaybeFault Checker::CheckAlign(const plan::Align& align) {
+  if (!align.motion) return NoSuchPath("the hand has no path in this step", state_);
+  const std::size_t ways = align.waypoints.size() - 1;
+  if (align.motion->size() != ways) {
+    return NoSuchPath("the hand has " + std::to_string(align.motion->size()) +
+                          " paths in this step, and its waypoints ask for " + std::to_string(ways),
+                      state_);
+  }
+  for (std::size_t w = 0; w < ways; ++w) {
+    const NamedPath path{(*align.motion)[w], "the path to waypoint " + std::to_string(w + 1)};
+    if (auto fault = CheckSlide(path, align.waypoints[w], align.waypoints[w + 1])) return fault;
+  }
   return std::nullopt;
 }
 
@@ -392,7 +444,7 @@ MaybeFault Checker::CheckStep(const plan::Step& step) {
   } else if (const auto* change = std::get_if<plan::Switch>(&step)) {
     fault = CheckSwitch(*change);
   } else {
-    fault = NoSuchPath("the hand has no path in this step", state_);
+    fault = CheckAlign(std::get<plan::Align>(step));
   }
   holding_ = plan::GraspAfter(holding_, step);
   return fault;

@@ -19,8 +19,8 @@ struct HandCheckOptions {
 ///
 /// - states that follow each other without a jump, each with all joints of the hand;
 /// - joints within their limits;
-/// - tips at the contacts of the fingers that hold: within 1e-6 m at rest, 1e-4 m in moves; and
-///   ended there, those that are placed;
+/// - tips at the contacts of the fingers that hold: within 1e-6 m at rest, 1e-4 m in moves and
+///   aligns; and ended there, those that are placed;
 /// - no link nearer to another one, to the palm or to the object than the clearance, everywhere
 ///   along the paths: certified by a bound on how far things move between samples. A tip that
 ///   holds, or is about to, may touch the object, and be in it by 0.3 mm;
