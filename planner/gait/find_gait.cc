@@ -6,6 +6,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/gait/bidirectional_search.h"
 #include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::gait {
@@ -41,17 +42,13 @@ std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
 
 /// A place in the hand to begin in.
 struct PlaceInHand {
-  PoseGrid grid;
-  Parking parking;
   RandomStream random;
-  GaitSearch search;
+  BidirectionalSearch search;
 
-  PlaceInHand(const HandSetup& setup, const PoseGrid& poses, Parking postures, const GaitEnds& ends,
+  PlaceInHand(const HandSetup& setup, const PoseGrid& grid, Parking parking, const GaitEnds& ends,
               criteria::GraspMemory& memory, std::uint64_t seed, std::size_t index)
-      : grid(poses),
-        parking(std::move(postures)),
-        random(seed, RandomUse::kGaits, index),
-        search(setup, grid, parking, ends, memory, random) {}
+      : random(seed, RandomUse::kGaits, index),
+        search(setup, grid, std::move(parking), ends, memory, random) {}
 };
 
 /// All places in the hand that are tried, the best first, and more the longer it takes; those where
@@ -97,7 +94,7 @@ class PlacesInHand {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& place : places_) {
       if (place->search.IsExhausted()) continue;
-      const GaitCounts& counts = place->search.counts();
+      const GaitCounts counts = place->search.counts();
       const double farther = 1.0 + counts.farthest;
       const double had = static_cast<double>(counts.expanded) / (farther * farther);
       if (had >= least) continue;
@@ -181,6 +178,7 @@ std::string WhatStopped(const GaitRequest& request, const std::vector<GaitCounts
   };
   add(best.colliding, "in which fingers collide");
   add(best.no_path, "for which a finger has no free path");
+  add(best.no_slide, "for which a finger cannot slide");
   add(best.no_move, "with moves that fingers cannot follow");
   return text;
 }

@@ -105,6 +105,14 @@ class Connector {
 
 }  // namespace
 
+Surroundings AllBut(const HandScene& scene, FingerIndex moving, const Keyframe& frame) {
+  Surroundings around{frame.pose, {}};
+  for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
+    if (finger != moving) around.others.push_back(scene.Place(finger, frame.postures[finger]));
+  }
+  return around;
+}
+
 std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finger,
                                        const Posture& from, const Posture& to,
                                        const Surroundings& around, RandomStream& random) {

@@ -5,6 +5,7 @@
 
 #include "planner/base/random.h"
 #include "planner/gait/hand_scene.h"
+#include "planner/gait/keyframe.h"
 #include "planner/kinematics/inverse_kinematics.h"
 
 namespace regrasp::gait {
@@ -17,6 +18,10 @@ struct Surroundings {
   Eigen::Isometry3d pose;            ///< of the object
   std::vector<PlacedFinger> others;  ///< all other fingers
 };
+
+/// All but one finger, as they stand.
+[[nodiscard]] Surroundings AllBut(const HandScene& scene, FingerIndex moving,
+                                  const Keyframe& frame);
 
 /// A certified path of a free finger between two postures, by RRT-Connect (Kuffner and LaValle
 /// 2000) over its drives, then shortened.

@@ -29,9 +29,10 @@ struct Stretch {
   FingerIndex finger;   ///< that is placed, released or slides
   int contact = kNone;  ///< that it comes to or leaves
   std::vector<Keyframe> path;
-  /// Of kSlide: the contacts that it passes, and of each the number of its keyframe.
-  std::vector<grasp::Contact> along = {};
-  std::vector<int> along_at = {};
+  // Of kSlide:
+  int from = kNone;                        ///< the contact that it leaves
+  std::vector<grasp::Contact> along = {};  ///< those that it passes, and the two, in a file's units
+  std::vector<int> along_at = {};          ///< of each the number of its keyframe
 };
 
 /// A way of fingers and object from a rest to another one.

@@ -21,9 +21,7 @@ constexpr int kTakenUp = 8;
 /// With the same fingers placed, released or sliding.
 constexpr int kTakenUpOfAKind = 2;
 /// Steps that a rest is put back for each one like it that was expanded.
-constexpr double kPutBackAlike = 0.2;
-/// Contacts this near each other are alike, metres.
-constexpr double kAlike = 0.02;
+constexpr double kPutBackAlike = 0.5;
 /// How far a finger slides at once, metres.
 constexpr double kLongestSlide = 0.015;
 constexpr double kLongestSlideToGoal = 0.06;
@@ -63,7 +61,7 @@ void ForEachAssignment(const std::vector<int>& points, int fingers, const Take& 
 
 }  // namespace
 
-GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, const Parking& parking,
+GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& carrier,
                        const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random)
     : setup_(setup),
       grid_(grid),
@@ -73,19 +71,11 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, const Parki
           {static_cast<std::size_t>(kFewestHolding), ends.start.size(), ends.goal.size()}))),
       memory_(memory),
       random_(random),
-      carrier_(setup, grid, parking),
+      carrier_(carrier),
+      routes_(memory),
+      kinds_(setup.points),
       expanded_at_(grid.steps() + 1, 0) {
   counts_.steps = grid.steps();
-  std::vector<int> centres;
-  for (const SurfacePoint& point : setup.points) {
-    const auto found = std::ranges::find_if(centres, [&](int centre) {
-      return (setup.points[centre].p - point.p).norm() < kAlike &&
-             setup.points[centre].n.dot(point.n) > 0.7;
-    });
-    if (found == centres.end()) centres.push_back(static_cast<int>(cluster_.size()));
-    cluster_.push_back(found == centres.end() ? static_cast<int>(centres.size()) - 1
-                                              : static_cast<int>(found - centres.begin()));
-  }
   if (ends.goal.empty()) return;
   ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
     Hold hold{std::move(holding)};
@@ -182,101 +172,91 @@ void GaitSearch::AddFirstRests() {
   } while (std::ranges::prev_permutation(chosen).found);
 }
 
-const tree::SurfaceRoute* GaitSearch::RouteBetween(int from, int to) {
-  const auto [found, is_new] = routes_.try_emplace({from, to});
-  if (is_new)
-    found->second =
-        tree::FindSurfaceRoute(memory_.object(), memory_.contact(from), memory_.contact(to));
-  return found->second ? &*found->second : nullptr;
+void GaitSearch::AddSwitches(const Holding& from, FingerIndex placed, int point,
+                             std::vector<Change>& changes) const {
+  if (placed.valid()) changes.push_back({.placed = placed, .point = point});
+  for (FingerIndex released{0}; released < std::ssize(from); ++released) {
+    if (from[released] == kNone) continue;
+    changes.push_back({.placed = placed, .released = released, .point = point});
+  }
 }
 
-bool GaitSearch::CanSlide(int from, int to) { return RouteBetween(from, to) != nullptr; }
-
-std::vector<GaitSearch::Rest> GaitSearch::SwitchesFrom(const Rest& from, int node) {
-  std::vector<Rest> found;
-  const auto consider = [&](FingerIndex placed, int point, FingerIndex released) {
-    Rest rest{.hold = from.hold, .node = node};
-    rest.placed = placed;
-    rest.released = released;
-    if (placed.valid()) {
-      rest.hold.holding[placed] = point;
-      rest.hold.waiting[placed] = {};
-    }
-    if (released.valid()) rest.hold.holding[released] = kNone;
-    const int holding = CountHolding(rest.hold.holding);
-    if (holding < kFewestHolding || holding > most_holding_ || !IsGrasp(rest.hold.holding)) return;
-    int last = grid_.steps();
-    for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-      if (rest.hold.holding[finger] == kNone) continue;
-      last = std::min(last, carrier_.reach().RunEnd(finger, rest.hold.holding[finger], node));
-    }
-    rest.score = ScoreOf(rest, last);
-    found.push_back(std::move(rest));
-  };
-  const auto slide = [&](FingerIndex finger, int point) {
-    Rest rest{.hold = from.hold, .node = node};
-    rest.slid = finger;
-    rest.hold.holding[finger] = point;
-    if (!IsGrasp(rest.hold.holding)) return;
-    int last = grid_.steps();
-    for (FingerIndex other{0}; other < setup_.scene.finger_count(); ++other) {
-      if (rest.hold.holding[other] == kNone) continue;
-      last = std::min(last, carrier_.reach().RunEnd(other, rest.hold.holding[other], node));
-    }
-    rest.score = ScoreOf(rest, last);
-    found.push_back(std::move(rest));
-  };
-  const auto release_one = [&](FingerIndex placed, int point) {
-    for (FingerIndex released{0}; released < setup_.scene.finger_count(); ++released) {
-      if (from.hold.holding[released] != kNone) consider(placed, point, released);
-    }
-  };
-  for (FingerIndex placed{0}; placed < setup_.scene.finger_count(); ++placed) {
-    if (from.hold.holding[placed] != kNone) continue;
+std::vector<GaitSearch::Change> GaitSearch::ChangesFrom(const Holding& from, int node) {
+  std::vector<Change> changes;
+  if (most_holding_ > kFewestHolding) AddSwitches(from, {}, kNone, changes);
+  for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
+    const int at = from[finger];
     int tried = 0;
-    for (const Candidate& candidate : CandidatesAt(placed, node)) {
-      if (tried == kTriedContacts) break;
-      if (Holds(from.hold.holding, candidate.point)) continue;
-      ++tried;
-      consider(placed, candidate.point, {});
-      release_one(placed, candidate.point);
+    for (const auto& [point, is_goal, last] : CandidatesAt(finger, node)) {
+      if (Holds(from, point)) continue;
+      if (at == kNone) {
+        if (++tried > kTriedContacts) break;
+        AddSwitches(from, finger, point, changes);
+        continue;
+      }
+      const double way = (setup_.points[at].p - setup_.points[point].p).norm();
+      if (way > (is_goal ? kLongestSlideToGoal : kLongestSlide)) continue;
+      if (routes_.Between(at, point) == nullptr) continue;
+      changes.push_back({.slid = finger, .point = point});
     }
   }
-  if (most_holding_ > kFewestHolding) release_one({}, kNone);
+  const Holding* target = goal_.NearestTo(from);
+  for (FingerIndex finger{0}; target != nullptr && finger < std::ssize(from); ++finger) {
+    const int point = (*target)[finger];
+    if (point == kNone || Holds(from, point)) continue;
+    if (carrier_.reach().Find(finger, point, node) == nullptr) continue;
+    if (from[finger] == kNone) {
+      AddSwitches(from, finger, point, changes);
+    } else if (routes_.Between(from[finger], point) != nullptr) {
+      changes.push_back({.slid = finger, .point = point});
+    }
+  }
+  return changes;
+}
+
+std::optional<GaitSearch::Rest> GaitSearch::After(const Rest& from, const Change& change,
+                                                  int node) {
+  Rest rest{.hold = from.hold, .node = node, .change = change};
+  Holding& holding = rest.hold.holding;
+  if (change.slid.valid()) holding[change.slid] = change.point;
+  if (change.placed.valid()) {
+    holding[change.placed] = change.point;
+    rest.hold.waiting[change.placed] = {};
+  }
+  if (change.released.valid()) holding[change.released] = kNone;
+  const int count = CountHolding(holding);
+  if (count < kFewestHolding || count > most_holding_ || !IsGrasp(holding)) return std::nullopt;
+  int last = grid_.steps();
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    const int at = from.hold.holding[finger];
-    if (at == kNone) continue;
-    for (const Candidate& candidate : CandidatesAt(finger, node)) {
-      if (Holds(from.hold.holding, candidate.point)) continue;
-      const double far = (setup_.points[at].p - setup_.points[candidate.point].p).norm();
-      if (far > (candidate.is_goal ? kLongestSlideToGoal : kLongestSlide)) continue;
-      if (!CanSlide(at, candidate.point)) continue;
-      slide(finger, candidate.point);
-    }
+    if (holding[finger] == kNone) continue;
+    last = std::min(last, carrier_.reach().RunEnd(finger, holding[finger], node));
   }
-  std::ranges::stable_sort(found, std::greater<>(), &Rest::score);
-  return found;
+  rest.score = ScoreOf(rest, last);
+  return rest;
 }
 
 void GaitSearch::SwitchAt(int index, int node) {
   const Rest from = rests_[index];
+  std::vector<Rest> found;
+  for (const Change& change : ChangesFrom(from.hold.holding, node)) {
+    if (auto rest = After(from, change, node)) found.push_back(*std::move(rest));
+  }
+  std::ranges::stable_sort(found, std::greater<>(), &Rest::score);
   int taken = 0;
-  std::map<std::array<int, 3>, int> of_kind;
-  for (Rest& rest : SwitchesFrom(from, node)) {
+  std::map<std::array<int, 3>, int> taken_by_fingers;
+  for (Rest& rest : found) {
     if (taken == kTakenUp) break;
-    int& alike = of_kind[{rest.placed, rest.released, rest.slid}];
+    const Change& change = rest.change;
+    int& alike = taken_by_fingers[{change.placed, change.slid, change.released}];
     if (alike == kTakenUpOfAKind) continue;
-    // The way there passes a grasp of all fingers.
+    // A switch passes a grasp of all fingers.
     Hold all = rest.hold;
-    if (rest.slid.valid()) {
-      rest.parent = index;
-      if (Add(std::move(rest))) ++taken, ++alike;
-      continue;
-    }
-    if (rest.released.valid()) all.holding[rest.released] = from.hold.holding[rest.released];
-    if (!carrier_.IsPassable(all, rest.node)) continue;
+    if (change.released.valid()) all.holding[change.released] = from.hold.holding[change.released];
+    if (change.placed.valid() && !carrier_.IsPassable(all, rest.node)) continue;
     rest.parent = index;
-    if (Add(std::move(rest))) ++taken, ++alike;
+    if (!Add(std::move(rest))) continue;
+    ++taken;
+    ++alike;
   }
 }
 
@@ -287,7 +267,9 @@ void GaitSearch::Expand(int index) {
   std::set<int> nodes = {path[last], path[last / 2], path[last - std::min<std::size_t>(last, 2)],
                          path[0]};
   std::erase_if(nodes, [&](int node) { return rest.switched_at.contains(node); });
-  for (int i = 0; i < kNodesBeside; ++i) {
+  // Where the object has nowhere to go it stays while there is something else to do.
+  const int beside = grid_.steps() == 0 && rest.turns == 0 ? 0 : kNodesBeside;
+  for (int i = 0; i < beside; ++i) {
     nodes.insert(std::next(rest.carried.from.begin(),
                            static_cast<int>(random_.Index(rest.carried.from.size())))
                      ->first);
@@ -303,27 +285,19 @@ void GaitSearch::Expand(int index) {
   }
 }
 
-Surroundings GaitSearch::Around(const Keyframe& frame, FingerIndex moving) const {
-  Surroundings around{frame.pose, {}};
-  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (finger == moving) continue;
-    around.others.push_back(setup_.scene.Place(finger, frame.postures[finger]));
-  }
-  return around;
-}
-
 bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
-  const int point = rest.hold.holding[rest.placed];
-  const Posture touching = *carrier_.reach().Find(rest.placed, point, rest.node);
+  const int point = rest.hold.holding[rest.change.placed];
+  const Posture touching = *carrier_.reach().Find(rest.change.placed, point, rest.node);
   const auto path = FindPathToContact(
-      setup_.scene, setup_.inverse[rest.placed], rest.placed, before.postures[rest.placed],
-      TargetAt(setup_.scene.finger(rest.placed), setup_.points[point], before.pose), touching,
-      Around(before, rest.placed), random_);
+      setup_.scene, setup_.inverse[rest.change.placed], rest.change.placed,
+      before.postures[rest.change.placed],
+      TargetAt(setup_.scene.finger(rest.change.placed), setup_.points[point], before.pose),
+      touching, AllBut(setup_.scene, rest.change.placed, before), random_);
   if (!path) return false;
-  Stretch stretch{Stretch::Kind::kPlace, rest.placed, point, {}};
+  Stretch stretch{Stretch::Kind::kPlace, rest.change.placed, point, {}};
   for (const Posture& posture : *path) {
     stretch.path.push_back(before);
-    stretch.path.back().postures[rest.placed] = posture;
+    stretch.path.back().postures[rest.change.placed] = posture;
   }
   after = stretch.path.back();
   rest.way.push_back(std::move(stretch));
@@ -332,9 +306,9 @@ bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
 
 /// To where the finger is to wait, or else no farther than above its contact.
 bool GaitSearch::Release(Rest& rest, const Keyframe& before) {
-  const FingerIndex finger = rest.released;
+  const FingerIndex finger = rest.change.released;
   const int point = rests_[rest.parent].hold.holding[finger];
-  const Surroundings around = Around(before, finger);
+  const Surroundings around = AllBut(setup_.scene, finger, before);
   const auto up =
       FindWayUp(setup_.scene, setup_.inverse[finger], finger,
                 TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
@@ -359,7 +333,7 @@ bool GaitSearch::Release(Rest& rest, const Keyframe& before) {
 }
 
 bool GaitSearch::SlideTo(Rest& rest, const Keyframe& before) {
-  const FingerIndex finger = rest.slid;
+  const FingerIndex finger = rest.change.slid;
   const std::vector<int>& holding = rests_[rest.parent].hold.holding;
   std::vector<int> grasp = {holding[finger]};
   for (FingerIndex other{0}; other < setup_.scene.finger_count(); ++other) {
@@ -367,11 +341,12 @@ bool GaitSearch::SlideTo(Rest& rest, const Keyframe& before) {
   }
   const int point = rest.hold.holding[finger];
   const auto slide =
-      FindSlide(setup_, memory_, finger, grasp, *RouteBetween(holding[finger], point),
+      FindSlide(setup_, memory_, finger, grasp, *routes_.Between(holding[finger], point),
                 before.postures[finger], *carrier_.reach().Find(finger, point, rest.node),
-                Around(before, finger));
+                AllBut(setup_.scene, finger, before));
   if (!slide) return false;
-  Stretch stretch{Stretch::Kind::kSlide, finger, point, {before}, slide->contacts, {0}};
+  Stretch stretch{Stretch::Kind::kSlide, finger,          point, {before},
+                  holding[finger],       slide->contacts, {0}};
   for (const FingerPath& path : slide->paths) {
     for (std::size_t i = 1; i < path.size(); ++i) {
       stretch.path.push_back(before);
@@ -408,15 +383,15 @@ bool GaitSearch::WorkOutWay(Rest& rest) {
   rest.at = carrier_.FrameAt(rest.hold, rest.node);
   if (rest.parent < 0) return true;
   Keyframe frame = carrier_.FrameAt(rests_[rest.parent].hold, rest.node);
-  if (rest.slid.valid() && !SlideTo(rest, frame)) {
+  if (rest.change.slid.valid() && !SlideTo(rest, frame)) {
     ++counts_.no_slide;
     return false;
   }
-  if (rest.placed.valid() && !Place(rest, Keyframe(frame), frame)) {
+  if (rest.change.placed.valid() && !Place(rest, Keyframe(frame), frame)) {
     ++counts_.no_path;
     return false;
   }
-  if (rest.released.valid() && !Release(rest, frame)) {
+  if (rest.change.released.valid() && !Release(rest, frame)) {
     ++counts_.no_path;
     return false;
   }
@@ -428,17 +403,14 @@ bool GaitSearch::IsCutOff(const Rest& rest) const {
   return rest.is_cut_off || (rest.parent >= 0 && IsCutOff(rests_[rest.parent]));
 }
 
-/// The whole gait, where a rest's path leads to the goal and is free.
-std::optional<Gait> GaitSearch::GaitFrom(int index) {
-  Rest& last = rests_[index];
-  if (!grid_.IsGoal(last.carried.end) || !goal_.IsHeldBy(last.hold.holding)) return std::nullopt;
+std::optional<Gait> GaitSearch::WayTo(int index, int node) {
   std::vector<int> chain;
   for (int i = index; i >= 0; i = rests_[i].parent) chain.push_back(i);
   std::ranges::reverse(chain);
   Gait gait{rests_[chain.front()].hold.holding, rests_[chain.front()].at, {}};
-  const auto move_to = [&](Rest& rest, int node) {
-    if (rest.node == node) return true;
-    const std::vector<Keyframe>& move = MoveFrom(rest, node);
+  const auto move_to = [&](Rest& rest, int to) {
+    if (rest.node == to) return true;
+    const std::vector<Keyframe>& move = MoveFrom(rest, to);
     if (!move.empty()) gait.stretches.push_back({Stretch::Kind::kMove, {}, kNone, move});
     return !move.empty();
   };
@@ -450,18 +422,23 @@ std::optional<Gait> GaitSearch::GaitFrom(int index) {
     }
     gait.stretches.insert(gait.stretches.end(), rest.way.begin(), rest.way.end());
   }
-  if (!move_to(last, last.carried.end)) {
-    last.carried.end = last.carried.from.at(last.carried.end);
-    return std::nullopt;
-  }
+  if (!move_to(rests_[index], node)) return std::nullopt;
   return gait;
 }
 
-/// What a grasp has in common with those like it.
-Holding GaitSearch::KindOf(const Holding& holding) const {
-  Holding kind;
-  for (const int point : holding) kind.push_back(point == kNone ? kNone : cluster_[point]);
-  return kind;
+/// The whole gait, where a rest's path leads to the goal and is free.
+std::optional<Gait> GaitSearch::GaitFrom(int index) {
+  Carried& carried = rests_[index].carried;
+  if (!grid_.IsGoal(carried.end) || !goal_.IsHeldBy(rests_[index].hold.holding)) {
+    return std::nullopt;
+  }
+  std::optional<Gait> gait = WayTo(index, carried.end);
+  if (!gait) carried.end = carried.from.at(carried.end);
+  return gait;
+}
+
+void GaitSearch::AddTarget(const Holding& holding) {
+  if (targets_.insert(kinds_.KindOf(holding)).second) goal_.AddTarget(holding);
 }
 
 int GaitSearch::PopNext() {
@@ -471,7 +448,7 @@ int GaitSearch::PopNext() {
     const Rest& rest = rests_[top.rest];
     const double score = rest.score - kAnotherTurn * rest.turns -
                          kPutBack * expanded_at_[grid_.StepOf(rest.carried.end)] -
-                         kPutBackAlike * expanded_like_[KindOf(rest.hold.holding)];
+                         kPutBackAlike * expanded_like_[kinds_.KindOf(rest.hold.holding)];
     if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
     queue_.push({score, top.rest});
   }
@@ -506,7 +483,8 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     counts_.farthest = std::max(counts_.farthest, last);
     ++counts_.expanded;
     ++expanded_at_[last];
-    ++expanded_like_[KindOf(rest.hold.holding)];
+    ++expanded_like_[kinds_.KindOf(rest.hold.holding)];
+    last_expanded_ = index;
     Expand(index);
   }
   return std::nullopt;

@@ -10,12 +10,13 @@
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_memory.h"
 #include "planner/gait/carrier.h"
+#include "planner/gait/contact_kinds.h"
 #include "planner/gait/finger_path.h"
 #include "planner/gait/gait.h"
 #include "planner/gait/goal_grasp.h"
 #include "planner/gait/hand_setup.h"
 #include "planner/gait/pose_grid.h"
-#include "planner/tree/surface_route.h"
+#include "planner/gait/slide_path.h"
 
 namespace regrasp::gait {
 
@@ -42,10 +43,11 @@ struct GaitCounts {
 /// of moves, is worked out when a rest's turn comes.
 class GaitSearch {
  public:
-  /// @param memory   knows the setup's points as contacts under their numbers.
-  /// @param parking  where free fingers wait. All outlive this object.
-  GaitSearch(const HandSetup& setup, const PoseGrid& grid, const Parking& parking,
-             const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random);
+  /// @param carrier  on the grid.
+  /// @param memory   knows the setup's points as contacts under their numbers. All outlive this
+  ///                 object.
+  GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& carrier, const GaitEnds& ends,
+             criteria::GraspMemory& memory, RandomStream& random);
 
   /// Whether some fingers can hold the goal grasp, if there is one, at the goal pose.
   [[nodiscard]] bool GoalIsHeld() const { return goal_.IsWithinReach(); }
@@ -58,7 +60,28 @@ class GaitSearch {
 
   [[nodiscard]] const GaitCounts& counts() const { return counts_; }
 
+  // For a search that goes the other way to meet this one.
+
+  /// The rest that was expanded last, by number; −1 before.
+  [[nodiscard]] int last_expanded() const { return last_expanded_; }
+  [[nodiscard]] const Hold& HoldOf(int rest) const { return rests_[rest].hold; }
+  /// The nodes to which an expanded rest is carried.
+  [[nodiscard]] const std::map<int, int>& NodesOf(int rest) const {
+    return rests_[rest].carried.from;
+  }
+  /// The whole way with a rest to one of its nodes, where it is free.
+  [[nodiscard]] std::optional<Gait> WayTo(int rest, int node);
+  /// From now on grasps near to this one are looked at before others, too.
+  void AddTarget(const Holding& holding);
+
  private:
+  /// What fingers do between two rests; those that are not valid: none.
+  struct Change {
+    FingerIndex placed = {};
+    FingerIndex slid = {};
+    FingerIndex released = {};
+    int point = kNone;  ///< that the finger comes to which is placed or slides
+  };
   /// A grasp, and the nodes of the grid that it can be carried to.
   struct Rest {
     Hold hold;
@@ -68,8 +91,7 @@ class GaitSearch {
     int turns = 0;                   ///< that it had
     double score = 0;
     int parent = -1;
-    FingerIndex placed = {}, released = {};  ///< not valid: none
-    FingerIndex slid = {};
+    Change change = {};  ///< from the parent's grasp
     /// Worked out when its turn comes: the switch, from where the parent brought the object.
     std::vector<Stretch> way = {};
     bool is_cut_off = false;  ///< the parent can't bring it there
@@ -95,18 +117,20 @@ class GaitSearch {
   void AddGivenStart();
   void Expand(int index);
   void SwitchAt(int index, int node);
-  /// The grasps that one switch leads to, the best first.
-  [[nodiscard]] std::vector<Rest> SwitchesFrom(const Rest& rest, int node);
+  /// What fingers may do at a node to have another grasp, whether it holds or not.
+  [[nodiscard]] std::vector<Change> ChangesFrom(const Holding& from, int node);
+  /// A finger is placed, if it is valid, and each of the others released or none.
+  void AddSwitches(const Holding& from, FingerIndex placed, int point,
+                   std::vector<Change>& changes) const;
+  /// The rest that a change leads to, where it has a grasp.
+  [[nodiscard]] std::optional<Rest> After(const Rest& from, const Change& change, int node);
   /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
   bool Add(Rest rest);
-  [[nodiscard]] bool CanSlide(int from, int to);
-  [[nodiscard]] const tree::SurfaceRoute* RouteBetween(int from, int to);
   [[nodiscard]] bool IsGrasp(const Holding& holding);
   [[nodiscard]] bool WasExpandedAt(const Rest& rest) const;
   [[nodiscard]] double ScoreOf(const Rest& rest, int last);
   [[nodiscard]] bool WorkOutWay(Rest& rest);
   [[nodiscard]] bool IsCutOff(const Rest& rest) const;
-  [[nodiscard]] Holding KindOf(const Holding& holding) const;
   /// The next rest in turn.
   [[nodiscard]] int PopNext();
   /// The move with a rest's grasp to a node that it comes to; empty where it can't be done.
@@ -114,7 +138,6 @@ class GaitSearch {
   [[nodiscard]] bool Place(Rest& rest, const Keyframe& before, Keyframe& after);
   [[nodiscard]] bool Release(Rest& rest, const Keyframe& before);
   [[nodiscard]] bool SlideTo(Rest& rest, const Keyframe& before);
-  [[nodiscard]] Surroundings Around(const Keyframe& frame, FingerIndex moving) const;
   [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
 
@@ -125,17 +148,19 @@ class GaitSearch {
   int most_holding_;
   criteria::GraspMemory& memory_;
   RandomStream& random_;
-  Carrier carrier_;
-  std::map<std::pair<int, int>, std::optional<tree::SurfaceRoute>> routes_;
+  Carrier& carrier_;
+  SlideRoutes routes_;
+  ContactKinds kinds_;
   std::vector<Rest> rests_;
   std::priority_queue<Waiting> queue_;
   /// Of each grasp the nodes at which it was taken up, and those that an expanded rest passes.
   std::map<Holding, std::vector<int>> taken_, passed_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
-  std::vector<int> cluster_;
-  std::map<Holding, int> expanded_like_;
-  std::vector<int> expanded_at_;  ///< rests, by the step that they end at
+  std::map<Holding, int> expanded_like_;  ///< rests, by the kind of their grasp
+  std::vector<int> expanded_at_;          ///< rests, by the step that they end at
   GaitCounts counts_;
+  int last_expanded_ = -1;
+  std::set<Holding> targets_;  ///< kinds of them
   bool begun_ = false;
 };
 

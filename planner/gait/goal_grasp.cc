@@ -30,14 +30,29 @@ double GoalGrasp::DistanceBetween(int from, int to) const {
   return std::min(1.0, kNear + apart / kFar + turned / 2);
 }
 
-double GoalGrasp::DistanceFrom(const Holding& holding) const {
-  double least = points_.empty() ? 0 : std::numeric_limits<double>::infinity();
-  for (const Holding& way : ways_) {
-    double distance = 0;
-    for (std::size_t i = 0; i < way.size(); ++i) distance += DistanceBetween(holding[i], way[i]);
-    least = std::min(least, distance);
+double GoalGrasp::DistanceBetween(const Holding& from, const Holding& to) const {
+  double distance = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) distance += DistanceBetween(from[i], to[i]);
+  return distance;
+}
+
+const Holding* GoalGrasp::NearestTo(const Holding& holding) const {
+  const Holding* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto* holdings : {&ways_, &targets_}) {
+    for (const Holding& other : *holdings) {
+      const double distance = DistanceBetween(holding, other);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &other;
+    }
   }
-  return least;
+  return nearest;
+}
+
+double GoalGrasp::DistanceFrom(const Holding& holding) const {
+  const Holding* nearest = NearestTo(holding);
+  return nearest == nullptr ? 0 : DistanceBetween(holding, *nearest);
 }
 
 std::set<int> GoalGrasp::ContactsOf(FingerIndex finger) const {

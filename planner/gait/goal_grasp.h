@@ -20,20 +20,28 @@ class GoalGrasp {
   /// A way that the hand can hold it, at the goal pose.
   void AddWay(Holding way) { ways_.push_back(std::move(way)); }
 
+  /// A grasp from which there is a way on to it.
+  void AddTarget(Holding target) { targets_.push_back(std::move(target)); }
+  /// The way or target that is nearest (DistanceFrom); null where there are none.
+  [[nodiscard]] const Holding* NearestTo(const Holding& holding) const;
+
   [[nodiscard]] const std::vector<int>& points() const { return points_; }
   [[nodiscard]] bool IsWithinReach() const { return points_.empty() || !ways_.empty(); }
   [[nodiscard]] bool IsHeldBy(const Holding& holding) const;
-  /// Fingers that are not where they should be, those that hold by how far they are from there.
+  /// Fingers that are not where a way or a target has them, those that hold by how far they are
+  /// from there.
   [[nodiscard]] double DistanceFrom(const Holding& holding) const;
   /// Contacts that a finger may end with.
   [[nodiscard]] std::set<int> ContactsOf(FingerIndex finger) const;
 
  private:
   [[nodiscard]] double DistanceBetween(int from, int to) const;
+  [[nodiscard]] double DistanceBetween(const Holding& from, const Holding& to) const;
 
   std::vector<int> points_;
   const std::vector<SurfacePoint>& surface_;
   std::vector<Holding> ways_;
+  std::vector<Holding> targets_;
 };
 
 }  // namespace regrasp::gait

@@ -21,7 +21,7 @@ int Units(const Offset& offset) {
 }  // namespace
 
 PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end)
-    : track_(track), end_(end) {
+    : track_(track), up_(up), end_(end) {
   axes_ = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
   // Along a track objects turn about the last one anyway.
   const std::size_t dimensions = track.steps() == 0 ? 6 : 5;
@@ -45,6 +45,8 @@ PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end)
     }
   }
 }
+
+PoseGrid PoseGrid::Reversed() const { return {track_.Reversed(), up_, End::kPose}; }
 
 int PoseGrid::OffTrack(int node) const { return Units(offsets_[node % offsets()]); }
 

@@ -32,6 +32,13 @@ class PoseGrid {
   [[nodiscard]] int goal() const { return steps() * offsets(); }
   [[nodiscard]] bool IsGoal(int node) const;
 
+  /// The same poses from the end to the start.
+  [[nodiscard]] PoseGrid Reversed() const;
+  /// The node of the reversed grid that has a node's pose.
+  [[nodiscard]] int Mirrored(int node) const {
+    return (steps() - StepOf(node)) * offsets() + node % offsets();
+  }
+
   /// Of the object in the palm's frame.
   [[nodiscard]] Eigen::Isometry3d PoseAt(int node) const;
   /// The next one along the track, with the same offset; kNoNode at the end.
@@ -48,6 +55,7 @@ class PoseGrid {
   [[nodiscard]] int offsets() const { return static_cast<int>(offsets_.size()); }
 
   PoseTrack track_;
+  Eigen::Vector3d up_;
   End end_;
   Eigen::Matrix3d axes_;  ///< columns: across, across, up
   std::vector<Offset> offsets_;

@@ -37,6 +37,12 @@ class PoseTrack {
     return pose;
   }
 
+  /// The same poses from the end to the start, but for rounding.
+  [[nodiscard]] PoseTrack Reversed() const {
+    if (steps_ == 0) return *this;
+    return {PoseAt(steps_), centre_, {turn_.axis, -turn_.angle}, -shift_, steps_};
+  }
+
  private:
   Eigen::Isometry3d start_;
   Eigen::Vector3d centre_;

@@ -93,6 +93,15 @@ bool IsSame(const grasp::Contact& a, const grasp::Contact& b) {
 
 }  // namespace
 
+const tree::SurfaceRoute* SlideRoutes::Between(int from, int to) {
+  const auto [found, is_new] = known_.try_emplace({from, to});
+  if (is_new) {
+    found->second =
+        tree::FindSurfaceRoute(memory_.object(), memory_.contact(from), memory_.contact(to));
+  }
+  return found->second ? &*found->second : nullptr;
+}
+
 std::optional<Slide> FindSlide(const HandSetup& setup, const criteria::GraspMemory& memory,
                                FingerIndex finger, const std::vector<int>& grasp,
                                const tree::SurfaceRoute& route, const Posture& from,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "planner/criteria/grasp_memory.h"
@@ -9,6 +11,20 @@
 #include "planner/tree/surface_route.h"
 
 namespace regrasp::gait {
+
+/// Ways that a contact can take along the surface to another one, worked out when first asked for.
+class SlideRoutes {
+ public:
+  /// @param memory  knows the contacts by their numbers; outlives this object.
+  explicit SlideRoutes(const criteria::GraspMemory& memory) : memory_(memory) {}
+
+  /// Null where there is none (tree::FindSurfaceRoute). Stays where it is.
+  [[nodiscard]] const tree::SurfaceRoute* Between(int from, int to);
+
+ private:
+  const criteria::GraspMemory& memory_;
+  std::map<std::pair<int, int>, std::optional<tree::SurfaceRoute>> known_;
+};
 
 /// How a finger that holds slides along the surface: from contact to contact straight on a face, or
 /// about one point from a face to the next.

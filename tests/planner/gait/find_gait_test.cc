@@ -73,7 +73,8 @@ TEST(FindGaitTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
   for (const Stretch& stretch : found.gait->stretches) {
     EXPECT_EQ(stretch.path.front().pose.matrix(), last->pose.matrix());
     EXPECT_EQ(stretch.path.front().postures, last->postures);
-    if (stretch.kind == Stretch::Kind::kRelease) holding[stretch.finger] = kNone;
+    const bool stays = stretch.kind == Stretch::Kind::kMove;
+    if (!stays) holding[stretch.finger] = kNone;
     for (const Keyframe& frame : stretch.path) {
       for (FingerIndex finger{0}; finger < std::ssize(holding); ++finger) {
         if (holding[finger] == kNone) continue;
@@ -85,7 +86,9 @@ TEST(FindGaitTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
         ++tips;
       }
     }
-    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
+    if (!stays && stretch.kind != Stretch::Kind::kRelease) {
+      holding[stretch.finger] = stretch.contact;
+    }
     last = &stretch.path.back();
   }
   EXPECT_GT(tips, 100);
@@ -118,12 +121,14 @@ TEST(FindGaitTest, TheSameRequestGivesTheSameGait) {
   }
 }
 
-/// The contacts that are held at the end.
-grasp::Grasp LastGrasp(const GaitResult& found) {
+/// The contacts that are held before one of the stretches.
+grasp::Grasp GraspBefore(const GaitResult& found, std::size_t end) {
   Holding holding = found.gait->initial;
-  for (const Stretch& stretch : found.gait->stretches) {
-    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
-    if (stretch.kind == Stretch::Kind::kRelease) holding[stretch.finger] = kNone;
+  for (std::size_t i = 0; i < end; ++i) {
+    const Stretch& stretch = found.gait->stretches[i];
+    if (stretch.kind == Stretch::Kind::kMove) continue;
+    const bool leaves = stretch.kind == Stretch::Kind::kRelease;
+    holding[stretch.finger] = leaves ? kNone : stretch.contact;
   }
   grasp::Grasp grasp;
   for (const int contact : holding) {
@@ -132,13 +137,11 @@ grasp::Grasp LastGrasp(const GaitResult& found) {
   return grasp;
 }
 
-grasp::Grasp FirstGrasp(const GaitResult& found) {
-  grasp::Grasp grasp;
-  for (const int contact : found.gait->initial) {
-    if (contact != kNone) grasp.push_back(found.contacts[contact]);
-  }
-  return grasp;
+grasp::Grasp LastGrasp(const GaitResult& found) {
+  return GraspBefore(found, found.gait->stretches.size());
 }
+
+grasp::Grasp FirstGrasp(const GaitResult& found) { return GraspBefore(found, 0); }
 
 std::vector<std::vector<double>> Sorted(const grasp::Grasp& grasp) {
   std::vector<std::vector<double>> points;
@@ -174,6 +177,51 @@ TEST(FindGaitTest, PosesAndGraspsThatAreGivenAreKept) {
   }
 }
 
+/// From one grasp to another one at the same pose, each drawn alone.
+GaitRequest PairAtOnePose(std::uint64_t seed) {
+  GaitRequest request = RequestFor("cube", 0.8, 0);
+  request.seed = seed;
+  const GaitResult first = FindGait(request);
+  EXPECT_TRUE(first.gait) << first.message;
+  request.start_pose = first.gait->start.pose;
+  request.seed = seed + 1000;
+  const GaitResult second = FindGait(request);
+  EXPECT_TRUE(second.gait) << second.message;
+  request.goal_pose = request.start_pose;
+  request.start_grasp = FirstGrasp(first);
+  request.goal_grasp = FirstGrasp(second);
+  return request;
+}
+
+TEST(FindGaitTest, FingersThatHoldSlideAlongTheSurface) {
+  int slides = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const GaitRequest request = PairAtOnePose(seed);
+    const GaitResult found = FindGait(request);
+    ASSERT_TRUE(found.gait) << seed << found.message;
+    EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
+    for (const Stretch& stretch : found.gait->stretches) {
+      if (stretch.kind != Stretch::Kind::kSlide) continue;
+      ++slides;
+      EXPECT_EQ(stretch.along.front().p, found.contacts[stretch.from].p);
+      EXPECT_EQ(stretch.along.back().p, found.contacts[stretch.contact].p);
+      ASSERT_EQ(stretch.along.size(), stretch.along_at.size());
+      EXPECT_EQ(stretch.along_at.back() + 1, std::ssize(stretch.path));
+      const kinematics::Finger& chain = Ring().fingers[stretch.finger];
+      for (const Keyframe& frame : stretch.path) {
+        // A ball at the cube's surface, wherever on it.
+        const Vector3d centre =
+            frame.pose.inverse() * kinematics::TipAt(chain, frame.postures[stretch.finger]).centre;
+        const Vector3d outside = (centre.cwiseAbs().array() - 0.8 * 0.03).max(0.0);
+        EXPECT_NEAR(outside.norm(), chain.tip.radius, 1e-8);
+      }
+    }
+    const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
+    EXPECT_TRUE(plan::CheckPlan(*request.solid, plan).passed());
+  }
+  EXPECT_GT(slides, 0);
+}
+
 TEST(FindGaitTest, AGivenGraspFindsAPoseWhereFingersReachIt) {
   const GaitResult turned = FindGait(RequestFor("prism", 0.5, 30));
   ASSERT_TRUE(turned.gait) << turned.message;
@@ -194,7 +242,7 @@ TEST(FindGaitTest, GraspsMayHaveMoreFingersBeforeOrAfter) {
   ASSERT_NE(place, turned.gait->stretches.end());
   GaitRequest request = RequestFor("cube", 0.8, 0);
   request.start_pose = request.goal_pose = place->path.back().pose;
-  grasp::Grasp three = FirstGrasp(turned);
+  grasp::Grasp three = GraspBefore(turned, place - turned.gait->stretches.begin());
   grasp::Grasp four = three;
   four.push_back(turned.contacts[place->contact]);
   for (const bool leaves : {true, false}) {

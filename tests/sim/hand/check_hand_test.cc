@@ -50,6 +50,38 @@ const plan::Plan& GoodPlan() {
   return plan;
 }
 
+/// A regrasp at one pose in which fingers slide; made once.
+const plan::Plan& SlidingPlan() {
+  static const plan::Plan plan = [] {
+    const kinematics::HandModel hand = kinematics::ReadHand(kHand);
+    gait::GaitRequest request;
+    request.hand = &hand;
+    request.solid = &Cube();
+    request.scale = 0.8;
+    request.criteria.half_angle = std::atan(0.8);
+    const auto first_grasp = [&](std::uint64_t seed) {
+      request.seed = seed;
+      const gait::GaitResult found = gait::FindGait(request);
+      EXPECT_TRUE(found.gait) << found.message;
+      request.start_pose = found.gait->start.pose;
+      grasp::Grasp grasp;
+      for (const int contact : found.gait->initial) {
+        if (contact != gait::kNone) grasp.push_back(found.contacts[contact]);
+      }
+      return grasp;
+    };
+    const grasp::Grasp start = first_grasp(1);
+    const grasp::Grasp goal = first_grasp(1001);
+    request.start_grasp = start;
+    request.goal_grasp = goal;
+    request.goal_pose = request.start_pose;
+    const gait::GaitResult found = gait::FindGait(request);
+    EXPECT_TRUE(found.gait) << found.message;
+    return plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+  }();
+  return plan;
+}
+
 int FirstOf(const plan::Plan& plan, const std::string& kind) {
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     if (plan::StepKind(plan.steps[i]) == kind) return static_cast<int>(i);
@@ -75,12 +107,59 @@ TEST(CheckHandTest, APlanOfTheSearchPasses) {
 }
 
 TEST(CheckHandTest, AFileReadAgainPassesToo) {
-  plan::Plan plan = GoodPlan();
-  plan.object_sha256 = std::string(64, '0');
-  const plan::Plan again = plan::ParsePlan(plan::FormatPlan(plan), "plan");
-  EXPECT_THAT(CheckHand(kHand, Cube(), plan::LocatePlan(Cube(), again)), testing::IsEmpty());
-  EXPECT_TRUE(again.hand);
-  EXPECT_EQ(again.steps.size(), plan.steps.size());
+  for (plan::Plan plan : {GoodPlan(), SlidingPlan()}) {
+    plan.object_sha256 = std::string(64, '0');
+    const plan::Plan again = plan::ParsePlan(plan::FormatPlan(plan), "plan");
+    EXPECT_THAT(CheckHand(kHand, Cube(), plan::LocatePlan(Cube(), again)), testing::IsEmpty());
+    EXPECT_TRUE(again.hand);
+    EXPECT_EQ(again.steps.size(), plan.steps.size());
+  }
+}
+
+plan::Align& FirstAlign(plan::Plan& plan) {
+  return std::get<plan::Align>(plan.steps[FirstOf(plan, "align")]);
+}
+
+TEST(CheckHandTest, ASlideIsFollowedAllTheWay) {
+  EXPECT_THAT(CheckHand(kHand, Cube(), SlidingPlan()), testing::IsEmpty());
+  struct Change {
+    const char* name;
+    Reason reason;
+    const char* words;
+    std::function<void(plan::Align&)> change;
+  };
+  const std::vector<Change> changes = {
+      {"no paths", Reason::kHandJumps, "no path", [](auto& align) { align.motion.reset(); }},
+      {"a path too few", Reason::kHandJumps, "waypoints ask for",
+       [](auto& align) { align.motion->pop_back(); }},
+      {"one state", Reason::kHandJumps, "path to waypoint 1 has one state",
+       [](auto& align) { align.motion->front().resize(1); }},
+      {"the finger stays behind", Reason::kTipOffContact, "tip of finger",
+       [](auto& align) {
+         plan::HandPath& path = align.motion->front();
+         path.insert(path.begin(), path.front());
+       }},
+      {"the finger stops before the end", Reason::kTipOffContact, "tip of finger",
+       [](auto& align) { align.motion->back().back() = align.motion->back().front(); }},
+      {"states are left out", Reason::kTipOffContact, "tip of finger",
+       [](auto& align) {
+         plan::HandPath& path = align.motion->front();
+         path.erase(path.begin() + 1, path.end() - 1);
+       }},
+      {"the object moves", Reason::kHandJumps, "moves while fingers slide",
+       [](auto& align) { align.motion->front().back().pose.translation().x() += 1e-6; }},
+      {"it begins elsewhere", Reason::kHandJumps, "begins the step",
+       [](auto& align) { align.motion->front().front().joints[0][0] += 1e-6; }},
+  };
+  for (const Change& change : changes) {
+    plan::Plan plan = SlidingPlan();
+    change.change(FirstAlign(plan));
+    const auto faults = CheckHand(kHand, Cube(), plan);
+    ASSERT_EQ(faults.size(), 1U) << change.name;
+    EXPECT_EQ(faults[0].reason, change.reason) << change.name << ": " << faults[0].detail;
+    EXPECT_EQ(faults[0].entry, FirstOf(plan, "align") + 1) << change.name;
+    EXPECT_THAT(faults[0].detail, testing::HasSubstr(change.words)) << change.name;
+  }
 }
 
 struct Control {
@@ -214,7 +293,7 @@ TEST(CheckHandTest, AFingerThroughTheObjectCollides) {
               testing::Contains(testing::Field(&plan::HandLink::finger, moving)));
   // Where it is worst, and not where the clearance is only just missed.
   EXPECT_LT(*fault.hand->gap_m, -1e-3);
-  EXPECT_THAT(faults.front().detail, testing::HasSubstr("mm into"));
+  EXPECT_THAT(faults.front().detail, testing::HasSubstr("m into"));
 }
 
 /// What is too near but not in each other is told by its distance.
