@@ -31,6 +31,9 @@ constexpr double kSingleFinger = 0.3;
 constexpr double kOffTrack = 0.1;
 /// What a finger costs that does not hold what it is to hold in the end, in steps.
 constexpr double kNotYetGoal = 3;
+/// What a slide costs on the way, in steps: a finger that slides holds less well than one that
+/// rests.
+constexpr double kSlide = 2;
 /// Steps that a rest is put back for each one that was expanded and ends where it ends.
 constexpr double kPutBack = 0.1;
 /// Steps that it is put back for each turn that it had.
@@ -124,7 +127,8 @@ double GaitSearch::ScoreOf(const Rest& rest, int last) {
   }
   return last + kSingleFinger * sum / CountHolding(rest.hold.holding) -
          kOffTrack * grid_.OffTrack(rest.node) -
-         kNotYetGoal * goal_.DistanceFrom(rest.hold.holding);
+         kNotYetGoal * goal_.DistanceFrom(rest.hold.holding) -
+         (grid_.steps() > 0 ? kSlide * rest.slides : 0);
 }
 
 bool GaitSearch::Add(Rest rest) {
@@ -216,7 +220,10 @@ std::vector<GaitSearch::Change> GaitSearch::ChangesFrom(const Holding& from, int
 
 std::optional<GaitSearch::Rest> GaitSearch::After(const Rest& from, const Change& change,
                                                   int node) {
-  Rest rest{.hold = from.hold, .node = node, .change = change};
+  Rest rest{.hold = from.hold,
+            .node = node,
+            .slides = from.slides + static_cast<int>(change.slid.valid()),
+            .change = change};
   Holding& holding = rest.hold.holding;
   if (change.slid.valid()) holding[change.slid] = change.point;
   if (change.placed.valid()) {

@@ -34,13 +34,13 @@ struct GaitCounts {
 
 /// Searches a gait that takes an object from the start of a grid of poses to its goal: rests are
 /// grasps of three or more fingers; from each the object goes as far as these can follow, somewhere
-/// on that path a free finger is placed and another one lifted.
+/// on that path a free finger is placed and another one lifted, or one that holds slides.
 ///
 /// Best first: rests from which the object gets farthest, and from which each single finger could
-/// go on farther, come first; those nearer to the goal grasp before others; the more of them were
-/// expanded that end at one step, the later others come that end there, so that a dead end does not
-/// hold the search up. What is costly, paths of fingers, ways round on the grid and the certificate
-/// of moves, is worked out when a rest's turn comes.
+/// go on farther, come first; those nearer to the goal grasp before others. The more of them were
+/// expanded that end at one step, or are much alike, the later others come like these, so that a
+/// dead end does not hold the search up. What is costly, paths of fingers and ways round on the
+/// grid, is worked out when a rest's turn comes; certificates of moves when a gait is complete.
 class GaitSearch {
  public:
   /// @param carrier  on the grid.
@@ -91,6 +91,7 @@ class GaitSearch {
     int turns = 0;                   ///< that it had
     double score = 0;
     int parent = -1;
+    int slides = 0;      ///< from the first rest to this one
     Change change = {};  ///< from the parent's grasp
     /// Worked out when its turn comes: the switch, from where the parent brought the object.
     std::vector<Stretch> way = {};
