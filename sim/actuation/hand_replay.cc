@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planner/base/angle.h"
+#include "planner/base/error.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/hand_path.h"
 #include "sim/actuation/hand_control.h"
@@ -375,6 +376,11 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
                         const plan::Plan& plan, const HandReplayOptions& options,
                         const HandReplayObserver& observer, int steps) {
   const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
+  for (plan::EntryIndex index{1}; index < entries; ++index) {
+    if (!std::holds_alternative<plan::Align>(plan::StepOf(plan, index))) continue;
+    throw InputError("replay by a hand: step " + std::to_string(index) +
+                     " is an align, which it does not carry out");
+  }
   const double half_angle = options.half_angle.value_or(plan.half_angle);
   HandWorld world(file, solid, plan.scale,
                   {options.friction_factor * std::tan(half_angle),
