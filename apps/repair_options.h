@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "planner/object/object.h"
-#include "planner/object/shells.h"
 
 namespace regrasp::apps {
 

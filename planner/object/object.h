@@ -176,6 +176,16 @@ struct RepairOptions {
   bool operator==(const RepairOptions&) const = default;
 };
 
+/// What is made of several closed shells; without a choice they are refused, but for a solid and
+/// its cavities.
+enum class Shells {
+  /// All solids that they bound are one rigid body, wherever they are: shells beside each other,
+  /// and those inside others. What lies in the material of another is left out. None meets another.
+  kUnion,
+  /// The one of the largest volume, with its cavities; the others are left out, whatever they meet.
+  kLargest,
+};
+
 /// That an object was made of a file by a repair.
 struct RepairRecord {
   RepairOptions options;

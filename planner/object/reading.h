@@ -8,7 +8,6 @@
 
 #include "planner/base/deadline.h"
 #include "planner/object/object.h"
-#include "planner/object/shells.h"
 
 namespace regrasp::object {
 

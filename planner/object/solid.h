@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/object/shells.h"
+#include "planner/object/object.h"
 #include "planner/object/surface_topology.h"
 #include "planner/object/triangle_mesh.h"
 

@@ -10,7 +10,6 @@
 #include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
 #include "planner/object/object.h"
-#include "planner/object/shells.h"
 
 namespace regrasp::plan {
 

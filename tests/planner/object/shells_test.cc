@@ -1,7 +1,5 @@
 // What is made of several closed shells, by choice and without one.
 
-#include "planner/object/shells.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "planner/object/mesh_defect.h"
+#include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/soups.h"
 
