@@ -9,21 +9,19 @@
 #include <utility>
 
 #include "planner/base/error.h"
-#include "planner/base/number.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/mujoco_model.h"
+#include "sim/actuation/ball_contact.h"
+#include "sim/actuation/hand_scene_text.h"
 #include "sim/scene/engine_hooks.h"
 
 namespace regrasp::sim {
 namespace {
 
 using Eigen::Isometry3d;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using kinematics::XmlElement;
 
-constexpr const char* kObject = "regrasp_object";
 constexpr double kTimestep = 1e-3;
 /// Contacts of tips: a constraint that comes back within five steps, and friction ten times as
 /// hard as the normal, so that what sticks creeps little.
@@ -38,21 +36,6 @@ constexpr double kFrozen = 1e3;
 /// Surface farther than this from a tip is not looked for, metres.
 constexpr double kNear = 5e-3;
 
-std::string Numbers(std::initializer_list<double> values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " ") + FormatDouble(value);
-  return text;
-}
-
-XmlElement Element(std::string name, std::vector<std::pair<std::string, std::string>> attributes,
-                   std::vector<XmlElement> children = {}) {
-  XmlElement element;
-  element.name = std::move(name);
-  element.attributes = std::move(attributes);
-  element.children = std::move(children);
-  return element;
-}
-
 Vector3d VectorAt(const mjtNum* values, int index) {
   return Eigen::Map<const Vector3d>(values + std::ptrdiff_t{3} * index);
 }
@@ -63,80 +46,6 @@ Isometry3d PoseAt(const mjData& data, int body) {
   using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   pose.linear() = Eigen::Map<const RowMajor>(data.xmat + std::ptrdiff_t{9} * body);
   return pose;
-}
-
-/// The object as the engine has it: a free body at its centroid, with the axes of its frame.
-XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass) {
-  const object::MassProperties& properties = solid.mass_properties();
-  const Matrix3d inertia = mass / properties.volume * scale * scale * properties.inertia;
-  return Element("body", {{"name", kObject}},
-                 {Element("freejoint", {}),
-                  Element("inertial", {{"pos", "0 0 0"},
-                                       {"mass", FormatDouble(mass)},
-                                       {"fullinertia",
-                                        Numbers({inertia(0, 0), inertia(1, 1), inertia(2, 2),
-                                                 inertia(0, 1), inertia(0, 2), inertia(1, 2)})}}),
-                  Element("geom", {{"name", kObject},
-                                   {"type", "sphere"},
-                                   {"size", "0.001"},
-                                   {"contype", "0"},
-                                   {"conaffinity", "0"}})});
-}
-
-/// The largest torque of a joint by its URDF; 0 where it does not say.
-double EffortOf(const XmlElement& robot, const std::string& name) {
-  for (const XmlElement& joint : robot.children) {
-    const std::string* found = joint.name == "joint" ? joint.Find("name") : nullptr;
-    const XmlElement* limit = joint.Child("limit");
-    if (found == nullptr || *found != name || limit == nullptr) continue;
-    const std::string* effort = limit->Find("effort");
-    return effort == nullptr ? 0 : ParseDouble(*effort).value_or(0);
-  }
-  return 0;
-}
-
-/// A URDF has no actuators: each drive of a finger gets a motor, as strong as the joint may be.
-kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
-  const kinematics::ModelText& urdf = file.compiled->text;
-  kinematics::ModelText text = kinematics::AsMjcf(urdf.files.front(), urdf);
-  std::vector<XmlElement> motors;
-  for (const kinematics::Finger& finger : file.hand.fingers) {
-    for (int drive = 0; drive < finger.drives; ++drive) {
-      const auto leads = std::ranges::find_if(finger.joints, [&](const kinematics::Joint& joint) {
-        return joint.drive == drive && joint.ratio == 1;
-      });
-      const std::string& name = leads->name;
-      XmlElement& motor = motors.emplace_back(Element("motor", {{"joint", name}}));
-      const double effort = EffortOf(urdf.root, name);
-      if (effort <= 0) continue;
-      motor.Set("forcelimited", "true");
-      motor.Set("forcerange", Numbers({-effort, effort}));
-    }
-  }
-  text.root.children.push_back(Element("actuator", {}, std::move(motors)));
-  return text;
-}
-
-/// The hand's model with the object in it, and with the couplings of the hand's file.
-kinematics::ModelText SceneText(const kinematics::HandFile& file, const object::Polyhedron& solid,
-                                double scale, double mass) {
-  kinematics::ModelText text = file.compiled->text;
-  if (text.root.name == "robot") text = UrdfWithMotors(file);
-  XmlElement& root = text.root;
-  std::erase_if(root.children, [](const XmlElement& child) {
-    return child.name == "keyframe" || child.name == "size" || child.name == "sensor";
-  });
-  root.children.push_back(Element("size", {{"njmax", "2000"}, {"nconmax", "400"}}));
-  root.children.push_back(Element("worldbody", {}, {ObjectBody(solid, scale, mass)}));
-  std::vector<XmlElement> couplings;
-  for (const auto& coupling : file.description.couplings) {
-    couplings.push_back(
-        Element("joint", {{"joint1", coupling.joint},
-                          {"joint2", coupling.follows},
-                          {"polycoef", "0 " + FormatDouble(coupling.ratio) + " 0 0 0"}}));
-  }
-  if (!couplings.empty()) root.children.push_back(Element("equality", {}, std::move(couplings)));
-  return text;
 }
 
 /// Two directions at right angles to a unit vector and to each other.
@@ -178,7 +87,7 @@ struct HandWorld::Impl {
        const HandWorldOptions& given)
       : hand(file.hand), surface(solid, scale), options(given) {
     model = kinematics::CompileText(file.compiled->text.files.front(),
-                                    SceneText(file, solid, scale, options.mass_kg));
+                                    HandSceneText(file, solid, scale, options.mass_kg));
     data.reset(mj_makeData(model.get()));
     if (!data) throw EnvironmentError("MuJoCo has no memory for a hand");
     centroid = scale * solid.mass_properties().centroid;
@@ -206,7 +115,7 @@ struct HandWorld::Impl {
   }
 
   void FindParts(const kinematics::HandFile& file) {
-    object_body = Id(mjOBJ_BODY, kObject);
+    object_body = Id(mjOBJ_BODY, kHandSceneObject);
     object_geom = model->body_geomadr[object_body];
     object_qpos = model->jnt_qposadr[model->body_jntadr[object_body]];
     mj_forward(model.get(), data.get());
@@ -567,25 +476,11 @@ void HandWorld::Step() {
   CheckState(*m, *d);
 }
 
-HandWorld::State HandWorld::Save() const {
-  const mjModel& m = *impl_->model;
-  const mjData& d = *impl_->data;
-  return {d.time,
-          {d.qpos, d.qpos + m.nq},
-          {d.qvel, d.qvel + m.nv},
-          {d.act, d.act + m.na},
-          {d.qacc_warmstart, d.qacc_warmstart + m.nv}};
-}
+HandWorld::State HandWorld::Save() const { return SaveState(*impl_->model, *impl_->data); }
 
 void HandWorld::Restore(const State& state) {
-  mjData& d = *impl_->data;
-  d.time = state.time;
-  std::ranges::copy(state.qpos, d.qpos);
-  std::ranges::copy(state.qvel, d.qvel);
-  std::ranges::copy(state.act, d.act);
-  std::ranges::copy(state.warmstart, d.qacc_warmstart);
-  ForgetWarnings(d);
-  mj_forward(impl_->model.get(), &d);
+  RestoreState(state, *impl_->data);
+  mj_forward(impl_->model.get(), impl_->data.get());
   impl_->AddTipContacts();
 }
 

@@ -11,7 +11,7 @@
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
-#include "sim/actuation/ball_contact.h"
+#include "sim/scene/engine_state.h"
 
 namespace regrasp::sim {
 
@@ -49,10 +49,7 @@ struct TipTouch {
 /// seconds; O is the object's frame (its file's axes and origin, in metres).
 class HandWorld {
  public:
-  struct State {
-    double time = 0;
-    std::vector<double> qpos, qvel, act, warmstart;
-  };
+  using State = EngineState;
 
   /// @throws InputError  the hand's model does not allow it.
   HandWorld(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,

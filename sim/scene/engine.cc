@@ -186,22 +186,8 @@ void Engine::Step() {
   CheckState(*impl_->model, d);
 }
 
-Engine::State Engine::Save() const {
-  const mjModel& m = *impl_->model;
-  const mjData& d = *impl_->data;
-  return {d.time,
-          {d.qpos, d.qpos + m.nq},
-          {d.qvel, d.qvel + m.nv},
-          {d.qacc_warmstart, d.qacc_warmstart + m.nv}};
-}
+Engine::State Engine::Save() const { return SaveState(*impl_->model, *impl_->data); }
 
-void Engine::Restore(const State& state) {
-  mjData& d = *impl_->data;
-  d.time = state.time;
-  std::ranges::copy(state.qpos, d.qpos);
-  std::ranges::copy(state.qvel, d.qvel);
-  std::ranges::copy(state.qacc_warmstart, d.qacc_warmstart);
-  ForgetWarnings(d);
-}
+void Engine::Restore(const State& state) { RestoreState(state, *impl_->data); }
 
 }  // namespace regrasp::sim

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/base/index.h"
+#include "sim/scene/engine_state.h"
 
 namespace regrasp::sim {
 
@@ -41,11 +42,7 @@ using SiteIndex = Index<struct SiteTag>;
 /// whatever the units of the scene are.
 class Engine {
  public:
-  /// Everything that the next steps depend on: replaying from a saved state gives the same bits.
-  struct State {
-    double time = 0;  ///< this and the others in units of the engine
-    std::vector<double> qpos, qvel, qacc_warmstart;
-  };
+  using State = EngineState;
 
   /// @param units  of the numbers in `mjcf`.
   /// @throws EnvironmentError  the engine does not take the scene.

@@ -50,7 +50,20 @@ void CheckState(const mjModel& model, const mjData& data) {
   }
 }
 
-void ForgetWarnings(mjData& data) {
+EngineState SaveState(const mjModel& model, const mjData& data) {
+  return {data.time,
+          {data.qpos, data.qpos + model.nq},
+          {data.qvel, data.qvel + model.nv},
+          {data.act, data.act + model.na},
+          {data.qacc_warmstart, data.qacc_warmstart + model.nv}};
+}
+
+void RestoreState(const EngineState& state, mjData& data) {
+  data.time = state.time;
+  std::ranges::copy(state.qpos, data.qpos);
+  std::ranges::copy(state.qvel, data.qvel);
+  std::ranges::copy(state.act, data.act);
+  std::ranges::copy(state.qacc_warmstart, data.qacc_warmstart);
   for (const mjtWarning warning : kFatalWarnings) data.warning[warning].number = 0;
 }
 

@@ -2,6 +2,8 @@
 
 #include <mujoco/mujoco.h>
 
+#include "sim/scene/engine_state.h"
+
 namespace regrasp::sim {
 
 /// Takes MuJoCo's two global hooks while a simulation lives: its errors become UnstableError, its
@@ -22,7 +24,8 @@ class EngineHooks {
 ///                        not finite.
 void CheckState(const mjModel& model, const mjData& data);
 
-/// A warning of what happened since a state was saved is not one of the state.
-void ForgetWarnings(mjData& data);
+[[nodiscard]] EngineState SaveState(const mjModel& model, const mjData& data);
+/// Of the same model. Warnings of what happened since are forgotten.
+void RestoreState(const EngineState& state, mjData& data);
 
 }  // namespace regrasp::sim

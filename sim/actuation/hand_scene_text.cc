@@ -1,0 +1,107 @@
+#include "sim/actuation/hand_scene_text.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/base/number.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Matrix3d;
+using kinematics::XmlElement;
+
+std::string Numbers(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : " ") + FormatDouble(value);
+  return text;
+}
+
+XmlElement Element(std::string name, std::vector<std::pair<std::string, std::string>> attributes,
+                   std::vector<XmlElement> children = {}) {
+  XmlElement element;
+  element.name = std::move(name);
+  element.attributes = std::move(attributes);
+  element.children = std::move(children);
+  return element;
+}
+
+/// The object as the engine has it: a free body at its centroid, with the axes of its frame.
+XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass) {
+  const object::MassProperties& properties = solid.mass_properties();
+  const Matrix3d inertia = mass / properties.volume * scale * scale * properties.inertia;
+  return Element("body", {{"name", kHandSceneObject}},
+                 {Element("freejoint", {}),
+                  Element("inertial", {{"pos", "0 0 0"},
+                                       {"mass", FormatDouble(mass)},
+                                       {"fullinertia",
+                                        Numbers({inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                                                 inertia(0, 1), inertia(0, 2), inertia(1, 2)})}}),
+                  Element("geom", {{"name", kHandSceneObject},
+                                   {"type", "sphere"},
+                                   {"size", "0.001"},
+                                   {"contype", "0"},
+                                   {"conaffinity", "0"}})});
+}
+
+/// The largest torque of a joint by its URDF; 0 where it does not say.
+double EffortOf(const XmlElement& robot, const std::string& name) {
+  for (const XmlElement& joint : robot.children) {
+    const std::string* found = joint.name == "joint" ? joint.Find("name") : nullptr;
+    const XmlElement* limit = joint.Child("limit");
+    if (found == nullptr || *found != name || limit == nullptr) continue;
+    const std::string* effort = limit->Find("effort");
+    return effort == nullptr ? 0 : ParseDouble(*effort).value_or(0);
+  }
+  return 0;
+}
+
+/// A URDF has no actuators: each drive of a finger gets a motor, as strong as the joint may be.
+kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
+  const kinematics::ModelText& urdf = file.compiled->text;
+  kinematics::ModelText text = kinematics::AsMjcf(urdf.files.front(), urdf);
+  std::vector<XmlElement> motors;
+  for (const kinematics::Finger& finger : file.hand.fingers) {
+    for (int drive = 0; drive < finger.drives; ++drive) {
+      const auto leads = std::ranges::find_if(finger.joints, [&](const kinematics::Joint& joint) {
+        return joint.drive == drive && joint.ratio == 1;
+      });
+      const std::string& name = leads->name;
+      XmlElement& motor = motors.emplace_back(Element("motor", {{"joint", name}}));
+      const double effort = EffortOf(urdf.root, name);
+      if (effort <= 0) continue;
+      motor.Set("forcelimited", "true");
+      motor.Set("forcerange", Numbers({-effort, effort}));
+    }
+  }
+  text.root.children.push_back(Element("actuator", {}, std::move(motors)));
+  return text;
+}
+
+}  // namespace
+
+kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
+                                    const object::Polyhedron& solid, double scale, double mass) {
+  kinematics::ModelText text = file.compiled->text;
+  if (text.root.name == "robot") text = UrdfWithMotors(file);
+  XmlElement& root = text.root;
+  std::erase_if(root.children, [](const XmlElement& child) {
+    return child.name == "keyframe" || child.name == "size" || child.name == "sensor";
+  });
+  root.children.push_back(Element("size", {{"njmax", "2000"}, {"nconmax", "400"}}));
+  root.children.push_back(Element("worldbody", {}, {ObjectBody(solid, scale, mass)}));
+  std::vector<XmlElement> couplings;
+  for (const auto& coupling : file.description.couplings) {
+    couplings.push_back(
+        Element("joint", {{"joint1", coupling.joint},
+                          {"joint2", coupling.follows},
+                          {"polycoef", "0 " + FormatDouble(coupling.ratio) + " 0 0 0"}}));
+  }
+  if (!couplings.empty()) root.children.push_back(Element("equality", {}, std::move(couplings)));
+  return text;
+}
+
+}  // namespace regrasp::sim
