@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "planner/base/angle.h"
 #include "planner/plan/hand_path.h"
@@ -159,16 +160,9 @@ std::vector<HandState> HandPicture::StatesOf(const plan::Plan& plan) const {
   std::vector<HandState> states = {Fits(plan.hand->initial) ? plan.hand->initial : rest};
   for (const plan::Step& step : plan.steps) {
     states.push_back(states.back());
-    const auto take = [&](const plan::HandPath& path) {
-      if (!path.empty() && Fits(path.back())) states.back() = path.back();
-    };
-    if (const auto* move = std::get_if<plan::Move>(&step)) take(move->path);
-    const auto* align = std::get_if<plan::Align>(&step);
-    if (align != nullptr && align->motion) std::ranges::for_each(*align->motion, take);
-    const auto* change = std::get_if<plan::Switch>(&step);
-    if (change == nullptr || !change->motion) continue;
-    take(change->motion->place);
-    take(change->motion->release);
+    for (const plan::HandPath* path : plan::PathsOf(step)) {
+      if (!path->empty() && Fits(path->back())) states.back() = path->back();
+    }
   }
   return states;
 }
@@ -217,35 +211,33 @@ std::vector<plan::Snapshot> HandPicture::Between(plan::EntryIndex entry,
                                                  const plan::Snapshot& before,
                                                  const plan::Snapshot& after) const {
   std::vector<plan::Snapshot> pictures;
-  const auto add = [&](const plan::HandPath& path, const plan::Snapshot& seen) {
+  /// @param set_contacts  of a picture, told the share of the path's steps.
+  const auto add = [&](const plan::HandPath& path, const plan::Snapshot& seen,
+                       const std::function<void(double, plan::Snapshot&)>& set_contacts) {
     if (!std::ranges::all_of(path, [this](const HandState& state) { return Fits(state); })) return;
     for (const auto& [state, share] : Spread(path)) {
       pictures.push_back(seen);
+      set_contacts(share, pictures.back());
       Stand(state, pictures.back());
     }
   };
-  const auto add_slide = [&](const plan::HandPath& path, const plan::FingerGrasp& from,
-                             const plan::FingerGrasp& to) {
-    if (!std::ranges::all_of(path, [this](const HandState& state) { return Fits(state); })) return;
-    for (const auto& [state, share] : Spread(path)) {
-      pictures.push_back(Holding(before));
-      SetContacts(plan::GraspBetween(from, to, share), plan_.scale, pictures.back());
-      Stand(state, pictures.back());
-    }
-  };
+  const auto as_seen = [](double /*share*/, plan::Snapshot& /*picture*/) {};
   if (entry == 0) return pictures;
   const plan::Step& step = plan::StepOf(plan_, entry);
-  if (const auto* move = std::get_if<plan::Move>(&step)) add(move->path, Holding(before));
+  if (const auto* move = std::get_if<plan::Move>(&step)) add(move->path, Holding(before), as_seen);
   if (const auto* align = std::get_if<plan::Align>(&step); align != nullptr && align->motion) {
     const std::size_t ways = std::min(align->motion->size(), align->waypoints.size() - 1);
     for (std::size_t w = 0; w < ways; ++w) {
-      add_slide((*align->motion)[w], align->waypoints[w], align->waypoints[w + 1]);
+      add((*align->motion)[w], Holding(before), [&](double share, plan::Snapshot& picture) {
+        SetContacts(plan::GraspBetween(align->waypoints[w], align->waypoints[w + 1], share),
+                    plan_.scale, picture);
+      });
     }
   }
   const auto* change = std::get_if<plan::Switch>(&step);
   if (change == nullptr || !change->motion) return pictures;
-  add(change->motion->place, Holding(before));
-  add(change->motion->release, Holding(after, change->release));
+  add(change->motion->place, Holding(before), as_seen);
+  add(change->motion->release, Holding(after, change->release), as_seen);
   return pictures;
 }
 

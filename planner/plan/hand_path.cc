@@ -16,4 +16,17 @@ HandState StateBetween(const HandState& from, const HandState& to, double share)
   return state;
 }
 
+std::vector<const HandPath*> PathsOf(const Step& step) {
+  std::vector<const HandPath*> paths;
+  if (const auto* move = std::get_if<Move>(&step)) paths.push_back(&move->path);
+  if (const auto* align = std::get_if<Align>(&step); align != nullptr && align->motion) {
+    for (const HandPath& path : *align->motion) paths.push_back(&path);
+  }
+  if (const auto* change = std::get_if<Switch>(&step); change != nullptr && change->motion) {
+    paths.push_back(&change->motion->place);
+    paths.push_back(&change->motion->release);
+  }
+  return paths;
+}
+
 }  // namespace regrasp::plan

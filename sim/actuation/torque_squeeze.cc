@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 #include <vector>
 
 #include "planner/grasp/grasp_forces.h"
+#include "planner/plan/hand_path.h"
 
 namespace regrasp::sim {
 namespace {
@@ -23,13 +23,8 @@ std::vector<PlannedRest> RestsOf(const plan::Plan& plan, int entries) {
   for (plan::EntryIndex entry{1}; entry < entries; ++entry) {
     const plan::Step& step = plan::StepOf(plan, entry);
     PlannedRest rest = {rests.back().state, plan::GraspAfter(rests.back().grasp, step)};
-    const auto take = [&rest](const plan::HandPath& path) {
-      if (!path.empty()) rest.state = path.back();
-    };
-    if (const auto* move = std::get_if<plan::Move>(&step)) take(move->path);
-    if (const auto* change = std::get_if<plan::Switch>(&step); change && change->motion) {
-      take(change->motion->place);
-      take(change->motion->release);
+    for (const plan::HandPath* path : plan::PathsOf(step)) {
+      if (!path->empty()) rest.state = path->back();
     }
     rests.push_back(std::move(rest));
   }
