@@ -5,7 +5,6 @@
 #include <iostream>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -13,23 +12,19 @@
 #include "apps/frame_files.h"
 #include "apps/held_folder.h"
 #include "apps/output_files.h"
-#include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/run_date.h"
 #include "apps/run_digest.h"
+#include "apps/validate_task.h"
 #include "apps/verify_report.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/stopwatch.h"
-#include "planner/criteria/reach.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/body_measures.h"
-#include "planner/object/given_points.h"
-#include "planner/object/reading.h"
 #include "planner/plan/invented_contacts.h"
 #include "planner/plan/plan_io.h"
-#include "planner/repair/repair.h"
 #include "report/failure.h"
 #include "report/junit.h"
 #include "report/page/report_page.h"
@@ -46,18 +41,6 @@ namespace {
 /// Between two rows of a finger in the trajectory: a switch takes some hundredths of a second.
 constexpr double kSampleInterval_s = 5e-4;
 
-/// What the files on the command line ask for.
-struct Task {
-  object::ObjectFile object;
-  std::string file_text;  ///< of the plan or of the grasp
-  plan::Plan plan;        ///< of a grasp: without steps
-  grasp::Grasp grasp;     ///< empty for a plan
-  /// That the object's file gives, where the plan's contacts are at them.
-  std::vector<Eigen::Vector3d> given_points;
-  std::string start_text, goal_text;  ///< of --start and --goal; empty where they are not given
-  std::optional<kinematics::HandFile> hand;  ///< of --hand
-};
-
 /// What is kept of the replay while it runs; states as far as someone asked for them.
 struct Samples {
   Stopwatch run;    ///< since the program began
@@ -66,110 +49,6 @@ struct Samples {
   std::vector<plan::Snapshot> trajectory;
   std::vector<plan::Snapshot> animation;
 };
-
-OutputFiles OutputsOf(const ValidateOptions& options) {
-  OutputFiles outputs;
-  if (!options.verify.empty()) return outputs;
-  outputs.Add("--junit", options.junit);
-  if (options.json != kStandardStream) outputs.Add("--json", options.json);
-  outputs.Add("--trajectory", options.trajectory);
-  outputs.Add("--export-mjcf", options.mjcf);
-  outputs.Add("--video", options.video);
-  outputs.folders.push_back({"--out", options.Folder(), IsValidationFile});
-  return outputs;
-}
-
-void CheckOutputs(const ValidateOptions& options) {
-  const OutputFiles outputs = OutputsOf(options);
-  CheckOutputsDiffer({{"--object", options.object_path},
-                      {options.for_grasp() ? "--grasp" : "--plan", options.InputPath()},
-                      {"--start", options.start},
-                      {"--goal", options.goal},
-                      {"--hand", options.hand}},
-                     outputs);
-  CheckOutputsWritable(outputs);
-}
-
-/// A plan says itself how its object was repaired, and which of its shells it is.
-void CheckRepair(const ValidateOptions& options, const plan::Plan& plan) {
-  if (options.repair.shells() && options.repair.shells() != plan.shells) {
-    throw InputError("--shells: " + options.plan_path + ": /object/shells says " +
-                     (plan.shells ? "otherwise" : "nothing: the plan's object is one solid"));
-  }
-  if (!options.repair.wanted()) return;
-  if (!plan.repair) {
-    throw InputError("--repair: " + options.plan_path +
-                     " was made for an object as its file has it");
-  }
-  const object::RepairOptions given = options.repair.Get();
-  if (given != object::RepairOptions() && given != plan.repair->options) {
-    throw InputError("--repair: " + options.plan_path +
-                     ": /object/repair says how its object was repaired, and it was otherwise");
-  }
-}
-
-void ReadGivenPoints(const std::string& object_path, const object::Reading& reading, Task& task) {
-  if (!task.plan.at_given_points) return;
-  if (task.plan.repair && !task.object.repair) {
-    throw InputError(object_path + ": the contacts of the plan are at points of " +
-                     task.plan.object_file +
-                     "; give that file (--object), not what a repair made "
-                     "of it");
-  }
-  task.given_points = object::ReadGivenPoints(object_path, reading);
-}
-
-void ReadPlanTask(const ValidateOptions& options, const object::Reading& reading, Task& task) {
-  std::error_code error;
-  const bool named_by_plan = std::filesystem::is_directory(options.object_path, error);
-  task.file_text =
-      options.plan_path == kStandardStream ? ReadFile("/dev/stdin") : ReadFile(options.plan_path);
-  task.plan = plan::ParsePlan(task.file_text, options.plan_path);
-  CheckRepair(options, task.plan);
-  const std::string object_path = ObjectPathOf(options, task.plan.object_file);
-  if (named_by_plan) CheckOutputsDiffer({{"--object", object_path}}, OutputsOf(options));
-  task.object = ReadObjectOf(task.plan, object_path, reading);
-  CheckPlanFits(task.plan, task.object,
-                {options.plan_path, object_path, options.allow_object_change, options.scale});
-  ReadGivenPoints(object_path, reading, task);
-}
-
-Task ReadTask(const ValidateOptions& options) {
-  ProgressLine progress(options.quiet);
-  object::Reading reading = {progress.reporter(), {}};
-  Task task;
-  if (options.for_grasp()) {
-    reading.shells = options.repair.shells();
-    reading.on_shells = [&](const std::string& text) {
-      progress.Clear();
-      if (!options.quiet) PrintMessage(kValidateName, options.object_path + ": " + text);
-    };
-    task.object = options.repair.wanted()
-                      ? repair::ReadRepaired(options.object_path, options.repair.Get(), reading)
-                      : object::ReadObject(options.object_path, reading);
-    task.file_text = ReadFile(options.grasp_path);
-    task.grasp = plan::ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
-    task.plan =
-        report::MakeHoldPlan(*task.object.object, task.grasp,
-                             options.friction.required_half_angle(), options.scale.value_or(1));
-  } else {
-    ReadPlanTask(options, reading, task);
-  }
-  if (!options.start.empty()) task.start_text = ReadFile(options.start);
-  if (!options.goal.empty()) task.goal_text = ReadFile(options.goal);
-  if (!options.hand.empty()) task.hand = kinematics::ReadHandFile(options.hand);
-  if (options.replay.thickness && task.plan.dimension == 3) {
-    throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
-  }
-  if (options.replay.finger_radius) {
-    criteria::CheckFingerRadius(*task.object.object, *options.replay.finger_radius,
-                                "--finger-radius");
-  } else if (task.plan.finger_radius) {
-    criteria::CheckFingerRadius(*task.object.object, *task.plan.finger_radius,
-                                options.plan_path + ": /finger_radius");
-  }
-  return task;
-}
 
 sim::ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& progress,
                                  Samples& samples) {
@@ -194,7 +73,7 @@ sim::ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& p
 
 /// What the analytic check is told besides the plan; it points to the grasps of the files.
 struct CheckTask {
-  CheckTask(const ValidateOptions& options, const Task& task) {
+  CheckTask(const ValidateOptions& options, const ValidateTask& task) {
     const object::Object& object = *task.object.object;
     check.half_angle = options.friction.half_angle();
     check.finger_radius = options.replay.finger_radius;
@@ -210,7 +89,7 @@ struct CheckTask {
     }
   }
   /// Of a plan for a hand.
-  void CheckHand(const ValidateOptions& options, const Task& task) {
+  void CheckHand(const ValidateOptions& options, const ValidateTask& task) {
     const auto* solid = dynamic_cast<const object::Polyhedron*>(task.object.object.get());
     if (solid == nullptr || options.for_grasp()) {
       throw InputError("--hand: checks plans for solids that were made for a hand");
@@ -227,7 +106,7 @@ struct CheckTask {
 };
 
 /// Replays by the hand of the task.
-report::Replayer HandReplayer(const ValidateOptions& options, const Task& task,
+report::Replayer HandReplayer(const ValidateOptions& options, const ValidateTask& task,
                               const sim::ReplayObserver& observer) {
   const auto& solid = dynamic_cast<const object::Polyhedron&>(*task.object.object);
   sim::HandReplayOptions by_hand;
@@ -244,7 +123,7 @@ report::Replayer HandReplayer(const ValidateOptions& options, const Task& task,
   };
 }
 
-report::Report Check(const ValidateOptions& options, const Task& task, Samples& samples) {
+report::Report Check(const ValidateOptions& options, const ValidateTask& task, Samples& samples) {
   const object::Object& object = *task.object.object;
   CheckTask given(options, task);
   ProgressLine progress(options.quiet);
@@ -270,7 +149,7 @@ std::string UncheckedHandWarning(const ValidateOptions& options, const plan::Pla
 }
 
 /// Of a plan whose replay passes.
-void AddTrials(const ValidateOptions& options, const Task& task, report::Report& report) {
+void AddTrials(const ValidateOptions& options, const ValidateTask& task, report::Report& report) {
   if (options.trials.count == 0) return;
   if (!report.passed()) {
     PrintMessage(kValidateName, "no trials: the replay without noise does not pass");
@@ -290,7 +169,7 @@ void AddTrials(const ValidateOptions& options, const Task& task, report::Report&
                                  options.trials, report.settings->fingertip_radius_m, tell);
 }
 
-render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task& task) {
+render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const ValidateTask& task) {
   render::FrameOptions frame = options.frame;
   if (!options.show_clusters) return frame;
   const auto* solid = dynamic_cast<const object::Polyhedron*>(task.object.object.get());
@@ -306,7 +185,7 @@ render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task&
   return frame;
 }
 
-int Verify(const ValidateOptions& options, const Task& task) {
+int Verify(const ValidateOptions& options, const ValidateTask& task) {
   const CheckTask given(options, task);
   const ReportVerification found = VerifyReport(
       ReadFile(options.verify), options.verify,
@@ -315,7 +194,7 @@ int Verify(const ValidateOptions& options, const Task& task) {
   return found.proved ? kExitDone : kExitNegative;
 }
 
-std::vector<std::string> NamesOfResults(const ValidateOptions& options, const Task& task) {
+std::vector<std::string> NamesOfResults(const ValidateOptions& options, const ValidateTask& task) {
   return ResultNames(task.plan, !options.no_frames, options.animate);
 }
 
@@ -343,8 +222,9 @@ class DrawingCount {
 
 /// @returns what the page shows of it: replay.webp, or the video where only that is made.
 report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions frame,
-                            const Task& task, const HandPicture* hand, const Samples& samples,
-                            const std::filesystem::path& folder, report::Report& report) {
+                            const ValidateTask& task, const HandPicture* hand,
+                            const Samples& samples, const std::filesystem::path& folder,
+                            report::Report& report) {
   frame.width = options.animation_width;
   frame.height = options.animation_height;
   frame.crop = options.animation_crop;
@@ -361,8 +241,8 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
 }
 
 void WritePictures(const ValidateOptions& options, const render::FrameOptions& frame,
-                   const Task& task, const Samples& samples, const std::filesystem::path& folder,
-                   report::Report& report) {
+                   const ValidateTask& task, const Samples& samples,
+                   const std::filesystem::path& folder, report::Report& report) {
   const object::Object& object = *task.object.object;
   std::vector<report::PagePicture> pictures;
   std::optional<HandPicture> seen;
@@ -417,7 +297,8 @@ void WriteJunit(const ValidateOptions& options, const std::filesystem::path& fol
 }
 
 void WriteResults(const ValidateOptions& options, const render::FrameOptions& frame,
-                  const Task& task, Samples& samples, HeldFolder& folder, report::Report& report) {
+                  const ValidateTask& task, Samples& samples, HeldFolder& folder,
+                  report::Report& report) {
   const std::vector<std::string> names = NamesOfResults(options, task);
   RemoveEarlierRun(folder, OwnResults(folder));
   folder.Announce(names);
@@ -457,7 +338,7 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   Samples samples;
   CheckOutputs(options);
   const std::string date = RunDate();
-  const Task task = ReadTask(options);
+  const ValidateTask task = ReadTask(options);
   if (!options.verify.empty()) return {Verify(options, task), {}};
   const render::FrameOptions frame = FrameOptionsFor(options, task);
   HeldFolder folder(options.Folder());

@@ -1,0 +1,133 @@
+#include "apps/validate_task.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "apps/frame_files.h"
+#include "apps/output_files.h"
+#include "apps/plan_object.h"
+#include "apps/program.h"
+#include "apps/progress.h"
+#include "apps/run_digest.h"
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/criteria/reach.h"
+#include "planner/object/given_points.h"
+#include "planner/object/reading.h"
+#include "planner/plan/grasp_io.h"
+#include "planner/plan/plan_io.h"
+#include "planner/repair/repair.h"
+#include "report/report.h"
+
+namespace regrasp::apps {
+namespace {
+
+OutputFiles OutputsOf(const ValidateOptions& options) {
+  OutputFiles outputs;
+  if (!options.verify.empty()) return outputs;
+  outputs.Add("--junit", options.junit);
+  if (options.json != kStandardStream) outputs.Add("--json", options.json);
+  outputs.Add("--trajectory", options.trajectory);
+  outputs.Add("--export-mjcf", options.mjcf);
+  outputs.Add("--video", options.video);
+  outputs.folders.push_back({"--out", options.Folder(), IsValidationFile});
+  return outputs;
+}
+
+/// A plan says itself how its object was repaired, and which of its shells it is.
+void CheckRepair(const ValidateOptions& options, const plan::Plan& plan) {
+  if (options.repair.shells() && options.repair.shells() != plan.shells) {
+    throw InputError("--shells: " + options.plan_path + ": /object/shells says " +
+                     (plan.shells ? "otherwise" : "nothing: the plan's object is one solid"));
+  }
+  if (!options.repair.wanted()) return;
+  if (!plan.repair) {
+    throw InputError("--repair: " + options.plan_path +
+                     " was made for an object as its file has it");
+  }
+  const object::RepairOptions given = options.repair.Get();
+  if (given != object::RepairOptions() && given != plan.repair->options) {
+    throw InputError("--repair: " + options.plan_path +
+                     ": /object/repair says how its object was repaired, and it was otherwise");
+  }
+}
+
+void ReadGivenPoints(const std::string& object_path, const object::Reading& reading,
+                     ValidateTask& task) {
+  if (!task.plan.at_given_points) return;
+  if (task.plan.repair && !task.object.repair) {
+    throw InputError(object_path + ": the contacts of the plan are at points of " +
+                     task.plan.object_file +
+                     "; give that file (--object), not what a repair made "
+                     "of it");
+  }
+  task.given_points = object::ReadGivenPoints(object_path, reading);
+}
+
+void ReadPlanTask(const ValidateOptions& options, const object::Reading& reading,
+                  ValidateTask& task) {
+  std::error_code error;
+  const bool named_by_plan = std::filesystem::is_directory(options.object_path, error);
+  task.file_text =
+      options.plan_path == kStandardStream ? ReadFile("/dev/stdin") : ReadFile(options.plan_path);
+  task.plan = plan::ParsePlan(task.file_text, options.plan_path);
+  CheckRepair(options, task.plan);
+  const std::string object_path = ObjectPathOf(options, task.plan.object_file);
+  if (named_by_plan) CheckOutputsDiffer({{"--object", object_path}}, OutputsOf(options));
+  task.object = ReadObjectOf(task.plan, object_path, reading);
+  CheckPlanFits(task.plan, task.object,
+                {options.plan_path, object_path, options.allow_object_change, options.scale});
+  ReadGivenPoints(object_path, reading, task);
+}
+
+}  // namespace
+
+void CheckOutputs(const ValidateOptions& options) {
+  const OutputFiles outputs = OutputsOf(options);
+  CheckOutputsDiffer({{"--object", options.object_path},
+                      {options.for_grasp() ? "--grasp" : "--plan", options.InputPath()},
+                      {"--start", options.start},
+                      {"--goal", options.goal},
+                      {"--hand", options.hand}},
+                     outputs);
+  CheckOutputsWritable(outputs);
+}
+
+ValidateTask ReadTask(const ValidateOptions& options) {
+  ProgressLine progress(options.quiet);
+  object::Reading reading = {progress.reporter(), {}};
+  ValidateTask task;
+  if (options.for_grasp()) {
+    reading.shells = options.repair.shells();
+    reading.on_shells = [&](const std::string& text) {
+      progress.Clear();
+      if (!options.quiet) PrintMessage(kValidateName, options.object_path + ": " + text);
+    };
+    task.object = options.repair.wanted()
+                      ? repair::ReadRepaired(options.object_path, options.repair.Get(), reading)
+                      : object::ReadObject(options.object_path, reading);
+    task.file_text = ReadFile(options.grasp_path);
+    task.grasp = plan::ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
+    task.plan =
+        report::MakeHoldPlan(*task.object.object, task.grasp,
+                             options.friction.required_half_angle(), options.scale.value_or(1));
+  } else {
+    ReadPlanTask(options, reading, task);
+  }
+  if (!options.start.empty()) task.start_text = ReadFile(options.start);
+  if (!options.goal.empty()) task.goal_text = ReadFile(options.goal);
+  if (!options.hand.empty()) task.hand = kinematics::ReadHandFile(options.hand);
+  if (options.replay.thickness && task.plan.dimension == 3) {
+    throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
+  }
+  if (options.replay.finger_radius) {
+    criteria::CheckFingerRadius(*task.object.object, *options.replay.finger_radius,
+                                "--finger-radius");
+  } else if (task.plan.finger_radius) {
+    criteria::CheckFingerRadius(*task.object.object, *task.plan.finger_radius,
+                                options.plan_path + ": /finger_radius");
+  }
+  return task;
+}
+
+}  // namespace regrasp::apps

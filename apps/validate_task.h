@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/validate_options.h"
+#include "planner/kinematics/hand_file.h"
+#include "planner/object/object.h"
+#include "planner/plan/plan.h"
+
+namespace regrasp::apps {
+
+/// What the files on the command line ask for.
+struct ValidateTask {
+  object::ObjectFile object;
+  std::string file_text;  ///< of the plan or of the grasp
+  plan::Plan plan;        ///< of a grasp: without steps
+  grasp::Grasp grasp;     ///< empty for a plan
+  /// That the object's file gives, where the plan's contacts are at them.
+  std::vector<Eigen::Vector3d> given_points;
+  std::string start_text, goal_text;  ///< of --start and --goal; empty where they are not given
+  std::optional<kinematics::HandFile> hand;  ///< of --hand
+};
+
+/// @throws InputError  an output is another file of the command line, or can't be written.
+void CheckOutputs(const ValidateOptions& options);
+
+/// Reads the object, the plan or the grasp, and what else is named.
+/// @throws InputError  a file is no good, or does not go with another one or with an option.
+[[nodiscard]] ValidateTask ReadTask(const ValidateOptions& options);
+
+}  // namespace regrasp::apps
