@@ -36,8 +36,7 @@ void AddShells(CLI::App& app, std::optional<object::Shells>& shells) {
       {{"union", object::Shells::kUnion}, {"largest", object::Shells::kLargest}},
       "What several closed shells are: union, all are one rigid body, also beside each other; "
       "largest, the one of the largest volume and its cavities is the object (default: refused, "
-      "but "
-      "for a solid and its cavities)");
+      "but for a solid and its cavities)");
 }
 
 }  // namespace

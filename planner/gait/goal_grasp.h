@@ -25,7 +25,6 @@ class GoalGrasp {
   /// The way or target that is nearest (DistanceFrom); null where there are none.
   [[nodiscard]] const Holding* NearestTo(const Holding& holding) const;
 
-  [[nodiscard]] const std::vector<int>& points() const { return points_; }
   [[nodiscard]] bool IsWithinReach() const { return points_.empty() || !ways_.empty(); }
   [[nodiscard]] bool IsHeldBy(const Holding& holding) const;
   /// Fingers that are not where a way or a target has them, those that hold by how far they are

@@ -32,15 +32,20 @@ const object::Polyhedron& Cube() {
   return dynamic_cast<const object::Polyhedron&>(*file.object);
 }
 
+gait::GaitRequest RequestForTheCube() {
+  static const kinematics::HandModel hand = kinematics::ReadHand(kHand);
+  gait::GaitRequest request;
+  request.hand = &hand;
+  request.solid = &Cube();
+  request.scale = 0.8;
+  request.criteria.half_angle = std::atan(0.8);
+  return request;
+}
+
 /// With moves and switches; made once.
 const plan::Plan& GoodPlan() {
   static const plan::Plan plan = [] {
-    const kinematics::HandModel hand = kinematics::ReadHand(kHand);
-    gait::GaitRequest request;
-    request.hand = &hand;
-    request.solid = &Cube();
-    request.scale = 0.8;
-    request.criteria.half_angle = std::atan(0.8);
+    gait::GaitRequest request = RequestForTheCube();
     request.turn = {Vector3d::UnitZ(), Radians(200)};
     request.seed = 1;
     const gait::GaitResult found = gait::FindGait(request);
@@ -53,12 +58,7 @@ const plan::Plan& GoodPlan() {
 /// A regrasp at one pose in which fingers slide; made once.
 const plan::Plan& SlidingPlan() {
   static const plan::Plan plan = [] {
-    const kinematics::HandModel hand = kinematics::ReadHand(kHand);
-    gait::GaitRequest request;
-    request.hand = &hand;
-    request.solid = &Cube();
-    request.scale = 0.8;
-    request.criteria.half_angle = std::atan(0.8);
+    gait::GaitRequest request = RequestForTheCube();
     const auto first_grasp = [&](std::uint64_t seed) {
       request.seed = seed;
       const gait::GaitResult found = gait::FindGait(request);
