@@ -37,9 +37,9 @@ double SizeOf(Points points) {
 
 }  // namespace
 
-DistanceBounds HullDistance(Points a, Points b, std::optional<double> decided) {
+HullBounds HullDistance(Points a, Points b, std::optional<double> decided) {
   const double slack = kRounding * (SizeOf(a) + SizeOf(b));
-  DistanceBounds bounds;
+  HullBounds bounds;
   Simplex simplex;
   // Points of the difference a − b; the nearest one to the origin is looked for.
   Vector3d nearest = a.front() - b.front();
@@ -47,20 +47,32 @@ DistanceBounds HullDistance(Points a, Points b, std::optional<double> decided) {
   simplex.size = 1;
   bounds.upper = nearest.norm();
   for (int i = 0; i < kMostIterations; ++i) {
-    if (bounds.upper <= slack) return {0, bounds.upper};
+    if (bounds.upper <= slack) return {{0, bounds.upper}};
     const Vector3d support = Farthest(a, -nearest) - Farthest(b, nearest);
-    bounds.lower = std::max(bounds.lower, support.dot(nearest) / bounds.upper - slack);
+    const double lower = support.dot(nearest) / bounds.upper - slack;
+    if (lower > bounds.lower) {
+      bounds.lower = lower;
+      bounds.direction = nearest;
+    }
     if (decided && (bounds.lower > *decided || bounds.upper <= *decided)) return bounds;
     if (bounds.upper - bounds.lower <= kConverged * bounds.upper + slack) return bounds;
     simplex.points[simplex.size++] = support;
     nearest = ReduceToNearest(simplex);
-    if (simplex.size == 4) return {0, 0};
+    if (simplex.size == 4) return {};
     const double upper = nearest.norm();
     // Only rounding is left.
     if (upper >= bounds.upper) return bounds;
     bounds.upper = upper;
   }
   return bounds;
+}
+
+bool AreApartAlong(Points a, Points b, const Vector3d& direction, double distance) {
+  const double length = direction.norm();
+  if (!(length > 0)) return false;
+  const double slack = kRounding * (SizeOf(a) + SizeOf(b));
+  const Vector3d gap = Farthest(a, -direction) - Farthest(b, direction);
+  return gap.dot(direction) / length - slack > distance;
 }
 
 }  // namespace regrasp::collision

@@ -93,10 +93,15 @@ double SurfaceTree::DistanceFrom(const ConvexShape& shape, double limit) const {
 bool SurfaceTree::IsApart(const ConvexShape& shape, double distance) const {
   const double enough = distance + shape.radius;
   double within = enough;
+  // What parts one triangle from the shape mostly parts those near by.
+  Vector3d direction = Vector3d::Zero();
   Descend(
       shape,
       [&](const Triangle& triangle) {
-        if (HullDistance(shape.points, triangle, enough).lower <= enough) within = -1;
+        if (AreApartAlong(shape.points, triangle, direction, enough)) return;
+        const HullBounds bounds = HullDistance(shape.points, triangle, enough);
+        if (bounds.lower <= enough) within = -1;
+        direction = bounds.direction;
       },
       within);
   return within >= 0;

@@ -1,6 +1,7 @@
 #include "planner/gait/hand_scene.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace regrasp::gait {
@@ -30,19 +31,35 @@ HandScene::HandScene(const kinematics::HandModel& hand, const collision::Surface
       margin_(margin),
       object_reach_(surface.ReachFrom(Eigen::Vector3d::Zero())) {
   for (const LinkShape& link : hand.palm) palm_balls_.push_back(BallAround(link.shape));
+  for (FingerIndex a{0}; a < std::ssize(hand.fingers); ++a) {
+    with_palm_.push_back(CheckedPairs(a, {}));
+    with_fingers_.emplace_back();
+    for (FingerIndex b{0}; b < std::ssize(hand.fingers); ++b) {
+      with_fingers_.back().push_back(CheckedPairs(a, b));
+    }
+  }
   for (const Finger& finger : hand.fingers) {
+    balls_.emplace_back();
     reach_.emplace_back();
     for (const LinkShape& link : finger.shapes) {
+      balls_.back().push_back(BallAround(link.shape));
       reach_.back().push_back(kinematics::LinkReach(finger, link));
     }
   }
 }
 
-bool HandScene::IsIgnored(const Part& a, const Part& b) const {
-  return std::ranges::binary_search(
-      hand_.ignored, std::minmax(a, b), [](const auto& x, const auto& y) {
-        return std::pair(x.first, x.second) < std::pair(y.first, y.second);
-      });
+std::vector<HandScene::ShapePair> HandScene::CheckedPairs(FingerIndex a, FingerIndex b) const {
+  const auto count = [&](FingerIndex finger) {
+    return static_cast<int>((finger.valid() ? hand_.fingers[finger].shapes : hand_.palm).size());
+  };
+  const std::set ignored(hand_.ignored.begin(), hand_.ignored.end());
+  std::vector<ShapePair> pairs;
+  for (int i = 0; i < count(a); ++i) {
+    for (int j = a == b ? i + 1 : 0; j < count(b); ++j) {
+      if (!ignored.contains(std::minmax(Part{a, i}, Part{b, j}))) pairs.push_back({i, j});
+    }
+  }
+  return pairs;
 }
 
 PlacedFinger HandScene::Place(FingerIndex finger, const Posture& posture) const {
@@ -51,42 +68,34 @@ PlacedFinger HandScene::Place(FingerIndex finger, const Posture& posture) const 
   PlacedFinger placed;
   placed.finger = finger;
   for (const LinkShape& link : chain.shapes) {
-    placed.shapes.push_back(collision::Moved(frames[link.after - 1], link.shape));
-    placed.balls.push_back(BallAround(placed.shapes.back()));
+    const Isometry3d& frame = frames[link.after - 1];
+    const Ball& ball = balls_[finger][placed.shapes.size()];
+    placed.shapes.push_back(collision::Moved(frame, link.shape));
+    placed.balls.push_back({frame * ball.centre, ball.radius});
   }
   return placed;
 }
 
 bool HandScene::KeepsOffHand(const PlacedFinger& placed, Motion motion) const {
-  const int count = static_cast<int>(placed.shapes.size());
-  for (int i = 0; i < count; ++i) {
-    const Part part{placed.finger, i};
-    for (int j = 0; j < static_cast<int>(hand_.palm.size()); ++j) {
-      if (AreApart(placed.shapes[i], placed.balls[i], hand_.palm[j].shape, palm_balls_[j],
-                   Needed(motion))) {
-        continue;
-      }
-      if (!IsIgnored(part, {FingerIndex{}, j})) return false;
-    }
-    for (int j = i + 1; j < count; ++j) {
-      if (AreApart(placed.shapes[i], placed.balls[i], placed.shapes[j], placed.balls[j],
-                   Needed(motion))) {
-        continue;
-      }
-      if (!IsIgnored(part, {placed.finger, j})) return false;
-    }
-  }
-  return true;
+  const double needed = Needed(motion);
+  return std::ranges::all_of(with_palm_[placed.finger],
+                             [&](const ShapePair& pair) {
+                               return AreApart(placed.shapes[pair.a], placed.balls[pair.a],
+                                               hand_.palm[pair.b].shape, palm_balls_[pair.b],
+                                               needed);
+                             }) &&
+         KeepApart(placed, placed, motion);
 }
 
 bool HandScene::KeepsOffObject(const PlacedFinger& placed, const Isometry3d& pose, TipContact tip,
-                               Motion motion) const {
+                               Motion motion, Links links) const {
   const Isometry3d to_object = pose.inverse();
-  const std::vector<LinkShape>& links = hand_.fingers[placed.finger].shapes;
-  for (std::size_t i = 0; i < links.size(); ++i) {
+  const std::vector<LinkShape>& shapes = hand_.fingers[placed.finger].shapes;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (links != Links::kAll && shapes[i].is_tip != (links == Links::kTip)) continue;
     ConvexShape shape = collision::Moved(to_object, placed.shapes[i]);
     double distance = Needed(motion);
-    if (links[i].is_tip && tip == TipContact::kTouching) {
+    if (shapes[i].is_tip && tip == TipContact::kTouching) {
       shape.radius = std::max(0.0, shape.radius - kTipDepth);
       distance = motion.value_or(0);
     }
@@ -105,15 +114,10 @@ double HandScene::DistanceFromObject(const PlacedFinger& placed, const Isometry3
 }
 
 bool HandScene::KeepApart(const PlacedFinger& a, const PlacedFinger& b, Motion motion) const {
-  for (std::size_t i = 0; i < a.shapes.size(); ++i) {
-    for (std::size_t j = 0; j < b.shapes.size(); ++j) {
-      if (AreApart(a.shapes[i], a.balls[i], b.shapes[j], b.balls[j], Needed(motion))) continue;
-      if (!IsIgnored({a.finger, static_cast<int>(i)}, {b.finger, static_cast<int>(j)})) {
-        return false;
-      }
-    }
-  }
-  return true;
+  const double needed = Needed(motion);
+  return std::ranges::all_of(with_fingers_[a.finger][b.finger], [&](const ShapePair& pair) {
+    return AreApart(a.shapes[pair.a], a.balls[pair.a], b.shapes[pair.b], b.balls[pair.b], needed);
+  });
 }
 
 bool HandScene::KeepsOffPalm(const Isometry3d& pose, Motion motion) const {

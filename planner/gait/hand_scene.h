@@ -59,9 +59,12 @@ class HandScene {
 
   /// Whether a finger keeps off the palm and off itself.
   [[nodiscard]] bool KeepsOffHand(const PlacedFinger& placed, Motion motion = {}) const;
+  /// Of a finger.
+  enum class Links { kAll, kTip, kBehindTip };
   /// Whether it keeps off the object.
   [[nodiscard]] bool KeepsOffObject(const PlacedFinger& placed, const Eigen::Isometry3d& pose,
-                                    TipContact tip, Motion motion = {}) const;
+                                    TipContact tip, Motion motion = {},
+                                    Links links = Links::kAll) const;
   /// How far a finger is from the object, no more than `limit`.
   [[nodiscard]] double DistanceFromObject(const PlacedFinger& placed, const Eigen::Isometry3d& pose,
                                           double limit) const;
@@ -81,13 +84,24 @@ class HandScene {
  private:
   using Part = kinematics::HandModel::Part;
   [[nodiscard]] double Needed(Motion motion) const { return margin_ + motion.value_or(kSpare); }
-  [[nodiscard]] bool IsIgnored(const Part& a, const Part& b) const;
+  /// Of shapes that may run into each other; those that never can are not looked at: they are
+  /// many, and touch, for which GJK takes longest.
+  struct ShapePair {
+    int a;
+    int b;
+  };
+  /// All pairs that the hand does not ignore. @param a, b  fingers, the same for one with itself;
+  /// not valid: the palm.
+  [[nodiscard]] std::vector<ShapePair> CheckedPairs(FingerIndex a, FingerIndex b) const;
 
   const kinematics::HandModel& hand_;
   const collision::SurfaceTree& surface_;
   double margin_;
   double object_reach_;  ///< of its points from its origin
   std::vector<collision::Ball> palm_balls_;
+  std::vector<std::vector<collision::Ball>> balls_;  ///< by finger and shape, in the link's frame
+  std::vector<std::vector<ShapePair>> with_palm_;    ///< by finger
+  std::vector<std::vector<std::vector<ShapePair>>> with_fingers_;  ///< by both fingers
   std::vector<std::vector<std::vector<double>>> reach_;  ///< LinkReach by finger and shape
 };
 

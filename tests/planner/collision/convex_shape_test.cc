@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "planner/base/random.h"
+#include "planner/collision/hull_distance.h"
 
 namespace regrasp::collision {
 namespace {
@@ -115,6 +117,24 @@ TEST(ConvexShapeTest, TheAnswerWhetherTheyAreApartIsThatOfTheDistance) {
   }
   EXPECT_GT(yes, 500);
   EXPECT_LT(yes, 2000);
+}
+
+TEST(ConvexShapeTest, AlongTheDirectionThatWasFoundHullsAreApartAndAlongNoOtherMore) {
+  RandomStream random(7, RandomUse::kCandidates);
+  for (int i = 0; i < 500; ++i) {
+    const ConvexShape a = RandomHull(random, 6);
+    const ConvexShape b = Moved(RandomPose(random), RandomHull(random, 4));
+    const HullBounds bounds = HullDistance(a.points, b.points);
+    if (bounds.lower == 0) continue;
+    ASSERT_TRUE(AreApartAlong(a.points, b.points, 3 * bounds.direction, bounds.lower * (1 - 1e-6)));
+    ASSERT_FALSE(AreApartAlong(a.points, b.points, bounds.direction, bounds.upper * (1 + 1e-6)));
+    ASSERT_FALSE(AreApartAlong(a.points, b.points, -bounds.direction, 0));
+    const Vector3d other(random.Normal(), random.Normal(), random.Normal());
+    ASSERT_FALSE(AreApartAlong(a.points, b.points, other, bounds.upper * (1 + 1e-6)));
+  }
+  EXPECT_FALSE(AreApartAlong(std::array{Vector3d(1, 0, 0)}, std::array{Vector3d(0, 0, 0)},
+                             Vector3d::Zero(), 0))
+      << "no direction tells nothing";
 }
 
 TEST(ConvexShapeTest, MotionOrderAndExchangeChangeNothing) {
