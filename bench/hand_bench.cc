@@ -212,12 +212,6 @@ void Replay(const Contest& contest, const kinematics::HandFile& file, const Body
     options.friction_factor = *contest.of_critical * CriticalFriction(body, plan) / kMu;
   }
   options.mass_kg = object::MeasureBody(body.solid, body.scale).mass_kg;
-  const bool aligns = std::ranges::any_of(
-      plan.steps, [](const plan::Step& step) { return std::holds_alternative<plan::Align>(step); });
-  if (aligns) {
-    ++replays.reasons["not replayed, has aligns"];
-    return;
-  }
   const Clock::time_point begin = Now();
   const sim::ReplayResult result = sim::ReplayHand(file, body.solid, plan, options);
   replays.seconds += SecondsSince(begin);

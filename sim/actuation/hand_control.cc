@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/grasp/grasp_forces.h"
+#include "planner/grasp/sliding_forces.h"
 #include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::sim {
@@ -20,6 +20,10 @@ constexpr double kIntegralGain = 8;
 /// step.
 constexpr double kDamping = 5e-3;
 constexpr double kPull = 0.02;
+/// The largest normal force of fingers that slide, of the squeeze.
+constexpr double kMostSliding = 0.5;
+/// Planned joints go no faster, rad/s.
+constexpr double kFastest = 2;
 /// In which what a free finger is off goes, seconds.
 constexpr double kOffsetTime = 0.1;
 
@@ -61,10 +65,19 @@ HandControl::HandControl(HandWorld& world, const object::Polyhedron& solid, doub
     fingers_.push_back({});
     fingers_.back().target = world.posture(f);
     fingers_.back().offset = Posture::Zero(fingers_.back().target.size());
+    fingers_.back().rate = fingers_.back().offset;
   }
 }
 
-void HandControl::Steer(const plan::HandState& planned) { planned_ = planned; }
+void HandControl::Steer(const plan::HandState& planned) {
+  const double most = kFastest * world_.timestep();
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
+    const Posture before = PlannedPosture(f);
+    const Posture change = PostureOf(world_.hand().fingers[f], planned.joints[f]) - before;
+    fingers_[f].rate = change.cwiseMax(-most).cwiseMin(most) / world_.timestep();
+  }
+  planned_ = planned;
+}
 
 Posture HandControl::PlannedPosture(FingerIndex finger) const {
   return PostureOf(world_.hand().fingers[finger], planned_.joints[finger]);
@@ -92,6 +105,22 @@ void HandControl::LeadTip(FingerIndex finger, const Vector3d& centre_O) {
   fingers_[finger].centre_O = centre_O;
 }
 
+void HandControl::LeadAlongSurface(FingerIndex finger, const Vector3d& centre_O) {
+  fingers_[finger].mode = Mode::kSliding;
+  fingers_[finger].led_O = centre_O;
+}
+
+double HandControl::SlidingMargin(const Hold& hold, const plan::FingerGrasp& end) const {
+  const grasp::Grasp contacts = ContactsOf(hold.fingers);
+  grasp::Grasp after = contacts;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const bool slides = std::ranges::find(hold.sliding, hold.fingers[i], &SlidingFinger::finger) !=
+                        hold.sliding.end();
+    if (slides) after[i] = plan::FindFinger(end, hold.fingers[i])->contact;
+  }
+  return std::min(PlannedForces(contacts, hold).margin, PlannedForces(after, hold).margin);
+}
+
 void HandControl::CopyState(const HandControl& other) {
   planned_ = other.planned_;
   holding_ = other.holding_;
@@ -111,7 +140,8 @@ void HandControl::Measure() {
   const Isometry3d pose = world_.object_pose();
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     Finger& finger = fingers_[f];
-    if (finger.mode == Mode::kAttached) finger.centre_O = pose.inverse() * world_.tip(f);
+    if (finger.mode == Mode::kAttached || finger.mode == Mode::kSliding)
+      finger.centre_O = pose.inverse() * world_.tip(f);
   }
   if (!settings_.feedback) return;
   const Vector3d off = planned_.pose * world_.centroid_O() - pose * world_.centroid_O();
@@ -120,21 +150,45 @@ void HandControl::Measure() {
   turn_ = Limited(turn_ + kIntegralGain * kPeriod * turned, kMostOffset / reach_);
 }
 
-std::vector<Vector3d> HandControl::ForcesOf(const std::vector<FingerIndex>& fingers) const {
-  std::vector<Vector3d> forces(fingers_.size(), Vector3d::Zero());
-  if (fingers.empty()) return forces;
-  const Isometry3d pose = world_.object_pose();
+grasp::Grasp HandControl::ContactsOf(const std::vector<FingerIndex>& fingers) const {
   grasp::Grasp contacts;
   for (const FingerIndex f : fingers) {
     const TipTouch touch = world_.touch(f);
     contacts.push_back({touch.point_O / scale_, touch.inward_O, {}});
   }
-  const Vector3d down = -settings_.weight_N * (pose.linear().transpose() * world_.hand().up);
-  const grasp::GraspForces planned =
-      grasp::ComputeGraspForces(contacts, solid_.wrench_frame(), settings_.half_angle,
-                                {down, Vector3d::Zero()}, settings_.squeeze_N);
-  for (std::size_t i = 0; i < fingers.size(); ++i) {
-    forces[fingers[i]] = pose.linear() * planned.forces[i];
+  return contacts;
+}
+
+grasp::GraspForces HandControl::PlannedForces(const grasp::Grasp& contacts,
+                                              const Hold& hold) const {
+  std::vector<grasp::SlidingContact> sliding;
+  for (const SlidingFinger& one : hold.sliding) {
+    const auto at = std::ranges::find(hold.fingers, one.finger) - hold.fingers.begin();
+    const Vector3d& n = contacts[at].n;
+    const Vector3d along = one.direction_O - one.direction_O.dot(n) * n;
+    sliding.push_back({static_cast<int>(at), along.stableNormalized()});
+  }
+  const Matrix3d turn = world_.object_pose().linear();
+  const Vector3d down = -settings_.weight_N * (turn.transpose() * world_.hand().up);
+  const double angle = settings_.half_angle;
+  const auto plan = [&](double normal) {
+    return grasp::ComputeSlidingForces(contacts, sliding, solid_.wrench_frame(),
+                                       {std::tan(angle), angle}, {down, Vector3d::Zero()},
+                                       settings_.squeeze_N, normal);
+  };
+  if (sliding.empty()) return plan(0);
+  const double most = kMostSliding * settings_.squeeze_N / static_cast<double>(sliding.size());
+  const auto margin = [&](double normal) { return plan(normal).margin; };
+  return plan(grasp::ChooseSlidingNormal(std::min(kTouchForce, most), most, margin).normal);
+}
+
+std::vector<Vector3d> HandControl::ForcesOf(const Hold& hold) const {
+  std::vector<Vector3d> forces(fingers_.size(), Vector3d::Zero());
+  if (hold.fingers.empty()) return forces;
+  const Matrix3d turn = world_.object_pose().linear();
+  const grasp::GraspForces planned = PlannedForces(ContactsOf(hold.fingers), hold);
+  for (std::size_t i = 0; i < hold.fingers.size(); ++i) {
+    forces[hold.fingers[i]] = turn * planned.forces[i];
   }
   return forces;
 }
@@ -159,8 +213,14 @@ void HandControl::FollowTip(FingerIndex finger) {
   Finger& state = fingers_[finger];
   const kinematics::Finger& chain = world_.hand().fingers[finger];
   const Isometry3d pose = state.mode == Mode::kLed ? world_.object_pose() : CorrectedPose();
+  Vector3d centre_O = state.centre_O;
+  if (state.mode == Mode::kSliding) {
+    const Vector3d n = world_.touch(finger).inward_O;
+    const Vector3d way = state.led_O - centre_O;
+    centre_O += way - way.dot(n) * n;
+  }
   const Vector3d wanted =
-      pose * state.centre_O - (state.mode == Mode::kAttached ? state.bias : Vector3d::Zero());
+      pose * centre_O - (state.mode == Mode::kLed ? Vector3d::Zero() : state.bias);
   const kinematics::TipState tip = kinematics::TipAt(chain, state.target);
   const auto& J = tip.jacobian;
   const Matrix3d inverse =
@@ -169,6 +229,18 @@ void HandControl::FollowTip(FingerIndex finger) {
   const Vector3d way = wanted - tip.centre;
   const Posture change = pull + J.transpose() * (inverse * (way - J * pull));
   state.target = (state.target + change).cwiseMax(chain.lower).cwiseMin(chain.upper);
+}
+
+Eigen::VectorXd HandControl::TorquesOf(FingerIndex f) const {
+  const Finger& finger = fingers_[f];
+  Eigen::VectorXd torques = world_.BalancingTorques(f, finger.contact, finger.force);
+  // One that holds has to give way as it rolls: without damping it would slip the easier.
+  if (finger.mode != Mode::kSliding) return torques;
+  for (int drive = 0; drive < torques.size(); ++drive) {
+    const DriveServo& servo = world_.servo(f, drive);
+    torques[drive] += (servo.damping + servo.joint_damping) * finger.rate[drive];
+  }
+  return torques;
 }
 
 void HandControl::Step() {
@@ -186,7 +258,7 @@ void HandControl::Step() {
     } else {
       FollowTip(f);
     }
-    world_.Command(f, finger.target, world_.BalancingTorques(f, finger.contact, finger.force));
+    world_.Command(f, finger.target, TorquesOf(f));
   }
   world_.Step();
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "planner/grasp/grasp_forces.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
 #include "sim/actuation/hand_world.h"
@@ -18,10 +19,26 @@ struct HandControlSettings {
   bool feedback = true;   ///< joint targets are corrected by the measured offset of the object
 };
 
+/// A holding finger that slides along the surface.
+struct SlidingFinger {
+  FingerIndex finger = {};
+  Eigen::Vector3d direction_O = Eigen::Vector3d::Zero();  ///< where its tip goes
+
+  bool operator==(const SlidingFinger&) const = default;
+};
+
+/// The fingers whose forces hold the object.
+struct Hold {
+  std::vector<FingerIndex> fingers;
+  std::vector<SlidingFinger> sliding = {};  ///< of these
+
+  bool operator==(const Hold&) const = default;
+};
+
 /// Whose forces hold the object: those of `from`, going over to those of `to`.
 struct HoldingFingers {
-  std::vector<FingerIndex> from;
-  std::vector<FingerIndex> to;
+  Hold from;
+  Hold to;
   double share = 1;     ///< of `to`
   double strength = 1;  ///< of all of it
 };
@@ -41,6 +58,10 @@ struct HoldingFingers {
 /// - Torques balance the weight of the links and the planned forces at the contacts as measured:
 ///   those that hold the object's weight with the largest margin inside the cones, anew every
 ///   hundredth of a second.
+/// - A finger that slides is led along the surface, and along the normal does as one that holds.
+/// Its
+///   planned force is on the edge of its cone, the way it goes, and as small as lets the others
+///   balance it.
 /// - A free finger follows the planned joints; what it was off when it came free goes in a tenth of
 ///   a second.
 class HandControl {
@@ -54,6 +75,12 @@ class HandControl {
 
   /// The finger's tip stays where it is on the object from now on.
   void Attach(FingerIndex finger);
+  /// It slides along the surface, towards where its tip is to be, a place in the object's frame;
+  /// what of that is along the normal does not count.
+  void LeadAlongSurface(FingerIndex finger, const Eigen::Vector3d& centre_O);
+  /// How well the others balance the fingers of a hold that slide, with the contacts as they are
+  /// and with those that slide at the end of their ways: the smaller margin (grasp::SlidingNormal).
+  [[nodiscard]] double SlidingMargin(const Hold& hold, const plan::FingerGrasp& end) const;
   /// It follows the planned joints from now on; what it is off them now it is all along, until
   /// LetOffsetGo.
   void Detach(FingerIndex finger);
@@ -77,13 +104,15 @@ class HandControl {
   inline static constexpr double kMostOffset = 4e-3;  ///< metres, of a point of the object
 
  private:
-  enum class Mode { kFree, kLed, kAttached };
+  enum class Mode { kFree, kLed, kAttached, kSliding };
   struct Finger {
     Mode mode = Mode::kFree;
     Eigen::Vector3d centre_O = Eigen::Vector3d::Zero();
-    Eigen::Vector3d bias = Eigen::Vector3d::Zero();  ///< of its target when it was attached
+    Eigen::Vector3d led_O = Eigen::Vector3d::Zero();  ///< of one that slides
+    Eigen::Vector3d bias = Eigen::Vector3d::Zero();   ///< of its target when it was attached
     kinematics::Posture target;
     kinematics::Posture offset;  ///< of a free finger from the planned joints
+    kinematics::Posture rate;    ///< of the planned joints, per second
     bool keeps_offset = false;
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< where the force acts
@@ -91,9 +120,12 @@ class HandControl {
 
   void Measure();
   void PlanForces();
-  [[nodiscard]] std::vector<Eigen::Vector3d> ForcesOf(
-      const std::vector<FingerIndex>& fingers) const;
+  [[nodiscard]] grasp::Grasp ContactsOf(const std::vector<FingerIndex>& fingers) const;
+  [[nodiscard]] grasp::GraspForces PlannedForces(const grasp::Grasp& contacts,
+                                                 const Hold& hold) const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> ForcesOf(const Hold& hold) const;
   [[nodiscard]] kinematics::Posture PlannedPosture(FingerIndex finger) const;
+  [[nodiscard]] Eigen::VectorXd TorquesOf(FingerIndex finger) const;
   void FollowTip(FingerIndex finger);
   [[nodiscard]] Eigen::Isometry3d CorrectedPose() const;
 

@@ -68,9 +68,14 @@ void HandJudge::WatchContacts(const plan::FingerGrasp& grasp, double scale) {
 void HandJudge::SetHolding(FingerIndex finger, bool holds) {
   Finger& state = fingers_[finger];
   state.holds = holds;
+  state.slides_to_O.reset();
   state.without_force = 0;
   state.slip.setZero();
   state.first_O = world_.touch(finger).point_O;
+}
+
+void HandJudge::SetSliding(FingerIndex finger, const Vector3d& centre_O) {
+  fingers_[finger].slides_to_O = centre_O;
 }
 
 void HandJudge::Fail(Reason reason, const std::string& what, Marks marks) {
@@ -109,30 +114,48 @@ void HandJudge::WatchObject(const Isometry3d& planned, double share, double& off
        {.number = number, .pose = planned});
 }
 
-void HandJudge::WatchFinger(FingerIndex f) {
+void HandJudge::WatchContact(FingerIndex f) {
   Finger& state = fingers_[f];
   const double dt = world_.timestep();
   const std::string name = FingerText(world_.hand(), f);
   const int joints = static_cast<int>(world_.hand().fingers[f].joints.size());
-  if (state.holds) {
-    const TipTouch touch = world_.touch(f);
+  const TipTouch touch = world_.touch(f);
+  state.without_force = touch.force.norm() > kNoForce ? 0 : state.without_force + dt;
+  double slip = 0;
+  if (state.slides_to_O) {
+    const Vector3d off = world_.object_pose().inverse() * world_.tip(f) - *state.slides_to_O;
+    slip = (off - off.dot(touch.inward_O) * touch.inward_O).norm();
+  } else {
     state.slip += dt * touch.sliding_O;
-    state.without_force = touch.force.norm() > kNoForce ? 0 : state.without_force + dt;
-    const double slip = state.slip.norm();
-    measures_.slip_m = std::max(measures_.slip_m, slip);
+    slip = state.slip.norm();
     if (std::isfinite(touch.gap)) {
       measures_.roll_m = std::max(measures_.roll_m, (touch.point_O - state.first_O).norm());
     }
-    if (state.without_force > tolerance_.lost_s) {
-      Fail(Reason::kContactLost, name + " has lost its contact",
-           {"no force", {f}, {{f, joints}}, world_.tip(f)});
-    } else if (slip > tolerance_.slip_m) {
-      Fail(Reason::kSlipped,
-           name + " slipped by " + FormatLength(slip) + ", of " + FormatLength(tolerance_.slip_m) +
-               " allowed,",
-           {FormatLength(slip, 2) + " slipped", {f}, {{f, joints}}, world_.tip(f)});
-    }
   }
+  measures_.slip_m = std::max(measures_.slip_m, slip);
+  if (state.without_force > tolerance_.lost_s) {
+    Fail(Reason::kContactLost, name + " has lost its contact",
+         {"no force", {f}, {{f, joints}}, world_.tip(f)});
+  } else if (slip > tolerance_.slip_m) {
+    const std::string how = state.slides_to_O ? " off its way" : " slipped";
+    Fail(Reason::kSlipped,
+         name +
+             (state.slides_to_O ? " is " + FormatLength(slip) + " off its way"
+                                : " slipped by " + FormatLength(slip)) +
+             ", of " + FormatLength(tolerance_.slip_m) + " allowed,",
+         {FormatLength(slip, 2) + how, {f}, {{f, joints}}, world_.tip(f)});
+  }
+}
+
+void HandJudge::WatchFinger(FingerIndex f) {
+  if (fingers_[f].holds) WatchContact(f);
+  WatchActuators(f);
+}
+
+void HandJudge::WatchActuators(FingerIndex f) {
+  Finger& state = fingers_[f];
+  const double dt = world_.timestep();
+  const std::string name = FingerText(world_.hand(), f);
   for (std::size_t drive = 0; drive < state.at_limit.size(); ++drive) {
     const double share = world_.load_share(f, static_cast<int>(drive));
     measures_.torque_share = std::max(measures_.torque_share, share);

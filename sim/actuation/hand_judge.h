@@ -38,6 +38,9 @@ class HandJudge {
   void WatchContacts(const plan::FingerGrasp& grasp, double scale);
   /// A finger holds from now on, or no more; its slide counts from here.
   void SetHolding(FingerIndex finger, bool holds);
+  /// A finger slides from now on, and its tip should be there, a place in the object's frame; how
+  /// far off the surface does not count.
+  void SetSliding(FingerIndex finger, const Eigen::Vector3d& centre_O);
   /// After every step of the world. @param planned  where the object should be.
   void Watch(const Eigen::Isometry3d& planned);
   /// The object is at rest and should be there.
@@ -49,6 +52,7 @@ class HandJudge {
  private:
   struct Finger {
     bool holds = false;
+    std::optional<Eigen::Vector3d> slides_to_O = std::nullopt;  ///< its tip's centre
     double without_force = 0;
     Eigen::Vector3d slip = Eigen::Vector3d::Zero();
     Eigen::Vector3d first_O = Eigen::Vector3d::Zero();
@@ -56,6 +60,8 @@ class HandJudge {
   };
   void WatchObject(const Eigen::Isometry3d& planned, double share, double& off_m, double& off_rad);
   void WatchFinger(FingerIndex finger);
+  void WatchContact(FingerIndex finger);
+  void WatchActuators(FingerIndex finger);
   void WatchLinks();
   /// What is drawn of a breach.
   struct Marks {

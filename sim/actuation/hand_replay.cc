@@ -36,6 +36,12 @@ constexpr double kHeight = 8e-3;
 constexpr double kDescent = 0.02;  // m/s
 constexpr double kDeepest = 4e-3;  // below the planned place
 constexpr double kTouched = 0.05;
+/// Of a tip that slides along the surface, m/s.
+constexpr double kSlideSpeed = 0.02;
+/// Others balance it where no more of the squeeze is missing.
+constexpr double kHeldBySome = -1e-3;
+/// Where it goes is seen over this share of its way.
+constexpr double kLookAhead = 0.02;
 /// A finger that has left this far does as planned again, metres.
 constexpr double kClear = 2e-3;
 constexpr double kSlowest = 0.05;  ///< rad/s
@@ -68,6 +74,65 @@ struct Coming {
   double height = 0;                  ///< from which it goes down
   Vector3d aside = Vector3d::Zero();  ///< what it is off sideways then
   bool down = false;
+};
+
+/// Where a state has a finger's tip, in the object's frame.
+Vector3d PlannedTip(const kinematics::HandModel& hand, const HandState& state, FingerIndex finger) {
+  const kinematics::Finger& chain = hand.fingers[finger];
+  return state.pose.inverse() *
+         kinematics::TipAt(chain, PostureOf(chain, state.joints[finger])).centre;
+}
+
+/// How tips slide between two waypoints of an align: from where they are to where they should be.
+class SlidingTips {
+ public:
+  /// @param timed  the path between the two; outlives this object.
+  SlidingTips(const HandWorld& world, const TimedPath& timed, const plan::FingerGrasp& from,
+              const plan::FingerGrasp& to)
+      : hand_(world.hand()), timed_(timed) {
+    const Isometry3d to_object = world.object_pose().inverse();
+    double way = 0;
+    for (const plan::FingerContact& start : from) {
+      const FingerIndex f = start.finger;
+      const grasp::Contact& end = plan::FindFinger(to, f)->contact;
+      if (end.p == start.contact.p && end.n == start.contact.n) continue;
+      const Vector3d planned = PlannedTip(hand_, timed.At(0), f);
+      tips_.push_back({f, to_object * world.tip(f) - planned});
+      way = std::max(way, (PlannedTip(hand_, StateAt(1), f) - planned).norm());
+    }
+    duration_ = std::max(timed.duration(), way / kSlideSpeed);
+  }
+
+  [[nodiscard]] bool empty() const { return tips_.empty(); }
+  [[nodiscard]] double duration() const { return duration_; }
+  /// @param share  of the time.
+  [[nodiscard]] HandState StateAt(double share) const {
+    return timed_.At(share * timed_.duration());
+  }
+  /// What a tip is off its way at first goes evenly.
+  [[nodiscard]] Vector3d CentreAt(FingerIndex finger, double share) const {
+    const auto tip = std::ranges::find(tips_, finger, &Tip::finger);
+    return PlannedTip(hand_, StateAt(share), finger) + (1 - share) * tip->off_O;
+  }
+  [[nodiscard]] std::vector<SlidingFinger> At(double share) const {
+    const double from = std::min(share, 1 - kLookAhead);
+    std::vector<SlidingFinger> sliding;
+    for (const Tip& tip : tips_) {
+      sliding.push_back(
+          {tip.finger, CentreAt(tip.finger, from + kLookAhead) - CentreAt(tip.finger, from)});
+    }
+    return sliding;
+  }
+
+ private:
+  struct Tip {
+    FingerIndex finger;
+    Vector3d off_O;
+  };
+  const kinematics::HandModel& hand_;
+  const TimedPath& timed_;
+  std::vector<Tip> tips_;
+  double duration_ = 0;
 };
 
 class Replay {
@@ -113,6 +178,7 @@ class Replay {
     const plan::Step& step = plan::StepOf(plan_, index);
     if (const auto* move = std::get_if<plan::Move>(&step)) Move(move->path);
     if (const auto* change = std::get_if<plan::Switch>(&step)) Switch(*change);
+    if (const auto* align = std::get_if<plan::Align>(&step)) Align(*align);
   }
 
   void Describe(StepReplay& step) const {
@@ -178,7 +244,8 @@ class Replay {
     if (judge_.breach()) throw StepFails();
     // Something holds the object until the fingers do.
     world_.PinObject(true);
-    Run(kTakeHold, [&](double share) { control_.SetHolding({holding_, holding_, 1, share}); });
+    const Hold all = {holding_};
+    Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
     world_.PinObject(false);
     for (const FingerIndex f : holding_) judge_.SetHolding(f, true);
   }
@@ -199,13 +266,70 @@ class Replay {
     if (!change.place.empty()) PlaceFingers(change);
     judge_.SetPhase("while forces are handed over");
     for (const FingerIndex f : change.release) judge_.SetHolding(f, false);
-    Run(kHandover, [&](double share) { control_.SetHolding({holding_, after, share, 1}); });
-    control_.SetHolding({after, after, 1, 1});
+    HandOver({holding_}, {after});
     for (const FingerIndex f : after) {
       if (std::ranges::find(holding_, f) == holding_.end()) judge_.SetHolding(f, true);
     }
     holding_ = after;
     if (!change.release.empty()) ReleaseFingers(change);
+  }
+
+  void HandOver(const Hold& from, const Hold& to) {
+    Run(kHandover, [&](double share) { control_.SetHolding({from, to, share, 1}); });
+    control_.SetHolding({to, to, 1, 1});
+  }
+
+  void Align(const plan::Align& align) {
+    Hold hold = {holding_};
+    for (std::size_t i = 0; i + 1 < align.waypoints.size(); ++i) {
+      Slide(align.waypoints[i], align.waypoints[i + 1], (*align.motion)[i], hold);
+    }
+    judge_.SetPhase("while forces are handed over");
+    ChangeSliding(align.waypoints.back(), hold, {holding_});
+  }
+
+  /// @param at    where fingers are that slide no more.
+  /// @param hold  before, and then `to`.
+  void ChangeSliding(const plan::FingerGrasp& at, Hold& hold, const Hold& to) {
+    for (const SlidingFinger& one : hold.sliding) {
+      if (std::ranges::find(to.sliding, one.finger, &SlidingFinger::finger) != to.sliding.end()) {
+        continue;
+      }
+      judge_.WatchContacts({*plan::FindFinger(at, one.finger)}, plan_.scale);
+      control_.Attach(one.finger);
+      judge_.SetHolding(one.finger, true);
+    }
+    HandOver(hold, to);
+    hold = to;
+  }
+
+  /// Fingers slide from a waypoint to the next, those whose contacts differ.
+  /// @param hold  as in ChangeSliding.
+  void Slide(const plan::FingerGrasp& from, const plan::FingerGrasp& to, const plan::HandPath& path,
+             Hold& hold) {
+    const TimedPath timed(path, CarryingSpeed(world_));
+    const SlidingTips tips(world_, timed, from, to);
+    if (tips.empty()) return;
+    const Hold sliding = {holding_, tips.At(0)};
+    const bool is_held = control_.SlidingMargin(sliding, to) > kHeldBySome;
+    const std::string unheld = "while a finger slides that the others cannot balance";
+    const auto lead = [&](double share) {
+      state_ = tips.StateAt(share);
+      for (const SlidingFinger& tip : tips.At(share)) {
+        const Vector3d centre_O = tips.CentreAt(tip.finger, share);
+        control_.LeadAlongSurface(tip.finger, centre_O);
+        judge_.SetSliding(tip.finger, centre_O);
+      }
+    };
+    judge_.SetPhase(is_held ? "while forces are handed over" : unheld);
+    lead(0);
+    ChangeSliding(from, hold, sliding);
+    judge_.SetPhase(is_held ? "while a finger slides" : unheld);
+    Run(tips.duration(), [&](double share) {
+      lead(share);
+      hold.sliding = tips.At(share);
+      control_.SetHolding({hold, hold, 1, 1});
+    });
   }
 
   void PlaceFingers(const plan::Switch& change) {
@@ -225,19 +349,13 @@ class Replay {
     while (!above && world_.time() - begin < duration) {
       Run(world_.timestep(), [&](double) { state_ = timed.At(world_.time() - begin); });
       above = std::ranges::any_of(coming, [this](const Coming& finger) {
-        return (PlannedTip(finger.finger) - finger.touching).norm() < kHeight;
+        return (PlannedTip(world_.hand(), state_, finger.finger) - finger.touching).norm() <
+               kHeight;
       });
     }
     // … then down along the normal to where the object really is.
     Descend(path.back(), coming);
     state_ = path.back();
-  }
-
-  /// Where the plan has a finger's tip now, in the object's frame.
-  [[nodiscard]] Vector3d PlannedTip(FingerIndex finger) const {
-    const kinematics::Finger& chain = world_.hand().fingers[finger];
-    return state_.pose.inverse() *
-           kinematics::TipAt(chain, PostureOf(chain, state_.joints[finger])).centre;
   }
 
   void Descend(const HandState& end, std::vector<Coming>& coming) {
@@ -376,11 +494,6 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
                         const plan::Plan& plan, const HandReplayOptions& options,
                         const HandReplayObserver& observer, int steps) {
   const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
-  for (plan::EntryIndex index{1}; index < entries; ++index) {
-    if (!std::holds_alternative<plan::Align>(plan::StepOf(plan, index))) continue;
-    throw InputError("replay by a hand: step " + std::to_string(index) +
-                     " is an align, which it does not carry out");
-  }
   const double half_angle = options.half_angle.value_or(plan.half_angle);
   HandWorld world(file, solid, plan.scale,
                   {options.friction_factor * std::tan(half_angle),

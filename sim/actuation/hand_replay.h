@@ -40,7 +40,7 @@ struct HandReplayObserver {
 /// Deterministic: the same plan gives the same bits.
 /// @param plan   located, with a hand.
 /// @param steps  how many entries to replay, hold included; all where negative.
-/// @throws InputError  the hand's model cannot be simulated, or the plan has an align.
+/// @throws InputError  the hand's model cannot be simulated.
 [[nodiscard]] ReplayResult ReplayHand(const kinematics::HandFile& file,
                                       const object::Polyhedron& solid, const plan::Plan& plan,
                                       const HandReplayOptions& options,

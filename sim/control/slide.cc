@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/grasp/sliding_forces.h"
 #include "sim/control/align.h"
 #include "sim/control/grasp_control.h"
 #include "sim/control/motions.h"
@@ -16,14 +17,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Normal forces that are tried for a sliding finger, over the squeeze: from the least upwards by
-/// this factor.
-constexpr double kForceFactor = 1.5;
+/// The largest normal force of a sliding finger that is tried, over the squeeze.
 constexpr double kLargestSlideForce = 0.5;
-
-/// A slide whose others keep this share of the mean normal force inside their cones is good enough
-/// that a smaller force of the sliding finger is not given up for more.
-constexpr double kGoodMargin = 0.05;
 
 /// Forces are planned anew after this share of D of travel.
 constexpr double kSegment = 0.01;
@@ -39,25 +34,26 @@ struct SlideForces {
 SlideForces PlanSlide(const ReplayWorld& world, FingerIndex finger, const grasp::Contact& at_B,
                       const Vector3d& direction_B, double normal, double friction_share) {
   const double mu = world.settings().mu;
-  const double radius = world.settings().diameter_m / 2;
-  const Vector3d pushed_B = normal * (at_B.n + mu * direction_B);
-  std::vector<FingerIndex> others = world.HoldingFingers();
-  std::erase(others, finger);
+  const std::vector<FingerIndex> holding = world.HoldingFingers();
   grasp::Grasp contacts;
-  for (const FingerIndex f : others) {
-    contacts.push_back({world.ContactPoint_B(f), world.fingers()[f].contact.n, {}});
+  std::vector<grasp::SlidingContact> sliding;
+  for (const FingerIndex f : holding) {
+    if (f == finger) {
+      sliding.push_back({static_cast<int>(contacts.size()), direction_B});
+      contacts.push_back(at_B);
+    } else {
+      contacts.push_back({world.ContactPoint_B(f), world.fingers()[f].contact.n, {}});
+    }
   }
   const Eigen::Matrix3d R_SB = world.X_SB().linear();
-  const grasp::Wrench load{R_SB.transpose() * world.weight_S() + pushed_B,
-                           at_B.p.cross(pushed_B) / radius};
-  const grasp::GraspForces planned =
-      grasp::ComputeGraspForces(contacts, world.frame_B(), std::atan(friction_share * mu), load,
-                                world.settings().squeeze_N - normal);
+  const grasp::Wrench load{R_SB.transpose() * world.weight_S(), Vector3d::Zero()};
+  const grasp::GraspForces planned = grasp::ComputeSlidingForces(
+      contacts, sliding, world.frame_B(), {mu, std::atan(friction_share * mu)}, load,
+      world.settings().squeeze_N, normal);
   SlideForces result{HandForces(world.fingers().size(), Vector3d::Zero()), planned.margin};
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    result.hand[others[i]] = R_SB * planned.forces[i];
+  for (std::size_t i = 0; i < holding.size(); ++i) {
+    result.hand[holding[i]] = R_SB * planned.forces[i];
   }
-  result.hand[finger] = R_SB * pushed_B;
   return result;
 }
 
@@ -66,13 +62,15 @@ SlideForces PlanSlide(const ReplayWorld& world, FingerIndex finger, const grasp:
 SlideForces ChooseSlide(const ReplayWorld& world, FingerIndex finger, const grasp::Contact& at_B,
                         const Vector3d& direction_B) {
   std::optional<SlideForces> best;
+  const double squeeze = world.settings().squeeze_N;
   for (const double friction_share : {kSlideFriction, 1.0}) {
-    for (double share = kSlideForce; share <= kLargestSlideForce; share *= kForceFactor) {
-      SlideForces tried = PlanSlide(world, finger, at_B, direction_B,
-                                    share * world.settings().squeeze_N, friction_share);
-      if (!best || tried.margin > best->margin) best = std::move(tried);
-      if (best->margin >= kGoodMargin) return *best;
-    }
+    const auto plan = [&](double normal) {
+      return PlanSlide(world, finger, at_B, direction_B, normal, friction_share);
+    };
+    const grasp::SlidingNormal chosen =
+        grasp::ChooseSlidingNormal(kSlideForce * squeeze, kLargestSlideForce * squeeze,
+                                   [&](double normal) { return plan(normal).margin; });
+    if (!best || chosen.margin > best->margin) best = plan(chosen.normal);
     if (best->margin > 0) return *best;
   }
   return *best;

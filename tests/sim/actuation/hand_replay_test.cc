@@ -190,6 +190,113 @@ TEST(HandReplayTest, APlanThatIsBrokenFails) {
   }
 }
 
+const kinematics::HandFile& FourFingers() {
+  static const kinematics::HandFile file =
+      kinematics::ReadHandFile(std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring4.json");
+  return file;
+}
+
+/// A finger on each vertical face of the cube, at one pose, of which one slides by `way` of its
+/// file's units to the side; the others hold the cube alone.
+plan::Plan SlidingPlan(double way) {
+  gait::GaitRequest request;
+  request.hand = &FourFingers().hand;
+  request.solid = &Cube();
+  request.scale = kScale;
+  request.criteria.half_angle = std::atan(kMu);
+  request.seed = 1;
+  request.start_pose = gait::FindGait(request).gait->start.pose;
+  request.goal_pose = request.start_pose;
+  grasp::Grasp grasp;
+  const double half = 0.03;
+  for (const Vector3d& n :
+       {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(-1, 0, 0), Vector3d(0, -1, 0)}) {
+    const Vector3d side = Vector3d::UnitZ().cross(n);
+    grasp.push_back(plan::LocateContact(Cube(), {-half * n - 0.5 * way * side, n, {}}).contact);
+  }
+  request.start_grasp = grasp;
+  grasp[0].p += way * Vector3d::UnitZ().cross(grasp[0].n);
+  request.goal_grasp = grasp;
+  const gait::GaitResult found = gait::FindGait(request);
+  EXPECT_TRUE(found.gait) << found.message;
+  if (!found.gait) return {};
+  return plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+}
+
+plan::Align& FirstAlign(plan::Plan& plan) {
+  const auto at = std::ranges::find_if(
+      plan.steps, [](const plan::Step& step) { return std::holds_alternative<plan::Align>(step); });
+  return std::get<plan::Align>(*at);
+}
+
+TEST(HandReplayTest, AFingerSlidesAlongTheSurfaceWhileTheOthersHold) {
+  constexpr double kWay = 0.008;
+  const plan::Plan plan = SlidingPlan(kWay);
+  ASSERT_EQ(plan.steps.size(), 1U);
+  ASSERT_EQ(plan::StepKind(plan.steps[0]), std::string("align"));
+  const ReplayResult result = ReplayHand(FourFingers(), Cube(), plan, Options());
+  ASSERT_EQ(result.steps.size(), 2U);
+  for (const StepReplay& step : result.steps) {
+    EXPECT_EQ(step.reason, Reason::kNone) << step.detail;
+    EXPECT_LT(step.hand->off_m, 2e-4);
+  }
+  // It is where it should be, and was in touch all along.
+  const plan::FingerGrasp& end = std::get<plan::Align>(plan.steps[0]).waypoints.back();
+  int slid = 0;
+  for (const plan::FingerState& finger : result.steps.back().snapshot.fingers) {
+    const Vector3d to = kScale * plan::FindFinger(end, finger.finger)->contact.p;
+    EXPECT_LT((finger.contact_W - to).norm(), 5e-4);
+    const Vector3d from = kScale * plan::FindFinger(plan.initial, finger.finger)->contact.p;
+    slid += (to - from).norm() > 0.9 * kScale * kWay ? 1 : 0;
+  }
+  EXPECT_EQ(slid, 1);
+}
+
+TEST(HandReplayTest, ASlideThatIsBrokenFails) {
+  struct BrokenSlide {
+    Control control;
+    const char* words;
+  };
+  const std::vector<BrokenSlide> controls = {
+      {{"the finger does not move",
+        [](plan::Plan& plan) {
+          for (plan::HandPath& path : *FirstAlign(plan).motion) {
+            for (plan::HandState& state : path) state = plan.hand->initial;
+          }
+        }},
+       "from its contact"},
+      {{"its goal is 5 mm away",
+        [](plan::Plan& plan) {
+          for (plan::FingerContact& held : FirstAlign(plan).waypoints.back()) {
+            if (held.contact.p != plan::FindFinger(plan.initial, held.finger)->contact.p) {
+              held.contact.p.z() += 5e-3 / kScale;
+            }
+          }
+        }},
+       "from its contact"},
+      {{"two others hold",
+        [](plan::Plan& plan) {
+          plan::Align& align = FirstAlign(plan);
+          const auto slides = [&](const plan::FingerContact& held) {
+            return (held.contact.p -
+                    plan::FindFinger(align.waypoints.back(), held.finger)->contact.p)
+                       .norm() > 0;
+          };
+          const FingerIndex away = std::ranges::find_if_not(plan.initial, slides)->finger;
+          for (plan::FingerGrasp* grasp : {&plan.initial, &align.waypoints[0], &align.waypoints[1]})
+            std::erase_if(*grasp, [&](const auto& held) { return held.finger == away; });
+        }},
+       "that the others cannot balance"},
+  };
+  for (const auto& [control, words] : controls) {
+    plan::Plan plan = SlidingPlan(0.008);
+    control.change(plan);
+    const ReplayResult result = ReplayHand(FourFingers(), Cube(), plan, Options());
+    EXPECT_NE(ReasonOf(result), Reason::kNone) << control.name;
+    EXPECT_THAT(result.steps.back().detail, testing::HasSubstr(words)) << control.name;
+  }
+}
+
 /// The hand with another range of a joint, degrees.
 kinematics::HandFile HandWithRange(const std::string& joint, double lower, double upper) {
   const std::string folder = std::string(REGRASP_SOURCE_DIR) + "/models/hands/";
