@@ -96,7 +96,10 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
   add("--export-mjcf", options.mjcf,
       "Write the scene of the replay as MJCF; without what versions of MuJoCo name differently");
   add("--trajectory", options.trajectory,
-      "Write what every finger does during the replay as CSV: time (s), place (m), force (N)");
+      "Write what every finger does during the replay as CSV: time (s), place (m), force (N). With "
+      "--replay hand what the hand does, as NPZ where the file ends in .npz, otherwise as CSV: "
+      "time, joints (rad), "
+      "controls of its actuators, the object's pose in the palm (m, quaternion)");
 }
 
 /// The object and the fingers, beside what the plan says of them.
@@ -348,10 +351,13 @@ void ValidateOptions::Finish(const CLI::App& app) {
   if (replay_by_hand) {
     if (hand.empty()) throw InputError("--replay hand: needs the hand (--hand)");
     refuse({"--protocol", "--stress", "--tolerance", "--align", "--finger-radius", "--trials",
-            "--export-mjcf", "--trajectory"},
+            "--export-mjcf"},
            "goes with --replay points");
   } else {
     refuse({"--tolerance-mm", "--tolerance-deg", "--feedback"}, "goes with --replay hand");
+    if (trajectory_is_npz()) {
+      throw InputError("--trajectory: " + trajectory + ": NPZ goes with --replay hand");
+    }
   }
   tolerance.length_m = 1e-3 * tolerance_mm;
   tolerance.angle_rad = Radians(tolerance_deg);
@@ -367,6 +373,8 @@ void ValidateOptions::Finish(const CLI::App& app) {
     if (option->count() > 0 && ChangesResults(name)) given.emplace_back(name, option->results());
   }
 }
+
+bool ValidateOptions::trajectory_is_npz() const { return trajectory.ends_with(".npz"); }
 
 bool ValidateOptions::for_batch() const {
   std::error_code error;

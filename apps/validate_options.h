@@ -78,6 +78,7 @@ struct ValidateOptions {
 
   /// Several plans, or a folder of them.
   [[nodiscard]] bool for_batch() const;
+  [[nodiscard]] bool trajectory_is_npz() const;
   [[nodiscard]] bool for_grasp() const { return !grasp_path.empty(); }
   [[nodiscard]] bool animates() const { return animate || !video.empty(); }
   /// The plan or the grasp.

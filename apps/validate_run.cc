@@ -30,6 +30,7 @@
 #include "report/page/report_page.h"
 #include "report/report.h"
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/hand_trajectory.h"
 #include "sim/hand/check_hand.h"
 #include "sim/replay/trajectory.h"
 #include "sim/scene/scaling.h"
@@ -47,6 +48,7 @@ struct Samples {
   Stopwatch entry;  ///< since the last entry was done
   std::vector<double> entry_seconds;
   std::vector<plan::Snapshot> trajectory;
+  sim::HandTrajectory by_hand;  ///< the same of a replay by a hand
   std::vector<plan::Snapshot> animation;
 };
 
@@ -107,7 +109,7 @@ struct CheckTask {
 
 /// Replays by the hand of the task.
 report::Replayer HandReplayer(const ValidateOptions& options, const ValidateTask& task,
-                              const sim::ReplayObserver& observer) {
+                              const sim::ReplayObserver& observer, Samples& samples) {
   const auto& solid = dynamic_cast<const object::Polyhedron&>(*task.object.object);
   sim::HandReplayOptions by_hand;
   by_hand.tolerance = options.tolerance;
@@ -115,12 +117,17 @@ report::Replayer HandReplayer(const ValidateOptions& options, const ValidateTask
   by_hand.mass_kg = sim::BodyOf(solid, task.plan.scale, options.replay).mass_kg;
   by_hand.shake = options.replay.shake;
   by_hand.squeeze_N = options.replay.squeeze_N;
-  return [by_hand, &task, &solid, on_progress = observer.on_progress](
-             const plan::Plan& located, double half_angle, int entries) {
-    sim::HandReplayOptions now = by_hand;
-    now.half_angle = half_angle;
-    return sim::ReplayHand(*task.hand, solid, located, now, {{}, on_progress}, entries);
-  };
+  sim::HandReplayObserver watch;
+  watch.on_progress = observer.on_progress;
+  if (!options.trajectory.empty()) {
+    watch.on_step = [&samples](const sim::HandWorld& world) { samples.by_hand.Add(world); };
+  }
+  return
+      [by_hand, &task, &solid, watch](const plan::Plan& located, double half_angle, int entries) {
+        sim::HandReplayOptions now = by_hand;
+        now.half_angle = half_angle;
+        return sim::ReplayHand(*task.hand, solid, located, now, watch, entries);
+      };
 }
 
 report::Report Check(const ValidateOptions& options, const ValidateTask& task, Samples& samples) {
@@ -134,9 +141,9 @@ report::Report Check(const ValidateOptions& options, const ValidateTask& task, S
   progress.Report(options.for_grasp() ? "checking the grasp" : "checking the plan");
   const sim::ReplayObserver observer = MakeObserver(options, progress, samples);
   if (!options.for_grasp()) {
-    return report::Validate(
-        object, task.plan, given.check, options.replay, observer,
-        options.replay_by_hand ? HandReplayer(options, task, observer) : report::Replayer());
+    return report::Validate(object, task.plan, given.check, options.replay, observer,
+                            options.replay_by_hand ? HandReplayer(options, task, observer, samples)
+                                                   : report::Replayer());
   }
   return report::ValidateGrasp(object, task.grasp, task.plan.half_angle, task.plan.scale,
                                options.replay, observer);
@@ -296,6 +303,11 @@ void WriteJunit(const ValidateOptions& options, const std::filesystem::path& fol
   WriteFile(options.junit, report::FormatJunit({suite}));
 }
 
+std::string TrajectoryText(const ValidateOptions& options, const Samples& samples) {
+  if (!options.replay_by_hand) return sim::FormatTrajectory(samples.trajectory);
+  return options.trajectory_is_npz() ? samples.by_hand.FormatNpz() : samples.by_hand.FormatCsv();
+}
+
 void WriteResults(const ValidateOptions& options, const render::FrameOptions& frame,
                   const ValidateTask& task, Samples& samples, HeldFolder& folder,
                   report::Report& report) {
@@ -305,7 +317,7 @@ void WriteResults(const ValidateOptions& options, const render::FrameOptions& fr
   WritePictures(options, frame, task, samples, folder.path(), report);
   WriteJunit(options, folder.path(), report, samples);
   if (!options.trajectory.empty()) {
-    WriteFile(options.trajectory, sim::FormatTrajectory(samples.trajectory));
+    WriteFile(options.trajectory, TrajectoryText(options, samples));
   }
   if (!options.mjcf.empty()) {
     const object::Object& object = *task.object.object;

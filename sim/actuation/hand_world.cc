@@ -388,6 +388,19 @@ const DriveServo& HandWorld::servo(FingerIndex finger, int drive) const {
   return impl_->fingers[finger].drives[drive].servo;
 }
 
+std::vector<std::string> HandWorld::control_names() const {
+  std::vector<std::string> names;
+  for (int actuator = 0; actuator < impl_->model->nu; ++actuator) {
+    const char* name = mj_id2name(impl_->model.get(), mjOBJ_ACTUATOR, actuator);
+    names.push_back(name == nullptr ? "actuator " + std::to_string(actuator) : name);
+  }
+  return names;
+}
+
+std::vector<double> HandWorld::controls() const {
+  return {impl_->data->ctrl, impl_->data->ctrl + impl_->model->nu};
+}
+
 double HandWorld::load_share(FingerIndex finger, int drive) const {
   const Impl::DriveActuator& found = impl_->fingers[finger].drives[drive];
   if (!std::isfinite(found.servo.limit)) return 0;

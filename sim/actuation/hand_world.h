@@ -72,6 +72,10 @@ class HandWorld {
   /// As in the last step; without a place where the surface is farther than 5 mm.
   [[nodiscard]] TipTouch touch(FingerIndex finger) const;
   [[nodiscard]] const DriveServo& servo(FingerIndex finger, int drive) const;
+  /// Of the model's actuators, in its order; one without a name is called after its number.
+  [[nodiscard]] std::vector<std::string> control_names() const;
+  /// Their controls, as in the last step.
+  [[nodiscard]] std::vector<double> controls() const;
   /// What the actuator of a drive does now, over its limit; 0 where it has none.
   [[nodiscard]] double load_share(FingerIndex finger, int drive) const;
   /// The torques of the drives with which a force at the tip's contact and the weight of the links

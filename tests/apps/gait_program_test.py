@@ -1,12 +1,14 @@
 """Plans for a hand: what plan --hand finds, validate --hand passes, and what is broken it fails."""
 
 import copy
+import csv
 import json
 import os
 
 import xml.etree.ElementTree
 
 import program_case
+from npz_file import read_npz
 from picture_pixels import count, is_red, png_pixels, webp_durations
 from program_case import ARGUMENTS, ProgramCase
 
@@ -71,6 +73,7 @@ class Gait(ProgramCase):
             self.assertLess(step["simulation"]["displacement_m"], 2e-3)
             self.assertLess(step["simulation"]["hand"]["rest_displacement_m"], 1e-3)
             self.assertLess(step["simulation"]["hand"]["torque_share"], 1)
+        self.check_trajectory(plan, by_hand)
         # Ten micrometres are not kept; and no hand holds 20 kg.
         for more, reasons in ((("--tolerance-mm", "0.01"), ("object-moved",)),
                               (("--mass", "20"), ("torque-limit", "object-moved", "slipped",
@@ -88,6 +91,40 @@ class Gait(ProgramCase):
                                     *more, program="validate")
             self.assertEqual(done.returncode, 2)
             self.assertIn(words, done.stderr)
+
+    def check_trajectory(self, plan, by_hand):
+        """Both formats say the same, and begin and end as the plan does."""
+        for name in ("hand.csv", "hand.npz"):
+            done, _ = self.validate(plan, *by_hand, "--no-frames", "--trajectory", name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("hand.csv"), encoding="utf-8", newline="") as file:
+            header, *rows = csv.reader(file)
+        arrays = read_npz(self.path("hand.npz"))
+        names = arrays["joint_names"] + ["control " + name for name in arrays["control_names"]]
+        self.assertEqual(header[1:len(names) + 1], names)
+        self.assertEqual(header[0], "time_s")
+        self.assertEqual(header[-7:], ["object_" + axis for axis in
+                                       ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")])
+        self.assertGreater(len(rows), 50)
+        self.assertEqual(len(arrays["time_s"]), len(rows))
+        for i, row in enumerate(rows):
+            numbers = [float(field) for field in row]
+            self.assertEqual(numbers, [arrays["time_s"][i], *arrays["joints"][i],
+                                       *arrays["controls"][i], *arrays["object"][i]])
+        steps = [b - a for a, b in zip(arrays["time_s"], arrays["time_s"][1:])]
+        self.assertTrue(all(abs(step - 0.01) < 1e-9 for step in steps))
+        start, end = plan["hand"]["initial"], plan["steps"][-1]["path"][-1]
+        for i, state in ((0, start), (-1, end)):
+            for planned, seen in zip(state["pose"]["position"], arrays["object"][i]):
+                self.assertAlmostEqual(planned, seen, delta=1e-3)
+        for planned, seen in zip(sum(start["joints"], []), arrays["joints"][0]):
+            self.assertAlmostEqual(planned, seen, delta=1e-2)
+        # Of point fingers there is no such file.
+        done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
+                                "--trajectory", "points.npz", program="validate")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("NPZ goes with --replay hand", done.stderr)
+        self.assertFalse(os.path.exists(self.path("points.npz")))
 
     def test_a_plan_goes_from_given_grasps_and_poses_to_others(self):
         plan = self.plan_in_hand()

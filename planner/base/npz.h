@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace regrasp {
+
+/// An array of an NPZ file: of numbers, or of texts where there are any.
+struct NpzArray {
+  std::string name;
+  std::vector<std::size_t> shape;
+  std::vector<double> values = {};      ///< the last index runs fastest
+  std::vector<std::string> texts = {};  ///< UTF-8; a byte that is none becomes U+FFFD
+};
+
+/// The bytes of an NPZ file as numpy.load reads it: an uncompressed ZIP archive of arrays in the
+/// NPY format 1.0, numbers as <f8 and texts as <U.
+///
+/// Law: the same arrays give the same bytes.
+/// @throws std::invalid_argument  a shape does not fit its values.
+/// @throws std::length_error      an array takes more than the 4 GB that the format allows.
+[[nodiscard]] std::string FormatNpz(const std::vector<NpzArray>& arrays);
+
+}  // namespace regrasp
