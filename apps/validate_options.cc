@@ -94,7 +94,9 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
   add("--json", options.json,
       "Write the report here too; - is standard output, instead of the table");
   add("--export-mjcf", options.mjcf,
-      "Write the scene of the replay as MJCF; without what versions of MuJoCo name differently");
+      "Write the scene of the replay as MJCF; without what versions of MuJoCo name differently. "
+      "With --replay hand a folder: scene.xml, which has a keyframe for each rest, and the hand's "
+      "meshes");
   add("--trajectory", options.trajectory,
       "Write what every finger does during the replay as CSV: time (s), place (m), force (N). With "
       "--replay hand what the hand does, as NPZ where the file ends in .npz, otherwise as CSV: "
@@ -350,8 +352,7 @@ void ValidateOptions::Finish(const CLI::App& app) {
   }
   if (replay_by_hand) {
     if (hand.empty()) throw InputError("--replay hand: needs the hand (--hand)");
-    refuse({"--protocol", "--stress", "--tolerance", "--align", "--finger-radius", "--trials",
-            "--export-mjcf"},
+    refuse({"--protocol", "--stress", "--tolerance", "--align", "--finger-radius", "--trials"},
            "goes with --replay points");
   } else {
     refuse({"--tolerance-mm", "--tolerance-deg", "--feedback"}, "goes with --replay hand");

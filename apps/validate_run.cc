@@ -1,5 +1,6 @@
 #include "apps/validate_run.h"
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -30,6 +31,7 @@
 #include "report/page/report_page.h"
 #include "report/report.h"
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/hand_scene_export.h"
 #include "sim/actuation/hand_trajectory.h"
 #include "sim/hand/check_hand.h"
 #include "sim/replay/trajectory.h"
@@ -48,7 +50,8 @@ struct Samples {
   Stopwatch entry;  ///< since the last entry was done
   std::vector<double> entry_seconds;
   std::vector<plan::Snapshot> trajectory;
-  sim::HandTrajectory by_hand;  ///< the same of a replay by a hand
+  sim::HandTrajectory by_hand;       ///< the same of a replay by a hand
+  std::vector<sim::SceneKey> rests;  ///< the same
   std::vector<plan::Snapshot> animation;
 };
 
@@ -121,6 +124,13 @@ report::Replayer HandReplayer(const ValidateOptions& options, const ValidateTask
   watch.on_progress = observer.on_progress;
   if (!options.trajectory.empty()) {
     watch.on_step = [&samples](const sim::HandWorld& world) { samples.by_hand.Add(world); };
+  }
+  if (!options.mjcf.empty()) {
+    watch.on_rest = [&samples, &task](const sim::HandWorld& world, plan::EntryIndex entry) {
+      const std::string kind = entry == 0 ? "hold" : plan::StepKind(plan::StepOf(task.plan, entry));
+      samples.rests.push_back(
+          {std::to_string(entry) + " " + kind, world.time(), world.Save().qpos, world.controls()});
+    };
   }
   return
       [by_hand, &task, &solid, watch](const plan::Plan& located, double half_angle, int entries) {
@@ -303,6 +313,29 @@ void WriteJunit(const ValidateOptions& options, const std::filesystem::path& fol
   WriteFile(options.junit, report::FormatJunit({suite}));
 }
 
+void WriteScene(const ValidateOptions& options, const ValidateTask& task, const Samples& samples,
+                const report::Report& report) {
+  const object::Object& object = *task.object.object;
+  if (!options.replay_by_hand) {
+    sim::ReplayOptions replay = options.replay;
+    replay.half_angle = options.friction.half_angle();
+    WriteFile(options.mjcf, sim::SceneMjcf(object, plan::LocatePlan(object, task.plan), replay));
+    return;
+  }
+  sim::HandWorldOptions world;
+  world.mu = std::tan(report.half_angle);
+  world.mass_kg = sim::BodyOf(object, task.plan.scale, options.replay).mass_kg;
+  const std::vector<sim::SceneFile> files =
+      sim::ExportHandScene(*task.hand, dynamic_cast<const object::Polyhedron&>(object),
+                           task.plan.scale, world, samples.rests);
+  std::error_code error;
+  std::filesystem::create_directories(options.mjcf, error);
+  if (error) throw EnvironmentError(options.mjcf + ": cannot be made: " + error.message());
+  for (const sim::SceneFile& file : files) {
+    WriteFile(std::filesystem::path(options.mjcf) / file.name, file.bytes);
+  }
+}
+
 std::string TrajectoryText(const ValidateOptions& options, const Samples& samples) {
   if (!options.replay_by_hand) return sim::FormatTrajectory(samples.trajectory);
   return options.trajectory_is_npz() ? samples.by_hand.FormatNpz() : samples.by_hand.FormatCsv();
@@ -319,12 +352,7 @@ void WriteResults(const ValidateOptions& options, const render::FrameOptions& fr
   if (!options.trajectory.empty()) {
     WriteFile(options.trajectory, TrajectoryText(options, samples));
   }
-  if (!options.mjcf.empty()) {
-    const object::Object& object = *task.object.object;
-    sim::ReplayOptions replay = options.replay;
-    replay.half_angle = options.friction.half_angle();
-    WriteFile(options.mjcf, sim::SceneMjcf(object, plan::LocatePlan(object, task.plan), replay));
-  }
+  if (!options.mjcf.empty()) WriteScene(options, task, samples, report);
   CheckPictures(folder.path(), report);
   report.run->files = DigestFiles(folder.path(), names);
   const std::string text = report::FormatReportJson(report);

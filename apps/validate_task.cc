@@ -18,6 +18,7 @@
 #include "planner/plan/plan_io.h"
 #include "planner/repair/repair.h"
 #include "report/report.h"
+#include "sim/actuation/hand_scene_export.h"
 
 namespace regrasp::apps {
 namespace {
@@ -28,7 +29,11 @@ OutputFiles OutputsOf(const ValidateOptions& options) {
   outputs.Add("--junit", options.junit);
   if (options.json != kStandardStream) outputs.Add("--json", options.json);
   outputs.Add("--trajectory", options.trajectory);
-  outputs.Add("--export-mjcf", options.mjcf);
+  if (options.replay_by_hand && !options.mjcf.empty()) {
+    outputs.folders.push_back({"--export-mjcf", options.mjcf, sim::IsSceneFile});
+  } else {
+    outputs.Add("--export-mjcf", options.mjcf);
+  }
   outputs.Add("--video", options.video);
   outputs.folders.push_back({"--out", options.Folder(), IsValidationFile});
   return outputs;

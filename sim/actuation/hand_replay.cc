@@ -157,6 +157,7 @@ class Replay {
       Perform(index);
       Rest();
       step.snapshot = SnapshotNow();
+      if (observer_.on_rest) observer_.on_rest(world_, index);
       Shake();
     } catch (const StepFails&) {
       step.snapshot = SnapshotNow();

@@ -24,9 +24,11 @@ struct HandReplayOptions {
   double force_factor = 1;          ///< of the limits of all actuators, times what the model has
 };
 
-/// What a replay tells while it runs; both may be empty.
+/// What a replay tells while it runs; all may be empty.
 struct HandReplayObserver {
   std::function<void(const HandWorld&)> on_step;  ///< after every step of the world but in shakes
+  /// At rest after an entry, before the shake.
+  std::function<void(const HandWorld&, plan::EntryIndex)> on_rest;
   std::function<void(int done, int total)> on_progress;  ///< after every entry
 };
 

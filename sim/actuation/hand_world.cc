@@ -187,11 +187,8 @@ struct HandWorld::Impl {
       law.joint_damping +=
           joint.ratio * joint.ratio * model->dof_damping[model->jnt_dofadr[joints[k]]];
     }
-    law.damping = -bias[2] * found.moment * found.moment;
-    if (!servo) law.damping = MakeCritical(finger, joints, drive, law.stiffness);
-    // What is asked of a servo is a torque: its limit is that of its force, wherever the angle is
-    // that it would have to steer for. Of a motor the control is the force.
-    if (servo) model->actuator_ctrllimited[a] = 0;
+    law.damping = servo ? -bias[2] * found.moment * found.moment
+                        : MakeCritical(finger, joints, drive, law.stiffness);
     mjtNum* range = model->actuator_forcerange + std::ptrdiff_t{2} * a;
     double limit = std::numeric_limits<double>::infinity();
     if (model->actuator_forcelimited[a] != 0) limit = std::min(-range[0], range[1]);
@@ -200,6 +197,10 @@ struct HandWorld::Impl {
       const double gain = std::abs(model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a]);
       limit = std::min(limit, gain * std::min(-control[0], control[1]));
     }
+    if (!servo) MakeServo(found);
+    // What is asked of a servo is a torque: its limit is that of its force, wherever the angle is
+    // that it would have to steer for.
+    model->actuator_ctrllimited[a] = 0;
     if (std::isfinite(limit)) {
       limit *= options.force_factor;
       range[0] = -limit;
@@ -208,6 +209,20 @@ struct HandWorld::Impl {
       law.limit = limit * std::abs(found.moment);
     }
     return found;
+  }
+
+  /// The actuator follows the law of its servo.
+  void MakeServo(const DriveActuator& found) {
+    const double stiffness = found.servo.stiffness / (found.moment * found.moment);
+    const double damping = found.servo.damping / (found.moment * found.moment);
+    const int a = found.actuator;
+    model->actuator_gaintype[a] = mjGAIN_FIXED;
+    model->actuator_biastype[a] = mjBIAS_AFFINE;
+    model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a] = stiffness;
+    mjtNum* bias = model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
+    bias[0] = 0;
+    bias[1] = -stiffness;
+    bias[2] = -damping;
   }
 
   /// @returns the critical damping of what a drive moves, which has the inertia of a small gear
@@ -309,6 +324,7 @@ HandWorld::HandWorld(const kinematics::HandFile& file, const object::Polyhedron&
 HandWorld::~HandWorld() = default;
 
 const kinematics::HandModel& HandWorld::hand() const { return impl_->hand; }
+const mjModel& HandWorld::model() const { return *impl_->model; }
 double HandWorld::time() const { return impl_->data->time; }
 double HandWorld::timestep() const { return impl_->model->opt.timestep; }
 const Vector3d& HandWorld::centroid_O() const { return impl_->centroid; }
@@ -436,14 +452,7 @@ void HandWorld::Command(FingerIndex finger, const kinematics::Posture& target,
     const double gain = impl.model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a];
     const double length = impl.data->actuator_length[a];
     const double off = (target[drive] - now[drive]) * found.moment;
-    double force = torques[drive] / found.moment;
-    if (found.servo.derived) {
-      const double speed = impl.data->actuator_velocity[a];
-      force += (found.servo.stiffness * off - found.servo.damping * speed) /
-               (found.moment * found.moment);
-      impl.data->ctrl[a] = force / gain;
-      continue;
-    }
+    const double force = torques[drive] / found.moment;
     const mjtNum* bias = impl.model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
     impl.data->ctrl[a] = (force - bias[0] - bias[1] * (length + off)) / gain;
   }

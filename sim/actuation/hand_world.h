@@ -13,6 +13,8 @@
 #include "planner/plan/plan.h"
 #include "sim/scene/engine_state.h"
 
+struct mjModel_;
+
 namespace regrasp::sim {
 
 /// What the world of a hand is made of.
@@ -59,6 +61,8 @@ class HandWorld {
   HandWorld& operator=(const HandWorld&) = delete;
 
   [[nodiscard]] const kinematics::HandModel& hand() const;
+  /// What the engine has, servos included that are derived.
+  [[nodiscard]] const mjModel_& model() const;
   [[nodiscard]] double time() const;
   [[nodiscard]] double timestep() const;
   [[nodiscard]] const Eigen::Vector3d& centroid_O() const;

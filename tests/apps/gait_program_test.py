@@ -74,6 +74,7 @@ class Gait(ProgramCase):
             self.assertLess(step["simulation"]["hand"]["rest_displacement_m"], 1e-3)
             self.assertLess(step["simulation"]["hand"]["torque_share"], 1)
         self.check_trajectory(plan, by_hand)
+        self.check_scene(plan, by_hand)
         # Ten micrometres are not kept; and no hand holds 20 kg.
         for more, reasons in ((("--tolerance-mm", "0.01"), ("object-moved",)),
                               (("--mass", "20"), ("torque-limit", "object-moved", "slipped",
@@ -125,6 +126,38 @@ class Gait(ProgramCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("NPZ goes with --replay hand", done.stderr)
         self.assertFalse(os.path.exists(self.path("points.npz")))
+
+    def check_scene(self, plan, by_hand):
+        """A folder with a keyframe for each rest, in a folder that is made, twice the same."""
+        for name in ("new/scene", "again"):
+            done, _ = self.validate(plan, *by_hand, "--no-frames", "--export-mjcf", name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(os.listdir(self.path("again")), ["scene.xml"])  # it has no meshes
+        text = self.read("again/scene.xml")
+        self.assertEqual(text, self.read("new/scene/scene.xml"))
+        scene = xml.etree.ElementTree.fromstring(text)
+        keys = scene.findall("keyframe/key")
+        kinds = ["hold"] + [step["kind"] for step in plan["steps"]]
+        self.assertEqual([key.get("name") for key in keys],
+                         [f"{i} {kind}" for i, kind in enumerate(kinds)])
+        joints = sum(len(finger) for finger in plan["hand"]["initial"]["joints"])
+        for key in keys:
+            self.assertEqual(len(key.get("qpos").split()), joints + 7)
+            self.assertEqual(len(key.get("ctrl").split()), len(scene.find("actuator")))
+        tips = [geom for geom in scene.iter("geom")
+                if (geom.get("name") or "").startswith("regrasp_tip_")]
+        self.assertEqual(len(tips), len(scene.findall("contact/pair")))
+        # What later versions of MuJoCo refuse is not there.
+        self.assertIsNone(scene.find("size"))
+        self.assertFalse({name for element in scene.iter("option") for name in element.attrib}
+                         - {"timestep", "gravity", "cone", "impratio"})
+        # A file is no folder, and stays.
+        self.write("taken", "mine")
+        done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
+                                *by_hand, "--export-mjcf", "taken", program="validate")
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertEqual(self.read("taken"), b"mine")
 
     def test_a_plan_goes_from_given_grasps_and_poses_to_others(self):
         plan = self.plan_in_hand()

@@ -1,0 +1,240 @@
+#include "sim/actuation/hand_scene_export.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <utility>
+
+#include "planner/base/file.h"
+#include "planner/base/number.h"
+#include "planner/kinematics/mujoco_model.h"
+#include "sim/actuation/hand_scene_text.h"
+
+namespace regrasp::sim {
+namespace {
+
+using kinematics::XmlElement;
+
+constexpr const char* kMeshPrefix = "mesh_";
+constexpr const char* kTipPrefix = "regrasp_tip_";
+/// Enough digits that a simulation goes on from a keyframe as it would have.
+std::string Numbers(const mjtNum* values, int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += (i > 0 ? " " : "") + FormatDouble(values[i]);
+  return text;
+}
+std::string Numbers(const std::vector<double>& values) {
+  return Numbers(values.data(), static_cast<int>(values.size()));
+}
+
+XmlElement Element(std::string name, std::vector<std::pair<std::string, std::string>> attributes) {
+  XmlElement element;
+  element.name = std::move(name);
+  element.attributes = std::move(attributes);
+  return element;
+}
+
+void ForEach(XmlElement& element, const std::function<void(XmlElement&)>& visit) {
+  visit(element);
+  for (XmlElement& child : element.children) ForEach(child, visit);
+}
+
+/// The section of that name; made where there is none.
+XmlElement& Section(XmlElement& root, const std::string& name) {
+  const auto found = std::ranges::find(root.children, name, &XmlElement::name);
+  return found != root.children.end() ? *found : root.children.emplace_back(Element(name, {}));
+}
+
+class SceneWriter {
+ public:
+  SceneWriter(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
+              const HandWorldOptions& options)
+      : file_(file),
+        solid_(solid),
+        scale_(scale),
+        mu_(options.mu),
+        world_(file, solid, scale, options),
+        text_(kinematics::AsMjcf(file.compiled->text.files.front(),
+                                 HandSceneText(file, solid, scale, options.mass_kg))) {}
+
+  std::vector<SceneFile> Write(const std::vector<SceneKey>& keys) {
+    XmlElement& root = text_.root;
+    // What versions of MuJoCo call differently, or do without.
+    std::erase_if(root.children, [](const XmlElement& child) {
+      return child.name == "size" || child.name == "statistic" || child.name == "custom";
+    });
+    std::vector<SceneFile> files = TakeMeshes();
+    SetOptions(Section(root, "option"));
+    SetBodies();
+    SetActuators(Section(root, "actuator"));
+    SetContacts(Section(root, "contact"));
+    XmlElement& frames = Section(root, "keyframe");
+    for (const SceneKey& key : keys) {
+      frames.children.push_back(Element("key", {{"name", key.name},
+                                                {"time", FormatDouble(key.time_s)},
+                                                {"qpos", Numbers(key.qpos)},
+                                                {"ctrl", Numbers(key.controls)}}));
+    }
+    files.push_back({kSceneName, kinematics::FormatXml(root)});
+    return files;
+  }
+
+ private:
+  /// The files of meshes come along under names of their own; textures do not.
+  std::vector<SceneFile> TakeMeshes() {
+    std::vector<SceneFile> files;
+    ForEach(text_.root, [](XmlElement& element) {
+      if (element.name == "compiler") {
+        element.Remove("meshdir");
+        element.Remove("texturedir");
+      }
+      if (element.name == "material") element.Remove("texture");
+      std::erase_if(element.children, [](const XmlElement& child) {
+        return child.name == "texture" || child.name == "hfield";
+      });
+    });
+    ForEach(text_.root, [&](XmlElement& element) {
+      const std::string* named = element.name == "mesh" ? element.Find("file") : nullptr;
+      if (named == nullptr) return;
+      const std::filesystem::path path = MeshPath(*named);
+      const std::string name =
+          kMeshPrefix + std::to_string(files.size()) + path.extension().string();
+      files.push_back({name, ReadFile(path)});
+      // A mesh is called after its file where it has no name.
+      if (element.Find("name") == nullptr) {
+        element.Set("name", std::filesystem::path(*named).stem().string());
+      }
+      element.Set("file", name);
+    });
+    return files;
+  }
+
+  [[nodiscard]] std::filesystem::path MeshPath(const std::string& named) const {
+    const auto mesh = std::ranges::find_if(text_.meshes, [&](const kinematics::MeshFile& known) {
+      return known.alias.empty() ? ("/" + known.path.string()).ends_with("/" + named)
+                                 : known.alias == named;
+    });
+    return mesh == text_.meshes.end() ? std::filesystem::path(named) : mesh->path;
+  }
+
+  void SetOptions(XmlElement& option) const {
+    const mjOption& opt = world_.model().opt;
+    option.attributes = {{"timestep", FormatDouble(opt.timestep)},
+                         {"gravity", Numbers(opt.gravity, 3)},
+                         {"cone", "elliptic"},
+                         {"impratio", FormatDouble(opt.impratio)}};
+    option.children.clear();
+  }
+
+  void SetBodies() {
+    const mjModel& model = world_.model();
+    Section(text_.root, "asset").children.push_back(ObjectMesh());
+    ForEach(text_.root, [&](XmlElement& element) {
+      const std::string* name = element.Find("name");
+      if (element.name == "geom") {
+        if (name != nullptr && *name == kHandSceneObject) {
+          element.attributes = {{"name", *name}, {"type", "mesh"}, {"mesh", kHandSceneObject}};
+        }
+        // Only balls of tips touch anything, and only the object.
+        element.Set("contype", "0");
+        element.Set("conaffinity", "0");
+      } else if (element.name == "joint" && name != nullptr) {
+        const int joint = mj_name2id(&model, mjOBJ_JOINT, name->c_str());
+        if (joint >= 0 && element.Find("joint1") == nullptr) {
+          element.Set("armature", FormatDouble(model.dof_armature[model.jnt_dofadr[joint]]));
+        }
+      } else if (element.name == "body" && name != nullptr) {
+        AddTip(*name, element);
+      }
+    });
+  }
+
+  void AddTip(const std::string& body, XmlElement& element) const {
+    const auto& tips = file_.description.tips;
+    for (std::size_t i = 0; i < tips.size(); ++i) {
+      if (tips[i].body != body) continue;
+      element.children.push_back(Element("geom", {{"name", kTipPrefix + std::to_string(i)},
+                                                  {"type", "sphere"},
+                                                  {"size", FormatDouble(tips[i].radius)},
+                                                  {"pos", Numbers(tips[i].centre.data(), 3)},
+                                                  {"mass", "0"},
+                                                  {"rgba", "0.9 0.5 0.1 0.5"},
+                                                  {"contype", "0"},
+                                                  {"conaffinity", "0"}}));
+    }
+  }
+
+  /// About the object's centroid, in metres.
+  [[nodiscard]] XmlElement ObjectMesh() const {
+    std::vector<double> vertices;
+    for (const Eigen::Vector3d& vertex : solid_.vertices()) {
+      const Eigen::Vector3d at = scale_ * (vertex - solid_.mass_properties().centroid);
+      vertices.insert(vertices.end(), at.begin(), at.end());
+    }
+    std::string faces;
+    for (const auto& triangle : solid_.triangles()) {
+      for (const int corner : triangle)
+        faces += (faces.empty() ? "" : " ") + std::to_string(corner);
+    }
+    return Element("mesh",
+                   {{"name", kHandSceneObject}, {"vertex", Numbers(vertices)}, {"face", faces}});
+  }
+
+  void SetActuators(XmlElement& section) const {
+    const mjModel& model = world_.model();
+    for (std::size_t i = 0; i < section.children.size(); ++i) {
+      const auto a = static_cast<std::ptrdiff_t>(i);
+      XmlElement& actuator = section.children[i];
+      actuator.Set("gainprm", Numbers(model.actuator_gainprm + mjNGAIN * a, 3));
+      actuator.Set("biasprm", Numbers(model.actuator_biasprm + mjNBIAS * a, 3));
+      if (model.actuator_biastype[a] == mjBIAS_AFFINE) actuator.Set("biastype", "affine");
+      if (model.actuator_ctrllimited[a] == 0) {
+        actuator.Remove("ctrlrange");
+        actuator.Set("ctrllimited", "false");
+      }
+      if (model.actuator_forcelimited[a] != 0) {
+        actuator.Set("forcelimited", "true");
+        actuator.Set("forcerange", Numbers(model.actuator_forcerange + 2 * a, 2));
+      }
+    }
+  }
+
+  void SetContacts(XmlElement& section) const {
+    std::erase_if(section.children, [](const XmlElement& child) { return child.name == "pair"; });
+    const std::string mu = FormatDouble(mu_);
+    for (std::size_t i = 0; i < file_.description.tips.size(); ++i) {
+      section.children.push_back(
+          Element("pair", {{"geom1", kTipPrefix + std::to_string(i)},
+                           {"geom2", kHandSceneObject},
+                           {"condim", "3"},
+                           {"friction", mu + " " + mu + " 0.005 0.0001 0.0001"},
+                           {"solref", "0.005 1"},
+                           {"solimp", "0.95 0.99 0.0001"}}));
+    }
+  }
+
+  const kinematics::HandFile& file_;
+  const object::Polyhedron& solid_;
+  double scale_;
+  double mu_;
+  HandWorld world_;
+  kinematics::ModelText text_;
+};
+
+}  // namespace
+
+bool IsSceneFile(const std::string& name) {
+  return name == kSceneName || name.starts_with(kMeshPrefix);
+}
+
+std::vector<SceneFile> ExportHandScene(const kinematics::HandFile& file,
+                                       const object::Polyhedron& solid, double scale,
+                                       const HandWorldOptions& options,
+                                       const std::vector<SceneKey>& keys) {
+  return SceneWriter(file, solid, scale, options).Write(keys);
+}
+
+}  // namespace regrasp::sim

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "planner/kinematics/hand_file.h"
+#include "planner/object/polyhedron.h"
+#include "sim/actuation/hand_world.h"
+
+namespace regrasp::sim {
+
+/// A rest of a replay, as a scene has it.
+struct SceneKey {
+  std::string name;
+  double time_s = 0;
+  std::vector<double> qpos;
+  std::vector<double> controls;
+};
+
+/// A file of a scene.
+struct SceneFile {
+  std::string name;
+  std::string bytes;
+};
+
+inline constexpr const char* kSceneName = "scene.xml";
+
+/// Whether a scene may have a file of this name.
+[[nodiscard]] bool IsSceneFile(const std::string& name);
+
+/// The world of a hand as a folder that stock MuJoCo loads, from 2.2.2 on: scene.xml, last, and
+/// before it copies of the meshes of the hand. It has the hand's servos and their limits, the
+/// object as a mesh, balls at the tips, friction, gravity, and a keyframe for each rest.
+///
+/// What differs from HandWorld: MuJoCo collides the mesh as its convex hull. Pictures on surfaces
+/// (textures from files) are left out.
+/// @param keys  of a HandWorld of the same hand and object.
+/// @throws InputError  as HandWorld.
+[[nodiscard]] std::vector<SceneFile> ExportHandScene(const kinematics::HandFile& file,
+                                                     const object::Polyhedron& solid, double scale,
+                                                     const HandWorldOptions& options,
+                                                     const std::vector<SceneKey>& keys);
+
+}  // namespace regrasp::sim

@@ -1,0 +1,83 @@
+#include "sim/actuation/hand_scene_export.h"
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <cmath>
+
+#include "planner/gait/find_gait.h"
+#include "planner/gait/plan_of_gait.h"
+#include "planner/mujoco/handles.h"
+#include "planner/plan/locate.h"
+#include "sim/actuation/hand_replay.h"
+#include "sim/scene/scaling.h"
+#include "tests/fixtures/folder_test.h"
+
+namespace regrasp::sim {
+namespace {
+
+class HandSceneExportTest : public FolderTest {};
+
+TEST_F(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRest) {
+  const std::string models = std::string(REGRASP_SOURCE_DIR) + "/models/";
+  const kinematics::HandFile hand = kinematics::ReadHandFile(models + "hands/ring5.json");
+  const object::ObjectFile cube = object::ReadObject(models + "cube.obj");
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*cube.object);
+  gait::GaitRequest request;
+  request.hand = &hand.hand;
+  request.solid = &solid;
+  request.scale = 0.8333;
+  request.criteria.half_angle = std::atan(0.5);
+  request.criteria.min_quality = 0.06;
+  request.turn = {Eigen::Vector3d::UnitZ(), 0.5};
+  const gait::GaitResult found = gait::FindGait(request);
+  ASSERT_TRUE(found.gait) << found.message;
+  const plan::Plan plan =
+      plan::LocatePlan(solid, gait::PlanOf(*found.gait, request, found.contacts));
+
+  std::vector<SceneKey> keys;
+  HandReplayOptions options;
+  options.half_angle = std::atan(0.8);
+  options.mass_kg = 0.125;
+  HandReplayObserver observer;
+  observer.on_rest = [&](const HandWorld& world, plan::EntryIndex entry) {
+    keys.push_back(
+        {"rest " + std::to_string(entry), world.time(), world.Save().qpos, world.controls()});
+  };
+  const ReplayResult replay = ReplayHand(hand, solid, plan, options, observer);
+  ASSERT_EQ(replay.steps.back().reason, plan::Reason::kNone) << replay.steps.back().detail;
+  ASSERT_EQ(keys.size(), plan.steps.size() + 1);
+
+  const std::vector<SceneFile> files =
+      ExportHandScene(hand, solid, request.scale, {0.8, options.mass_kg, kGravity, 1}, keys);
+  EXPECT_EQ(files.back().name, kSceneName);
+  for (const SceneFile& file : files) {
+    EXPECT_TRUE(IsSceneFile(file.name)) << file.name;
+    Write(file.name, file.bytes);
+  }
+  std::array<char, 1000> error{};
+  const mujoco::ModelPtr model(mj_loadXML((folder_ / kSceneName).c_str(), nullptr, error.data(),
+                                          static_cast<int>(error.size())));
+  ASSERT_TRUE(model) << error.data();
+  const mujoco::DataPtr data(mj_makeData(model.get()));
+  ASSERT_EQ(model->nkey, static_cast<int>(keys.size()));
+  const int object = mj_name2id(model.get(), mjOBJ_BODY, "regrasp_object");
+  ASSERT_GE(object, 0);
+  EXPECT_NEAR(model->body_mass[object], options.mass_kg, 1e-12);
+  for (int key = 0; key < model->nkey; ++key) {
+    mj_resetDataKeyframe(model.get(), data.get(), key);
+    mj_forward(model.get(), data.get());
+    EXPECT_EQ(keys[key].name, mj_id2name(model.get(), mjOBJ_KEY, key));
+    EXPECT_NEAR(data->time, keys[key].time_s, 1e-9);
+    EXPECT_EQ(data->ncon, static_cast<int>(replay.steps[key].snapshot.fingers.size()));
+    const std::array<mjtNum, 3> before = {data->xpos[3 * object], data->xpos[3 * object + 1],
+                                          data->xpos[3 * object + 2]};
+    constexpr double kSeconds = 0.5;  // in which it would fall by more than a metre
+    while (data->time < keys[key].time_s + kSeconds) mj_step(model.get(), data.get());
+    EXPECT_LT(mju_dist3(before.data(), data->xpos + 3 * object), 1e-3) << key;
+  }
+}
+
+}  // namespace
+}  // namespace regrasp::sim
