@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/base/number.h"
 #include "planner/object/diameter.h"
 #include "planner/repair/canonical_order.h"
 #include "planner/repair/judgement.h"
@@ -24,6 +25,10 @@ constexpr char kIsSolid[] = "solid";
 /// A solid this close to its original, over the diameter, ends the climb; others are the last word
 /// only where no later stage comes closer.
 constexpr double kCloseEnough = 0.002;
+
+/// Where a wrap of an open surface has less than this of the volume of a coarser one, it has entered
+/// a hollow body and leaves nothing but its wall.
+constexpr double kLeastLeft = 0.75;
 
 /// Whether a stage can do anything about a surface.
 bool Applies(std::string_view stage, const PolygonSoup& soup) {
@@ -92,8 +97,7 @@ class Ladder {
     for (const auto& [name, stage] : {std::pair<const char*, Stage>("fill-holes", FillHoles),
                                       {"unite-shells", UniteShells},
                                       {"remove-crossings", RemoveCrossings},
-                                      {"arrange", ArrangeSurface},
-                                      {"wrap", WrapSurface}}) {
+                                      {"arrange", ArrangeSurface}}) {
       if (!Applies(name, best)) continue;
       auto made = Run(name, [&] { return stage(best); });
       if (!made) continue;
@@ -102,7 +106,30 @@ class Ladder {
       const std::string_view stage_name = name;
       if (stage_name != "remove-crossings" && stage_name != "arrange") best = *std::move(made);
     }
-    return HasClosest();
+    return Wraps(best) || HasClosest();
+  }
+
+  bool Wraps(const PolygonSoup& best) {
+    if (WrapIsCloseEnough("wrap", best)) return true;
+    // What fills a wide hole may hide what is seen through it; a wrap of the surface as it is shows
+    // that, where it does not enter a hollow body.
+    const bool hides = last().shortfall == Shortfall::kTooFar && !HasOpenEdges(best);
+    return !closest_ && hides && original_.open &&
+           WrapIsCloseEnough("wrap-unfilled", original_.soup);
+  }
+
+  bool WrapIsCloseEnough(const std::string& stage, const PolygonSoup& surface) {
+    auto made = Run(stage, [&] { return WrapSurface(surface); });
+    if (!made) return false;
+    const Json& volumes = last().facts["volumes"];  // from the coarser wrap to the finer one
+    const double left =
+        volumes.back()["volume"].get<double>() / volumes.front()["volume"].get<double>();
+    if (HasOpenEdges(surface) && left < kLeastLeft) {
+      last().outcome = "the finer wrap enters an opening, and leaves " +
+                       FormatShort(100 * left, 3) + " % of the volume of the coarser one";
+      return false;
+    }
+    return IsCloseEnough(*std::move(made));
   }
 
   /// Whether what the last stage made ends the climb. Where it is a solid but not that close it is

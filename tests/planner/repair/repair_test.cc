@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "planner/base/error.h"
@@ -80,6 +81,24 @@ PolygonSoup Quartered(const PolygonSoup& soup) {
     }
   }
   return fine;
+}
+
+/// The inside and the outside of a tube that is 0.4 long and 1 wide, without the two rims between.
+PolygonSoup RimlessTube(double wall) {
+  constexpr int kAround = 48;
+  PolygonSoup soup;
+  for (const double radius : {0.5, 0.5 - wall}) {
+    const int first = static_cast<int>(soup.vertices.size());
+    for (int i = 0; i < kAround; ++i) {
+      const double turn = 2 * std::numbers::pi * i / kAround;
+      for (const double z : {0.0, 0.4}) {
+        soup.vertices.push_back({radius * std::cos(turn), radius * std::sin(turn), z});
+      }
+      const int a = first + 2 * i, b = first + 2 * ((i + 1) % kAround);
+      soup.facets.push_back({a, b, b + 1, a + 1});
+    }
+  }
+  return soup;
 }
 
 TEST(Repair, ASolidStaysAsItIs) {
@@ -312,6 +331,26 @@ TEST(Repair, WhatFormsNoSurfaceIsWrapped) {
   // A finer ball enters more.
   EXPECT_GT(volumes[0]["radius"], volumes[1]["radius"]);
   EXPECT_GE(volumes[0]["volume"], volumes[1]["volume"]);
+}
+
+TEST(Repair, WhatFillsAWideHoleMayHideMostOfTheSurfaceAndIsThenLeftOut) {
+  constexpr double kWall = 0.015;
+  const Repaired tube = Repair(RimlessTube(kWall), "tube", {});
+  EXPECT_EQ(LastStage(tube), "wrap-unfilled");
+  EXPECT_NEAR(tube.volume, 2 * std::numbers::pi * 0.49 * kWall * 0.4, 0.001);
+  EXPECT_LT(tube.comparison.seen_most, 0.002 * tube.diameter);
+}
+
+TEST(Repair, AWrapThatEntersAHollowBodyIsRefused) {
+  // As above, but the ball passes between the rims, and leaves nothing but the two surfaces.
+  const auto refusal = FindRefusal(RimlessTube(0.08), {});
+  ASSERT_TRUE(refusal);
+  const StageReport& last = refusal->attempt().stages.back();
+  EXPECT_EQ(last.stage, "wrap-unfilled");
+  EXPECT_THAT(last.outcome, HasSubstr("enters an opening"));
+  const auto& volumes = last.facts["volumes"];
+  EXPECT_LT(volumes[1]["volume"].get<double>(), 0.2 * volumes[0]["volume"].get<double>());
+  EXPECT_THAT(refusal->what(), HasSubstr("too far from its surface"));
 }
 
 TEST(Repair, ACloudOfPointsOfAllSidesBecomesABodyAndOneOfOneSideIsRefused) {
