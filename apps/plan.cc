@@ -322,6 +322,7 @@ int PlanProgram::Run() const {
   result.plan->repair = object.repair;
   result.plan->shells = common.repair.shells();
   result.plan->patch_radius = common.PatchRadius(*object.object);
+  if (result.plan->roadmap) common.NotePlaces(*result.plan->roadmap);
   result.plan->at_given_points = given.has_value();
   result.plan->half_angle = common.friction.required_half_angle();
   result.plan->scale = common.scale;

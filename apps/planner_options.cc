@@ -147,6 +147,11 @@ std::optional<double> PlannerOptions::PatchRadius(const object::Object& of) cons
   return patch.value_or(object::kUsualPatch * of.diameter());
 }
 
+void PlannerOptions::NotePlaces(plan::RoadmapNote& note) const {
+  if (patch_felt()) note.roughness = patch_felt()->most_angle;
+  note.allow_invented = allow_invented;
+}
+
 double PlannerOptions::PlannedHalfAngle() const {
   const double half_angle = friction.required_half_angle();
   if (!patch_felt()) return half_angle;

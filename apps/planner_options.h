@@ -11,6 +11,7 @@
 #include "planner/base/deadline.h"
 #include "planner/object/object.h"
 #include "planner/object/reading.h"
+#include "planner/plan/plan.h"
 #include "planner/planning/planner.h"
 
 namespace regrasp::apps {
@@ -53,6 +54,9 @@ struct PlannerOptions {
 
   /// The patch's radius on an object, its unit of length, for the plan; none without a patch.
   [[nodiscard]] std::optional<double> PatchRadius(const object::Object& object) const;
+
+  /// Writes where contacts are into the note of a plan over clustered contact points.
+  void NotePlaces(plan::RoadmapNote& note) const;
 
   /// What the options ask for, on an object; start and goal are left open.
   /// @throws InputError  friction is missing, doubled or out of range; more contact points than a

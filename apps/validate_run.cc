@@ -194,11 +194,8 @@ render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const Valid
     throw InputError("--show-clusters: " + options.InputPath() +
                      " was not made on a roadmap of clustered contact points");
   }
-  if (task.plan.at_given_points) {
-    throw InputError("--show-clusters: " + options.InputPath() +
-                     " has its contacts at given points, whose clusters are not drawn");
-  }
-  frame.clusters = roadmap::DescribeClusters(*solid, task.plan.half_angle, *task.plan.roadmap);
+  frame.clusters = roadmap::DescribeClusters(
+      *solid, task.plan, task.plan.at_given_points ? &task.given_points : nullptr);
   return frame;
 }
 

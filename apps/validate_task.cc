@@ -69,14 +69,18 @@ void ReadGivenPoints(const std::string& object_path, const object::Reading& read
   task.given_points = object::ReadGivenPoints(object_path, reading);
 }
 
-void ReadPlanTask(const ValidateOptions& options, const object::Reading& reading,
-                  ValidateTask& task) {
+void ReadPlanTask(const ValidateOptions& options, object::Reading reading, ValidateTask& task) {
   std::error_code error;
   const bool named_by_plan = std::filesystem::is_directory(options.object_path, error);
   task.file_text =
       options.plan_path == kStandardStream ? ReadFile("/dev/stdin") : ReadFile(options.plan_path);
   task.plan = plan::ParsePlan(task.file_text, options.plan_path);
   CheckRepair(options, task.plan);
+  // Nothing is judged by these, but the clusters that are shown are made on places without them.
+  if (task.plan.roadmap && task.plan.roadmap->roughness) {
+    reading.patch = {task.plan.patch_radius, *task.plan.roadmap->roughness};
+  }
+  reading.allow_invented = task.plan.roadmap && task.plan.roadmap->allow_invented;
   const std::string object_path = ObjectPathOf(options, task.plan.object_file);
   if (named_by_plan) CheckOutputsDiffer({{"--object", object_path}}, OutputsOf(options));
   task.object = ReadObjectOf(task.plan, object_path, reading);

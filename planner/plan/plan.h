@@ -93,6 +93,10 @@ struct RoadmapNote {
   std::uint64_t seed = 0;
   std::string start;  ///< what linked the start to the representatives: "algorithm-1", …
   std::string goal;
+  /// Radians by which a contact's normal may differ from that of its patch (Plan::patch_radius),
+  /// and by which the contacts were clustered with less than the friction's half-angle.
+  std::optional<double> roughness = std::nullopt;
+  bool allow_invented = false;  ///< contact points are on invented surface, too
 };
 
 /// A regrasp plan: the contents of a plan file (docs/formats.md), angles in radians.

@@ -182,15 +182,22 @@ RoadmapNote ReadRoadmapNote(const JsonReader& json) {
   note.seed = json.Member("seed").Unsigned();
   note.start = json.Member("start").String();
   note.goal = json.Member("goal").String();
+  if (json.Has("roughness_deg")) note.roughness = ReadHalfAngle(json.Member("roughness_deg"));
+  if (json.Has("invented")) {
+    note.allow_invented = json.Member("invented").OneOf({"allowed"}) == "allowed";
+  }
   return note;
 }
 
 Json RoadmapNoteJson(const RoadmapNote& note) {
-  return {{"contacts", note.contacts},
-          {"clusters", note.clusters},
-          {"seed", note.seed},
-          {"start", note.start},
-          {"goal", note.goal}};
+  Json json = {{"contacts", note.contacts},
+               {"clusters", note.clusters},
+               {"seed", note.seed},
+               {"start", note.start},
+               {"goal", note.goal}};
+  if (note.roughness) json["roughness_deg"] = WrittenDegrees(*note.roughness);
+  if (note.allow_invented) json["invented"] = "allowed";
+  return json;
 }
 
 Json SwitchJson(const Switch& step, int dimension) {

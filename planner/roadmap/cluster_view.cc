@@ -16,8 +16,9 @@ namespace regrasp::roadmap {
 
 namespace {
 
-ContactClusters ClustersOf(const object::Polyhedron& solid, double half_angle,
-                           const plan::RoadmapNote& note) {
+ContactClusters ClustersOf(const object::Polyhedron& solid, const plan::Plan& plan,
+                           const std::vector<Eigen::Vector3d>* given_points) {
+  const plan::RoadmapNote& note = *plan.roadmap;
   const auto check = [](const char* name, int value, int least, int most) {
     if (value >= least && value <= most) return;
     throw InputError(std::string("the plan's roadmap has ") + std::to_string(value) + " " + name +
@@ -26,10 +27,17 @@ ContactClusters ClustersOf(const object::Polyhedron& solid, double half_angle,
   check("contact points", note.contacts, kFewestClusters, kMaxClusteredContacts);
   check("clusters", note.clusters, kFewestClusters, kMostClusters);
   ClusteredRoadmapOptions options;
-  options.half_angle = half_angle;
+  options.half_angle = plan.half_angle - note.roughness.value_or(0);
+  if (options.half_angle <= 0) {
+    throw InputError(
+        "the plan's roadmap is rougher than its friction's half-angle, which leaves "
+        "nothing to cluster by");
+  }
   options.contacts = note.contacts;
   options.clusters = note.clusters;
   options.seed = note.seed;
+  options.finger_radius = plan.finger_radius.value_or(0);
+  options.given_points = given_points;
   return ClusterContacts(solid, options);
 }
 
@@ -108,9 +116,9 @@ std::vector<int> ColorClusters(const std::vector<std::set<ClusterIndex>>& neighb
 
 }  // namespace
 
-ClusterView DescribeClusters(const object::Polyhedron& solid, double half_angle,
-                             const plan::RoadmapNote& note) {
-  const ContactClusters clusters = ClustersOf(solid, half_angle, note);
+ClusterView DescribeClusters(const object::Polyhedron& solid, const plan::Plan& plan,
+                             const std::vector<Eigen::Vector3d>* given_points) {
+  const ContactClusters clusters = ClustersOf(solid, plan, given_points);
   ClusterView view;
   const std::vector<ClusterIndex> cluster_of = ClusterOfTriangles(solid, clusters);
   const std::vector<int> color =

@@ -21,9 +21,14 @@ struct ClusterView {
 
 /// The clusters that a plan was made on, found anew. A triangle belongs to the cluster of the
 /// nearest contact point on its side of the body.
-/// @param half_angle  the plan's, radians.
+/// @param solid  read as for the plan: with the patches (Plan::patch_radius,
+/// RoadmapNote::roughness)
+///               and the invented surface that take fingers.
+/// @param plan   with a roadmap.
+/// @param given_points  where Plan::at_given_points.
 /// @throws InputError  the note's numbers are none of a roadmap of clusters.
-[[nodiscard]] ClusterView DescribeClusters(const object::Polyhedron& solid, double half_angle,
-                                           const plan::RoadmapNote& note);
+[[nodiscard]] ClusterView DescribeClusters(
+    const object::Polyhedron& solid, const plan::Plan& plan,
+    const std::vector<Eigen::Vector3d>* given_points = nullptr);
 
 }  // namespace regrasp::roadmap

@@ -206,6 +206,20 @@ class PlansOnMeshes(ProgramCase):
         self.assertNotEqual(frames[0], frames[1])
         self.assertGreater(len(frames[1]), 10_000)
 
+    def test_frames_show_the_clusters_of_plans_with_patches(self):
+        mug = self.model("mug500.obj")
+        plan = self.plan("mug500", "--patch", "0.002", friction_angle="30", clusters="20")
+        note = plan["roadmap"]
+        self.assertEqual((note["roughness_deg"], "invented" in note), (5, False))
+        frames = []
+        for roughness in (5, 20):
+            plan["roadmap"]["roughness_deg"] = roughness  # control: these are other clusters
+            self.write_json("other.json", plan)
+            self.assert_done("--object", mug, "--plan", "other.json", "--out", "out", "--size",
+                             "320x240", "--show-clusters", program="validate")
+            frames.append(self.read("out/000_hold.png"))
+        self.assertNotEqual(frames[0], frames[1])
+
     def test_plans_without_clusters_have_none_to_show(self):
         self.assert_done("--object", self.model("cube.obj"), "--start", "random", "--goal", "random",
                          "--output", "plan.json", "--friction-angle", "20", "--planner", "roadmap")

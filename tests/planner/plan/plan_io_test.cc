@@ -188,6 +188,21 @@ TEST(PlanIo, KeepsTheRadiusOfPatchesOfSolids) {
             "plan.json: /patch_radius: only solids have rough surfaces");
 }
 
+TEST(PlanIo, KeepsWhereClusteredContactsAre) {
+  Plan plan = CubePlan();
+  plan.roadmap = RoadmapNote{300, 20, 7, "vertex", "algorithm-1"};
+  const Json plain = Json::parse(FormatPlan(plan))["roadmap"];
+  EXPECT_FALSE(plain.contains("roughness_deg") || plain.contains("invented"));
+  plan.roadmap->roughness = Radians(5);
+  plan.roadmap->allow_invented = true;
+  const std::string text = FormatPlan(plan);
+  const Plan read = ParsePlan(text, "plan.json");
+  EXPECT_EQ(read.roadmap->roughness, plan.roadmap->roughness);
+  EXPECT_TRUE(read.roadmap->allow_invented);
+  EXPECT_EQ(FormatPlan(read), text);
+  EXPECT_EQ(Json::parse(text)["roadmap"]["roughness_deg"], 5);
+}
+
 TEST(PlanIo, KeepsThatContactsAreAtGivenPointsOfASurface) {
   EXPECT_FALSE(Json::parse(FormatPlan(CubePlan())).contains("contacts"));
   Plan plan = CubePlan();

@@ -1,0 +1,89 @@
+#include "planner/roadmap/cluster_view.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/object/polyhedron.h"
+#include "planner/object/reading.h"
+#include "planner/roadmap/build_roadmap.h"
+
+namespace regrasp::roadmap {
+namespace {
+
+const double kHalfAngle = Radians(20), kRoughness = Radians(5);
+
+/// Beside the edges of its facets it is rough, and elsewhere not.
+object::Polyhedron ReadMug(const object::Reading& reading) {
+  return dynamic_cast<const object::Polyhedron&>(
+      *object::ReadObject(REGRASP_SOURCE_DIR "/models/mug500.obj", reading).object);
+}
+
+object::Reading ReadingOfPatches() {
+  object::Reading reading;
+  reading.patch = {std::nullopt, kRoughness};
+  return reading;
+}
+
+/// What the program `plan` asks of a roadmap, and what its plan says of it.
+planning::PlanRequest RequestOn(const object::Polyhedron& solid, double half_angle) {
+  planning::PlanRequest request;
+  request.object = &solid;
+  request.criteria.half_angle = half_angle;
+  request.seed = 3;
+  request.contact_points = 200;
+  request.clusters = 10;
+  return request;
+}
+
+plan::Plan PlanOver() {
+  plan::Plan plan;
+  plan.half_angle = kHalfAngle;
+  plan.roadmap = plan::RoadmapNote{200, 10, 3, "vertex", "vertex"};
+  return plan;
+}
+
+std::vector<Eigen::Vector3d> RepresentativesOf(const ContactClusters& clusters) {
+  std::vector<Eigen::Vector3d> points;
+  for (const int contact : clusters.representatives()) {
+    points.push_back(clusters.contacts()[contact].p);
+  }
+  return points;
+}
+
+TEST(DescribeClusters, FindsThoseOfAPlanAgain) {
+  const object::Polyhedron solid = ReadMug({});
+  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(RequestOn(solid, kHalfAngle));
+  EXPECT_EQ(DescribeClusters(solid, PlanOver()).representatives,
+            RepresentativesOf(roadmap.clusters));
+}
+
+TEST(DescribeClusters, FindsThoseOfAPlanWithPatchesAgain) {
+  const object::Polyhedron solid = ReadMug(ReadingOfPatches());
+  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(RequestOn(solid, kHalfAngle - kRoughness));
+  plan::Plan plan = PlanOver();
+  plan.roadmap->roughness = kRoughness;
+  const std::vector<Eigen::Vector3d> found = DescribeClusters(solid, plan).representatives;
+  EXPECT_EQ(found, RepresentativesOf(roadmap.clusters));
+  // Controls: of a body that is read without patches, and with all of the friction, it has others.
+  EXPECT_NE(DescribeClusters(ReadMug({}), plan).representatives, found);
+  plan.roadmap->roughness.reset();
+  EXPECT_NE(DescribeClusters(solid, plan).representatives, found);
+}
+
+TEST(DescribeClusters, FindsThoseOfThickFingersAgain) {
+  const object::Polyhedron solid = ReadMug({});
+  planning::PlanRequest request = RequestOn(solid, kHalfAngle);
+  request.hand.fingertip_radius = 0.1 * solid.diameter();
+  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(request);
+  plan::Plan plan = PlanOver();
+  plan.finger_radius = request.hand.fingertip_radius;
+  const std::vector<Eigen::Vector3d> found = DescribeClusters(solid, plan).representatives;
+  EXPECT_EQ(found, RepresentativesOf(roadmap.clusters));
+  plan.finger_radius.reset();  // control
+  EXPECT_NE(DescribeClusters(solid, plan).representatives, found);
+}
+
+}  // namespace
+}  // namespace regrasp::roadmap
