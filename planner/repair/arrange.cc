@@ -1,5 +1,4 @@
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/repair.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "planner/repair/cgal_mesh.h"
+#include "planner/repair/exact_point.h"
 #include "planner/repair/resolve_touching.h"
 #include "planner/repair/stages.h"
 
@@ -30,8 +30,7 @@ namespace {
 
 /// Where facets meet has to be known exactly: of three that meet at a point each is cut by the
 /// others there.
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-using ExactPoint = Exact::Point_3;
+using Exact = ExactKernel;
 using Cutting =
     CGAL::Constrained_Delaunay_triangulation_2<Exact, CGAL::Default, CGAL::Exact_intersections_tag>;
 using Corners = std::array<int, 3>;
@@ -342,8 +341,7 @@ class Arrangement {
   [[nodiscard]] object::PolygonSoup Boundary() const {
     object::PolygonSoup soup;
     for (const ExactPoint& p : points_) {
-      soup.vertices.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()),
-                                 CGAL::to_double(p.z()));
+      soup.vertices.push_back(Rounded(p));
     }
     for (const std::vector<int>& patch : Patches()) {
       const Piece& largest = pieces_[LargestOf(patch, soup.vertices)];

@@ -1,4 +1,3 @@
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -8,8 +7,11 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "planner/repair/cgal_mesh.h"
+#include "planner/repair/exact_point.h"
 #include "planner/repair/stages.h"
 
 namespace regrasp::repair {
@@ -19,8 +21,7 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 namespace {
 
 /// A chain of unions in rounded coordinates would cut where it has cut before.
-using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using ExactMesh = CGAL::Surface_mesh<ExactKernel::Point_3>;
+using ExactMesh = CGAL::Surface_mesh<ExactPoint>;
 
 struct Shell {
   Mesh mesh;
@@ -59,9 +60,15 @@ ExactMesh Exact(const Mesh& mesh) {
   return exact;
 }
 
-Mesh Rounded(const ExactMesh& exact) {
+Mesh RoundedMesh(const ExactMesh& exact) {
   Mesh mesh;
-  CGAL::copy_face_graph(exact, mesh);
+  std::vector<std::pair<ExactMesh::Vertex_index, Mesh::Vertex_index>> copies;
+  CGAL::copy_face_graph(
+      exact, mesh, CGAL::parameters::vertex_to_vertex_output_iterator(std::back_inserter(copies)));
+  for (const auto& [from, to] : copies) {
+    const Eigen::Vector3d p = Rounded(exact.point(from));
+    mesh.point(to) = Kernel::Point_3(p.x(), p.y(), p.z());
+  }
   return mesh;
 }
 
@@ -82,7 +89,7 @@ StageResult UniteShells(const object::PolygonSoup& soup) {
   const std::vector<Shell> shells = ShellsOf(MeshOf(soup));
   ExactMesh body = Exact(shells[0].mesh);
   for (std::size_t i = 1; i < shells.size(); ++i) Add(body, shells[i]);
-  StageResult result{SoupOf(Rounded(body))};
+  StageResult result{SoupOf(RoundedMesh(body))};
   result.facts["shells"] = shells.size();
   result.facts["cavities"] =
       std::ranges::count_if(shells, [](const Shell& shell) { return shell.volume < 0; });
