@@ -93,8 +93,10 @@ std::string RepairHint(const std::filesystem::path& path, const object::Reading&
     const Repaired repaired =
         Repair(object::ReadSoup(path, limited).soup, path.string(), {}, limited);
     return "; --repair makes a solid of it: " + RepairText(repaired);
+  } catch (const NotRepaired& refusal) {
+    return "; --repair makes no solid of it: " + MostHelpful(refusal.attempt()).outcome;
   } catch (const InputError&) {
-    return "; no repair is found within the default limits (the program repair says why)";
+    return "; --repair makes no solid of it";
   } catch (const TimeUp&) {
     return "; the program repair may make a solid of it";
   }

@@ -153,6 +153,12 @@ class Repair(ProgramCase):
         self.assert_refused(2, words, "--object", "open.obj", "--mu", "0.6", "--start", "random",
                             "--goal", "random", "--output", "p.json", program="plan")
 
+    def test_a_refusal_says_what_else_would_help_where_no_repair_does(self):
+        self.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        words = ["--repair makes no solid of it", "an open sheet", "--solidify THICKNESS"]
+        self.assert_refused(2, words, "--object", "sheet.obj", "--mu", "0.6", "--start", "random",
+                            "--goal", "random", "--output", "p.json", program="plan")
+
     def test_options_of_a_repair_need_it(self):
         self.assert_refused(2, "--repair", "--object", "open.obj", "--mu", "0.6", "--start",
                             "random", "--goal", "random", "--output", "p.json", "--part", "1",
