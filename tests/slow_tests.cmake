@@ -80,6 +80,12 @@ set(regrasp_slow_tests
   QualityTest.OrderRigidMotion*
   Reach.Agrees*
   RegionMetric.*
+  Repair.ACloudOfPoints*
+  Repair.AScanOfOneSide*
+  Repair.AWrapThatEnters*
+  Repair.AnOpenSheet*
+  Repair.WhatFillsAWideHole*
+  Repair.WhatFormsNoSurface*
   RoadmapMemory.*
   Stillness.GraspsThatAreNot*
   StressTest.*

@@ -9,6 +9,7 @@
 #include "planner/base/number.h"
 #include "planner/object/diameter.h"
 #include "planner/repair/canonical_order.h"
+#include "planner/repair/invented_marks.h"
 #include "planner/repair/judgement.h"
 #include "planner/repair/run_stage.h"
 #include "planner/repair/soup_shells.h"
@@ -26,9 +27,9 @@ constexpr char kIsSolid[] = "solid";
 /// only where no later stage comes closer.
 constexpr double kCloseEnough = 0.002;
 
-/// Where a wrap of an open surface has less than this of the volume of a coarser one, it has entered
-/// a hollow body and leaves nothing but its wall.
-constexpr double kLeastLeft = 0.75;
+/// Where a wrap of an open surface has less than this of the volume of a coarser one, it has
+/// entered a hollow body and leaves nothing but its wall.
+constexpr double kLeastLeft = 0.5;
 
 /// Whether a stage can do anything about a surface.
 bool Applies(std::string_view stage, const PolygonSoup& soup) {
@@ -125,8 +126,10 @@ class Ladder {
     const double left =
         volumes.back()["volume"].get<double>() / volumes.front()["volume"].get<double>();
     if (HasOpenEdges(surface) && left < kLeastLeft) {
-      last().outcome = "the finer wrap enters an opening, and leaves " +
-                       FormatShort(100 * left, 3) + " % of the volume of the coarser one";
+      last().shortfall = Shortfall::kSheet;
+      last().outcome = "it is an open sheet: a wrap enters it, and leaves " +
+                       FormatShort(100 * left, 3) +
+                       " % of the volume of a coarser one; give it a wall (--solidify THICKNESS)";
       return false;
     }
     return IsCloseEnough(*std::move(made));
@@ -181,9 +184,10 @@ class Ladder {
       climbed_.attempt.stages.pop_back();
       climbed_.solid = original_.soup;
     }
-    const PolygonSoup fine = *climbed_.solid;
+    PolygonSoup fine = *climbed_.solid;
+    MarkInvented(soup_, climbed_.comparison, fine);
     const auto coarse = Run("simplify", [&] { return Simplify(fine, *options_.facets); });
-    return coarse && Accepts(*coarse);
+    return coarse && Accepts(*coarse, &fine);
   }
 
   /// How long a stage may take. What unites shells may go round for ever where they touch along
@@ -207,8 +211,10 @@ class Ladder {
   }
 
   /// Judges what the last stage made, of several solids the one that is taken.
+  /// @param fine  of a coarser solid the finer one, with its marks: that is far from its original
+  ///              because it is coarse, and only where that one was invented it is, too.
   /// @returns how it differs from the original, where nothing is wrong with it.
-  std::optional<Comparison> Judge(PolygonSoup& soup) {
+  std::optional<Comparison> Judge(PolygonSoup& soup, const PolygonSoup* fine = nullptr) {
     Judgement judgement = JudgeSurface(soup, reading_);
     Passes(judgement);
     std::optional<PolygonSoup> its_original;
@@ -223,13 +229,20 @@ class Ladder {
     reading_.Begin("repairing " + name_ + ": measuring what changed");
     Comparison comparison =
         Compare(its_original ? *its_original : original_.soup, soup, original_.diameter);
+    if (fine != nullptr) {
+      PolygonSoup marked = soup;
+      MarkInvented(*fine, {}, marked);
+      comparison.invented = marked.invented;
+      comparison.invented_share = InventedShare(marked);
+    }
     if (!Passes(JudgeShape(comparison, original_, options_))) return std::nullopt;
     return comparison;
   }
 
   /// Takes what the last stage made, where nothing is wrong with it.
-  bool Accepts(PolygonSoup soup) {
-    std::optional<Comparison> comparison = Judge(soup);
+  /// @param fine  as Judge has it.
+  bool Accepts(PolygonSoup soup, const PolygonSoup* fine = nullptr) {
+    std::optional<Comparison> comparison = Judge(soup, fine);
     if (!comparison) return false;
     climbed_.solid = std::move(soup);
     climbed_.comparison = *std::move(comparison);
