@@ -53,13 +53,30 @@ BallContact::BallContact(const object::Polyhedron& solid, double scale) {
   }
 }
 
+std::vector<int> BallContact::Around(const Vector3d& centre, double reach) const {
+  std::vector<int> near;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const double limit = triangles_[i].radius + reach;
+    if ((triangles_[i].middle - centre).squaredNorm() <= limit * limit) {
+      near.push_back(static_cast<int>(i));
+    }
+  }
+  return near;
+}
+
 std::vector<NearPoint> BallContact::Find(const Vector3d& centre, double reach) const {
+  return Find(centre, reach, Around(centre, reach));
+}
+
+std::vector<NearPoint> BallContact::Find(const Vector3d& centre, double reach,
+                                         const std::vector<int>& among) const {
   struct Candidate {
     NearPoint near;
     const Triangle* triangle;
   };
   std::vector<Candidate> candidates;
-  for (const Triangle& triangle : triangles_) {
+  for (const int index : among) {
+    const Triangle& triangle = triangles_[index];
     const double limit = triangle.radius + reach;
     if ((triangle.middle - centre).squaredNorm() > limit * limit) continue;
     const Vector3d point = ClosestOnTriangle(centre, triangle.corners);

@@ -27,6 +27,12 @@ class BallContact {
   /// away nothing is told: the centre is outside, or in the surface by less than the ball's radius.
   /// @param centre  in the solid's frame, metres.
   [[nodiscard]] std::vector<NearPoint> Find(const Eigen::Vector3d& centre, double reach) const;
+  /// The same where it is known which triangles can be that near (Around), as those of a ball that
+  /// has moved little.
+  [[nodiscard]] std::vector<NearPoint> Find(const Eigen::Vector3d& centre, double reach,
+                                            const std::vector<int>& among) const;
+  /// Triangles that may be within `reach` of `centre`, in their order.
+  [[nodiscard]] std::vector<int> Around(const Eigen::Vector3d& centre, double reach) const;
 
  private:
   struct Triangle {

@@ -35,6 +35,8 @@ constexpr double kServoInertia = 1e-3;
 constexpr double kFrozen = 1e3;
 /// Surface farther than this from a tip is not looked for, metres.
 constexpr double kNear = 5e-3;
+/// A tip goes this far before the triangles near it are looked for anew, metres.
+constexpr double kNeighbourhood = 3e-3;
 
 Vector3d VectorAt(const mjtNum* values, int index) {
   return Eigen::Map<const Vector3d>(values + std::ptrdiff_t{3} * index);
@@ -265,6 +267,12 @@ struct HandWorld::Impl {
     return PoseAt(*data, state.tip_body) * ball_in_body[finger];
   }
   std::vector<Vector3d> ball_in_body;
+  /// The triangles that a tip may touch before it has gone kNeighbourhood.
+  struct Neighbourhood {
+    Vector3d centre = Vector3d::Zero();
+    std::optional<std::vector<int>> triangles;
+  };
+  std::vector<Neighbourhood> neighbourhoods;
   std::vector<std::optional<NearPoint>> nearest;  ///< to each tip, in the object's frame
 
   /// The ball's speed where it is at `point`, of a body.
@@ -284,7 +292,14 @@ struct HandWorld::Impl {
       const Vector3d centre = to_object * BallInWorld(finger);
       nearest[finger].reset();
       if ((centre - centroid).norm() > object_reach + radius + kNear) continue;
-      const std::vector<NearPoint> found = surface.Find(centre, radius + kNear);
+      Neighbourhood& around = neighbourhoods[finger];
+      if (!around.triangles || (centre - around.centre).norm() > kNeighbourhood) {
+        around.centre = centre;
+        around.triangles = surface.Around(centre, radius + kNear + kNeighbourhood);
+      }
+      // Of what is farther only the nearest point counts, where nothing touches.
+      std::vector<NearPoint> found = surface.Find(centre, radius, *around.triangles);
+      if (found.empty()) found = surface.Find(centre, radius + kNear, *around.triangles);
       if (!found.empty()) nearest[finger] = found.front();
       for (const NearPoint& near : found) {
         if (near.distance < radius) AddContact(finger, near, pose);
@@ -320,6 +335,7 @@ HandWorld::HandWorld(const kinematics::HandFile& file, const object::Polyhedron&
     : impl_(std::make_unique<Impl>(file, solid, scale, options)) {
   for (const auto& tip : file.description.tips) impl_->ball_in_body.push_back(tip.centre);
   impl_->nearest.resize(impl_->fingers.size());
+  impl_->neighbourhoods.resize(impl_->fingers.size());
 }
 HandWorld::~HandWorld() = default;
 

@@ -76,5 +76,29 @@ TEST(BallContactTest, TheNearestPointIsTheNearestOfManySamples) {
   EXPECT_GT(checked, 0);
 }
 
+TEST(BallContactTest, AmongTheTrianglesAroundItIsTheSameToTheBit) {
+  const object::Polyhedron duck = Read("duck500.obj");
+  const BallContact surface(duck, 1);
+  RandomStream random(6, RandomUse::kGaits);
+  const double step = 0.02 * duck.diameter();
+  int several = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d& at = duck.vertices()[random.Index(duck.vertices().size())];
+    const Vector3d middle = at + step * Vector3d(random.Uniform(), random.Uniform(), 1);
+    const std::vector<int> around = surface.Around(middle, 4 * step);
+    const Vector3d centre = middle + 0.5 * step * Vector3d(1, -1, random.Uniform());
+    const auto expected = surface.Find(centre, 3 * step);
+    const auto found = surface.Find(centre, 3 * step, around);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_EQ(found[k].point, expected[k].point);
+      EXPECT_EQ(found[k].outward, expected[k].outward);
+    }
+    several += found.size() > 1 ? 1 : 0;
+    EXPECT_LT(around.size(), duck.triangles().size());
+  }
+  EXPECT_GT(several, 0);
+}
+
 }  // namespace
 }  // namespace regrasp::sim
