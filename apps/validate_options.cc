@@ -193,6 +193,7 @@ void AddHandReplay(CLI::App& app, ValidateOptions& options) {
 
 void AddTrials(CLI::App& app, ValidateOptions& options) {
   constexpr int kMostTrials = 1'000'000;
+  constexpr double kMostJointNoise = 45;
   const NumberRange share{0, sim::kMostError};
   CLI::Option* trials =
       AddInteger(app, "--trials", options.trials.count, 1, kMostTrials,
@@ -202,13 +203,19 @@ void AddTrials(CLI::App& app, ValidateOptions& options) {
   AddSeed(app, options.trials.seed, "Seed of the noise (default 0)")->needs(trials);
   AddNumber(app, "--position-noise", options.trials.position_noise, share,
             "Standard deviation of each contact along the surface; in diameters of the object "
-            "(default 0.01)")
+            "(default 0.01). With --replay hand of where the object is at first, along each axis, "
+            "and about it over half the diameter")
       ->needs(trials);
   AddNumber(app, "--friction-error", options.trials.friction_error, share,
             "Relative standard deviation of the friction coefficient (default 0.1)")
       ->needs(trials);
   AddNumber(app, "--mass-error", options.trials.mass_error, share,
             "Relative standard deviation of the mass (default 0.1)")
+      ->needs(trials);
+  AddNumber(app, "--joint-noise", options.joint_noise_deg, {0, kMostJointNoise},
+            "Standard deviation of what the hand takes a joint's angle for; degrees, of --replay "
+            "hand (default 0.5)",
+            "DEG")
       ->needs(trials);
 }
 
@@ -352,14 +359,16 @@ void ValidateOptions::Finish(const CLI::App& app) {
   }
   if (replay_by_hand) {
     if (hand.empty()) throw InputError("--replay hand: needs the hand (--hand)");
-    refuse({"--protocol", "--stress", "--tolerance", "--align", "--finger-radius", "--trials"},
+    refuse({"--protocol", "--stress", "--tolerance", "--align", "--finger-radius"},
            "goes with --replay points");
   } else {
-    refuse({"--tolerance-mm", "--tolerance-deg", "--feedback"}, "goes with --replay hand");
+    refuse({"--tolerance-mm", "--tolerance-deg", "--feedback", "--joint-noise"},
+           "goes with --replay hand");
     if (trajectory_is_npz()) {
       throw InputError("--trajectory: " + trajectory + ": NPZ goes with --replay hand");
     }
   }
+  if (replay_by_hand) trials.joint_noise = Radians(joint_noise_deg);
   tolerance.length_m = 1e-3 * tolerance_mm;
   tolerance.angle_rad = Radians(tolerance_deg);
   if (!animates()) refuse({kAnimateSize}, "goes with --animate or --video");

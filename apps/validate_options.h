@@ -48,6 +48,7 @@ struct ValidateOptions {
   RepairOptions repair;  ///< of a grasp's object; a plan holds its own
   std::optional<double> scale;
   sim::ReplayOptions replay;
+  double joint_noise_deg = 0.5;
   sim::TrialOptions trials;  ///< a count of 0: none
   render::FrameOptions frame;
   int animation_width = 0;  ///< pixels; after Finish those of --animate-size, or half of --size

@@ -33,6 +33,7 @@
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/hand_scene_export.h"
 #include "sim/actuation/hand_trajectory.h"
+#include "sim/actuation/hand_trials.h"
 #include "sim/hand/check_hand.h"
 #include "sim/replay/trajectory.h"
 #include "sim/scene/scaling.h"
@@ -110,16 +111,21 @@ struct CheckTask {
   plan::CheckOptions check;
 };
 
+sim::HandReplayOptions HandOptions(const ValidateOptions& options, const ValidateTask& task) {
+  sim::HandReplayOptions by_hand;
+  by_hand.tolerance = options.tolerance;
+  by_hand.feedback = options.feedback;
+  by_hand.mass_kg = sim::BodyOf(*task.object.object, task.plan.scale, options.replay).mass_kg;
+  by_hand.shake = options.replay.shake;
+  by_hand.squeeze_N = options.replay.squeeze_N;
+  return by_hand;
+}
+
 /// Replays by the hand of the task.
 report::Replayer HandReplayer(const ValidateOptions& options, const ValidateTask& task,
                               const sim::ReplayObserver& observer, Samples& samples) {
   const auto& solid = dynamic_cast<const object::Polyhedron&>(*task.object.object);
-  sim::HandReplayOptions by_hand;
-  by_hand.tolerance = options.tolerance;
-  by_hand.feedback = options.feedback;
-  by_hand.mass_kg = sim::BodyOf(solid, task.plan.scale, options.replay).mass_kg;
-  by_hand.shake = options.replay.shake;
-  by_hand.squeeze_N = options.replay.squeeze_N;
+  const sim::HandReplayOptions by_hand = HandOptions(options, task);
   sim::HandReplayObserver watch;
   watch.on_progress = observer.on_progress;
   if (!options.trajectory.empty()) {
@@ -178,6 +184,15 @@ void AddTrials(const ValidateOptions& options, const ValidateTask& task, report:
                     std::to_string(options.trials.count));
   };
   const object::Object& object = *task.object.object;
+  if (options.replay_by_hand) {
+    sim::HandReplayOptions replay = HandOptions(options, task);
+    replay.half_angle = report.half_angle;
+    replay.squeeze_N = report.settings->squeeze_N;
+    report.trials =
+        sim::RunHandTrials(*task.hand, dynamic_cast<const object::Polyhedron&>(object),
+                           plan::LocatePlan(object, task.plan), replay, options.trials, tell);
+    return;
+  }
   sim::ReplayOptions replay = options.replay;
   replay.half_angle = report.half_angle;
   // A hand does not know of the noise.

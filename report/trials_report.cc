@@ -1,5 +1,6 @@
 #include "report/trials_report.h"
 
+#include "planner/base/angle.h"
 #include "planner/base/binomial.h"
 #include "planner/base/number.h"
 
@@ -23,17 +24,19 @@ Json TrialsJson(const sim::TrialSummary& summary) {
   for (const auto& [index, count] : summary.steps) {
     steps.push_back({{"index", int{index}}, {"failed", count}});
   }
-  return {{"count", summary.options.count},
-          {"seed", summary.options.seed},
-          {"position_noise", summary.options.position_noise},
-          {"friction_error", summary.options.friction_error},
-          {"mass_error", summary.options.mass_error},
-          {"passed", summary.passed},
-          {"share", summary.share()},
-          {"confidence", sim::kTrialConfidence},
-          {"interval", {interval.lower, interval.upper}},
-          {"reasons", reasons},
-          {"steps", steps}};
+  Json json = {{"count", summary.options.count},
+               {"seed", summary.options.seed},
+               {"position_noise", summary.options.position_noise},
+               {"friction_error", summary.options.friction_error},
+               {"mass_error", summary.options.mass_error},
+               {"passed", summary.passed},
+               {"share", summary.share()},
+               {"confidence", sim::kTrialConfidence},
+               {"interval", {interval.lower, interval.upper}},
+               {"reasons", reasons},
+               {"steps", steps}};
+  if (summary.options.joint_noise) json["joint_noise_deg"] = Degrees(*summary.options.joint_noise);
+  return json;
 }
 
 std::string TrialsShareText(const sim::TrialSummary& summary) {
@@ -60,7 +63,10 @@ std::string TrialsFailureText(const sim::TrialSummary& summary) {
 
 std::string TrialsNoiseText(const sim::TrialSummary& summary) {
   const sim::TrialOptions& options = summary.options;
-  return "contacts off by " + FormatShort(options.position_noise) + " diameters, friction by " +
+  const std::string joints =
+      options.joint_noise ? "joints by " + FormatShort(Degrees(*options.joint_noise)) + "°, " : "";
+  return (options.joint_noise ? "object at first off by " : "contacts off by ") +
+         FormatShort(options.position_noise) + " diameters, " + joints + "friction by " +
          Percent(options.friction_error) + " %, mass by " + Percent(options.mass_error) +
          " % (standard deviations); seed " + std::to_string(options.seed);
 }

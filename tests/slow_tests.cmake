@@ -53,6 +53,8 @@ set(regrasp_slow_tests
   GraphOracle.*
   GraphProgram.*
   HandReplayTest.*
+  HandSceneExportTest.*
+  HandTrialsTest.*
   HostileFiles.AnyPart*
   HostileFiles.GraspsOfFar*
   */ImprovePathCases.Repaired*

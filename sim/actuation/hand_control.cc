@@ -63,7 +63,7 @@ HandControl::HandControl(HandWorld& world, const object::Polyhedron& solid, doub
       planned_(world.state()) {
   for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
     fingers_.push_back({});
-    fingers_.back().target = world.posture(f);
+    fingers_.back().target = world.measured_posture(f);
     fingers_.back().offset = Posture::Zero(fingers_.back().target.size());
     fingers_.back().rate = fingers_.back().offset;
   }
@@ -128,6 +128,7 @@ void HandControl::CopyState(const HandControl& other) {
   shift_ = other.shift_;
   turn_ = other.turn_;
   step_ = other.step_;
+  corrects_ = other.corrects_;
 }
 
 Isometry3d HandControl::CorrectedPose() const {
@@ -143,7 +144,7 @@ void HandControl::Measure() {
     if (finger.mode == Mode::kAttached || finger.mode == Mode::kSliding)
       finger.centre_O = pose.inverse() * world_.tip(f);
   }
-  if (!settings_.feedback) return;
+  if (!settings_.feedback || !corrects_) return;
   const Vector3d off = planned_.pose * world_.centroid_O() - pose * world_.centroid_O();
   const Vector3d turned = RotationVector(planned_.pose.linear() * pose.linear().transpose());
   shift_ = Limited(shift_ + kIntegralGain * kPeriod * off, kMostOffset);

@@ -88,6 +88,9 @@ class HandControl {
   /// Its tip goes there instead, a place in the object's frame.
   void LeadTip(FingerIndex finger, const Eigen::Vector3d& centre_O);
 
+  /// Whether the object's offset is corrected, where it is at all.
+  void SetFeedback(bool on) { corrects_ = on; }
+
   /// What another controller of the same world is about to do.
   void CopyState(const HandControl& other);
 
@@ -140,6 +143,7 @@ class HandControl {
   Eigen::Vector3d shift_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();
   int step_ = 0;
+  bool corrects_ = true;
 };
 
 }  // namespace regrasp::sim

@@ -49,14 +49,14 @@ void HandJudge::CopyState(const HandJudge& other) {
   steps_ = other.steps_;
 }
 
-void HandJudge::WatchContacts(const plan::FingerGrasp& grasp, double scale) {
+void HandJudge::WatchContacts(const plan::FingerGrasp& grasp, double scale, double known_off) {
   for (const plan::FingerContact& held : grasp) {
     const TipTouch touch = world_.touch(held.finger);
     const double off =
         std::isfinite(touch.gap)
             ? std::max((touch.point_O - scale * held.contact.p).norm(), std::abs(touch.gap))
             : touch.gap;
-    if (off <= tolerance_.slip_m) continue;
+    if (off <= tolerance_.slip_m + known_off) continue;
     const std::string how = std::isfinite(off) ? FormatLength(off) + " from" : "far from";
     const int joints = static_cast<int>(world_.hand().fingers[held.finger].joints.size());
     Fail(Reason::kContactLost,

@@ -34,8 +34,9 @@ class HandJudge {
   void SetPhase(std::string phase) { phase_ = std::move(phase); }
   /// What fails from now on fails under this push.
   void SetPush(plan::FaultPush push) { push_ = std::move(push); }
-  /// Fingers are to be at these contacts, before any of them presses.
-  void WatchContacts(const plan::FingerGrasp& grasp, double scale);
+  /// Fingers are to be at these contacts.
+  /// @param known_off  how far off they may be besides, metres.
+  void WatchContacts(const plan::FingerGrasp& grasp, double scale, double known_off = 0);
   /// A finger holds from now on, or no more; its slide counts from here.
   void SetHolding(FingerIndex finger, bool holds);
   /// A finger slides from now on, and its tip should be there, a place in the object's frame; how

@@ -144,6 +144,7 @@ class Replay {
         plan_(plan),
         shake_(options.shake * control.squeeze_N),
         radius_(plan.scale * solid.diameter() / 2),
+        start_off_(options.start_shift_m.norm() + radius_ * options.start_turn_rad.norm()),
         observer_(observer),
         judge_(world, solid, plan.scale, options.tolerance),
         control_(world, solid, plan.scale, control),
@@ -241,13 +242,15 @@ class Replay {
       control_.Attach(held.finger);
       holding_.push_back(held.finger);
     }
-    judge_.WatchContacts(plan_.initial, plan_.scale);
+    judge_.WatchContacts(plan_.initial, plan_.scale, start_off_);
     if (judge_.breach()) throw StepFails();
     // Something holds the object until the fingers do.
     world_.PinObject(true);
+    control_.SetFeedback(false);
     const Hold all = {holding_};
     Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
     world_.PinObject(false);
+    control_.SetFeedback(true);
     for (const FingerIndex f : holding_) judge_.SetHolding(f, true);
   }
 
@@ -447,8 +450,9 @@ class Replay {
 
   HandWorld& world_;
   const plan::Plan& plan_;
-  double shake_;   ///< newtons
-  double radius_;  ///< half the object's diameter, metres
+  double shake_;      ///< newtons
+  double radius_;     ///< half the object's diameter, metres
+  double start_off_;  ///< what the object's points are off at first, at most
   const HandReplayObserver& observer_;
   HandJudge judge_;
   HandControl control_;
@@ -456,6 +460,20 @@ class Replay {
   std::vector<FingerIndex> holding_;  ///< since the last rest
   bool shaking_ = false;
 };
+
+/// Where hand and object are at first.
+HandState StartOf(const plan::Plan& plan, const HandReplayOptions& options,
+                  const Vector3d& centroid) {
+  HandState start = plan.hand->initial;
+  const double angle = options.start_turn_rad.norm();
+  if (angle > 0) {
+    const Eigen::AngleAxisd turn(angle, options.start_turn_rad / angle);
+    start.pose =
+        start.pose * Eigen::Translation3d(centroid) * turn * Eigen::Translation3d(-centroid);
+  }
+  start.pose = start.pose * Eigen::Translation3d(options.start_shift_m);
+  return start;
+}
 
 ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& solid,
                           const plan::Plan& plan, const HandControlSettings& control,
@@ -496,15 +514,16 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
                         const HandReplayObserver& observer, int steps) {
   const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
   const double half_angle = options.half_angle.value_or(plan.half_angle);
-  HandWorld world(file, solid, plan.scale,
-                  {options.friction_factor * std::tan(half_angle),
-                   options.mass_factor * options.mass_kg, kGravity, options.force_factor});
+  HandWorld world(
+      file, solid, plan.scale,
+      {options.friction_factor * std::tan(half_angle), options.mass_factor * options.mass_kg,
+       kGravity, options.force_factor, options.joint_offsets});
   HandControlSettings control{half_angle, 0, options.mass_kg * kGravity, options.feedback};
   control.squeeze_N = options.squeeze_N.value_or(
       TorqueSqueeze(world, solid, plan, entries, half_angle, control.weight_N));
   ReplayResult result;
   result.settings = SettingsOf(world, solid, plan, control, options);
-  world.Place(plan.hand->initial);
+  world.Place(StartOf(plan, options, world.centroid_O()));
   Replay replay(world, solid, plan, control, options, observer);
   for (plan::EntryIndex index{0}; index < entries; ++index) {
     result.steps.push_back(replay.Carry(index));

@@ -22,6 +22,10 @@ struct HandReplayOptions {
   double friction_factor = 1;       ///< the world's friction over the one that the hand believes
   double mass_factor = 1;           ///< the object's true mass over the one that it believes
   double force_factor = 1;          ///< of the limits of all actuators, times what the model has
+  /// Where the object is at first, from where the plan has it: of its centroid, in its own frame.
+  Eigen::Vector3d start_shift_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d start_turn_rad = Eigen::Vector3d::Zero();  ///< a rotation vector
+  std::vector<kinematics::Posture> joint_offsets = {};       ///< as HandWorldOptions
 };
 
 /// What a replay tells while it runs; all may be empty.

@@ -383,6 +383,12 @@ kinematics::Posture HandWorld::posture(FingerIndex finger) const {
   return impl_->PostureOf(finger);
 }
 
+kinematics::Posture HandWorld::measured_posture(FingerIndex finger) const {
+  const std::vector<kinematics::Posture>& offsets = impl_->options.joint_offsets;
+  if (offsets.empty()) return posture(finger);
+  return posture(finger) + offsets[finger];
+}
+
 Vector3d HandWorld::tip(FingerIndex finger) const {
   return impl_->palm.inverse() * impl_->BallInWorld(finger);
 }
@@ -461,7 +467,7 @@ VectorXd HandWorld::BalancingTorques(FingerIndex finger, const Vector3d& at,
 void HandWorld::Command(FingerIndex finger, const kinematics::Posture& target,
                         const VectorXd& torques) {
   Impl& impl = *impl_;
-  const kinematics::Posture now = impl.PostureOf(finger);
+  const kinematics::Posture now = measured_posture(finger);
   for (int drive = 0; drive < now.size(); ++drive) {
     const Impl::DriveActuator& found = impl.fingers[finger].drives[drive];
     const int a = found.actuator;

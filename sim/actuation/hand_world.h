@@ -23,6 +23,9 @@ struct HandWorldOptions {
   double mass_kg = 0;
   double gravity_m_s2 = 9.81;  ///< against the hand's up direction
   double force_factor = 1;     ///< of the limits of all actuators, times what the model has
+  /// What the hand's sensors say of the angles of drives, by finger, less what they are, radians;
+  /// none: nothing.
+  std::vector<kinematics::Posture> joint_offsets = {};
 };
 
 /// The servo of a drive (kinematics::Finger::drives) as the hand's model has it.
@@ -72,6 +75,8 @@ class HandWorld {
   [[nodiscard]] plan::HandState state() const;
   [[nodiscard]] Eigen::Isometry3d object_pose() const;
   [[nodiscard]] kinematics::Posture posture(FingerIndex finger) const;
+  /// As the hand's sensors have it.
+  [[nodiscard]] kinematics::Posture measured_posture(FingerIndex finger) const;
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
   /// As in the last step; without a place where the surface is farther than 5 mm.
   [[nodiscard]] TipTouch touch(FingerIndex finger) const;
@@ -87,7 +92,7 @@ class HandWorld {
   /// @param force  of the tip on the object.
   [[nodiscard]] Eigen::VectorXd BalancingTorques(FingerIndex finger, const Eigen::Vector3d& at,
                                                  const Eigen::Vector3d& force) const;
-  /// The servos steer for a posture, with torques besides.
+  /// The servos steer for a posture, as the sensors have it, with torques besides.
   void Command(FingerIndex finger, const kinematics::Posture& target,
                const Eigen::VectorXd& torques);
   /// A force and a torque about the centroid on the object, besides its weight.

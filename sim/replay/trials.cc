@@ -35,22 +35,22 @@ ShareInterval TrialSummary::interval() const {
   return ComputeShareInterval(passed, options.count, kTrialConfidence);
 }
 
-TrialSummary RunTrials(const object::Object& object, const plan::Plan& plan,
-                       const ReplayOptions& options, const TrialOptions& trials, double fingertip,
-                       const std::function<void(int done)>& progress) {
+TrialFactors DrawTrialFactors(const TrialOptions& trials, int trial) {
+  RandomStream world(trials.seed, RandomUse::kTrialWorld, trial);
+  TrialFactors factors;
+  factors.friction = DrawFactor(trials.friction_error, world);
+  factors.mass = DrawFactor(trials.mass_error, world);
+  return factors;
+}
+
+TrialSummary CountTrials(const TrialOptions& trials,
+                         const std::function<StepReplay(int trial)>& replay,
+                         const std::function<void(int done)>& progress) {
   CheckOptions(trials);
-  const ContactNoise noise{trials.position_noise * object.diameter(), fingertip / plan.scale};
   TrialSummary summary;
   summary.options = trials;
   for (int trial = 0; trial < trials.count; ++trial) {
-    RandomStream world(trials.seed, RandomUse::kTrialWorld, trial);
-    RandomStream contacts(trials.seed, RandomUse::kTrialContacts, trial);
-    ReplayOptions drawn = options;
-    drawn.stress = false;  // of the nominal replay alone
-    drawn.friction_factor = DrawFactor(trials.friction_error, world);
-    drawn.mass_factor = DrawFactor(trials.mass_error, world);
-    const plan::Plan noisy = AddContactNoise(object, plan, noise, contacts);
-    const StepReplay last = ReplayPlan(object, noisy, drawn).steps.back();
+    const StepReplay last = replay(trial);
     if (last.reason == plan::Reason::kNone) {
       ++summary.passed;
     } else {
@@ -60,6 +60,23 @@ TrialSummary RunTrials(const object::Object& object, const plan::Plan& plan,
     if (progress) progress(trial + 1);
   }
   return summary;
+}
+
+TrialSummary RunTrials(const object::Object& object, const plan::Plan& plan,
+                       const ReplayOptions& options, const TrialOptions& trials, double fingertip,
+                       const std::function<void(int done)>& progress) {
+  const ContactNoise noise{trials.position_noise * object.diameter(), fingertip / plan.scale};
+  const auto replay = [&](int trial) {
+    RandomStream contacts(trials.seed, RandomUse::kTrialContacts, trial);
+    const TrialFactors factors = DrawTrialFactors(trials, trial);
+    ReplayOptions drawn = options;
+    drawn.stress = false;  // of the nominal replay alone
+    drawn.friction_factor = factors.friction;
+    drawn.mass_factor = factors.mass;
+    const plan::Plan noisy = AddContactNoise(object, plan, noise, contacts);
+    return ReplayPlan(object, noisy, drawn).steps.back();
+  };
+  return CountTrials(trials, replay, progress);
 }
 
 }  // namespace regrasp::sim

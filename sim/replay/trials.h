@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"
+#include "sim/replay/replay.h"
 #include "sim/scene/settings.h"
 
 namespace regrasp {
@@ -25,6 +27,15 @@ struct TrialOptions {
   double position_noise = 0.01;
   double friction_error = 0.1;  ///< relative standard deviation of the friction coefficient
   double mass_error = 0.1;      ///< relative standard deviation of the mass
+  /// Standard deviation of what a joint's angle is off from what the hand believes, radians; of
+  /// replays by a hand alone (sim/actuation/hand_trials.h).
+  std::optional<double> joint_noise = std::nullopt;
+};
+
+/// The world's friction and mass over what the hand believes.
+struct TrialFactors {
+  double friction = 1;
+  double mass = 1;
 };
 
 /// What the trials say.
@@ -58,6 +69,16 @@ struct TrialSummary {
                                      const ReplayOptions& options, const TrialOptions& trials,
                                      double fingertip,
                                      const std::function<void(int done)>& progress = {});
+
+/// Counts what becomes of trials.
+/// @param replay    a trial's last entry.
+/// @throws std::invalid_argument  as RunTrials.
+[[nodiscard]] TrialSummary CountTrials(const TrialOptions& trials,
+                                       const std::function<StepReplay(int trial)>& replay,
+                                       const std::function<void(int done)>& progress = {});
+
+/// What RunTrials draws for a trial.
+[[nodiscard]] TrialFactors DrawTrialFactors(const TrialOptions& trials, int trial);
 
 inline constexpr double kTrialConfidence = 0.95;
 inline constexpr double kMostError = 1;

@@ -75,6 +75,7 @@ class Gait(ProgramCase):
             self.assertLess(step["simulation"]["hand"]["torque_share"], 1)
         self.check_trajectory(plan, by_hand)
         self.check_scene(plan, by_hand)
+        self.check_trials(plan, by_hand)
         # Ten micrometres are not kept; and no hand holds 20 kg.
         for more, reasons in ((("--tolerance-mm", "0.01"), ("object-moved",)),
                               (("--mass", "20"), ("torque-limit", "object-moved", "slipped",
@@ -86,7 +87,9 @@ class Gait(ProgramCase):
             self.assertIn("allowed" if more[0] == "--tolerance-mm" else "verdict", done.stdout)
         for more, words in ((("--replay", "hand"), "needs the hand"),
                             (("--hand", ring5, "--feedback", "none"), "goes with --replay hand"),
-                            (("--hand", ring5, "--replay", "hand", "--trials", "2"),
+                            (("--hand", ring5, "--trials", "2", "--joint-noise", "1"),
+                             "goes with --replay hand"),
+                            (("--hand", ring5, "--replay", "hand", "--stress"),
                              "goes with --replay points")):
             done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
                                     *more, program="validate")
@@ -126,6 +129,18 @@ class Gait(ProgramCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("NPZ goes with --replay hand", done.stderr)
         self.assertFalse(os.path.exists(self.path("points.npz")))
+
+    def check_trials(self, plan, by_hand):
+        for noise, passed in (("0", 3), ("0.3", 0)):
+            done, report = self.validate(plan, *by_hand, "--no-frames", "--trials", "3",
+                                         "--position-noise", noise, "--joint-noise", noise,
+                                         "--friction-error", "0", "--mass-error", "0")
+            self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
+            trials = report["trials"]
+            self.assertEqual((trials["count"], trials["passed"]), (3, passed))
+            self.assertEqual(trials["joint_noise_deg"], float(noise))
+            self.assertEqual(sum(trials["reasons"].values()), 3 - passed)
+            self.assertIn("noise: object at first off by " + noise, done.stdout)
 
     def check_scene(self, plan, by_hand):
         """A folder with a keyframe for each rest, in a folder that is made, twice the same."""
