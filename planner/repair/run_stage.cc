@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 
 #include "planner/object/limited_child.h"
 #include "planner/object/soup_bytes.h"
@@ -26,6 +27,12 @@ std::optional<StageResult> FromBytes(const std::string& bytes) {
   return StageResult{*std::move(soup), ParseJson(bytes.substr(0, end), "facts of a stage")};
 }
 
+/// In a thread, whose heap is empty at first and not what the program has left: much of CGAL goes
+/// by the addresses of what is equal otherwise, and they are in the same order each time so.
+std::string WithItsOwnHeap(const std::function<StageResult()>& stage) {
+  return std::async(std::launch::async, [&] { return ToBytes(stage()); }).get();
+}
+
 }  // namespace
 
 StageRun RunStage(const std::function<StageResult()>& stage, const Deadline& deadline,
@@ -37,7 +44,7 @@ StageRun RunStage(const std::function<StageResult()>& stage, const Deadline& dea
     limits.wall = std::min(limits.wall, std::chrono::ceil<std::chrono::milliseconds>(*left));
   }
   const object::ChildResult run =
-      object::RunInLimitedChild([&] { return ToBytes(stage()); }, limits);
+      object::RunInLimitedChild([&] { return WithItsOwnHeap(stage); }, limits);
   deadline.Check();
   switch (run.end) {
     case object::ChildEnd::kDone:
