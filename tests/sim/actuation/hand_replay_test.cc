@@ -61,7 +61,6 @@ const plan::Plan& GoodPlan() {
       request.scale = kScale;
       request.criteria.half_angle = std::atan(0.5);
       request.criteria.min_quality = 0.06;
-      request.with_reserve = false;
       request.turn = {Vector3d::UnitZ(), Radians(90)};
       request.seed = seed;
       const gait::GaitResult found = gait::FindGait(request);
@@ -205,7 +204,6 @@ plan::Plan SlidingPlan(double way) {
   request.solid = &Cube();
   request.scale = kScale;
   request.criteria.half_angle = std::atan(kMu);
-  request.with_reserve = false;
   request.seed = 1;
   request.start_pose = gait::FindGait(request).gait->start.pose;
   request.goal_pose = request.start_pose;
