@@ -19,7 +19,8 @@ struct NpzArray {
 ///
 /// Law: the same arrays give the same bytes.
 /// @throws std::invalid_argument  a shape does not fit its values.
-/// @throws std::length_error      an array takes more than the 4 GB that the format allows.
+/// @throws std::length_error      the file would take more than 2 GB, half of what the format
+/// allows.
 [[nodiscard]] std::string FormatNpz(const std::vector<NpzArray>& arrays);
 
 }  // namespace regrasp

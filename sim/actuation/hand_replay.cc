@@ -12,6 +12,7 @@
 #include "planner/plan/hand_path.h"
 #include "sim/actuation/hand_control.h"
 #include "sim/actuation/hand_judge.h"
+#include "sim/actuation/sliding_tips.h"
 #include "sim/actuation/timed_path.h"
 #include "sim/actuation/torque_squeeze.h"
 #include "sim/measure/push.h"
@@ -36,12 +37,8 @@ constexpr double kHeight = 8e-3;
 constexpr double kDescent = 0.02;  // m/s
 constexpr double kDeepest = 4e-3;  // below the planned place
 constexpr double kTouched = 0.05;
-/// Of a tip that slides along the surface, m/s.
-constexpr double kSlideSpeed = 0.02;
 /// Others balance it where no more of the squeeze is missing.
 constexpr double kHeldBySome = -1e-3;
-/// Where it goes is seen over this share of its way.
-constexpr double kLookAhead = 0.02;
 /// A finger that has left this far does as planned again, metres.
 constexpr double kClear = 2e-3;
 constexpr double kSlowest = 0.05;  ///< rad/s
@@ -74,65 +71,6 @@ struct Coming {
   double height = 0;                  ///< from which it goes down
   Vector3d aside = Vector3d::Zero();  ///< what it is off sideways then
   bool down = false;
-};
-
-/// Where a state has a finger's tip, in the object's frame.
-Vector3d PlannedTip(const kinematics::HandModel& hand, const HandState& state, FingerIndex finger) {
-  const kinematics::Finger& chain = hand.fingers[finger];
-  return state.pose.inverse() *
-         kinematics::TipAt(chain, PostureOf(chain, state.joints[finger])).centre;
-}
-
-/// How tips slide between two waypoints of an align: from where they are to where they should be.
-class SlidingTips {
- public:
-  /// @param timed  the path between the two; outlives this object.
-  SlidingTips(const HandWorld& world, const TimedPath& timed, const plan::FingerGrasp& from,
-              const plan::FingerGrasp& to)
-      : hand_(world.hand()), timed_(timed) {
-    const Isometry3d to_object = world.object_pose().inverse();
-    double way = 0;
-    for (const plan::FingerContact& start : from) {
-      const FingerIndex f = start.finger;
-      const grasp::Contact& end = plan::FindFinger(to, f)->contact;
-      if (end.p == start.contact.p && end.n == start.contact.n) continue;
-      const Vector3d planned = PlannedTip(hand_, timed.At(0), f);
-      tips_.push_back({f, to_object * world.tip(f) - planned});
-      way = std::max(way, (PlannedTip(hand_, StateAt(1), f) - planned).norm());
-    }
-    duration_ = std::max(timed.duration(), way / kSlideSpeed);
-  }
-
-  [[nodiscard]] bool empty() const { return tips_.empty(); }
-  [[nodiscard]] double duration() const { return duration_; }
-  /// @param share  of the time.
-  [[nodiscard]] HandState StateAt(double share) const {
-    return timed_.At(share * timed_.duration());
-  }
-  /// What a tip is off its way at first goes evenly.
-  [[nodiscard]] Vector3d CentreAt(FingerIndex finger, double share) const {
-    const auto tip = std::ranges::find(tips_, finger, &Tip::finger);
-    return PlannedTip(hand_, StateAt(share), finger) + (1 - share) * tip->off_O;
-  }
-  [[nodiscard]] std::vector<SlidingFinger> At(double share) const {
-    const double from = std::min(share, 1 - kLookAhead);
-    std::vector<SlidingFinger> sliding;
-    for (const Tip& tip : tips_) {
-      sliding.push_back(
-          {tip.finger, CentreAt(tip.finger, from + kLookAhead) - CentreAt(tip.finger, from)});
-    }
-    return sliding;
-  }
-
- private:
-  struct Tip {
-    FingerIndex finger;
-    Vector3d off_O;
-  };
-  const kinematics::HandModel& hand_;
-  const TimedPath& timed_;
-  std::vector<Tip> tips_;
-  double duration_ = 0;
 };
 
 class Replay {

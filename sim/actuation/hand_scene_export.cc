@@ -12,6 +12,7 @@
 #include "planner/base/number.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/hand_scene_text.h"
+#include "sim/actuation/tip_contact.h"
 
 namespace regrasp::sim {
 namespace {
@@ -20,6 +21,7 @@ using kinematics::XmlElement;
 
 constexpr const char* kMeshPrefix = "mesh_";
 constexpr const char* kTipPrefix = "regrasp_tip_";
+
 /// Enough digits that a simulation goes on from a keyframe as it would have.
 std::string Numbers(const mjtNum* values, int count) {
   std::string text;
@@ -211,8 +213,8 @@ class SceneWriter {
                            {"geom2", kHandSceneObject},
                            {"condim", "3"},
                            {"friction", mu + " " + mu + " 0.005 0.0001 0.0001"},
-                           {"solref", "0.005 1"},
-                           {"solimp", "0.95 0.99 0.0001"}}));
+                           {"solref", FormatDouble(kTipContactTime) + " 1"},
+                           {"solimp", Numbers(kTipImpedance.data(), kTipImpedance.size())}}));
     }
   }
 

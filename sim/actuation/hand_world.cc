@@ -12,7 +12,9 @@
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/ball_contact.h"
+#include "sim/actuation/drive_servo.h"
 #include "sim/actuation/hand_scene_text.h"
+#include "sim/actuation/tip_contact.h"
 #include "sim/scene/engine_hooks.h"
 
 namespace regrasp::sim {
@@ -23,14 +25,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kTimestep = 1e-3;
-/// Contacts of tips: a constraint that comes back within five steps, and friction ten times as
-/// hard as the normal, so that what sticks creeps little.
-constexpr mjtNum kContactTime = 5e-3;
+/// Friction of tips is ten times as hard as the normal, so that what sticks creeps little.
 constexpr double kFrictionHardness = 100;
-/// Of servos that the model leaves out, as small electric fingers have them: N m / rad, and the
-/// inertia of a motor behind its gear, kg m².
-constexpr double kServoStiffness = 2;
-constexpr double kServoInertia = 1e-3;
 /// What holds joints of no finger.
 constexpr double kFrozen = 1e3;
 /// Surface farther than this from a tip is not looked for, metres.
@@ -59,11 +55,6 @@ std::pair<Vector3d, Vector3d> Tangents(const Vector3d& normal) {
 }  // namespace
 
 struct HandWorld::Impl {
-  struct DriveActuator {
-    int actuator = -1;
-    double moment = 0;  ///< torque of the drive for each newton (metre) of the actuator
-    DriveServo servo;
-  };
   struct FingerState {
     std::vector<int> joints;  ///< of the model
     int tip_body = 0;
@@ -153,93 +144,10 @@ struct HandWorld::Impl {
     for (std::size_t i = 0; i < fingers.size(); ++i) {
       const kinematics::Finger& finger = hand.fingers[i];
       for (int drive = 0; drive < finger.drives; ++drive) {
-        fingers[i].drives.push_back(FindServo(finger, fingers[i].joints, drive));
+        fingers[i].drives.push_back(
+            FindServo(finger, fingers[i].joints, drive, options.force_factor, *data, *model));
       }
     }
-  }
-
-  [[nodiscard]] DriveActuator FindServo(const kinematics::Finger& finger,
-                                        const std::vector<int>& joints, int drive) {
-    DriveActuator found;
-    for (int actuator = 0; actuator < model->nu; ++actuator) {
-      double moment = 0;
-      for (std::size_t k = 0; k < joints.size(); ++k) {
-        if (finger.joints[k].drive != drive) continue;
-        const int dof = model->jnt_dofadr[joints[k]];
-        moment += finger.joints[k].ratio *
-                  data->actuator_moment[std::ptrdiff_t{actuator} * model->nv + dof];
-      }
-      if (std::abs(moment) > std::abs(found.moment)) {
-        found.actuator = actuator;
-        found.moment = moment;
-      }
-    }
-    if (found.actuator < 0) {
-      throw InputError("no actuator of the hand's model turns joint " + finger.joints[drive].name);
-    }
-    const int a = found.actuator;
-    const mjtNum* bias = model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
-    const bool servo = model->actuator_biastype[a] == mjBIAS_AFFINE && bias[1] < 0;
-    DriveServo& law = found.servo;
-    law.derived = !servo;
-    law.stiffness = servo ? -bias[1] * found.moment * found.moment : kServoStiffness;
-    for (std::size_t k = 0; k < joints.size(); ++k) {
-      const kinematics::Joint& joint = finger.joints[k];
-      if (joint.drive != drive) continue;
-      law.joint_damping +=
-          joint.ratio * joint.ratio * model->dof_damping[model->jnt_dofadr[joints[k]]];
-    }
-    law.damping = servo ? -bias[2] * found.moment * found.moment
-                        : MakeCritical(finger, joints, drive, law.stiffness);
-    mjtNum* range = model->actuator_forcerange + std::ptrdiff_t{2} * a;
-    double limit = std::numeric_limits<double>::infinity();
-    if (model->actuator_forcelimited[a] != 0) limit = std::min(-range[0], range[1]);
-    if (!servo && model->actuator_ctrllimited[a] != 0) {
-      const mjtNum* control = model->actuator_ctrlrange + std::ptrdiff_t{2} * a;
-      const double gain = std::abs(model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a]);
-      limit = std::min(limit, gain * std::min(-control[0], control[1]));
-    }
-    if (!servo) MakeServo(found);
-    // What is asked of a servo is a torque: its limit is that of its force, wherever the angle is
-    // that it would have to steer for.
-    model->actuator_ctrllimited[a] = 0;
-    if (std::isfinite(limit)) {
-      limit *= options.force_factor;
-      range[0] = -limit;
-      range[1] = limit;
-      model->actuator_forcelimited[a] = 1;
-      law.limit = limit * std::abs(found.moment);
-    }
-    return found;
-  }
-
-  /// The actuator follows the law of its servo.
-  void MakeServo(const DriveActuator& found) {
-    const double stiffness = found.servo.stiffness / (found.moment * found.moment);
-    const double damping = found.servo.damping / (found.moment * found.moment);
-    const int a = found.actuator;
-    model->actuator_gaintype[a] = mjGAIN_FIXED;
-    model->actuator_biastype[a] = mjBIAS_AFFINE;
-    model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a] = stiffness;
-    mjtNum* bias = model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
-    bias[0] = 0;
-    bias[1] = -stiffness;
-    bias[2] = -damping;
-  }
-
-  /// @returns the critical damping of what a drive moves, which has the inertia of a small gear
-  /// motor at least.
-  [[nodiscard]] double MakeCritical(const kinematics::Finger& finger,
-                                    const std::vector<int>& joints, int drive, double stiffness) {
-    double inertia = 0;
-    for (std::size_t k = 0; k < joints.size(); ++k) {
-      if (finger.joints[k].drive != drive) continue;
-      const int dof = model->jnt_dofadr[joints[k]];
-      inertia += model->dof_M0[dof] - model->dof_armature[dof];
-      model->dof_armature[dof] = std::max(model->dof_armature[dof], kServoInertia);
-      inertia += model->dof_armature[dof];
-    }
-    return 2 * std::sqrt(stiffness * inertia);
   }
 
   [[nodiscard]] Isometry3d ObjectInWorld() const {
@@ -319,10 +227,9 @@ struct HandWorld::Impl {
     std::copy_n(second.data(), 3, contact.frame + 6);
     contact.friction[0] = contact.friction[1] = options.mu;
     contact.friction[2] = contact.friction[3] = contact.friction[4] = mjMINMU;
-    contact.solref[0] = kContactTime;
+    contact.solref[0] = kTipContactTime;
     contact.solref[1] = 1;
-    constexpr mjtNum kImpedance[mjNIMP] = {0.95, 0.99, 0.0001, 0.5, 2};
-    std::copy_n(kImpedance, mjNIMP, contact.solimp);
+    std::ranges::copy(kTipImpedance, contact.solimp);
     contact.dim = 3;
     contact.geom1 = object_geom;
     contact.geom2 = fingers[finger].tip_geom;
@@ -440,7 +347,7 @@ std::vector<double> HandWorld::controls() const {
 }
 
 double HandWorld::load_share(FingerIndex finger, int drive) const {
-  const Impl::DriveActuator& found = impl_->fingers[finger].drives[drive];
+  const DriveActuator& found = impl_->fingers[finger].drives[drive];
   if (!std::isfinite(found.servo.limit)) return 0;
   return std::abs(impl_->data->actuator_force[found.actuator] * found.moment) / found.servo.limit;
 }
@@ -469,7 +376,7 @@ void HandWorld::Command(FingerIndex finger, const kinematics::Posture& target,
   Impl& impl = *impl_;
   const kinematics::Posture now = measured_posture(finger);
   for (int drive = 0; drive < now.size(); ++drive) {
-    const Impl::DriveActuator& found = impl.fingers[finger].drives[drive];
+    const DriveActuator& found = impl.fingers[finger].drives[drive];
     const int a = found.actuator;
     const double gain = impl.model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a];
     const double length = impl.data->actuator_length[a];

@@ -11,6 +11,7 @@
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
+#include "sim/actuation/drive_servo.h"
 #include "sim/scene/engine_state.h"
 
 struct mjModel_;
@@ -26,15 +27,6 @@ struct HandWorldOptions {
   /// What the hand's sensors say of the angles of drives, by finger, less what they are, radians;
   /// none: nothing.
   std::vector<kinematics::Posture> joint_offsets = {};
-};
-
-/// The servo of a drive (kinematics::Finger::drives) as the hand's model has it.
-struct DriveServo {
-  double stiffness = 0;      ///< N m / rad
-  double damping = 0;        ///< N m s / rad, of the actuator alone
-  double joint_damping = 0;  ///< N m s / rad, of the joints that it turns
-  double limit = std::numeric_limits<double>::infinity();  ///< largest torque, N m
-  bool derived = false;  ///< the model has no servo: its stiffness and damping are chosen here
 };
 
 /// Where a fingertip and the object touch.

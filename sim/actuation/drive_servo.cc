@@ -1,0 +1,104 @@
+#include "sim/actuation/drive_servo.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "planner/base/error.h"
+
+namespace regrasp::sim {
+namespace {
+
+/// Of servos that the model leaves out, as small electric fingers have them: N m / rad, and the
+/// inertia of a motor behind its gear, kg m².
+constexpr double kServoStiffness = 2;
+constexpr double kServoInertia = 1e-3;
+
+/// @returns the critical damping of what a drive moves, which has the inertia of a small gear
+/// motor at least.
+double MakeCritical(const kinematics::Finger& finger, const std::vector<int>& joints, int drive,
+                    double stiffness, mjModel& model) {
+  double inertia = 0;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    if (finger.joints[k].drive != drive) continue;
+    const int dof = model.jnt_dofadr[joints[k]];
+    inertia += model.dof_M0[dof] - model.dof_armature[dof];
+    model.dof_armature[dof] = std::max(model.dof_armature[dof], kServoInertia);
+    inertia += model.dof_armature[dof];
+  }
+  return 2 * std::sqrt(stiffness * inertia);
+}
+
+/// The actuator follows the law of its servo.
+void MakeServo(const DriveActuator& found, mjModel& model) {
+  const double stiffness = found.servo.stiffness / (found.moment * found.moment);
+  const double damping = found.servo.damping / (found.moment * found.moment);
+  const int a = found.actuator;
+  model.actuator_gaintype[a] = mjGAIN_FIXED;
+  model.actuator_biastype[a] = mjBIAS_AFFINE;
+  model.actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a] = stiffness;
+  mjtNum* bias = model.actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
+  bias[0] = 0;
+  bias[1] = -stiffness;
+  bias[2] = -damping;
+}
+
+}  // namespace
+
+DriveActuator FindServo(const kinematics::Finger& finger, const std::vector<int>& joints, int drive,
+                        double force_factor, const mjData_& data, mjModel_& model) {
+  DriveActuator found;
+  for (int actuator = 0; actuator < model.nu; ++actuator) {
+    double moment = 0;
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      if (finger.joints[k].drive != drive) continue;
+      const int dof = model.jnt_dofadr[joints[k]];
+      moment +=
+          finger.joints[k].ratio * data.actuator_moment[std::ptrdiff_t{actuator} * model.nv + dof];
+    }
+    if (std::abs(moment) > std::abs(found.moment)) {
+      found.actuator = actuator;
+      found.moment = moment;
+    }
+  }
+  if (found.actuator < 0) {
+    throw InputError("no actuator of the hand's model turns joint " + finger.joints[drive].name);
+  }
+  const int a = found.actuator;
+  const mjtNum* bias = model.actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
+  const bool servo = model.actuator_biastype[a] == mjBIAS_AFFINE && bias[1] < 0;
+  DriveServo& law = found.servo;
+  law.derived = !servo;
+  law.stiffness = servo ? -bias[1] * found.moment * found.moment : kServoStiffness;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const kinematics::Joint& joint = finger.joints[k];
+    if (joint.drive != drive) continue;
+    law.joint_damping += joint.ratio * joint.ratio * model.dof_damping[model.jnt_dofadr[joints[k]]];
+  }
+  law.damping = servo ? -bias[2] * found.moment * found.moment
+                      : MakeCritical(finger, joints, drive, law.stiffness, model);
+  mjtNum* range = model.actuator_forcerange + std::ptrdiff_t{2} * a;
+  double limit = std::numeric_limits<double>::infinity();
+  if (model.actuator_forcelimited[a] != 0) limit = std::min(-range[0], range[1]);
+  if (!servo && model.actuator_ctrllimited[a] != 0) {
+    const mjtNum* control = model.actuator_ctrlrange + std::ptrdiff_t{2} * a;
+    const double gain = std::abs(model.actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a]);
+    limit = std::min(limit, gain * std::min(-control[0], control[1]));
+  }
+  if (!servo) MakeServo(found, model);
+  // What is asked of a servo is a torque: its limit is that of its force, wherever the angle is
+  // that it would have to steer for.
+  model.actuator_ctrllimited[a] = 0;
+  if (std::isfinite(limit)) {
+    limit *= force_factor;
+    range[0] = -limit;
+    range[1] = limit;
+    model.actuator_forcelimited[a] = 1;
+    law.limit = limit * std::abs(found.moment);
+  }
+  return found;
+}
+
+}  // namespace regrasp::sim

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "planner/kinematics/hand_model.h"
+
+struct mjModel_;
+struct mjData_;
+
+namespace regrasp::sim {
+
+/// The servo of a drive (kinematics::Finger::drives) as the hand's model has it.
+struct DriveServo {
+  double stiffness = 0;      ///< N m / rad
+  double damping = 0;        ///< N m s / rad, of the actuator alone
+  double joint_damping = 0;  ///< N m s / rad, of the joints that it turns
+  double limit = std::numeric_limits<double>::infinity();  ///< largest torque, N m
+  bool derived = false;  ///< the model has no servo: its stiffness and damping are chosen here
+};
+
+/// The actuator that turns a drive.
+struct DriveActuator {
+  int actuator = -1;  ///< of the model
+  double moment = 0;  ///< torque of the drive for each newton (metre) of the actuator
+  DriveServo servo;
+};
+
+/// Finds the actuator that turns a drive most, and makes it a servo where the model has none: with
+/// critical damping, and the inertia of a small gear motor at least. Its limit becomes one of its
+/// force alone: what is asked of a servo is a torque, wherever the angle is that it would have to
+/// steer for.
+/// @param joints        of the model, in the order of the finger's.
+/// @param force_factor  of the limit, times what the model has.
+/// @param data          with the moments of actuators in some posture.
+/// @throws InputError  no actuator turns it.
+[[nodiscard]] DriveActuator FindServo(const kinematics::Finger& finger,
+                                      const std::vector<int>& joints, int drive,
+                                      double force_factor, const mjData_& data, mjModel_& model);
+
+}  // namespace regrasp::sim
