@@ -26,6 +26,9 @@ Stretch Reversed(Stretch stretch) {
   return stretch;
 }
 
+/// Of a path of a free finger between two ways that meet: what is lost with it is much.
+constexpr int kExtensionsToMeet = 1000;
+
 Keyframe EndOf(const Gait& gait) {
   return gait.stretches.empty() ? gait.start : gait.stretches.back().path.back();
 }
@@ -133,8 +136,9 @@ std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveFreeFingers(const 
       continue;
     }
     if (posture == to.postures[finger]) continue;
-    const auto way = FindFreePath(setup_.scene, finger, posture, to.postures[finger],
-                                  AllBut(setup_.scene, finger, path.back()), random_);
+    const auto way =
+        FindFreePath(setup_.scene, finger, posture, to.postures[finger],
+                     AllBut(setup_.scene, finger, path.back()), random_, kExtensionsToMeet);
     if (!way) return std::nullopt;
     for (std::size_t i = 1; i < way->size(); ++i) {
       path.push_back(path.back());

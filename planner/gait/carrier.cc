@@ -6,6 +6,12 @@
 #include <tuple>
 
 namespace regrasp::gait {
+namespace {
+
+/// To wait in, for a finger that none of the usual places suits.
+constexpr int kDrawnPlaces = 1000;
+
+}  // namespace
 
 Keyframe Carrier::FrameAt(const Hold& hold, int node) {
   Keyframe frame{grid_.PoseAt(node), hold.waiting};
@@ -34,7 +40,7 @@ bool Carrier::IsPassable(const Hold& hold, int node) {
   return true;
 }
 
-bool Carrier::LetFreeFingersWait(Hold& hold, int node) {
+bool Carrier::LetFreeFingersWait(Hold& hold, int node, RandomStream* random) {
   hold.waiting.resize(setup_.scene.finger_count());
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (hold.holding[finger] == kNone) continue;
@@ -47,7 +53,11 @@ bool Carrier::LetFreeFingersWait(Hold& hold, int node) {
       hold.waiting[finger] = posture;
       return IsPassable(hold, node);
     };
-    if (std::ranges::none_of(parking_[finger], waits_at)) return false;
+    bool waits = std::ranges::any_of(parking_[finger], waits_at);
+    for (int i = 0; !waits && random != nullptr && i < kDrawnPlaces; ++i) {
+      waits = waits_at(setup_.scene.DrawPosture(finger, *random));
+    }
+    if (!waits) return false;
   }
   return true;
 }

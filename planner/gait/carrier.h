@@ -45,8 +45,9 @@ class Carrier {
   /// @param node  as in FrameAt.
   [[nodiscard]] bool IsPassable(const Hold& hold, int node);
   /// Finds postures for fingers that hold nothing and have none.
+  /// @param random  draws others where a finger can't wait in any place of `parking`; null: none.
   /// @returns whether the hold can be at the node.
-  [[nodiscard]] bool LetFreeFingersWait(Hold& hold, int node);
+  [[nodiscard]] bool LetFreeFingersWait(Hold& hold, int node, RandomStream* random = nullptr);
 
   /// Along the track, with the node's offset.
   [[nodiscard]] Carried StraightOn(const Hold& hold, int node);

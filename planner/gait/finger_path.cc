@@ -8,7 +8,6 @@
 namespace regrasp::gait {
 namespace {
 
-constexpr int kMostExtensions = 250;
 constexpr double kStride = 0.35;  // radians, over all drives
 constexpr int kShortcuts = 30;
 
@@ -43,13 +42,13 @@ class Connector {
             RandomStream& random)
       : scene_(scene), finger_(finger), around_(around), random_(random) {}
 
-  std::optional<FingerPath> Find(const Posture& from, const Posture& to) {
+  std::optional<FingerPath> Find(const Posture& from, const Posture& to, int most_extensions) {
     if (IsFree(from, to)) return FingerPath{from, to};
     std::array<Tree, 2> trees = {Tree{{from}, {-1}}, Tree{{to}, {-1}}};
-    for (int i = 0; i < kMostExtensions; ++i) {
+    for (int i = 0; i < most_extensions; ++i) {
       Tree& growing = trees[i % 2];
       Tree& other = trees[1 - i % 2];
-      if (!Extend(growing, Draw())) continue;
+      if (!Extend(growing, scene_.DrawPosture(finger_, random_))) continue;
       const Posture reached = growing.nodes.back();
       // As far as it goes.
       while (Extend(other, reached)) {
@@ -66,14 +65,6 @@ class Connector {
  private:
   [[nodiscard]] bool IsFree(const Posture& from, const Posture& to) const {
     return IsClear(scene_, finger_, from, to, around_.pose, TipContact::kFree, around_.others);
-  }
-  Posture Draw() {
-    const kinematics::Finger& finger = scene_.finger(finger_);
-    Posture posture(finger.drives);
-    for (int i = 0; i < finger.drives; ++i) {
-      posture[i] = finger.lower[i] + random_.Uniform() * (finger.upper[i] - finger.lower[i]);
-    }
-    return posture;
   }
   /// One stride from the tree's nearest node towards a posture.
   bool Extend(Tree& tree, const Posture& towards) const {
@@ -115,8 +106,9 @@ Surroundings AllBut(const HandScene& scene, FingerIndex moving, const Keyframe& 
 
 std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finger,
                                        const Posture& from, const Posture& to,
-                                       const Surroundings& around, RandomStream& random) {
-  return Connector(scene, finger, around, random).Find(from, to);
+                                       const Surroundings& around, RandomStream& random,
+                                       int most_extensions) {
+  return Connector(scene, finger, around, random).Find(from, to, most_extensions);
 }
 
 std::optional<FingerPath> FindWayUp(const HandScene& scene,

@@ -25,11 +25,13 @@ struct Surroundings {
 
 /// A certified path of a free finger between two postures, by RRT-Connect (Kuffner and LaValle
 /// 2000) over its drives, then shortened.
+/// @param most_extensions  of its two trees; each a tenth of a millisecond or so.
 /// @returns nullopt where none was found.
 [[nodiscard]] std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finger,
                                                      const Posture& from, const Posture& to,
                                                      const Surroundings& around,
-                                                     RandomStream& random);
+                                                     RandomStream& random,
+                                                     int most_extensions = 250);
 
 /// A certified path from a contact straight up along the normal, as high as the finger goes.
 /// @param target    of the tip at the contact.

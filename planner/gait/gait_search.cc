@@ -82,7 +82,8 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
   if (ends.goal.empty()) return;
   ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
     Hold hold{std::move(holding)};
-    if (carrier_.LetFreeFingersWait(hold, grid.goal())) goal_.AddWay(std::move(hold.holding));
+    if (carrier_.LetFreeFingersWait(hold, grid.goal(), &random))
+      goal_.AddWay(std::move(hold.holding));
   });
 }
 
@@ -150,7 +151,9 @@ bool GaitSearch::Add(Rest rest) {
 
 void GaitSearch::AddGivenStart() {
   ForEachAssignment(start_, setup_.scene.finger_count(), [&](Holding holding) {
-    Add({.hold = {std::move(holding)}, .node = grid_.start()});
+    Hold hold{std::move(holding)};
+    if (!carrier_.LetFreeFingersWait(hold, grid_.start(), &random_)) ++counts_.colliding;
+    Add({.hold = std::move(hold), .node = grid_.start()});
   });
 }
 

@@ -15,6 +15,9 @@ using kinematics::LinkShape;
 
 namespace {
 
+/// Of a drive's range.
+constexpr double kFromLimit = 0.02;
+
 bool AreApart(const ConvexShape& a, const Ball& ball_a, const ConvexShape& b, const Ball& ball_b,
               double distance) {
   const double apart = ball_a.radius + ball_b.radius + distance;
@@ -60,6 +63,16 @@ std::vector<HandScene::ShapePair> HandScene::CheckedPairs(FingerIndex a, FingerI
     }
   }
   return pairs;
+}
+
+Posture HandScene::DrawPosture(FingerIndex finger, RandomStream& random) const {
+  const Finger& chain = hand_.fingers[finger];
+  Posture posture(chain.drives);
+  for (int i = 0; i < chain.drives; ++i) {
+    posture[i] = chain.lower[i] + (kFromLimit + (1 - 2 * kFromLimit) * random.Uniform()) *
+                                      (chain.upper[i] - chain.lower[i]);
+  }
+  return posture;
 }
 
 PlacedFinger HandScene::Place(FingerIndex finger, const Posture& posture) const {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/base/random.h"
 #include "planner/collision/convex_shape.h"
 #include "planner/collision/surface_tree.h"
 #include "planner/kinematics/finger_kinematics.h"
@@ -52,6 +53,8 @@ class HandScene {
   [[nodiscard]] int finger_count() const { return static_cast<int>(hand_.fingers.size()); }
   [[nodiscard]] double margin() const { return margin_; }
 
+  /// Each drive anywhere in its range, but for the last bit at both ends.
+  [[nodiscard]] Posture DrawPosture(FingerIndex finger, RandomStream& random) const;
   [[nodiscard]] PlacedFinger Place(FingerIndex finger, const Posture& posture) const;
 
   // Of a posture on a path, `motion` says how far the shapes may come nearer than they are in it,

@@ -221,14 +221,10 @@ std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& trac
   const HandScene& scene = setup.scene;
   Parking parking(scene.finger_count());
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
-    const kinematics::Finger& chain = scene.finger(finger);
     std::vector<Place> places;
     for (int i = 0; i < kParkingDraws; ++i) {
-      Posture posture = setup.inverse[finger].middle();
-      for (int k = 0; i > 0 && k < chain.drives; ++k) {
-        posture[k] =
-            chain.lower[k] + (0.02 + 0.96 * random.Uniform()) * (chain.upper[k] - chain.lower[k]);
-      }
+      const Posture& middle = setup.inverse[finger].middle();
+      Posture posture = i == 0 ? middle : scene.DrawPosture(finger, random);
       const PlacedFinger placed = scene.Place(finger, posture);
       if (!scene.KeepsOffHand(placed)) continue;
       double clearance = kParkingClearance;
@@ -238,7 +234,7 @@ std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& trac
       }
       if (clearance <= scene.margin() + kSpare) continue;
       // Far enough off, it had better stay where it is soon back.
-      const double bent = (posture - setup.inverse[finger].middle()).norm();
+      const double bent = (posture - middle).norm();
       places.push_back({clearance - kBendPenalty * bent, std::move(posture)});
     }
     std::ranges::stable_sort(places, std::greater<>(), &Place::score);

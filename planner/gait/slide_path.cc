@@ -19,6 +19,11 @@ constexpr double kStride = 0.004;
 constexpr int kMostShares = 64;
 /// A motion that needs shorter pieces of a proof keeps too close to the limit.
 constexpr double kShortestPiece = 1.0 / 64;
+/// Faces of a fine mesh that a slide goes over, and the turn of the normal, radians, at edges
+/// between them that are concave: a tip of 10 mm is in the surface by kTipDepth there. Whether
+/// this one is, by no more, is looked at where it slides.
+constexpr int kMostCrossings = 6;
+constexpr double kConcave = 0.2;
 
 /// One finger on its way, all else stands still.
 class Slider {
@@ -96,8 +101,8 @@ bool IsSame(const grasp::Contact& a, const grasp::Contact& b) {
 const tree::SurfaceRoute* SlideRoutes::Between(int from, int to) {
   const auto [found, is_new] = known_.try_emplace({from, to});
   if (is_new) {
-    found->second =
-        tree::FindSurfaceRoute(memory_.object(), memory_.contact(from), memory_.contact(to));
+    found->second = tree::FindSurfaceRoute(memory_.object(), memory_.contact(from),
+                                           memory_.contact(to), {kMostCrossings, kConcave});
   }
   return found->second ? &*found->second : nullptr;
 }

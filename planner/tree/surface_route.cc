@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Each moves the points of a route nearer to the shortest path; it has kMostCrossings at most.
+/// Each moves the points of a route nearer to the shortest path, as it has few crossings.
 constexpr int kPullRounds = 8;
 
 /// A point this near an edge, over the diameter, is on it: what rounding leaves of the border.
@@ -46,8 +46,9 @@ struct Entry {
 
 class RouteSearch {
  public:
-  RouteSearch(const object::Object& object, const grasp::Contact& from, const grasp::Contact& to)
-      : object_(object), from_(from), to_(to) {}
+  RouteSearch(const object::Object& object, const grasp::Contact& from, const grasp::Contact& to,
+              const RouteLimits& limits)
+      : object_(object), from_(from), to_(to), limits_(limits) {}
 
   std::optional<SurfaceRoute> Find() {
     const int last = FindLast();
@@ -72,7 +73,7 @@ class RouteSearch {
       queue.pop();
       const Entry entry = entries_[number];
       if (entry.face == to_.face) return number;
-      if (entry.crossings == kMostCrossings || !done.insert(entry.face).second) continue;
+      if (entry.crossings == limits_.crossings || !done.insert(entry.face).second) continue;
       for (const object::FaceBorder& edge : object_.BordersOf(entry.face)) {
         if (!CanCross(entry.face, edge) || done.contains(edge.beyond)) continue;
         const Vector3d at = CrossingPoint(edge, entry.at, to_.p);
@@ -84,9 +85,8 @@ class RouteSearch {
   }
 
   [[nodiscard]] bool CanCross(FaceIndex face, const object::FaceBorder& edge) const {
-    return edge.convex &&
-           grasp::AngleBetween(object_.inward_normal(face), object_.inward_normal(edge.beyond)) <=
-               motion::kMostTurn;
+    return grasp::AngleBetween(object_.inward_normal(face), object_.inward_normal(edge.beyond)) <=
+           (edge.convex ? motion::kMostTurn : limits_.concave);
   }
 
   SurfaceRoute MakeRoute(int last) const {
@@ -125,22 +125,25 @@ class RouteSearch {
         return false;
       }
     }
-    return std::all_of(route.begin() + 1, route.end() - 1, [&](const grasp::Contact& edge) {
-      return criteria::HasClearance(object_, edge);
-    });
+    return limits_.concave > 0 ||
+           std::all_of(route.begin() + 1, route.end() - 1, [&](const grasp::Contact& edge) {
+             return criteria::HasClearance(object_, edge);
+           });
   }
 
   const object::Object& object_;
   const grasp::Contact& from_;
   const grasp::Contact& to_;
+  const RouteLimits& limits_;
   std::vector<Entry> entries_;
 };
 
 }  // namespace
 
 std::optional<SurfaceRoute> FindSurfaceRoute(const object::Object& object,
-                                             const grasp::Contact& from, const grasp::Contact& to) {
-  return RouteSearch(object, from, to).Find();
+                                             const grasp::Contact& from, const grasp::Contact& to,
+                                             const RouteLimits& limits) {
+  return RouteSearch(object, from, to, limits).Find();
 }
 
 double LengthOf(const SurfaceRoute& route) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "planner/object/polygon.h"
 #include "planner/plan/motion_fault.h"
 #include "tests/planner/tree/search_cases.h"
@@ -92,7 +94,7 @@ TEST(SurfaceRoute, GoesOverSeveralTrianglesOfAMesh) {
     EXPECT_LT(LengthOf(*route), 1.2 * (from.p - to.p).norm() + 1e-3 * body.diameter());
     longest = std::max(longest, static_cast<int>(route->size()));
   }
-  EXPECT_EQ(longest, 2 * (kMostCrossings + 1));
+  EXPECT_EQ(longest, 2 * (RouteLimits{}.crossings + 1));
 }
 
 TEST(SurfaceRoute, NeverGoesThroughAConcaveEdge) {
@@ -106,6 +108,23 @@ TEST(SurfaceRoute, NeverGoesThroughAConcaveEdge) {
   // The convex corners beside it are passed.
   EXPECT_TRUE(FindSurfaceRoute(ell, low, On(ell, {3, 0.5, 0})));
   EXPECT_TRUE(FindSurfaceRoute(ell, On(ell, {0.5, 3, 0}), high));
+}
+
+TEST(SurfaceRoute, GoesThroughAConcaveEdgeWhereItsTurnIsAllowed) {
+  // The top is bent in the middle by 2 atan(0.1 / 2), 5.7° or 0.0999 radians.
+  const object::Polygon roof =
+      object::Polygon::FromWkt("POLYGON((0 0, 4 0, 4 2, 2 1.9, 0 2, 0 0))", "roof");
+  const grasp::Contact right = On(roof, {3, 1.95, 0});
+  const grasp::Contact left = On(roof, {1, 1.95, 0});
+  ASSERT_TRUE(roof.AreNeighbours(right.face, left.face));
+  EXPECT_FALSE(FindSurfaceRoute(roof, right, left));
+  EXPECT_FALSE(FindSurfaceRoute(roof, right, left, {.concave = 0.099}));
+  const auto route = FindSurfaceRoute(roof, right, left, {.concave = 0.101});
+  ASSERT_TRUE(route);
+  ExpectLegal(roof, *route);
+  EXPECT_EQ(route->size(), 4u);
+  EXPECT_NEAR(LengthOf(*route), 2 * std::hypot(1, 0.05), 1e-12);
+  EXPECT_FALSE(FindSurfaceRoute(roof, right, left, {.crossings = 0, .concave = 0.101}));
 }
 
 TEST(SurfaceRoute, GoesRoundTheConcaveEdgeOfABlockOverItsCaps) {
