@@ -31,6 +31,12 @@ class Deadline {
   void Check() const {
     if (IsOver()) throw TimeUp();
   }
+  /// An earlier one, after a share of what is left.
+  [[nodiscard]] Deadline After(double share) const {
+    if (!at_) return {};
+    const Clock::time_point now = now_();
+    return {now + std::chrono::duration_cast<Clock::duration>(share * (*at_ - now)), now_};
+  }
   /// What is left until then, negative afterwards; nullopt: no end.
   [[nodiscard]] std::optional<Clock::duration> left() const {
     return at_ ? std::optional(*at_ - now_()) : std::nullopt;

@@ -22,6 +22,14 @@ constexpr int kExpandedForNext = 20;
 /// Times that places are looked for.
 constexpr int kDrawings = 4;
 
+/// Of gaits with reserve: the share of the friction that they are planned with, their quality, and
+/// what is spent on them before others are good enough: grasps that are expanded, share of the
+/// time.
+constexpr double kLessFriction = 0.7;
+constexpr double kReserveQuality = 0.05;
+constexpr std::int64_t kExpandedWithReserve = 120;
+constexpr double kTimeWithReserve = 0.3;
+
 double LargestTip(const kinematics::HandModel& hand) {
   double radius = 0;
   for (const kinematics::Finger& finger : hand.fingers)
@@ -196,6 +204,16 @@ std::vector<int> AppendGrasp(const grasp::Grasp& grasp, std::vector<grasp::Conta
   return numbers;
 }
 
+/// Of gaits with something to spare.
+GaitRequest WithReserve(GaitRequest request) {
+  criteria::GraspCriteria& criteria = request.criteria;
+  criteria.half_angle = std::atan(kLessFriction * std::tan(criteria.half_angle));
+  criteria.min_quality = std::max(criteria.min_quality, kReserveQuality);
+  request.most_expanded = std::min(request.most_expanded, kExpandedWithReserve);
+  request.deadline = request.deadline.After(kTimeWithReserve);
+  return request;
+}
+
 }  // namespace
 
 GaitResult FindGait(const GaitRequest& request) {
@@ -215,13 +233,16 @@ GaitResult FindGait(const GaitRequest& request) {
   const HandSetup setup{scene, inverse, points, request.scale};
   const hand::Hand fingers{static_cast<int>(request.hand->fingers.size()),
                            LargestTip(*request.hand) / request.scale};
-  criteria::GraspMemory memory(*request.solid, request.criteria, fingers,
-                               criteria::QualityTest::kQuick);
-  memory.Append(result.contacts);
-
-  PlacesInHand places(request, setup, ends, memory);
-  result.gait = places.Search();
-  result.counts = places.counts();
+  const auto search = [&](const GaitRequest& asked) {
+    criteria::GraspMemory memory(*asked.solid, asked.criteria, fingers,
+                                 criteria::QualityTest::kQuick);
+    memory.Append(result.contacts);
+    PlacesInHand places(asked, setup, ends, memory);
+    result.gait = places.Search();
+    result.counts = places.counts();
+  };
+  if (request.with_reserve) search(WithReserve(request));
+  if (!result.gait) search(request);
   if (!result.gait) result.message = WhatStopped(request, result.counts);
   return result;
 }

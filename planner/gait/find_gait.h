@@ -24,6 +24,9 @@ struct GaitRequest {
   const object::Polyhedron* solid = nullptr;
   double scale = 1;  ///< metres per unit of the solid's file
   criteria::GraspCriteria criteria;
+  /// Whether a gait is looked for first that has some friction to spare and better grasps: motors
+  /// can carry such gaits out.
+  bool with_reserve = true;
   double margin = 1e-3;  ///< between links, palm and object, metres
   Turn turn;             ///< about the object's centre, which may end some millimetres away
   std::optional<Eigen::Isometry3d> start_pose;  ///< none: where the hand's reach is best
@@ -44,7 +47,7 @@ struct GaitResult {
 };
 
 /// Finds a gait of the hand that turns the object: chooses where in the hand it begins and with
-/// which grasp.
+/// which grasp. What is told of a search that found none is of the one without reserve.
 ///
 /// Laws: without a deadline the same request gives the same gait, bit for bit; every rest is force
 /// closure and meets the criteria where it can; every path is certified (certified_path.h).

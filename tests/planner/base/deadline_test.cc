@@ -22,6 +22,19 @@ TEST(Deadline, IsOverWhenItsTimeHasComeAndNeverWithoutOne) {
   EXPECT_THROW(deadline.Check(), TimeUp);
 }
 
+TEST(Deadline, AShareOfWhatIsLeftGoesByTheSameClock) {
+  Clock::time_point now{};
+  const Deadline deadline(now + seconds(10), [&] { return now; });
+  now += seconds(2);
+  const Deadline sooner = deadline.After(0.25);
+  EXPECT_EQ(sooner.left(), seconds(2));
+  now += seconds(2);
+  EXPECT_TRUE(sooner.IsOver());
+  EXPECT_FALSE(deadline.IsOver());
+  EXPECT_LE(deadline.After(0.5).left(), deadline.left());
+  EXPECT_FALSE(Deadline().After(0.5).left().has_value());
+}
+
 TEST(Deadline, BeyondTheClocksRangeThereIsNone) {
   const Clock::time_point begin = Clock::now();
   EXPECT_EQ(DeadlineAfter(begin, 1e300).left(), std::nullopt);
