@@ -22,11 +22,12 @@ constexpr int kExpandedForNext = 20;
 /// Times that places are looked for.
 constexpr int kDrawings = 4;
 
-/// Of gaits with reserve: the share of the friction that they are planned with, their quality, and
-/// what is spent on them before others are good enough: grasps that are expanded, share of the
-/// time.
+/// Of gaits with reserve, without slides: the share of the friction that they are planned with,
+/// their quality, what links keep off beside the margin, metres, and what is spent on them before
+/// others are good enough: grasps that are expanded, share of the time.
 constexpr double kLessFriction = 0.7;
 constexpr double kReserveQuality = 0.05;
+constexpr double kMoreClearance = 2e-3;
 constexpr std::int64_t kExpandedWithReserve = 120;
 constexpr double kTimeWithReserve = 0.3;
 
@@ -210,6 +211,7 @@ GaitRequest WithReserve(GaitRequest request) {
   criteria.half_angle = std::atan(kLessFriction * std::tan(criteria.half_angle));
   criteria.min_quality = std::max(criteria.min_quality, kReserveQuality);
   request.most_expanded = std::min(request.most_expanded, kExpandedWithReserve);
+  request.margin += kMoreClearance;
   request.deadline = request.deadline.After(kTimeWithReserve);
   return request;
 }
@@ -229,11 +231,11 @@ GaitResult FindGait(const GaitRequest& request) {
   inverse.reserve(request.hand->fingers.size());
   for (const kinematics::Finger& finger : request.hand->fingers) inverse.emplace_back(finger);
   const collision::SurfaceTree surface(*request.solid, request.scale);
-  const HandScene scene(*request.hand, surface, request.margin);
-  const HandSetup setup{scene, inverse, points, request.scale};
   const hand::Hand fingers{static_cast<int>(request.hand->fingers.size()),
                            LargestTip(*request.hand) / request.scale};
-  const auto search = [&](const GaitRequest& asked) {
+  const auto search = [&](const GaitRequest& asked, bool is_reserve) {
+    const HandScene scene(*request.hand, surface, asked.margin);
+    const HandSetup setup{scene, inverse, points, request.scale, !is_reserve};
     criteria::GraspMemory memory(*asked.solid, asked.criteria, fingers,
                                  criteria::QualityTest::kQuick);
     memory.Append(result.contacts);
@@ -241,8 +243,8 @@ GaitResult FindGait(const GaitRequest& request) {
     result.gait = places.Search();
     result.counts = places.counts();
   };
-  if (request.with_reserve) search(WithReserve(request));
-  if (!result.gait) search(request);
+  if (request.with_reserve) search(WithReserve(request), true);
+  if (!result.gait) search(request, false);
   if (!result.gait) result.message = WhatStopped(request, result.counts);
   return result;
 }

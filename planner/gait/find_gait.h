@@ -24,8 +24,9 @@ struct GaitRequest {
   const object::Polyhedron* solid = nullptr;
   double scale = 1;  ///< metres per unit of the solid's file
   criteria::GraspCriteria criteria;
-  /// Whether a gait is looked for first that has some friction to spare and better grasps: motors
-  /// can carry such gaits out.
+  /// Whether a gait is looked for first that has some friction and room to spare, better grasps
+  /// and no slides, whose drag the fingers that hold can seldom balance: motors can carry such
+  /// gaits out.
   bool with_reserve = true;
   double margin = 1e-3;  ///< between links, palm and object, metres
   Turn turn;             ///< about the object's centre, which may end some millimetres away

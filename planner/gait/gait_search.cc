@@ -188,6 +188,10 @@ void GaitSearch::AddSwitches(const Holding& from, FingerIndex placed, int point,
   }
 }
 
+bool GaitSearch::MaySlide(int from, int to) {
+  return setup_.may_slide && routes_.Between(from, to) != nullptr;
+}
+
 std::vector<GaitSearch::Change> GaitSearch::ChangesFrom(const Holding& from, int node) {
   std::vector<Change> changes;
   if (most_holding_ > kFewestHolding) AddSwitches(from, {}, kNone, changes);
@@ -203,7 +207,7 @@ std::vector<GaitSearch::Change> GaitSearch::ChangesFrom(const Holding& from, int
       }
       const double way = (setup_.points[at].p - setup_.points[point].p).norm();
       if (way > (is_goal ? kLongestSlideToGoal : kLongestSlide)) continue;
-      if (routes_.Between(at, point) == nullptr) continue;
+      if (!MaySlide(at, point)) continue;
       changes.push_back({.slid = finger, .point = point});
     }
   }
@@ -214,7 +218,7 @@ std::vector<GaitSearch::Change> GaitSearch::ChangesFrom(const Holding& from, int
     if (carrier_.reach().Find(finger, point, node) == nullptr) continue;
     if (from[finger] == kNone) {
       AddSwitches(from, finger, point, changes);
-    } else if (routes_.Between(from[finger], point) != nullptr) {
+    } else if (MaySlide(from[finger], point)) {
       changes.push_back({.slid = finger, .point = point});
     }
   }

@@ -120,6 +120,8 @@ class GaitSearch {
   void SwitchAt(int index, int node);
   /// What fingers may do at a node to have another grasp, whether it holds or not.
   [[nodiscard]] std::vector<Change> ChangesFrom(const Holding& from, int node);
+  /// Whether there is a way along the surface between two points.
+  [[nodiscard]] bool MaySlide(int from, int to);
   /// A finger is placed, if it is valid, and each of the others released or none.
   void AddSwitches(const Holding& from, FingerIndex placed, int point,
                    std::vector<Change>& changes) const;

@@ -13,7 +13,8 @@ struct HandSetup {
   const HandScene& scene;
   const std::vector<kinematics::InverseKinematics>& inverse;  ///< by finger
   const std::vector<SurfacePoint>& points;
-  double scale = 1;  ///< metres per unit of the object's file
+  double scale = 1;       ///< metres per unit of the object's file
+  bool may_slide = true;  ///< fingers that hold may slide along the surface
 };
 
 /// By finger: postures in which it may wait while it holds nothing, the best first.

@@ -50,7 +50,7 @@ ReplayResult ReplayOf(const plan::Plan& plan, const HandReplayOptions& options =
 
 Reason ReasonOf(const ReplayResult& result) { return result.steps.back().reason; }
 
-/// A turn of 90° with a switch, planned with less friction than there is, that passes; made once.
+/// A turn of 90° with a switch and no align, that passes; made once.
 const plan::Plan& GoodPlan() {
   static const plan::Plan plan = [] {
     constexpr int kSeeds = 30;
@@ -59,7 +59,7 @@ const plan::Plan& GoodPlan() {
       request.hand = &Hand().hand;
       request.solid = &Cube();
       request.scale = kScale;
-      request.criteria.half_angle = std::atan(0.5);
+      request.criteria.half_angle = std::atan(kMu);
       request.criteria.min_quality = 0.06;
       request.turn = {Vector3d::UnitZ(), Radians(90)};
       request.seed = seed;
@@ -205,6 +205,7 @@ plan::Plan SlidingPlan(double way) {
   request.scale = kScale;
   request.criteria.half_angle = std::atan(kMu);
   request.seed = 1;
+  request.with_reserve = false;  // which has no slides
   request.start_pose = gait::FindGait(request).gait->start.pose;
   request.goal_pose = request.start_pose;
   grasp::Grasp grasp;

@@ -292,7 +292,7 @@ TEST(CheckHandTest, AFingerThroughTheObjectCollides) {
   EXPECT_THAT(fault.hand->links,
               testing::Contains(testing::Field(&plan::HandLink::finger, moving)));
   // Where it is worst, and not where the clearance is only just missed.
-  EXPECT_LT(*fault.hand->gap_m, -1e-3);
+  EXPECT_LT(*fault.hand->gap_m, 0);
   EXPECT_THAT(faults.front().detail, testing::HasSubstr("m into"));
 }
 
