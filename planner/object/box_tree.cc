@@ -16,7 +16,9 @@ constexpr std::ptrdiff_t kLeaf = 6;
 class BoxTree::Builder {
  public:
   Builder(BoxTree& tree, const std::function<Box(int)>& box_of) : tree_(tree), box_of_(box_of) {
+    centres_.reserve(tree.order_.size());
     for (const int i : tree.order_) centres_.push_back(box_of(i).center());
+    tree.nodes_.reserve(NodesOver(tree.order_.size()));
   }
 
   /// @returns its place.
@@ -40,6 +42,12 @@ class BoxTree::Builder {
   }
 
  private:
+  /// How many nodes there will be over so many things.
+  static std::size_t NodesOver(std::size_t things) {
+    if (things <= std::size_t{kLeaf}) return 1;
+    return 1 + NodesOver(things / 2) + NodesOver(things - things / 2);
+  }
+
   /// In the direction in which their centres lie farthest apart.
   void SortHalves(std::span<std::int32_t> things, std::size_t half) const {
     Box centres;
@@ -59,7 +67,6 @@ BoxTree::BoxTree(int count, const std::function<Box(int)>& box_of) : order_(coun
   if (count == 0) return;
   std::iota(order_.begin(), order_.end(), 0);
   Builder(*this, box_of).Build(order_);
-  nodes_.shrink_to_fit();
 }
 
 }  // namespace regrasp::object

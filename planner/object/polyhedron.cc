@@ -229,6 +229,7 @@ Polyhedron Polyhedron::Check(const PolygonSoup& soup, const std::string& name,
   for (Face& face : faces) {
     face.barred = face.enclosed || (face.invented && !reading.allow_invented);
   }
+  topology = {};  // a large body needs all the memory that there is for its faces
   reading.Begin("preparing " + std::to_string(faces.size()) + " faces");
   std::optional<FeltPatch> patch = reading.patch;
   if (patch) patch->radius = patch->radius.value_or(kUsualPatch * diameter);

@@ -3,9 +3,11 @@
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace regrasp::repair {
@@ -44,6 +46,17 @@ std::vector<Mesh> PartsOf(const Mesh& mesh) {
   std::vector<Mesh> parts;
   pmp::split_connected_components(mesh, parts);
   return parts;
+}
+
+bool FillHole(Mesh& mesh, Mesh::Halfedge_index border) {
+  /// Edges; with so many all triangles are looked at in a few seconds.
+  constexpr int kLongBorder = 500;
+  const auto edges = CGAL::halfedges_around_face(border, mesh);
+  const bool is_long = std::distance(edges.begin(), edges.end()) > kLongBorder;
+  std::vector<Mesh::Face_index> patch;
+  pmp::triangulate_hole(mesh, border, std::back_inserter(patch),
+                        CGAL::parameters::do_not_use_cubic_algorithm(is_long));
+  return !patch.empty();
 }
 
 double VolumeOf(const Mesh& mesh) { return CGAL::to_double(pmp::volume(mesh)); }

@@ -19,6 +19,12 @@ using Mesh = object::SurfaceMesh;
 /// The connected parts of a mesh, each a mesh of its own, in the order of their first facets.
 [[nodiscard]] std::vector<Mesh> PartsOf(const Mesh& mesh);
 
+/// Fills a hole with triangles.
+/// @returns false where that cannot be done, also where its border is long and so tangled that the
+/// Delaunay triangulation of its vertices does not hold triangles that fill it: to look at all others
+/// takes the cube of its length.
+[[nodiscard]] bool FillHole(Mesh& mesh, Mesh::Halfedge_index border);
+
 /// @pre closed.
 [[nodiscard]] double VolumeOf(const Mesh& mesh);
 

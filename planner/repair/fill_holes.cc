@@ -1,6 +1,5 @@
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,9 +62,7 @@ StageResult FillHoles(const object::PolygonSoup& soup) {
   std::vector<Hole> holes;
   for (const auto border : borders) {
     holes.push_back(Measure(mesh, border));
-    std::vector<Mesh::Face_index> patch;
-    pmp::triangulate_hole(mesh, border, std::back_inserter(patch));
-    if (patch.empty()) throw std::runtime_error("a hole cannot be filled");
+    if (!FillHole(mesh, border)) throw std::runtime_error("a hole cannot be filled");
   }
   DropScraps(mesh);
   std::ranges::sort(holes, std::ranges::greater(), &Hole::width);

@@ -61,6 +61,12 @@ class Ladder {
     if (!soup_.facets.empty()) return true;
     auto surface = Run("reconstruct", [&] { return ReconstructSurface(soup_); });
     if (!surface) return false;
+    if (last().facts["scatter"].get<double>() > kMostScatter) {
+      last().outcome =
+          "its points lie about a surface and not on one: they scatter as widely as they are "
+          "apart; smooth or average them first";
+      return false;
+    }
     last().outcome = "a surface";
     soup_ = *std::move(surface);
     return true;

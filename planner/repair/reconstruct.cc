@@ -3,13 +3,16 @@
 #include <CGAL/Search_traits_3.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "planner/repair/cgal_mesh.h"
 #include "planner/repair/soup_shells.h"
@@ -20,6 +23,7 @@ namespace regrasp::repair {
 namespace {
 
 using Point = Kernel::Point_3;
+using Search = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<Kernel>>;
 
 /// A triangle with an edge longer than this, in typical distances between neighbours, bridges what
 /// was not scanned.
@@ -28,18 +32,47 @@ constexpr double kLongEdge = 8;
 /// Fewest points that can be a body.
 constexpr std::size_t kFewestPoints = 10;
 
+double MiddleOf(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 /// The middle one of the distances from points to their nearest others.
-double TypicalDistance(const std::vector<Point>& points) {
-  using Search = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<Kernel>>;
-  const Search::Tree tree(points.begin(), points.end());
+double TypicalDistance(const Search::Tree& tree, const std::vector<Point>& points) {
   std::vector<double> distances;
   for (const Point& p : points) {
     Search search(tree, p, 2);  // itself first
     distances.push_back(std::sqrt(std::next(search.begin())->second));
   }
-  const auto middle = distances.begin() + std::ssize(distances) / 2;
-  std::ranges::nth_element(distances, middle);
-  return *middle;
+  return MiddleOf(std::move(distances));
+}
+
+/// How widely the neighbours of a point are spread across their plane, over how widely along it.
+double ScatterAt(const Search::Tree& tree, const Point& p) {
+  constexpr int kNeighbors = 12;
+  Search search(tree, p, 1 + kNeighbors);
+  Eigen::Matrix3Xd spread(3, std::distance(search.begin(), search.end()));
+  Eigen::Index i = 0;
+  for (auto found = search.begin(); found != search.end(); ++found, ++i) {
+    const auto offset = found->first - p;
+    spread.col(i) = Eigen::Vector3d(offset.x(), offset.y(), offset.z());
+  }
+  spread.colwise() -= spread.rowwise().mean().eval();
+  const Eigen::Vector3d widths = spread.jacobiSvd().singularValues();  // the widest first
+  return widths[1] > 0 ? widths[2] / widths[1] : 0;
+}
+
+/// The middle one of points' scatters.
+double ScatterOf(const Search::Tree& tree, const std::vector<Point>& points) {
+  /// Of more points so many are looked at, evenly among those sorted by place.
+  constexpr std::size_t kLooks = 10000;
+  const std::size_t step = 1 + points.size() / kLooks;
+  std::vector<double> scatters;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    scatters.push_back(ScatterAt(tree, points[i]));
+  }
+  return MiddleOf(std::move(scatters));
 }
 
 /// A number that is a point's own.
@@ -97,7 +130,8 @@ StageResult ReconstructSurface(const object::PolygonSoup& cloud) {
   std::ranges::sort(points);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < kFewestPoints) throw std::runtime_error("fewer than ten points");
-  const double longest = kLongEdge * TypicalDistance(points);
+  const Search::Tree tree(points.begin(), points.end());
+  const double longest = kLongEdge * TypicalDistance(tree, points);
   std::vector<std::array<std::size_t, 3>> triangles;
   CGAL::advancing_front_surface_reconstruction(points.begin(), points.end(),
                                                std::back_inserter(triangles), RadiusOrPoints());
@@ -113,6 +147,7 @@ StageResult ReconstructSurface(const object::PolygonSoup& cloud) {
   MakeCanonical(result.soup);
   result.facts["points"] = points.size();
   result.facts["typical_distance"] = longest / kLongEdge;
+  result.facts["scatter"] = ScatterOf(tree, points);
   result.facts["triangles_that_bridge"] = triangles.size() - result.soup.facets.size();
   return result;
 }

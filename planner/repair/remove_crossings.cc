@@ -2,7 +2,6 @@
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/manifoldness.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <algorithm>
 #include <optional>
@@ -69,9 +68,7 @@ class CutOut {
     std::vector<Mesh::Halfedge_index> borders;
     pmp::extract_boundary_cycles(mesh, std::back_inserter(borders));
     for (const auto border : borders) {
-      std::vector<Face> patch;
-      pmp::triangulate_hole(mesh, border, std::back_inserter(patch));
-      if (patch.empty()) return std::nullopt;
+      if (!FillHole(mesh, border)) return std::nullopt;
     }
     if (mesh.num_faces() == 0) return std::nullopt;
     return mesh;

@@ -20,7 +20,9 @@ struct StageResult {
 // They throw std::runtime_error with what they cannot do.
 
 /// The surface of a cloud of points (Cohen-Steiner and Da, advancing front, 2004), without
-/// triangles that bridge what was not scanned.
+/// triangles that bridge what was not scanned. Facts: "scatter", how widely a point's neighbours are
+/// spread across their plane, over how widely they are along it where they are least: near 0 on a
+/// surface, 1 in all directions alike (of the points' scatters the middle one).
 /// @param cloud  vertices without facets.
 [[nodiscard]] StageResult ReconstructSurface(const object::PolygonSoup& cloud);
 
@@ -64,6 +66,9 @@ struct StageResult {
 /// At most so many facets (Lindstrom and Turk's edge collapse).
 /// @param soup  the surface of a solid.
 [[nodiscard]] StageResult Simplify(const object::PolygonSoup& soup, int facets);
+
+/// A cloud of more scatter than this makes no surface.
+inline constexpr double kMostScatter = 0.5;
 
 /// Vertices this close, over the diameter, are one: what 32-bit coordinates are rounded to.
 inline constexpr double kWeldDistance = 1e-6;

@@ -2,10 +2,13 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/alpha_wrap_3.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
 #include "planner/object/diameter.h"
+#include "planner/object/face_joining.h"
 #include "planner/repair/cgal_mesh.h"
 #include "planner/repair/stages.h"
 #include "planner/repair/surface_distance.h"
@@ -42,15 +45,27 @@ Eigen::Vector3d ToVector(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 using Faces = std::set<Mesh::Face_index>;
 
-/// Those of `faces` that meet others of them or have turned over since `before`.
-Faces FindBad(const Faces& faces, const Mesh& mesh, const std::vector<Kernel::Vector_3>& before) {
+/// Whether a triangle has no normal to speak of. Slivers beside each other have none in common
+/// either, and such a face makes no solid.
+bool IsSliver(const Point& a, const Point& b, const Point& c, double diameter) {
+  if (CGAL::collinear(a, b, c)) return true;
+  const double double_area = std::sqrt(CGAL::cross_product(b - a, c - a).squared_length());
+  const double longest = std::sqrt(std::max({CGAL::squared_distance(a, b),
+                                             CGAL::squared_distance(b, c),
+                                             CGAL::squared_distance(c, a)}));
+  return double_area / 2 <= object::kSliverThickness * diameter * longest;
+}
+
+/// Those of `faces` that are slivers, meet others of them or have turned over since `before`.
+Faces FindBad(const Faces& faces, const Mesh& mesh, const std::vector<Kernel::Vector_3>& before,
+              double diameter) {
   Faces bad;
   for (const auto f : faces) {
     const auto h = mesh.halfedge(f);
     const Point &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)),
                 &c = mesh.point(mesh.target(mesh.next(h)));
     const auto normal = CGAL::cross_product(b - a, c - a);
-    if (CGAL::collinear(a, b, c) || normal * before[f] <= 0) bad.insert(f);
+    if (IsSliver(a, b, c, diameter) || normal * before[f] <= 0) bad.insert(f);
   }
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   pmp::self_intersections(faces, mesh, std::back_inserter(pairs));
@@ -78,7 +93,7 @@ Faces Widened(Faces faces, const Mesh& mesh) {
 
 /// Draws vertices onto the surface, but for those where facets would meet.
 /// @returns how many stay outside.
-int DrawBack(Mesh& mesh, const SurfaceDistance& surface) {
+int DrawBack(Mesh& mesh, const SurfaceDistance& surface, double diameter) {
   std::vector<Point> wrapped;
   std::vector<Kernel::Vector_3> normals;
   for (const auto v : mesh.vertices()) wrapped.push_back(mesh.point(v));
@@ -92,7 +107,7 @@ int DrawBack(Mesh& mesh, const SurfaceDistance& surface) {
   // What goes back disturbs only what is about it; all facets are looked at where nothing is left.
   Faces looked = all;
   for (int look = 0; look < kLooks; ++look) {
-    const Faces bad = FindBad(looked, mesh, normals);
+    const Faces bad = FindBad(looked, mesh, normals, diameter);
     if (bad.empty() && looked.size() == all.size()) return static_cast<int>(outside.size());
     for (const auto f : bad) {
       for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
@@ -109,14 +124,15 @@ int DrawBack(Mesh& mesh, const SurfaceDistance& surface) {
 }  // namespace
 
 StageResult WrapSurface(const object::PolygonSoup& soup) {
-  const double radius = kWrapDetail * object::ComputeDiameter(soup.vertices);
+  const double diameter = object::ComputeDiameter(soup.vertices);
+  const double radius = kWrapDetail * diameter;
   StageResult result;
   const Mesh coarse = Wrap(soup, kCoarser * radius, kWrapOffset * radius);
   Mesh mesh = Wrap(soup, radius, kWrapOffset * radius);
   result.facts["volumes"] = {{{"radius", kCoarser * radius}, {"volume", VolumeOf(coarse)}},
                              {{"radius", radius}, {"volume", VolumeOf(mesh)}}};
   result.facts["vertices"] = mesh.num_vertices();
-  result.facts["vertices_outside"] = DrawBack(mesh, SurfaceDistance(soup));
+  result.facts["vertices_outside"] = DrawBack(mesh, SurfaceDistance(soup), diameter);
   result.soup = SoupOf(mesh);
   return result;
 }

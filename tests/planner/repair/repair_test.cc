@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <random>
 
 #include "planner/base/error.h"
 #include "planner/object/mesh_defect.h"
@@ -377,6 +378,20 @@ TEST(Repair, ACloudOfPointsOfAllSidesBecomesABodyAndOneOfOneSideIsRefused) {
   EXPECT_LT(repaired.comparison.invented_share, 0.01);
   std::erase_if(cloud.vertices, [](const Vector3d& v) { return v.z() < 0; });
   EXPECT_THAT(Refusal(cloud), HasSubstr("not all there"));
+}
+
+TEST(Repair, ACloudWhosePointsScatterIsRefusedForThat) {
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> share(-1, 1);
+  PolygonSoup sharp, scattered;
+  while (std::ssize(sharp.vertices) < 1000) {
+    const Vector3d v(share(generator), share(generator), share(generator));
+    if (v.norm() < 0.1 || v.norm() > 1) continue;
+    sharp.vertices.emplace_back(v.normalized());
+    scattered.vertices.emplace_back(v.normalized() * (1 + 0.2 * share(generator)));
+  }
+  EXPECT_NEAR(Repair(sharp, "cloud", {}).volume, 4.0 / 3 * std::numbers::pi, 0.1);
+  EXPECT_THAT(Refusal(scattered), AllOf(HasSubstr("scatter as widely"), HasSubstr("smooth")));
 }
 
 TEST(Repair, ASolidTurnsOutwardsWhicheverWayItsFileDoes) {
