@@ -21,8 +21,8 @@ using Mesh = object::SurfaceMesh;
 
 /// Fills a hole with triangles.
 /// @returns false where that cannot be done, also where its border is long and so tangled that the
-/// Delaunay triangulation of its vertices does not hold triangles that fill it: to look at all others
-/// takes the cube of its length.
+/// Delaunay triangulation of its vertices does not hold triangles that fill it: to look at all
+/// others takes the cube of its length.
 [[nodiscard]] bool FillHole(Mesh& mesh, Mesh::Halfedge_index border);
 
 /// @pre closed.

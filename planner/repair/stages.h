@@ -20,9 +20,9 @@ struct StageResult {
 // They throw std::runtime_error with what they cannot do.
 
 /// The surface of a cloud of points (Cohen-Steiner and Da, advancing front, 2004), without
-/// triangles that bridge what was not scanned. Facts: "scatter", how widely a point's neighbours are
-/// spread across their plane, over how widely they are along it where they are least: near 0 on a
-/// surface, 1 in all directions alike (of the points' scatters the middle one).
+/// triangles that bridge what was not scanned. Facts: "scatter", how widely a point's neighbours
+/// are spread across their plane, over how widely they are along it where they are least: near 0 on
+/// a surface, 1 in all directions alike (of the points' scatters the middle one).
 /// @param cloud  vertices without facets.
 [[nodiscard]] StageResult ReconstructSurface(const object::PolygonSoup& cloud);
 

@@ -50,9 +50,8 @@ using Faces = std::set<Mesh::Face_index>;
 bool IsSliver(const Point& a, const Point& b, const Point& c, double diameter) {
   if (CGAL::collinear(a, b, c)) return true;
   const double double_area = std::sqrt(CGAL::cross_product(b - a, c - a).squared_length());
-  const double longest = std::sqrt(std::max({CGAL::squared_distance(a, b),
-                                             CGAL::squared_distance(b, c),
-                                             CGAL::squared_distance(c, a)}));
+  const double longest = std::sqrt(std::max(
+      {CGAL::squared_distance(a, b), CGAL::squared_distance(b, c), CGAL::squared_distance(c, a)}));
   return double_area / 2 <= object::kSliverThickness * diameter * longest;
 }
 
