@@ -25,7 +25,7 @@ from program_case import ProgramCase
 CGAL_ARCHIVE = "/usr/share/doc/libcgal-demo/data.tar.gz"
 ASSIMP_MODELS = "/usr/share/assimp/models"
 SURFACES = (".3mf", ".dae", ".glb", ".gltf", ".obj", ".off", ".pcd", ".ply", ".pwn", ".stl", ".xyz")
-# More than eight seconds each, and together as long as all others; these take three minutes.
+# More than eight seconds each, and together as long as all others.
 SLOW = {
     "data/meshes/b9.ply", "data/meshes/b9_mesh.off", "data/meshes/polygon_mesh.off",
     "data/points_3/b9_training.ply", "data/points_3/building.ply",
