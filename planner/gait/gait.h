@@ -2,14 +2,11 @@
 
 #include <vector>
 
+#include "planner/gait/holding.h"
 #include "planner/gait/keyframe.h"
 #include "planner/grasp/contact.h"
 
 namespace regrasp::gait {
-
-/// By finger: the contact that it holds, by number; kNone where it is free.
-using Holding = std::vector<int>;
-inline constexpr int kNone = -1;
 
 /// The grasps that a gait begins and ends with, as numbers of contacts; none: any grasp.
 struct GaitEnds {

@@ -43,25 +43,6 @@ constexpr int kPatience = 40;
 /// Of the nodes that a grasp comes to: those drawn to switch fingers at, beside those of its path.
 constexpr int kNodesBeside = 2;
 
-int CountHolding(const Holding& holding) {
-  return static_cast<int>(std::ranges::count_if(holding, [](int point) { return point != kNone; }));
-}
-
-bool Holds(const Holding& holding, int point) {
-  return std::ranges::find(holding, point) != holding.end();
-}
-
-/// Calls `take` with each way to have fingers hold the points, one finger each.
-template <class Take>
-void ForEachAssignment(const std::vector<int>& points, int fingers, const Take& take) {
-  std::vector<int> order(fingers, kNone);
-  std::ranges::copy(points, order.begin());
-  std::ranges::sort(order);
-  do {
-    take(Holding(order));
-  } while (std::ranges::next_permutation(order).found);
-}
-
 }  // namespace
 
 GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& carrier,
@@ -152,8 +133,11 @@ bool GaitSearch::Add(Rest rest) {
 void GaitSearch::AddGivenStart() {
   ForEachAssignment(start_, setup_.scene.finger_count(), [&](Holding holding) {
     Hold hold{std::move(holding)};
-    if (!carrier_.LetFreeFingersWait(hold, grid_.start(), &random_)) ++counts_.colliding;
-    Add({.hold = std::move(hold), .node = grid_.start()});
+    if (carrier_.LetFreeFingersWait(hold, grid_.start(), &random_)) {
+      Add({.hold = std::move(hold), .node = grid_.start()});
+    } else {
+      ++counts_.colliding;
+    }
   });
 }
 

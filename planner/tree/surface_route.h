@@ -33,8 +33,7 @@ struct RouteLimits {
 ///
 /// Laws: the path back has the same length over one edge; never shorter than the straight line.
 /// @returns nullopt where there is none within the limits, or it is cut off by the borders of faces
-/// that are not
-///          convex.
+///          that are not convex.
 [[nodiscard]] std::optional<SurfaceRoute> FindSurfaceRoute(const object::Object& object,
                                                            const grasp::Contact& from,
                                                            const grasp::Contact& to,
