@@ -30,6 +30,14 @@ std::string Replaced(const std::string& text, char what, const std::string& by) 
   return out;
 }
 
+std::string SubcommandNames(const CLI::App& app, const std::string& separator) {
+  std::string text;
+  for (const CLI::App* command : Subcommands(app)) {
+    text += (text.empty() ? "" : separator) + command->get_name();
+  }
+  return text;
+}
+
 /// Within single quotes of zsh, and within brackets there.
 std::string ZshQuoted(std::string text) {
   for (const char c : {'\\', '[', ']'}) text = Replaced(text, c, std::string("\\") + c);
@@ -39,6 +47,43 @@ std::string ZshQuoted(std::string text) {
 /// Within single quotes of fish.
 std::string FishQuoted(const std::string& text) {
   return Replaced(Replaced(text, '\\', "\\\\"), '\'', "\\'");
+}
+
+/// Of a program with subcommands: these and its options at first, and then what the program of the
+/// subcommand's name is completed with. Its completion stands in a file beside.
+std::string BashDispatch(const CLI::App& app) {
+  const std::string& name = app.get_name();
+  return "_regrasp_" + name +
+         "() {\n  local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]}\n"
+         "  if [ \"$COMP_CWORD\" -le 1 ]; then\n    mapfile -t COMPREPLY < <(compgen -W '" +
+         SubcommandNames(app, " ") +
+         " --help --version' -- \"$word\")\n    return\n  fi\n  case $command in\n    " +
+         SubcommandNames(app, "|") +
+         ") ;;\n    *) return ;;\n  esac\n"
+         "  declare -F \"_regrasp_$command\" >/dev/null || . \"${BASH_SOURCE[0]%/*}/$command\"\n"
+         "  \"_regrasp_$command\"\n}\n";
+}
+
+std::string ZshDispatch(const CLI::App& app) {
+  std::string text = "if (( CURRENT == 2 )); then\n  local -a commands=(\n";
+  for (const CLI::App* command : Subcommands(app)) {
+    text += "    '" + command->get_name() + ":" + ZshQuoted(command->get_description()) + "'\n";
+  }
+  return text +
+         "  )\n  _describe command commands\nelse\n  shift words\n  (( CURRENT-- ))\n"
+         "  _normal\nfi\n";
+}
+
+std::string FishDispatch(const CLI::App& app) {
+  const std::string begin = "complete -c " + app.get_name() + " -f -n ";
+  std::string text;
+  for (const CLI::App* command : Subcommands(app)) {
+    text += begin + "__fish_use_subcommand -a " + command->get_name() + " -d '" +
+            FishQuoted(command->get_description()) + "'\n";
+  }
+  return text + begin +
+         "'not __fish_use_subcommand' -a '(set -l words (commandline -opc) (commandline -ct); "
+         "complete -C \"$words[2..-1]\")'\n";
 }
 
 }  // namespace
@@ -58,14 +103,19 @@ std::string BashCompletion(const CLI::App& app) {
               (from.empty() ? "" : " mapfile -t COMPREPLY < <(compgen" + from + " -- \"$word\");") +
               " return ;;\n";
   }
-  return "# bash completion of " + name + "\n_regrasp_" + name +
+  const std::string head = "# bash completion of " + name + "\n";
+  const std::string end = "complete -o filenames -F _regrasp_" + name + " " + name + "\n";
+  if (!Subcommands(app).empty()) return head + BashDispatch(app) + end;
+  return head + "_regrasp_" + name +
          "() {\n  local word=${COMP_WORDS[COMP_CWORD]}\n  case ${COMP_WORDS[COMP_CWORD-1]} in\n" +
          values + "  esac\n  mapfile -t COMPREPLY < <(compgen -W '" + Join(names) +
-         "' -- \"$word\")\n}\ncomplete -o filenames -F _regrasp_" + name + " " + name + "\n";
+         "' -- \"$word\")\n}\n" + end;
 }
 
 std::string ZshCompletion(const CLI::App& app) {
-  std::string text = "#compdef " + app.get_name() + "\n_arguments";
+  const std::string head = "#compdef " + app.get_name() + "\n";
+  if (!Subcommands(app).empty()) return head + ZshDispatch(app);
+  std::string text = head + "_arguments";
   for (const OptionHelp& option : AllOptions(app)) {
     text += " \\\n  '" + option.name + "[" + ZshQuoted(option.summary) + "]";
     if (!option.type.empty()) {
@@ -84,7 +134,7 @@ std::string ZshCompletion(const CLI::App& app) {
 }
 
 std::string FishCompletion(const CLI::App& app) {
-  std::string text;
+  std::string text = Subcommands(app).empty() ? "" : FishDispatch(app);
   for (const OptionHelp& option : AllOptions(app)) {
     // Without files or with them: fish refuses both at once.
     const bool files = TakesFile(option) || TakesFolder(option);

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/commands.h"
 #include "apps/entry_names.h"
 #include "apps/help.h"
 #include "apps/options.h"
@@ -327,8 +328,7 @@ int FigureProgram::Run() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Draws every step of a regrasp plan as a figure for a paper, and a sheet of all.",
-               kProgram);
+  CLI::App app(CommandText(kProgram), kProgram);
   FigureProgram program;
   program.AddTo(app);
   return RunProgram(app, argc, argv, [&] { return program.Run(); });

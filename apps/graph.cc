@@ -4,6 +4,7 @@
 #include <iostream>
 #include <string>
 
+#include "apps/commands.h"
 #include "apps/graph_text.h"
 #include "apps/help.h"
 #include "apps/output_files.h"
@@ -134,7 +135,7 @@ int GraphProgram::Run() const {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Builds the switching graph of an object and prints its size.", kProgram);
+  CLI::App app(CommandText(kProgram), kProgram);
   GraphProgram program;
   program.AddTo(app);
   return RunProgram(app, argc, argv, [&] { return program.Run(); });

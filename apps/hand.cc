@@ -4,6 +4,7 @@
 #include <iostream>
 #include <string>
 
+#include "apps/commands.h"
 #include "apps/help.h"
 #include "apps/options.h"
 #include "apps/output_files.h"
@@ -80,9 +81,7 @@ int HandProgram::Run() const {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Finds palm, fingers and fingertips in a model of a hand, and prints what they can do.",
-      kProgram);
+  CLI::App app(CommandText(kProgram), kProgram);
   HandProgram program;
   program.AddTo(app);
   return RunProgram(app, argc, argv, [&] { return program.Run(); });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <functional>
 #include <optional>
 #include <sstream>
 
@@ -89,12 +90,24 @@ std::string HeadOf(const OptionHelp& option) {
   return option.name + (option.type.empty() ? "" : " " + option.type);
 }
 
-std::string DescribeOption(const OptionHelp& option, int width) {
-  const std::string head = "  " + HeadOf(option);
-  const std::string text =
-      Wrap(option.text + (option.required ? " (required)" : ""), kTextColumn, width);
+/// A name, and beside or below it what it does.
+std::string Describe(const std::string& name, const std::string& what, int width) {
+  const std::string head = "  " + name;
+  const std::string text = Wrap(what, kTextColumn, width);
   if (Length(head) + 2 > kTextColumn) return head + "\n" + text;
   return head + text.substr(Length(head));
+}
+
+std::string DescribeOption(const OptionHelp& option, int width) {
+  return Describe(HeadOf(option), option.text + (option.required ? " (required)" : ""), width);
+}
+
+std::string DescribeSubcommands(const CLI::App& app, int width) {
+  std::string text;
+  for (const CLI::App* command : Subcommands(app)) {
+    text += Describe(command->get_name(), command->get_description(), width);
+  }
+  return text.empty() ? "" : "\nCommands:\n" + text;
 }
 
 }  // namespace
@@ -119,8 +132,12 @@ std::vector<HelpGroup> HelpGroups(const CLI::App& app) {
   return groups;
 }
 
+std::vector<const CLI::App*> Subcommands(const CLI::App& app) {
+  return app.get_subcommands(std::function<bool(const CLI::App*)>());
+}
+
 std::string UsageText(const CLI::App& app) {
-  std::string usage = app.get_name();
+  std::string usage = app.get_name() + (Subcommands(app).empty() ? "" : " COMMAND");
   for (const HelpGroup& group : HelpGroups(app)) {
     for (const OptionHelp& option : group.options) {
       if (option.required) usage += " " + HeadOf(option);
@@ -130,8 +147,8 @@ std::string UsageText(const CLI::App& app) {
 }
 
 std::string HelpText(const CLI::App& app, int width) {
-  std::string text =
-      Wrap(app.get_description(), 0, width) + "\nUsage:\n" + Wrap(UsageText(app), 2, width);
+  std::string text = Wrap(app.get_description(), 0, width) + "\nUsage:\n" +
+                     Wrap(UsageText(app), 2, width) + DescribeSubcommands(app, width);
   for (const HelpGroup& group : HelpGroups(app)) {
     text += "\n" + group.name + ":\n";
     for (const OptionHelp& option : group.options) text += DescribeOption(option, width);

@@ -31,11 +31,15 @@ void BeginGroup(CLI::App& app, const std::string& name);
 /// All options in their groups, in the order in which they were added.
 [[nodiscard]] std::vector<HelpGroup> HelpGroups(const CLI::App& app);
 
-/// "plan --object FILE --start FILE|random [options]".
+/// The subcommands of `regrasp`; other programs have none.
+[[nodiscard]] std::vector<const CLI::App*> Subcommands(const CLI::App& app);
+
+/// "plan --object FILE --start FILE|random [options]", "regrasp COMMAND [options]".
 [[nodiscard]] std::string UsageText(const CLI::App& app);
 
-/// What --help prints: usage, what the program does, the options by groups, and the examples (the
-/// app's footer). Lines are no longer than `width` characters where words are not.
+/// What --help prints: usage, what the program does, its subcommands, the options by groups, and
+/// the examples (the app's footer). Lines are no longer than `width` characters where words are
+/// not.
 [[nodiscard]] std::string HelpText(const CLI::App& app, int width);
 
 /// How wide text on standard output may be: COLUMNS, or what the terminal says, otherwise 80.

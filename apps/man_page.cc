@@ -52,6 +52,16 @@ std::string OptionText(const OptionHelp& option) {
          Escape(option.text + (option.required ? " (required)" : "")) + "\n";
 }
 
+/// Each with its own page.
+std::string CommandsText(const CLI::App& app) {
+  std::string text;
+  for (const CLI::App* command : Subcommands(app)) {
+    text += ".TP\n.BR " + Escape(command->get_name()) + " (1)\n" +
+            Escape(command->get_description()) + "\n";
+  }
+  return text.empty() ? "" : ".SH COMMANDS\n" + text;
+}
+
 constexpr char kExitStatus[] =
     ".SH EXIT STATUS\n"
     ".TP\n.B 0\ndone; of\n.BR validate (1):\npass\n"
@@ -66,7 +76,7 @@ std::string ManPage(const CLI::App& app) {
   std::string page = ".TH " + Upper(app.get_name()) + " 1 \"\" \"regrasp " + ProgramVersion() +
                      "\" \"regrasp\"\n.SH NAME\n" + app.get_name() + " \\- " +
                      Escape(app.get_description()) + "\n.SH SYNOPSIS\n" + Escape(UsageText(app)) +
-                     "\n.SH OPTIONS\n";
+                     "\n" + CommandsText(app) + ".SH OPTIONS\n";
   for (const HelpGroup& group : HelpGroups(app)) {
     page += ".SS " + Escape(group.name) + "\n";
     for (const OptionHelp& option : group.options) page += OptionText(option);

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 
+#include "apps/commands.h"
 #include "apps/hand_options.h"
 #include "apps/help.h"
 #include "apps/nearest_word.h"
@@ -370,8 +371,7 @@ void PlanProgram::PrintSummary(const planning::PlanResult& result,
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Finds a regrasp sequence from a start grasp to a goal grasp and writes a plan.",
-               kProgram);
+  CLI::App app(CommandText(kProgram), kProgram);
   PlanProgram program;
   program.AddTo(app);
   return RunProgram(app, argc, argv, [&] { return program.Run(); });

@@ -75,11 +75,14 @@ void CheckKnown(const CLI::App& app, int argc, const char* const* argv) {
 }
 
 int Run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
-  CheckKnown(app, argc, argv);
   if (argc == 3 && argv[1] == std::string(kHelpAs)) {
     std::cout << FormatHelpAs(argv[2], app);
     return kExitDone;
   }
+  // What is said of the command line names the program as it was called.
+  const std::string called = "regrasp " + app.get_name();
+  if (argc > 0 && argv[0] == called) app.name(called);
+  CheckKnown(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

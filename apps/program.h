@@ -21,7 +21,8 @@ enum ExitCode : int {
 /// Bad usage and InputError give 2. EnvironmentError, exhausted memory and a standard output that
 /// cannot be written give 3, and so does an error that nobody foresaw, which is ours. --help and
 /// --version print to standard output and give 0, and so does `--help-as man|bash|zsh|fish`, alone
-/// on the command line: what the build makes the manual page and completions with. An option that
+/// on the command line: what the build makes the manual page and completions with. Called as
+/// "regrasp plan", by `regrasp`, usage and hints say so. An option that
 /// there is not is told before all else, with the one that was probably meant. Closed standard
 /// streams are taken, so that no file gets their place; SIGXFSZ is ignored, so that a file that may
 /// not grow is an error.

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "apps/commands.h"
 #include "apps/help.h"
 #include "apps/options.h"
 #include "apps/output_files.h"
@@ -85,9 +86,7 @@ void RepairProgram::WriteReport(const Json& json) const {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Makes a solid of a scan, a broken mesh or several shells, and says what it changed.",
-      kProgram);
+  CLI::App app(CommandText(kProgram), kProgram);
   RepairProgram program;
   program.AddTo(app);
   return RunProgram(app, argc, argv, [&] { return program.Run(); });

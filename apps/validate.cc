@@ -1,6 +1,7 @@
 // validate: checks a plan, a library of plans or a single grasp analytically, replays it in MuJoCo,
 // draws a frame of each step, and says pass or fail.
 
+#include "apps/commands.h"
 #include "apps/program.h"
 #include "apps/validate_batch.h"
 #include "apps/validate_options.h"
@@ -9,12 +10,7 @@
 int main(int argc, char** argv) {
   using namespace regrasp::apps;
   using namespace regrasp;
-  CLI::App app(
-      "Checks a regrasp plan, a library of plans or a single grasp analytically, replays it in "
-      "MuJoCo with frictional "
-      "point fingers, "
-      "shakes the object at every rest state, and says pass or fail.",
-      kValidateName);
+  CLI::App app(CommandText(kValidateName), kValidateName);
   ValidateOptions options;
   options.AddTo(app);
   return RunProgram(app, argc, argv, [&] {

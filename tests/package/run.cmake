@@ -18,9 +18,9 @@ run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_BU
     -DREGRASP_INCLUDE=${prefix}/include/regrasp)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer ${MODEL})
-foreach(program plan validate graph figure repair hand)
+foreach(program regrasp plan validate graph figure repair hand)
   run(${prefix}/bin/${program} --version)
-  foreach(text man/man1/${program}.1 bash-completion/completions/${program}
+  foreach(text man/man1/${program}.1.gz bash-completion/completions/${program}
           zsh/site-functions/_${program} fish/vendor_completions.d/${program}.fish)
     if(NOT EXISTS ${prefix}/share/${text})
       message(FATAL_ERROR "share/${text} is not installed")

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace regrasp::apps {
+
+/// A program, which is also a subcommand of `regrasp`.
+struct Command {
+  const char* name;
+  const char* text;  ///< what it does, a sentence
+};
+
+inline constexpr std::array<Command, 6> kCommands = {{
+    {"plan", "Finds a regrasp sequence from a start grasp to a goal grasp and writes a plan."},
+    {"validate",
+     "Checks a regrasp plan, a library of plans or a single grasp analytically, replays it in "
+     "MuJoCo with frictional point fingers, shakes the object at every rest state, and says pass "
+     "or fail."},
+    {"graph", "Builds the switching graph of an object and prints its size."},
+    {"figure", "Draws every step of a regrasp plan as a figure for a paper, and a sheet of all."},
+    {"repair",
+     "Makes a solid of a scan, a broken mesh or several shells, and says what it changed."},
+    {"hand",
+     "Finds palm, fingers and fingertips in a model of a hand, and prints what they can do."},
+}};
+
+/// What the program of this name does; empty where there is none.
+[[nodiscard]] inline std::string CommandText(const std::string& name) {
+  for (const Command& command : kCommands) {
+    if (command.name == name) return command.text;
+  }
+  return "";
+}
+
+}  // namespace regrasp::apps

@@ -1,0 +1,66 @@
+// regrasp: the programs under one name, `regrasp plan` for `plan`.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/commands.h"
+#include "apps/nearest_word.h"
+#include "apps/program.h"
+#include "planner/base/error.h"
+
+namespace {
+
+using namespace regrasp::apps;
+using namespace regrasp;
+
+constexpr char kProgram[] = "regrasp";
+
+/// @throws InputError  there is none of this name.
+void CheckCommand(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) names.emplace_back(command.name);
+  if (std::ranges::find(names, name) != names.end()) return;
+  throw InputError("unknown command " + name + DidYouMean(name, names) +
+                   " (regrasp --help lists all)");
+}
+
+/// Becomes the program of that name, which stands beside this one: exit codes, signals and streams
+/// are its own.
+/// @param argv  from the command on; ends with a null pointer.
+/// @throws EnvironmentError  it does not start.
+[[noreturn]] void Become(const std::string& name, char** argv) {
+  std::error_code unknown;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  const std::string program = self.parent_path() / name;
+  // By this name it knows how it was called.
+  std::string called = std::string(kProgram) + " " + name;
+  argv[0] = called.data();
+  execv(program.c_str(), argv);
+  throw EnvironmentError(program + " cannot be started: " + std::strerror(errno));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 1 && argv[1][0] != '-') {
+    return RunGuarded(kProgram, [argv]() -> int {
+      CheckCommand(argv[1]);
+      Become(argv[1], argv + 1);
+    });
+  }
+  CLI::App app("Plans how a hand changes its grip on an object, and validates such plans.",
+               kProgram);
+  for (const Command& command : kCommands) app.add_subcommand(command.name, command.text);
+  app.footer(
+      "  regrasp plan --help\n"
+      "  regrasp validate --object cube.obj --plan plan.json\n");
+  return RunProgram(app, argc, argv, []() -> int {
+    throw InputError("a command is required (regrasp --help lists all)");
+  });
+}
