@@ -21,6 +21,7 @@ set(regrasp_slow_tests
   apps.shells
   apps.smooth_models
   apps.trials
+  apps.tutorials
   apps.validate
   fuzz.assimp
   fuzz.grasp
