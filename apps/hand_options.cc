@@ -95,6 +95,14 @@ void HandOptions::AddTo(CLI::App& app) {
             "What links keep from each other, from the palm and from the object; in metres "
             "(default 0.001)",
             "M");
+  AddChoice<gait::Reserve>(
+      app, "--reserve", reserve,
+      {{"preferred", gait::Reserve::kPreferred},
+       {"required", gait::Reserve::kRequired},
+       {"none", gait::Reserve::kNone}},
+      "Something to spare, for the hand's own motors: less friction used, better grasps that also "
+      "hold where contacts roll to, more clearance, no slides. preferred, it is looked for first "
+      "(30 % of the time); required, or there is no plan; none (default preferred)");
 }
 
 void HandOptions::Check(const std::string& start, const std::string& goal) const {
@@ -118,6 +126,7 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
 }
 
 void HandOptions::AskFor(gait::GaitRequest& request) const {
+  request.reserve = reserve;
   if (!turn.empty()) request.turn = ParseTurn(turn);
   if (!start_pose.empty()) request.start_pose = ParsePose("--start-pose", start_pose);
   if (!goal_pose.empty()) request.goal_pose = ParsePose("--goal-pose", goal_pose);

@@ -15,6 +15,7 @@ struct HandOptions {
   std::string start_pose;
   std::string goal_pose;
   double clearance_m = 1e-3;
+  gait::Reserve reserve = gait::Reserve::kPreferred;
 
   void AddTo(CLI::App& app);
 

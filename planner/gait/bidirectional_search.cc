@@ -65,6 +65,7 @@ GaitCounts BidirectionalSearch::counts() const {
   counts.no_slide += other.no_slide;
   counts.no_move += other.no_move;
   counts.colliding += other.colliding;
+  counts.rolled += other.rolled;
   return counts;
 }
 

@@ -76,7 +76,7 @@ std::string ExplainGait(const GaitRequest& request) {
       if (i >= kind.changes.size() || !kind.helps.empty()) continue;
       GaitRequest changed = request;
       const std::string words = kind.change(kind.changes[i], changed);
-      changed.with_reserve = false;
+      if (changed.reserve == Reserve::kPreferred) changed.reserve = Reserve::kNone;
       changed.most_expanded = std::min(kExpandedAtMost, request.most_expanded);
       changed.progress = [&](std::string_view) { request.progress("trying " + words); };
       if (FindGait(changed).gait) kind.helps = words;

@@ -22,8 +22,8 @@ constexpr int kExpandedForNext = 20;
 /// Times that places are looked for.
 constexpr int kDrawings = 4;
 
-/// Of gaits with reserve, without slides: the share of the friction that they are planned with,
-/// their quality, what links keep off beside the margin, metres, and what is spent on them before
+/// Of gaits with reserve: the share of the friction that they are planned with,
+/// their quality, what links keep off beside the margin, metres, and what is spent on them where
 /// others are good enough: grasps that are expanded, share of the time.
 constexpr double kLessFriction = 0.7;
 constexpr double kReserveQuality = 0.05;
@@ -189,6 +189,10 @@ std::string WhatStopped(const GaitRequest& request, const std::vector<GaitCounts
   add(best.no_path, "for which a finger has no free path");
   add(best.no_slide, "for which a finger cannot slide");
   add(best.no_move, "with moves that fingers cannot follow");
+  add(best.rolled, "that no longer hold where their contacts roll to");
+  if (request.reserve == Reserve::kRequired) {
+    text += "; without reserve there may be a plan";
+  }
   return text;
 }
 
@@ -210,9 +214,11 @@ GaitRequest WithReserve(GaitRequest request) {
   criteria::GraspCriteria& criteria = request.criteria;
   criteria.half_angle = std::atan(kLessFriction * std::tan(criteria.half_angle));
   criteria.min_quality = std::max(criteria.min_quality, kReserveQuality);
-  request.most_expanded = std::min(request.most_expanded, kExpandedWithReserve);
   request.margin += kMoreClearance;
-  request.deadline = request.deadline.After(kTimeWithReserve);
+  if (request.reserve == Reserve::kPreferred) {
+    request.most_expanded = std::min(request.most_expanded, kExpandedWithReserve);
+    request.deadline = request.deadline.After(kTimeWithReserve);
+  }
   return request;
 }
 
@@ -231,11 +237,13 @@ GaitResult FindGait(const GaitRequest& request) {
   inverse.reserve(request.hand->fingers.size());
   for (const kinematics::Finger& finger : request.hand->fingers) inverse.emplace_back(finger);
   const collision::SurfaceTree surface(*request.solid, request.scale);
+  const collision::BallContact rolled_on(*request.solid, request.scale);
   const hand::Hand fingers{static_cast<int>(request.hand->fingers.size()),
                            LargestTip(*request.hand) / request.scale};
   const auto search = [&](const GaitRequest& asked, bool is_reserve) {
     const HandScene scene(*request.hand, surface, asked.margin);
-    const HandSetup setup{scene, inverse, points, request.scale, !is_reserve};
+    const HandSetup setup{scene, inverse, points, request.scale,
+                          is_reserve ? &rolled_on : nullptr};
     criteria::GraspMemory memory(*asked.solid, asked.criteria, fingers,
                                  criteria::QualityTest::kQuick);
     memory.Append(result.contacts);
@@ -243,8 +251,8 @@ GaitResult FindGait(const GaitRequest& request) {
     result.gait = places.Search();
     result.counts = places.counts();
   };
-  if (request.with_reserve) search(WithReserve(request), true);
-  if (!result.gait) search(request, false);
+  if (request.reserve != Reserve::kNone) search(WithReserve(request), true);
+  if (!result.gait && request.reserve != Reserve::kRequired) search(request, false);
   if (!result.gait) result.message = WhatStopped(request, result.counts);
   return result;
 }

@@ -16,6 +16,15 @@
 
 namespace regrasp::gait {
 
+/// Whether a gait is to have something to spare, so that motors can carry it out: friction, better
+/// grasps, more clearance, grasps that hold where their contacts have rolled to, and no slides,
+/// whose drag the fingers that hold can seldom balance.
+enum class Reserve {
+  kNone,       ///< is not looked for
+  kPreferred,  ///< is looked for first, for a while
+  kRequired,
+};
+
 /// What is asked of a hand: that the object turns, or goes to a pose, or is held by another grasp
 /// in the end, or both. Poses are of the object's own frame (its file's axes and origin) in the
 /// palm's, metres.
@@ -24,10 +33,7 @@ struct GaitRequest {
   const object::Polyhedron* solid = nullptr;
   double scale = 1;  ///< metres per unit of the solid's file
   criteria::GraspCriteria criteria;
-  /// Whether a gait is looked for first that has some friction and room to spare, better grasps
-  /// and no slides, whose drag the fingers that hold can seldom balance: motors can carry such
-  /// gaits out.
-  bool with_reserve = true;
+  Reserve reserve = Reserve::kPreferred;
   double margin = 1e-3;  ///< between links, palm and object, metres
   Turn turn;             ///< about the object's centre, which may end some millimetres away
   std::optional<Eigen::Isometry3d> start_pose;  ///< none: where the hand's reach is best
@@ -48,7 +54,7 @@ struct GaitResult {
 };
 
 /// Finds a gait of the hand that turns the object: chooses where in the hand it begins and with
-/// which grasp. What is told of a search that found none is of the one without reserve.
+/// which grasp. What is told of a search that found none is of the last one.
 ///
 /// Laws: without a deadline the same request gives the same gait, bit for bit; every rest is force
 /// closure and meets the criteria where it can; every path is certified (certified_path.h).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "planner/gait/move_path.h"
 #include "planner/gait/slide_path.h"
@@ -101,6 +102,39 @@ bool GaitSearch::IsGrasp(const Holding& holding) {
   return set.size() >= kFewestHolding && memory_.Admits(set);
 }
 
+GaitSearch::RolledTo GaitSearch::RollTowards(const Rest& rest, int node) {
+  RolledTo rolled{rest.node, rest.contacts};
+  if (setup_.rolled_on == nullptr) return {node, {}};
+  const std::vector<int> path = rest.carried.PathTo(node);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    RolledContacts contacts = rolled.contacts;
+    for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+      const int point = rest.hold.holding[finger];
+      if (point == kNone) continue;
+      const kinematics::Finger& chain = setup_.scene.finger(finger);
+      const auto ball_at = [&](int at) {
+        return BallIn(chain, *carrier_.reach().Find(finger, point, at), grid_.PoseAt(at));
+      };
+      const Eigen::Matrix3d turn = ball_at(path[i]) * ball_at(path[i - 1]).transpose();
+      contacts[finger] = Rolled(*contacts[finger], turn, chain.tip.radius, *setup_.rolled_on);
+    }
+    if (!HoldsAt(contacts)) break;
+    rolled = {path[i], std::move(contacts)};
+  }
+  if (rolled.node != node) ++counts_.rolled;
+  return rolled;
+}
+
+bool GaitSearch::HoldsAt(const RolledContacts& contacts) {
+  if (setup_.rolled_on == nullptr) return true;
+  grasp::Grasp grasp;
+  for (const auto& contact : contacts) {
+    if (contact) grasp.push_back({contact->p / setup_.scale, contact->n, {}});
+  }
+  criteria::KnownGrasp known;
+  return memory_.GraspEvaluator::Admits(known, [&] { return std::span(std::as_const(grasp)); });
+}
+
 double GaitSearch::ScoreOf(const Rest& rest, int last) {
   double sum = 0;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
@@ -115,6 +149,16 @@ double GaitSearch::ScoreOf(const Rest& rest, int last) {
 
 bool GaitSearch::Add(Rest rest) {
   if (!IsGrasp(rest.hold.holding)) return false;
+  rest.contacts.resize(rest.hold.holding.size());
+  for (std::size_t finger = 0; finger < rest.contacts.size(); ++finger) {
+    const int point = rest.hold.holding[finger];
+    if (point == kNone) rest.contacts[finger].reset();
+    else if (!rest.contacts[finger]) rest.contacts[finger] = setup_.points[point];
+  }
+  if (!HoldsAt(rest.contacts)) {
+    ++counts_.rolled;
+    return false;
+  }
   std::vector<int>& taken = taken_[rest.hold.holding];
   if (std::ranges::find(taken, rest.node) != taken.end()) return false;
   taken.push_back(rest.node);
@@ -173,7 +217,7 @@ void GaitSearch::AddSwitches(const Holding& from, FingerIndex placed, int point,
 }
 
 bool GaitSearch::MaySlide(int from, int to) {
-  return setup_.may_slide && routes_.Between(from, to) != nullptr;
+  return setup_.rolled_on == nullptr && routes_.Between(from, to) != nullptr;
 }
 
 std::vector<GaitSearch::Change> GaitSearch::ChangesFrom(const Holding& from, int node) {
@@ -235,6 +279,8 @@ std::optional<GaitSearch::Rest> GaitSearch::After(const Rest& from, const Change
 
 void GaitSearch::SwitchAt(int index, int node) {
   const Rest from = rests_[index];
+  const RolledTo rolled = RollTowards(from, node);
+  if (rolled.node != node) return;
   std::vector<Rest> found;
   for (const Change& change : ChangesFrom(from.hold.holding, node)) {
     if (auto rest = After(from, change, node)) found.push_back(*std::move(rest));
@@ -252,6 +298,7 @@ void GaitSearch::SwitchAt(int index, int node) {
     if (change.released.valid()) all.holding[change.released] = from.hold.holding[change.released];
     if (change.placed.valid() && !carrier_.IsPassable(all, rest.node)) continue;
     rest.parent = index;
+    rest.contacts = rolled.contacts;
     if (!Add(std::move(rest))) continue;
     ++taken;
     ++alike;
@@ -474,6 +521,7 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     rest.carried = carrier_.Around(
         rest.hold, rest.node, kPatience * (1 + rest.turns),
         [&](int node) { return grid_.IsGoal(node) && goal_.IsHeldBy(rest.hold.holding); });
+    rest.carried.end = RollTowards(rest, rest.carried.end).node;
     if (std::optional<Gait> gait = GaitFrom(index)) return gait;
     std::vector<int>& passed = passed_[rest.hold.holding];
     for (const auto& [node, from] : rest.carried.from) passed.push_back(node);

@@ -16,6 +16,7 @@
 #include "planner/gait/goal_grasp.h"
 #include "planner/gait/hand_setup.h"
 #include "planner/gait/pose_grid.h"
+#include "planner/gait/rolling.h"
 #include "planner/gait/slide_path.h"
 
 namespace regrasp::gait {
@@ -28,6 +29,7 @@ struct GaitCounts {
   std::int64_t no_slide = 0;   ///< slides that a finger could not follow, or that lose the object
   std::int64_t no_move = 0;    ///< moves that a finger could not follow, or that hit something
   std::int64_t colliding = 0;  ///< grasps in which fingers hit each other
+  std::int64_t rolled = 0;     ///< that are lost where contacts roll, with reserve
   int farthest = 0;            ///< step of the track that was reached
   int steps = 0;               ///< that it has
 };
@@ -99,6 +101,12 @@ class GaitSearch {
     /// Moves that were worked out, by where they lead; empty ones can't be done.
     std::map<int, std::vector<Keyframe>> moves = {};
     Keyframe at = {};  ///< at `node`
+    RolledContacts contacts = {};  ///< where they have rolled to, at `node`
+  };
+  /// The last node on a way at which contacts that roll hold, and where they are there.
+  struct RolledTo {
+    int node = 0;
+    RolledContacts contacts;
   };
   struct Waiting {
     double score;
@@ -130,6 +138,10 @@ class GaitSearch {
   /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
   bool Add(Rest rest);
   [[nodiscard]] bool IsGrasp(const Holding& holding);
+  /// Where contacts roll to when the object is carried towards a node.
+  [[nodiscard]] RolledTo RollTowards(const Rest& rest, int node);
+  /// Whether contacts that have rolled are a grasp, where that is asked for.
+  [[nodiscard]] bool HoldsAt(const RolledContacts& contacts);
   [[nodiscard]] bool WasExpandedAt(const Rest& rest) const;
   [[nodiscard]] double ScoreOf(const Rest& rest, int last);
   [[nodiscard]] bool WorkOutWay(Rest& rest);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "planner/collision/ball_contact.h"
 #include "planner/gait/hand_scene.h"
 #include "planner/gait/reach_map.h"
 #include "planner/kinematics/inverse_kinematics.h"
@@ -13,8 +14,10 @@ struct HandSetup {
   const HandScene& scene;
   const std::vector<kinematics::InverseKinematics>& inverse;  ///< by finger
   const std::vector<SurfacePoint>& points;
-  double scale = 1;       ///< metres per unit of the object's file
-  bool may_slide = true;  ///< fingers that hold may slide along the surface
+  double scale = 1;  ///< metres per unit of the object's file
+  /// For gaits with reserve: no finger slides, and grasps hold where their contacts have rolled to
+  /// on this surface. Null: contacts count as they are planned, and fingers may slide.
+  const collision::BallContact* rolled_on = nullptr;
 };
 
 /// By finger: postures in which it may wait while it holds nothing, the best first.

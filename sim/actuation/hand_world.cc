@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "planner/base/error.h"
+#include "planner/collision/ball_contact.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/mujoco_model.h"
-#include "sim/actuation/ball_contact.h"
 #include "sim/actuation/drive_servo.h"
 #include "sim/actuation/hand_scene_text.h"
 #include "sim/actuation/tip_contact.h"
@@ -64,7 +64,7 @@ struct HandWorld::Impl {
 
   EngineHooks hooks;
   kinematics::HandModel hand;
-  BallContact surface;
+  collision::BallContact surface;
   HandWorldOptions options;
   kinematics::ModelPtr model;
   kinematics::DataPtr data;
@@ -181,7 +181,7 @@ struct HandWorld::Impl {
     std::optional<std::vector<int>> triangles;
   };
   std::vector<Neighbourhood> neighbourhoods;
-  std::vector<std::optional<NearPoint>> nearest;  ///< to each tip, in the object's frame
+  std::vector<std::optional<collision::NearPoint>> nearest;  ///< to each tip, in the object's frame
 
   /// The ball's speed where it is at `point`, of a body.
   [[nodiscard]] Vector3d SpeedAt(int body, const Vector3d& point) const {
@@ -206,16 +206,16 @@ struct HandWorld::Impl {
         around.triangles = surface.Around(centre, radius + kNear + kNeighbourhood);
       }
       // Of what is farther only the nearest point counts, where nothing touches.
-      std::vector<NearPoint> found = surface.Find(centre, radius, *around.triangles);
+      std::vector<collision::NearPoint> found = surface.Find(centre, radius, *around.triangles);
       if (found.empty()) found = surface.Find(centre, radius + kNear, *around.triangles);
       if (!found.empty()) nearest[finger] = found.front();
-      for (const NearPoint& near : found) {
+      for (const collision::NearPoint& near : found) {
         if (near.distance < radius) AddContact(finger, near, pose);
       }
     }
   }
 
-  void AddContact(FingerIndex finger, const NearPoint& near, const Isometry3d& pose) {
+  void AddContact(FingerIndex finger, const collision::NearPoint& near, const Isometry3d& pose) {
     mjContact contact = {};
     contact.dist = near.distance - hand.fingers[finger].tip.radius;
     const Vector3d normal = pose.linear() * near.outward;
@@ -304,7 +304,7 @@ TipTouch HandWorld::touch(FingerIndex finger) const {
   const Impl& impl = *impl_;
   TipTouch touch;
   const Isometry3d pose = impl.ObjectInWorld();
-  const std::optional<NearPoint>& near = impl.nearest[finger];
+  const std::optional<collision::NearPoint>& near = impl.nearest[finger];
   if (!near) return touch;
   touch.point_O = near->point;
   touch.inward_O = -near->outward;

@@ -5,10 +5,13 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "planner/base/angle.h"
 #include "planner/gait/explain_gait.h"
 #include "planner/gait/plan_of_gait.h"
+#include "planner/gait/rolling.h"
+#include "planner/grasp/required_half_angle.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/check.h"
@@ -105,6 +108,75 @@ TEST(FindGaitTest, PlansAreRightAsPlansOfContacts) {
       EXPECT_EQ(step.reason, plan::Reason::kNone) << model << " " << step.index << step.detail;
     }
   }
+}
+
+/// The largest friction angle that a gait's grasps need where balls roll all along its moves, seen
+/// by keyframes.
+double RequiredWhereItRolls(const Gait& gait, const GaitRequest& request,
+                            const std::vector<grasp::Contact>& contacts) {
+  const collision::BallContact surface(*request.solid, request.scale);
+  const object::WrenchFrame frame = request.solid->wrench_frame();
+  std::vector<std::optional<SurfacePoint>> rolled(gait.initial.size());
+  const auto take = [&](FingerIndex finger, int contact) {
+    rolled[finger] = {request.scale * contacts[contact].p, contacts[contact].n};
+  };
+  for (FingerIndex f{0}; f < std::ssize(gait.initial); ++f) {
+    if (gait.initial[f] != kNone) take(f, gait.initial[f]);
+  }
+  double required = 0;
+  for (const Stretch& stretch : gait.stretches) {
+    if (stretch.kind == Stretch::Kind::kPlace) take(stretch.finger, stretch.contact);
+    if (stretch.kind == Stretch::Kind::kRelease) rolled[stretch.finger].reset();
+    if (stretch.kind != Stretch::Kind::kMove) continue;
+    for (std::size_t i = 1; i < stretch.path.size(); ++i) {
+      grasp::Grasp grasp;
+      for (FingerIndex f{0}; f < std::ssize(rolled); ++f) {
+        if (!rolled[f]) continue;
+        const kinematics::Finger& chain = request.hand->fingers[f];
+        const auto ball = [&](const Keyframe& at) {
+          return BallIn(chain, at.postures[f], at.pose);
+        };
+        rolled[f] = Rolled(*rolled[f], ball(stretch.path[i]) * ball(stretch.path[i - 1]).inverse(),
+                           chain.tip.radius, surface);
+        grasp.push_back({rolled[f]->p / request.scale, rolled[f]->n, {}});
+      }
+      const auto angle = grasp::ComputeRequiredHalfAngle(grasp, frame);
+      required = std::max(required, angle ? angle->upper : std::numbers::pi / 2);
+    }
+  }
+  return required;
+}
+
+TEST(FindGaitTest, GraspsOfAGaitWithReserveHoldWhereTheirContactsRollTo) {
+  double worst_without = 0;
+  for (int seed = 1; seed <= 4; ++seed) {
+    GaitRequest request = RequestFor("cube", 0.8, 90);
+    request.seed = seed;
+    request.reserve = Reserve::kRequired;
+    const GaitResult with = FindGait(request);
+    ASSERT_TRUE(with.gait) << with.message;
+    EXPECT_LT(RequiredWhereItRolls(*with.gait, request, with.contacts),
+              request.criteria.half_angle);
+    for (const Stretch& stretch : with.gait->stretches) {
+      EXPECT_NE(stretch.kind, Stretch::Kind::kSlide);
+    }
+    request.reserve = Reserve::kNone;
+    const GaitResult without = FindGait(request);
+    ASSERT_TRUE(without.gait);
+    worst_without = std::max(
+        worst_without, RequiredWhereItRolls(*without.gait, request, without.contacts));
+  }
+  EXPECT_GT(worst_without, std::atan(0.8));
+}
+
+TEST(FindGaitTest, WhereNothingIsToSpareARequiredReserveIsToldOf) {
+  GaitRequest request = RequestFor("cube", 0.8, 90);
+  request.criteria.half_angle = std::atan(0.35);
+  request.reserve = Reserve::kRequired;
+  request.most_expanded = 60;
+  const GaitResult found = FindGait(request);
+  EXPECT_FALSE(found.gait);
+  EXPECT_THAT(found.message, testing::HasSubstr("without reserve there may be a plan"));
 }
 
 TEST(FindGaitTest, TheSameRequestGivesTheSameGait) {

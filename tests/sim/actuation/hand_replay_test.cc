@@ -205,7 +205,7 @@ plan::Plan SlidingPlan(double way) {
   request.scale = kScale;
   request.criteria.half_angle = std::atan(kMu);
   request.seed = 1;
-  request.with_reserve = false;  // which has no slides
+  request.reserve = gait::Reserve::kNone;  // which has no slides
   request.start_pose = gait::FindGait(request).gait->start.pose;
   request.goal_pose = request.start_pose;
   grasp::Grasp grasp;

@@ -1,9 +1,9 @@
-#include "sim/actuation/ball_contact.h"
+#include "planner/collision/ball_contact.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace regrasp::sim {
+namespace regrasp::collision {
 namespace {
 
 using Eigen::Vector3d;
@@ -103,4 +103,4 @@ std::vector<NearPoint> BallContact::Find(const Vector3d& centre, double reach,
   return found;
 }
 
-}  // namespace regrasp::sim
+}  // namespace regrasp::collision

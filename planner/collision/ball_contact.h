@@ -6,7 +6,7 @@
 
 #include "planner/object/polyhedron.h"
 
-namespace regrasp::sim {
+namespace regrasp::collision {
 
 /// A point of a surface that is near a ball.
 struct NearPoint {
@@ -43,4 +43,4 @@ class BallContact {
   std::vector<Triangle> triangles_;
 };
 
-}  // namespace regrasp::sim
+}  // namespace regrasp::collision

@@ -1,4 +1,4 @@
-#include "sim/actuation/ball_contact.h"
+#include "planner/collision/ball_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "planner/base/random.h"
 #include "planner/object/object.h"
 
-namespace regrasp::sim {
+namespace regrasp::collision {
 namespace {
 
 using Eigen::Vector3d;
@@ -101,4 +101,4 @@ TEST(BallContactTest, AmongTheTrianglesAroundItIsTheSameToTheBit) {
 }
 
 }  // namespace
-}  // namespace regrasp::sim
+}  // namespace regrasp::collision
