@@ -242,8 +242,7 @@ GaitResult FindGait(const GaitRequest& request) {
                            LargestTip(*request.hand) / request.scale};
   const auto search = [&](const GaitRequest& asked, bool is_reserve) {
     const HandScene scene(*request.hand, surface, asked.margin);
-    const HandSetup setup{scene, inverse, points, request.scale,
-                          is_reserve ? &rolled_on : nullptr};
+    const HandSetup setup{scene, inverse, points, request.scale, is_reserve ? &rolled_on : nullptr};
     criteria::GraspMemory memory(*asked.solid, asked.criteria, fingers,
                                  criteria::QualityTest::kQuick);
     memory.Append(result.contacts);

@@ -16,6 +16,14 @@ constexpr double kLowestAbove = 0.003;
 constexpr double kHighestAbove = 0.020;
 constexpr double kDescent = 0.002;  // between postures of the way down
 
+/// Whether a finger's drives may go straight from a posture to another one.
+bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from, const Posture& to,
+             TipContact tip, const Surroundings& around) {
+  return IsClear(scene, finger, from, to, around.pose, tip, around.others) &&
+         (around.rolled.empty() ||
+          IsClear(scene, finger, from, to, around.pose, tip, around.rolled));
+}
+
 struct Tree {
   std::vector<Posture> nodes;
   std::vector<int> parents;
@@ -64,7 +72,7 @@ class Connector {
 
  private:
   [[nodiscard]] bool IsFree(const Posture& from, const Posture& to) const {
-    return IsClear(scene_, finger_, from, to, around_.pose, TipContact::kFree, around_.others);
+    return IsClear(scene_, finger_, from, to, TipContact::kFree, around_);
   }
   /// One stride from the tree's nearest node towards a posture.
   bool Extend(Tree& tree, const Posture& towards) const {
@@ -121,8 +129,7 @@ std::optional<FingerPath> FindWayUp(const HandScene& scene,
     const kinematics::TipTarget above{target.centre - (height + kDescent) * target.towards,
                                       target.towards};
     const std::optional<Posture> next = inverse.SolveFrom(above, path.back());
-    if (!next || !IsClear(scene, finger, path.back(), *next, around.pose, TipContact::kTouching,
-                          around.others)) {
+    if (!next || !IsClear(scene, finger, path.back(), *next, TipContact::kTouching, around)) {
       break;
     }
     path.push_back(*next);

@@ -17,6 +17,8 @@ using FingerPath = std::vector<Posture>;
 struct Surroundings {
   Eigen::Isometry3d pose;            ///< of the object
   std::vector<PlacedFinger> others;  ///< all other fingers
+  /// These where their tips have rolled to (rolling.h), all of them again; none: they have not.
+  std::vector<PlacedFinger> rolled = {};
 };
 
 /// All but one finger, as they stand.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "planner/gait/move_path.h"
 #include "planner/gait/slide_path.h"
@@ -59,6 +58,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
       carrier_(carrier),
       routes_(memory),
       kinds_(setup.points),
+      rolling_(setup, memory),
       expanded_at_(grid.steps() + 1, 0) {
   counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
@@ -103,36 +103,37 @@ bool GaitSearch::IsGrasp(const Holding& holding) {
 }
 
 GaitSearch::RolledTo GaitSearch::RollTowards(const Rest& rest, int node) {
-  RolledTo rolled{rest.node, rest.contacts};
   if (setup_.rolled_on == nullptr) return {node, {}};
-  const std::vector<int> path = rest.carried.PathTo(node);
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    RolledContacts contacts = rolled.contacts;
-    for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-      const int point = rest.hold.holding[finger];
-      if (point == kNone) continue;
-      const kinematics::Finger& chain = setup_.scene.finger(finger);
-      const auto ball_at = [&](int at) {
-        return BallIn(chain, *carrier_.reach().Find(finger, point, at), grid_.PoseAt(at));
-      };
-      const Eigen::Matrix3d turn = ball_at(path[i]) * ball_at(path[i - 1]).transpose();
-      contacts[finger] = Rolled(*contacts[finger], turn, chain.tip.radius, *setup_.rolled_on);
+  RolledTo rolled{rest.node, rest.rolled};
+  for (const int next : rest.carried.PathTo(node)) {
+    if (next == rest.node) continue;
+    auto tips =
+        rolling_.Carry(rolled.tips, grid_.PoseAt(rolled.node), grid_.PoseAt(next), rest.hold);
+    if (!tips) {
+      ++counts_.rolled;
+      break;
     }
-    if (!HoldsAt(contacts)) break;
-    rolled = {path[i], std::move(contacts)};
+    rolled = {next, *std::move(tips)};
   }
-  if (rolled.node != node) ++counts_.rolled;
   return rolled;
 }
 
-bool GaitSearch::HoldsAt(const RolledContacts& contacts) {
+bool GaitSearch::TakeRolledTips(Rest& rest) {
   if (setup_.rolled_on == nullptr) return true;
-  grasp::Grasp grasp;
-  for (const auto& contact : contacts) {
-    if (contact) grasp.push_back({contact->p / setup_.scale, contact->n, {}});
+  rest.rolled = rest.rolled_before;
+  rest.rolled.resize(rest.hold.holding.size());
+  for (FingerIndex finger{0}; finger < std::ssize(rest.rolled); ++finger) {
+    const int point = rest.hold.holding[finger];
+    if (point == kNone) {
+      rest.rolled[finger].reset();
+    } else if (!rest.rolled[finger]) {
+      rest.rolled[finger] = {setup_.points[point],
+                             *carrier_.reach().Find(finger, point, rest.node)};
+    }
   }
-  criteria::KnownGrasp known;
-  return memory_.GraspEvaluator::Admits(known, [&] { return std::span(std::as_const(grasp)); });
+  if (rolling_.AreGrasp(rest.rolled)) return true;
+  ++counts_.rolled;
+  return false;
 }
 
 double GaitSearch::ScoreOf(const Rest& rest, int last) {
@@ -149,16 +150,6 @@ double GaitSearch::ScoreOf(const Rest& rest, int last) {
 
 bool GaitSearch::Add(Rest rest) {
   if (!IsGrasp(rest.hold.holding)) return false;
-  rest.contacts.resize(rest.hold.holding.size());
-  for (std::size_t finger = 0; finger < rest.contacts.size(); ++finger) {
-    const int point = rest.hold.holding[finger];
-    if (point == kNone) rest.contacts[finger].reset();
-    else if (!rest.contacts[finger]) rest.contacts[finger] = setup_.points[point];
-  }
-  if (!HoldsAt(rest.contacts)) {
-    ++counts_.rolled;
-    return false;
-  }
   std::vector<int>& taken = taken_[rest.hold.holding];
   if (std::ranges::find(taken, rest.node) != taken.end()) return false;
   taken.push_back(rest.node);
@@ -167,6 +158,7 @@ bool GaitSearch::Add(Rest rest) {
     ++counts_.colliding;
     return false;
   }
+  if (!TakeRolledTips(rest)) return false;
   rest.carried = carrier_.StraightOn(rest.hold, rest.node);
   rest.score = ScoreOf(rest, grid_.StepOf(rest.carried.end));
   queue_.push({rest.score, static_cast<int>(rests_.size())});
@@ -298,7 +290,7 @@ void GaitSearch::SwitchAt(int index, int node) {
     if (change.released.valid()) all.holding[change.released] = from.hold.holding[change.released];
     if (change.placed.valid() && !carrier_.IsPassable(all, rest.node)) continue;
     rest.parent = index;
-    rest.contacts = rolled.contacts;
+    rest.rolled_before = rolled.tips;
     if (!Add(std::move(rest))) continue;
     ++taken;
     ++alike;
@@ -333,11 +325,13 @@ void GaitSearch::Expand(int index) {
 bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
   const int point = rest.hold.holding[rest.change.placed];
   const Posture touching = *carrier_.reach().Find(rest.change.placed, point, rest.node);
+  Surroundings around = AllBut(setup_.scene, rest.change.placed, before);
+  AddRolled(setup_.scene, rest.rolled_before, around);
   const auto path = FindPathToContact(
       setup_.scene, setup_.inverse[rest.change.placed], rest.change.placed,
       before.postures[rest.change.placed],
       TargetAt(setup_.scene.finger(rest.change.placed), setup_.points[point], before.pose),
-      touching, AllBut(setup_.scene, rest.change.placed, before), random_);
+      touching, around, random_);
   if (!path) return false;
   Stretch stretch{Stretch::Kind::kPlace, rest.change.placed, point, {}};
   for (const Posture& posture : *path) {
@@ -353,7 +347,8 @@ bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
 bool GaitSearch::Release(Rest& rest, const Keyframe& before) {
   const FingerIndex finger = rest.change.released;
   const int point = rests_[rest.parent].hold.holding[finger];
-  const Surroundings around = AllBut(setup_.scene, finger, before);
+  Surroundings around = AllBut(setup_.scene, finger, before);
+  AddRolled(setup_.scene, rest.rolled, around);
   const auto up =
       FindWayUp(setup_.scene, setup_.inverse[finger], finger,
                 TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),

@@ -101,12 +101,13 @@ class GaitSearch {
     /// Moves that were worked out, by where they lead; empty ones can't be done.
     std::map<int, std::vector<Keyframe>> moves = {};
     Keyframe at = {};  ///< at `node`
-    RolledContacts contacts = {};  ///< where they have rolled to, at `node`
+    /// With reserve, where tips have rolled to at `node`: before the change, and after it.
+    RolledTips rolled_before = {}, rolled = {};
   };
-  /// The last node on a way at which contacts that roll hold, and where they are there.
+  /// The last node on a way at which tips that roll hold, and where they are there.
   struct RolledTo {
     int node = 0;
-    RolledContacts contacts;
+    RolledTips tips;
   };
   struct Waiting {
     double score;
@@ -138,10 +139,10 @@ class GaitSearch {
   /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
   bool Add(Rest rest);
   [[nodiscard]] bool IsGrasp(const Holding& holding);
-  /// Where contacts roll to when the object is carried towards a node.
+  /// Where tips roll to when the object is carried towards a node; without reserve it comes there.
   [[nodiscard]] RolledTo RollTowards(const Rest& rest, int node);
-  /// Whether contacts that have rolled are a grasp, where that is asked for.
-  [[nodiscard]] bool HoldsAt(const RolledContacts& contacts);
+  /// Of a new rest, from `rolled_before`. @returns whether its tips hold there.
+  [[nodiscard]] bool TakeRolledTips(Rest& rest);
   [[nodiscard]] bool WasExpandedAt(const Rest& rest) const;
   [[nodiscard]] double ScoreOf(const Rest& rest, int last);
   [[nodiscard]] bool WorkOutWay(Rest& rest);
@@ -166,6 +167,7 @@ class GaitSearch {
   Carrier& carrier_;
   SlideRoutes routes_;
   ContactKinds kinds_;
+  RollingTips rolling_;
   std::vector<Rest> rests_;
   std::priority_queue<Waiting> queue_;
   /// Of each grasp the nodes at which it was taken up, and those that an expanded rest passes.

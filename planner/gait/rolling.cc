@@ -1,5 +1,8 @@
 #include "planner/gait/rolling.h"
 
+#include <span>
+#include <utility>
+
 #include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::gait {
@@ -13,11 +16,74 @@ SurfacePoint Rolled(const SurfacePoint& contact, const Eigen::Matrix3d& turn, do
                     const collision::BallContact& surface) {
   const Eigen::AngleAxisd by(turn);
   const Eigen::Vector3d to_centre = -radius * contact.n;
-  const Eigen::Vector3d centre =
-      contact.p + to_centre + by.angle() * by.axis().cross(to_centre);
+  const Eigen::Vector3d centre = contact.p + to_centre + by.angle() * by.axis().cross(to_centre);
   const auto near = surface.Find(centre, 2 * radius);
   if (near.empty()) return contact;
   return {near.front().point, -near.front().outward};
+}
+
+bool RollingTips::AreGrasp(const RolledTips& tips) const {
+  grasp::Grasp grasp;
+  for (const auto& tip : tips) {
+    if (tip) grasp.push_back({tip->contact.p / setup_.scale, tip->contact.n, {}});
+  }
+  criteria::KnownGrasp known;
+  return memory_.GraspEvaluator::Admits(known, [&] { return std::span(std::as_const(grasp)); });
+}
+
+std::optional<RolledTip> RollingTips::Follow(FingerIndex finger, const RolledTip& tip,
+                                             const Eigen::Isometry3d& from_pose,
+                                             const Eigen::Isometry3d& to_pose) const {
+  const kinematics::Finger& chain = setup_.scene.finger(finger);
+  const auto stand_at = [&](const SurfacePoint& contact, const Posture& near) {
+    return setup_.inverse[finger].SolveFrom(TargetAt(chain, contact, to_pose), near);
+  };
+  const std::optional<Posture> unrolled = stand_at(tip.contact, tip.posture);
+  if (!unrolled) return std::nullopt;
+  const Eigen::Matrix3d turn =
+      BallIn(chain, *unrolled, to_pose) * BallIn(chain, tip.posture, from_pose).transpose();
+  const SurfacePoint contact = Rolled(tip.contact, turn, chain.tip.radius, *setup_.rolled_on);
+  std::optional<Posture> posture = stand_at(contact, *unrolled);
+  if (!posture) return std::nullopt;
+  return RolledTip{contact, *std::move(posture)};
+}
+
+bool RollingTips::AreClear(const RolledTips& tips, const Eigen::Isometry3d& pose,
+                           const Hold& hold) const {
+  std::vector<PlacedFinger> placed;
+  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+    const auto& tip = tips[finger];
+    placed.push_back(setup_.scene.Place(finger, tip ? tip->posture : hold.waiting[finger]));
+    if (tip && !setup_.scene.KeepsOffHand(placed.back())) return false;
+    const TipContact touching = tip ? TipContact::kTouching : TipContact::kFree;
+    if (tip && !setup_.scene.KeepsOffObject(placed.back(), pose, touching)) return false;
+    for (std::size_t other = 0; other + 1 < placed.size(); ++other) {
+      if (!setup_.scene.KeepApart(placed[other], placed.back())) return false;
+    }
+  }
+  return true;
+}
+
+std::optional<RolledTips> RollingTips::Carry(const RolledTips& from,
+                                             const Eigen::Isometry3d& from_pose,
+                                             const Eigen::Isometry3d& to_pose,
+                                             const Hold& hold) const {
+  RolledTips to(from.size());
+  for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
+    if (!from[finger]) continue;
+    to[finger] = Follow(finger, *from[finger], from_pose, to_pose);
+    if (!to[finger]) return std::nullopt;
+  }
+  if (!AreGrasp(to) || !AreClear(to, to_pose, hold)) return std::nullopt;
+  return to;
+}
+
+void AddRolled(const HandScene& scene, const RolledTips& tips, Surroundings& around) {
+  if (tips.empty()) return;
+  for (const PlacedFinger& other : around.others) {
+    const auto& tip = tips[other.finger];
+    around.rolled.push_back(tip ? scene.Place(other.finger, tip->posture) : other);
+  }
 }
 
 }  // namespace regrasp::gait

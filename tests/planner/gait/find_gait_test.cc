@@ -163,8 +163,8 @@ TEST(FindGaitTest, GraspsOfAGaitWithReserveHoldWhereTheirContactsRollTo) {
     request.reserve = Reserve::kNone;
     const GaitResult without = FindGait(request);
     ASSERT_TRUE(without.gait);
-    worst_without = std::max(
-        worst_without, RequiredWhereItRolls(*without.gait, request, without.contacts));
+    worst_without =
+        std::max(worst_without, RequiredWhereItRolls(*without.gait, request, without.contacts));
   }
   EXPECT_GT(worst_without, std::atan(0.8));
 }
