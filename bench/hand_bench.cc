@@ -434,7 +434,7 @@ int main(int argc, char** argv) {
   app.add_option("--axis", axis, "x, y or z of the object")->check(CLI::IsMember({"x", "y", "z"}));
   app.add_option("--degrees", degrees, "Of the turn");
   app.add_flag("--pairs", contest.pairs, "Two grasps at one pose instead of a turn");
-  app.add_option("--reserve", contest.reserve, "0: none, 1: preferred, 2: required");
+  app.add_option("--reserve", contest.reserve, "Of plans: 0 none, 1 preferred, 2 required");
   app.add_flag("--replay", contest.replay, "Also carry plans out by the hand's own actuators");
   app.add_option("--plan-mu", contest.plan_mu,
                  "Friction that is planned with, of 0.8 that there is");
