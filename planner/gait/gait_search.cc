@@ -59,6 +59,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
       routes_(memory),
       kinds_(setup.points),
       rolling_(setup, memory),
+      paths_(setup, memory, carrier, routes_, random),
       expanded_at_(grid.steps() + 1, 0) {
   counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
@@ -212,7 +213,7 @@ bool GaitSearch::MaySlide(int from, int to) {
   return setup_.rolled_on == nullptr && routes_.Between(from, to) != nullptr;
 }
 
-std::vector<GaitSearch::Change> GaitSearch::ChangesFrom(const Holding& from, int node) {
+std::vector<Change> GaitSearch::ChangesFrom(const Holding& from, int node) {
   std::vector<Change> changes;
   if (most_holding_ > kFewestHolding) AddSwitches(from, {}, kNone, changes);
   for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
@@ -322,82 +323,6 @@ void GaitSearch::Expand(int index) {
   }
 }
 
-bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
-  const int point = rest.hold.holding[rest.change.placed];
-  const Posture touching = *carrier_.reach().Find(rest.change.placed, point, rest.node);
-  Surroundings around = AllBut(setup_.scene, rest.change.placed, before);
-  AddRolled(setup_.scene, rest.rolled_before, around);
-  const auto path = FindPathToContact(
-      setup_.scene, setup_.inverse[rest.change.placed], rest.change.placed,
-      before.postures[rest.change.placed],
-      TargetAt(setup_.scene.finger(rest.change.placed), setup_.points[point], before.pose),
-      touching, around, random_);
-  if (!path) return false;
-  Stretch stretch{Stretch::Kind::kPlace, rest.change.placed, point, {}};
-  for (const Posture& posture : *path) {
-    stretch.path.push_back(before);
-    stretch.path.back().postures[rest.change.placed] = posture;
-  }
-  after = stretch.path.back();
-  rest.way.push_back(std::move(stretch));
-  return true;
-}
-
-/// To where the finger is to wait, or else no farther than above its contact.
-bool GaitSearch::Release(Rest& rest, const Keyframe& before) {
-  const FingerIndex finger = rest.change.released;
-  const int point = rests_[rest.parent].hold.holding[finger];
-  Surroundings around = AllBut(setup_.scene, finger, before);
-  AddRolled(setup_.scene, rest.rolled, around);
-  const auto up =
-      FindWayUp(setup_.scene, setup_.inverse[finger], finger,
-                TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
-                before.postures[finger], around);
-  if (!up) return false;
-  const auto onward =
-      FindFreePath(setup_.scene, finger, up->back(), rest.hold.waiting[finger], around, random_);
-  FingerPath path = *up;
-  if (onward) {
-    path.insert(path.end(), onward->begin() + 1, onward->end());
-  } else {
-    rest.hold.waiting[finger] = up->back();
-    if (!carrier_.IsPassable(rest.hold, rest.node)) return false;
-  }
-  Stretch stretch{Stretch::Kind::kRelease, finger, point, {}};
-  for (const Posture& posture : path) {
-    stretch.path.push_back(before);
-    stretch.path.back().postures[finger] = posture;
-  }
-  rest.way.push_back(std::move(stretch));
-  return true;
-}
-
-bool GaitSearch::SlideTo(Rest& rest, const Keyframe& before) {
-  const FingerIndex finger = rest.change.slid;
-  const std::vector<int>& holding = rests_[rest.parent].hold.holding;
-  std::vector<int> grasp = {holding[finger]};
-  for (FingerIndex other{0}; other < setup_.scene.finger_count(); ++other) {
-    if (other != finger && holding[other] != kNone) grasp.push_back(holding[other]);
-  }
-  const int point = rest.hold.holding[finger];
-  const auto slide =
-      FindSlide(setup_, memory_, finger, grasp, *routes_.Between(holding[finger], point),
-                before.postures[finger], *carrier_.reach().Find(finger, point, rest.node),
-                AllBut(setup_.scene, finger, before));
-  if (!slide) return false;
-  Stretch stretch{Stretch::Kind::kSlide, finger,          point, {before},
-                  holding[finger],       slide->contacts, {0}};
-  for (const FingerPath& path : slide->paths) {
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      stretch.path.push_back(before);
-      stretch.path.back().postures[finger] = path[i];
-    }
-    stretch.along_at.push_back(static_cast<int>(stretch.path.size()) - 1);
-  }
-  rest.way.push_back(std::move(stretch));
-  return true;
-}
-
 const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int node) {
   const auto [found, is_new] = rest.moves.try_emplace(node);
   if (!is_new) return found->second;
@@ -422,19 +347,13 @@ const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int node) {
 bool GaitSearch::WorkOutWay(Rest& rest) {
   rest.at = carrier_.FrameAt(rest.hold, rest.node);
   if (rest.parent < 0) return true;
-  Keyframe frame = carrier_.FrameAt(rests_[rest.parent].hold, rest.node);
-  if (rest.change.slid.valid() && !SlideTo(rest, frame)) {
-    ++counts_.no_slide;
+  auto way = paths_.Find(rest.change, rests_[rest.parent].hold, rest.hold, rest.node,
+                         {rest.rolled_before, rest.rolled});
+  if (!way) {
+    ++(rest.change.slid.valid() ? counts_.no_slide : counts_.no_path);
     return false;
   }
-  if (rest.change.placed.valid() && !Place(rest, Keyframe(frame), frame)) {
-    ++counts_.no_path;
-    return false;
-  }
-  if (rest.change.released.valid() && !Release(rest, frame)) {
-    ++counts_.no_path;
-    return false;
-  }
+  rest.way = *std::move(way);
   rest.at = rest.way.back().path.back();
   return true;
 }

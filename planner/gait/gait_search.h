@@ -10,6 +10,7 @@
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_memory.h"
 #include "planner/gait/carrier.h"
+#include "planner/gait/change_paths.h"
 #include "planner/gait/contact_kinds.h"
 #include "planner/gait/finger_path.h"
 #include "planner/gait/gait.h"
@@ -77,13 +78,6 @@ class GaitSearch {
   void AddTarget(const Holding& holding);
 
  private:
-  /// What fingers do between two rests; those that are not valid: none.
-  struct Change {
-    FingerIndex placed = {};
-    FingerIndex slid = {};
-    FingerIndex released = {};
-    int point = kNone;  ///< that the finger comes to which is placed or slides
-  };
   /// A grasp, and the nodes of the grid that it can be carried to.
   struct Rest {
     Hold hold;
@@ -151,9 +145,6 @@ class GaitSearch {
   [[nodiscard]] int PopNext();
   /// The move with a rest's grasp to a node that it comes to; empty where it can't be done.
   [[nodiscard]] const std::vector<Keyframe>& MoveFrom(Rest& rest, int node);
-  [[nodiscard]] bool Place(Rest& rest, const Keyframe& before, Keyframe& after);
-  [[nodiscard]] bool Release(Rest& rest, const Keyframe& before);
-  [[nodiscard]] bool SlideTo(Rest& rest, const Keyframe& before);
   [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
 
@@ -168,6 +159,7 @@ class GaitSearch {
   SlideRoutes routes_;
   ContactKinds kinds_;
   RollingTips rolling_;
+  ChangePaths paths_;
   std::vector<Rest> rests_;
   std::priority_queue<Waiting> queue_;
   /// Of each grasp the nodes at which it was taken up, and those that an expanded rest passes.
