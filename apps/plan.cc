@@ -18,7 +18,7 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
-#include "planner/certificate/align_certificate.h"
+#include "planner/certificate/finish_plan.h"
 #include "planner/criteria/reach.h"
 #include "planner/gait/explain_gait.h"
 #include "planner/gait/plan_of_gait.h"
@@ -318,19 +318,15 @@ int PlanProgram::Run() const {
     PrintError(kProgram, result.message);
     return kExitNegative;
   }
-  result.plan->object_file = object.file;
-  result.plan->object_sha256 = object.sha256;
-  result.plan->repair = object.repair;
-  result.plan->shells = common.repair.shells();
-  result.plan->patch_radius = common.PatchRadius(*object.object);
   if (result.plan->roadmap) common.NotePlaces(*result.plan->roadmap);
-  result.plan->at_given_points = given.has_value();
-  result.plan->half_angle = common.friction.required_half_angle();
-  result.plan->scale = common.scale;
-  certificate::AddCertificates(*object.object, *result.plan);
-  plan::CheckOptions options;
-  if (given) options.given_points = &*given;
-  const plan::PlanCheck check = plan::CheckPlan(*object.object, *result.plan, options);
+  const plan::PlanCheck check =
+      certificate::FinishPlan(object,
+                              {.half_angle = common.friction.required_half_angle(),
+                               .scale = common.scale,
+                               .shells = common.repair.shells(),
+                               .patch_radius = common.PatchRadius(*object.object),
+                               .given_points = given ? &*given : nullptr},
+                              *result.plan);
   if (!check.passed()) result.warnings.push_back(CheckerComplaint(check));
   result.warnings.push_back(plan::InventedContactsWarning(*object.object, check.located));
   if (given) {
