@@ -12,10 +12,10 @@ namespace regrasp::certificate {
 
 /// What a plan says of where it comes from, besides what the planner knows.
 struct PlanOrigin {
-  double half_angle = 0;  ///< of the friction that is there, radians
-  double scale = 1;       ///< metres per unit of the object
-  std::optional<object::Shells> shells = std::nullopt;
-  std::optional<double> patch_radius = std::nullopt;
+  double half_angle = 0;                                ///< of the friction that is there, radians
+  double scale = 1;                                     ///< metres per unit of the object
+  std::optional<object::Shells> shells = std::nullopt;  ///< as it was read with
+  std::optional<double> patch_radius = std::nullopt;    ///< of what a fingertip feels, its unit
   /// Of contacts at these points only; outlives the call.
   const std::vector<Eigen::Vector3d>* given_points = nullptr;
 };

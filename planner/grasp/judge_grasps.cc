@@ -114,7 +114,7 @@ std::size_t CountThreads(int asked, std::size_t grasps) {
   if (asked < 0) throw std::invalid_argument(std::to_string(asked) + " threads");
   const std::size_t threads =
       asked > 0 ? static_cast<std::size_t>(asked) : std::thread::hardware_concurrency();
-  return std::clamp<std::size_t>(threads, 1, (grasps + kBlock - 1) / kBlock + 1);
+  return std::clamp<std::size_t>(threads, 1, 1 + grasps / kBlock);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct GraspArrays {
 
 /// What is asked of each grasp besides force closure, and by how many threads.
 struct JudgeOptions {
-  double half_angle = 0;  ///< of the friction cones, atan μ, in (0, π/2)
+  double half_angle = 0;  ///< of the friction cones, atan μ, radians in (0, π/2)
   object::WrenchFrame frame;
   bool required_half_angle = false;
   bool quality = false;
@@ -28,9 +28,9 @@ struct JudgeOptions {
 /// One entry a grasp, in the order given; what was not asked for is empty.
 struct GraspVerdicts {
   std::vector<ForceClosure> force_closure;
-  /// The smallest half-angle proved to be enough; NaN where none below π/2 is.
+  /// The smallest half-angle proved to be enough, radians; NaN where none below π/2 is.
   std::vector<double> required_half_angle;
-  std::vector<double> quality;  ///< the lower bound of ComputeQuality
+  std::vector<double> quality;  ///< the lower bound of ComputeQuality, dimensionless
 };
 
 /// Judges every grasp by TestForceClosure, ComputeRequiredHalfAngle and ComputeQuality.
