@@ -1,0 +1,23 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "planner/object/object.h"
+
+namespace regrasp::python {
+
+/// An object as Python holds it.
+struct PythonObject {
+  object::ObjectFile file;
+  double scale = 1;  ///< metres per unit of length
+  std::string text;  ///< of the file that it would be; empty where it was read from one
+};
+
+// Each adds its functions to the extension module. They check no argument whose type or shape the
+// Python code above them has already checked.
+void BindObjects(pybind11::module_& module);
+void BindGrasps(pybind11::module_& module);
+void BindPlans(pybind11::module_& module);
+void BindReports(pybind11::module_& module);
+
+}  // namespace regrasp::python

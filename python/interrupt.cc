@@ -1,0 +1,72 @@
+#include "python/interrupt.h"
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+namespace regrasp::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// So soon after Ctrl-C work ends, about, and so rarely is the interpreter's lock taken.
+constexpr std::chrono::milliseconds kInterval(50);
+
+Deadline::Clock::time_point EndOf(std::optional<double> limit_s) {
+  const auto never = Deadline::Clock::time_point::max();
+  if (!limit_s) return never;
+  const auto now = Deadline::Clock::now();
+  const auto left = DeadlineAfter(now, *limit_s).left();
+  return left ? Deadline::Clock::now() + *left : never;
+}
+
+}  // namespace
+
+Interrupt::Interrupt(std::optional<double> limit_s, py::object progress)
+    : end_(EndOf(limit_s)),
+      progress_(std::move(progress)),
+      next_(Deadline::Clock::now() + kInterval) {}
+
+Deadline Interrupt::deadline() {
+  return {end_, [this] { return Now(); }};
+}
+
+std::function<void(std::string_view)> Interrupt::progress() {
+  return [this](std::string_view text) {
+    Ask([&] {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!progress_.is_none()) progress_(std::string(text));
+    });
+  };
+}
+
+void Interrupt::Poll() {
+  Ask([] {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  });
+}
+
+void Interrupt::Ask(const std::function<void()>& call) {
+  if (raised_) return;
+  const py::gil_scoped_acquire lock;
+  try {
+    call();
+  } catch (py::error_already_set& error) {
+    if (!error_) error_.emplace(error);
+    raised_ = true;
+  }
+}
+
+Deadline::Clock::time_point Interrupt::Now() {
+  const auto now = Deadline::Clock::now();
+  auto next = next_.load();
+  if (now >= next && next_.compare_exchange_strong(next, now + kInterval)) Poll();
+  return raised_ ? Deadline::Clock::time_point::max() : now;
+}
+
+void Interrupt::ThrowIfRaised() {
+  if (error_) throw std::move(*error_);
+}
+
+}  // namespace regrasp::python

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "planner/base/deadline.h"
+
+namespace regrasp::python {
+
+/// Lets Ctrl-C end work that runs without the interpreter's lock, and passes on what it says.
+///
+/// Python handles a signal only where it is asked to: whenever the work looks at its deadline, a
+/// clock of ours asks, every kInterval at most. What the handler or the progress function throws is
+/// kept, the deadline is over from then on, and the caller throws it when the work has come back.
+class Interrupt {
+ public:
+  /// @param limit_s   seconds from now; nullopt: no end.
+  /// @param progress  called with a line of text; None: nothing is.
+  Interrupt(std::optional<double> limit_s, pybind11::object progress);
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+
+  /// Both for the time in which this object lives.
+  [[nodiscard]] Deadline deadline();
+  [[nodiscard]] std::function<void(std::string_view)> progress();
+
+  /// Asks Python at once.
+  void Poll();
+  [[nodiscard]] bool raised() const { return raised_; }
+  /// @pre the interpreter's lock is held.
+  /// @throws pybind11::error_already_set  the signal handler or the progress function did.
+  void ThrowIfRaised();
+
+ private:
+  Deadline::Clock::time_point Now();
+  void Ask(const std::function<void()>& call);
+
+  Deadline::Clock::time_point end_;
+  pybind11::object progress_;
+  std::atomic<Deadline::Clock::time_point> next_;
+  std::atomic<bool> raised_ = false;
+  std::optional<pybind11::error_already_set> error_;  ///< under the interpreter's lock
+};
+
+}  // namespace regrasp::python

@@ -1,0 +1,42 @@
+"""Plans of regrasps and their validation: grasps, plans and reports as Python objects.
+
+A hand holds an object by its fingertips and changes its grip without letting go. `plan` finds the
+sequence, `validate` checks it and replays it in a physics engine, `force_closure` judges grasps,
+one or a million.
+
+>>> import regrasp
+>>> cube = regrasp.Object.read("models/cube.obj")
+>>> cube
+<Object cube.obj: 6 faces, 10.4 cm across, 216 g at the density of water>
+>>> plan = regrasp.plan(cube, "models/cube.start.json", "models/cube.goal.json",
+...                     friction_angle_deg=20)
+>>> report = regrasp.validate(cube, plan)
+>>> report.passed
+True
+
+Lengths are in the object's own unit, `scale` says how many metres that is. Angles are in degrees,
+as in files and on the command line, and their names end in `_deg`. Errors are exceptions whose text
+is the one line that the programs print: `InputError` (a `ValueError`) for a wrong file or argument,
+`NoPlan` where no sequence is found, `OSError` where the machine fails.
+"""
+
+from ._regrasp import InputError
+from ._regrasp import version as __version__
+from .grasps import ForceClosure, force_closure
+from .objects import Object
+from .plans import NoPlan, Plan, plan
+from .reports import Report, validate
+
+InputError.__module__ = __name__
+
+__all__ = [
+    "ForceClosure",
+    "InputError",
+    "NoPlan",
+    "Object",
+    "Plan",
+    "Report",
+    "force_closure",
+    "plan",
+    "validate",
+]

@@ -1,0 +1,119 @@
+"""Grasps: contacts with friction, judged by themselves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _arguments, _regrasp
+from ._regrasp import InputError
+from .objects import Object
+
+
+@dataclass(frozen=True)
+class ForceClosure:
+    """What `force_closure` says: scalars for one grasp, arrays of shape (N,) for N grasps."""
+
+    holds: np.ndarray | bool
+    """Whether the grasp is force closure; what is too close to call is not."""
+    too_close: np.ndarray | bool
+    """Whether it lies within rounding of the border (1e-12 of the size of its wrenches)."""
+    margin: np.ndarray | float
+    """A lower bound on the margin, dimensionless; positive iff `holds`. Where the answer is clear
+    early it is not tight."""
+    required_angle_deg: np.ndarray | float | None
+    """The smallest friction half-angle that is proved to be enough; NaN where none is below 90
+    degrees; None where it was not asked for."""
+    quality: np.ndarray | float | None
+    """The largest ball of wrenches that is resisted with normal forces summing to 1, torques over
+    half the object's diameter (Ferrari and Canny's L1 metric, its lower bound); None where it was
+    not asked for."""
+
+
+def force_closure(points, normals, object: Object | None = None, mu: float | None = None, *,
+                  friction_angle_deg: float | None = None, required_angle: bool = False,
+                  quality: bool = False, threads: int = 0) -> ForceClosure:
+    """Decides whether grasps are force closure, with circular friction cones and a certified margin.
+
+    Args:
+        points: where the fingers touch, (k, 3) for one grasp of k contacts, (N, k, 3) for N of
+            them; (…, 2) in the plane. Any unit of length, `object`'s where that is given.
+        normals: of the same shape, unit, into the object.
+        object: the object that is held; only `quality` needs it. Whether the points are on its
+            surface is not asked.
+        mu: friction coefficient, or
+        friction_angle_deg: the half-angle of the cones, atan(mu), in degrees.
+        required_angle: whether to compute `ForceClosure.required_angle_deg`.
+        quality: whether to compute `ForceClosure.quality`.
+        threads: how many work; 0: as many as the machine has cores. Verdicts do not depend on it.
+
+    Raises:
+        InputError: names the argument, the grasp and the value.
+
+    Two fingers on opposite faces of a cube can turn it about the line between them; a third one
+    holds it:
+
+    >>> points = [[0, .5, .5], [1, .3, .5], [1, .7, .5]]
+    >>> normals = [[1, 0, 0], [-1, 0, 0], [-1, 0, 0]]
+    >>> bool(force_closure(points[:2], normals[:2], mu=0.5).holds)
+    False
+    >>> force_closure(points, normals, mu=0.5).holds
+    True
+    >>> many = force_closure([points] * 1000, [normals] * 1000, mu=0.5, required_angle=True)
+    >>> many.holds.all(), many.required_angle_deg.shape
+    (True, (1000,))
+    """
+    shapes = "(k, 3) or (N, k, 3), in the plane (k, 2) or (N, k, 2)"
+    points = _arguments.numbers("points", points, shapes, (2, 3))
+    normals = _arguments.numbers("normals", normals, shapes, (2, 3))
+    if points.shape != normals.shape:
+        raise InputError(f"normals: the shape is that of points, {points.shape}, "
+                         f"found {normals.shape}")
+    dimension = points.shape[-1]
+    if dimension not in (2, 3):
+        raise InputError(f"points: the shape is {shapes}, found {points.shape}")
+    if points.shape[-2] == 0:
+        raise InputError(f"points: a grasp has a contact or more, found {points.shape}")
+    _check_unit(normals)
+    if object is not None:
+        if not isinstance(object, Object):
+            raise InputError(f"object: an Object is needed, found {type(object).__name__}")
+        if object.dimension != dimension:
+            raise InputError(f"points: {object.name} has dimension {object.dimension}, "
+                             f"found {points.shape}")
+    elif quality:
+        raise InputError("object: quality needs it, as torques are over half its diameter")
+    half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
+    single = points.ndim == 2
+    shape = (1 if single else len(points), points.shape[-2], 3)
+    decisions, lower, _, required, worth = _regrasp.judge_grasps(
+        _in_space(points, shape), _in_space(normals, shape), object._core if object else None,
+        dimension, half_angle, bool(required_angle), bool(quality),
+        _arguments.integer("threads", threads, 0, 4096))
+    holds = decisions == 2
+    too_close = decisions == 1
+    angles = np.degrees(required) if required_angle else None
+    worth = worth if quality else None
+    if not single:
+        return ForceClosure(holds, too_close, lower, angles, worth)
+    return ForceClosure(bool(holds[0]), bool(too_close[0]), float(lower[0]),
+                        None if angles is None else float(angles[0]),
+                        None if worth is None else float(worth[0]))
+
+
+def _check_unit(normals: np.ndarray) -> None:
+    lengths = np.sqrt(np.einsum("...i,...i->...", normals, normals))
+    wrong = np.argwhere(np.abs(lengths - 1) > 1e-6)
+    if len(wrong):
+        place = tuple(int(i) for i in wrong[0])
+        raise InputError(f"normals{list(place)}: of length 1 is needed, "
+                         f"found length {lengths[place]:.6g}")
+
+
+def _in_space(values: np.ndarray, shape: tuple[int, int, int]) -> np.ndarray:
+    if values.shape[-1] == 3:
+        return values.reshape(shape)
+    padded = np.zeros(shape)
+    padded[..., :2] = values
+    return padded

@@ -1,0 +1,168 @@
+"""Objects: solids bounded by flat faces, and polygons in the plane."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+
+from . import _arguments, _regrasp
+from ._regrasp import InputError
+
+_SHELLS = {None: None, "union": _regrasp.Shells.union, "largest": _regrasp.Shells.largest}
+
+
+class Object:
+    """What is grasped: a closed surface mesh, or a polygon. It is valid and does not change.
+
+    Made by `Object.read`, `Object.from_arrays` and `Object.from_polygon`.
+    """
+
+    def __init__(self, core: _regrasp.Object):
+        if not isinstance(core, _regrasp.Object):
+            raise TypeError("use Object.read, Object.from_arrays or Object.from_polygon")
+        self._core = core
+
+    @classmethod
+    def read(cls, path: str | os.PathLike, *, scale: float = 1, repair: bool = False,
+             shells: str | None = None, progress=None) -> Object:
+        """Reads a mesh (OBJ, OFF, PLY, STL, GLB, 3MF, …) or a polygon (WKT).
+
+        Args:
+            path: the file.
+            scale: metres per unit of the file.
+            repair: makes a solid of a surface that is none, as the program `repair` does.
+            shells: what several closed shells are: "union" or "largest"; None: refused.
+            progress: called with a line of text for each stage.
+
+        Raises:
+            InputError: the file cannot be read, or is no solid; names the element.
+
+        >>> Object.read("models/cube.obj").face_count
+        6
+        """
+        shells = None if shells is None else _arguments.choice("shells", shells, ["union", "largest"])
+        scale = _arguments.number("scale", scale, 0)
+        return cls(_regrasp.read_object(os.fspath(path), scale, bool(repair), _SHELLS[shells],
+                                        progress))
+
+    @classmethod
+    def from_arrays(cls, vertices, faces, *, scale: float = 1, name: str = "object.obj") -> Object:
+        """A solid of a closed triangle mesh.
+
+        Args:
+            vertices: (V, 3) numbers.
+            faces: (F, 3) integers, indices of vertices, counter-clockwise from outside.
+            scale: metres per unit of the vertices.
+            name: how plans and messages call it: the file that `write` makes of it.
+
+        Raises:
+            InputError: an array of another shape, or no closed surface; names the face.
+
+        >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        >>> Object.from_arrays(corners, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]).diameter
+        1.4142135623730951
+        """
+        vertices = _arguments.numbers("vertices", vertices, "(V, 3)", (2,))
+        if vertices.shape[1] != 3:
+            raise InputError(f"vertices: the shape is (V, 3), found {vertices.shape}")
+        faces = np.asarray(faces)
+        if faces.ndim != 2 or faces.shape[1] != 3:
+            raise InputError(f"faces: the shape is (F, 3), found {faces.shape}")
+        if faces.dtype.kind not in "iu":
+            raise InputError(f"faces: integers are needed, found an array of {faces.dtype}")
+        wrong = np.argwhere((faces < 0) | (faces >= len(vertices)))
+        if len(wrong):
+            place = tuple(int(i) for i in wrong[0])
+            raise InputError(f"faces{list(place)}: there is no vertex {faces[place]}, "
+                             f"there are {len(vertices)}")
+        return cls(_regrasp.object_from_arrays(
+            vertices, np.ascontiguousarray(faces, dtype=np.int64),
+            _arguments.number("scale", scale, 0), str(name)))
+
+    @classmethod
+    def from_polygon(cls, outline, holes=(), *, scale: float = 1,
+                     name: str = "object.wkt") -> Object:
+        """A planar object.
+
+        Args:
+            outline: (V, 2) numbers, the corners in order; the first is not repeated.
+            holes: further such arrays.
+            scale: metres per unit.
+            name: how plans and messages call it.
+
+        >>> Object.from_polygon([[0, 0], [2, 0], [2, 1], [0, 1]]).measure
+        2.0
+        """
+        rings = []
+        for label, ring in [("outline", outline)] + [
+                (f"holes[{i}]", hole) for i, hole in enumerate(holes)]:
+            corners = _arguments.numbers(label, ring, "(V, 2)", (2,))
+            if corners.shape[1] != 2 or len(corners) < 3:
+                raise InputError(f"{label}: the shape is (V, 2) with three corners or more, "
+                                 f"found {corners.shape}")
+            closed = [*corners.tolist(), corners[0].tolist()]
+            rings.append("(" + ", ".join(f"{x!r} {y!r}" for x, y in closed) + ")")
+        return cls(_regrasp.object_from_wkt("POLYGON(" + ",\n".join(rings) + ")\n",
+                                            _arguments.number("scale", scale, 0), str(name)))
+
+    def write(self, path: str | os.PathLike) -> None:
+        """Writes the file that the programs read as this object; of one made from arrays only."""
+        if not self._core.text:
+            raise InputError(f"{self.name}: was read from a file, which is still there")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self._core.text)
+
+    @property
+    def name(self) -> str:
+        """Its file's name, without folders."""
+        return self._core.name
+
+    @property
+    def sha256(self) -> str:
+        """Of its file's bytes, by which a plan knows its object."""
+        return self._core.sha256
+
+    @property
+    def scale(self) -> float:
+        """Metres per unit of length."""
+        return self._core.scale
+
+    @property
+    def dimension(self) -> int:
+        """3 for a solid, 2 for a polygon."""
+        return self._core.dimension
+
+    @property
+    def face_count(self) -> int:
+        """Faces: all coplanar neighbouring triangles together; of a polygon its edges."""
+        return self._core.face_count
+
+    @property
+    def diameter(self) -> float:
+        """The largest distance between two vertices, in the object's unit."""
+        return self._core.diameter
+
+    @property
+    def measure(self) -> float:
+        """Volume of a solid, area of a polygon, in the object's unit to the third or second."""
+        return self._core.measure
+
+    @property
+    def centroid(self) -> np.ndarray:
+        """Of the volume or the area, (3,) or (2,)."""
+        return np.array(self._core.centroid[:self.dimension])
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """(V, 3) of a solid; (V, 2) of a polygon, its outline."""
+        return self._core.vertices
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """(F, 3) indices of vertices, counter-clockwise from outside; (0, 3) of a polygon."""
+        return self._core.triangles
+
+    def __repr__(self) -> str:
+        what = "faces" if self.dimension == 3 else "edges"
+        return f"<Object {self.name}: {self.face_count} {what}, {self._core.size_text}>"

@@ -1,0 +1,169 @@
+"""Plans: sequences of finger switches and aligns from one grasp to another."""
+
+from __future__ import annotations
+
+import json
+import os
+
+
+from . import _arguments, _regrasp
+from ._regrasp import InputError
+from .objects import Object
+
+_PLANNERS = ["auto", *_regrasp.planner_names()]
+_RANDOM = ("random", "random-any")
+
+
+class NoPlan(RuntimeError):
+    """No sequence was found; the text says what was searched."""
+
+
+class Plan:
+    """A plan as its file has it: made by `plan` or `Plan.read`.
+
+    `text` is the file, byte by byte what the program `plan` writes, `data` the same as a dict
+    (docs/plan.schema.json).
+    """
+
+    def __init__(self, text: str, name: str = "plan.json"):
+        """
+        Args:
+            text: of a plan file.
+            name: how messages and reports call it.
+
+        Raises:
+            InputError: it is none; names the element.
+        """
+        _regrasp.check_plan_text(text, name)
+        self.text = text
+        self.name = name
+        self.data: dict = json.loads(text)
+        self.warnings: list[str] = []
+        self.notes: list[str] = []
+
+    @classmethod
+    def read(cls, path: str | os.PathLike) -> Plan:
+        """Reads a plan file."""
+        with open(path, encoding="utf-8") as file:
+            return cls(file.read(), os.path.basename(os.fspath(path)))
+
+    def write(self, path: str | os.PathLike) -> None:
+        """Writes the plan file."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.text)
+
+    @property
+    def steps(self) -> list[dict]:
+        """The steps, as in the file."""
+        return self.data["steps"]
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    def __repr__(self) -> str:
+        kinds = [step["kind"] for step in self.steps]
+        several = {"switch": "switches", "align": "aligns", "move": "moves"}
+        counts = [f"{kinds.count(kind)} {kind if kinds.count(kind) == 1 else several[kind]}"
+                  for kind in several if kind in kinds]
+        return f"<Plan of {self.data['object']['file']}: {', '.join(counts) or 'no steps'}>"
+
+
+def plan(object: Object, start, goal, mu: float | None = None, *,
+         friction_angle_deg: float | None = None, planner: str = "auto", optimize: str = "steps",
+         contacts: int | None = None, clusters: int | None = None, seed: int = 0,
+         min_quality: float = 0.01, finger_radius: float = 0, time_limit: float | None = None,
+         progress=None) -> Plan:
+    """Finds a sequence from one grasp to another with force closure at every instant.
+
+    The same arguments give the same plan, bit for bit, and the same that the program `plan` writes.
+
+    Args:
+        object: what is held.
+        start: the grasp at the beginning: (k, 3) points on the surface ((k, 2) in the plane), a
+            pair (points, normals), the path of a grasp file, "random" or "random-any" (evenly over
+            the surface).
+        goal: the grasp at the end, likewise.
+        mu: friction coefficient, or
+        friction_angle_deg: the half-angle of the friction cones in degrees.
+        planner: "auto", or the name of a planner as on the command line.
+        optimize: "steps", "margin", "travel", or "regions" in the plane.
+        contacts: contact points of the planner "roadmap"; None: as many as it likes.
+        clusters: that it sorts them into.
+        seed: of all that is drawn at random.
+        min_quality: that random grasps have at least and the sequence prefers.
+        finger_radius: of the fingers, in the object's unit; 0: points.
+        time_limit: seconds after which planning gives up; the plan then depends on the machine.
+        progress: called with a line of text for each stage.
+
+    Returns:
+        The plan, with `warnings` and `notes` about it.
+
+    Raises:
+        InputError: an argument is wrong, or a grasp is not on the object or not force closure.
+        NoPlan: no sequence was found.
+
+    >>> cube = Object.read("models/cube.obj")
+    >>> start = [[.03, .004, .002], [-.03, .002, -.004], [.003, .03, .004], [-.002, -.03, .001]]
+    >>> found = plan(cube, start, "random", mu=0.5, seed=3)
+    >>> found
+    <Plan of cube.obj: 1 switch, 1 align>
+    >>> found.steps[0]["kind"]
+    'align'
+    """
+    if not isinstance(object, Object):
+        raise InputError(f"object: an Object is needed, found {type(object).__name__}")
+    given = _regrasp.PlanArguments()
+    given.half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
+    given.start = _grasp_text("start", start, object)
+    given.goal = _grasp_text("goal", goal, object)
+    given.planner = _arguments.choice("planner", planner, _PLANNERS)
+    words = ["steps", "margin", "travel", "regions"]
+    given.objective = getattr(_regrasp.Objective, _arguments.choice("optimize", optimize, words))
+    if contacts is not None:
+        given.contacts = _arguments.integer("contacts", contacts, _regrasp.fewest_clusters,
+                                            _regrasp.most_contacts)
+    if clusters is not None:
+        given.clusters = _arguments.integer("clusters", clusters, _regrasp.fewest_clusters,
+                                            _regrasp.most_clusters)
+    given.seed = _arguments.integer("seed", seed, 0, 2**64 - 1)
+    given.min_quality = 0 if min_quality == 0 else _arguments.number("min_quality", min_quality, 0)
+    given.finger_radius = 0 if finger_radius == 0 else _arguments.number(
+        "finger_radius", finger_radius, 0)
+    if time_limit is not None:
+        given.time_limit_s = _arguments.number("time_limit", time_limit, 0)
+    text, message, warnings, notes = _regrasp.find_plan(object._core, given, progress)
+    if text is None:
+        raise NoPlan(message)
+    result = Plan(text)
+    result.warnings = [warning for warning in warnings if warning]
+    result.notes = notes
+    return result
+
+
+def _grasp_text(name: str, grasp, object: Object) -> str:
+    """A grasp argument as the text of a grasp file, or one of the words for random ones."""
+    if isinstance(grasp, (str, os.PathLike)):
+        if grasp in _RANDOM:
+            return grasp
+        try:
+            with open(grasp, encoding="utf-8") as file:
+                return file.read()
+        except FileNotFoundError:
+            raise InputError(f"{name}: there is no file {grasp}; give points, a file, "
+                             f"{' or '.join(map(repr, _RANDOM))}") from None
+    normals = None
+    if isinstance(grasp, tuple) and len(grasp) == 2:
+        grasp, normals = grasp
+    shape = f"(k, {object.dimension})"
+    points = _arguments.numbers(name, grasp, shape, (2,))
+    if points.shape[1] != object.dimension:
+        raise InputError(f"{name}: the shape is {shape}, found {points.shape}")
+    contacts = [{"point": point} for point in points.tolist()]
+    if normals is not None:
+        normals = _arguments.numbers(f"{name}[1]", normals, shape, (2,))
+        if normals.shape != points.shape:
+            raise InputError(f"{name}[1]: the shape is that of the points, {points.shape}, "
+                             f"found {normals.shape}")
+        for contact, normal in zip(contacts, normals.tolist()):
+            contact["normal"] = normal
+    return json.dumps({"format": "regrasp-grasp", "version": 1, "contacts": contacts})

@@ -1,0 +1,124 @@
+"""Force closure of one grasp and of many."""
+
+import unittest
+
+import numpy as np
+
+import regrasp
+
+# On a ball of radius 1, four fingers at the corners of a tetrahedron.
+TETRAHEDRON = np.array([[1., 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / 3 ** 0.5
+
+
+def random_grasps(count, contacts, seed):
+    rng = np.random.default_rng(seed)
+    points = rng.normal(size=(count, contacts, 3))
+    points /= np.linalg.norm(points, axis=-1, keepdims=True)
+    normals = 0.3 * rng.normal(size=points.shape) - points
+    return points, normals / np.linalg.norm(normals, axis=-1, keepdims=True)
+
+
+class GraspsTest(unittest.TestCase):
+
+    def refuses(self, words, *arguments, **named):
+        with self.assertRaises(ValueError) as caught:
+            regrasp.force_closure(*arguments, **named)
+        self.assertNotIn("\n", str(caught.exception))
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_known_answers(self):
+        held = regrasp.force_closure(TETRAHEDRON, -TETRAHEDRON, mu=0.5)
+        self.assertIs(held.holds, True)
+        self.assertGreater(held.margin, 0)
+        self.assertIsNone(held.quality)
+        two = regrasp.force_closure(TETRAHEDRON[:2], -TETRAHEDRON[:2], mu=0.5)
+        self.assertIs(two.holds, False)
+        # Two fingers hold a square when each sees the other in its cone: at 45° exactly too close.
+        square = [[0., 0.], [1., 1.]], [[1., 0.], [-1., 0.]]
+        self.assertTrue(regrasp.force_closure(*square, friction_angle_deg=46).holds)
+        self.assertFalse(regrasp.force_closure(*square, friction_angle_deg=44).holds)
+        border = regrasp.force_closure(*square, friction_angle_deg=45)
+        self.assertFalse(border.holds)
+        self.assertTrue(border.too_close)
+
+    def test_required_angle_is_the_border(self):
+        points, normals = random_grasps(200, 4, 1)
+        needed = regrasp.force_closure(points, normals, mu=0.5, required_angle=True)
+        known = needed.required_angle_deg
+        self.assertTrue((~np.isnan(known)).any())
+        for point, normal, angle in zip(points, normals, known):
+            if np.isnan(angle) or angle > 89:
+                continue
+            above = regrasp.force_closure(point, normal, friction_angle_deg=angle + 1e-6)
+            below = regrasp.force_closure(point, normal, friction_angle_deg=angle * (1 - 1e-6))
+            self.assertTrue(above.holds)
+            self.assertFalse(below.holds)
+        np.testing.assert_array_equal(needed.holds, known < np.degrees(np.arctan(0.5)))
+
+    def test_many_are_each_as_alone_whatever_the_threads(self):
+        points, normals = random_grasps(600, 4, 2)
+        cube = regrasp.Object.read("models/cube.obj")
+        one = regrasp.force_closure(points, normals, mu=0.6, threads=1)
+        three = regrasp.force_closure(points, normals, mu=0.6, threads=3)
+        np.testing.assert_array_equal(one.margin, three.margin)
+        few = regrasp.force_closure(points[:30], normals[:30], cube, mu=0.6, quality=True)
+        np.testing.assert_array_equal(few.margin, one.margin[:30])
+        self.assertTrue(few.holds.any() and not few.holds.all())
+        np.testing.assert_array_equal(few.holds, few.quality > 0)
+        for i in range(0, 30, 10):
+            alone = regrasp.force_closure(points[i], normals[i], cube, mu=0.6, quality=True)
+            self.assertEqual((alone.holds, alone.margin, alone.quality),
+                             (few.holds[i], few.margin[i], few.quality[i]))
+
+    def test_monotone_in_friction_and_independent_of_the_frame(self):
+        points, normals = random_grasps(500, 5, 3)
+        before = np.zeros(500, bool)
+        for mu in (0.1, 0.3, 0.6, 1, 3):
+            holds = regrasp.force_closure(points, normals, mu=mu).holds
+            self.assertFalse((before & ~holds).any())
+            before = holds
+        turn = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
+        turn *= np.linalg.det(turn)
+        moved = regrasp.force_closure(7 * points @ turn.T + 3, normals @ turn.T, mu=0.6)
+        np.testing.assert_array_equal(
+            moved.holds, regrasp.force_closure(points, normals, mu=0.6).holds)
+
+    def test_other_kinds_of_arrays(self):
+        points, normals = random_grasps(10, 4, 5)
+        expected = regrasp.force_closure(points, normals, mu=0.6).holds
+        for view in (np.asfortranarray, list, lambda a: np.repeat(a, 2, 0)[::2]):
+            holds = regrasp.force_closure(view(points), view(normals), mu=0.6).holds
+            np.testing.assert_array_equal(holds, expected)
+        none = regrasp.force_closure(np.zeros((0, 4, 3)), np.zeros((0, 4, 3)), mu=0.6)
+        self.assertEqual(none.holds.shape, (0,))
+
+    def test_arguments_that_are_wrong_are_named(self):
+        p, n = random_grasps(3, 4, 6)
+        cube = regrasp.Object.read("models/cube.obj")
+        self.refuses(["mu", "friction_angle_deg"], p, n)
+        self.refuses(["give one"], p, n, mu=0.5, friction_angle_deg=20)
+        self.refuses(["mu", "above 0", "-1"], p, n, mu=-1)
+        self.refuses(["mu", "nan"], p, n, mu=float("nan"))
+        self.refuses(["friction_angle_deg", "between 0 and 90"], p, n, friction_angle_deg=90)
+        self.refuses(["points", "(k, 3)", "(3,)"], [1, 2, 3], n, mu=0.5)
+        self.refuses(["points", "(3, 4, 5)"], np.zeros((3, 4, 5)), np.zeros((3, 4, 5)), mu=0.5)
+        self.refuses(["points", "(3, 0, 3)"], np.zeros((3, 0, 3)), np.zeros((3, 0, 3)), mu=0.5)
+        self.refuses(["normals", "(3, 4, 3)", "(3, 3, 3)"], p, n[:, :3], mu=0.5)
+        self.refuses(["points", "complex128"], p * 1j, n, mu=0.5)
+        broken = p.copy()
+        broken[1, 2, 0] = np.inf
+        self.refuses(["points[1, 2, 0]", "inf"], broken, n, mu=0.5)
+        longer = n.copy()
+        longer[2, 3] *= 2
+        self.refuses(["normals[2, 3]", "length 2"], p, longer, mu=0.5)
+        self.refuses(["object", "quality"], p, n, mu=0.5, quality=True)
+        self.refuses(["object", "str"], p, n, "cube.obj", 0.5)
+        self.refuses(["points", "cube.obj", "dimension 3"], p[..., :2], n[..., :2] /
+                     np.linalg.norm(n[..., :2], axis=-1, keepdims=True), cube, 0.5)
+        self.refuses(["threads", "-1"], p, n, mu=0.5, threads=-1)
+        self.refuses(["threads", "1.5"], p, n, mu=0.5, threads=1.5)
+
+
+if __name__ == "__main__":
+    unittest.main()

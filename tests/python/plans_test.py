@@ -1,0 +1,196 @@
+"""Plans and their validation: as the programs do it, and wrong arguments."""
+
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import regrasp
+
+PROGRAMS = os.environ["REGRASP_PROGRAMS"]
+START = "models/cube.start.json"
+GOAL = "models/cube.goal.json"
+
+
+class PlansTest(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.cube = regrasp.Object.read("models/cube.obj")
+        cls.plan = regrasp.plan(cls.cube, START, GOAL, friction_angle_deg=20)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def refuses(self, words, function, *arguments, **named):
+        with self.assertRaises(regrasp.InputError) as caught:
+            function(*arguments, **named)
+        self.assertNotIn("\n", str(caught.exception))
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_the_plan_has_the_bytes_of_the_program(self):
+        for model, arguments in [("cube.obj", {}), ("cube.obj", {"seed": 5, "optimize": "margin"}),
+                                 ("gear128.wkt", {})]:
+            ends = [f"models/{model.split('.')[0]}.{end}.json" for end in ("start", "goal")]
+            options = [word for name, value in arguments.items()
+                       for word in (f"--{name}", str(value))]
+            program = subprocess.run(
+                [f"{PROGRAMS}/plan", "--object", f"models/{model}", "--friction-angle", "20",
+                 "--start", ends[0], "--goal", ends[1], "--quiet", "--output", "-", *options],
+                capture_output=True, check=True, text=True)
+            plan = regrasp.plan(regrasp.Object.read(f"models/{model}"), *ends,
+                                friction_angle_deg=20, **arguments)
+            self.assertEqual(plan.text, program.stdout)
+
+    def test_the_report_says_what_the_program_says(self):
+        self.plan.write(self.path("plan.json"))
+        subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--plan",
+                        self.path("plan.json"), "--out", self.path("out"), "--no-frames",
+                        "--quiet"], check=True)
+        with open(self.path("out/report.json"), encoding="utf-8") as file:
+            told = json.load(file)
+        told.pop("run")
+        self.assertEqual(regrasp.validate(self.cube, self.plan).data, told)
+
+    def test_grasps_as_arrays_are_those_of_the_file(self):
+        def contacts(path):
+            with open(path, encoding="utf-8") as file:
+                grasp = json.load(file)["contacts"]
+            return (np.array([c["point"] for c in grasp]), np.array([c["normal"] for c in grasp]))
+        start, goal = contacts(START), contacts(GOAL)
+        for given in [(start, goal), (start[0], goal[0])]:
+            plan = regrasp.plan(self.cube, *given, friction_angle_deg=20)
+            self.assertEqual(plan.text, self.plan.text)
+
+    def test_a_plan_goes_through_its_file(self):
+        self.plan.write(self.path("mine.json"))
+        read = regrasp.Plan.read(self.path("mine.json"))
+        self.assertEqual(read.text, self.plan.text)
+        self.assertEqual(read.name, "mine.json")
+        self.assertEqual(len(read), len(self.plan.steps))
+        self.assertIn("cube.obj", repr(read))
+
+    def test_a_plan_on_an_object_made_of_arrays(self):
+        ball = np.array([[1., 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
+        faces = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5],
+                 [0, 3, 5]]
+        body = regrasp.Object.from_arrays(ball, faces, scale=0.04, name="octahedron.obj")
+        plan = regrasp.plan(body, "random", "random", mu=0.7, seed=1)
+        self.assertEqual(plan.data["object"]["sha256"], body.sha256)
+        body.write(self.path("octahedron.obj"))
+        plan.write(self.path("plan.json"))
+        done = subprocess.run([f"{PROGRAMS}/validate", "--object", self.path("octahedron.obj"),
+                               "--plan", self.path("plan.json"), "--out", self.path("out"),
+                               "--no-frames", "--quiet"], check=False)
+        self.assertEqual(done.returncode == 0, regrasp.validate(body, plan).passed)
+
+    def test_a_plan_that_is_broken_fails_with_the_reason(self):
+        report = regrasp.validate(self.cube, self.plan, mu=0.05)
+        self.assertFalse(report.passed)
+        self.assertEqual(report.steps[0]["reason"], "not-force-closure")
+        self.assertIn("what would mend it", report.failure)
+        self.assertIn("fail", str(report).lower())
+        self.assertIn("hold", repr(report))
+
+    def test_no_plan_says_what_was_searched(self):
+        # Two pairs whose torques cancel: hardly any friction holds, and no contact can leave unless
+        # another takes its very line of force.
+        def pinwheel(first, second):
+            points = np.zeros((4, 3))
+            for i, (axis, other, side) in enumerate([(first, second, 1), (first, second, -1),
+                                                     (second, first, 1), (second, first, -1)]):
+                points[i, axis], points[i, other] = side * 0.03, side * 0.02
+            return points
+        with self.assertRaises(regrasp.NoPlan) as caught:
+            regrasp.plan(self.cube, pinwheel(0, 1), pinwheel(1, 2), friction_angle_deg=2,
+                         contacts=4)
+        self.assertIn("495 subsets of four", str(caught.exception))
+        with self.assertRaises(regrasp.NoPlan) as caught:
+            regrasp.plan(self.cube, "random-any", GOAL, mu=0.3, min_quality=0.9)
+        self.assertIn("start random-any", str(caught.exception))
+
+    def test_progress_is_told_and_its_exception_comes_back(self):
+        told = []
+        regrasp.validate(self.cube, self.plan, progress=told.append)
+        self.assertIn("replay: 1 of", told[0])
+
+        def stop(text):
+            raise KeyError(text)
+        with self.assertRaises(KeyError):
+            regrasp.validate(self.cube, self.plan, progress=stop)
+        with self.assertRaises(KeyError):
+            regrasp.Object.read("models/cube.obj", progress=stop)
+
+    def test_ctrl_c_ends_planning(self):
+        # By itself this takes several seconds; the signal comes once it has begun.
+        timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+        told = []
+
+        def begin(text):
+            if not told:
+                timer.start()
+            told.append(text)
+        duck = regrasp.Object.read("models/duck1000.obj")
+        with self.assertRaises(KeyboardInterrupt):
+            regrasp.plan(duck, "random", "random", mu=0.2, planner="roadmap", contacts=4000,
+                         clusters=200, progress=begin)
+            timer.join()
+        self.assertTrue(told)
+
+    def test_a_time_limit_ends_planning(self):
+        with self.assertRaises((regrasp.NoPlan, TimeoutError)) as caught:
+            regrasp.plan(self.cube, START, GOAL, friction_angle_deg=20, planner="roadmap",
+                         time_limit=1e-9)
+        self.assertIn("time", str(caught.exception))
+
+    def test_other_threads_run_meanwhile(self):
+        reports = []
+        threads = [threading.Thread(target=lambda: reports.append(
+            regrasp.validate(self.cube, self.plan).text)) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(reports), 3)
+        self.assertEqual(len(set(reports)), 1)
+
+    def test_arguments_that_are_wrong_are_named(self):
+        cube, grasp = self.cube, [[.03, 0, 0], [-.03, 0, 0], [0, .03, 0]]
+        self.refuses(["start", "no file no.json", "'random'"], regrasp.plan, cube, "no.json", GOAL,
+                     mu=0.5)
+        self.refuses(["start", "/contacts/0/point", "off the surface"], regrasp.plan, cube,
+                     [[9, 9, 9]] * 3, GOAL, mu=0.5)
+        self.refuses(["goal", "(k, 3)", "(3, 2)"], regrasp.plan, cube, grasp,
+                     np.zeros((3, 2)), mu=0.5)
+        self.refuses(["start[1]", "(3, 3)", "(2, 3)"], regrasp.plan, cube,
+                     (grasp, np.zeros((2, 3))), GOAL, mu=0.5)
+        self.refuses(["goal[0, 1]", "nan"], regrasp.plan, cube, grasp,
+                     [[0, float("nan"), 0]], mu=0.5)
+        self.refuses(["planner", "did you mean 'general'"], regrasp.plan, cube, START, GOAL,
+                     mu=0.5, planner="genral")
+        self.refuses(["optimize", "'steps'"], regrasp.plan, cube, START, GOAL, mu=0.5,
+                     optimize="all")
+        self.refuses(["seed", "-1"], regrasp.plan, cube, START, GOAL, mu=0.5, seed=-1)
+        self.refuses(["time_limit", "above 0"], regrasp.plan, cube, START, GOAL, mu=0.5,
+                     time_limit=0)
+        self.refuses(["object", "str"], regrasp.plan, "cube.obj", START, GOAL, mu=0.5)
+        self.refuses(["plan", "str", "Plan.read"], regrasp.validate, cube, "plan.json")
+        self.refuses(["mass", "above 0"], regrasp.validate, cube, self.plan, mass=0)
+        self.refuses(["plan.json"], regrasp.Plan, "{}")
+        gear = regrasp.Object.read("models/gear128.wkt")
+        self.refuses(["plan.json", "sha256", "gear128.wkt"], regrasp.validate, gear, self.plan)
+
+
+if __name__ == "__main__":
+    unittest.main()
