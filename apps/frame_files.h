@@ -1,17 +1,14 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "apps/hand_picture.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
-#include "render/frames/contact_sheet.h"
-#include "render/frames/frame.h"
 #include "render/picture/moving_picture.h"
 #include "report/page/report_page.h"
+#include "report/pictures/report_pictures.h"
 #include "report/report.h"
 
 namespace regrasp::apps {
@@ -31,29 +28,18 @@ inline constexpr char kAnimationName[] = "replay.webp";
 /// report, page, contact sheet, moving picture, or the frame of an entry.
 [[nodiscard]] bool IsValidationFile(const std::string& name);
 
-struct DrawingOptions {
-  render::FrameOptions frame;
-  const HandPicture* hand = nullptr;  ///< of a plan for a hand; null: fingers without one
-  int workers = 1;                    ///< threads that draw
-  int sheet_width = render::kSheetWidth;
-  /// Called with the number of pictures drawn and of all, after each.
-  std::function<void(int done, int all)> on_picture;
-};
-
 struct MovingFile {
   std::filesystem::path path;
   render::MovingFormat format;
 };
 
 /// Draws a frame of every step up to the one that failed into `folder` and names it in the report,
-/// and all of them, small, into the contact sheet overview.png, with the verdict in words. The
-/// frame of the step that failed shows what the replay saw, or what is planned where it was not
-/// replayed, with what is wrong; the sheet has grey cells for those after it.
+/// and the contact sheet overview.png (report/pictures/report_pictures.h).
 /// @returns the same pictures, smaller, one for each entry of the report.
 /// @throws EnvironmentError  no rendering context, or the folder cannot be written.
 [[nodiscard]] std::vector<report::PagePicture> WriteFrames(const object::Object& object,
                                                            const plan::Plan& plan,
-                                                           const DrawingOptions& options,
+                                                           const report::DrawingOptions& options,
                                                            const std::filesystem::path& folder,
                                                            report::Report& report);
 
@@ -65,8 +51,9 @@ struct MovingFile {
 /// @returns the first of them.
 /// @throws EnvironmentError  as WriteFrames.
 report::PagePicture WriteAnimation(const object::Object& object, const plan::Plan& plan,
-                                   const DrawingOptions& options,
+                                   const report::DrawingOptions& options,
                                    const std::vector<plan::Snapshot>& samples,
-                                   const std::vector<MovingFile>& files, report::Report& report);
+                                   const std::vector<MovingFile>& files,
+                                   const report::Report& report);
 
 }  // namespace regrasp::apps

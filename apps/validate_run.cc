@@ -251,7 +251,7 @@ class DrawingCount {
 
 /// @returns what the page shows of it: replay.webp, or the video where only that is made.
 report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions frame,
-                            const ValidateTask& task, const HandPicture* hand,
+                            const ValidateTask& task, const report::HandPicture* hand,
                             const Samples& samples, const std::filesystem::path& folder,
                             report::Report& report) {
   frame.width = options.animation_width;
@@ -274,12 +274,12 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
                    const std::filesystem::path& folder, report::Report& report) {
   const object::Object& object = *task.object.object;
   std::vector<report::PagePicture> pictures;
-  std::optional<HandPicture> seen;
+  std::optional<report::HandPicture> seen;
   const bool draws = !options.no_frames || options.animates();
   if (task.hand && draws) {
     seen.emplace(*task.hand, task.plan, task.plan.scale * object.mass_properties().centroid);
   }
-  const HandPicture* hand = seen ? &*seen : nullptr;
+  const report::HandPicture* hand = seen ? &*seen : nullptr;
   if (!options.no_frames) {
     DrawingCount count("drawing frames", options.quiet);
     pictures = WriteFrames(object, task.plan,

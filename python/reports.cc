@@ -1,15 +1,22 @@
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/plan/plan_io.h"
 #include "python/binding.h"
 #include "python/interrupt.h"
+#include "render/picture/image.h"
 #include "report/failure.h"
+#include "report/pictures/report_pictures.h"
 #include "report/report.h"
 
 namespace regrasp::python {
@@ -17,6 +24,12 @@ namespace regrasp::python {
 namespace py = pybind11;
 
 namespace {
+
+/// A report as Python holds it, with what its pictures are drawn from.
+struct PythonReport {
+  report::Report report;
+  plan::Plan plan;
+};
 
 struct ValidateArguments {
   std::optional<double> half_angle, mass_kg, squeeze_N;
@@ -40,10 +53,9 @@ void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::st
   }
 }
 
-report::Report Validate(const PythonObject& object, const std::string& text,
-                        const std::string& name, const ValidateArguments& given,
-                        Interrupt& interrupt) {
-  const plan::Plan plan = plan::ParsePlan(text, name);
+PythonReport Validate(const PythonObject& object, const std::string& text, const std::string& name,
+                      const ValidateArguments& given, Interrupt& interrupt) {
+  plan::Plan plan = plan::ParsePlan(text, name);
   CheckFits(plan, object, name);
   plan::CheckOptions check;
   check.half_angle = given.half_angle;
@@ -65,31 +77,62 @@ report::Report Validate(const PythonObject& object, const std::string& text,
   report.object_sha256 = object.file.sha256;
   report.plan_file = name;
   report.plan_sha256 = Sha256(text);
-  return report;
+  return {std::move(report), std::move(plan)};
 }
 
-/// The text of report.json, the table, and what failed, why and what would mend it (or None).
-py::tuple ValidatePlan(const PythonObject& object, const std::string& text, const std::string& name,
-                       const ValidateArguments& given, py::object progress) {
+PythonReport ValidatePlan(const PythonObject& object, const std::string& text,
+                          const std::string& name, const ValidateArguments& given,
+                          py::object progress) {
   Interrupt interrupt({}, std::move(progress));
-  std::string json, table;
-  std::optional<std::string> failure;
+  PythonReport result;
   {
     const py::gil_scoped_release unlocked;
     try {
-      const report::Report report = Validate(object, text, name, given, interrupt);
-      json = report::FormatReportJson(report);
-      table = report::FormatReportTable(report);
-      if (const auto failed = report::DescribeFailure(report)) {
-        failure =
-            failed->headline() + "; why: " + failed->why + "; what would mend it: " + failed->mend;
-      }
+      result = Validate(object, text, name, given, interrupt);
     } catch (const TimeUp&) {
       if (!interrupt.raised()) throw;
     }
   }
   interrupt.ThrowIfRaised();
-  return py::make_tuple(json, table, failure);
+  return result;
+}
+
+/// "hold: not force closure; why: …; what would mend it: …"; nullopt where the plan passes.
+std::optional<std::string> FailureOf(const PythonReport& of) {
+  const auto failed = report::DescribeFailure(of.report);
+  if (!failed) return std::nullopt;
+  return failed->headline() + "; why: " + failed->why + "; what would mend it: " + failed->mend;
+}
+
+py::array_t<std::uint8_t> ArrayOf(const render::Image& image) {
+  return py::array_t<std::uint8_t>({image.height, image.width, 3}, image.rgb.data());
+}
+
+/// The frames, and the contact sheet.
+py::tuple Draw(const PythonReport& of, const PythonObject& object, int width, int height) {
+  report::DrawingOptions options;
+  options.frame.width = width;
+  options.frame.height = height;
+  options.workers = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<render::Image> frames;
+  render::Image sheet;
+  {
+    const py::gil_scoped_release unlocked;
+    sheet =
+        report::DrawFrames(*object.file.object, of.plan, options, of.report,
+                           [&](const report::DrawnFrame& frame) { frames.push_back(frame.image); });
+  }
+  py::list arrays;
+  for (const render::Image& frame : frames) arrays.append(ArrayOf(frame));
+  return py::make_tuple(arrays, ArrayOf(sheet));
+}
+
+py::bytes EncodePng(const py::array_t<std::uint8_t, py::array::c_style>& pixels) {
+  render::Image image;
+  image.height = static_cast<int>(pixels.shape(0));
+  image.width = static_cast<int>(pixels.shape(1));
+  image.rgb.assign(pixels.data(), pixels.data() + pixels.size());
+  return render::EncodePng(image);
 }
 
 }  // namespace
@@ -103,7 +146,17 @@ void BindReports(py::module_& module) {
       .def_readwrite("shake", &ValidateArguments::shake)
       .def_readwrite("tolerance", &ValidateArguments::tolerance)
       .def_readwrite("stress", &ValidateArguments::stress);
+  py::class_<PythonReport>(module, "Report")
+      .def_property_readonly(
+          "json", [](const PythonReport& of) { return report::FormatReportJson(of.report); })
+      .def_property_readonly(
+          "table", [](const PythonReport& of) { return report::FormatReportTable(of.report); })
+      .def_property_readonly("failure", FailureOf)
+      .def("draw", Draw);
+  module.attr("least_frame_side") = render::kMinFrameSide;
+  module.attr("most_frame_side") = render::kMaxFrameSide;
   module.def("validate_plan", ValidatePlan);
+  module.def("encode_png", EncodePng);
 }
 
 }  // namespace regrasp::python

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _arguments, _regrasp
+from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
 from .objects import Object
 
@@ -29,6 +29,25 @@ class ForceClosure:
     """The largest ball of wrenches that is resisted with normal forces summing to 1, torques over
     half the object's diameter (Ferrari and Canny's L1 metric, its lower bound); None where it was
     not asked for."""
+
+    def _repr_html_(self) -> str:
+        if np.ndim(self.holds) == 0:
+            verdict = ("force closure" if self.holds else
+                       "too close to call" if self.too_close else "no force closure")
+            rows = [["verdict", verdict], ["margin", f"{self.margin:.4g}"]]
+            if self.required_angle_deg is not None:
+                rows.append(["required half-angle", f"{self.required_angle_deg:.4g}°"])
+            if self.quality is not None:
+                rows.append(["quality", f"{self.quality:.4g}"])
+            return _html.table(["", "of one grasp"], rows)
+        rows = [["force closure", str(int(self.holds.sum()))],
+                ["too close to call", str(int(self.too_close.sum()))]]
+        for name, values in (("required half-angle, smallest", self.required_angle_deg),
+                             ("quality, largest", self.quality)):
+            if values is not None and len(values) and not np.isnan(values).all():
+                best = np.nanmin(values) if name.startswith("required") else values.max()
+                rows.append([name, f"{best:.4g}" + ("°" if name.startswith("required") else "")])
+        return _html.table(["", f"of {len(self.holds)} grasps"], rows)
 
 
 def force_closure(points, normals, object: Object | None = None, mu: float | None = None, *,

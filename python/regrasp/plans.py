@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
 
 
-from . import _arguments, _regrasp
+from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
 from .objects import Object
 
@@ -57,6 +58,12 @@ class Plan:
         """The steps, as in the file."""
         return self.data["steps"]
 
+    def _repr_html_(self) -> str:
+        rows = [["0", "hold", _fingers(self.data["initial"]["contacts"])]]
+        for i, step in enumerate(self.steps, 1):
+            rows.append([str(i), step["kind"], _describe(step)])
+        return f"<p>{html.escape(repr(self)[1:-1])}</p>" + _html.table(["step", "kind", "what happens"], rows)
+
     def __len__(self) -> int:
         return len(self.steps)
 
@@ -66,6 +73,24 @@ class Plan:
         counts = [f"{kinds.count(kind)} {kind if kinds.count(kind) == 1 else several[kind]}"
                   for kind in several if kind in kinds]
         return f"<Plan of {self.data['object']['file']}: {', '.join(counts) or 'no steps'}>"
+
+
+def _fingers(contacts: list[dict]) -> str:
+    names = [str(contact["finger"]) for contact in contacts]
+    return ("finger " if len(names) == 1 else "fingers ") + ", ".join(names)
+
+
+def _describe(step: dict) -> str:
+    if step["kind"] == "switch":
+        released = [{"finger": finger} for finger in step["release"]]
+        parts = [("place ", step["place"]), ("release ", released)]
+        return "; ".join(what + _fingers(which) for what, which in parts if which)
+    if step["kind"] == "align":
+        first, last = (step["waypoints"][i]["contacts"] for i in (0, -1))
+        where = {contact["finger"]: contact["point"] for contact in first}
+        moved = [contact for contact in last if where.get(contact["finger"]) != contact["point"]]
+        return f"move {_fingers(moved or last)} along the surface"
+    return "the object moves in the hand"
 
 
 def plan(object: Object, start, goal, mu: float | None = None, *,

@@ -4,21 +4,32 @@ from __future__ import annotations
 
 import json
 
-from . import _arguments, _regrasp
+import numpy as np
+
+from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
 from .objects import Object
 from .plans import Plan
 
 
 class Report:
-    """What `validate` says: `data` is report.json as a dict (docs/report.schema.json)."""
+    """What `validate` says: `data` is report.json as a dict (docs/report.schema.json).
 
-    def __init__(self, text: str, table: str, failure: str | None):
-        self.text = text
-        self.data: dict = json.loads(text)
-        self.table = table
+    A notebook shows its contact sheet and its table.
+    """
+
+    def __init__(self, core: _regrasp.Report, object: Object):
+        if not isinstance(core, _regrasp.Report):
+            raise TypeError("use regrasp.validate")
+        self._core = core
+        self._object = object
+        self._drawn: dict[tuple[int, int], tuple] = {}
+        self.text: str = core.json
+        """Of report.json."""
+        self.data: dict = json.loads(self.text)
+        self.table: str = core.table
         """For people: a line for each step, what is weakest, the verdict."""
-        self.failure = failure
+        self.failure: str | None = core.failure
         """What failed, why and what would mend it, in one line; None where the plan passes."""
 
     @property
@@ -30,6 +41,40 @@ class Report:
     def steps(self) -> list[dict]:
         """What is said of the hold and of each step after it."""
         return self.data["steps"]
+
+    def frames(self, size: tuple[int, int] = (1280, 960)) -> list[np.ndarray]:
+        """The pictures of the hold and of each step up to the one that failed.
+
+        Args:
+            size: width and height, pixels.
+
+        Returns:
+            Arrays (height, width, 3) of uint8, RGB, rows from the top.
+        """
+        return self._draw(size)[0]
+
+    def overview(self, size: tuple[int, int] = (1280, 960)) -> np.ndarray:
+        """The contact sheet: all frames, small, with the verdict; (H, W, 3) of uint8.
+
+        Args:
+            size: of the frames, before they are made small.
+        """
+        return self._draw(size)[1]
+
+    def _draw(self, size):
+        width, height = size
+        limits = _regrasp.least_frame_side, _regrasp.most_frame_side
+        size = (_arguments.integer("size[0]", width, *limits),
+                _arguments.integer("size[1]", height, *limits))
+        if size not in self._drawn:
+            self._drawn[size] = self._core.draw(self._object._core, *size)
+        return self._drawn[size]
+
+    def _repr_png_(self) -> bytes:
+        return _regrasp.encode_png(self.overview())
+
+    def _repr_html_(self) -> str:
+        return _html.picture(self._repr_png_(), repr(self)) + _html.text(self.table)
 
     def __str__(self) -> str:
         return self.table
@@ -66,8 +111,11 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     >>> cube = Object.read("models/cube.obj")
     >>> from regrasp import plan
     >>> found = plan(cube, "models/cube.start.json", "models/cube.goal.json", mu=0.4)
-    >>> validate(cube, found).passed
+    >>> report = validate(cube, found)
+    >>> report.passed
     True
+    >>> [frame.shape for frame in report.frames((320, 240))]
+    [(240, 320, 3), (240, 320, 3), (240, 320, 3)]
     >>> validate(cube, found, mu=0.05).steps[0]["reason"]
     'not-force-closure'
     """
@@ -85,4 +133,5 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     given.shake = _arguments.number("shake", shake, 0)
     given.tolerance = _arguments.number("tolerance", tolerance, 0)
     given.stress = bool(stress)
-    return Report(*_regrasp.validate_plan(object._core, plan.text, plan.name, given, progress))
+    return Report(_regrasp.validate_plan(object._core, plan.text, plan.name, given, progress),
+                  object)

@@ -93,6 +93,15 @@ class GraspsTest(unittest.TestCase):
         none = regrasp.force_closure(np.zeros((0, 4, 3)), np.zeros((0, 4, 3)), mu=0.6)
         self.assertEqual(none.holds.shape, (0,))
 
+    def test_a_notebook_shows_verdicts(self):
+        points, normals = random_grasps(50, 4, 7)
+        many = regrasp.force_closure(points, normals, mu=0.6, required_angle=True)
+        page = many._repr_html_()
+        self.assertIn("of 50 grasps", page)
+        self.assertIn(f"<td>{many.holds.sum()}</td>", page)
+        one = regrasp.force_closure(TETRAHEDRON, -TETRAHEDRON, mu=0.5)._repr_html_()
+        self.assertIn("<td>force closure</td>", one)
+
     def test_arguments_that_are_wrong_are_named(self):
         p, n = random_grasps(3, 4, 6)
         cube = regrasp.Object.read("models/cube.obj")

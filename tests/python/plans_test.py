@@ -103,6 +103,36 @@ class PlansTest(unittest.TestCase):
         self.assertIn("fail", str(report).lower())
         self.assertIn("hold", repr(report))
 
+    def test_frames_are_the_pictures_of_the_program(self):
+        self.plan.write(self.path("plan.json"))
+        subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--plan",
+                        self.path("plan.json"), "--out", self.path("out"), "--size", "320x240",
+                        "--quiet"], check=True)
+        report = regrasp.validate(self.cube, self.plan)
+        frames = report.frames((320, 240))
+        pictures = sorted(name for name in os.listdir(self.path("out")) if name[0].isdigit())
+        self.assertEqual(len(frames), len(pictures))
+        for frame, name in zip(frames, pictures):
+            self.assertEqual((frame.shape, frame.dtype), ((240, 320, 3), np.uint8))
+            with open(self.path(f"out/{name}"), "rb") as file:
+                self.assertEqual(regrasp._regrasp.encode_png(frame), file.read())
+        self.assertGreater(len(np.unique(report.overview((320, 240)))), 10)
+        self.refuses(["size[0]", "from 48", "10"], report.frames, (10, 240))
+        broken = regrasp.validate(self.cube, self.plan, mu=0.05)
+        self.assertEqual(len(broken.frames((320, 240))), 1)
+
+    def test_a_notebook_shows_plans_and_reports(self):
+        report = regrasp.validate(self.cube, self.plan)
+        self.assertTrue(report._repr_png_().startswith(b"\x89PNG"))
+        page = report._repr_html_()
+        self.assertIn('src="data:image/png;base64,', page)
+        self.assertIn("required_deg", page)
+        rows = self.plan._repr_html_()
+        self.assertEqual(rows.count("<tr>"), len(self.plan) + 2)
+        named = json.loads(self.plan.text)
+        named["object"]["file"] = "<script>.obj"
+        self.assertNotIn("<script>", regrasp.Plan(json.dumps(named))._repr_html_())
+
     def test_no_plan_says_what_was_searched(self):
         # Two pairs whose torques cancel: hardly any friction holds, and no contact can leave unless
         # another takes its very line of force.

@@ -1,4 +1,4 @@
-#include "apps/hand_picture.h"
+#include "report/pictures/hand_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "planner/base/angle.h"
 #include "planner/plan/hand_path.h"
 
-namespace regrasp::apps {
+namespace regrasp::report {
 namespace {
 
 using Eigen::Isometry3d;
@@ -241,4 +241,4 @@ std::vector<plan::Snapshot> HandPicture::Between(plan::EntryIndex entry,
   return pictures;
 }
 
-}  // namespace regrasp::apps
+}  // namespace regrasp::report

@@ -10,7 +10,7 @@
 #include "planner/plan/snapshot.h"
 #include "render/frames/hand_view.h"
 
-namespace regrasp::apps {
+namespace regrasp::report {
 
 /// The hand of a plan as frames show it. With it frames have the palm at rest, its up direction
 /// upwards, and the object moves.
@@ -51,4 +51,4 @@ class HandPicture {
   Eigen::Isometry3d X_WP_;               ///< of the palm in the picture
 };
 
-}  // namespace regrasp::apps
+}  // namespace regrasp::report
