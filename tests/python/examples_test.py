@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+import os
 import unittest
 
 import regrasp
@@ -20,6 +21,12 @@ class ExamplesTest(unittest.TestCase):
                 self.assertEqual(result.failed, 0)
                 attempted += result.attempted
         self.assertGreater(attempted, 20)
+
+    def test_the_page_holds(self):
+        result = doctest.testfile(os.path.join(os.getcwd(), "docs/python.md"),
+                                  module_relative=False, optionflags=doctest.ELLIPSIS)
+        self.assertEqual(result.failed, 0)
+        self.assertGreater(result.attempted, 15)
 
     def test_all_that_is_public_is_described(self):
         for name in regrasp.__all__:
