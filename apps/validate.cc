@@ -1,7 +1,8 @@
-// validate: checks a plan, a library of plans or a single grasp analytically, replays it in MuJoCo,
+// validate: checks a plan, a library of plans or grasps analytically, replays it in MuJoCo,
 // draws a frame of each step, and says pass or fail.
 
 #include "apps/commands.h"
+#include "apps/grasps_run.h"
 #include "apps/program.h"
 #include "apps/validate_batch.h"
 #include "apps/validate_options.h"
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
   options.AddTo(app);
   return RunProgram(app, argc, argv, [&] {
     options.Finish(app);
+    if (options.for_grasps()) return RunGrasps(options);
     return options.for_batch() ? RunBatch(options) : RunValidation(options).exit_code;
   });
 }

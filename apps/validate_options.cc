@@ -61,6 +61,19 @@ void AddInputs(CLI::App& app, ValidateOptions& options) {
           "closure, the half-angle that it needs, its quality, and its weakest finger: the one "
           "whose own friction may fall least while all others keep theirs; holds and shakes it")
           ->excludes(plan);
+  CLI::Option* grasps =
+      add("--grasps", options.grasps_path,
+          "NPZ file of many grasps: arrays points and normals of shape (N, k, 3), or (N, k, 2) in "
+          "the plane; says of each whether it is on the object and force closure, by analysis "
+          "alone, and writes verdicts.npz; normals may be left out in the interior of faces")
+          ->excludes(plan)
+          ->excludes(grasp);
+  app.add_flag("--required-angle", options.required_angle,
+               "With --grasps, also the half-angle that each needs; some 64 microseconds each")
+      ->needs(grasps);
+  app.add_flag("--quality", options.quality,
+               "With --grasps, also the quality of each; some milliseconds each")
+      ->needs(grasps);
   add("--start", options.start, "Grasp file that the plan's initial grasp must be")
       ->excludes(grasp);
   add("--goal", options.goal, "Grasp file that the plan's goal must be")->excludes(grasp);
@@ -84,7 +97,8 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
     return app.add_option(name, value, text)->type_name("FILE");
   };
   add("--out", options.out,
-      "Folder for report and frames (default out/<plan or grasp name>); of several plans a folder "
+      "Folder for report and frames, or verdicts (default out/<plan or grasp name>); of several "
+      "plans a folder "
       "for each in it, index.html and summary.json (default out/<folder name> or out/batch)")
       ->type_name("DIR");
   app.add_flag("--certificates", options.certificates,
@@ -290,6 +304,20 @@ void AddBatch(CLI::App& app, ValidateOptions& options) {
       "edited");
 }
 
+/// Many grasps are judged by analysis alone.
+void CheckForGrasps(const CLI::App& app) {
+  static const std::set<std::string> kServed = {
+      "--object",         "--grasps",   "--required-angle", "--quality", "--out",
+      "--friction-angle", "--mu",       "--max-deviation",  "--faces",   "--part",
+      "--repair",         "--solidify", "--shells",         "--quiet",   "--scale"};
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && !kServed.contains(name)) {
+      throw InputError(name + " goes with a plan or a single grasp, not with --grasps");
+    }
+  }
+}
+
 /// Options that say where things come from, where they go and how fast; --start and --goal count
 /// by what their files hold.
 bool ChangesResults(const std::string& name) {
@@ -339,7 +367,13 @@ void ValidateOptions::AddTo(CLI::App& app) {
 }
 
 void ValidateOptions::Finish(const CLI::App& app) {
-  if (plans.empty() && grasp_path.empty()) throw InputError("--plan or --grasp is required");
+  if (plans.empty() && grasp_path.empty() && grasps_path.empty()) {
+    throw InputError("--plan, --grasp or --grasps is required");
+  }
+  if (for_grasps()) {
+    CheckForGrasps(app);
+    return;
+  }
   if (for_grasp() && allow_object_change) {
     throw InputError("--allow-object-change: a grasp file names no object");
   }
@@ -393,7 +427,7 @@ bool ValidateOptions::for_batch() const {
 }
 
 const std::string& ValidateOptions::InputPath() const {
-  return for_grasp() ? grasp_path : plan_path;
+  return for_grasps() ? grasps_path : for_grasp() ? grasp_path : plan_path;
 }
 
 std::filesystem::path ValidateOptions::Folder() const {

@@ -29,6 +29,9 @@ struct ValidateOptions {
   std::vector<std::string> plans;  ///< files and folders
   std::string plan_path;           ///< the one to validate now
   std::string grasp_path;          ///< instead of a plan
+  std::string grasps_path;         ///< many of them, as arrays
+  bool required_angle = false;     ///< of each of those, too
+  bool quality = false;            ///< likewise
   std::string out;
   std::string junit;
   std::string json;
@@ -81,8 +84,9 @@ struct ValidateOptions {
   [[nodiscard]] bool for_batch() const;
   [[nodiscard]] bool trajectory_is_npz() const;
   [[nodiscard]] bool for_grasp() const { return !grasp_path.empty(); }
+  [[nodiscard]] bool for_grasps() const { return !grasps_path.empty(); }
   [[nodiscard]] bool animates() const { return animate || !video.empty(); }
-  /// The plan or the grasp.
+  /// The plan, the grasp or the grasps.
   [[nodiscard]] const std::string& InputPath() const;
   /// Where results go: `out`, or out/<plan, grasp or folder name>, or out/batch.
   [[nodiscard]] std::filesystem::path Folder() const;

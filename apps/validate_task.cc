@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "apps/frame_files.h"
+#include "apps/grasps_run.h"
 #include "apps/output_files.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"
@@ -26,6 +27,11 @@ namespace {
 OutputFiles OutputsOf(const ValidateOptions& options) {
   OutputFiles outputs;
   if (!options.verify.empty()) return outputs;
+  if (options.for_grasps()) {
+    outputs.folders.push_back(
+        {"--out", options.Folder(), [](const std::string& name) { return name == kVerdictsName; }});
+    return outputs;
+  }
   outputs.Add("--junit", options.junit);
   if (options.json != kStandardStream) outputs.Add("--json", options.json);
   outputs.Add("--trajectory", options.trajectory);
@@ -93,8 +99,11 @@ void ReadPlanTask(const ValidateOptions& options, object::Reading reading, Valid
 
 void CheckOutputs(const ValidateOptions& options) {
   const OutputFiles outputs = OutputsOf(options);
+  const char* input = options.for_grasps()  ? "--grasps"
+                      : options.for_grasp() ? "--grasp"
+                                            : "--plan";
   CheckOutputsDiffer({{"--object", options.object_path},
-                      {options.for_grasp() ? "--grasp" : "--plan", options.InputPath()},
+                      {input, options.InputPath()},
                       {"--start", options.start},
                       {"--goal", options.goal},
                       {"--hand", options.hand}},
@@ -102,19 +111,23 @@ void CheckOutputs(const ValidateOptions& options) {
   CheckOutputsWritable(outputs);
 }
 
+object::ObjectFile ReadGraspObject(const ValidateOptions& options, ProgressLine& progress) {
+  object::Reading reading = {progress.reporter(), {}};
+  reading.shells = options.repair.shells();
+  reading.on_shells = [&](const std::string& text) {
+    progress.Clear();
+    if (!options.quiet) PrintMessage(kValidateName, options.object_path + ": " + text);
+  };
+  if (!options.repair.wanted()) return object::ReadObject(options.object_path, reading);
+  return repair::ReadRepaired(options.object_path, options.repair.Get(), reading);
+}
+
 ValidateTask ReadTask(const ValidateOptions& options) {
   ProgressLine progress(options.quiet);
-  object::Reading reading = {progress.reporter(), {}};
+  const object::Reading reading = {progress.reporter(), {}};
   ValidateTask task;
   if (options.for_grasp()) {
-    reading.shells = options.repair.shells();
-    reading.on_shells = [&](const std::string& text) {
-      progress.Clear();
-      if (!options.quiet) PrintMessage(kValidateName, options.object_path + ": " + text);
-    };
-    task.object = options.repair.wanted()
-                      ? repair::ReadRepaired(options.object_path, options.repair.Get(), reading)
-                      : object::ReadObject(options.object_path, reading);
+    task.object = ReadGraspObject(options, progress);
     task.file_text = ReadFile(options.grasp_path);
     task.grasp = plan::ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
     task.plan =

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/progress.h"
 #include "apps/validate_options.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
@@ -26,6 +27,11 @@ struct ValidateTask {
 
 /// @throws InputError  an output is another file of the command line, or can't be written.
 void CheckOutputs(const ValidateOptions& options);
+
+/// The object of --grasp or --grasps, repaired where that is asked.
+/// @throws InputError  it is none.
+[[nodiscard]] object::ObjectFile ReadGraspObject(const ValidateOptions& options,
+                                                 ProgressLine& progress);
 
 /// Reads the object, the plan or the grasp, and what else is named.
 /// @throws InputError  a file is no good, or does not go with another one or with an option.

@@ -25,6 +25,7 @@ set(regrasp_slow_tests
   apps.validate
   fuzz.assimp
   fuzz.grasp
+  fuzz.npz
   fuzz.obj
   fuzz.off
   fuzz.plan

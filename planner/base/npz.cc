@@ -51,7 +51,9 @@ std::string FormatNpy(const NpzArray& array) {
     width = std::max(width, texts.emplace_back(Decode(text)).size());
   }
   std::string header = "{'descr': '" +
-                       (array.texts.empty() ? "<f8" : "<U" + std::to_string(width)) +
+                       (!array.texts.empty() ? "<U" + std::to_string(width)
+                        : array.is_truth     ? "|b1"
+                                             : "<f8") +
                        "', 'fortran_order': False, 'shape': (";
   for (const std::size_t length : array.shape) header += std::to_string(length) + ",";
   header += "), }";
@@ -62,7 +64,13 @@ std::string FormatNpy(const NpzArray& array) {
   header += '\n';
   Append(static_cast<std::uint16_t>(header.size()), bytes);
   bytes += header;
-  for (const double value : array.values) Append(std::bit_cast<std::uint64_t>(value), bytes);
+  for (const double value : array.values) {
+    if (array.is_truth) {
+      bytes += static_cast<char>(value != 0);
+    } else {
+      Append(std::bit_cast<std::uint64_t>(value), bytes);
+    }
+  }
   for (std::u32string& text : texts) {
     text.resize(width, U'\0');
     for (const char32_t character : text) Append(character, bytes);

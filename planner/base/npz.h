@@ -12,10 +12,11 @@ struct NpzArray {
   std::vector<std::size_t> shape;
   std::vector<double> values = {};      ///< the last index runs fastest
   std::vector<std::string> texts = {};  ///< UTF-8; a byte that is none becomes U+FFFD
+  bool is_truth = false;  ///< the numbers are truth values, written as such: 0 is false
 };
 
 /// The bytes of an NPZ file as numpy.load reads it: an uncompressed ZIP archive of arrays in the
-/// NPY format 1.0, numbers as <f8 and texts as <U.
+/// NPY format 1.0, numbers as <f8, truth values as |b1 and texts as <U.
 ///
 /// Law: the same arrays give the same bytes.
 /// @throws std::invalid_argument  a shape does not fit its values.

@@ -1,12 +1,10 @@
 #include "planner/object/read_3mf.h"
 
 #include <expat.h>
-#include <minizip/unzip.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,6 +14,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/base/zip_archive.h"
 #include "planner/object/size_limits.h"
 #include "planner/object/text_scanner.h"
 
@@ -25,58 +24,13 @@ namespace {
 
 using Eigen::Affine3d;
 
-/// Bytes in memory as minizip's file.
-struct MemoryFile {
-  std::string_view bytes;
-  ZPOS64_T at = 0;
-
-  static MemoryFile& Of(void* opaque) { return *static_cast<MemoryFile*>(opaque); }
-  static void* Open(void* opaque, const void*, int) { return opaque; }
-  static uLong Read(void* opaque, void*, void* to, uLong size) {
-    MemoryFile& file = Of(opaque);
-    if (file.at >= file.bytes.size()) return 0;
-    const std::string_view piece = file.bytes.substr(file.at, size);
-    std::memcpy(to, piece.data(), piece.size());
-    file.at += piece.size();
-    return static_cast<uLong>(piece.size());
-  }
-  static ZPOS64_T Tell(void* opaque, void*) { return Of(opaque).at; }
-  static long Seek(void* opaque, void*, ZPOS64_T offset, int origin) {
-    MemoryFile& file = Of(opaque);
-    const ZPOS64_T from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? file.at
-                          : origin == ZLIB_FILEFUNC_SEEK_END ? file.bytes.size()
-                                                             : 0;
-    file.at = from + offset;
-    return file.at <= file.bytes.size() ? 0 : -1;
-  }
-  static int Close(void*, void*) { return 0; }
-  static int Error(void*, void*) { return 0; }
-};
-
 constexpr const char* kModel = "3D/3dmodel.model";
 
 /// The text of the package's model. @throws InputError
 std::string ReadModel(std::string_view bytes) {
-  MemoryFile memory{bytes};
-  zlib_filefunc64_def functions{MemoryFile::Open,  MemoryFile::Read, nullptr,
-                                MemoryFile::Tell,  MemoryFile::Seek, MemoryFile::Close,
-                                MemoryFile::Error, &memory};
-  const std::unique_ptr<void, int (*)(unzFile)> zip(unzOpen2_64("", &functions), unzClose);
-  if (!zip) throw InputError("not a ZIP archive, as 3MF is one");
-  constexpr int kAnyCase = 2;
-  if (unzLocateFile(zip.get(), kModel, kAnyCase) != UNZ_OK ||
-      unzOpenCurrentFile(zip.get()) != UNZ_OK) {
-    throw InputError(std::string("the archive has no ") + kModel);
-  }
-  std::string text;
-  std::array<char, 1 << 16> piece;
-  int count = 0;
-  while ((count = unzReadCurrentFile(zip.get(), piece.data(), piece.size())) > 0) {
-    text.append(piece.data(), static_cast<std::size_t>(count));
-    if (text.size() > kMaxInputBytes) throw InputError(std::string(kModel) + ": too large");
-  }
-  if (count < 0) throw InputError(std::string(kModel) + ": its compressed data is spoilt");
-  return text;
+  auto text = ZipArchive(bytes).Read(kModel, kMaxInputBytes);
+  if (!text) throw InputError(std::string("the archive has no ") + kModel);
+  return std::move(*text);
 }
 
 struct Placed {

@@ -1,0 +1,147 @@
+"""`validate --grasps`: from NPZ to NPZ."""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import regrasp
+
+PROGRAMS = os.environ["REGRASP_PROGRAMS"]
+
+
+def on_cube(count, contacts, seed):
+    """Grasps on the faces of models/cube.obj, whose side is 0.06."""
+    rng = np.random.default_rng(seed)
+    face = rng.integers(0, 6, size=(count, contacts))
+    axis, side = face % 3, np.where(face < 3, 1., -1.)
+    points = rng.uniform(-.029, .029, size=(count, contacts, 3))
+    normals = np.zeros_like(points)
+    grasp, contact = np.indices((count, contacts))
+    points[grasp, contact, axis] = .03 * side
+    normals[grasp, contact, axis] = -side
+    return points, normals
+
+
+class GraspFilesTest(unittest.TestCase):
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.points, self.normals = on_cube(400, 4, 1)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def judge(self, *options, code, object="models/cube.obj", save=np.savez, **arrays):
+        save(self.path("grasps.npz"), **arrays)
+        done = subprocess.run(
+            [f"{PROGRAMS}/validate", "--object", object, "--grasps", self.path("grasps.npz"),
+             "--out", self.path("out"), *options], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, code, done.stderr)
+        if code == 2:
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertFalse(os.path.exists(self.path("out/verdicts.npz")))
+            return done.stderr
+        self.said = done.stdout
+        with np.load(self.path("out/verdicts.npz")) as verdicts:
+            return {name: verdicts[name] for name in verdicts}
+
+    def test_verdicts_are_those_of_the_module(self):
+        found = self.judge("--mu", "0.5", "--required-angle", code=1, points=self.points,
+                           normals=self.normals)
+        expected = regrasp.force_closure(self.points, self.normals, mu=0.5, required_angle=True)
+        self.assertEqual(found["holds"].dtype, bool)
+        self.assertTrue(expected.holds.any() and not expected.holds.all())
+        np.testing.assert_array_equal(found["holds"], expected.holds)
+        np.testing.assert_array_equal(found["required_angle_deg"], expected.required_angle_deg)
+        self.assertNotIn("quality", found)
+        self.assertIn(f"pass                     {expected.holds.sum()}\n", self.said)
+        words = found["reasons"][found["reason"].astype(int)]
+        np.testing.assert_array_equal(words == "", found["holds"])
+        self.assertEqual(set(words[~found["holds"]]), {"not-force-closure"})
+
+    def test_verdicts_are_those_on_single_grasps(self):
+        found = self.judge("--mu", "0.5", "--quality", code=1, points=self.points[:12],
+                           normals=self.normals[:12])
+        for i in range(12):
+            contacts = [{"point": p, "normal": n} for p, n in zip(self.points[i].tolist(),
+                                                                 self.normals[i].tolist())]
+            with open(self.path("grasp.json"), "w", encoding="utf-8") as file:
+                json.dump({"format": "regrasp-grasp", "version": 1, "contacts": contacts}, file)
+            subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--grasp",
+                            self.path("grasp.json"), "--mu", "0.5", "--no-frames", "--quiet",
+                            "--out", self.path("single")], check=False, capture_output=True)
+            with open(self.path("single/report.json"), encoding="utf-8") as file:
+                report = json.load(file)
+            self.assertEqual(report["steps"][0]["force_closure"]["holds"], found["holds"][i])
+            if found["holds"][i]:
+                self.assertEqual(report["grasp"]["quality"], found["quality"][i])
+
+    def test_what_cannot_be_held_is_told_apart(self):
+        points, normals = self.points.copy(), self.normals.copy()
+        points[3, 1] += 1
+        normals[5, 2] *= -1
+        points[7, 3], normals[7, 3] = points[7, 0], normals[7, 0]
+        found = self.judge("--mu", "9", code=1, points=points, normals=normals)
+        words = found["reasons"][found["reason"].astype(int)]
+        self.assertEqual(list(words[[3, 5, 7]]),
+                         ["off-surface", "wrong-normal", "coincident-fingers"])
+        self.assertTrue(np.isnan(found["margin"][[3, 5, 7]]).all())
+        self.assertFalse(found["holds"][[3, 5, 7]].any())
+
+    def test_normals_may_be_left_out_and_files_be_packed(self):
+        found = self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
+        for save, arrays in [(np.savez, {"points": self.points}),
+                             (np.savez_compressed, {"points": np.asfortranarray(self.points)}),
+                             (np.savez_compressed, {"points": self.points.astype(">f8"),
+                                                    "normals": self.normals.astype("i1"),
+                                                    "labels": np.array(["a", "b"])})]:
+            again = self.judge("--mu", "0.5", code=1, save=save, **arrays)
+            np.testing.assert_array_equal(again["margin"], found["margin"])
+
+    def test_all_that_pass_are_a_pass(self):
+        holds = self.judge("--mu", "0.5", code=1, points=self.points)["holds"]
+        self.judge("--friction-angle", "26.6", code=0, points=self.points[holds])
+        self.assertTrue(self.said.endswith("verdict: pass\n"))
+        none = self.judge("--mu", "0.5", code=0, points=np.zeros((0, 4, 3)))
+        self.assertEqual(none["holds"].shape, (0,))
+
+    def test_grasps_in_the_plane(self):
+        points = np.array([[[-1, 0.], [1, 0.]], [[-1, 0.9], [1, -0.9]]])
+        found = self.judge("--mu", "0.5", code=1, object=self.square(), points=points)
+        self.assertEqual(list(found["holds"]), [True, False])
+
+    def square(self):
+        with open(self.path("square.wkt"), "w", encoding="utf-8") as file:
+            file.write("POLYGON((-1 -1, 1 -1, 1 1, -1 1, -1 -1))")
+        return self.path("square.wkt")
+
+    def test_files_that_are_wrong_are_named(self):
+        broken = self.points.copy()
+        broken[2, 1, 0] = np.nan
+        for words, options, arrays in [
+                (["points", "(N, k, 3)"], [], {"normals": self.normals}),
+                (["points", "(N, k, 3)", "(400, 12)"], [], {"points": self.points.reshape(400, 12)}),
+                (["normals", "(400, 4, 3)", "(400, 3, 3)"], [],
+                 {"points": self.points, "normals": self.normals[:, :3]}),
+                (["points[2, 1, 0]", "not finite"], [], {"points": broken}),
+                (["points", "objects"], [], {"points": np.array([None])}),
+                (["points", "U1"], [], {"points": np.array(["x"])}),
+                (["--trajectory", "--grasps"], ["--trajectory", self.path("t.csv")],
+                 {"points": self.points})]:
+            said = self.judge("--mu", "0.5", *options, code=2, **arrays)
+            for word in words:
+                self.assertIn(word, said)
+        self.assertIn("--mu", self.judge(code=2, points=self.points))
+        with open(self.path("grasps.npz"), "wb") as file:
+            file.write(b"PK\x03\x04 nothing")
+        self.assertIn("not a ZIP archive", self.judge("--mu", "1", code=2, save=lambda *_: None))
+
+
+if __name__ == "__main__":
+    unittest.main()
