@@ -89,6 +89,8 @@ GraspTable ReadGrasps(const std::string& file, int dimension) {
                      ") for N grasps of k contacts, 1 to " + std::to_string(kMostContacts) +
                      ", found " + ShapeText(shape));
   }
+  if (shape[0] == 0)
+    throw InputError(file + ": points: no grasp, the shape is " + ShapeText(shape));
   if (normals != nullptr && normals->shape != shape) {
     throw InputError(file + ": normals: the shape is that of points, " + ShapeText(shape) +
                      ", found " + ShapeText(normals->shape));

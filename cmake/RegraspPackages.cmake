@@ -53,7 +53,7 @@ set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "The Python module regrasp, for NumPy arrays and notebooks.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-yaml")
 # Its byte code is made when it is installed and removed with it.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${folder}/postinst ${folder}/prerm)
 configure_file(cmake/python-postinst ${folder}/postinst COPYONLY FILE_PERMISSIONS

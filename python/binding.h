@@ -17,6 +17,7 @@ struct PythonObject {
 // Python code above them has already checked.
 void BindObjects(pybind11::module_& module);
 void BindGrasps(pybind11::module_& module);
+void BindHands(pybind11::module_& module);
 void BindPlans(pybind11::module_& module);
 void BindReports(pybind11::module_& module);
 

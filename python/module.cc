@@ -22,6 +22,7 @@ PYBIND11_MODULE(_regrasp, module) {
   });
   python::BindObjects(module);
   python::BindGrasps(module);
+  python::BindHands(module);
   python::BindPlans(module);
   python::BindReports(module);
 }

@@ -23,6 +23,7 @@ is the one line that the programs print: `InputError` (a `ValueError`) for a wro
 from ._regrasp import InputError
 from ._regrasp import version as __version__
 from .grasps import ForceClosure, force_closure
+from .hands import Hand
 from .objects import Object
 from .plans import NoPlan, Plan, plan
 from .reports import Report, validate
@@ -31,6 +32,7 @@ InputError.__module__ = __name__
 
 __all__ = [
     "ForceClosure",
+    "Hand",
     "InputError",
     "NoPlan",
     "Object",

@@ -6,9 +6,9 @@ import os
 import unittest
 
 import regrasp
-from regrasp import grasps, objects, plans, reports
+from regrasp import formats, grasps, hands, objects, plans, reports
 
-MODULES = [regrasp, grasps, objects, plans, reports]
+MODULES = [regrasp, formats, grasps, hands, objects, plans, reports]
 
 
 class ExamplesTest(unittest.TestCase):

@@ -1,0 +1,99 @@
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "planner/kinematics/finger_kinematics.h"
+#include "planner/kinematics/hand_file.h"
+#include "planner/plan/locate.h"
+#include "python/binding.h"
+
+namespace regrasp::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Values = py::array_t<double, py::array::c_style>;
+
+/// Of a coupled joint the drive's angle is not read.
+kinematics::Posture PostureOf(const kinematics::Finger& finger, const double* angles) {
+  kinematics::Posture posture = kinematics::Posture::Zero(finger.drives);
+  std::vector<bool> known(static_cast<std::size_t>(finger.drives), false);
+  for (std::size_t j = 0; j < finger.joints.size(); ++j) {
+    const auto drive = static_cast<std::size_t>(finger.joints[j].drive);
+    if (known[drive] && finger.joints[j].ratio != 1) continue;
+    known[drive] = true;
+    posture[finger.joints[j].drive] = angles[j] / finger.joints[j].ratio;
+  }
+  return posture;
+}
+
+/// N x F x 3: the balls' centres in the palm's frame, metres, for N x J angles by finger.
+py::array_t<double> TipsOf(const kinematics::HandModel& hand, const Values& angles) {
+  const auto fingers = static_cast<py::ssize_t>(hand.fingers.size());
+  py::array_t<double> tips({angles.shape(0), fingers, py::ssize_t{3}});
+  auto out = tips.mutable_unchecked<3>();
+  for (py::ssize_t g = 0; g < angles.shape(0); ++g) {
+    py::ssize_t joint = 0;
+    for (py::ssize_t f = 0; f < fingers; ++f) {
+      const kinematics::Finger& finger = hand.fingers[static_cast<std::size_t>(f)];
+      const auto tip = kinematics::TipAt(finger, PostureOf(finger, angles.data(g, joint)));
+      for (py::ssize_t i = 0; i < 3; ++i) out(g, f, i) = tip.centre[i];
+      joint += static_cast<py::ssize_t>(finger.joints.size());
+    }
+  }
+  return tips;
+}
+
+std::vector<std::vector<std::string>> JointNames(const kinematics::HandModel& hand) {
+  std::vector<std::vector<std::string>> names;
+  for (const kinematics::Finger& finger : hand.fingers) {
+    names.emplace_back();
+    for (const kinematics::Joint& joint : finger.joints) names.back().push_back(joint.name);
+  }
+  return names;
+}
+
+/// The nearest points of the surface, the normals there, for M x 3 points.
+py::tuple NearestOf(const PythonObject& object, const Values& points) {
+  py::array_t<double> nearest({points.shape(0), py::ssize_t{3}});
+  py::array_t<double> normals({points.shape(0), py::ssize_t{3}});
+  for (py::ssize_t i = 0; i < points.shape(0); ++i) {
+    const Eigen::Vector3d p = Eigen::Vector3d::Map(points.data(i, 0));
+    const grasp::Contact found = plan::NearestContact(*object.file.object, {p, {}});
+    Eigen::Vector3d::Map(nearest.mutable_data(i, 0)) = found.p;
+    Eigen::Vector3d::Map(normals.mutable_data(i, 0)) = found.n;
+  }
+  return py::make_tuple(nearest, normals);
+}
+
+}  // namespace
+
+void BindHands(py::module_& module) {
+  py::class_<kinematics::HandModel>(module, "Hand")
+      .def_readonly("name", &kinematics::HandModel::name)
+      .def_readonly("file", &kinematics::HandModel::file)
+      .def_property_readonly("fingers",
+                             [](const kinematics::HandModel& hand) {
+                               std::vector<std::string> names;
+                               for (const auto& f : hand.fingers) names.push_back(f.name);
+                               return names;
+                             })
+      .def_property_readonly("radii",
+                             [](const kinematics::HandModel& hand) {
+                               std::vector<double> radii;
+                               for (const auto& f : hand.fingers) radii.push_back(f.tip.radius);
+                               return radii;
+                             })
+      .def_property_readonly("joint_names", JointNames)
+      .def("tips", TipsOf);
+  module.def("read_hand",
+             [](const std::filesystem::path& path) { return kinematics::ReadHand(path); });
+  module.def("nearest", NearestOf);
+}
+
+}  // namespace regrasp::python

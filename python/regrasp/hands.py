@@ -1,0 +1,70 @@
+"""Hands: fingers that are chains of hinges, with a ball at each fingertip."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+
+from . import _arguments, _regrasp
+from ._regrasp import InputError
+
+
+class Hand:
+    """A hand as its file `hand.json` and the model beside it have it (docs/formats.md)."""
+
+    def __init__(self, core: _regrasp.Hand):
+        if not isinstance(core, _regrasp.Hand):
+            raise TypeError("use Hand.read")
+        self._core = core
+
+    @classmethod
+    def read(cls, path: str | os.PathLike) -> Hand:
+        """Reads a hand file and the MJCF or URDF model that it names.
+
+        >>> Hand.read("models/hands/ring4.json").fingers
+        ['finger0', 'finger1', 'finger2', 'finger3']
+        """
+        return cls(_regrasp.read_hand(os.fspath(path)))
+
+    @property
+    def name(self) -> str:
+        """As its file says."""
+        return self._core.name
+
+    @property
+    def fingers(self) -> list[str]:
+        """Names of the F fingers."""
+        return self._core.fingers
+
+    @property
+    def joint_names(self) -> list[str]:
+        """Names of the J joints, by finger, from the palm to the tip."""
+        return [joint for finger in self._core.joint_names for joint in finger]
+
+    @property
+    def radii(self) -> np.ndarray:
+        """(F,) radii of the fingertips' balls, metres."""
+        return np.array(self._core.radii)
+
+    def tips(self, joints) -> np.ndarray:
+        """Centres of the fingertips' balls in the palm's frame, metres.
+
+        Args:
+            joints: angles (J,) or (N, J), radians, in the order of `joint_names`.
+
+        Returns:
+            (F, 3) or (N, F, 3).
+
+        >>> Hand.read("models/hands/ring4.json").tips(np.zeros(16)).shape
+        (4, 3)
+        """
+        joints = _arguments.numbers("joints", joints, "(J,) or (N, J)", (1, 2))
+        count = len(self.joint_names)
+        if joints.shape[-1] != count:
+            raise InputError(f"joints: {self.name} has {count} joints, found {joints.shape}")
+        tips = self._core.tips(np.atleast_2d(joints))
+        return tips[0] if joints.ndim == 1 else tips
+
+    def __repr__(self) -> str:
+        return f"<Hand {self.name}: {len(self.fingers)} fingers, {len(self.joint_names)} joints>"

@@ -1,0 +1,271 @@
+"""Grasps of hands in the formats of others. The files are written here, as the formats' documents say."""
+
+import contextlib
+import io
+import os
+import pickle
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import regrasp
+from regrasp import convert, formats
+
+PROGRAMS = os.environ["REGRASP_PROGRAMS"]
+HAND = "models/hands/ring4.json"
+CUBE = "models/cube.obj"
+
+ISAAC = """\
+format: isaac_grasp
+format_version: 1.0
+object_frame: /World/mug
+gripper_frame: /World/hand
+grasps:
+  first:
+    confidence: 0.5
+    position: [-0.04, 0.06, 0.2]
+    orientation: {w: 0.0, xyz: [0.6, 0.8, 0.0]}
+    cspace_position: {b: 0.25, a: -1}
+    pregrasp_cspace_position: {a: 0.0, b: 0.0}
+  second:
+    position: [1, 2, 3]
+    orientation: {w: 1.0, xyz: [0, 0, 0]}
+    cspace_position: {a: 4, b: 5}
+"""
+
+
+class Trap:
+    """What a file would do to whoever unpickles it."""
+
+    def __reduce__(self):
+        return os.mkdir, (os.path.join(tempfile.gettempdir(), "regrasp-unpickled"),)
+
+
+class FormatsTest(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.shared.cleanup)
+        cls.plan = os.path.join(cls.shared.name, "plan.json")
+        subprocess.run([f"{PROGRAMS}/plan", "--hand", HAND, "--object", CUBE, "--mu", "0.8",
+                        "--turn", "z 30", "--output", cls.plan, "--quiet"], check=True)
+        cls.hand = regrasp.Hand.read(HAND)
+        cls.cube = regrasp.Object.read(CUBE)
+        cls.grasps = formats.of_plan(cls.plan, cls.hand)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name, text=None):
+        path = os.path.join(self.folder, name)
+        if text is not None:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        return path
+
+    def refuses(self, words, function, *arguments):
+        with self.assertRaises(regrasp.InputError) as caught:
+            function(*arguments)
+        self.assertNotIn("\n", str(caught.exception))
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def assert_same(self, found, tolerance=1e-12):
+        np.testing.assert_allclose(found.positions, self.grasps.positions, atol=tolerance)
+        np.testing.assert_allclose(formats._matrices(found.quaternions),
+                                   formats._matrices(self.grasps.quaternions), atol=tolerance)
+        np.testing.assert_array_equal(found.in_order_of(self.hand), self.grasps.joints)
+
+    def test_fingertips_of_a_plan_touch_where_the_plan_says(self):
+        points, normals, touching = self.grasps.touching(self.hand, self.cube, tolerance=1e-5)
+        held = regrasp.Plan.read(self.plan).data["initial"]["contacts"]
+        self.assertEqual([c["finger"] for c in held], list(np.flatnonzero(touching[0])))
+        for contact in held:
+            np.testing.assert_allclose(points[0, contact["finger"]], contact["point"], atol=1e-6)
+            np.testing.assert_allclose(normals[0, contact["finger"]], contact["normal"], atol=1e-9)
+        self.assertFalse(self.grasps.touching(self.hand, self.cube, tolerance=1e-15)[2].all())
+
+    def test_isaac_grasp_comes_back_bit_for_bit(self):
+        path = self.path("grasps.yaml")
+        formats.write_isaac_grasp(path, self.grasps)
+        found = formats.read_isaac_grasp(path)
+        for name in ("positions", "joints", "confidence"):
+            np.testing.assert_array_equal(getattr(found, name), getattr(self.grasps, name))
+        self.assert_same(found)
+        self.assertEqual((found.names, found.joint_names),
+                         (self.grasps.names, self.hand.joint_names))
+        self.assertEqual(found.lost, [])
+
+    def test_isaac_grasp_as_its_document_has_it(self):
+        found = formats.read_isaac_grasp(self.path("grasps.yaml", ISAAC))
+        self.assertEqual(found.names, ["first", "second"])
+        self.assertEqual(found.joint_names, ["b", "a"])
+        np.testing.assert_array_equal(found.joints, [[0.25, -1], [5, 4]])
+        np.testing.assert_array_equal(found.quaternions, [[0, 0.6, 0.8, 0], [1, 0, 0, 0]])
+        np.testing.assert_array_equal(found.positions, [[-0.04, 0.06, 0.2], [1, 2, 3]])
+        np.testing.assert_array_equal(found.confidence, [0.5, 1])
+        self.assertEqual(found.lost, ["pregrasp_cspace_position"])
+
+    def test_isaac_grasp_that_is_wrong_is_named(self):
+        for change, words in [
+                (("isaac_grasp", "other"), ["format", "'other'"]),
+                (("1.0", "2.0"), ["format_version", "2.0"]),
+                (("[1, 2, 3]", "[1, 2]"), ["grasps: second: position", "3 numbers"]),
+                (("[1, 2, 3]", "[1, 2, x]"), ["grasps: second: position"]),
+                (("[1, 2, 3]", "[1, 2, .nan]"), ["grasps: second: position", "not finite"]),
+                (("xyz: [0, 0, 0]", "xyz: [0, 0, 2]"), ["grasps: second: orientation", "length 1"]),
+                (("w: 1.0, ", ""), ["grasps: second: orientation", "no w"]),
+                (("{a: 4, b: 5}", "{a: 4}"), ["grasps: second: cspace_position"]),
+                (("{a: 4, b: 5}", "{a: 4"), ["no YAML"]),
+                (("  second:", "  !!python/object/apply:os.getcwd []\n  second:"), ["no YAML"])]:
+            with self.subTest(change=change):
+                self.assertIn(change[0], ISAAC)
+                path = self.path("bad.yaml", ISAAC.replace(*change))
+                self.refuses([path, *words], formats.read_isaac_grasp, path)
+        self.refuses(["mapping"], formats.read_isaac_grasp, self.path("list.yaml", "[]"))
+
+    def world_poses(self):
+        """Object and palms in a world in which neither is at rest."""
+        object_pose = np.array([0.3, -0.2, 0.1, 0.5, 0.5, -0.5, 0.5])
+        turn = formats._matrices(object_pose[3:])
+        palms = np.concatenate([
+            self.grasps.positions @ turn.T + object_pose[:3],
+            formats._product(np.broadcast_to(object_pose[3:], (len(self.grasps), 4)),
+                             self.grasps.quaternions)], axis=1)
+        return object_pose, palms
+
+    def test_dictionaries_of_dexgraspbench(self):
+        object_pose, palms = self.world_poses()
+        path = self.path("0.npy")
+        data = {"obj_pose": object_pose, "obj_scale": 0.06, "obj_path": "cube", "squeeze_qpos": 0,
+                "grasp_qpos": np.concatenate([palms, self.grasps.joints], axis=1)}
+        np.save(path, data)
+        found = formats.read_dexgraspbench(path)
+        self.assert_same(found)
+        self.assertEqual(found.lost, ["obj_path", "obj_scale, to be given as --scale 0.06",
+                                      "squeeze_qpos"])
+        # One grasp, with its joints named in another order.
+        np.save(path, {**data, "grasp_qpos": np.concatenate([palms[0], self.grasps.joints[0][::-1]]),
+                       "joint_names": self.hand.joint_names[::-1]})
+        one = formats.read_dexgraspbench(path)
+        np.testing.assert_array_equal(one.in_order_of(self.hand), self.grasps.joints[:1])
+
+    def test_nothing_in_a_dictionary_is_executed(self):
+        trapped = os.path.join(tempfile.gettempdir(), "regrasp-unpickled")
+        for data in ({"grasp_qpos": Trap()}, {"grasp_qpos": np.array([Trap()])}):
+            np.save(self.path("trap.npy"), data)
+            self.refuses(["trap.npy", "posix.mkdir"], formats.read_dexgraspbench,
+                         self.path("trap.npy"))
+            self.assertFalse(os.path.exists(trapped))
+        # The trap works on those who load it.
+        np.load(self.path("trap.npy"), allow_pickle=True)
+        self.assertTrue(os.path.exists(trapped))
+        os.rmdir(trapped)
+
+    def test_dictionaries_that_are_wrong_are_named(self):
+        path = self.path("0.npy")
+        pose = np.array([0, 0, 0, 1, 0, 0, 0.])
+        for data, words in [
+                ({"obj_pose": pose}, ["no grasp_qpos"]),
+                ({"grasp_qpos": np.ones(20)}, ["no obj_pose"]),
+                ({"grasp_qpos": np.ones(5), "obj_pose": pose}, ["grasp_qpos", "(1, 5)"]),
+                ({"grasp_qpos": np.ones(20), "obj_pose": pose}, ["grasp_qpos", "quaternion"]),
+                ({"grasp_qpos": "x", "obj_pose": pose}, ["grasp_qpos", "<U1"]),
+                ([1, 2], ["int64"]), ("text", ["<U4"])]:
+            np.save(path, data)
+            self.refuses([path, *words], formats.read_dexgraspbench, path)
+        with open(path, "rb") as file:
+            whole = file.read()
+        for cut in range(0, len(whole), 7):
+            with open(path, "wb") as file:
+                file.write(whole[:cut])
+            self.refuses([path], formats.read_dexgraspbench, path)
+        with open(path, "wb") as file:
+            pickle.dump({}, file)
+        self.refuses([path, "not a dictionary of NumPy"], formats.read_dexgraspbench, path)
+
+    def graspit(self, palm):
+        def pose(p):
+            w, x, y, z = p[3:]
+            a, b, c = 1000 * p[:3]
+            return (f"<transform><fullTransform>({w:+.17g} {x:+.17g} {y:+.17g} {z:+.17g})"
+                    f"[{a:+.17g} {b:+.17g} {c:+.17g}]</fullTransform></transform>")
+        joints = " ".join(f"{angle:+.17g}" for angle in self.grasps.joints[0])
+        return ('<?xml version="1.0" ?><world><obstacle><filename>table.xml</filename></obstacle>'
+                f"<graspableBody><filename>cube.xml</filename>{pose(self.world_poses()[0])}"
+                f"</graspableBody><robot><filename>ring4.xml</filename>"
+                f"<dofValues>{joints} </dofValues>{pose(palm)}</robot></world>")
+
+    def test_worlds_of_graspit(self):
+        text = self.graspit(self.world_poses()[1][0])
+        found = formats.read_graspit(self.path("grasp.xml", text))
+        np.testing.assert_allclose(found.positions, self.grasps.positions[:1], atol=1e-12)
+        np.testing.assert_array_equal(found.in_order_of(self.hand), self.grasps.joints[:1])
+        self.assertEqual(found.lost, ["1 obstacle"])
+        for change, words in [(("<world>", "<worlds>"), ["no XML"]),
+                              (("<robot>", "<robots>"), ["no XML"]),
+                              (("graspableBody", "body"), ["0 and 1"]),
+                              (("fullTransform", "transform"), ["graspableBody: transform"]),
+                              (("<dofValues>", "<dofValues>x "), ["dofValues"])]:
+            path = self.path("bad.xml", text.replace(*change))
+            self.refuses([path, *words], formats.read_graspit, path)
+
+    def convert(self, *arguments, code=0):
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            self.assertEqual(convert.main(list(arguments)), code, said.getvalue())
+        if code:
+            self.assertEqual(said.getvalue().count("\n"), 1)
+        return said.getvalue()
+
+    def test_the_program_goes_from_a_plan_to_verdicts(self):
+        said = self.convert(self.plan, "--hand", HAND, "--output", self.path("a.yaml"))
+        self.assertIn("not carried over: which fingers hold", said)
+        held = [str(c["finger"]) for c in regrasp.Plan.read(self.plan).data["initial"]["contacts"]]
+        fingers = ",".join("finger" + finger for finger in held)
+        said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--fingers",
+                            fingers, "--output", self.path("a.npz"))
+        self.assertEqual(said, "regrasp-convert: not carried over: palm and joints\n")
+        done = subprocess.run([f"{PROGRAMS}/validate", "--object", CUBE, "--grasps",
+                               self.path("a.npz"), "--mu", "0.8", "--out", self.path("out")],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--output",
+                            self.path("b.npz"))
+        self.assertIn(f"{len(self.grasps)} of {len(self.grasps)} grasps", said)
+        with np.load(self.path("b.npz")) as arrays:
+            self.assertEqual(arrays["points"].shape, (0, 4, 3))
+
+    def test_the_program_joins_files_and_names_joints(self):
+        object_pose, palms = self.world_poses()
+        for i, palm in enumerate(palms):
+            np.save(self.path(f"{i}.npy"), {"obj_pose": object_pose, "grasp_qpos": np.concatenate(
+                [palm, self.grasps.joints[i]])})
+        files = [self.path(f"{i}.npy") for i in range(len(palms))]
+        self.assertIn("--hand", self.convert(*files, "--output", self.path("a.yaml"), code=2))
+        self.convert(*files, "--hand", HAND, "--output", self.path("a.yaml"))
+        self.assert_same(formats.read_isaac_grasp(self.path("a.yaml")))
+
+    def test_the_program_says_in_a_line_what_is_wrong(self):
+        good = self.path("a.yaml", ISAAC)
+        for words, arguments in [
+                (["none.yaml", "no such file"], [self.path("none.yaml"), "--output", "x.yaml"]),
+                (["a.txt", ".yaml"], [self.path("a.txt", ""), "--output", "x.yaml"]),
+                (["--output", ".npz"], [good, "--output", "x.csv"]),
+                (["--hand"], [self.plan, "--output", "x.yaml"]),
+                (["--hand"], [good, "--output", "x.npz"]),
+                (["--object"], [good, "--hand", HAND, "--output", "x.npz"]),
+                (["joints", "finger0_joint0"], [good, "--hand", HAND, "--object", CUBE, "--output",
+                                                "x.npz"])]:
+            said = self.convert(*arguments, code=2)
+            for word in words:
+                self.assertIn(word, said)
+
+
+if __name__ == "__main__":
+    unittest.main()
