@@ -21,7 +21,7 @@
 #include "planner/certificate/finish_plan.h"
 #include "planner/criteria/reach.h"
 #include "planner/gait/explain_gait.h"
-#include "planner/gait/plan_of_gait.h"
+#include "planner/gait/plan_in_hand.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/body_measures.h"
 #include "planner/object/mesh_defect.h"
@@ -233,18 +233,6 @@ void PlanProgram::CheckOutput() const {
   CheckOutputsWritable(outputs);
 }
 
-/// A grasp for a hand: of no more contacts than it has fingers.
-grasp::Grasp ReadHandGrasp(const std::string& file, const object::Object& object,
-                           const kinematics::HandModel& hand) {
-  grasp::Grasp grasp = plan::ReadGrasp(file, object);
-  if (grasp.size() < 3 || grasp.size() > hand.fingers.size()) {
-    throw InputError(file + ": a grasp of this hand has 3 to " +
-                     std::to_string(hand.fingers.size()) + " contacts, found " +
-                     std::to_string(grasp.size()));
-  }
-  return grasp;
-}
-
 planning::PlanResult PlanProgram::FindInHand(const object::ObjectFile& object) const {
   const planning::PlanRequest asked = RequestFor(*object.object);
   for (const planning::PlanOption option : planning::OptionsOf(asked)) {
@@ -267,26 +255,21 @@ planning::PlanResult PlanProgram::FindInHand(const object::ObjectFile& object) c
   hand.AskFor(request);
   for (const auto& [file, grasp] :
        {std::pair(&start, &request.start_grasp), {&goal, &request.goal_grasp}}) {
-    if (!file->empty()) *grasp = ReadHandGrasp(*file, *solid, model);
+    if (file->empty()) continue;
+    *grasp = plan::ReadGrasp(*file, *solid);
+    gait::CheckHandGrasp(*grasp, model, *file);
   }
   request.seed = common.seed;
   request.deadline = asked.deadline;
   request.progress = progress.reporter();
-  const gait::GaitResult found = gait::FindGait(request);
-  planning::PlanResult result;
-  result.message = found.message;
-  if (!found.gait && explain) {
+  planning::PlanResult result = gait::PlanInHand(request);
+  if (!result.plan && explain) {
     if (common.time_limit_s) {  // as long again
       request.deadline = DeadlineAfter(std::chrono::steady_clock::now(), *common.time_limit_s);
     }
     result.message += "; " + gait::ExplainGait(request);
   }
   progress.Clear();
-  if (!found.gait) {
-    result.status = planning::PlanResult::Status::kNoSequence;
-    return result;
-  }
-  result.plan = gait::PlanOf(*found.gait, request, found.contacts);
   return result;
 }
 

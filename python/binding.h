@@ -2,6 +2,9 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
+#include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
 
 namespace regrasp::python {
@@ -11,6 +14,11 @@ struct PythonObject {
   object::ObjectFile file;
   double scale = 1;  ///< metres per unit of length
   std::string text;  ///< of the file that it would be; empty where it was read from one
+};
+
+/// A hand as Python holds it.
+struct PythonHand {
+  kinematics::HandFile file;
 };
 
 // Each adds its functions to the extension module. They check no argument whose type or shape the

@@ -33,7 +33,8 @@ kinematics::Posture PostureOf(const kinematics::Finger& finger, const double* an
 }
 
 /// N x F x 3: the balls' centres in the palm's frame, metres, for N x J angles by finger.
-py::array_t<double> TipsOf(const kinematics::HandModel& hand, const Values& angles) {
+py::array_t<double> TipsOf(const PythonHand& of, const Values& angles) {
+  const kinematics::HandModel& hand = of.file.hand;
   const auto fingers = static_cast<py::ssize_t>(hand.fingers.size());
   py::array_t<double> tips({angles.shape(0), fingers, py::ssize_t{3}});
   auto out = tips.mutable_unchecked<3>();
@@ -49,9 +50,9 @@ py::array_t<double> TipsOf(const kinematics::HandModel& hand, const Values& angl
   return tips;
 }
 
-std::vector<std::vector<std::string>> JointNames(const kinematics::HandModel& hand) {
+std::vector<std::vector<std::string>> JointNames(const PythonHand& of) {
   std::vector<std::vector<std::string>> names;
-  for (const kinematics::Finger& finger : hand.fingers) {
+  for (const kinematics::Finger& finger : of.file.hand.fingers) {
     names.emplace_back();
     for (const kinematics::Joint& joint : finger.joints) names.back().push_back(joint.name);
   }
@@ -74,25 +75,27 @@ py::tuple NearestOf(const PythonObject& object, const Values& points) {
 }  // namespace
 
 void BindHands(py::module_& module) {
-  py::class_<kinematics::HandModel>(module, "Hand")
-      .def_readonly("name", &kinematics::HandModel::name)
-      .def_readonly("file", &kinematics::HandModel::file)
+  py::class_<PythonHand>(module, "Hand")
+      .def_property_readonly("name", [](const PythonHand& of) { return of.file.hand.name; })
+      .def_property_readonly("file", [](const PythonHand& of) { return of.file.hand.file; })
       .def_property_readonly("fingers",
-                             [](const kinematics::HandModel& hand) {
+                             [](const PythonHand& of) {
                                std::vector<std::string> names;
-                               for (const auto& f : hand.fingers) names.push_back(f.name);
+                               for (const auto& f : of.file.hand.fingers) names.push_back(f.name);
                                return names;
                              })
       .def_property_readonly("radii",
-                             [](const kinematics::HandModel& hand) {
+                             [](const PythonHand& of) {
                                std::vector<double> radii;
-                               for (const auto& f : hand.fingers) radii.push_back(f.tip.radius);
+                               for (const auto& f : of.file.hand.fingers)
+                                 radii.push_back(f.tip.radius);
                                return radii;
                              })
       .def_property_readonly("joint_names", JointNames)
       .def("tips", TipsOf);
-  module.def("read_hand",
-             [](const std::filesystem::path& path) { return kinematics::ReadHand(path); });
+  module.def("read_hand", [](const std::filesystem::path& path) {
+    return PythonHand{kinematics::ReadHandFile(path)};
+  });
   module.def("nearest", NearestOf);
 }
 

@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/object/polyhedron.h"
+#include "planner/plan/locate.h"
 #include "planner/plan/plan_io.h"
 #include "python/binding.h"
 #include "python/interrupt.h"
@@ -18,6 +22,9 @@
 #include "report/failure.h"
 #include "report/pictures/report_pictures.h"
 #include "report/report.h"
+#include "sim/actuation/hand_replay.h"
+#include "sim/hand/check_hand.h"
+#include "sim/scene/scaling.h"
 
 namespace regrasp::python {
 
@@ -29,6 +36,7 @@ namespace {
 struct PythonReport {
   report::Report report;
   plan::Plan plan;
+  std::shared_ptr<const kinematics::HandFile> hand;  ///< null where none was checked
 };
 
 struct ValidateArguments {
@@ -36,6 +44,10 @@ struct ValidateArguments {
   double shake = sim::ReplayOptions().shake;
   double tolerance = sim::ReplayOptions().tolerance;
   bool stress = false;
+  bool replay_by_hand = false;
+  bool feedback = true;
+  sim::HandTolerance hand_tolerance;
+  double clearance = sim::HandCheckOptions().clearance_m;
 };
 
 void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::string& name) {
@@ -53,8 +65,28 @@ void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::st
   }
 }
 
+/// On the hand's own model.
+report::Replayer HandReplayer(const kinematics::HandFile& hand, const object::Polyhedron& solid,
+                              const plan::Plan& plan, const sim::ReplayOptions& replay,
+                              const ValidateArguments& given, const sim::ReplayObserver& observer) {
+  sim::HandReplayOptions by_hand;
+  by_hand.tolerance = given.hand_tolerance;
+  by_hand.feedback = given.feedback;
+  by_hand.mass_kg = sim::BodyOf(solid, plan.scale, replay).mass_kg;
+  by_hand.shake = replay.shake;
+  by_hand.squeeze_N = replay.squeeze_N;
+  sim::HandReplayObserver watch;
+  watch.on_progress = observer.on_progress;
+  return [=, &hand, &solid](const plan::Plan& located, double half_angle, int entries) {
+    sim::HandReplayOptions now = by_hand;
+    now.half_angle = half_angle;
+    return sim::ReplayHand(hand, solid, located, now, watch, entries);
+  };
+}
+
 PythonReport Validate(const PythonObject& object, const std::string& text, const std::string& name,
-                      const ValidateArguments& given, Interrupt& interrupt) {
+                      const ValidateArguments& given, const PythonHand* hand,
+                      Interrupt& interrupt) {
   plan::Plan plan = plan::ParsePlan(text, name);
   CheckFits(plan, object, name);
   plan::CheckOptions check;
@@ -72,23 +104,35 @@ PythonReport Validate(const PythonObject& object, const std::string& text, const
     progress("replay: " + std::to_string(done) + " of " + std::to_string(total) + " steps");
     if (interrupt.raised()) throw TimeUp();
   };
-  report::Report report = report::Validate(*object.file.object, plan, check, replay, observer);
+  report::Replayer replayer;
+  std::shared_ptr<const kinematics::HandFile> kept;
+  if (hand != nullptr) {
+    const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.file.object);
+    kept = std::make_shared<const kinematics::HandFile>(hand->file);
+    check.hand_faults =
+        sim::CheckHand(*kept, solid, plan::LocatePlan(solid, plan), {given.clearance});
+    if (given.replay_by_hand) {
+      replayer = HandReplayer(*kept, solid, plan, replay, given, observer);
+    }
+  }
+  report::Report report =
+      report::Validate(*object.file.object, plan, check, replay, observer, replayer);
   report.object_file = object.file.file;
   report.object_sha256 = object.file.sha256;
   report.plan_file = name;
   report.plan_sha256 = Sha256(text);
-  return {std::move(report), std::move(plan)};
+  return {std::move(report), std::move(plan), std::move(kept)};
 }
 
 PythonReport ValidatePlan(const PythonObject& object, const std::string& text,
                           const std::string& name, const ValidateArguments& given,
-                          py::object progress) {
+                          const PythonHand* hand, py::object progress) {
   Interrupt interrupt({}, std::move(progress));
   PythonReport result;
   {
     const py::gil_scoped_release unlocked;
     try {
-      result = Validate(object, text, name, given, interrupt);
+      result = Validate(object, text, name, given, hand, interrupt);
     } catch (const TimeUp&) {
       if (!interrupt.raised()) throw;
     }
@@ -118,6 +162,12 @@ py::tuple Draw(const PythonReport& of, const PythonObject& object, int width, in
   render::Image sheet;
   {
     const py::gil_scoped_release unlocked;
+    std::optional<report::HandPicture> hand;
+    if (of.hand) {
+      hand.emplace(*of.hand, of.plan,
+                   of.plan.scale * object.file.object->mass_properties().centroid);
+      options.hand = &*hand;
+    }
     sheet =
         report::DrawFrames(*object.file.object, of.plan, options, of.report,
                            [&](const report::DrawnFrame& frame) { frames.push_back(frame.image); });
@@ -145,7 +195,15 @@ void BindReports(py::module_& module) {
       .def_readwrite("squeeze_N", &ValidateArguments::squeeze_N)
       .def_readwrite("shake", &ValidateArguments::shake)
       .def_readwrite("tolerance", &ValidateArguments::tolerance)
-      .def_readwrite("stress", &ValidateArguments::stress);
+      .def_readwrite("stress", &ValidateArguments::stress)
+      .def_readwrite("replay_by_hand", &ValidateArguments::replay_by_hand)
+      .def_readwrite("feedback", &ValidateArguments::feedback)
+      .def("set_hand_tolerance",
+           [](ValidateArguments& of, double length_mm, double angle_deg) {
+             of.hand_tolerance.length_m = 1e-3 * length_mm;
+             of.hand_tolerance.angle_rad = Radians(angle_deg);
+           })
+      .def_readwrite("clearance", &ValidateArguments::clearance);
   py::class_<PythonReport>(module, "Report")
       .def_property_readonly(
           "json", [](const PythonReport& of) { return report::FormatReportJson(of.report); })

@@ -25,7 +25,7 @@ from ._regrasp import version as __version__
 from .grasps import ForceClosure, force_closure
 from .hands import Hand
 from .objects import Object
-from .plans import NoPlan, Plan, plan
+from .plans import NoPlan, Plan, plan, plan_in_hand
 from .reports import Report, validate
 
 InputError.__module__ = __name__
@@ -40,5 +40,6 @@ __all__ = [
     "Report",
     "force_closure",
     "plan",
+    "plan_in_hand",
     "validate",
 ]

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import html
 import json
+import math
 import os
 
 
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
+from .hands import Hand
 from .objects import Object
 
 _PLANNERS = ["auto", *_regrasp.planner_names()]
@@ -156,7 +158,106 @@ def plan(object: Object, start, goal, mu: float | None = None, *,
         "finger_radius", finger_radius, 0)
     if time_limit is not None:
         given.time_limit_s = _arguments.number("time_limit", time_limit, 0)
-    text, message, warnings, notes = _regrasp.find_plan(object._core, given, progress)
+    return _plan_of(*_regrasp.find_plan(object._core, given, progress))
+
+
+def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
+                 friction_angle_deg: float | None = None, turn: tuple[str, float] | None = None,
+                 start=None, goal=None, start_pose=None, goal_pose=None,
+                 reserve: str = "preferred", clearance: float = 0.001, seed: int = 0,
+                 min_quality: float = 0.01, time_limit: float | None = None,
+                 progress=None) -> Plan:
+    """Finds how a hand turns an object, moves it, or changes its grasp: with all joints, and without
+    collisions.
+
+    One of `turn`, `goal_pose` and `goal` says what the hand is to do. The same arguments give the
+    same plan, bit for bit, and the same that the program `plan --hand` writes.
+
+    Args:
+        object: what is held, a solid.
+        hand: the hand.
+        mu: friction coefficient, or
+        friction_angle_deg: the half-angle of the friction cones in degrees.
+        turn: an axis of the object, "x", "y" or "z", and degrees.
+        start: the grasp at the beginning, as for `plan`, of three contacts to as many as there are
+            fingers; None: any.
+        goal: the grasp at the end, likewise.
+        start_pose: of the object's frame in the palm's: seven numbers, position in metres and
+            quaternion w, x, y, z; None: where the hand's reach is best.
+        goal_pose: likewise.
+        reserve: whether something to spare for the hand's motors is "preferred", "required" or
+            "none".
+        clearance: that links keep from each other, from palm and object, metres.
+        seed: of all that is drawn at random.
+        min_quality: that the sequence prefers.
+        time_limit: seconds after which planning gives up.
+        progress: called with a line of text for each stage.
+
+    Raises:
+        InputError: an argument is wrong.
+        NoPlan: no sequence was found.
+
+    >>> ring = Hand.read("models/hands/ring4.json")
+    >>> cube = Object.read("models/cube.obj")
+    >>> plan_in_hand(cube, ring, mu=0.8, turn=("z", 30))
+    <Plan of cube.obj: 1 move>
+    """
+    if not isinstance(object, Object):
+        raise InputError(f"object: an Object is needed, found {type(object).__name__}")
+    if not isinstance(hand, Hand):
+        raise InputError(f"hand: a Hand is needed, found {type(hand).__name__}; Hand.read reads one")
+    if object.dimension != 3:
+        raise InputError(f"object: {object.name} is a polygon; hands hold solids")
+    if turn is not None and goal_pose is not None:
+        raise InputError("turn: goal_pose says already how the object is to be in the end")
+    if turn is None and goal_pose is None and goal is None:
+        raise InputError('turn: say what the hand is to do: turn=("z", 90), goal_pose or goal')
+    if turn is None and goal_pose is None and start is None and start_pose is None:
+        raise InputError("goal: start or start_pose says what is before it")
+    given = _regrasp.HandPlanArguments()
+    given.half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
+    if turn is not None:
+        given.turn_axis, given.turn_angle = _turn(turn)
+    given.start = "" if start is None else _grasp_text("start", start, object, random=False)
+    given.goal = "" if goal is None else _grasp_text("goal", goal, object, random=False)
+    given.start_pose = None if start_pose is None else _pose("start_pose", start_pose)
+    given.goal_pose = None if goal_pose is None else _pose("goal_pose", goal_pose)
+    words = ["preferred", "required", "none"]
+    given.reserve = getattr(_regrasp.Reserve, _arguments.choice("reserve", reserve, words))
+    given.clearance = 0 if clearance == 0 else _arguments.number("clearance", clearance, 0, 0.05)
+    given.seed = _arguments.integer("seed", seed, 0, 2**64 - 1)
+    given.min_quality = 0 if min_quality == 0 else _arguments.number("min_quality", min_quality, 0)
+    if time_limit is not None:
+        given.time_limit_s = _arguments.number("time_limit", time_limit, 0)
+    return _plan_of(*_regrasp.find_plan_in_hand(object._core, hand._core, given, progress))
+
+
+def _turn(turn) -> tuple[list[float], float]:
+    try:
+        axis, degrees = turn
+    except (TypeError, ValueError):
+        raise InputError(f'turn: an axis and degrees, as in ("z", 90), found {turn!r}') from None
+    axis = _arguments.choice("turn[0]", axis, ["x", "y", "z"])
+    degrees = _arguments.number("turn[1]", degrees, -3600.1, 3600.1)
+    if degrees == 0:
+        raise InputError("turn[1]: degrees other than 0, found 0")
+    return [float(axis == other) for other in "xyz"], degrees * (math.pi / 180)
+
+
+def _pose(name: str, pose) -> list[float]:
+    pose = _arguments.numbers(name, pose, "(7,)", (1,))
+    if len(pose) != 7:
+        raise InputError(f"{name}: position and quaternion are 7 numbers, found {len(pose)}")
+    length = math.hypot(*pose[3:])
+    if abs(length - 1) > 1e-3:
+        raise InputError(f"{name}: the quaternion's length must be 1, found {length:.4g}")
+    distance = math.hypot(*pose[:3])
+    if distance > 10:
+        raise InputError(f"{name}: positions are in metres from the palm, found {distance:.4g} m")
+    return pose.tolist()
+
+
+def _plan_of(text, message, warnings, notes) -> Plan:
     if text is None:
         raise NoPlan(message)
     result = Plan(text)
@@ -165,17 +266,17 @@ def plan(object: Object, start, goal, mu: float | None = None, *,
     return result
 
 
-def _grasp_text(name: str, grasp, object: Object) -> str:
+def _grasp_text(name: str, grasp, object: Object, random: bool = True) -> str:
     """A grasp argument as the text of a grasp file, or one of the words for random ones."""
     if isinstance(grasp, (str, os.PathLike)):
-        if grasp in _RANDOM:
+        if random and grasp in _RANDOM:
             return grasp
         try:
             with open(grasp, encoding="utf-8") as file:
                 return file.read()
         except FileNotFoundError:
-            raise InputError(f"{name}: there is no file {grasp}; give points, a file, "
-                             f"{' or '.join(map(repr, _RANDOM))}") from None
+            words = f", {' or '.join(map(repr, _RANDOM))}" if random else ""
+            raise InputError(f"{name}: there is no file {grasp}; give points, a file{words}") from None
     normals = None
     if isinstance(grasp, tuple) and len(grasp) == 2:
         grasp, normals = grasp

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
+from .hands import Hand
 from .objects import Object
 from .plans import Plan
 
@@ -87,7 +88,9 @@ class Report:
 def validate(object: Object, plan: Plan, mu: float | None = None, *,
              friction_angle_deg: float | None = None, mass: float | None = None,
              squeeze: float | None = None, shake: float = 0.01, tolerance: float = 0.001,
-             stress: bool = False, progress=None) -> Report:
+             stress: bool = False, hand: Hand | None = None, replay: str = "points",
+             tolerance_mm: float = 2, tolerance_deg: float = 5, feedback: bool = True,
+             progress=None) -> Report:
     """Checks a plan analytically, replays it with frictional point fingers, and disturbs the object.
 
     Args:
@@ -100,6 +103,12 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         shake: force of the disturbance over the squeeze.
         tolerance: allowed motion and slip over the object's diameter.
         stress: also finds the largest push that each grasp bears in each direction.
+        hand: of a plan for a hand: also checks its joints, limits, fingertips and collisions; frames
+            show it.
+        replay: "points", by ideal fingers, or "hand", on the hand's own model with its motors.
+        tolerance_mm: how far the object may be from its planned place in a replay by the hand.
+        tolerance_deg: how far it may be turned from it.
+        feedback: of a replay by the hand: joint targets follow the object's measured pose.
         progress: called with a line of text after each step.
 
     Returns:
@@ -133,5 +142,17 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     given.shake = _arguments.number("shake", shake, 0)
     given.tolerance = _arguments.number("tolerance", tolerance, 0)
     given.stress = bool(stress)
-    return Report(_regrasp.validate_plan(object._core, plan.text, plan.name, given, progress),
-                  object)
+    if hand is not None and not isinstance(hand, Hand):
+        raise InputError(f"hand: a Hand is needed, found {type(hand).__name__}; Hand.read reads one")
+    if hand is not None and "hand" not in plan.data:
+        raise InputError(f"hand: {plan.name} is a plan for fingers without a hand")
+    if hand is not None and object.dimension != 3:
+        raise InputError(f"object: {object.name} is a polygon; hands hold solids")
+    given.replay_by_hand = _arguments.choice("replay", replay, ["points", "hand"]) == "hand"
+    if given.replay_by_hand and hand is None:
+        raise InputError("hand: is needed for a replay by it")
+    given.feedback = bool(feedback)
+    given.set_hand_tolerance(_arguments.number("tolerance_mm", tolerance_mm, 0),
+                             _arguments.number("tolerance_deg", tolerance_deg, 0))
+    return Report(_regrasp.validate_plan(object._core, plan.text, plan.name, given,
+                                         hand._core if hand else None, progress), object)

@@ -1,0 +1,108 @@
+"""Plans for hands, and their validation by the hand."""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import regrasp
+
+PROGRAMS = os.environ["REGRASP_PROGRAMS"]
+
+
+class HandsTest(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.cube = regrasp.Object.read("models/cube.obj")
+        cls.hand = regrasp.Hand.read("models/hands/ring4.json")
+        cls.points_plan = regrasp.plan(cls.cube, "models/cube.start.json", "models/cube.goal.json",
+                                       mu=0.4)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def refuses(self, words, function, *arguments, **named):
+        with self.assertRaises(regrasp.InputError) as caught:
+            function(*arguments, **named)
+        self.assertNotIn("\n", str(caught.exception))
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_a_plan_for_a_hand_and_its_validation_are_those_of_the_programs(self):
+        plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 30))
+        command = [f"{PROGRAMS}/plan", "--object", "models/cube.obj", "--hand",
+                   "models/hands/ring4.json", "--mu", "0.8", "--turn", "z 30", "--quiet",
+                   "--output", self.path("plan.json")]
+        subprocess.run(command, check=True)
+        with open(self.path("plan.json"), encoding="utf-8") as file:
+            self.assertEqual(plan.text, file.read())
+        for replay in ("points", "hand"):
+            subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--plan",
+                            self.path("plan.json"), "--hand", "models/hands/ring4.json", "--replay",
+                            replay, "--size", "320x240", "--out", self.path(replay), "--quiet"],
+                           check=False, capture_output=True)
+            with open(self.path(f"{replay}/report.json"), encoding="utf-8") as file:
+                told = json.load(file)
+            told.pop("run")
+            report = regrasp.validate(self.cube, plan, hand=self.hand, replay=replay)
+            for step in told["steps"]:
+                step["frame"] = None
+            self.assertEqual(report.data, told)
+            with open(self.path(f"{replay}/000_hold.png"), "rb") as file:
+                self.assertEqual(regrasp._regrasp.encode_png(report.frames((320, 240))[0]),
+                                 file.read())
+        # Another hand is not the one that it was made for.
+        other = regrasp.Hand.read("models/hands/ring5.json")
+        with self.assertRaises(regrasp.InputError):
+            regrasp.validate(self.cube, plan, hand=other)
+
+    def test_a_hand_regrasps_from_where_it_holds(self):
+        first = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 30))
+        pose = first.data["hand"]["initial"]["pose"]
+        start_pose = [*pose["position"], *pose["quaternion"]]
+        again = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, start_pose=start_pose,
+                                     turn=("z", 10), reserve="none")
+        np.testing.assert_allclose(again.data["hand"]["initial"]["pose"]["position"],
+                                   start_pose[:3], atol=1e-12)
+        with self.assertRaises((regrasp.NoPlan, TimeoutError)) as caught:
+            regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, start_pose=start_pose,
+                                 goal_pose=[5, 0, 0, 1, 0, 0, 0], reserve="none", time_limit=0.5)
+        self.assertTrue(str(caught.exception))
+
+    def test_arguments_about_hands_that_are_wrong_are_named(self):
+        gear = regrasp.Object.read("models/gear128.wkt")
+
+        def plan(*words, object=self.cube, hand=self.hand, **named):
+            self.refuses(words, lambda: regrasp.plan_in_hand(object, hand, mu=0.8, **named))
+        plan("turn", "goal_pose or goal")
+        plan("hand", "str", "Hand.read", hand="ring4.json", turn=("z", 90))
+        plan("gear128.wkt", "polygon", object=gear, turn=("z", 90))
+        plan("turn", "axis and degrees", turn="z90 now")
+        plan("turn[0]", "'w'", turn=("w", 90))
+        plan("turn[1]", "other than 0", turn=("z", 0))
+        plan("turn[1]", "3600", turn=("z", 1e9))
+        plan("goal_pose", "7 numbers", goal_pose=[0, 0, 0])
+        plan("start_pose", "length must be 1", start_pose=[0, 0, 0, 2, 0, 0, 0], turn=("z", 9))
+        plan("turn", "already", goal_pose=[0, 0, 0.1, 1, 0, 0, 0], turn=("z", 9))
+        plan("start", "no file random", start="random", turn=("z", 9))
+        plan("start", "3 to 4 contacts", "found 2", turn=("z", 9),
+             start=[[.03, 0, 0], [-.03, 0, 0]])
+        plan("reserve", "'preferred'", reserve="prefered", turn=("z", 9))
+        plan("clearance", "0.05", clearance=1, turn=("z", 9))
+        self.refuses(["hand", "fingers without a hand"], lambda: regrasp.validate(
+            self.cube, self.points_plan, hand=self.hand))
+        self.refuses(["hand", "needed"], lambda: regrasp.validate(
+            self.cube, self.points_plan, replay="hand"))
+
+
+if __name__ == "__main__":
+    unittest.main()
