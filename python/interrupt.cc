@@ -1,5 +1,6 @@
 #include "python/interrupt.h"
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -13,12 +14,14 @@ namespace {
 /// So soon after Ctrl-C work ends, about, and so rarely is the interpreter's lock taken.
 constexpr std::chrono::milliseconds kInterval(50);
 
+/// Instead of no end, so that the work looks at its deadline; far from the clock's last instant, as
+/// deadlines are added to.
+constexpr std::chrono::hours kNever(24 * 365 * 100);
+
 Deadline::Clock::time_point EndOf(std::optional<double> limit_s) {
-  const auto never = Deadline::Clock::time_point::max();
-  if (!limit_s) return never;
   const auto now = Deadline::Clock::now();
-  const auto left = DeadlineAfter(now, *limit_s).left();
-  return left ? Deadline::Clock::now() + *left : never;
+  const auto left = limit_s ? DeadlineAfter(now, *limit_s).left() : std::nullopt;
+  return now + std::min<Deadline::Clock::duration>(left.value_or(kNever), kNever);
 }
 
 }  // namespace

@@ -26,6 +26,10 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format")
     parser.add_argument("--output", required=True, metavar="FILE", help=".yaml or .npz")
     parser.add_argument("--hand", metavar="FILE", help="hand file; for .json and .npz")
+    parser.add_argument("--palm", metavar="X,Y,Z[,QW,QX,QY,QZ]", help="the palm's frame in that of the "
+                        "body whose poses the files give, metres and a quaternion, --palm=-1,2,3 where it begins "
+                        "with a minus (default: they are "
+                        "the palm's own)")
     parser.add_argument("--object", metavar="FILE", help="object file; for .npz")
     parser.add_argument("--scale", type=float, default=1, metavar="METRES_PER_UNIT",
                         help="of the object file (default 1)")
@@ -72,6 +76,13 @@ def _chosen(fingers: str | None, hand: Hand) -> list[int]:
             for name in fingers.split(",")]
 
 
+def _palm(text: str) -> list[float]:
+    try:
+        return [float(number) for number in text.split(",")]
+    except ValueError:
+        raise InputError(f"--palm: numbers are needed, found {text!r}") from None
+
+
 def _run(options) -> list[str]:
     """Converts, and returns what was lost."""
     ending = _ending(options.output)
@@ -79,6 +90,8 @@ def _run(options) -> list[str]:
         raise InputError(f"--output: {options.output}: .yaml or .npz is written")
     hand = Hand.read(options.hand) if options.hand else None
     grasps = _join([_read(path, hand) for path in options.inputs])
+    if options.palm:
+        grasps = grasps.with_palm_at(_palm(options.palm))
     if ending == ".npz":
         _need(hand, "hand", "to find contacts")
         body = Object.read(_need(options.object, "object", "to find contacts"), scale=options.scale)

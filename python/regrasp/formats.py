@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import xml.etree.ElementTree
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -36,6 +36,23 @@ class HandGrasps:
 
     def __len__(self) -> int:
         return len(self.names)
+
+    def with_palm_at(self, palm) -> HandGrasps:
+        """The same grasps, where the poses of a file are not of the palm but of another body of the
+        hand, as of its wrist.
+
+        Args:
+            palm: the palm's frame in that body's: seven numbers, position in metres and quaternion
+                w, x, y, z; or three, the position.
+        """
+        palm = _arguments.numbers("palm", palm, "(3,) or (7,)", (1,))
+        if len(palm) not in (3, 7):
+            raise InputError(f"palm: 3 numbers are needed, or 7, found {len(palm)}")
+        turn = _unit("palm", palm[3:]) if len(palm) == 7 else np.array([1., 0, 0, 0])
+        positions = self.positions + _matrices(self.quaternions) @ palm[:3]
+        return replace(self, positions=positions,
+                       quaternions=_product(self.quaternions,
+                                            np.broadcast_to(turn, self.quaternions.shape)))
 
     def in_order_of(self, hand: Hand) -> np.ndarray:
         """(N, J) angles in the order of `hand.joint_names`.

@@ -241,6 +241,24 @@ class FormatsTest(unittest.TestCase):
         with np.load(self.path("b.npz")) as arrays:
             self.assertEqual(arrays["points"].shape, (0, 4, 3))
 
+    def test_poses_of_another_body_than_the_palm(self):
+        # In a body's frame the palm is at (1, 2, 3), turned by 90° about z.
+        palm = np.array([1, 2, 3, 0.5 ** 0.5, 0, 0, 0.5 ** 0.5])
+        back = formats._inverse(palm[:3], palm[3:])
+        other = self.grasps.with_palm_at([*back[0], *back[1]])
+        self.assertGreater(np.linalg.norm(other.positions - self.grasps.positions), 1)
+        self.assert_same(other.with_palm_at(palm))
+        moved = self.grasps.with_palm_at([0, 0, 0.1])
+        turns = formats._matrices(self.grasps.quaternions)
+        np.testing.assert_allclose(moved.positions, self.grasps.positions + 0.1 * turns[:, :, 2])
+        formats.write_isaac_grasp(self.path("other.yaml"), other)
+        self.convert(self.path("other.yaml"), "--palm", ",".join(map(repr, palm.tolist())),
+                     "--output", self.path("palm.yaml"))
+        self.assert_same(formats.read_isaac_grasp(self.path("palm.yaml")))
+        self.refuses(["palm", "found 4"], self.grasps.with_palm_at, [1, 2, 3, 4])
+        self.assertIn("--palm", self.convert(self.path("other.yaml"), "--palm", "1,2,x", "--output",
+                                             self.path("palm.yaml"), code=2))
+
     def test_the_program_joins_files_and_names_joints(self):
         object_pose, palms = self.world_poses()
         for i, palm in enumerate(palms):
