@@ -12,8 +12,8 @@ import numpy as np
 
 import regrasp
 from regrasp import convert, formats
+from regrasp_case import PROGRAMS, RegraspCase
 
-PROGRAMS = os.environ["REGRASP_PROGRAMS"]
 HAND = "models/hands/ring4.json"
 CUBE = "models/cube.obj"
 
@@ -43,7 +43,7 @@ class Trap:
         return os.mkdir, (os.path.join(tempfile.gettempdir(), "regrasp-unpickled"),)
 
 
-class FormatsTest(unittest.TestCase):
+class FormatsTest(RegraspCase):
 
     @classmethod
     def setUpClass(cls):
@@ -56,26 +56,15 @@ class FormatsTest(unittest.TestCase):
         cls.cube = regrasp.Object.read(CUBE)
         cls.grasps = formats.of_plan(cls.plan, cls.hand)
 
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
     def path(self, name, text=None):
-        path = os.path.join(self.folder, name)
+        path = super().path(name)
         if text is not None:
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
         return path
 
-    def refuses(self, words, function, *arguments):
-        with self.assertRaises(regrasp.InputError) as caught:
-            function(*arguments)
-        self.assertNotIn("\n", str(caught.exception))
-        for word in words:
-            self.assertIn(word, str(caught.exception))
-
     def assert_same(self, found, tolerance=1e-12):
+        """Up to the rounding of turns there and back."""
         np.testing.assert_allclose(found.positions, self.grasps.positions, atol=tolerance)
         np.testing.assert_allclose(formats._matrices(found.quaternions),
                                    formats._matrices(self.grasps.quaternions), atol=tolerance)

@@ -3,14 +3,12 @@
 import json
 import os
 import subprocess
-import tempfile
 import unittest
 
 import numpy as np
 
 import regrasp
-
-PROGRAMS = os.environ["REGRASP_PROGRAMS"]
+from regrasp_case import PROGRAMS, RegraspCase
 
 
 def on_cube(count, contacts, seed):
@@ -26,16 +24,11 @@ def on_cube(count, contacts, seed):
     return points, normals
 
 
-class GraspFilesTest(unittest.TestCase):
+class GraspFilesTest(RegraspCase):
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.points, self.normals = on_cube(400, 4, 1)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
     def judge(self, *options, code, object="models/cube.obj", save=np.savez, **arrays):
         save(self.path("grasps.npz"), **arrays)

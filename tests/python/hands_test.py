@@ -1,19 +1,16 @@
 """Plans for hands, and their validation by the hand."""
 
 import json
-import os
 import subprocess
-import tempfile
 import unittest
 
 import numpy as np
 
 import regrasp
+from regrasp_case import PROGRAMS, RegraspCase
 
-PROGRAMS = os.environ["REGRASP_PROGRAMS"]
 
-
-class HandsTest(unittest.TestCase):
+class HandsTest(RegraspCase):
 
     @classmethod
     def setUpClass(cls):
@@ -21,21 +18,6 @@ class HandsTest(unittest.TestCase):
         cls.hand = regrasp.Hand.read("models/hands/ring4.json")
         cls.points_plan = regrasp.plan(cls.cube, "models/cube.start.json", "models/cube.goal.json",
                                        mu=0.4)
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def refuses(self, words, function, *arguments, **named):
-        with self.assertRaises(regrasp.InputError) as caught:
-            function(*arguments, **named)
-        self.assertNotIn("\n", str(caught.exception))
-        for word in words:
-            self.assertIn(word, str(caught.exception))
 
     def test_a_plan_for_a_hand_and_its_validation_are_those_of_the_programs(self):
         plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 30))

@@ -1,34 +1,19 @@
 """Objects from files and from arrays."""
 
 import hashlib
-import os
-import tempfile
 import unittest
 
 import numpy as np
 
 import regrasp
+from regrasp_case import RegraspCase
 
 CORNERS = np.array([[x, y, z] for x in (0., 1) for y in (0., 1) for z in (0., 1)])
 FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7],
                   [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
 
 
-class ObjectsTest(unittest.TestCase):
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = os.path.join(folder.name, "object.obj")
-
-    def refuses(self, words, function, *arguments, **named):
-        with self.assertRaises(regrasp.InputError) as caught:
-            function(*arguments, **named)
-        text = str(caught.exception)
-        self.assertNotIn("\n", text)
-        self.assertIsInstance(caught.exception, ValueError)
-        for word in words:
-            self.assertIn(word, text)
+class ObjectsTest(RegraspCase):
 
     def test_a_unit_cube_of_arrays(self):
         cube = regrasp.Object.from_arrays(CORNERS, FACES, scale=0.1)
@@ -43,10 +28,10 @@ class ObjectsTest(unittest.TestCase):
 
     def test_arrays_and_the_file_that_is_written_are_one_object(self):
         cube = regrasp.Object.from_arrays(CORNERS / 3, FACES)
-        cube.write(self.path)
-        with open(self.path, "rb") as file:
+        cube.write(self.path("object.obj"))
+        with open(self.path("object.obj"), "rb") as file:
             self.assertEqual(hashlib.sha256(file.read()).hexdigest(), cube.sha256)
-        read = regrasp.Object.read(self.path)
+        read = regrasp.Object.read(self.path("object.obj"))
         self.assertEqual(read.sha256, cube.sha256)
         self.assertEqual(read.name, cube.name)
         np.testing.assert_array_equal(read.vertices, cube.vertices)
@@ -95,14 +80,14 @@ class ObjectsTest(unittest.TestCase):
         with self.assertRaises(regrasp.InputError) as caught:
             regrasp.Object.read("models/no-such.obj")
         self.assertIn("models/no-such.obj", str(caught.exception))
-        with open(self.path, "w", encoding="utf-8") as file:
+        with open(self.path("object.obj"), "w", encoding="utf-8") as file:
             file.write("v 0 0 0\nf 1 2 3\n")
-        self.refuses([self.path], regrasp.Object.read, self.path)
-        self.refuses(["shells", "did you mean 'union'"], regrasp.Object.read, self.path,
+        self.refuses([self.path("object.obj")], regrasp.Object.read, self.path("object.obj"))
+        self.refuses(["shells", "did you mean 'union'"], regrasp.Object.read, self.path("object.obj"),
                      shells="unoin")
 
     def test_only_what_was_made_is_written(self):
-        self.refuses(["cube.obj"], regrasp.Object.read("models/cube.obj").write, self.path)
+        self.refuses(["cube.obj"], regrasp.Object.read("models/cube.obj").write, self.path("object.obj"))
         with self.assertRaises(TypeError):
             regrasp.Object("models/cube.obj")
 

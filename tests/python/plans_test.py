@@ -4,40 +4,24 @@ import json
 import os
 import signal
 import subprocess
-import tempfile
 import threading
 import unittest
 
 import numpy as np
 
 import regrasp
+from regrasp_case import PROGRAMS, RegraspCase
 
-PROGRAMS = os.environ["REGRASP_PROGRAMS"]
 START = "models/cube.start.json"
 GOAL = "models/cube.goal.json"
 
 
-class PlansTest(unittest.TestCase):
+class PlansTest(RegraspCase):
 
     @classmethod
     def setUpClass(cls):
         cls.cube = regrasp.Object.read("models/cube.obj")
         cls.plan = regrasp.plan(cls.cube, START, GOAL, friction_angle_deg=20)
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def refuses(self, words, function, *arguments, **named):
-        with self.assertRaises(regrasp.InputError) as caught:
-            function(*arguments, **named)
-        self.assertNotIn("\n", str(caught.exception))
-        for word in words:
-            self.assertIn(word, str(caught.exception))
 
     def test_the_plan_has_the_bytes_of_the_program(self):
         for model, arguments in [("cube.obj", {}), ("cube.obj", {"seed": 5, "optimize": "margin"}),
