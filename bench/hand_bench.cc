@@ -4,7 +4,8 @@
 // table in Markdown.
 //
 //   hand_bench [--seeds N] [--limit SECONDS] [--axis z] [--degrees 90] [--pairs]
-//              [--replay] [--plan-mu 0.5] [--min-quality 0.06] [--of-critical 0.9] HAND.json ...
+//              [--body NAME ...] [--replay] [--plan-mu 0.5] [--min-quality 0.06] [--of-critical
+//              0.9] HAND.json ...
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -21,6 +22,7 @@
 #include <vector>
 
 #include "planner/base/angle.h"
+#include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/base/text_table.h"
@@ -252,7 +254,10 @@ Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Body
     const Clock::time_point begin = Now();
     request.deadline = DeadlineIn(contest.limit_s);
     const gait::GaitResult found = gait::FindGait(request);
-    if (!found.gait) continue;
+    if (!found.gait) {
+      std::cerr << body.name << ", seed " << seed << ": " << found.message << '\n';
+      continue;
+    }
     ++outcome.found;
     outcome.seconds.push_back(SecondsSince(begin));
     const plan::Plan plan =
@@ -387,7 +392,7 @@ std::string RunHand(const Contest& contest, const std::string& file,
   const kinematics::HandModel& hand = read.hand;
   std::printf("\n%s, %zu fingers\n", hand.name.c_str(), hand.fingers.size());
   TimeInverse(hand.fingers.front());
-  TimeRest(hand, bodies[1]);
+  TimeRest(hand, bodies[std::min<std::size_t>(1, bodies.size() - 1)]);
   std::vector<TextRow> rows = {{"object", "found", "rejected", "median s", "longest s",
                                 "switches a plan", "check s a plan", "replays passed"}};
   Outcome all;
@@ -429,6 +434,7 @@ int main(int argc, char** argv) {
   std::string axis = "z";
   double degrees = 90;
   std::vector<std::string> hands;
+  std::vector<std::string> only;
   app.add_option("--seeds", contest.seeds, "Plans for each hand and object");
   app.add_option("--limit", contest.limit_s, "Seconds for each");
   app.add_option("--axis", axis, "x, y or z of the object")->check(CLI::IsMember({"x", "y", "z"}));
@@ -441,6 +447,7 @@ int main(int argc, char** argv) {
   app.add_option("--min-quality", contest.min_quality, "Of the grasps of plans");
   app.add_option("--of-critical", contest.of_critical,
                  "Friction in replays, over what the weakest rest needs (default: 0.8)");
+  app.add_option("--body", only, "Only the bodies that are named so");
   app.add_option("hands", hands, "Hand files")->required();
   CLI11_PARSE(app, argc, argv);
   try {
@@ -450,7 +457,13 @@ int main(int argc, char** argv) {
                     ? "pairs of grasps at one pose"
                     : ("turn of " + FormatShort(degrees, 4) + " degrees about " + axis).c_str(),
                 kMu, contest.limit_s, contest.seeds);
-    const std::vector<Body> bodies = MakeBodies();
+    std::vector<Body> bodies = MakeBodies();
+    if (!only.empty()) {
+      std::erase_if(bodies, [&](const Body& body) {
+        return std::ranges::find(only, body.name) == only.end();
+      });
+      if (bodies.empty()) throw InputError("--body: none of the bodies has such a name");
+    }
     std::string table =
         "| hand | found | median of an object | switches a plan | rejected by a checker |\n"
         "| --- | --- | --- | --- | --- |\n";

@@ -1,0 +1,42 @@
+#include "planner/gait/gait.h"
+
+#include <algorithm>
+
+namespace regrasp::gait {
+
+Stretch Reversed(Stretch stretch) {
+  std::ranges::reverse(stretch.path);
+  std::ranges::reverse(stretch.along);
+  std::ranges::reverse(stretch.along_at);
+  const int last = static_cast<int>(stretch.path.size()) - 1;
+  for (int& at : stretch.along_at) at = last - at;
+  for (Stretch::Slid& slid : stretch.slid) std::swap(slid.from, slid.to);
+  if (stretch.kind == Stretch::Kind::kPlace) {
+    stretch.kind = Stretch::Kind::kRelease;
+  } else if (stretch.kind == Stretch::Kind::kRelease) {
+    stretch.kind = Stretch::Kind::kPlace;
+  }
+  return stretch;
+}
+
+const Keyframe& EndOf(const Gait& gait) {
+  return gait.stretches.empty() ? gait.start : gait.stretches.back().path.back();
+}
+
+Holding HoldingAtEnd(const Gait& gait) {
+  Holding holding = gait.initial;
+  for (const Stretch& stretch : gait.stretches) {
+    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
+    if (stretch.kind == Stretch::Kind::kRelease) holding[stretch.finger] = kNone;
+    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
+  }
+  return holding;
+}
+
+void AppendReversed(const std::vector<Stretch>& stretches, Gait& gait) {
+  for (auto stretch = stretches.rbegin(); stretch != stretches.rend(); ++stretch) {
+    gait.stretches.push_back(Reversed(*stretch));
+  }
+}
+
+}  // namespace regrasp::gait

@@ -1,0 +1,47 @@
+#include "planner/gait/carrier.h"
+
+#include <gtest/gtest.h>
+
+#include "planner/kinematics/hand_file.h"
+#include "planner/object/polyhedron.h"
+
+namespace regrasp::gait {
+namespace {
+
+/// A finger that finds no place to wait among those that are given waits in one that is drawn; not
+/// in one where it runs into its own hand.
+TEST(CarrierTest, FingersWaitWhereTheyKeepOffTheirOwnHand) {
+  const kinematics::HandModel hand =
+      kinematics::ReadHand(std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring4.json");
+  const auto file = object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/cube.obj");
+  const collision::SurfaceTree surface(dynamic_cast<const object::Polyhedron&>(*file.object), 0.5);
+  const HandScene scene(hand, surface, 1e-3);
+  std::vector<kinematics::InverseKinematics> inverse;
+  inverse.reserve(hand.fingers.size());
+  for (const kinematics::Finger& finger : hand.fingers) inverse.emplace_back(finger);
+  const std::vector<SurfacePoint> points;
+  const HandSetup setup{scene, inverse, points};
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = 0.5 * hand.up;  // out of everybody's way
+  const PoseGrid grid({pose, Eigen::Vector3d::Zero(), {}, Eigen::Vector3d::Zero(), 0}, hand.up,
+                      PoseGrid::End::kPose);
+  const Parking nowhere(scene.finger_count());
+  Carrier carrier(setup, grid, nowhere);
+  int would_collide = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    RandomStream random(seed, RandomUse::kGaits);
+    RandomStream same(seed, RandomUse::kGaits);
+    const FingerIndex first{0};
+    would_collide += !scene.KeepsOffHand(scene.Place(first, scene.DrawPosture(first, same)));
+    Hold hold{Holding(scene.finger_count(), kNone)};
+    ASSERT_TRUE(carrier.LetFreeFingersWait(hold, grid.start(), &random));
+    for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
+      EXPECT_TRUE(scene.KeepsOffHand(scene.Place(finger, hold.waiting[finger]))) << seed;
+    }
+  }
+  // The first posture that is drawn would not always do.
+  EXPECT_GT(would_collide, 0);
+}
+
+}  // namespace
+}  // namespace regrasp::gait
