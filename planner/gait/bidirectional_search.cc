@@ -9,29 +9,11 @@
 namespace regrasp::gait {
 namespace {
 
-/// A stretch the other way round.
-Stretch Reversed(Stretch stretch) {
-  std::ranges::reverse(stretch.path);
-  std::ranges::reverse(stretch.along);
-  std::ranges::reverse(stretch.along_at);
-  const int last = static_cast<int>(stretch.path.size()) - 1;
-  for (int& at : stretch.along_at) at = last - at;
-  if (stretch.kind == Stretch::Kind::kPlace) {
-    stretch.kind = Stretch::Kind::kRelease;
-  } else if (stretch.kind == Stretch::Kind::kRelease) {
-    stretch.kind = Stretch::Kind::kPlace;
-  } else if (stretch.kind == Stretch::Kind::kSlide) {
-    std::swap(stretch.from, stretch.contact);
-  }
-  return stretch;
-}
+/// Postures of a finger at one contact that are the same but for rounding, radians.
+constexpr double kSamePosture = 1e-6;
 
 /// Of a path of a free finger between two ways that meet: what is lost with it is much.
 constexpr int kExtensionsToMeet = 1000;
-
-Keyframe EndOf(const Gait& gait) {
-  return gait.stretches.empty() ? gait.start : gait.stretches.back().path.back();
-}
 
 }  // namespace
 
@@ -58,14 +40,7 @@ bool BidirectionalSearch::IsExhausted() const {
 GaitCounts BidirectionalSearch::counts() const {
   GaitCounts counts = forward_.counts();
   if (!backward_) return counts;
-  const GaitCounts& other = backward_->counts();
-  counts.grasps += other.grasps;
-  counts.expanded += other.expanded;
-  counts.no_path += other.no_path;
-  counts.no_slide += other.no_slide;
-  counts.no_move += other.no_move;
-  counts.colliding += other.colliding;
-  counts.rolled += other.rolled;
+  counts.Add(backward_->counts());
   return counts;
 }
 
@@ -111,18 +86,17 @@ std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
   const auto common = std::ranges::find_if(
       nodes, [&](const auto& node) { return others.contains(grid_.Mirrored(node.first)); });
   if (common == nodes.end()) return std::nullopt;
-  std::optional<Gait> gait = forward_.WayTo(forward, common->first);
+  const int node = common->first;
+  std::optional<Gait> gait = forward_.WayTo(forward, node);
   if (!gait) return std::nullopt;
-  const std::optional<Gait> back = backward_->WayTo(backward, grid_.Mirrored(common->first));
+  const std::optional<Gait> back = backward_->WayTo(backward, grid_.Mirrored(node));
   if (!back) return std::nullopt;
   auto between = MoveFreeFingers(forward_.HoldOf(forward).holding, EndOf(*gait), EndOf(*back));
   if (!between) return std::nullopt;
   if (between->size() > 1) {
     gait->stretches.push_back({Stretch::Kind::kMove, {}, kNone, *std::move(between)});
   }
-  for (auto stretch = back->stretches.rbegin(); stretch != back->stretches.rend(); ++stretch) {
-    gait->stretches.push_back(Reversed(*stretch));
-  }
+  AppendReversed(back->stretches, *gait);
   return gait;
 }
 
@@ -133,7 +107,7 @@ std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveFreeFingers(const 
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     const Posture& posture = from.postures[finger];
     if (holding[finger] != kNone) {
-      if ((posture - to.postures[finger]).cwiseAbs().maxCoeff() > kSameBranch) return std::nullopt;
+      if ((posture - to.postures[finger]).cwiseAbs().maxCoeff() > kSamePosture) return std::nullopt;
       continue;
     }
     if (posture == to.postures[finger]) continue;

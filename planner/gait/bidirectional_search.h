@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "planner/gait/gait_search.h"
+#include "planner/gait/place_search.h"
 
 namespace regrasp::gait {
 
 /// Searches a gait from one place in the hand: from its start, and, where the grasps of both ends
 /// are given, from its goal as well, until the two meet in one grasp at one pose.
-class BidirectionalSearch {
+class BidirectionalSearch : public PlaceSearch {
  public:
   /// @param memory  as in GaitSearch. setup, memory and random outlive this object.
   BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid, Parking parking,
@@ -20,14 +21,13 @@ class BidirectionalSearch {
   BidirectionalSearch(const BidirectionalSearch&) = delete;
   BidirectionalSearch& operator=(const BidirectionalSearch&) = delete;
 
-  /// Whether some fingers can hold the goal grasp, if there is one, at the goal pose.
-  [[nodiscard]] bool GoalIsHeld() const { return forward_.GoalIsHeld(); }
-  /// As GaitSearch::Run; rests from both ends count.
-  [[nodiscard]] std::optional<Gait> Run(std::int64_t most_expanded, const Deadline& deadline);
+  [[nodiscard]] bool GoalIsHeld() const override { return forward_.GoalIsHeld(); }
+  [[nodiscard]] std::optional<Gait> Run(std::int64_t most_expanded,
+                                        const Deadline& deadline) override;
   /// Whether nothing is left to expand from one of the ends.
-  [[nodiscard]] bool IsExhausted() const;
+  [[nodiscard]] bool IsExhausted() const override;
   /// Of both ends; what was reached from the start.
-  [[nodiscard]] GaitCounts counts() const;
+  [[nodiscard]] GaitCounts counts() const override;
 
  private:
   std::optional<Gait> RunFromBothEnds(std::int64_t most_expanded, const Deadline& deadline);

@@ -1,6 +1,7 @@
 #include "planner/gait/carrier.h"
 
 #include <algorithm>
+#include <array>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -10,6 +11,8 @@ namespace {
 
 /// To wait in, for a finger that none of the usual places suits.
 constexpr int kDrawnPlaces = 1000;
+/// Above a contact that a finger has left, where it may wait too, metres: the highest first.
+constexpr std::array kHeights = {0.020, 0.012, 0.006};
 
 }  // namespace
 
@@ -40,7 +43,19 @@ bool Carrier::IsPassable(const Hold& hold, int node) {
   return true;
 }
 
-bool Carrier::LetFreeFingersWait(Hold& hold, int node, RandomStream* random) {
+std::optional<Posture> Carrier::PostureAbove(FingerIndex finger, int point, int node,
+                                             double height) {
+  const Posture* touching = reach_.Find(finger, point, node);
+  if (touching == nullptr) return std::nullopt;
+  kinematics::TipTarget target =
+      TargetAt(setup_.scene.finger(finger), setup_.points[point], grid_.PoseAt(node));
+  target.centre -= height * target.towards;
+  auto above = setup_.inverse[finger].SolveFrom(target, *touching);
+  if (above && !setup_.scene.KeepsOffHand(setup_.scene.Place(finger, *above))) above.reset();
+  return above;
+}
+
+bool Carrier::LetFreeFingersWait(Hold& hold, int node, RandomStream* random, const Hold* before) {
   hold.waiting.resize(setup_.scene.finger_count());
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (hold.holding[finger] == kNone) continue;
@@ -55,7 +70,14 @@ bool Carrier::LetFreeFingersWait(Hold& hold, int node, RandomStream* random) {
     };
     bool waits = std::ranges::any_of(parking_[finger], waits_at);
     for (int i = 0; !waits && random != nullptr && i < kDrawnPlaces; ++i) {
-      waits = waits_at(setup_.scene.DrawPosture(finger, *random));
+      const Posture drawn = setup_.scene.DrawPosture(finger, *random);
+      waits = setup_.scene.KeepsOffHand(setup_.scene.Place(finger, drawn)) && waits_at(drawn);
+    }
+    // Where it was, some millimetres above its contact.
+    for (const double height : kHeights) {
+      if (waits || before == nullptr || before->holding[finger] == kNone) break;
+      const auto above = PostureAbove(finger, before->holding[finger], node, height);
+      waits = above && waits_at(*above);
     }
     if (!waits) return false;
   }
@@ -81,7 +103,7 @@ Carried Carrier::StraightOn(const Hold& hold, int node) {
 }
 
 Carried Carrier::Around(const Hold& hold, int node, int patience,
-                        const std::function<bool(int)>& is_enough) {
+                        const std::function<bool(int)>& is_enough, const Legs& barred) {
   using Key = std::tuple<int, bool, int, int>;  // step, is goal, units beside the track, order
   const auto key_of = [&](int at, int order) {
     return Key(grid_.StepOf(at), grid_.IsGoal(at), -grid_.OffTrack(at), -order);
@@ -102,7 +124,10 @@ Carried Carrier::Around(const Hold& hold, int node, int patience,
     }
     if (is_enough(best.second)) break;
     for (const int next : grid_.Neighbours(top.second)) {
-      if (tried.contains(next) || !CanFollow(hold, top.second, next)) continue;
+      if (tried.contains(next) || barred.contains(std::minmax({top.second, next})) ||
+          !CanFollow(hold, top.second, next)) {
+        continue;
+      }
       tried.insert(next);
       if (!IsPassable(hold, next)) continue;
       carried.from.emplace(next, top.second);

@@ -2,6 +2,9 @@
 
 #include <functional>
 #include <map>
+#include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "planner/gait/gait.h"
@@ -26,6 +29,9 @@ struct Carried {
   [[nodiscard]] std::vector<int> PathTo(int node) const;
 };
 
+/// Ways from a node of a grid to a neighbour, and back.
+using Legs = std::set<std::pair<int, int>>;
+
 /// Finds where holds can be carried on a grid of poses: fingers that hold follow, none runs into
 /// anything, checked at the nodes.
 class Carrier {
@@ -46,18 +52,24 @@ class Carrier {
   [[nodiscard]] bool IsPassable(const Hold& hold, int node);
   /// Finds postures for fingers that hold nothing and have none.
   /// @param random  draws others where a finger can't wait in any place of `parking`; null: none.
+  /// @param before  fingers that held something in it may wait above that.
   /// @returns whether the hold can be at the node.
-  [[nodiscard]] bool LetFreeFingersWait(Hold& hold, int node, RandomStream* random = nullptr);
+  [[nodiscard]] bool LetFreeFingersWait(Hold& hold, int node, RandomStream* random = nullptr,
+                                        const Hold* before = nullptr);
 
   /// Along the track, with the node's offset.
   [[nodiscard]] Carried StraightOn(const Hold& hold, int node);
   /// Also beside the track; best first by steps, near the track before far from it.
   /// @param patience   nodes that are tried in vain, each a few microseconds to milliseconds.
   /// @param is_enough  of the farthest node: no more is looked for.
+  /// @param barred     that are not gone.
   [[nodiscard]] Carried Around(const Hold& hold, int node, int patience,
-                               const std::function<bool(int)>& is_enough);
+                               const std::function<bool(int)>& is_enough, const Legs& barred);
 
  private:
+  /// Of a finger off a contact that it reaches at the node; nullopt where it does not come there.
+  [[nodiscard]] std::optional<Posture> PostureAbove(FingerIndex finger, int point, int node,
+                                                    double height);
   [[nodiscard]] bool CanFollow(const Hold& hold, int node, int neighbour);
 
   const HandSetup& setup_;

@@ -129,7 +129,7 @@ bool IsClear(const HandScene& scene, const Keyframe& from, const Keyframe& to,
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
     moves.push_back(scene.MotionBound(finger, from.postures[finger], to.postures[finger]) > 0);
   }
-  const bool object_moves = scene.MotionBound(from.pose, to.pose) > 0;
+  const bool object_moves = from.pose.matrix() != to.pose.matrix();
   return Hold(scene, Standing(moves.size(), nullptr), touching, from, to,
               ChecksOf(moves, object_moves));
 }

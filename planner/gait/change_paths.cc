@@ -15,8 +15,24 @@ void Append(const Keyframe& before, FingerIndex finger, const Posture& posture, 
 
 }  // namespace
 
-std::optional<std::vector<Stretch>> ChangePaths::Find(const Change& change, const Hold& from,
-                                                      Hold& to, int node, const Rolled& rolled) {
+Change ChangeBetween(const Holding& from, const Holding& to) {
+  Change change;
+  for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
+    if (from[finger] == to[finger]) continue;
+    if (from[finger] == kNone) {
+      change.placed = finger;
+    } else if (to[finger] == kNone) {
+      change.released = finger;
+    } else {
+      change.slid.push_back(finger);
+    }
+  }
+  return change;
+}
+
+std::optional<std::vector<Stretch>> ChangePaths::Find(const Hold& from, Hold& to, int node,
+                                                      const Rolled& rolled) {
+  const Change change = ChangeBetween(from.holding, to.holding);
   Keyframe frame = carrier_.FrameAt(from, node);
   std::vector<Stretch> stretches;
   const auto take = [&](std::optional<Stretch> stretch) {
@@ -25,37 +41,38 @@ std::optional<std::vector<Stretch>> ChangePaths::Find(const Change& change, cons
     stretches.push_back(*std::move(stretch));
     return true;
   };
-  if (change.slid.valid() && !take(Slide(change, from.holding, node, frame))) return std::nullopt;
-  if (change.placed.valid() && !take(Place(change, node, frame, rolled.before))) {
+  const auto& [placed, released, slid] = change;
+  if (!slid.empty() && !take(Slide(slid, from.holding, to.holding, node, frame))) {
     return std::nullopt;
   }
-  if (change.released.valid() &&
-      !take(Release(change, from.holding[change.released], to, node, frame, rolled.after))) {
+  if (placed.valid() && !take(Place(placed, to.holding[placed], node, frame, rolled.before))) {
+    return std::nullopt;
+  }
+  if (released.valid() &&
+      !take(Release(released, from.holding[released], to, node, frame, rolled.after))) {
     return std::nullopt;
   }
   return stretches;
 }
 
-std::optional<Stretch> ChangePaths::Place(const Change& change, int node, const Keyframe& before,
-                                          const RolledTips& rolled) {
-  const FingerIndex finger = change.placed;
-  const Posture touching = *carrier_.reach().Find(finger, change.point, node);
+std::optional<Stretch> ChangePaths::Place(FingerIndex finger, int point, int node,
+                                          const Keyframe& before, const RolledTips& rolled) {
+  const Posture touching = *carrier_.reach().Find(finger, point, node);
   Surroundings around = AllBut(setup_.scene, finger, before);
   AddRolled(setup_.scene, rolled, around);
-  const auto path = FindPathToContact(
-      setup_.scene, setup_.inverse[finger], finger, before.postures[finger],
-      TargetAt(setup_.scene.finger(finger), setup_.points[change.point], before.pose), touching,
-      around, random_);
+  const auto path =
+      FindPathToContact(setup_.scene, setup_.inverse[finger], finger, before.postures[finger],
+                        TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
+                        touching, around, random_);
   if (!path) return std::nullopt;
-  Stretch stretch{Stretch::Kind::kPlace, finger, change.point, {}};
+  Stretch stretch{Stretch::Kind::kPlace, finger, point, {}};
   for (const Posture& posture : *path) Append(before, finger, posture, stretch);
   return stretch;
 }
 
 /// To where the finger is to wait, or else no farther than above its contact.
-std::optional<Stretch> ChangePaths::Release(const Change& change, int point, Hold& to, int node,
+std::optional<Stretch> ChangePaths::Release(FingerIndex finger, int point, Hold& to, int node,
                                             const Keyframe& before, const RolledTips& rolled) {
-  const FingerIndex finger = change.released;
   Surroundings around = AllBut(setup_.scene, finger, before);
   AddRolled(setup_.scene, rolled, around);
   const auto up =
@@ -77,22 +94,21 @@ std::optional<Stretch> ChangePaths::Release(const Change& change, int point, Hol
   return stretch;
 }
 
-std::optional<Stretch> ChangePaths::Slide(const Change& change, const Holding& from, int node,
-                                          const Keyframe& before) {
-  const FingerIndex finger = change.slid;
-  std::vector<int> grasp = {from[finger]};
-  for (FingerIndex other{0}; other < setup_.scene.finger_count(); ++other) {
-    if (other != finger && from[other] != kNone) grasp.push_back(from[other]);
+std::optional<Stretch> ChangePaths::Slide(const std::vector<FingerIndex>& slid, const Holding& from,
+                                          const Holding& to, int node, const Keyframe& before) {
+  Stretch stretch{Stretch::Kind::kSlide, {}, kNone, {before}};
+  std::vector<Sliding> fingers;
+  for (const FingerIndex finger : slid) {
+    stretch.slid.push_back({finger, from[finger], to[finger]});
+    fingers.push_back({finger, routes_.Between(from[finger], to[finger]),
+                       carrier_.reach().Find(finger, to[finger], node)});
   }
-  const auto slide =
-      FindSlide(setup_, memory_, finger, grasp, *routes_.Between(from[finger], change.point),
-                before.postures[finger], *carrier_.reach().Find(finger, change.point, node),
-                AllBut(setup_.scene, finger, before));
+  auto slide = FindSlide(setup_, memory_, fingers, from, before);
   if (!slide) return std::nullopt;
-  Stretch stretch{Stretch::Kind::kSlide, finger,          change.point, {before},
-                  from[finger],          slide->contacts, {0}};
-  for (const FingerPath& path : slide->paths) {
-    for (std::size_t i = 1; i < path.size(); ++i) Append(before, finger, path[i], stretch);
+  stretch.along = std::move(slide->along);
+  stretch.along_at = {0};
+  for (const std::vector<Keyframe>& path : slide->paths) {
+    stretch.path.insert(stretch.path.end(), path.begin() + 1, path.end());
     stretch.along_at.push_back(static_cast<int>(stretch.path.size()) - 1);
   }
   return stretch;

@@ -13,14 +13,14 @@
 
 namespace regrasp::gait {
 
-/// What fingers do between two rests; those that are not valid: none. Either one slides, or one is
-/// placed, one released, or both.
+/// What fingers do between two rests: either some that hold slide, all at once, or one is placed,
+/// one released, or both.
 struct Change {
-  FingerIndex placed = {};
-  FingerIndex slid = {};
-  FingerIndex released = {};
-  int point = kNone;  ///< that the finger comes to which is placed or slides
+  FingerIndex placed = {};    ///< not valid: none
+  FingerIndex released = {};  ///< not valid: none
+  std::vector<FingerIndex> slid = {};
 };
+[[nodiscard]] Change ChangeBetween(const Holding& from, const Holding& to);
 
 /// Finds how fingers go from one hold to the next while the object stands still.
 class ChangePaths {
@@ -40,15 +40,16 @@ class ChangePaths {
   ///            it waits above its contact from now on.
   /// @param node  of the grid, where both holds can be.
   /// @returns the stretches, certified; nullopt where a finger finds no way.
-  [[nodiscard]] std::optional<std::vector<Stretch>> Find(const Change& change, const Hold& from,
-                                                         Hold& to, int node, const Rolled& rolled);
+  [[nodiscard]] std::optional<std::vector<Stretch>> Find(const Hold& from, Hold& to, int node,
+                                                         const Rolled& rolled);
 
  private:
-  [[nodiscard]] std::optional<Stretch> Slide(const Change& change, const Holding& from, int node,
+  [[nodiscard]] std::optional<Stretch> Slide(const std::vector<FingerIndex>& slid,
+                                             const Holding& from, const Holding& to, int node,
                                              const Keyframe& before);
-  [[nodiscard]] std::optional<Stretch> Place(const Change& change, int node, const Keyframe& before,
-                                             const RolledTips& rolled);
-  [[nodiscard]] std::optional<Stretch> Release(const Change& change, int point, Hold& to, int node,
+  [[nodiscard]] std::optional<Stretch> Place(FingerIndex finger, int point, int node,
+                                             const Keyframe& before, const RolledTips& rolled);
+  [[nodiscard]] std::optional<Stretch> Release(FingerIndex finger, int point, Hold& to, int node,
                                                const Keyframe& before, const RolledTips& rolled);
 
   const HandSetup& setup_;

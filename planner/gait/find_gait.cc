@@ -7,6 +7,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/gait/bidirectional_search.h"
+#include "planner/gait/turn_search.h"
 #include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::gait {
@@ -52,12 +53,7 @@ std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
 /// A place in the hand to begin in.
 struct PlaceInHand {
   RandomStream random;
-  BidirectionalSearch search;
-
-  PlaceInHand(const HandSetup& setup, const PoseGrid& grid, Parking parking, const GaitEnds& ends,
-              criteria::GraspMemory& memory, std::uint64_t seed, std::size_t index)
-      : random(seed, RandomUse::kGaits, index),
-        search(setup, grid, std::move(parking), ends, memory, random) {}
+  std::unique_ptr<PlaceSearch> search;
 };
 
 /// All places in the hand that are tried, the best first, and more the longer it takes; those where
@@ -78,10 +74,10 @@ class PlacesInHand {
     while (!request_.deadline.IsOver() && expanded_ < request_.most_expanded) {
       PlaceInHand* place = Next();
       if (place == nullptr) return std::nullopt;
-      const std::int64_t before = place->search.counts().expanded;
-      std::optional<Gait> gait = place->search.Run(before + kExpandedAtOnce, request_.deadline);
+      const std::int64_t before = place->search->counts().expanded;
+      std::optional<Gait> gait = place->search->Run(before + kExpandedAtOnce, request_.deadline);
       if (gait) return gait;
-      expanded_ += place->search.counts().expanded - before;
+      expanded_ += place->search->counts().expanded - before;
       request_.progress("searching a gait, " + std::to_string(expanded_) + " grasps from " +
                         std::to_string(places_.size()) + " places in the hand");
     }
@@ -90,7 +86,7 @@ class PlacesInHand {
 
   [[nodiscard]] std::vector<GaitCounts> counts() const {
     std::vector<GaitCounts> counts;
-    for (const auto& place : places_) counts.push_back(place->search.counts());
+    for (const auto& place : places_) counts.push_back(place->search->counts());
     return counts;
   }
 
@@ -102,8 +98,8 @@ class PlacesInHand {
     PlaceInHand* next = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& place : places_) {
-      if (place->search.IsExhausted()) continue;
-      const GaitCounts counts = place->search.counts();
+      if (place->search->IsExhausted()) continue;
+      const GaitCounts counts = place->search->counts();
       const double farther = 1.0 + counts.farthest;
       const double had = static_cast<double>(counts.expanded) / (farther * farther);
       if (had >= least) continue;
@@ -122,17 +118,33 @@ class PlacesInHand {
       }
       const PoseTrack track = journey_.From(homes_.back());
       homes_.pop_back();
-      const std::optional<Parking> parking = FindParking(setup_, track, random_);
-      if (!parking) continue;
-      const bool may_end_beside = !request_.goal_pose && track.steps() > 0;
-      const PoseGrid grid(track, setup_.scene.hand().up,
-                          may_end_beside ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
-      auto place = std::make_unique<PlaceInHand>(setup_, grid, *parking, ends_, memory_,
-                                                 request_.seed, places_.size());
-      if (!place->search.GoalIsHeld()) continue;
+      auto place = std::make_unique<PlaceInHand>(
+          RandomStream(request_.seed, RandomUse::kGaits, places_.size()));
+      place->search = SearchAlong(track, place->random);
+      if (!place->search || !place->search->GoalIsHeld()) continue;
       places_.push_back(std::move(place));
       return true;
     }
+  }
+
+  /// Null where a finger has no place to wait.
+  std::unique_ptr<PlaceSearch> SearchAlong(const PoseTrack& track, RandomStream& random) {
+    std::optional<Parking> parking = FindParking(setup_, track, random_);
+    if (!parking) return nullptr;
+    const bool is_turn = !request_.goal_pose && track.steps() > 0;
+    // Contacts roll one way, and so are followed from the beginning.
+    const bool may_begin_anywhere = is_turn && !request_.start_pose && ends_.start.empty() &&
+                                    ends_.goal.empty() && setup_.rolled_on == nullptr;
+    if (may_begin_anywhere) {
+      if (auto backwards = FindParking(setup_, track.Backwards(), random_)) {
+        return std::make_unique<TurnSearch>(setup_, track, *std::move(parking),
+                                            *std::move(backwards), memory_, random);
+      }
+    }
+    const PoseGrid grid(track, setup_.scene.hand().up,
+                        is_turn ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
+    return std::make_unique<BidirectionalSearch>(setup_, grid, *std::move(parking), ends_, memory_,
+                                                 random);
   }
 
   /// @returns false where there are no more.
@@ -209,6 +221,21 @@ std::vector<int> AppendGrasp(const grasp::Grasp& grasp, std::vector<grasp::Conta
   return numbers;
 }
 
+bool Holds(const std::vector<int>& grasp, criteria::GraspMemory& memory) {
+  criteria::ContactSet contacts;
+  for (const int number : grasp) contacts.Insert(number);
+  return memory.Admits(contacts);
+}
+
+/// What of a request can't have reserve, whatever the gait; empty: nothing.
+std::string GivenWithoutReserve(const GaitEnds& ends, criteria::GraspMemory& memory) {
+  const bool start_holds = ends.start.empty() || Holds(ends.start, memory);
+  if (start_holds && (ends.goal.empty() || Holds(ends.goal, memory))) return "";
+  return std::string("the ") + (start_holds ? "goal" : "start") +
+         " grasp has no reserve: it does not hold with " + FormatShort(100 * kLessFriction) +
+         " % of the friction and quality " + FormatShort(kReserveQuality);
+}
+
 /// Of gaits with something to spare.
 GaitRequest WithReserve(GaitRequest request) {
   criteria::GraspCriteria& criteria = request.criteria;
@@ -246,13 +273,15 @@ GaitResult FindGait(const GaitRequest& request) {
     criteria::GraspMemory memory(*asked.solid, asked.criteria, fingers,
                                  criteria::QualityTest::kQuick);
     memory.Append(result.contacts);
+    result.message = is_reserve ? GivenWithoutReserve(ends, memory) : "";
+    if (!result.message.empty()) return;
     PlacesInHand places(asked, setup, ends, memory);
     result.gait = places.Search();
     result.counts = places.counts();
   };
   if (request.reserve != Reserve::kNone) search(WithReserve(request), true);
   if (!result.gait && request.reserve != Reserve::kRequired) search(request, false);
-  if (!result.gait) result.message = WhatStopped(request, result.counts);
+  if (!result.gait && result.message.empty()) result.message = WhatStopped(request, result.counts);
   return result;
 }
 

@@ -20,16 +20,23 @@ struct Stretch {
     kMove,     ///< the object moves, held by all fingers that hold
     kPlace,    ///< a free finger comes to its contact
     kRelease,  ///< a finger leaves its contact
-    kSlide,    ///< a finger that holds slides to another contact
+    kSlide,    ///< fingers that hold slide to other contacts, all at once
   };
   Kind kind = Kind::kMove;
-  FingerIndex finger;   ///< that is placed, released or slides
+  FingerIndex finger;   ///< that is placed or released
   int contact = kNone;  ///< that it comes to or leaves
   std::vector<Keyframe> path;
   // Of kSlide:
-  int from = kNone;                        ///< the contact that it leaves
-  std::vector<grasp::Contact> along = {};  ///< those that it passes, and the two, in a file's units
-  std::vector<int> along_at = {};          ///< of each the number of its keyframe
+  /// A finger that slides, and between which contacts.
+  struct Slid {
+    FingerIndex finger;
+    int from = kNone;
+    int to = kNone;
+  };
+  std::vector<Slid> slid = {};
+  /// Waypoints, the first and the last one too: where each of them is, in a file's units.
+  std::vector<std::vector<grasp::Contact>> along = {};
+  std::vector<int> along_at = {};  ///< of each the number of its keyframe
 };
 
 /// A way of fingers and object from a rest to another one.
@@ -38,5 +45,14 @@ struct Gait {
   Keyframe start;
   std::vector<Stretch> stretches;
 };
+
+/// A stretch the other way round.
+[[nodiscard]] Stretch Reversed(Stretch stretch);
+
+[[nodiscard]] const Keyframe& EndOf(const Gait& gait);
+[[nodiscard]] Holding HoldingAtEnd(const Gait& gait);
+
+/// Appends stretches the other way round, the last one first.
+void AppendReversed(const std::vector<Stretch>& stretches, Gait& gait);
 
 }  // namespace regrasp::gait

@@ -18,6 +18,8 @@ constexpr int kTriedContacts = 24;
 constexpr int kShares = 4;
 /// Rests taken up from one place.
 constexpr int kTakenUp = 8;
+/// Goals and targets that all fingers of a grasp may slide to at once, the nearest ones.
+constexpr int kSlidesTogether = 3;
 /// With the same fingers placed, released or sliding.
 constexpr int kTakenUpOfAKind = 2;
 /// Steps that a rest is put back for each one like it that was expanded.
@@ -40,8 +42,17 @@ constexpr double kPutBack = 0.1;
 constexpr double kAnotherTurn = 2;
 /// Nodes from which a hold is carried on in vain.
 constexpr int kPatience = 40;
+/// Of one move: times that it is led round what it can't pass.
+constexpr int kMostDetours = 8;
 /// Of the nodes that a grasp comes to: those drawn to switch fingers at, beside those of its path.
 constexpr int kNodesBeside = 2;
+
+/// The finger that is placed, the one that is released, and a bit for each that slides.
+std::array<int, 3> KindOf(const Change& change) {
+  int slid = 0;
+  for (const FingerIndex finger : change.slid) slid |= 1 << finger;
+  return {change.placed, change.released, slid};
+}
 
 }  // namespace
 
@@ -68,6 +79,26 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
     if (carrier_.LetFreeFingersWait(hold, grid.goal(), &random))
       goal_.AddWay(std::move(hold.holding));
   });
+}
+
+void GaitCounts::Add(const GaitCounts& other) {
+  grasps += other.grasps;
+  expanded += other.expanded;
+  no_path += other.no_path;
+  no_slide += other.no_slide;
+  no_move += other.no_move;
+  colliding += other.colliding;
+  rolled += other.rolled;
+}
+
+void GaitSearch::BeginWith(const Hold& hold) {
+  Add({.hold = hold, .node = grid_.start()});
+  begun_ = true;
+}
+
+int GaitSearch::RootOf(int rest) const {
+  while (rests_[rest].parent >= 0) rest = rests_[rest].parent;
+  return rest;
 }
 
 const std::vector<GaitSearch::Candidate>& GaitSearch::CandidatesAt(FingerIndex finger, int node) {
@@ -137,16 +168,14 @@ bool GaitSearch::TakeRolledTips(Rest& rest) {
   return false;
 }
 
-double GaitSearch::ScoreOf(const Rest& rest, int last) {
+double GaitSearch::ScoreOf(const Holding& holding, int node, int slides, int last) {
   double sum = 0;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (rest.hold.holding[finger] == kNone) continue;
-    sum += carrier_.reach().RunEnd(finger, rest.hold.holding[finger], rest.node);
+    if (holding[finger] == kNone) continue;
+    sum += carrier_.reach().RunEnd(finger, holding[finger], node);
   }
-  return last + kSingleFinger * sum / CountHolding(rest.hold.holding) -
-         kOffTrack * grid_.OffTrack(rest.node) -
-         kNotYetGoal * goal_.DistanceFrom(rest.hold.holding) -
-         (grid_.steps() > 0 ? kSlide * rest.slides : 0);
+  return last + kSingleFinger * sum / CountHolding(holding) - kOffTrack * grid_.OffTrack(node) -
+         kNotYetGoal * goal_.DistanceFrom(holding) - (grid_.steps() > 0 ? kSlide * slides : 0);
 }
 
 bool GaitSearch::Add(Rest rest) {
@@ -155,13 +184,14 @@ bool GaitSearch::Add(Rest rest) {
   if (std::ranges::find(taken, rest.node) != taken.end()) return false;
   taken.push_back(rest.node);
   ++counts_.grasps;
-  if (!carrier_.LetFreeFingersWait(rest.hold, rest.node)) {
+  const Hold* before = rest.parent < 0 ? nullptr : &rests_[rest.parent].hold;
+  if (!carrier_.LetFreeFingersWait(rest.hold, rest.node, nullptr, before)) {
     ++counts_.colliding;
     return false;
   }
   if (!TakeRolledTips(rest)) return false;
   rest.carried = carrier_.StraightOn(rest.hold, rest.node);
-  rest.score = ScoreOf(rest, grid_.StepOf(rest.carried.end));
+  rest.score = ScoreOf(rest.hold.holding, rest.node, rest.slides, grid_.StepOf(rest.carried.end));
   queue_.push({rest.score, static_cast<int>(rests_.size())});
   rests_.push_back(std::move(rest));
   return true;
@@ -201,11 +231,16 @@ void GaitSearch::AddFirstRests() {
 }
 
 void GaitSearch::AddSwitches(const Holding& from, FingerIndex placed, int point,
-                             std::vector<Change>& changes) const {
-  if (placed.valid()) changes.push_back({.placed = placed, .point = point});
+                             std::vector<Holding>& holdings) const {
+  Holding with = from;
+  if (placed.valid()) {
+    with[placed] = point;
+    holdings.push_back(with);
+  }
   for (FingerIndex released{0}; released < std::ssize(from); ++released) {
     if (from[released] == kNone) continue;
-    changes.push_back({.placed = placed, .released = released, .point = point});
+    holdings.push_back(with);
+    holdings.back()[released] = kNone;
   }
 }
 
@@ -213,9 +248,24 @@ bool GaitSearch::MaySlide(int from, int to) {
   return setup_.rolled_on == nullptr && routes_.Between(from, to) != nullptr;
 }
 
-std::vector<Change> GaitSearch::ChangesFrom(const Holding& from, int node) {
-  std::vector<Change> changes;
-  if (most_holding_ > kFewestHolding) AddSwitches(from, {}, kNone, changes);
+void GaitSearch::AddSlidesTogether(const Holding& from, int node, std::vector<Holding>& holdings) {
+  for (Holding& to : goal_.NearestOfSameFingers(from, kSlidesTogether)) {
+    const Change change = ChangeBetween(from, to);
+    const bool may = std::ranges::all_of(change.slid, [&](FingerIndex finger) {
+      return carrier_.reach().Find(finger, to[finger], node) != nullptr &&
+             MaySlide(from[finger], to[finger]);
+    });
+    if (may) holdings.push_back(std::move(to));
+  }
+}
+
+std::vector<Holding> GaitSearch::HoldingsAfter(const Holding& from, int node) {
+  std::vector<Holding> holdings;
+  const auto add_slide = [&](FingerIndex finger, int point) {
+    holdings.push_back(from);
+    holdings.back()[finger] = point;
+  };
+  if (most_holding_ > kFewestHolding) AddSwitches(from, {}, kNone, holdings);
   for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
     const int at = from[finger];
     int tried = 0;
@@ -223,13 +273,12 @@ std::vector<Change> GaitSearch::ChangesFrom(const Holding& from, int node) {
       if (Holds(from, point)) continue;
       if (at == kNone) {
         if (++tried > kTriedContacts) break;
-        AddSwitches(from, finger, point, changes);
+        AddSwitches(from, finger, point, holdings);
         continue;
       }
       const double way = (setup_.points[at].p - setup_.points[point].p).norm();
       if (way > (is_goal ? kLongestSlideToGoal : kLongestSlide)) continue;
-      if (!MaySlide(at, point)) continue;
-      changes.push_back({.slid = finger, .point = point});
+      if (MaySlide(at, point)) add_slide(finger, point);
     }
   }
   const Holding* target = goal_.NearestTo(from);
@@ -238,59 +287,61 @@ std::vector<Change> GaitSearch::ChangesFrom(const Holding& from, int node) {
     if (point == kNone || Holds(from, point)) continue;
     if (carrier_.reach().Find(finger, point, node) == nullptr) continue;
     if (from[finger] == kNone) {
-      AddSwitches(from, finger, point, changes);
+      AddSwitches(from, finger, point, holdings);
     } else if (MaySlide(from[finger], point)) {
-      changes.push_back({.slid = finger, .point = point});
+      add_slide(finger, point);
     }
   }
-  return changes;
+  AddSlidesTogether(from, node, holdings);
+  return holdings;
 }
 
-std::optional<GaitSearch::Rest> GaitSearch::After(const Rest& from, const Change& change,
-                                                  int node) {
-  Rest rest{.hold = from.hold,
-            .node = node,
-            .slides = from.slides + static_cast<int>(change.slid.valid()),
-            .change = change};
-  Holding& holding = rest.hold.holding;
-  if (change.slid.valid()) holding[change.slid] = change.point;
-  if (change.placed.valid()) {
-    holding[change.placed] = change.point;
-    rest.hold.waiting[change.placed] = {};
-  }
-  if (change.released.valid()) holding[change.released] = kNone;
-  const int count = CountHolding(holding);
-  if (count < kFewestHolding || count > most_holding_ || !IsGrasp(holding)) return std::nullopt;
+std::optional<double> GaitSearch::ScoreAfter(const Rest& from, const Holding& to, int node) {
+  const int count = CountHolding(to);
+  if (count < kFewestHolding || count > most_holding_ || !IsGrasp(to)) return std::nullopt;
   int last = grid_.steps();
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (holding[finger] == kNone) continue;
-    last = std::min(last, carrier_.reach().RunEnd(finger, holding[finger], node));
+    if (to[finger] == kNone) continue;
+    last = std::min(last, carrier_.reach().RunEnd(finger, to[finger], node));
   }
-  rest.score = ScoreOf(rest, last);
+  const bool slides = !ChangeBetween(from.hold.holding, to).slid.empty();
+  return ScoreOf(to, node, from.slides + static_cast<int>(slides), last);
+}
+
+GaitSearch::Rest GaitSearch::RestAfter(int from, const Holding& to, int node) const {
+  const Rest& before = rests_[from];
+  const Change change = ChangeBetween(before.hold.holding, to);
+  Rest rest{.hold = {to, before.hold.waiting},
+            .node = node,
+            .parent = from,
+            .slides = before.slides + static_cast<int>(!change.slid.empty())};
+  if (change.placed.valid()) rest.hold.waiting[change.placed] = {};
   return rest;
 }
 
 void GaitSearch::SwitchAt(int index, int node) {
-  const Rest from = rests_[index];
-  const RolledTo rolled = RollTowards(from, node);
+  const Holding from = rests_[index].hold.holding;
+  const RolledTo rolled = RollTowards(rests_[index], node);
   if (rolled.node != node) return;
-  std::vector<Rest> found;
-  for (const Change& change : ChangesFrom(from.hold.holding, node)) {
-    if (auto rest = After(from, change, node)) found.push_back(*std::move(rest));
+  std::vector<std::pair<double, Holding>> found;
+  for (Holding& to : HoldingsAfter(from, node)) {
+    if (const auto score = ScoreAfter(rests_[index], to, node)) {
+      found.emplace_back(*score, std::move(to));
+    }
   }
-  std::ranges::stable_sort(found, std::greater<>(), &Rest::score);
+  std::ranges::stable_sort(found, std::greater<>(), &std::pair<double, Holding>::first);
   int taken = 0;
   std::map<std::array<int, 3>, int> taken_by_fingers;
-  for (Rest& rest : found) {
+  for (const auto& [score, to] : found) {
     if (taken == kTakenUp) break;
-    const Change& change = rest.change;
-    int& alike = taken_by_fingers[{change.placed, change.slid, change.released}];
+    const Change change = ChangeBetween(from, to);
+    int& alike = taken_by_fingers[KindOf(change)];
     if (alike == kTakenUpOfAKind) continue;
+    Rest rest = RestAfter(index, to, node);
     // A switch passes a grasp of all fingers.
     Hold all = rest.hold;
-    if (change.released.valid()) all.holding[change.released] = from.hold.holding[change.released];
+    if (change.released.valid()) all.holding[change.released] = from[change.released];
     if (change.placed.valid() && !carrier_.IsPassable(all, rest.node)) continue;
-    rest.parent = index;
     rest.rolled_before = rolled.tips;
     if (!Add(std::move(rest))) continue;
     ++taken;
@@ -323,34 +374,54 @@ void GaitSearch::Expand(int index) {
   }
 }
 
-const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int node) {
-  const auto [found, is_new] = rest.moves.try_emplace(node);
-  if (!is_new) return found->second;
-  const std::vector<int> path = rest.carried.PathTo(node);
-  // What lies beyond a node that can't be reached can't be reached either.
-  const bool beyond = std::ranges::any_of(path.begin() + 1, path.end() - 1, [&](int between) {
-    const auto move = rest.moves.find(between);
-    return move != rest.moves.end() && move->second.empty();
-  });
-  if (!beyond) {
-    std::vector<Eigen::Isometry3d> poses;
-    for (std::size_t i = 1; i + 1 < path.size(); ++i) poses.push_back(grid_.PoseAt(path[i]));
-    auto move =
-        FindMove(setup_, rest.hold.holding, rest.at, poses, carrier_.FrameAt(rest.hold, node));
-    if (move) found->second = std::move(*move);
+void GaitSearch::CarryOn(Rest& rest) {
+  rest.carried = carrier_.Around(
+      rest.hold, rest.node, kPatience * (1 + rest.turns),
+      [&](int node) { return grid_.IsGoal(node) && goal_.IsHeldBy(rest.hold.holding); },
+      rest.barred);
+}
+
+const std::vector<Keyframe>* GaitSearch::MoveBetween(Rest& rest, int from, int to) {
+  const auto [found, is_new] = rest.moves.try_emplace({from, to});
+  if (is_new && !rest.barred.contains(std::minmax({from, to}))) {
+    const Keyframe first = from == rest.node ? rest.at : carrier_.FrameAt(rest.hold, from);
+    if (auto move = FindMove(setup_, rest.hold.holding, first, carrier_.FrameAt(rest.hold, to))) {
+      found->second = *std::move(move);
+    }
   }
-  if (found->second.empty()) ++counts_.no_move;
-  return found->second;
+  return found->second.empty() ? nullptr : &found->second;
+}
+
+std::optional<std::vector<Keyframe>> GaitSearch::MoveFrom(Rest& rest, int node) {
+  for (int detour = 0; rest.carried.from.contains(node); ++detour) {
+    const std::vector<int> path = rest.carried.PathTo(node);
+    std::vector<Keyframe> keyframes = {rest.at};
+    std::size_t at = 1;
+    while (at < path.size()) {
+      const std::vector<Keyframe>* move = MoveBetween(rest, path[at - 1], path[at]);
+      if (move == nullptr) break;
+      keyframes.insert(keyframes.end(), move->begin() + 1, move->end());
+      ++at;
+    }
+    if (at == path.size()) return keyframes;
+    rest.barred.insert(std::minmax({path[at - 1], path[at]}));
+    // Tips that roll were followed along this way.
+    if (detour == kMostDetours || setup_.rolled_on != nullptr) break;
+    CarryOn(rest);
+  }
+  ++counts_.no_move;
+  return std::nullopt;
 }
 
 /// The switch to this rest, from where its parent brought the object.
 bool GaitSearch::WorkOutWay(Rest& rest) {
   rest.at = carrier_.FrameAt(rest.hold, rest.node);
   if (rest.parent < 0) return true;
-  auto way = paths_.Find(rest.change, rests_[rest.parent].hold, rest.hold, rest.node,
-                         {rest.rolled_before, rest.rolled});
+  const Hold& before = rests_[rest.parent].hold;
+  auto way = paths_.Find(before, rest.hold, rest.node, {rest.rolled_before, rest.rolled});
   if (!way) {
-    ++(rest.change.slid.valid() ? counts_.no_slide : counts_.no_path);
+    const bool slides = !ChangeBetween(before.holding, rest.hold.holding).slid.empty();
+    ++(slides ? counts_.no_slide : counts_.no_path);
     return false;
   }
   rest.way = *std::move(way);
@@ -358,8 +429,23 @@ bool GaitSearch::WorkOutWay(Rest& rest) {
   return true;
 }
 
-bool GaitSearch::IsCutOff(const Rest& rest) const {
-  return rest.is_cut_off || (rest.parent >= 0 && IsCutOff(rests_[rest.parent]));
+void GaitSearch::CutOff(int index) {
+  rests_[index].is_cut_off = true;
+  for (int i = index; i < static_cast<int>(rests_.size()); ++i) {
+    Rest& rest = rests_[i];
+    rest.is_cut_off = rest.is_cut_off || (rest.parent >= 0 && rests_[rest.parent].is_cut_off);
+    if (rest.is_cut_off) std::erase(taken_[rest.hold.holding], rest.node);
+  }
+}
+
+bool GaitSearch::ComesToItsEnd(int index) {
+  while (!rests_[index].is_cut_off) {
+    Carried& carried = rests_[index].carried;
+    const int end = carried.end;
+    if (WayTo(index, end)) return true;
+    if (carried.end == end && carried.from.contains(end)) carried.end = carried.from.at(end);
+  }
+  return false;
 }
 
 std::optional<Gait> GaitSearch::WayTo(int index, int node) {
@@ -369,14 +455,14 @@ std::optional<Gait> GaitSearch::WayTo(int index, int node) {
   Gait gait{rests_[chain.front()].hold.holding, rests_[chain.front()].at, {}};
   const auto move_to = [&](Rest& rest, int to) {
     if (rest.node == to) return true;
-    const std::vector<Keyframe>& move = MoveFrom(rest, to);
-    if (!move.empty()) gait.stretches.push_back({Stretch::Kind::kMove, {}, kNone, move});
-    return !move.empty();
+    auto move = MoveFrom(rest, to);
+    if (move) gait.stretches.push_back({Stretch::Kind::kMove, {}, kNone, *std::move(move)});
+    return move.has_value();
   };
   for (const int i : chain) {
     Rest& rest = rests_[i];
     if (rest.parent >= 0 && !move_to(rests_[rest.parent], rest.node)) {
-      rest.is_cut_off = true;
+      CutOff(i);
       return std::nullopt;
     }
     gait.stretches.insert(gait.stretches.end(), rest.way.begin(), rest.way.end());
@@ -391,8 +477,10 @@ std::optional<Gait> GaitSearch::GaitFrom(int index) {
   if (!grid_.IsGoal(carried.end) || !goal_.IsHeldBy(rests_[index].hold.holding)) {
     return std::nullopt;
   }
-  std::optional<Gait> gait = WayTo(index, carried.end);
-  if (!gait) carried.end = carried.from.at(carried.end);
+  const int end = carried.end;
+  std::optional<Gait> gait = WayTo(index, end);
+  // Else the rest goes on from where it did not fail, or from another place.
+  if (!gait && carried.from.contains(end)) carried.end = carried.from.at(end);
   return gait;
 }
 
@@ -415,9 +503,10 @@ int GaitSearch::PopNext() {
 
 /// Whether the same grasp was expanded that passes the rest's node.
 bool GaitSearch::WasExpandedAt(const Rest& rest) const {
-  const auto found = passed_.find(rest.hold.holding);
-  return found != passed_.end() &&
-         std::ranges::find(found->second, rest.node) != found->second.end();
+  const auto found = expanded_.find(rest.hold.holding);
+  return found != expanded_.end() && std::ranges::any_of(found->second, [&](int other) {
+           return !rests_[other].is_cut_off && rests_[other].carried.from.contains(rest.node);
+         });
 }
 
 std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& deadline) {
@@ -427,18 +516,15 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     if (deadline.IsOver()) return std::nullopt;
     const int index = PopNext();
     Rest& rest = rests_[index];
-    if (IsCutOff(rest)) {
-      std::erase(taken_[rest.hold.holding], rest.node);
-      continue;
-    }
+    if (rest.is_cut_off) continue;
     if (rest.turns == 0 && (WasExpandedAt(rest) || !WorkOutWay(rest))) continue;
-    rest.carried = carrier_.Around(
-        rest.hold, rest.node, kPatience * (1 + rest.turns),
-        [&](int node) { return grid_.IsGoal(node) && goal_.IsHeldBy(rest.hold.holding); });
+    CarryOn(rest);
     rest.carried.end = RollTowards(rest, rest.carried.end).node;
     if (std::optional<Gait> gait = GaitFrom(index)) return gait;
-    std::vector<int>& passed = passed_[rest.hold.holding];
-    for (const auto& [node, from] : rest.carried.from) passed.push_back(node);
+    if (rest.is_cut_off) continue;
+    // Whose way can't be gone had better be found out before much grows from it.
+    if (grid_.StepOf(rest.carried.end) > counts_.farthest && !ComesToItsEnd(index)) continue;
+    if (rest.turns == 0) expanded_[rest.hold.holding].push_back(index);
     const int last = grid_.StepOf(rest.carried.end);
     counts_.farthest = std::max(counts_.farthest, last);
     ++counts_.expanded;

@@ -33,6 +33,9 @@ struct GaitCounts {
   std::int64_t rolled = 0;     ///< that are lost where contacts roll, with reserve
   int farthest = 0;            ///< step of the track that was reached
   int steps = 0;               ///< that it has
+
+  /// Adds those of a search from another end; what was reached stays.
+  void Add(const GaitCounts& other);
 };
 
 /// Searches a gait that takes an object from the start of a grid of poses to its goal: rests are
@@ -63,15 +66,21 @@ class GaitSearch {
 
   [[nodiscard]] const GaitCounts& counts() const { return counts_; }
 
-  // For a search that goes the other way to meet this one.
+  // For a search that goes the other way.
 
+  /// Begins with a hold at the start of the grid, instead of others.
+  void BeginWith(const Hold& hold);
+  /// The first rest of the way to a rest.
+  [[nodiscard]] int RootOf(int rest) const;
   /// The rest that was expanded last, by number; −1 before.
   [[nodiscard]] int last_expanded() const { return last_expanded_; }
   [[nodiscard]] const Hold& HoldOf(int rest) const { return rests_[rest].hold; }
-  /// The nodes to which an expanded rest is carried.
+  /// The nodes to which an expanded rest is carried; others where WayTo had to go round something.
   [[nodiscard]] const std::map<int, int>& NodesOf(int rest) const {
     return rests_[rest].carried.from;
   }
+  /// Whether it turned out that the object can't be brought to a rest.
+  [[nodiscard]] bool IsCutOff(int rest) const { return rests_[rest].is_cut_off; }
   /// The whole way with a rest to one of its nodes, where it is free.
   [[nodiscard]] std::optional<Gait> WayTo(int rest, int node);
   /// From now on grasps near to this one are looked at before others, too.
@@ -87,13 +96,13 @@ class GaitSearch {
     int turns = 0;                   ///< that it had
     double score = 0;
     int parent = -1;
-    int slides = 0;      ///< from the first rest to this one
-    Change change = {};  ///< from the parent's grasp
+    int slides = 0;  ///< from the first rest to this one
     /// Worked out when its turn comes: the switch, from where the parent brought the object.
     std::vector<Stretch> way = {};
-    bool is_cut_off = false;  ///< the parent can't bring it there
-    /// Moves that were worked out, by where they lead; empty ones can't be done.
-    std::map<int, std::vector<Keyframe>> moves = {};
+    bool is_cut_off = false;  ///< the object can't be brought there
+    /// Moves from node to node that were worked out, empty where they can't be done.
+    std::map<std::pair<int, int>, std::vector<Keyframe>> moves = {};
+    Legs barred = {};  ///< those that can't
     Keyframe at = {};  ///< at `node`
     /// With reserve, where tips have rolled to at `node`: before the change, and after it.
     RolledTips rolled_before = {}, rolled = {};
@@ -121,15 +130,18 @@ class GaitSearch {
   void AddGivenStart();
   void Expand(int index);
   void SwitchAt(int index, int node);
-  /// What fingers may do at a node to have another grasp, whether it holds or not.
-  [[nodiscard]] std::vector<Change> ChangesFrom(const Holding& from, int node);
+  /// What fingers may hold after one change at a node, whether it is a grasp or not.
+  [[nodiscard]] std::vector<Holding> HoldingsAfter(const Holding& from, int node);
+  /// Those of goals and targets that the same fingers slide to, all at once.
+  void AddSlidesTogether(const Holding& from, int node, std::vector<Holding>& holdings);
   /// Whether there is a way along the surface between two points.
   [[nodiscard]] bool MaySlide(int from, int to);
   /// A finger is placed, if it is valid, and each of the others released or none.
   void AddSwitches(const Holding& from, FingerIndex placed, int point,
-                   std::vector<Change>& changes) const;
-  /// The rest that a change leads to, where it has a grasp.
-  [[nodiscard]] std::optional<Rest> After(const Rest& from, const Change& change, int node);
+                   std::vector<Holding>& holdings) const;
+  /// How good a grasp is that a change leads to; nullopt where it is none.
+  [[nodiscard]] std::optional<double> ScoreAfter(const Rest& from, const Holding& to, int node);
+  [[nodiscard]] Rest RestAfter(int from, const Holding& to, int node) const;
   /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
   bool Add(Rest rest);
   [[nodiscard]] bool IsGrasp(const Holding& holding);
@@ -138,13 +150,22 @@ class GaitSearch {
   /// Of a new rest, from `rolled_before`. @returns whether its tips hold there.
   [[nodiscard]] bool TakeRolledTips(Rest& rest);
   [[nodiscard]] bool WasExpandedAt(const Rest& rest) const;
-  [[nodiscard]] double ScoreOf(const Rest& rest, int last);
+  [[nodiscard]] double ScoreOf(const Holding& holding, int node, int slides, int last);
   [[nodiscard]] bool WorkOutWay(Rest& rest);
-  [[nodiscard]] bool IsCutOff(const Rest& rest) const;
+  /// A rest that the object can't be brought to, and all that came of it, make room for others.
+  void CutOff(int index);
+  /// Whether there is a way to a rest and on with it; `carried.end` is where it leads to, which
+  /// may be nearer than before.
+  [[nodiscard]] bool ComesToItsEnd(int index);
   /// The next rest in turn.
   [[nodiscard]] int PopNext();
-  /// The move with a rest's grasp to a node that it comes to; empty where it can't be done.
-  [[nodiscard]] const std::vector<Keyframe>& MoveFrom(Rest& rest, int node);
+  /// Finds where a rest is carried, but for moves that can't be done.
+  void CarryOn(Rest& rest);
+  /// The move with a rest's grasp from a node to a neighbour; null where it can't be done.
+  [[nodiscard]] const std::vector<Keyframe>* MoveBetween(Rest& rest, int from, int to);
+  /// The move with a rest's grasp to a node that it comes to, past what can't be done; nullopt
+  /// where there is no way round it.
+  [[nodiscard]] std::optional<std::vector<Keyframe>> MoveFrom(Rest& rest, int node);
   [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
 
@@ -162,8 +183,10 @@ class GaitSearch {
   ChangePaths paths_;
   std::vector<Rest> rests_;
   std::priority_queue<Waiting> queue_;
-  /// Of each grasp the nodes at which it was taken up, and those that an expanded rest passes.
-  std::map<Holding, std::vector<int>> taken_, passed_;
+  /// Of each grasp the nodes at which it was taken up, or could not be.
+  std::map<Holding, std::vector<int>> taken_;
+  /// Of each grasp the rests that were expanded.
+  std::map<Holding, std::vector<int>> expanded_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
   std::map<Holding, int> expanded_like_;  ///< rests, by the kind of their grasp
   std::vector<int> expanded_at_;          ///< rests, by the step that they end at

@@ -50,6 +50,25 @@ const Holding* GoalGrasp::NearestTo(const Holding& holding) const {
   return nearest;
 }
 
+std::vector<Holding> GoalGrasp::NearestOfSameFingers(const Holding& holding, int most) const {
+  std::vector<std::pair<double, const Holding*>> found;
+  for (const auto* holdings : {&ways_, &targets_}) {
+    for (const Holding& other : *holdings) {
+      const bool is_same = std::ranges::equal(
+          holding, other, {}, [](int point) { return point == kNone; },
+          [](int point) { return point == kNone; });
+      if (is_same && other != holding) found.emplace_back(DistanceBetween(holding, other), &other);
+    }
+  }
+  std::ranges::stable_sort(found, {}, &std::pair<double, const Holding*>::first);
+  std::vector<Holding> nearest;
+  for (const auto& [distance, other] : found) {
+    if (std::ssize(nearest) == most) break;
+    nearest.push_back(*other);
+  }
+  return nearest;
+}
+
 double GoalGrasp::DistanceFrom(const Holding& holding) const {
   const Holding* nearest = NearestTo(holding);
   return nearest == nullptr ? 0 : DistanceBetween(holding, *nearest);

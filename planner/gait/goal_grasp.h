@@ -24,6 +24,8 @@ class GoalGrasp {
   void AddTarget(Holding target) { targets_.push_back(std::move(target)); }
   /// The way or target that is nearest (DistanceFrom); null where there are none.
   [[nodiscard]] const Holding* NearestTo(const Holding& holding) const;
+  /// Of those that the same fingers hold the nearest, so many at most.
+  [[nodiscard]] std::vector<Holding> NearestOfSameFingers(const Holding& holding, int most) const;
 
   [[nodiscard]] bool IsWithinReach() const { return points_.empty() || !ways_.empty(); }
   [[nodiscard]] bool IsHeldBy(const Holding& holding) const;

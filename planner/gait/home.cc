@@ -60,13 +60,15 @@ struct Reached {
   PlacedFinger placed;
 };
 
-/// Whether three fingers, each at a contact of its own drawn for it, hold the object and keep off
-/// each other.
+/// Whether these three fingers, each at a contact of its own drawn for it, hold the object and keep
+/// off each other.
 bool DrawGrasp(const HandSetup& setup, const std::vector<std::vector<Reached>>& reached,
-               criteria::GraspMemory& memory, RandomStream& random) {
+               const std::vector<int>& fingers, criteria::GraspMemory& memory,
+               RandomStream& random) {
   std::vector<const Reached*> drawn;
   criteria::ContactSet set;
-  for (const int finger : random.Choose(static_cast<int>(reached.size()), 3)) {
+  for (const int finger : fingers) {
+    if (reached[finger].empty()) return false;
     drawn.push_back(&reached[finger][random.Index(reached[finger].size())]);
     if (!set.Has(drawn.back()->point)) set.Insert(drawn.back()->point);
   }
@@ -77,7 +79,8 @@ bool DrawGrasp(const HandSetup& setup, const std::vector<std::vector<Reached>>& 
 }
 
 /// By grasps: of three contacts that three fingers reach without running into anything, drawn at
-/// some poses of the turn, how many hold the object.
+/// some poses of the turn, how many hold the object, and how many without a finger, so that it is
+/// free to go on, for each of them.
 double CloserScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::GraspMemory& memory,
                      RandomStream& random) {
   const PoseGrid grid(track, setup.scene.hand().up, PoseGrid::End::kPose);
@@ -92,13 +95,19 @@ double CloserScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::G
         const Posture* posture = reach.Find(finger, point, node);
         if (posture != nullptr) contacts.push_back({point, setup.scene.Place(finger, *posture)});
       }
-      if (!contacts.empty()) reached.push_back(std::move(contacts));
+      reached.push_back(std::move(contacts));
     }
     int grasps = 0;
+    std::vector<int> grasps_without(reached.size(), 0);
     for (int i = 0; reached.size() >= 3 && i < kDrawnGrasps; ++i) {
-      grasps += static_cast<int>(DrawGrasp(setup, reached, memory, random));
+      const std::vector<int> fingers = random.Choose(static_cast<int>(reached.size()), 3);
+      if (!DrawGrasp(setup, reached, fingers, memory, random)) continue;
+      ++grasps;
+      for (int& count : grasps_without) ++count;
+      for (const int finger : fingers) --grasps_without[finger];
     }
     score += std::log(kNoContact + grasps);
+    for (const int count : grasps_without) score += std::log(kNoContact + count);
   }
   return score;
 }

@@ -1,91 +1,72 @@
 #include "planner/gait/move_path.h"
 
-#include <algorithm>
-
 #include "planner/gait/certified_path.h"
 
 namespace regrasp::gait {
 namespace {
 
-/// Of the way from one pose to the next.
-constexpr double kShortestStep = 1.0 / 64;
+/// Halvings of the way between two keyframes.
+constexpr int kMostHalvings = 6;
 
-/// The keyframe at another pose: holding fingers follow from where they are.
-std::optional<Keyframe> Follow(const HandSetup& setup, const Holding& holding,
-                               const Keyframe& near_by, const Eigen::Isometry3d& pose) {
-  Keyframe frame{pose, near_by.postures};
-  for (FingerIndex finger{0}; finger < setup.scene.finger_count(); ++finger) {
-    if (holding[finger] == kNone) continue;
-    const auto posture = setup.inverse[finger].SolveFrom(
-        TargetAt(setup.scene.finger(finger), setup.points[holding[finger]], pose),
-        near_by.postures[finger]);
-    if (!posture) return std::nullopt;
-    frame.postures[finger] = *posture;
-  }
-  return frame;
-}
-
-bool TipsStay(const HandSetup& setup, const Holding& holding, const Keyframe& middle) {
-  for (FingerIndex finger{0}; finger < setup.scene.finger_count(); ++finger) {
-    if (holding[finger] == kNone) continue;
-    const Eigen::Vector3d centre =
-        kinematics::TipAt(setup.scene.finger(finger), middle.postures[finger]).centre;
-    const auto target =
-        TargetAt(setup.scene.finger(finger), setup.points[holding[finger]], middle.pose);
-    if ((centre - target.centre).norm() > kTipOff) return false;
-  }
-  return true;
-}
-
-bool IsSameBranch(const Keyframe& a, const Keyframe& b) {
-  for (std::size_t finger = 0; finger < a.postures.size(); ++finger) {
-    if ((a.postures[finger] - b.postures[finger]).cwiseAbs().maxCoeff() > kSameBranch) return false;
-  }
-  return true;
-}
-
-/// Appends the keyframes of the way to the next pose. @returns whether there is one.
-/// @param last  the keyframe there, where it is given.
-bool AppendWay(const HandSetup& setup, const Holding& holding, const Touching& touching,
-               const Eigen::Isometry3d& to, const Keyframe* last, std::vector<Keyframe>& path) {
-  const Eigen::Isometry3d from = path.back().pose;
-  double at = 0;
-  double stride = 1;
-  while (at < 1) {
-    const double next = std::min(1.0, at + stride);
-    auto frame = Follow(setup, holding, path.back(), next == 1 ? to : Between(from, to, next));
-    if (!frame) return false;
-    if (next == 1 && last != nullptr) {
-      if (!IsSameBranch(*frame, *last)) return false;
-      frame = *last;
+/// One move.
+class Mover {
+ public:
+  Mover(const HandSetup& setup, const Holding& holding) : setup_(setup), holding_(holding) {
+    for (const int point : holding) {
+      touching_.push_back(point == kNone ? TipContact::kFree : TipContact::kTouching);
     }
-    if (!TipsStay(setup, holding, Between(path.back(), *frame, 0.5))) {
-      stride /= 2;
-      if (stride < kShortestStep) return false;
-      continue;
-    }
-    if (!IsClear(setup.scene, path.back(), *frame, touching)) return false;
-    path.push_back(*frame);
-    at = next;
   }
-  return true;
-}
+
+  /// Appends the keyframes of the way to one, without the first. @returns whether there is one.
+  [[nodiscard]] bool Append(const Keyframe& from, const Keyframe& to, int halvings,
+                            std::vector<Keyframe>& path) const {
+    const Keyframe middle = Between(from, to, 0.5);
+    if (TipsStay(middle)) {
+      if (!IsClear(setup_.scene, from, to, touching_)) return false;
+      path.push_back(to);
+      return true;
+    }
+    if (halvings == 0) return false;
+    const auto held = Held(middle);
+    return held && Append(from, *held, halvings - 1, path) && Append(*held, to, halvings - 1, path);
+  }
+
+ private:
+  [[nodiscard]] kinematics::TipTarget TargetOf(FingerIndex finger, const Keyframe& frame) const {
+    return TargetAt(setup_.scene.finger(finger), setup_.points[holding_[finger]], frame.pose);
+  }
+  [[nodiscard]] bool TipsStay(const Keyframe& frame) const {
+    for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+      if (holding_[finger] == kNone) continue;
+      const Eigen::Vector3d centre =
+          kinematics::TipAt(setup_.scene.finger(finger), frame.postures[finger]).centre;
+      if ((centre - TargetOf(finger, frame).centre).norm() > kTipOff) return false;
+    }
+    return true;
+  }
+  /// The nearest postures in which tips are at their contacts.
+  [[nodiscard]] std::optional<Keyframe> Held(Keyframe frame) const {
+    for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+      if (holding_[finger] == kNone) continue;
+      Posture& posture = frame.postures[finger];
+      const auto held = setup_.inverse[finger].SolveNear(TargetOf(finger, frame), posture);
+      if (!held) return std::nullopt;
+      posture = *held;
+    }
+    return frame;
+  }
+
+  const HandSetup& setup_;
+  const Holding& holding_;
+  Touching touching_;
+};
 
 }  // namespace
 
 std::optional<std::vector<Keyframe>> FindMove(const HandSetup& setup, const Holding& holding,
-                                              const Keyframe& from,
-                                              const std::vector<Eigen::Isometry3d>& poses,
-                                              const Keyframe& to) {
-  Touching touching;
-  for (const int point : holding) {
-    touching.push_back(point == kNone ? TipContact::kFree : TipContact::kTouching);
-  }
+                                              const Keyframe& from, const Keyframe& to) {
   std::vector<Keyframe> path = {from};
-  for (const Eigen::Isometry3d& pose : poses) {
-    if (!AppendWay(setup, holding, touching, pose, nullptr, path)) return std::nullopt;
-  }
-  if (!AppendWay(setup, holding, touching, to.pose, &to, path)) return std::nullopt;
+  if (!Mover(setup, holding).Append(from, to, kMostHalvings, path)) return std::nullopt;
   return path;
 }
 

@@ -1,5 +1,7 @@
 #include "planner/gait/plan_of_gait.h"
 
+#include <algorithm>
+
 #include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::gait {
@@ -31,7 +33,7 @@ plan::FingerGrasp GraspAtEnd(const plan::Plan& plan) {
   return holding;
 }
 
-/// One finger slides, the others stay where they are.
+/// Some fingers slide, the others stay where they are.
 plan::Align SlideOf(const Stretch& stretch, const plan::FingerGrasp& holding,
                     const kinematics::HandModel& hand) {
   plan::Align align;
@@ -39,7 +41,10 @@ plan::Align SlideOf(const Stretch& stretch, const plan::FingerGrasp& holding,
   for (std::size_t i = 0; i < stretch.along.size(); ++i) {
     align.waypoints.push_back(holding);
     for (plan::FingerContact& held : align.waypoints.back()) {
-      if (held.finger == stretch.finger) held.contact = stretch.along[i];
+      const auto slid = std::ranges::find(stretch.slid, held.finger, &Stretch::Slid::finger);
+      if (slid != stretch.slid.end()) {
+        held.contact = stretch.along[i][slid - stretch.slid.begin()];
+      }
     }
     if (i == 0) continue;
     align.motion->push_back(PathOf(stretch, stretch.along_at[i - 1], stretch.along_at[i], hand));

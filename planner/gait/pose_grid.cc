@@ -37,6 +37,10 @@ PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end)
     }
   }
   for (const Offset& offset : offsets_) {
+    const auto first = std::ranges::find_if(offsets_, [&](const Offset& other) {
+      return std::equal(other.begin() + 3, other.end(), offset.begin() + 3);
+    });
+    tilts_.push_back(static_cast<int>(first - offsets_.begin()));
     beside_.emplace_back();
     for (int k = 0; k < offsets(); ++k) {
       Offset difference = offsets_[k];

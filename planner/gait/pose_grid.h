@@ -25,6 +25,9 @@ class PoseGrid {
   [[nodiscard]] int size() const { return (track_.steps() + 1) * offsets(); }
   [[nodiscard]] int steps() const { return track_.steps(); }
   [[nodiscard]] int StepOf(int node) const { return node / offsets(); }
+  /// A number for the tilt beside the track. Two poses with one tilt differ in their orientations
+  /// by the turn between their steps alone.
+  [[nodiscard]] int TiltOf(int node) const { return tilts_[node % offsets()]; }
   /// How many unit offsets a pose is from the track.
   [[nodiscard]] int OffTrack(int node) const;
   [[nodiscard]] int start() const { return 0; }
@@ -59,6 +62,7 @@ class PoseGrid {
   End end_;
   Eigen::Matrix3d axes_;  ///< columns: across, across, up
   std::vector<Offset> offsets_;
+  std::vector<int> tilts_;                ///< by offset
   std::vector<std::vector<int>> beside_;  ///< by offset: those that differ by one unit
 };
 

@@ -37,6 +37,11 @@ class PoseTrack {
     return pose;
   }
 
+  /// From the same start the other way.
+  [[nodiscard]] PoseTrack Backwards() const {
+    return {start_, centre_, {turn_.axis, -turn_.angle}, -shift_, steps_};
+  }
+
   /// The same poses from the end to the start, but for rounding.
   [[nodiscard]] PoseTrack Reversed() const {
     if (steps_ == 0) return *this;

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "planner/criteria/grasp_memory.h"
-#include "planner/gait/finger_path.h"
 #include "planner/gait/hand_setup.h"
+#include "planner/gait/holding.h"
+#include "planner/gait/keyframe.h"
 #include "planner/tree/surface_route.h"
 
 namespace regrasp::gait {
@@ -26,25 +27,39 @@ class SlideRoutes {
   std::map<std::pair<int, int>, std::optional<tree::SurfaceRoute>> known_;
 };
 
-/// How a finger that holds slides along the surface: from contact to contact straight on a face, or
-/// about one point from a face to the next.
-struct Slide {
-  std::vector<grasp::Contact> contacts;  ///< the object's units
-  std::vector<FingerPath> paths;         ///< between two contacts, at equal shares of the way
+/// A finger that is to slide, the way that its contact takes, and its posture there in the end.
+struct Sliding {
+  FingerIndex finger;
+  const tree::SurfaceRoute* route = nullptr;
+  const Posture* end = nullptr;
 };
 
-/// A slide from a contact to another one that the tip follows within kTipOff, certified to be free
-/// and force closure all along, by routes as aligns take them (tree/surface_route.h).
-/// @param finger   that slides.
-/// @param grasp    its contact, and those of the others, by number; the finger's comes first.
-/// @param route    from there.
-/// @param from, end  postures of the finger at first and in the end.
-/// @param around   the pose and the other fingers.
+/// How fingers that hold slide along the surface, all at once: between two waypoints each goes
+/// straight on a face, or about one point from a face to the next, or stays.
+struct Slide {
+  /// By waypoint where each of the fingers is, the object's units.
+  std::vector<std::vector<grasp::Contact>> along;
+  /// Between two waypoints, at equal shares of the way.
+  std::vector<std::vector<Keyframe>> paths;
+};
+
+/// Waypoints of contacts that go along routes at once, each at its own even speed, all for the same
+/// time: where one of them reaches another face, and one more for each turn about an edge, for
+/// which the others wait.
+///
+/// Law: begins and ends with the first and last contacts of the routes, bit for bit.
+[[nodiscard]] std::vector<std::vector<grasp::Contact>> GoTogether(
+    const std::vector<const tree::SurfaceRoute*>& routes);
+
+/// A slide that tips follow within kTipOff, certified to be free and force closure all along, by
+/// routes as aligns take them (tree/surface_route.h).
+/// @param fingers  that slide.
+/// @param holding  at first.
+/// @param from     how all stands at first.
 /// @returns nullopt where none was found.
 [[nodiscard]] std::optional<Slide> FindSlide(const HandSetup& setup,
                                              const criteria::GraspMemory& memory,
-                                             FingerIndex finger, const std::vector<int>& grasp,
-                                             const tree::SurfaceRoute& route, const Posture& from,
-                                             const Posture& end, const Surroundings& around);
+                                             const std::vector<Sliding>& fingers,
+                                             const Holding& holding, const Keyframe& from);
 
 }  // namespace regrasp::gait

@@ -94,8 +94,9 @@ std::optional<Gait> TurnSearch::TakeDown(int root, bool is_onwards) {
     if (found == other.places.end()) continue;
     for (const auto& place : found->second) {
       const std::pair here(rest, node);
-      const std::pair rests = is_onwards ? std::pair(rest, place.first)
-                                         : std::pair(place.first, rest);
+      const std::pair rests =
+          is_onwards ? std::pair(rest, place.first) : std::pair(place.first, rest);
+      if (onwards_.IsCutOff(rests.first) || from.search->IsCutOff(rests.second)) continue;
       if (joins == kMostJoins || !tried_.insert(rests).second) continue;
       ++joins;
       auto gait = is_onwards ? Join(root, here, place) : Join(root, place, here);

@@ -161,8 +161,18 @@ std::optional<Posture> InverseKinematics::Solve(const TipTarget& target) const {
 
 std::optional<Posture> InverseKinematics::SolveFrom(const TipTarget& target,
                                                     const Posture& start) const {
+  return Iterate(target, start, true);
+}
+
+std::optional<Posture> InverseKinematics::SolveNear(const TipTarget& target,
+                                                    const Posture& start) const {
+  return Iterate(target, start, false);
+}
+
+std::optional<Posture> InverseKinematics::Iterate(const TipTarget& target, const Posture& start,
+                                                  bool towards_middle) const {
   Posture posture = start;
-  bool settled = false;
+  bool settled = !towards_middle;
   double off_before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kIterations; ++i) {
     const TipState state = TipAt(finger_, posture);

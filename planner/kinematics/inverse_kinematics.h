@@ -46,6 +46,11 @@ class InverseKinematics {
   [[nodiscard]] std::optional<Posture> SolveFrom(const TipTarget& target,
                                                  const Posture& start) const;
 
+  /// The posture with its tip at the target that is near the start, wherever the middle is: for
+  /// paths between two postures that are given.
+  [[nodiscard]] std::optional<Posture> SolveNear(const TipTarget& target,
+                                                 const Posture& start) const;
+
   /// Whether a sampled posture has its tip near the target: no inverse kinematics is tried where
   /// this is false.
   [[nodiscard]] bool MayReach(const TipTarget& target) const { return NearestSample(target) >= 0; }
@@ -60,6 +65,8 @@ class InverseKinematics {
   [[nodiscard]] int NearestSample(const TipTarget& target) const;
   [[nodiscard]] int CellOf(const Eigen::Vector3i& cell) const;
   [[nodiscard]] Eigen::Vector3i CellAt(const Eigen::Vector3d& point) const;
+  [[nodiscard]] std::optional<Posture> Iterate(const TipTarget& target, const Posture& start,
+                                               bool towards_middle) const;
   [[nodiscard]] bool Fits(const TipTarget& target, const Posture& posture) const;
 
   const Finger& finger_;

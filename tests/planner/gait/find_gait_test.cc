@@ -51,9 +51,19 @@ Eigen::Isometry3d LastPose(const Gait& gait) {
   return gait.stretches.empty() ? gait.start.pose : gait.stretches.back().path.back().pose;
 }
 
-TEST(FindGaitTest, TheObjectIsTurnedAsFarAsIsAskedAndStaysAboutWhereItIs) {
+/// Without reserve a turn may begin anywhere: ways onwards and backwards are joined.
+class TurnTest : public testing::TestWithParam<Reserve> {};
+
+INSTANTIATE_TEST_SUITE_P(Reserves, TurnTest, testing::Values(Reserve::kNone, Reserve::kPreferred),
+                         [](const auto& info) {
+                           return info.param == Reserve::kNone ? "None" : "Preferred";
+                         });
+
+TEST_P(TurnTest, TheObjectIsTurnedAsFarAsIsAskedAndStaysAboutWhereItIs) {
+  const Reserve reserve = GetParam();
   for (const double degrees : {60.0, -60.0, 270.0}) {
-    const GaitRequest request = RequestFor("cube", 0.8, degrees);
+    GaitRequest request = RequestFor("cube", 0.8, degrees);
+    request.reserve = reserve;
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << found.message;
     const Eigen::Isometry3d last = LastPose(*found.gait);
@@ -66,8 +76,9 @@ TEST(FindGaitTest, TheObjectIsTurnedAsFarAsIsAskedAndStaysAboutWhereItIs) {
   }
 }
 
-TEST(FindGaitTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
-  const GaitRequest request = RequestFor("prism", 0.5, 150);
+TEST_P(TurnTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
+  GaitRequest request = RequestFor("prism", 0.5, 150);
+  request.reserve = GetParam();
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
   Holding holding = found.gait->initial;
@@ -76,8 +87,10 @@ TEST(FindGaitTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
   for (const Stretch& stretch : found.gait->stretches) {
     EXPECT_EQ(stretch.path.front().pose.matrix(), last->pose.matrix());
     EXPECT_EQ(stretch.path.front().postures, last->postures);
-    const bool stays = stretch.kind == Stretch::Kind::kMove;
-    if (!stays) holding[stretch.finger] = kNone;
+    const bool changes =
+        stretch.kind == Stretch::Kind::kPlace || stretch.kind == Stretch::Kind::kRelease;
+    if (changes) holding[stretch.finger] = kNone;
+    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = kNone;
     for (const Keyframe& frame : stretch.path) {
       for (FingerIndex finger{0}; finger < std::ssize(holding); ++finger) {
         if (holding[finger] == kNone) continue;
@@ -89,9 +102,8 @@ TEST(FindGaitTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
         ++tips;
       }
     }
-    if (!stays && stretch.kind != Stretch::Kind::kRelease) {
-      holding[stretch.finger] = stretch.contact;
-    }
+    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
+    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
     last = &stretch.path.back();
   }
   EXPECT_GT(tips, 100);
@@ -179,28 +191,14 @@ TEST(FindGaitTest, WhereNothingIsToSpareARequiredReserveIsToldOf) {
   EXPECT_THAT(found.message, testing::HasSubstr("without reserve there may be a plan"));
 }
 
-TEST(FindGaitTest, TheSameRequestGivesTheSameGait) {
-  const GaitRequest request = RequestFor("cube", 0.8, 120);
-  const GaitResult first = FindGait(request);
-  const GaitResult second = FindGait(request);
-  ASSERT_TRUE(first.gait && second.gait);
-  ASSERT_EQ(first.gait->stretches.size(), second.gait->stretches.size());
-  for (std::size_t i = 0; i < first.gait->stretches.size(); ++i) {
-    const auto& a = first.gait->stretches[i].path;
-    const auto& b = second.gait->stretches[i].path;
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].postures, b[k].postures);
-  }
-}
-
 /// The contacts that are held before one of the stretches.
 grasp::Grasp GraspBefore(const GaitResult& found, std::size_t end) {
   Holding holding = found.gait->initial;
   for (std::size_t i = 0; i < end; ++i) {
     const Stretch& stretch = found.gait->stretches[i];
-    if (stretch.kind == Stretch::Kind::kMove) continue;
-    const bool leaves = stretch.kind == Stretch::Kind::kRelease;
-    holding[stretch.finger] = leaves ? kNone : stretch.contact;
+    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
+    if (stretch.kind == Stretch::Kind::kRelease) holding[stretch.finger] = kNone;
+    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
   }
   grasp::Grasp grasp;
   for (const int contact : holding) {
@@ -214,6 +212,39 @@ grasp::Grasp LastGrasp(const GaitResult& found) {
 }
 
 grasp::Grasp FirstGrasp(const GaitResult& found) { return GraspBefore(found, 0); }
+
+/// No gait gives reserve to a grasp that has none; time is not spent on it.
+TEST(FindGaitTest, AGivenGraspWithoutReserveIsNamed) {
+  const GaitRequest turn = RequestFor("cube", 0.8, 30);
+  const GaitResult turned = FindGait(turn);
+  ASSERT_TRUE(turned.gait) << turned.message;
+  GaitRequest request = turn;
+  request.start_grasp = FirstGrasp(turned);
+  // Of all friction that it needs, a little more than none.
+  const auto needed =
+      grasp::ComputeRequiredHalfAngle(request.start_grasp, request.solid->wrench_frame());
+  ASSERT_TRUE(needed);
+  request.criteria.half_angle = 1.05 * needed->upper;
+  request.reserve = Reserve::kRequired;
+  const GaitResult found = FindGait(request);
+  EXPECT_FALSE(found.gait);
+  EXPECT_THAT(found.message, testing::HasSubstr("the start grasp has no reserve"));
+}
+
+TEST_P(TurnTest, TheSameRequestGivesTheSameGait) {
+  GaitRequest request = RequestFor("cube", 0.8, 120);
+  request.reserve = GetParam();
+  const GaitResult first = FindGait(request);
+  const GaitResult second = FindGait(request);
+  ASSERT_TRUE(first.gait && second.gait);
+  ASSERT_EQ(first.gait->stretches.size(), second.gait->stretches.size());
+  for (std::size_t i = 0; i < first.gait->stretches.size(); ++i) {
+    const auto& a = first.gait->stretches[i].path;
+    const auto& b = second.gait->stretches[i].path;
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].postures, b[k].postures);
+  }
+}
 
 std::vector<std::vector<double>> Sorted(const grasp::Grasp& grasp) {
   std::vector<std::vector<double>> points;
@@ -274,18 +305,21 @@ TEST(FindGaitTest, FingersThatHoldSlideAlongTheSurface) {
     EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
     for (const Stretch& stretch : found.gait->stretches) {
       if (stretch.kind != Stretch::Kind::kSlide) continue;
-      ++slides;
-      EXPECT_EQ(stretch.along.front().p, found.contacts[stretch.from].p);
-      EXPECT_EQ(stretch.along.back().p, found.contacts[stretch.contact].p);
       ASSERT_EQ(stretch.along.size(), stretch.along_at.size());
       EXPECT_EQ(stretch.along_at.back() + 1, std::ssize(stretch.path));
-      const kinematics::Finger& chain = Ring().fingers[stretch.finger];
-      for (const Keyframe& frame : stretch.path) {
-        // A ball at the cube's surface, wherever on it.
-        const Vector3d centre =
-            frame.pose.inverse() * kinematics::TipAt(chain, frame.postures[stretch.finger]).centre;
-        const Vector3d outside = (centre.cwiseAbs().array() - 0.8 * 0.03).max(0.0);
-        EXPECT_NEAR(outside.norm(), chain.tip.radius, 1e-8);
+      for (std::size_t i = 0; i < stretch.slid.size(); ++i) {
+        const auto& [finger, from, to] = stretch.slid[i];
+        ++slides;
+        EXPECT_EQ(stretch.along.front()[i].p, found.contacts[from].p);
+        EXPECT_EQ(stretch.along.back()[i].p, found.contacts[to].p);
+        const kinematics::Finger& chain = Ring().fingers[finger];
+        for (const Keyframe& frame : stretch.path) {
+          // A ball at the cube's surface, wherever on it.
+          const Vector3d centre =
+              frame.pose.inverse() * kinematics::TipAt(chain, frame.postures[finger]).centre;
+          const Vector3d outside = (centre.cwiseAbs().array() - 0.8 * 0.03).max(0.0);
+          EXPECT_NEAR(outside.norm(), chain.tip.radius, 1e-8);
+        }
       }
     }
     const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);

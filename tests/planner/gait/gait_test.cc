@@ -5,7 +5,9 @@
 namespace regrasp::gait {
 namespace {
 
-Keyframe At(double drive) { return {Eigen::Isometry3d::Identity(), {Posture::Constant(1, drive)}}; }
+Keyframe At(double drive) {
+  return {Eigen::Isometry3d::Identity(), {kinematics::Posture::Constant(1, drive)}};
+}
 
 /// Finger 1 comes to contact 7, finger 0 leaves contact 4, finger 1 slides to 9.
 Gait Example() {
@@ -15,8 +17,7 @@ Gait Example() {
   gait.stretches.push_back({Kind::kRelease, FingerIndex{0}, 4, {At(1), At(2), At(3)}});
   Stretch slide{Kind::kSlide, {}, kNone, {At(3), At(4), At(5), At(6)}};
   slide.slid = {{FingerIndex{1}, 7, 9}};
-  slide.along = {{grasp::Contact{{1, 0, 0}, {}, {}}}, {grasp::Contact{{2, 0, 0}, {}, {}}},
-                 {grasp::Contact{{3, 0, 0}, {}, {}}}};
+  for (const double x : {1, 2, 3}) slide.along.push_back({grasp::Contact{{x, 0, 0}, {0, 0, 1}}});
   slide.along_at = {0, 1, 3};
   gait.stretches.push_back(slide);
   return gait;

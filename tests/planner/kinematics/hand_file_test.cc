@@ -111,6 +111,33 @@ TEST(InverseKinematicsTest, FollowsATargetWithoutJumps) {
   }
 }
 
+/// Of a posture that has its tip at the target already nothing changes; from one near by the way is
+/// short. Drawn to the middle it would be another posture.
+TEST(InverseKinematicsTest, NearAPostureItStaysNearWhereverTheMiddleIs) {
+  const HandModel hand = ReadHand(kHands + "ring5.json");
+  RandomStream random(5, RandomUse::kCandidates);
+  const Finger& finger = hand.fingers[1];
+  const InverseKinematics inverse(finger);
+  int drawn_away = 0;
+  for (int i = 0; i < 200; ++i) {
+    // Within its range, with something to spare.
+    const Posture posture =
+        inverse.middle() + 0.8 * (RandomPosture(finger, random) - inverse.middle());
+    const TipState state = TipAt(finger, posture);
+    const TipTarget target{state.centre, state.axis};
+    const auto same = inverse.SolveNear(target, posture);
+    ASSERT_TRUE(same);
+    EXPECT_LT((*same - posture).norm(), 1e-9);
+    const auto near = inverse.SolveNear(target, posture + Posture::Constant(posture.size(), 0.01));
+    ASSERT_TRUE(near);
+    EXPECT_LT((TipAt(finger, *near).centre - target.centre).norm(), kTipTolerance);
+    EXPECT_LT((*near - posture).norm(), 0.1);
+    const auto middle = inverse.SolveFrom(target, posture);
+    drawn_away += middle && (*middle - posture).norm() > 0.1;
+  }
+  EXPECT_GT(drawn_away, 50);
+}
+
 /// No point of a link moves farther than the bound says.
 TEST(FingerKinematicsTest, MotionIsBounded) {
   const HandModel hand = ReadHand(kHands + "ring4.json");
