@@ -328,6 +328,25 @@ TEST(FindGaitTest, FingersThatHoldSlideAlongTheSurface) {
   EXPECT_GT(slides, 0);
 }
 
+/// No finger has to wait for another one where all go to a grasp near by.
+TEST(FindGaitTest, FingersSlideAllAtOnce) {
+  GaitRequest request = RequestFor("cube", 0.8, 0);
+  const GaitResult first = FindGait(request);
+  ASSERT_TRUE(first.gait) << first.message;
+  request.start_pose = request.goal_pose = first.gait->start.pose;
+  request.start_grasp = request.goal_grasp = FirstGrasp(first);
+  for (grasp::Contact& contact : request.goal_grasp) {
+    contact.p += 0.0015 * contact.n.unitOrthogonal();
+  }
+  const GaitResult found = FindGait(request);
+  ASSERT_TRUE(found.gait) << found.message;
+  ASSERT_EQ(found.gait->stretches.size(), 1u);
+  EXPECT_EQ(found.gait->stretches[0].slid.size(), 3u);
+  EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
+  const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
+  EXPECT_TRUE(plan::CheckPlan(*request.solid, plan).passed());
+}
+
 TEST(FindGaitTest, AGivenGraspFindsAPoseWhereFingersReachIt) {
   const GaitResult turned = FindGait(RequestFor("prism", 0.5, 30));
   ASSERT_TRUE(turned.gait) << turned.message;
