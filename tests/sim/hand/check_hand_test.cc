@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -55,29 +56,49 @@ const plan::Plan& GoodPlan() {
   return plan;
 }
 
+/// From one grasp to another one at one pose, each the first of a seed.
+plan::Plan Regrasp(std::uint64_t seed) {
+  gait::GaitRequest request = RequestForTheCube();
+  request.reserve = gait::Reserve::kNone;
+  const auto first_grasp = [&](std::uint64_t of_seed) {
+    request.seed = of_seed;
+    const gait::GaitResult found = gait::FindGait(request);
+    EXPECT_TRUE(found.gait) << found.message;
+    request.start_pose = found.gait->start.pose;
+    grasp::Grasp grasp;
+    for (const int contact : found.gait->initial) {
+      if (contact != gait::kNone) grasp.push_back(found.contacts[contact]);
+    }
+    return grasp;
+  };
+  const grasp::Grasp start = first_grasp(seed);
+  const grasp::Grasp goal = first_grasp(seed + 1000);
+  request.start_grasp = start;
+  request.goal_grasp = goal;
+  request.goal_pose = request.start_pose;
+  const gait::GaitResult found = gait::FindGait(request);
+  if (!found.gait) return {};
+  return plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+}
+
+/// Whether it has a slide, the first stretch of which is long enough to need states on its way.
+bool HasLongSlide(const plan::Plan& plan) {
+  for (const plan::Step& step : plan.steps) {
+    const auto* align = std::get_if<plan::Align>(&step);
+    if (align != nullptr) return align->motion->front().size() > 3;
+  }
+  return false;
+}
+
 /// A regrasp at one pose in which fingers slide; made once.
 const plan::Plan& SlidingPlan() {
   static const plan::Plan plan = [] {
-    gait::GaitRequest request = RequestForTheCube();
-    const auto first_grasp = [&](std::uint64_t seed) {
-      request.seed = seed;
-      const gait::GaitResult found = gait::FindGait(request);
-      EXPECT_TRUE(found.gait) << found.message;
-      request.start_pose = found.gait->start.pose;
-      grasp::Grasp grasp;
-      for (const int contact : found.gait->initial) {
-        if (contact != gait::kNone) grasp.push_back(found.contacts[contact]);
-      }
-      return grasp;
-    };
-    const grasp::Grasp start = first_grasp(1);
-    const grasp::Grasp goal = first_grasp(1001);
-    request.start_grasp = start;
-    request.goal_grasp = goal;
-    request.goal_pose = request.start_pose;
-    const gait::GaitResult found = gait::FindGait(request);
-    EXPECT_TRUE(found.gait) << found.message;
-    return plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+    for (std::uint64_t seed = 1; seed < 20; ++seed) {
+      plan::Plan regrasp = Regrasp(seed);
+      if (HasLongSlide(regrasp)) return regrasp;
+    }
+    ADD_FAILURE() << "no regrasp slides";
+    return GoodPlan();
   }();
   return plan;
 }
@@ -92,6 +113,14 @@ int FirstOf(const plan::Plan& plan, const std::string& kind) {
 
 plan::Move& FirstMove(plan::Plan& plan) {
   return std::get<plan::Move>(plan.steps[FirstOf(plan, "move")]);
+}
+/// The step with the move that has most states.
+int LongestMove(const plan::Plan& plan) {
+  const auto states = [](const plan::Step& step) {
+    const auto* move = std::get_if<plan::Move>(&step);
+    return move == nullptr ? 0 : move->path.size();
+  };
+  return static_cast<int>(std::ranges::max_element(plan.steps, {}, states) - plan.steps.begin());
 }
 plan::Switch& FirstSwitch(plan::Plan& plan) {
   return std::get<plan::Switch>(plan.steps[FirstOf(plan, "switch")]);
@@ -219,9 +248,10 @@ TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
        }},
       {"a move of few states", Reason::kTipOffContact, "tip of finger",
        [](plan::Plan& plan) {
-         plan::HandPath& path = FirstMove(plan).path;
+         const int step = LongestMove(plan);
+         plan::HandPath& path = std::get<plan::Move>(plan.steps[step]).path;
          path.erase(path.begin() + 1, path.end() - 1);
-         return FirstOf(plan, "move") + 1;
+         return step + 1;
        }},
       {"the object is elsewhere at last", Reason::kGoalNotReached, "from its goal",
        [](plan::Plan& plan) {
