@@ -68,6 +68,7 @@ class Carrier {
 
  private:
   /// Of a finger off a contact that it reaches at the node; nullopt where it does not come there.
+  /// @param height  metres.
   [[nodiscard]] std::optional<Posture> PostureAbove(FingerIndex finger, int point, int node,
                                                     double height);
   [[nodiscard]] bool CanFollow(const Hold& hold, int node, int neighbour);

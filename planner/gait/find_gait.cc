@@ -223,17 +223,21 @@ std::vector<int> AppendGrasp(const grasp::Grasp& grasp, std::vector<grasp::Conta
 
 bool Holds(const std::vector<int>& grasp, criteria::GraspMemory& memory) {
   criteria::ContactSet contacts;
-  for (const int number : grasp) contacts.Insert(number);
+  for (const int number : grasp) {
+    if (!contacts.Has(number)) contacts.Insert(number);
+  }
   return memory.Admits(contacts);
 }
 
 /// What of a request can't have reserve, whatever the gait; empty: nothing.
-std::string GivenWithoutReserve(const GaitEnds& ends, criteria::GraspMemory& memory) {
+/// @param quality  that a gait with reserve has.
+std::string GivenWithoutReserve(const GaitEnds& ends, criteria::GraspMemory& memory,
+                                double quality) {
   const bool start_holds = ends.start.empty() || Holds(ends.start, memory);
   if (start_holds && (ends.goal.empty() || Holds(ends.goal, memory))) return "";
   return std::string("the ") + (start_holds ? "goal" : "start") +
          " grasp has no reserve: it does not hold with " + FormatShort(100 * kLessFriction) +
-         " % of the friction and quality " + FormatShort(kReserveQuality);
+         " % of the friction and quality " + FormatShort(quality);
 }
 
 /// Of gaits with something to spare.
@@ -273,7 +277,8 @@ GaitResult FindGait(const GaitRequest& request) {
     criteria::GraspMemory memory(*asked.solid, asked.criteria, fingers,
                                  criteria::QualityTest::kQuick);
     memory.Append(result.contacts);
-    result.message = is_reserve ? GivenWithoutReserve(ends, memory) : "";
+    result.message =
+        is_reserve ? GivenWithoutReserve(ends, memory, asked.criteria.min_quality) : "";
     if (!result.message.empty()) return;
     PlacesInHand places(asked, setup, ends, memory);
     result.gait = places.Search();
