@@ -69,9 +69,7 @@ function(regrasp_tests name)
     return()
   endif()
   add_executable(${name}_test ${sources})
-  target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gtest_main GTest::gmock)
-  target_compile_definitions(${name}_test PRIVATE
-    REGRASP_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    REGRASP_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
+  target_link_libraries(${name}_test PRIVATE ${ARGN} regrasp_project_path GTest::gtest_main
+                        GTest::gmock)
   regrasp_find_tests(${name}_test ${name})
 endfunction()

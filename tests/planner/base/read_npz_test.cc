@@ -9,6 +9,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/zip_archive.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp {
 namespace {
@@ -18,7 +19,7 @@ using testing::HasSubstr;
 
 /// Written by numpy, of the numbers 0 to 11 and their negatives.
 std::vector<NpzArray> ReadSeed(const std::string& name) {
-  const auto path = std::filesystem::path(REGRASP_SOURCE_DIR) / "tests/fuzz/corpus/npz" / name;
+  const auto path = ProjectPath("tests/fuzz/corpus/npz") / name;
   return ReadNpz(ReadFile(path), name, {"points", "normals"});
 }
 

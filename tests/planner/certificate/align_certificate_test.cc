@@ -7,6 +7,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/object/object.h"
+#include "tests/fixtures/project_path.h"
 #include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp::certificate {
@@ -72,7 +73,7 @@ TEST(AlignCertificateTest, OfAnotherAlignOrLessFrictionOrTooFewWaysProvesNothing
 }
 
 TEST(AlignCertificateTest, PlansGetTheCertificatesThatTheyLack) {
-  const object::ObjectFile cube = object::ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
+  const object::ObjectFile cube = object::ReadObject(ProjectPath("models/cube.obj"));
   const double side = cube.object->diameter() / std::sqrt(12.0);
   plan::Plan plan;
   plan.half_angle = kHalfAngle;

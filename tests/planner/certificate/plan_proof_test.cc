@@ -9,6 +9,7 @@
 #include "planner/base/json.h"
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::certificate {
 namespace {
@@ -85,7 +86,7 @@ plan::Plan AlignInOnePlane(double half, double lean, double apart) {
 }
 
 TEST(PlanProofTest, EveryAlignThatTheCheckPassesIsProvedInWriting) {
-  const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
+  const object::ObjectFile file = object::ReadObject(ProjectPath("models/cube.obj"));
   const double half = file.object->diameter() / std::sqrt(12.0);
   // Contacts in one plane, and such as come near to what the friction bears.
   int checked = 0;

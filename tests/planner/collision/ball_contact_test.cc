@@ -6,6 +6,7 @@
 
 #include "planner/base/random.h"
 #include "planner/object/object.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::collision {
 namespace {
@@ -13,8 +14,7 @@ namespace {
 using Eigen::Vector3d;
 
 object::Polyhedron Read(const std::string& name) {
-  const object::ObjectFile file =
-      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
+  const object::ObjectFile file = object::ReadObject(ProjectPath("models/" + name));
   return dynamic_cast<const object::Polyhedron&>(*file.object);
 }
 

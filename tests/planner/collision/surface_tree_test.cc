@@ -6,6 +6,7 @@
 
 #include "planner/base/random.h"
 #include "planner/object/object.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::collision {
 namespace {
@@ -14,8 +15,8 @@ using Eigen::Vector3d;
 
 /// Against every triangle one by one.
 TEST(SurfaceTreeTest, DistancesAreThoseOfAllTriangles) {
-  for (const char* name : {"/models/mug500.obj", "/models/l_block.obj"}) {
-    const object::ObjectFile file = object::ReadObject(std::string(REGRASP_SOURCE_DIR) + name);
+  for (const char* name : {"models/mug500.obj", "models/l_block.obj"}) {
+    const object::ObjectFile file = object::ReadObject(ProjectPath(name));
     const auto& solid = dynamic_cast<const object::Polyhedron&>(*file.object);
     constexpr double kScale = 0.5;
     const SurfaceTree tree(solid, kScale);

@@ -4,6 +4,7 @@
 
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
 namespace {
@@ -11,9 +12,8 @@ namespace {
 /// A finger that finds no place to wait among those that are given waits in one that is drawn; not
 /// in one where it runs into its own hand.
 TEST(CarrierTest, FingersWaitWhereTheyKeepOffTheirOwnHand) {
-  const kinematics::HandModel hand =
-      kinematics::ReadHand(std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring4.json");
-  const auto file = object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/cube.obj");
+  const kinematics::HandModel hand = kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
+  const auto file = object::ReadObject(ProjectPath("models/cube.obj"));
   const collision::SurfaceTree surface(dynamic_cast<const object::Polyhedron&>(*file.object), 0.5);
   const HandScene scene(hand, surface, 1e-3);
   std::vector<kinematics::InverseKinematics> inverse;

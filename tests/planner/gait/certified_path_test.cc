@@ -8,6 +8,7 @@
 #include "planner/base/random.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
 namespace {
@@ -16,10 +17,8 @@ constexpr double kMargin = 1e-3;
 
 /// The ring hand about a cube of 48 mm.
 struct World {
-  kinematics::HandModel hand =
-      kinematics::ReadHand(std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring4.json");
-  object::ObjectFile file =
-      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/cube.obj");
+  kinematics::HandModel hand = kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
+  object::ObjectFile file = object::ReadObject(ProjectPath("models/cube.obj"));
   collision::SurfaceTree surface{dynamic_cast<const object::Polyhedron&>(*file.object), 0.8};
   HandScene scene{hand, surface, kMargin};
 

@@ -6,6 +6,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/object/object.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
 namespace {
@@ -18,8 +19,7 @@ constexpr int kSteps = 90;
 
 class RollingTest : public testing::Test {
  protected:
-  object::ObjectFile file_ =
-      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/cube.obj");
+  object::ObjectFile file_ = object::ReadObject(ProjectPath("models/cube.obj"));
   collision::BallContact cube_{dynamic_cast<const object::Polyhedron&>(*file_.object), 1};  // 6 cm
 
   [[nodiscard]] SurfacePoint RolledBy(SurfacePoint contact, double angle, const Vector3d& axis) {

@@ -13,6 +13,7 @@
 #include "planner/kinematics/inspect_hand.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "tests/fixtures/folder_test.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::kinematics {
 namespace {
@@ -24,7 +25,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::string kHands = std::string(REGRASP_SOURCE_DIR) + "/models/hands/";
+const std::string kHands = ProjectPath("models/hands/");
 
 class DeriveHandTest : public FolderTest {
  protected:
@@ -168,8 +169,7 @@ TEST(InspectHandTest, TheLargestReachIsThatOfAStraightFinger) {
 /// Models of others, which are no part of the project: a folder in REGRASP_HANDS, or beside it.
 TEST(InspectHandTest, HandsOfOthersAreUnderstood) {
   const char* given = std::getenv("REGRASP_HANDS");
-  const fs::path folder =
-      given != nullptr ? fs::path(given) : fs::path(REGRASP_SOURCE_DIR) / "../shared/hands";
+  const fs::path folder = given != nullptr ? fs::path(given) : ProjectPath("../shared/hands");
   if (!fs::exists(folder / "wonik_allegro")) GTEST_SKIP() << "no hands of others";
   const InspectedHand allegro = InspectHand(folder / "wonik_allegro/right_hand.xml");
   EXPECT_EQ(allegro.description.palm, "palm");

@@ -10,11 +10,12 @@
 #include "planner/base/random.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/inverse_kinematics.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::kinematics {
 namespace {
 
-const std::string kHands = std::string(REGRASP_SOURCE_DIR) + "/models/hands/";
+const std::string kHands = ProjectPath("models/hands/");
 
 Posture RandomPosture(const Finger& finger, RandomStream& random) {
   Posture posture(finger.drives);

@@ -14,6 +14,7 @@
 #include "planner/object/object.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
 namespace {
@@ -23,7 +24,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const std::filesystem::path kObjects = std::filesystem::path(REGRASP_TEST_DATA) / "objects";
+const std::filesystem::path kObjects = ProjectPath("tests/data/objects");
 
 /// File in tests/data/objects/bad, and words that the message must have behind the file's name.
 const std::map<std::string, std::string> kBadFiles = {
@@ -194,8 +195,7 @@ bool IsObject(const std::string& ending, const std::string& bytes) {
 /// The sound files of formats that are read in this process.
 std::map<std::string, std::string> SoundFiles() {
   std::map<std::string, std::string> files;
-  for (const auto& folder :
-       {kObjects / "good", std::filesystem::path(REGRASP_SOURCE_DIR) / "models"}) {
+  for (const auto& folder : {kObjects / "good", ProjectPath("models")}) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       const std::string ending = entry.path().extension().string();
       for (const std::string known : {".obj", ".off", ".ply", ".stl", ".wkt"}) {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "tests/fixtures/models.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
 namespace {
@@ -27,7 +28,7 @@ TEST(BodyMeasures, OfACubeOfSixCentimetresAreThoseOfWater) {
 TEST(BodyMeasures, FilesSayTheirUnit) {
   for (const auto& [name, unit] :
        {std::tuple("centimetres.dae", "centimetres"), {"millimetres.fbx", "millimetres"}}) {
-    const ObjectFile file = ReadObject(std::string(REGRASP_TEST_DATA) + "/objects/good/" + name);
+    const ObjectFile file = ReadObject(ProjectPath(std::string("tests/data/objects/good/") + name));
     EXPECT_NEAR(file.object->diameter(), std::sqrt(2), 1e-6) << name;
     EXPECT_THAT(UnitText(file.unit), HasSubstr(unit)) << name;
     EXPECT_THAT(UnitText(file.unit), HasSubstr("read as metres")) << name;

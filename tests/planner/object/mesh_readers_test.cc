@@ -16,6 +16,7 @@
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
 #include "planner/object/soup_bytes.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
 namespace {
@@ -24,7 +25,7 @@ using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::filesystem::path kGood = std::filesystem::path(REGRASP_TEST_DATA) / "objects/good";
+const std::filesystem::path kGood = ProjectPath("tests/data/objects/good");
 
 TEST(MeshReaders, CoordinatesAreDoubles) {
   const PolygonSoup soup = ReadObj("v 0.1 -1e-300 12345678.901234567\nf 1 1 1\n", "t");

@@ -15,6 +15,7 @@
 #include "planner/grasp/required_half_angle.h"
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
 namespace {
@@ -63,9 +64,7 @@ const std::array kMeshTriangles = {500, 1000};
 
 bool IsSolid(const Model& model) { return model.file.ends_with(".obj"); }
 
-std::filesystem::path ModelPath(const std::string& file) {
-  return std::filesystem::path(REGRASP_SOURCE_DIR) / "models" / file;
-}
+std::filesystem::path ModelPath(const std::string& file) { return ProjectPath("models") / file; }
 
 /// The contacts of a grasp file, on the faces that they name.
 grasp::Grasp ReadModelGrasp(const Model& model, const Object& object, const std::string& which) {

@@ -13,6 +13,7 @@
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/folder_test.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
 namespace {
@@ -23,7 +24,7 @@ using ::testing::StartsWith;
 
 namespace fs = std::filesystem;
 
-const fs::path kGood = fs::path(REGRASP_TEST_DATA) / "objects/good";
+const fs::path kGood = ProjectPath("tests/data/objects/good");
 
 PolygonSoup Read(const fs::path& path, const AssimpLimits& limits = {}) {
   return ReadWithAssimp(ReadFile(path), path, limits);

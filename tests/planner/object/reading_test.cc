@@ -8,6 +8,7 @@
 
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/counted_deadline.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
 namespace {
@@ -18,9 +19,9 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const std::string kCube = REGRASP_SOURCE_DIR "/models/cube.obj";
-const std::string kSquare = REGRASP_SOURCE_DIR "/models/square.wkt";
-const std::string kScene = REGRASP_TEST_DATA "/objects/good/placed.gltf";
+const std::string kCube = ProjectPath("models/cube.obj");
+const std::string kSquare = ProjectPath("models/square.wkt");
+const std::string kScene = ProjectPath("tests/data/objects/good/placed.gltf");
 
 std::string WhatStops(const std::string& path, const Deadline& deadline) {
   Reading reading;

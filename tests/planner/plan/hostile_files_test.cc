@@ -14,6 +14,7 @@
 #include "planner/plan/plan_io.h"
 #include "sample_plans.h"
 #include "tests/fixtures/polygons.h"
+#include "tests/fixtures/project_path.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
@@ -62,7 +63,7 @@ std::string GraspText() {
 
 std::vector<std::filesystem::path> Corpus(const std::string& folder) {
   std::vector<std::filesystem::path> files;
-  const std::filesystem::path root = std::filesystem::path(REGRASP_TEST_DATA) / "plans" / folder;
+  const std::filesystem::path root = ProjectPath("tests/data/plans") / folder;
   for (const auto& entry : std::filesystem::directory_iterator(root)) files.push_back(entry);
   std::ranges::sort(files);
   return files;

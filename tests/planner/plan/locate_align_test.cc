@@ -5,6 +5,7 @@
 #include <string>
 
 #include "planner/object/object.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::plan {
 namespace {
@@ -20,7 +21,7 @@ Align TurnOver(const object::Object& object, FaceIndex face, const object::FaceB
 
 TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
   constexpr int kPoints = 16;
-  const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/stone.obj");
+  const object::ObjectFile file = object::ReadObject(ProjectPath("models/stone.obj"));
   const object::Object& stone = *file.object;
   int rounded = 0;
   for (FaceIndex face{0}; face < stone.face_count(); ++face) {
@@ -42,7 +43,7 @@ TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
 }
 
 TEST(LocateAlign, PointsThatDifferByMoreThanRoundingStayWhereTheFileHasThem) {
-  const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
+  const object::ObjectFile file = object::ReadObject(ProjectPath("models/cube.obj"));
   const object::Object& cube = *file.object;
   const object::FaceBorder edge = cube.BordersOf(FaceIndex(0)).front();
   const Vector3d p = (edge.a + edge.b) / 2;

@@ -8,6 +8,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/object/reading.h"
 #include "planner/roadmap/build_roadmap.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::roadmap {
 namespace {
@@ -17,7 +18,7 @@ const double kHalfAngle = Radians(20), kRoughness = Radians(5);
 /// Beside the edges of its facets it is rough, and elsewhere not.
 object::Polyhedron ReadMug(const object::Reading& reading) {
   return dynamic_cast<const object::Polyhedron&>(
-      *object::ReadObject(REGRASP_SOURCE_DIR "/models/mug500.obj", reading).object);
+      *object::ReadObject(ProjectPath("models/mug500.obj"), reading).object);
 }
 
 object::Reading ReadingOfPatches() {

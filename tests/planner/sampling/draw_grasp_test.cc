@@ -10,6 +10,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/object/polygon.h"
+#include "tests/fixtures/project_path.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::sampling {
@@ -30,7 +31,7 @@ std::string Refusal(const std::function<void()>& draw) {
 TEST(DrawOnSurface, DrawsNoTwoContactsOnATriangleWhoseEdgesAreNotOpposedEnough) {
   // The normals of an equilateral triangle's edges are 60 degrees from opposed: two contacts need a
   // half-angle of more than 30 degrees.
-  const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/triangle.wkt");
+  const object::ObjectFile file = object::ReadObject(ProjectPath("models/triangle.wkt"));
   const object::Object& triangle = *file.object;
   for (const double degrees : {5.0, 25.0, 29.9, 31.0, 50.0}) {
     const criteria::GraspEvaluator evaluator(triangle, {Radians(degrees), 0});
@@ -68,7 +69,7 @@ TEST(DrawOnSurface, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
 TEST(DrawOnSurface, SaysInTheSameWordsThatNoGraspIsThatGood) {
   // No grasp resists more than its whole squeeze.
   const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  const object::ObjectFile square = object::ReadObject(REGRASP_SOURCE_DIR "/models/square.wkt");
+  const object::ObjectFile square = object::ReadObject(ProjectPath("models/square.wkt"));
   RandomStream random(1, RandomUse::kStart);
   const auto refusal = [&](const object::Object& object, const grasp::ContactLimits& contacts) {
     const criteria::GraspEvaluator evaluator(object, {Radians(5), 1.1});

@@ -15,6 +15,7 @@
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/locate.h"
 #include "sim/scene/scaling.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
 namespace {
@@ -24,13 +25,12 @@ using plan::Reason;
 
 const kinematics::HandFile& Hand() {
   static const kinematics::HandFile file =
-      kinematics::ReadHandFile(std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring5.json");
+      kinematics::ReadHandFile(ProjectPath("models/hands/ring5.json"));
   return file;
 }
 
 const object::Polyhedron& Cube() {
-  static const object::ObjectFile file =
-      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/cube.obj");
+  static const object::ObjectFile file = object::ReadObject(ProjectPath("models/cube.obj"));
   return dynamic_cast<const object::Polyhedron&>(*file.object);
 }
 
@@ -192,7 +192,7 @@ TEST(HandReplayTest, APlanThatIsBrokenFails) {
 
 const kinematics::HandFile& FourFingers() {
   static const kinematics::HandFile file =
-      kinematics::ReadHandFile(std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring4.json");
+      kinematics::ReadHandFile(ProjectPath("models/hands/ring4.json"));
   return file;
 }
 
@@ -300,7 +300,7 @@ TEST(HandReplayTest, ASlideThatIsBrokenFails) {
 
 /// The hand with another range of a joint, degrees.
 kinematics::HandFile HandWithRange(const std::string& joint, double lower, double upper) {
-  const std::string folder = std::string(REGRASP_SOURCE_DIR) + "/models/hands/";
+  const std::string folder = ProjectPath("models/hands/");
   std::string model = ReadFile(folder + "ring5.xml");
   const std::size_t at = model.find("range=\"", model.find("name=\"" + joint + "\"")) + 7;
   model.replace(at, model.find('"', at) - at, FormatDouble(lower) + " " + FormatDouble(upper));

@@ -13,6 +13,7 @@
 #include "sim/actuation/hand_replay.h"
 #include "sim/scene/scaling.h"
 #include "tests/fixtures/folder_test.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 class HandSceneExportTest : public FolderTest {};
 
 TEST_F(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRest) {
-  const std::string models = std::string(REGRASP_SOURCE_DIR) + "/models/";
+  const std::string models = ProjectPath("models/");
   const kinematics::HandFile hand = kinematics::ReadHandFile(models + "hands/ring5.json");
   const object::ObjectFile cube = object::ReadObject(models + "cube.obj");
   const auto& solid = dynamic_cast<const object::Polyhedron&>(*cube.object);

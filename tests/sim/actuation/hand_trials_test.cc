@@ -7,6 +7,7 @@
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/plan/locate.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
 namespace {
@@ -33,7 +34,7 @@ class HandTrialsTest : public testing::Test {
     return RunHandTrials(hand_, solid(), plan_, options_, trials);
   }
 
-  const std::string models_ = std::string(REGRASP_SOURCE_DIR) + "/models/";
+  const std::string models_ = ProjectPath("models/");
   kinematics::HandFile hand_ = kinematics::ReadHandFile(models_ + "hands/ring5.json");
   object::ObjectFile cube_ = object::ReadObject(models_ + "cube.obj");
   gait::GaitRequest request_;

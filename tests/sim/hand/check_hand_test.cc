@@ -18,6 +18,7 @@
 #include "planner/plan/locate.h"
 #include "planner/plan/plan_io.h"
 #include "sim/hand/gap.h"
+#include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
 namespace {
@@ -25,11 +26,10 @@ namespace {
 using Eigen::Vector3d;
 using plan::Reason;
 
-const std::string kHand = std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring4.json";
+const std::string kHand = ProjectPath("models/hands/ring4.json");
 
 const object::Polyhedron& Cube() {
-  static const object::ObjectFile file =
-      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/cube.obj");
+  static const object::ObjectFile file = object::ReadObject(ProjectPath("models/cube.obj"));
   return dynamic_cast<const object::Polyhedron&>(*file.object);
 }
 
@@ -339,7 +339,7 @@ TEST(CheckHandTest, AClearanceThatIsMissedIsToldWithWhatThereIs) {
 
 TEST(CheckHandTest, AnotherHandAndNoHandAreRefused) {
   plan::Plan plan = GoodPlan();
-  const std::string other = std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring5.json";
+  const std::string other = ProjectPath("models/hands/ring5.json");
   EXPECT_THROW((void)CheckHand(other, Cube(), plan), InputError);
   plan.hand.reset();
   EXPECT_THROW((void)CheckHand(kHand, Cube(), plan), InputError);
