@@ -83,13 +83,13 @@ void HandOptions::AddTo(CLI::App& app) {
          "\"z 90\". The hand begins where the object's z axis is upright and its fingers "
          "reach most, unless --start or --start-pose say otherwise; the object's middle may "
          "end some millimetres away")
-      ->type_name("AXIS_DEGREES");
+      ->type_name("\"AXIS DEGREES\"");
   for (const auto& [option, value, what] :
        {std::tuple("--start-pose", &start_pose,
                    "Where the object is in the hand at first; position of its origin in the "
                    "palm's frame, metres, and quaternion, as in \"0 0 0.12 1 0 0 0\""),
         {"--goal-pose", &goal_pose, "Where it is to be in the end; written likewise"}}) {
-    app.add_option(option, *value, what)->type_name("X_Y_Z_QW_QX_QY_QZ");
+    app.add_option(option, *value, what)->type_name("\"X Y Z QW QX QY QZ\"");
   }
   AddNumber(app, "--clearance", clearance_m, {0, kLargestClearance_m, true, true},
             "What links keep from each other, from the palm and from the object; in metres "

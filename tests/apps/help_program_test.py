@@ -107,7 +107,7 @@ class Help(ProgramCase):
         """What --help says of each option, in one line."""
         texts, option = {}, None
         for line in self.help(program, COLUMNS="120").split("Examples:")[0].splitlines():
-            head = re.match(r"  (--[a-z-]+)(?: \S+)?(?:  +(.*))?$", line)
+            head = re.match(r"""  (--[a-z-]+)(?: "[^"]*"| \S+)?(?:  +(.*))?$""", line)
             if head:
                 option = head[1]
                 texts[option] = head[2] or ""
