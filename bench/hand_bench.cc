@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/random_rests.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -171,31 +172,36 @@ Deadline DeadlineIn(double seconds) {
   return {Now() + std::chrono::duration_cast<Clock::duration>(limit), Now};
 }
 
-/// The grasp that a gait begins with.
-grasp::Grasp FirstGrasp(const gait::GaitResult& found) {
-  grasp::Grasp grasp;
-  for (const int contact : found.gait->initial) {
-    if (contact != gait::kNone) grasp.push_back(found.contacts[contact]);
-  }
-  return grasp;
+/// Where a grasp begins that a search finds: a pose at which fingers reach much.
+/// @returns nullopt where it finds none.
+std::optional<bench::RandomRests> RestsAtSomePose(const gait::GaitRequest& request) {
+  constexpr double kDrawing_s = 5;
+  gait::GaitRequest still = request;
+  still.turn.angle = 0;
+  still.deadline = DeadlineIn(kDrawing_s);
+  const gait::GaitResult found = gait::FindGait(still);
+  if (!found.gait) return std::nullopt;
+  return std::optional<bench::RandomRests>(std::in_place, request, found.contacts,
+                                           found.gait->start.pose);
 }
 
 /// A request for a way between two grasps that the hand reaches at one pose, each drawn alone.
 /// @returns nullopt where there are none.
 std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
-  constexpr double kDrawing_s = 5;
+  constexpr int kTries = 100'000;
   request.turn.angle = 0;
-  request.deadline = DeadlineIn(kDrawing_s);
-  const gait::GaitResult first = gait::FindGait(request);
-  if (!first.gait) return std::nullopt;
-  request.start_pose = first.gait->start.pose;
-  request.seed += 1000;
-  const gait::GaitResult second = gait::FindGait(request);
-  if (!second.gait) return std::nullopt;
-  request.goal_pose = request.start_pose;
-  request.start_grasp = FirstGrasp(first);
-  request.goal_grasp = FirstGrasp(second);
-  return request;
+  auto rests = RestsAtSomePose(request);
+  if (!rests) return std::nullopt;
+  RandomStream random(request.seed, RandomUse::kGoal);
+  const auto start = rests->Draw(random, kTries);
+  const auto goal = rests->Draw(random, kTries);
+  if (!start || !goal) return std::nullopt;
+  gait::GaitRequest pair = request;
+  pair.start_pose = rests->pose();
+  pair.goal_pose = rests->pose();
+  pair.start_grasp = *start;
+  pair.goal_grasp = *goal;
+  return pair;
 }
 
 /// That the weakest rest of a plan needs.
@@ -319,45 +325,15 @@ void TimeRest(const kinematics::HandModel& hand, const Body& body) {
   request.solid = &body.solid;
   request.scale = body.scale;
   request.criteria.half_angle = std::atan(kMu);
-  const gait::GaitResult found = gait::FindGait(request);
-  if (!found.gait) return;
-  const Eigen::Isometry3d pose = found.gait->start.pose;
-  const collision::SurfaceTree surface(body.solid, body.scale);
-  const gait::HandScene scene(hand, surface, request.margin);
-  std::vector<kinematics::InverseKinematics> inverse;
-  inverse.reserve(hand.fingers.size());
-  std::vector<std::vector<gait::SurfacePoint>> within_reach(hand.fingers.size());
-  for (const kinematics::Finger& finger : hand.fingers) {
-    inverse.emplace_back(finger);
-    for (const grasp::Contact& contact : found.contacts) {
-      const gait::SurfacePoint point{body.scale * contact.p, contact.n};
-      if (inverse.back().Solve(gait::TargetAt(finger, point, pose))) {
-        within_reach[inverse.size() - 1].push_back(point);
-      }
-    }
-  }
+  const auto rests = RestsAtSomePose(request);
+  if (!rests) return;
   RandomStream random(1, RandomUse::kGaits);
   constexpr int kRests = 2000;
   int free = 0;
   double seconds = 0;
   for (int i = 0; i < kRests; ++i) {
     const Clock::time_point begin = Now();
-    std::vector<gait::PlacedFinger> placed;
-    bool clear = scene.KeepsOffPalm(pose);
-    for (const int drawn : random.Choose(scene.finger_count(), 3)) {
-      const FingerIndex finger{drawn};
-      const auto& points = within_reach[finger];
-      if (!clear || points.empty()) continue;
-      const auto target =
-          gait::TargetAt(scene.finger(finger), points[random.Index(points.size())], pose);
-      placed.push_back(scene.Place(finger, *inverse[finger].Solve(target)));
-      clear = scene.KeepsOffHand(placed.back()) &&
-              scene.KeepsOffObject(placed.back(), pose, gait::TipContact::kTouching) &&
-              std::all_of(placed.begin(), placed.end() - 1, [&](const gait::PlacedFinger& other) {
-                return scene.KeepApart(other, placed.back());
-              });
-    }
-    if (!clear) continue;
+    if (!rests->TryDraw(random)) continue;
     ++free;
     seconds += SecondsSince(begin);
   }

@@ -33,7 +33,7 @@ struct Surroundings {
                                                      const Posture& from, const Posture& to,
                                                      const Surroundings& around,
                                                      RandomStream& random,
-                                                     int most_extensions = 250);
+                                                     int most_extensions = 100);
 
 /// A certified path from a contact straight up along the normal, as high as the finger goes.
 /// @param target    of the tip at the contact.

@@ -38,6 +38,9 @@ constexpr double kNotYetGoal = 3;
 constexpr double kSlide = 2;
 /// Steps that a rest is put back for each one that was expanded and ends where it ends.
 constexpr double kPutBack = 0.1;
+/// Steps that it is put back for each one that the same fingers held: there is much to slide to
+/// with three fingers, and most of it leads nowhere.
+constexpr double kPutBackFingers = 0.3;
 /// Steps that it is put back for each turn that it had.
 constexpr double kAnotherTurn = 2;
 /// Nodes from which a hold is carried on in vain.
@@ -52,6 +55,15 @@ std::array<int, 3> KindOf(const Change& change) {
   int slid = 0;
   for (const FingerIndex finger : change.slid) slid |= 1 << finger;
   return {change.placed, change.released, slid};
+}
+
+/// A bit for each finger that holds.
+int FingersOf(const Holding& holding) {
+  int fingers = 0;
+  for (std::size_t i = 0; i < holding.size(); ++i) {
+    if (holding[i] != kNone) fingers |= 1 << i;
+  }
+  return fingers;
 }
 
 }  // namespace
@@ -495,7 +507,8 @@ int GaitSearch::PopNext() {
     const Rest& rest = rests_[top.rest];
     const double score = rest.score - kAnotherTurn * rest.turns -
                          kPutBack * expanded_at_[grid_.StepOf(rest.carried.end)] -
-                         kPutBackAlike * expanded_like_[kinds_.KindOf(rest.hold.holding)];
+                         kPutBackAlike * expanded_like_[kinds_.KindOf(rest.hold.holding)] -
+                         kPutBackFingers * expanded_with_[FingersOf(rest.hold.holding)];
     if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
     queue_.push({score, top.rest});
   }
@@ -530,6 +543,7 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     ++counts_.expanded;
     ++expanded_at_[last];
     ++expanded_like_[kinds_.KindOf(rest.hold.holding)];
+    ++expanded_with_[FingersOf(rest.hold.holding)];
     last_expanded_ = index;
     Expand(index);
   }

@@ -189,6 +189,7 @@ class GaitSearch {
   std::map<Holding, std::vector<int>> expanded_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
   std::map<Holding, int> expanded_like_;  ///< rests, by the kind of their grasp
+  std::map<int, int> expanded_with_;      ///< rests, by the fingers that hold, a bit for each
   std::vector<int> expanded_at_;          ///< rests, by the step that they end at
   GaitCounts counts_;
   int last_expanded_ = -1;

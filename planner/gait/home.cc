@@ -228,6 +228,7 @@ std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& trac
     Posture posture;
   };
   const HandScene& scene = setup.scene;
+  const int samples = track.steps() == 0 ? 1 : kTrackSamples;
   Parking parking(scene.finger_count());
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
     std::vector<Place> places;
@@ -237,7 +238,7 @@ std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& trac
       const PlacedFinger placed = scene.Place(finger, posture);
       if (!scene.KeepsOffHand(placed)) continue;
       double clearance = kParkingClearance;
-      for (int k = 0; k < kTrackSamples && clearance > scene.margin() + kSpare; ++k) {
+      for (int k = 0; k < samples && clearance > scene.margin() + kSpare; ++k) {
         const Isometry3d pose = track.PoseAt(track.steps() * k / (kTrackSamples - 1.0));
         clearance = std::min(clearance, scene.DistanceFromObject(placed, pose, clearance));
       }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <numeric>
 
 namespace regrasp::gait {
@@ -20,49 +21,67 @@ int Units(const Offset& offset) {
 
 }  // namespace
 
-PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end)
-    : track_(track), up_(up), end_(end) {
-  axes_ = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
-  // Along a track objects turn about the last one anyway.
-  const std::size_t dimensions = track.steps() == 0 ? 6 : 5;
-  offsets_.push_back({});
-  for (std::size_t from = 0; from < offsets_.size(); ++from) {
-    if (Units(offsets_[from]) == kMostUnits) continue;
-    for (std::size_t i = 0; i < dimensions; ++i) {
+PoseGrid::Offsets::Offsets(int dimensions) {
+  std::map<Offset, int> numbers = {{{}, 0}};
+  std::map<std::array<int, 3>, int> first_with;  // by tilt
+  const auto one_off = [&](const Offset& offset, const auto& take) {
+    for (int i = 0; i < dimensions; ++i) {
       for (const int unit : {-1, 1}) {
-        Offset offset = offsets_[from];
-        offset[i] += unit;
-        if (std::ranges::find(offsets_, offset) == offsets_.end()) offsets_.push_back(offset);
+        Offset other = offset;
+        other[i] += unit;
+        take(other);
       }
     }
-  }
-  for (const Offset& offset : offsets_) {
-    const auto first = std::ranges::find_if(offsets_, [&](const Offset& other) {
-      return std::equal(other.begin() + 3, other.end(), offset.begin() + 3);
+  };
+  all.push_back({});
+  for (std::size_t from = 0; from < all.size(); ++from) {
+    if (Units(all[from]) == kMostUnits) continue;
+    one_off(Offset(all[from]), [&](const Offset& other) {
+      if (numbers.try_emplace(other, all.size()).second) all.push_back(other);
     });
-    tilts_.push_back(static_cast<int>(first - offsets_.begin()));
-    beside_.emplace_back();
-    for (int k = 0; k < offsets(); ++k) {
-      Offset difference = offsets_[k];
-      for (std::size_t i = 0; i < offset.size(); ++i) difference[i] -= offset[i];
-      if (Units(difference) == 1) beside_.back().push_back(k);
-    }
+  }
+  for (const Offset& offset : all) {
+    const std::array tilt = {offset[3], offset[4], offset[5]};
+    tilts.push_back(first_with.try_emplace(tilt, tilts.size()).first->second);
+    beside.emplace_back();
+    one_off(offset, [&](const Offset& other) {
+      const auto found = numbers.find(other);
+      if (found != numbers.end()) beside.back().push_back(found->second);
+    });
+    std::ranges::sort(beside.back());
   }
 }
 
-PoseGrid PoseGrid::Reversed() const { return {track_.Reversed(), up_, End::kPose}; }
+const PoseGrid::Offsets& PoseGrid::OffsetsBeside(const PoseTrack& track) {
+  static const Offsets all_ways(6);
+  // Along a track objects turn about the last axis anyway.
+  static const Offsets but_the_last(5);
+  return track.steps() == 0 ? all_ways : but_the_last;
+}
 
-int PoseGrid::OffTrack(int node) const { return Units(offsets_[node % offsets()]); }
+PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end)
+    : track_(track), end_(end), offsets_(&OffsetsBeside(track)) {
+  axes_ = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
+}
+
+PoseGrid PoseGrid::Reversed() const {
+  PoseGrid reversed = *this;
+  reversed.track_ = track_.Reversed();
+  reversed.end_ = End::kPose;
+  return reversed;
+}
+
+int PoseGrid::OffTrack(int node) const { return Units(OffsetOf(node)); }
 
 bool PoseGrid::IsGoal(int node) const {
   if (node == goal()) return true;
-  const Offset& offset = offsets_[node % offsets()];
+  const Offset& offset = OffsetOf(node);
   return end_ == End::kOrientation && StepOf(node) == steps() && offset[3] == 0 && offset[4] == 0 &&
          offset[5] == 0;
 }
 
 Eigen::Isometry3d PoseGrid::PoseAt(int node) const {
-  const Offset& offset = offsets_[node % offsets()];
+  const Offset& offset = OffsetOf(node);
   const Eigen::Isometry3d on_track = track_.PoseAt(StepOf(node));
   const Eigen::Vector3d centre = on_track * track_.centre();
   const Eigen::Vector3d shift = kShift * axes_ * Eigen::Vector3d(offset[0], offset[1], offset[2]);
@@ -80,7 +99,7 @@ std::vector<int> PoseGrid::Neighbours(int node) const {
   const int step = StepOf(node);
   std::vector<int> nodes;
   if (step > 0) nodes.push_back(node - offsets());
-  for (const int k : beside_[node % offsets()]) nodes.push_back(step * offsets() + k);
+  for (const int k : offsets_->beside[node % offsets()]) nodes.push_back(step * offsets() + k);
   if (step < steps()) nodes.push_back(node + offsets());
   return nodes;
 }

@@ -27,7 +27,7 @@ class PoseGrid {
   [[nodiscard]] int StepOf(int node) const { return node / offsets(); }
   /// A number for the tilt beside the track. Two poses with one tilt differ in their orientations
   /// by the turn between their steps alone.
-  [[nodiscard]] int TiltOf(int node) const { return tilts_[node % offsets()]; }
+  [[nodiscard]] int TiltOf(int node) const { return offsets_->tilts[node % offsets()]; }
   /// How many unit offsets a pose is from the track.
   [[nodiscard]] int OffTrack(int node) const;
   [[nodiscard]] int start() const { return 0; }
@@ -55,15 +55,22 @@ class PoseGrid {
  private:
   /// In units of kShift along three axes and of kTilt about them.
   using Offset = std::array<int, 6>;
-  [[nodiscard]] int offsets() const { return static_cast<int>(offsets_.size()); }
+  /// All that poses may be off their track.
+  struct Offsets {
+    explicit Offsets(int dimensions);
+
+    std::vector<Offset> all;
+    std::vector<int> tilts;                ///< by offset
+    std::vector<std::vector<int>> beside;  ///< by offset: those that differ by one unit
+  };
+  [[nodiscard]] static const Offsets& OffsetsBeside(const PoseTrack& track);
+  [[nodiscard]] int offsets() const { return static_cast<int>(offsets_->all.size()); }
+  [[nodiscard]] const Offset& OffsetOf(int node) const { return offsets_->all[node % offsets()]; }
 
   PoseTrack track_;
-  Eigen::Vector3d up_;
   End end_;
-  Eigen::Matrix3d axes_;  ///< columns: across, across, up
-  std::vector<Offset> offsets_;
-  std::vector<int> tilts_;                ///< by offset
-  std::vector<std::vector<int>> beside_;  ///< by offset: those that differ by one unit
+  Eigen::Matrix3d axes_;    ///< columns: across, across, up
+  const Offsets* offsets_;  ///< the same for all tracks that are much alike
 };
 
 }  // namespace regrasp::gait

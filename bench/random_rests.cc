@@ -1,0 +1,104 @@
+#include "bench/random_rests.h"
+
+#include <algorithm>
+
+namespace regrasp::bench {
+namespace {
+
+constexpr int kHolding = 3;
+/// Postures drawn for a finger that does not hold.
+constexpr int kPostures = 200;
+
+double LargestTip(const kinematics::HandModel& hand) {
+  return std::ranges::max(hand.fingers, {}, [](const auto& finger) { return finger.tip.radius; })
+      .tip.radius;
+}
+
+}  // namespace
+
+RandomRests::RandomRests(const gait::GaitRequest& request, std::vector<grasp::Contact> contacts,
+                         const Eigen::Isometry3d& pose)
+    : request_(request),
+      contacts_(std::move(contacts)),
+      pose_(pose),
+      surface_(*request.solid, request.scale),
+      scene_(*request.hand, surface_, request.margin),
+      within_reach_(request.hand->fingers.size()),
+      memory_(*request.solid, request.criteria,
+              hand::Hand{static_cast<int>(request.hand->fingers.size()),
+                         LargestTip(*request.hand) / request.scale},
+              criteria::QualityTest::kQuick) {
+  memory_.Append(contacts_);
+  for (const kinematics::Finger& finger : request.hand->fingers) inverse_.emplace_back(finger);
+  for (FingerIndex finger{0}; finger < scene_.finger_count(); ++finger) {
+    for (int i = 0; i < std::ssize(contacts_); ++i) {
+      if (PlaceAt(finger, i)) within_reach_[finger].push_back(i);
+    }
+  }
+}
+
+std::optional<gait::PlacedFinger> RandomRests::PlaceAt(FingerIndex finger, int contact) const {
+  const gait::SurfacePoint point{request_.scale * contacts_[contact].p, contacts_[contact].n};
+  const auto posture = inverse_[finger].Solve(TargetAt(scene_.finger(finger), point, pose_));
+  if (!posture) return std::nullopt;
+  return scene_.Place(finger, *posture);
+}
+
+bool RandomRests::IsClear(const gait::PlacedFinger& placed,
+                          const std::vector<gait::PlacedFinger>& others,
+                          gait::TipContact tip) const {
+  return scene_.KeepsOffHand(placed) && scene_.KeepsOffObject(placed, pose_, tip) &&
+         std::ranges::all_of(others, [&](const gait::PlacedFinger& other) {
+           return scene_.KeepApart(other, placed);
+         });
+}
+
+std::optional<gait::Holding> RandomRests::TryDraw(RandomStream& random) const {
+  gait::Holding holding(scene_.finger_count(), gait::kNone);
+  if (!scene_.KeepsOffPalm(pose_)) return std::nullopt;
+  std::vector<gait::PlacedFinger> placed;
+  for (const int drawn : random.Choose(scene_.finger_count(), kHolding)) {
+    const FingerIndex finger{drawn};
+    const std::vector<int>& contacts = within_reach_[finger];
+    if (contacts.empty()) return std::nullopt;
+    holding[finger] = contacts[random.Index(contacts.size())];
+    auto there = *PlaceAt(finger, holding[finger]);
+    if (!IsClear(there, placed, gait::TipContact::kTouching)) return std::nullopt;
+    placed.push_back(std::move(there));
+  }
+  return holding;
+}
+
+bool RandomRests::HaveRoom(const gait::Holding& holding, RandomStream& random) const {
+  std::vector<gait::PlacedFinger> placed;
+  for (FingerIndex finger{0}; finger < scene_.finger_count(); ++finger) {
+    if (holding[finger] != gait::kNone) placed.push_back(*PlaceAt(finger, holding[finger]));
+  }
+  for (FingerIndex finger{0}; finger < scene_.finger_count(); ++finger) {
+    if (holding[finger] != gait::kNone) continue;
+    bool has_room = false;
+    for (int i = 0; i < kPostures && !has_room; ++i) {
+      auto there = scene_.Place(finger, scene_.DrawPosture(finger, random));
+      has_room = IsClear(there, placed, gait::TipContact::kFree);
+      if (has_room) placed.push_back(std::move(there));
+    }
+    if (!has_room) return false;
+  }
+  return true;
+}
+
+std::optional<grasp::Grasp> RandomRests::Draw(RandomStream& random, int tries) {
+  for (int i = 0; i < tries; ++i) {
+    const auto holding = TryDraw(random);
+    if (!holding) continue;
+    criteria::ContactSet set;
+    for (const int contact : *holding) {
+      if (contact != gait::kNone && !set.Has(contact)) set.Insert(contact);
+    }
+    if (set.size() < kHolding || !memory_.Admits(set) || !HaveRoom(*holding, random)) continue;
+    return memory_.GraspOf(set);
+  }
+  return std::nullopt;
+}
+
+}  // namespace regrasp::bench
