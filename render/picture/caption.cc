@@ -11,6 +11,12 @@ namespace regrasp::render {
 
 namespace {
 
+/// What an object turns and goes at least to be said to, radians and metres: less is rounding.
+constexpr double kLeastTurn = 1e-4;
+constexpr double kLeastShift = 1e-5;
+/// Of a length.
+constexpr int kDigits = 2;
+
 std::string List(const std::vector<FingerIndex>& fingers) {
   std::string text;
   for (const FingerIndex finger : fingers)
@@ -69,13 +75,18 @@ std::string Describe(const plan::Align& step) {
   return fingers.empty() ? "align" : "align: move " + List(fingers);
 }
 
-/// "move: turn by 38°, by 2.1 mm".
+/// "move: turn the object by 38°"; where it does not turn, "move: shift the object by 2.1 mm".
 std::string Describe(const plan::Move& step) {
   if (step.path.empty()) return "move";
   const Eigen::Isometry3d& from = step.path.front().pose;
   const Eigen::Isometry3d& to = step.path.back().pose;
   const Eigen::AngleAxisd turn(from.linear().transpose() * to.linear());
-  return "move: turn the object by " + FormatDegrees(Degrees(turn.angle()));
+  if (turn.angle() >= kLeastTurn) {
+    return "move: turn the object by " + FormatDegrees(Degrees(turn.angle()));
+  }
+  const double shift = (to.translation() - from.translation()).norm();
+  return shift < kLeastShift ? "move: free fingers"
+                             : "move: shift the object by " + FormatLength(shift, kDigits);
 }
 
 /// "move 1 by 12 mm, 3 by 0.8 mm together along the surface", or "… then 3 by …" where it begins
@@ -86,7 +97,6 @@ std::string DescribeTravel(const plan::Align& step, double scale) {
   std::string text;
   int before = moved.front().begin;
   for (const auto& [finger, length, begin] : moved) {
-    constexpr int kDigits = 2;
     text += text.empty() ? "move " : begin == before ? ", " : ", then ";
     text += std::to_string(finger) + " by " + FormatLength(length * scale, kDigits);
     before = begin;

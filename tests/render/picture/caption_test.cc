@@ -38,5 +38,24 @@ TEST(CaptionTest, SaysHowFarFingersAlignAndInWhichOrder) {
   EXPECT_EQ(CaptionOf({{0, 0}, {0, 0}}), "step 1/1 · align");
 }
 
+/// Of a step that takes the object by a shift, metres, and a turn about z, radians.
+std::string CaptionOfMove(double shift, double turn) {
+  plan::Move move;
+  move.path.resize(2);
+  move.path[0].pose = Eigen::Isometry3d::Identity();
+  move.path[1].pose =
+      Eigen::Translation3d(shift, 0, 0) * Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ());
+  plan::Plan plan;
+  plan.steps = {move};
+  return FrameCaption(plan, plan::EntryIndex(1));
+}
+
+TEST(CaptionTest, SaysHowFarTheObjectTurnsOrElseGoes) {
+  EXPECT_EQ(CaptionOfMove(0.005, 0.5), "step 1/1 · move: turn the object by 28.65°");
+  EXPECT_EQ(CaptionOfMove(0.005, 0), "step 1/1 · move: shift the object by 5 mm");
+  EXPECT_EQ(CaptionOfMove(0.005, 1e-9), "step 1/1 · move: shift the object by 5 mm");
+  EXPECT_EQ(CaptionOfMove(1e-9, 1e-9), "step 1/1 · move: free fingers");
+}
+
 }  // namespace
 }  // namespace regrasp::render
