@@ -172,8 +172,8 @@ Deadline DeadlineIn(double seconds) {
   return {Now() + std::chrono::duration_cast<Clock::duration>(limit), Now};
 }
 
-/// Where a grasp begins that a search finds: a pose at which fingers reach much.
-/// @returns nullopt where it finds none.
+/// At the pose that a search would begin at: fingers reach much there.
+/// @param request  outlives what is returned; nullopt where the search finds no grasp.
 std::optional<bench::RandomRests> RestsAtSomePose(const gait::GaitRequest& request) {
   constexpr double kDrawing_s = 5;
   gait::GaitRequest still = request;

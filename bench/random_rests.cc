@@ -9,11 +9,6 @@ constexpr int kHolding = 3;
 /// Postures drawn for a finger that does not hold.
 constexpr int kPostures = 200;
 
-double LargestTip(const kinematics::HandModel& hand) {
-  return std::ranges::max(hand.fingers, {}, [](const auto& finger) { return finger.tip.radius; })
-      .tip.radius;
-}
-
 }  // namespace
 
 RandomRests::RandomRests(const gait::GaitRequest& request, std::vector<grasp::Contact> contacts,
@@ -24,9 +19,7 @@ RandomRests::RandomRests(const gait::GaitRequest& request, std::vector<grasp::Co
       surface_(*request.solid, request.scale),
       scene_(*request.hand, surface_, request.margin),
       within_reach_(request.hand->fingers.size()),
-      memory_(*request.solid, request.criteria,
-              hand::Hand{static_cast<int>(request.hand->fingers.size()),
-                         LargestTip(*request.hand) / request.scale},
+      memory_(*request.solid, request.criteria, gait::FingersOf(request),
               criteria::QualityTest::kQuick) {
   memory_.Append(contacts_);
   for (const kinematics::Finger& finger : request.hand->fingers) inverse_.emplace_back(finger);

@@ -14,7 +14,7 @@
 namespace regrasp::bench {
 
 /// Rests of three fingers at one pose of the object in the hand, each contact drawn among all that
-/// its finger reaches there: no search has a say in them.
+/// its finger reaches there: no search has a say in which.
 class RandomRests {
  public:
   /// @param request  of the hand and the object; outlives this object.

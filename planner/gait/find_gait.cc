@@ -32,15 +32,8 @@ constexpr double kMoreClearance = 2e-3;
 constexpr std::int64_t kExpandedWithReserve = 120;
 constexpr double kTimeWithReserve = 0.3;
 
-double LargestTip(const kinematics::HandModel& hand) {
-  double radius = 0;
-  for (const kinematics::Finger& finger : hand.fingers)
-    radius = std::max(radius, finger.tip.radius);
-  return radius;
-}
-
 std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
-  const sampling::SurfaceSampler sampler(*request.solid, LargestTip(*request.hand) / request.scale,
+  const sampling::SurfaceSampler sampler(*request.solid, FingersOf(request).fingertip_radius,
                                          kFromBorder);
   RandomStream random(request.seed, RandomUse::kContactPoints);
   std::vector<grasp::Contact> contacts;
@@ -255,6 +248,14 @@ GaitRequest WithReserve(GaitRequest request) {
 
 }  // namespace
 
+hand::Hand FingersOf(const GaitRequest& request) {
+  double radius = 0;
+  for (const kinematics::Finger& finger : request.hand->fingers) {
+    radius = std::max(radius, finger.tip.radius);
+  }
+  return {static_cast<int>(request.hand->fingers.size()), radius / request.scale};
+}
+
 GaitResult FindGait(const GaitRequest& request) {
   GaitResult result;
   result.contacts = DrawContacts(request);
@@ -269,8 +270,7 @@ GaitResult FindGait(const GaitRequest& request) {
   for (const kinematics::Finger& finger : request.hand->fingers) inverse.emplace_back(finger);
   const collision::SurfaceTree surface(*request.solid, request.scale);
   const collision::BallContact rolled_on(*request.solid, request.scale);
-  const hand::Hand fingers{static_cast<int>(request.hand->fingers.size()),
-                           LargestTip(*request.hand) / request.scale};
+  const hand::Hand fingers = FingersOf(request);
   const auto search = [&](const GaitRequest& asked, bool is_reserve) {
     const HandScene scene(*request.hand, surface, asked.margin);
     const HandSetup setup{scene, inverse, points, request.scale, is_reserve ? &rolled_on : nullptr};

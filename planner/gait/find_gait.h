@@ -53,6 +53,10 @@ struct GaitResult {
   std::vector<GaitCounts> counts;        ///< by place in the hand
 };
 
+/// The fingers that grasps of a request are judged for: as many as the hand has, each with its
+/// largest tip. Lengths in the object's unit.
+[[nodiscard]] hand::Hand FingersOf(const GaitRequest& request);
+
 /// Finds a gait of the hand that turns the object: chooses where in the hand it begins and with
 /// which grasp. What is told of a search that found none is of the last one.
 ///

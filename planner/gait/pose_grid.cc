@@ -36,6 +36,7 @@ PoseGrid::Offsets::Offsets(int dimensions) {
   all.push_back({});
   for (std::size_t from = 0; from < all.size(); ++from) {
     if (Units(all[from]) == kMostUnits) continue;
+    // A copy: `all` grows meanwhile.
     one_off(Offset(all[from]), [&](const Offset& other) {
       if (numbers.try_emplace(other, all.size()).second) all.push_back(other);
     });

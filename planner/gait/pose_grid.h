@@ -70,7 +70,7 @@ class PoseGrid {
   PoseTrack track_;
   End end_;
   Eigen::Matrix3d axes_;    ///< columns: across, across, up
-  const Offsets* offsets_;  ///< the same for all tracks that are much alike
+  const Offsets* offsets_;  ///< one set for tracks of one pose, one for all others
 };
 
 }  // namespace regrasp::gait
