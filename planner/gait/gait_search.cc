@@ -22,8 +22,6 @@ constexpr int kTakenUp = 8;
 constexpr int kSlidesTogether = 3;
 /// With the same fingers placed, released or sliding.
 constexpr int kTakenUpOfAKind = 2;
-/// Steps that a rest is put back for each one like it that was expanded.
-constexpr double kPutBackAlike = 0.5;
 /// How far a finger slides at once, metres.
 constexpr double kLongestSlide = 0.015;
 constexpr double kLongestSlideToGoal = 0.06;
@@ -36,12 +34,7 @@ constexpr double kNotYetGoal = 3;
 /// What a slide costs on the way, in steps: a finger that slides holds less well than one that
 /// rests.
 constexpr double kSlide = 2;
-/// Steps that a rest is put back for each one that was expanded and ends where it ends.
-constexpr double kPutBack = 0.1;
-/// Steps that it is put back for each one that the same fingers held: there is much to slide to
-/// with three fingers, and most of it leads nowhere.
-constexpr double kPutBackFingers = 0.3;
-/// Steps that it is put back for each turn that it had.
+/// Steps that a rest is put back for each turn that it had.
 constexpr double kAnotherTurn = 2;
 /// Nodes from which a hold is carried on in vain.
 constexpr int kPatience = 40;
@@ -55,15 +48,6 @@ std::array<int, 3> KindOf(const Change& change) {
   int slid = 0;
   for (const FingerIndex finger : change.slid) slid |= 1 << finger;
   return {change.placed, change.released, slid};
-}
-
-/// A bit for each finger that holds.
-int FingersOf(const Holding& holding) {
-  int fingers = 0;
-  for (std::size_t i = 0; i < holding.size(); ++i) {
-    if (holding[i] != kNone) fingers |= 1 << i;
-  }
-  return fingers;
 }
 
 }  // namespace
@@ -81,9 +65,9 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
       carrier_(carrier),
       routes_(memory),
       kinds_(setup.points),
+      crowding_(kinds_, grid.steps()),
       rolling_(setup, memory),
-      paths_(setup, memory, carrier, routes_, random),
-      expanded_at_(grid.steps() + 1, 0) {
+      paths_(setup, memory, carrier, routes_, random) {
   counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
   ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
@@ -505,10 +489,8 @@ int GaitSearch::PopNext() {
     const Waiting top = queue_.top();
     queue_.pop();
     const Rest& rest = rests_[top.rest];
-    const double score = rest.score - kAnotherTurn * rest.turns -
-                         kPutBack * expanded_at_[grid_.StepOf(rest.carried.end)] -
-                         kPutBackAlike * expanded_like_[kinds_.KindOf(rest.hold.holding)] -
-                         kPutBackFingers * expanded_with_[FingersOf(rest.hold.holding)];
+    const double score = crowding_.PutBack(rest.score - kAnotherTurn * rest.turns,
+                                           rest.hold.holding, grid_.StepOf(rest.carried.end));
     if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
     queue_.push({score, top.rest});
   }
@@ -541,9 +523,7 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     const int last = grid_.StepOf(rest.carried.end);
     counts_.farthest = std::max(counts_.farthest, last);
     ++counts_.expanded;
-    ++expanded_at_[last];
-    ++expanded_like_[kinds_.KindOf(rest.hold.holding)];
-    ++expanded_with_[FingersOf(rest.hold.holding)];
+    crowding_.Count(rest.hold.holding, last);
     last_expanded_ = index;
     Expand(index);
   }

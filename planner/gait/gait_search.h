@@ -12,6 +12,7 @@
 #include "planner/gait/carrier.h"
 #include "planner/gait/change_paths.h"
 #include "planner/gait/contact_kinds.h"
+#include "planner/gait/crowding.h"
 #include "planner/gait/finger_path.h"
 #include "planner/gait/gait.h"
 #include "planner/gait/goal_grasp.h"
@@ -179,6 +180,7 @@ class GaitSearch {
   Carrier& carrier_;
   SlideRoutes routes_;
   ContactKinds kinds_;
+  Crowding crowding_;
   RollingTips rolling_;
   ChangePaths paths_;
   std::vector<Rest> rests_;
@@ -188,9 +190,6 @@ class GaitSearch {
   /// Of each grasp the rests that were expanded.
   std::map<Holding, std::vector<int>> expanded_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
-  std::map<Holding, int> expanded_like_;  ///< rests, by the kind of their grasp
-  std::map<int, int> expanded_with_;      ///< rests, by the fingers that hold, a bit for each
-  std::vector<int> expanded_at_;          ///< rests, by the step that they end at
   GaitCounts counts_;
   int last_expanded_ = -1;
   std::set<Holding> targets_;  ///< kinds of them
