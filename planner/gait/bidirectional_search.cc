@@ -80,46 +80,84 @@ std::optional<Gait> BidirectionalSearch::Meet(bool is_forward) {
   return std::nullopt;
 }
 
-std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
-  const std::map<int, int>& nodes = forward_.NodesOf(forward);
-  const std::map<int, int>& others = backward_->NodesOf(backward);
-  const auto common = std::ranges::find_if(
-      nodes, [&](const auto& node) { return others.contains(grid_.Mirrored(node.first)); });
-  if (common == nodes.end()) return std::nullopt;
-  const int node = common->first;
-  std::optional<Gait> gait = forward_.WayTo(forward, node);
-  if (!gait) return std::nullopt;
-  const std::optional<Gait> back = backward_->WayTo(backward, grid_.Mirrored(node));
-  if (!back) return std::nullopt;
-  auto between = MoveFreeFingers(forward_.HoldOf(forward).holding, EndOf(*gait), EndOf(*back));
-  if (!between) return std::nullopt;
-  if (between->size() > 1) {
-    gait->stretches.push_back({Stretch::Kind::kMove, {}, kNone, *std::move(between)});
+int BidirectionalSearch::CommonNode(int forward, int backward) {
+  for (const bool further : {false, true}) {
+    if (further) {
+      forward_.CarryAround(forward);
+      backward_->CarryAround(backward);
+    }
+    const std::map<int, int>& others = backward_->NodesOf(backward);
+    for (const auto& [node, before] : forward_.NodesOf(forward)) {
+      if (others.contains(grid_.Mirrored(node))) return node;
+    }
   }
-  AppendReversed(back->stretches, *gait);
-  return gait;
+  return PoseGrid::kNoNode;
+}
+
+std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
+  const int node = CommonNode(forward, backward);
+  if (node == PoseGrid::kNoNode) return std::nullopt;
+  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+    std::optional<Gait> gait = forward_.WayTo(forward, node);
+    if (!gait) return std::nullopt;
+    const std::optional<Gait> back = backward_->WayTo(backward, grid_.Mirrored(node));
+    if (!back) return std::nullopt;
+    FingerIndex stuck;
+    auto between =
+        MoveFreeFingers(forward_.HoldOf(forward).holding, EndOf(*gait), EndOf(*back), stuck);
+    if (between) {
+      if (between->size() > 1) {
+        gait->stretches.push_back({Stretch::Kind::kMove, {}, kNone, *std::move(between)});
+      }
+      AppendReversed(back->stretches, *gait);
+      return gait;
+    }
+    if (!stuck.valid()) return std::nullopt;
+    // One of the ends may have it elsewhere all along.
+    const int later = backward_->WithWaiting(backward, stuck, EndOf(*gait).postures[stuck]);
+    const int earlier =
+        later >= 0 ? -1 : forward_.WithWaiting(forward, stuck, EndOf(*back).postures[stuck]);
+    if (later < 0 && earlier < 0) return std::nullopt;
+    (later >= 0 ? backward : forward) = std::max(later, earlier);
+  }
+  return std::nullopt;
 }
 
 std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveFreeFingers(const Holding& holding,
                                                                           const Keyframe& from,
-                                                                          const Keyframe& to) {
-  std::vector<Keyframe> path = {from};
+                                                                          const Keyframe& to,
+                                                                          FingerIndex& stuck) {
+  std::vector<int> order;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     const Posture& posture = from.postures[finger];
-    if (holding[finger] != kNone) {
-      if ((posture - to.postures[finger]).cwiseAbs().maxCoeff() > kSamePosture) return std::nullopt;
-      continue;
-    }
-    if (posture == to.postures[finger]) continue;
-    const auto way =
-        FindFreePath(setup_.scene, finger, posture, to.postures[finger],
-                     AllBut(setup_.scene, finger, path.back()), random_, kExtensionsToMeet);
-    if (!way) return std::nullopt;
-    for (std::size_t i = 1; i < way->size(); ++i) {
-      path.push_back(path.back());
-      path.back().postures[finger] = (*way)[i];
+    if (holding[finger] == kNone) {
+      if (posture != to.postures[finger]) order.push_back(finger);
+    } else if ((posture - to.postures[finger]).cwiseAbs().maxCoeff() > kSamePosture) {
+      return std::nullopt;
     }
   }
+  std::vector<Keyframe> path;
+  bool is_free = false;
+  do {
+    path = {from};
+    is_free = std::ranges::all_of(order, [&](int number) {
+      const FingerIndex finger{number};
+      const auto way =
+          FindFreePath(setup_.scene, finger, from.postures[finger], to.postures[finger],
+                       AllBut(setup_.scene, finger, path.back()), random_, kExtensionsToMeet);
+      if (!way) {
+        stuck = finger;
+        return false;
+      }
+      for (std::size_t i = 1; i < way->size(); ++i) {
+        path.push_back(path.back());
+        path.back().postures[finger] = (*way)[i];
+      }
+      return true;
+    });
+  } while (!is_free && std::ranges::next_permutation(order).found);
+  if (!is_free) return std::nullopt;
+  stuck = {};
   Touching touching;
   bool is_same = true;
   for (std::size_t finger = 0; finger < holding.size(); ++finger) {

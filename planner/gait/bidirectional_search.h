@@ -35,10 +35,13 @@ class BidirectionalSearch : public PlaceSearch {
   std::optional<Gait> Meet(bool is_forward);
   /// The gait through two rests with one grasp, where it is free.
   std::optional<Gait> Join(int forward, int backward);
+  /// The node to which both rests can be carried, kNoNode where none is found.
+  int CommonNode(int forward, int backward);
   /// Brings fingers that hold nothing from where they wait in one keyframe to where they do in
-  /// another one.
+  /// another one, one after the other in some order.
+  /// @param stuck  one that finds no way, where it is the fingers' fault.
   std::optional<std::vector<Keyframe>> MoveFreeFingers(const Holding& holding, const Keyframe& from,
-                                                       const Keyframe& to);
+                                                       const Keyframe& to, FingerIndex& stuck);
 
   const HandSetup& setup_;
   PoseGrid grid_;

@@ -9,8 +9,9 @@
 namespace regrasp::gait {
 namespace {
 
-/// To wait in, for a finger that none of the usual places suits.
-constexpr int kDrawnPlaces = 1000;
+/// To wait in, for a finger where the usual places don't suit all; times that all are drawn.
+constexpr int kDrawnPlaces = 200;
+constexpr int kDrawings = 10;
 /// Above a contact that a finger has left, where it may wait too, metres: the highest first.
 constexpr std::array kHeights = {0.020, 0.012, 0.006};
 
@@ -25,19 +26,59 @@ Keyframe Carrier::FrameAt(const Hold& hold, int node) {
   return frame;
 }
 
+bool Carrier::KeepsOffPalm(int node) {
+  const auto [found, is_new] = off_palm_.try_emplace(node);
+  if (is_new) found->second = setup_.scene.KeepsOffPalm(grid_.PoseAt(node));
+  return found->second;
+}
+
+bool Carrier::KeepApart(const Hold& hold, FingerIndex a, FingerIndex b, int node) {
+  const auto points = setup_.points.size();
+  const auto fingers = static_cast<std::size_t>(setup_.scene.finger_count());
+  std::size_t key = static_cast<std::size_t>(node);
+  for (const FingerIndex finger : {a, b}) {
+    key = (key * fingers + static_cast<std::size_t>(finger)) * points +
+          static_cast<std::size_t>(hold.holding[finger]);
+  }
+  const auto [found, is_new] = apart_.try_emplace(key);
+  if (is_new) {
+    found->second =
+        setup_.scene.KeepApart(setup_.scene.Place(a, *reach_.Find(a, hold.holding[a], node)),
+                               setup_.scene.Place(b, *reach_.Find(b, hold.holding[b], node)));
+  }
+  return found->second;
+}
+
 bool Carrier::IsPassable(const Hold& hold, int node) {
-  const Keyframe frame = FrameAt(hold, node);
-  if (!setup_.scene.KeepsOffPalm(frame.pose)) return false;
-  std::vector<PlacedFinger> placed;
-  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (frame.postures[finger].size() == 0) continue;
-    placed.push_back(setup_.scene.Place(finger, frame.postures[finger]));
-    for (std::size_t other = 0; other + 1 < placed.size(); ++other) {
-      if (!setup_.scene.KeepApart(placed[other], placed.back())) return false;
+  if (!KeepsOffPalm(node)) return false;
+  const FingerIndex end{setup_.scene.finger_count()};
+  const auto holds = [&](FingerIndex finger) { return hold.holding[finger] != kNone; };
+  for (FingerIndex b{0}; b < end; ++b) {
+    for (FingerIndex a{0}; a < b; ++a) {
+      if (holds(a) && holds(b) && !KeepApart(hold, a, b, node)) return false;
     }
-    if (hold.holding[finger] == kNone &&
-        !setup_.scene.KeepsOffObject(placed.back(), frame.pose, TipContact::kFree)) {
-      return false;
+  }
+  const auto waits = [&](FingerIndex finger) {
+    return !holds(finger) && finger < std::ssize(hold.waiting) && hold.waiting[finger].size() > 0;
+  };
+  bool any_waits = false;
+  for (FingerIndex finger{0}; finger < end; ++finger) any_waits = any_waits || waits(finger);
+  if (!any_waits) return true;
+  const Eigen::Isometry3d pose = grid_.PoseAt(node);
+  std::vector<PlacedFinger> placed;
+  for (const bool waiting : {false, true}) {
+    for (FingerIndex finger{0}; finger < end; ++finger) {
+      if (waiting ? !waits(finger) : !holds(finger)) continue;
+      PlacedFinger there =
+          setup_.scene.Place(finger, waiting ? hold.waiting[finger]
+                                             : *reach_.Find(finger, hold.holding[finger], node));
+      const bool is_free =
+          !waiting || (setup_.scene.KeepsOffObject(there, pose, TipContact::kFree) &&
+                       std::ranges::all_of(placed, [&](const PlacedFinger& other) {
+                         return setup_.scene.KeepApart(other, there);
+                       }));
+      if (!is_free) return false;
+      placed.push_back(std::move(there));
     }
   }
   return true;
@@ -55,6 +96,21 @@ std::optional<Posture> Carrier::PostureAbove(FingerIndex finger, int point, int 
   return above;
 }
 
+bool Carrier::WaitAnywhere(Hold& hold, int node, RandomStream& random) {
+  for (const int drawn : random.Choose(setup_.scene.finger_count(), setup_.scene.finger_count())) {
+    const FingerIndex finger{drawn};
+    if (hold.holding[finger] != kNone || hold.waiting[finger].size() > 0) continue;
+    bool waits = false;
+    for (int i = 0; !waits && i < kDrawnPlaces; ++i) {
+      hold.waiting[finger] = setup_.scene.DrawPosture(finger, random);
+      waits = setup_.scene.KeepsOffHand(setup_.scene.Place(finger, hold.waiting[finger])) &&
+              IsPassable(hold, node);
+    }
+    if (!waits) return false;
+  }
+  return true;
+}
+
 bool Carrier::LetFreeFingersWait(Hold& hold, int node, RandomStream* random, const Hold* before) {
   hold.waiting.resize(setup_.scene.finger_count());
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
@@ -62,6 +118,26 @@ bool Carrier::LetFreeFingersWait(Hold& hold, int node, RandomStream* random, con
     if (reach_.Find(finger, hold.holding[finger], node) == nullptr) return false;
   }
   if (!IsPassable(hold, node)) return false;
+  const std::vector<Posture> given = hold.waiting;
+  if (WaitInUsualPlaces(hold, node, before)) return true;
+  for (int i = 0; random != nullptr && i < kDrawings; ++i) {
+    hold.waiting = given;
+    if (WaitAnywhere(hold, node, *random)) return true;
+  }
+  return false;
+}
+
+bool Carrier::WaitAbove(Hold& hold, FingerIndex finger, int point, int node) {
+  for (const double height : kHeights) {
+    const auto above = PostureAbove(finger, point, node, height);
+    if (!above) continue;
+    hold.waiting[finger] = *above;
+    if (IsPassable(hold, node)) return true;
+  }
+  return false;
+}
+
+bool Carrier::WaitInUsualPlaces(Hold& hold, int node, const Hold* before) {
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (hold.holding[finger] != kNone || hold.waiting[finger].size() > 0) continue;
     const auto waits_at = [&](const Posture& posture) {
@@ -69,17 +145,11 @@ bool Carrier::LetFreeFingersWait(Hold& hold, int node, RandomStream* random, con
       return IsPassable(hold, node);
     };
     bool waits = std::ranges::any_of(parking_[finger], waits_at);
-    for (int i = 0; !waits && random != nullptr && i < kDrawnPlaces; ++i) {
-      const Posture drawn = setup_.scene.DrawPosture(finger, *random);
-      waits = setup_.scene.KeepsOffHand(setup_.scene.Place(finger, drawn)) && waits_at(drawn);
-    }
     // Where it was, some millimetres above its contact.
-    for (const double height : kHeights) {
-      if (waits || before == nullptr || before->holding[finger] == kNone) break;
-      const auto above = PostureAbove(finger, before->holding[finger], node, height);
-      waits = above && waits_at(*above);
+    const bool has_held = before != nullptr && before->holding[finger] != kNone;
+    if (!waits && !(has_held && WaitAbove(hold, finger, before->holding[finger], node))) {
+      return false;
     }
-    if (!waits) return false;
   }
   return true;
 }

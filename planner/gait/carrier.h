@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -51,11 +52,14 @@ class Carrier {
   /// @param node  as in FrameAt.
   [[nodiscard]] bool IsPassable(const Hold& hold, int node);
   /// Finds postures for fingers that hold nothing and have none.
-  /// @param random  draws others where a finger can't wait in any place of `parking`; null: none.
+  /// @param random  draws others where fingers can't all wait in places of `parking`; null: none.
   /// @param before  fingers that held something in it may wait above that.
   /// @returns whether the hold can be at the node.
   [[nodiscard]] bool LetFreeFingersWait(Hold& hold, int node, RandomStream* random = nullptr,
                                         const Hold* before = nullptr);
+  /// Has a finger that holds nothing wait above a contact that it reaches at the node.
+  /// @returns whether it can.
+  [[nodiscard]] bool WaitAbove(Hold& hold, FingerIndex finger, int point, int node);
 
   /// Along the track, with the node's offset.
   [[nodiscard]] Carried StraightOn(const Hold& hold, int node);
@@ -67,16 +71,26 @@ class Carrier {
                                const std::function<bool(int)>& is_enough, const Legs& barred);
 
  private:
+  /// The first that suits of its parking and above where it was before, finger by finger.
+  [[nodiscard]] bool WaitInUsualPlaces(Hold& hold, int node, const Hold* before);
+  /// In postures that are drawn, finger by finger in an order that is drawn.
+  [[nodiscard]] bool WaitAnywhere(Hold& hold, int node, RandomStream& random);
   /// Of a finger off a contact that it reaches at the node; nullopt where it does not come there.
   /// @param height  metres.
   [[nodiscard]] std::optional<Posture> PostureAbove(FingerIndex finger, int point, int node,
                                                     double height);
   [[nodiscard]] bool CanFollow(const Hold& hold, int node, int neighbour);
+  [[nodiscard]] bool KeepsOffPalm(int node);
+  /// Of two fingers that hold.
+  [[nodiscard]] bool KeepApart(const Hold& hold, FingerIndex a, FingerIndex b, int node);
 
   const HandSetup& setup_;
   const PoseGrid& grid_;
   const Parking& parking_;
   ReachMap reach_;
+  // Worked out when first asked for: grasps are many, and made of few contacts.
+  std::unordered_map<int, bool> off_palm_;       ///< by node
+  std::unordered_map<std::size_t, bool> apart_;  ///< by node, and two fingers with their contacts
 };
 
 }  // namespace regrasp::gait

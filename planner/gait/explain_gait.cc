@@ -11,7 +11,10 @@
 namespace regrasp::gait {
 namespace {
 
-constexpr std::int64_t kExpandedAtMost = 40;
+/// Of what the request may expand, the share of one try: all together take as long as a search that
+/// finds nothing; and no fewer.
+constexpr std::int64_t kShareOfTry = 20;
+constexpr std::int64_t kFewestExpanded = 40;
 
 /// Something that can be otherwise, and by how much, the least first.
 struct Kind {
@@ -77,7 +80,8 @@ std::string ExplainGait(const GaitRequest& request) {
       GaitRequest changed = request;
       const std::string words = kind.change(kind.changes[i], changed);
       if (changed.reserve == Reserve::kPreferred) changed.reserve = Reserve::kNone;
-      changed.most_expanded = std::min(kExpandedAtMost, request.most_expanded);
+      changed.most_expanded = std::min(
+          request.most_expanded, std::max(kFewestExpanded, request.most_expanded / kShareOfTry));
       changed.progress = [&](std::string_view) { request.progress("trying " + words); };
       if (FindGait(changed).gait) kind.helps = words;
     }

@@ -7,6 +7,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/gait/bidirectional_search.h"
+#include "planner/gait/gait_search.h"
 #include "planner/gait/turn_search.h"
 #include "planner/sampling/surface_sampler.h"
 
@@ -25,12 +26,15 @@ constexpr int kDrawings = 4;
 
 /// Of gaits with reserve: the share of the friction that they are planned with,
 /// their quality, what links keep off beside the margin, metres, and what is spent on them where
-/// others are good enough: grasps that are expanded, share of the time.
+/// there is another one: grasps that are expanded, share of the time that is left.
 constexpr double kLessFriction = 0.7;
 constexpr double kReserveQuality = 0.05;
 constexpr double kMoreClearance = 2e-3;
 constexpr std::int64_t kExpandedWithReserve = 120;
 constexpr double kTimeWithReserve = 0.3;
+/// With it a gait may have so many times as many stretches as without, and so many more.
+constexpr std::size_t kTimesAsLong = 3;
+constexpr std::size_t kLonger = 2;
 
 std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
   const sampling::SurfaceSampler sampler(*request.solid, FingersOf(request).fingertip_radius,
@@ -191,9 +195,9 @@ std::string WhatStopped(const GaitRequest& request, const std::vector<GaitCounts
     if (count > 0) text += ", " + std::to_string(count) + " " + what;
   };
   add(best.colliding, "in which fingers collide");
-  add(best.no_path, "for which a finger has no free path");
-  add(best.no_slide, "for which a finger cannot slide");
-  add(best.no_move, "with moves that fingers cannot follow");
+  add(best.ways.no_path, "for which a finger has no free path");
+  add(best.ways.no_slide, "for which a finger cannot slide");
+  add(best.ways.no_move, "with moves that fingers cannot follow");
   add(best.rolled, "that no longer hold where their contacts roll to");
   if (request.reserve == Reserve::kRequired) {
     text += "; without reserve there may be a plan";
@@ -246,6 +250,11 @@ GaitRequest WithReserve(GaitRequest request) {
   return request;
 }
 
+/// Of a gait with reserve: whether one that does without is to be preferred.
+bool IsMuchLonger(const Gait& gait, const Gait& other) {
+  return gait.stretches.size() > kTimesAsLong * other.stretches.size() + kLonger;
+}
+
 }  // namespace
 
 hand::Hand FingersOf(const GaitRequest& request) {
@@ -271,22 +280,33 @@ GaitResult FindGait(const GaitRequest& request) {
   const collision::SurfaceTree surface(*request.solid, request.scale);
   const collision::BallContact rolled_on(*request.solid, request.scale);
   const hand::Hand fingers = FingersOf(request);
-  const auto search = [&](const GaitRequest& asked, bool is_reserve) {
+  struct Found {
+    std::optional<Gait> gait;
+    std::string message;
+  };
+  const auto search = [&](const GaitRequest& asked, bool is_reserve) -> Found {
     const HandScene scene(*request.hand, surface, asked.margin);
     const HandSetup setup{scene, inverse, points, request.scale, is_reserve ? &rolled_on : nullptr};
     criteria::GraspMemory memory(*asked.solid, asked.criteria, fingers,
                                  criteria::QualityTest::kQuick);
     memory.Append(result.contacts);
-    result.message =
-        is_reserve ? GivenWithoutReserve(ends, memory, asked.criteria.min_quality) : "";
-    if (!result.message.empty()) return;
+    if (is_reserve) {
+      std::string without = GivenWithoutReserve(ends, memory, asked.criteria.min_quality);
+      if (!without.empty()) return {std::nullopt, std::move(without)};
+    }
     PlacesInHand places(asked, setup, ends, memory);
-    result.gait = places.Search();
-    result.counts = places.counts();
+    std::optional<Gait> gait = places.Search();
+    if (gait) return {std::move(gait), ""};
+    return {std::nullopt, WhatStopped(asked, places.counts())};
   };
-  if (request.reserve != Reserve::kNone) search(WithReserve(request), true);
-  if (!result.gait && request.reserve != Reserve::kRequired) search(request, false);
-  if (!result.gait && result.message.empty()) result.message = WhatStopped(request, result.counts);
+  const bool is_required = request.reserve == Reserve::kRequired;
+  Found found = is_required ? search(WithReserve(request), true) : search(request, false);
+  if (request.reserve == Reserve::kPreferred && found.gait) {
+    Found spare = search(WithReserve(request), true);
+    if (spare.gait && !IsMuchLonger(*spare.gait, *found.gait)) found = std::move(spare);
+  }
+  result.gait = std::move(found.gait);
+  result.message = std::move(found.message);
   return result;
 }
 

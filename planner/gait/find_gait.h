@@ -8,7 +8,6 @@
 #include "planner/base/deadline.h"
 #include "planner/criteria/grasp_criteria.h"
 #include "planner/gait/gait.h"
-#include "planner/gait/gait_search.h"
 #include "planner/gait/home.h"
 #include "planner/kinematics/hand_model.h"
 #include "planner/object/polyhedron.h"
@@ -21,7 +20,7 @@ namespace regrasp::gait {
 /// whose drag the fingers that hold can seldom balance.
 enum class Reserve {
   kNone,       ///< is not looked for
-  kPreferred,  ///< is looked for first, for a while
+  kPreferred,  ///< is looked for, for a while, where there is a gait; not at any length
   kRequired,
 };
 
@@ -50,7 +49,6 @@ struct GaitResult {
   std::optional<Gait> gait;
   std::vector<grasp::Contact> contacts;  ///< by the numbers that the gait has, the object's units
   std::string message;                   ///< where there is none: what stopped it, counted
-  std::vector<GaitCounts> counts;        ///< by place in the hand
 };
 
 /// The fingers that grasps of a request are judged for: as many as the hand has, each with its
@@ -58,7 +56,7 @@ struct GaitResult {
 [[nodiscard]] hand::Hand FingersOf(const GaitRequest& request);
 
 /// Finds a gait of the hand that turns the object: chooses where in the hand it begins and with
-/// which grasp. What is told of a search that found none is of the last one.
+/// which grasp. A preferred reserve is left out where the gait gets more than thrice as long by it.
 ///
 /// Laws: without a deadline the same request gives the same gait, bit for bit; every rest is force
 /// closure and meets the criteria where it can; every path is certified (certified_path.h).

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "planner/gait/certified_path.h"
 
@@ -10,11 +12,16 @@ namespace {
 
 constexpr double kStride = 0.35;  // radians, over all drives
 constexpr int kShortcuts = 30;
+/// Extensions after which a tree that has not grown at all is given up.
+constexpr int kTrapped = 30;
 
 /// Above the contact, metres: as high as the finger can go, but not lower than the first.
 constexpr double kLowestAbove = 0.003;
 constexpr double kHighestAbove = 0.020;
 constexpr double kDescent = 0.002;  // between postures of the way down
+/// Where straight up is no way: so much off the normal, radians, to so many sides.
+constexpr double kSideways = 0.8;
+constexpr int kSides = 6;
 
 /// Whether a finger's drives may go straight from a posture to another one.
 bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from, const Posture& to,
@@ -27,6 +34,8 @@ bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from, co
 struct Tree {
   std::vector<Posture> nodes;
   std::vector<int> parents;
+
+  [[nodiscard]] bool IsRoot() const { return nodes.size() == 1; }
 
   int Nearest(const Posture& posture) const {
     int best = 0;
@@ -54,6 +63,7 @@ class Connector {
     if (IsFree(from, to)) return FingerPath{from, to};
     std::array<Tree, 2> trees = {Tree{{from}, {-1}}, Tree{{to}, {-1}}};
     for (int i = 0; i < most_extensions; ++i) {
+      if (i == kTrapped && std::ranges::any_of(trees, &Tree::IsRoot)) break;
       Tree& growing = trees[i % 2];
       Tree& other = trees[1 - i % 2];
       if (!Extend(growing, scene_.DrawPosture(finger_, random_))) continue;
@@ -74,6 +84,14 @@ class Connector {
   [[nodiscard]] bool IsFree(const Posture& from, const Posture& to) const {
     return IsClear(scene_, finger_, from, to, TipContact::kFree, around_);
   }
+  [[nodiscard]] bool IsFreeAt(const Posture& posture) const {
+    const PlacedFinger placed = scene_.Place(finger_, posture);
+    const auto keeps_apart = [&](const PlacedFinger& other) {
+      return scene_.KeepApart(placed, other);
+    };
+    return scene_.KeepsOffObject(placed, around_.pose, TipContact::kFree) &&
+           std::ranges::all_of(around_.others, keeps_apart) && scene_.KeepsOffHand(placed);
+  }
   /// One stride from the tree's nearest node towards a posture.
   bool Extend(Tree& tree, const Posture& towards) const {
     const int nearest = tree.Nearest(towards);
@@ -82,7 +100,8 @@ class Connector {
     if (length == 0) return false;
     const Posture next =
         length <= kStride ? towards : Posture(tree.nodes[nearest] + (kStride / length) * step);
-    if (!IsFree(tree.nodes[nearest], next)) return false;
+    // Mostly it is at its end that a stride runs into something.
+    if (!IsFreeAt(next) || !IsFree(tree.nodes[nearest], next)) return false;
     tree.nodes.push_back(next);
     tree.parents.push_back(nearest);
     return true;
@@ -123,20 +142,29 @@ std::optional<FingerPath> FindWayUp(const HandScene& scene,
                                     const kinematics::InverseKinematics& inverse,
                                     FingerIndex finger, const kinematics::TipTarget& target,
                                     const Posture& touching, const Surroundings& around) {
-  FingerPath path = {touching};
-  double height = 0;
-  while (height < kHighestAbove - kDescent / 2) {
-    const kinematics::TipTarget above{target.centre - (height + kDescent) * target.towards,
-                                      target.towards};
-    const std::optional<Posture> next = inverse.SolveFrom(above, path.back());
-    if (!next || !IsClear(scene, finger, path.back(), *next, TipContact::kTouching, around)) {
-      break;
+  const Eigen::Vector3d off = -target.towards;
+  const Eigen::Vector3d across = off.unitOrthogonal();
+  // Straight, or else to one of the sides.
+  for (int side = -1; side < kSides; ++side) {
+    Eigen::Vector3d up = off;
+    if (side >= 0) {
+      const double angle = 2 * std::numbers::pi * side / kSides;
+      up = (off + std::tan(kSideways) * (Eigen::AngleAxisd(angle, off) * across)).normalized();
     }
-    path.push_back(*next);
-    height += kDescent;
+    FingerPath path = {touching};
+    double height = 0;
+    while (height < kHighestAbove - kDescent / 2) {
+      const kinematics::TipTarget above{target.centre + (height + kDescent) * up, target.towards};
+      const std::optional<Posture> next = inverse.SolveFrom(above, path.back());
+      if (!next || !IsClear(scene, finger, path.back(), *next, TipContact::kTouching, around)) {
+        break;
+      }
+      path.push_back(*next);
+      height += kDescent;
+    }
+    if (height > kLowestAbove - kDescent / 2) return path;
   }
-  if (height < kLowestAbove - kDescent / 2) return std::nullopt;
-  return path;
+  return std::nullopt;
 }
 
 std::optional<FingerPath> FindPathToContact(const HandScene& scene,

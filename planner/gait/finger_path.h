@@ -35,7 +35,8 @@ struct Surroundings {
                                                      RandomStream& random,
                                                      int most_extensions = 100);
 
-/// A certified path from a contact straight up along the normal, as high as the finger goes.
+/// A certified path from a contact up along the normal, as high as the finger goes, or, where that
+/// is no way, aslant to a side.
 /// @param target    of the tip at the contact.
 /// @param touching  the posture there.
 /// @returns none where it does not come far enough off the surface to go elsewhere.
@@ -44,7 +45,7 @@ struct Surroundings {
     const kinematics::TipTarget& target, const Posture& touching, const Surroundings& around);
 
 /// A certified path from a free posture to a contact: freely to a place some millimetres above it,
-/// then straight down along the normal.
+/// then down as by FindWayUp.
 /// @param target   of the tip at the contact.
 /// @param touching the posture there.
 [[nodiscard]] std::optional<FingerPath> FindPathToContact(

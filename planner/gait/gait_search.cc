@@ -20,8 +20,12 @@ constexpr int kShares = 4;
 constexpr int kTakenUp = 8;
 /// Goals and targets that all fingers of a grasp may slide to at once, the nearest ones.
 constexpr int kSlidesTogether = 3;
+/// Times that a grasp is come to by ways that turn out not to be free.
+constexpr int kMostFailures = 3;
 /// With the same fingers placed, released or sliding.
 constexpr int kTakenUpOfAKind = 2;
+/// Times as many from a given start: with it all that comes after is lost.
+constexpr int kMoreAtStart = 6;
 /// How far a finger slides at once, metres.
 constexpr double kLongestSlide = 0.015;
 constexpr double kLongestSlideToGoal = 0.06;
@@ -36,10 +40,6 @@ constexpr double kNotYetGoal = 3;
 constexpr double kSlide = 2;
 /// Steps that a rest is put back for each turn that it had.
 constexpr double kAnotherTurn = 2;
-/// Nodes from which a hold is carried on in vain.
-constexpr int kPatience = 40;
-/// Of one move: times that it is led round what it can't pass.
-constexpr int kMostDetours = 8;
 /// Of the nodes that a grasp comes to: those drawn to switch fingers at, beside those of its path.
 constexpr int kNodesBeside = 2;
 
@@ -67,7 +67,12 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
       kinds_(setup.points),
       crowding_(kinds_, grid.steps()),
       rolling_(setup, memory),
-      paths_(setup, memory, carrier, routes_, random) {
+      tree_(
+          setup, grid, carrier, memory, routes_, random,
+          [this](int node, const Holding& holding) {
+            return grid_.IsGoal(node) && goal_.IsHeldBy(holding);
+          },
+          !ends.start.empty()) {
   counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
   ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
@@ -77,12 +82,18 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
   });
 }
 
+GaitCounts GaitSearch::counts() const {
+  GaitCounts counts = counts_;
+  counts.ways = tree_.counts();
+  return counts;
+}
+
 void GaitCounts::Add(const GaitCounts& other) {
   grasps += other.grasps;
   expanded += other.expanded;
-  no_path += other.no_path;
-  no_slide += other.no_slide;
-  no_move += other.no_move;
+  ways.no_path += other.ways.no_path;
+  ways.no_slide += other.ways.no_slide;
+  ways.no_move += other.ways.no_move;
   colliding += other.colliding;
   rolled += other.rolled;
 }
@@ -90,11 +101,6 @@ void GaitCounts::Add(const GaitCounts& other) {
 void GaitSearch::BeginWith(const Hold& hold) {
   Add({.hold = hold, .node = grid_.start()});
   begun_ = true;
-}
-
-int GaitSearch::RootOf(int rest) const {
-  while (rests_[rest].parent >= 0) rest = rests_[rest].parent;
-  return rest;
 }
 
 const std::vector<GaitSearch::Candidate>& GaitSearch::CandidatesAt(FingerIndex finger, int node) {
@@ -174,13 +180,18 @@ double GaitSearch::ScoreOf(const Holding& holding, int node, int slides, int las
          kNotYetGoal * goal_.DistanceFrom(holding) - (grid_.steps() > 0 ? kSlide * slides : 0);
 }
 
+bool GaitSearch::IsTaken(const Holding& holding, int node) const {
+  const auto found = taken_.find(holding);
+  return found != taken_.end() && std::ranges::any_of(found->second, [&](const Taken& taken) {
+           return taken.node == node && (taken.rest < 0 || !tree_[taken.rest].is_cut_off);
+         });
+}
+
 bool GaitSearch::Add(Rest rest) {
-  if (!IsGrasp(rest.hold.holding)) return false;
-  std::vector<int>& taken = taken_[rest.hold.holding];
-  if (std::ranges::find(taken, rest.node) != taken.end()) return false;
-  taken.push_back(rest.node);
+  if (!IsGrasp(rest.hold.holding) || IsTaken(rest.hold.holding, rest.node)) return false;
+  Taken& taken = taken_[rest.hold.holding].emplace_back(Taken{rest.node});
   ++counts_.grasps;
-  const Hold* before = rest.parent < 0 ? nullptr : &rests_[rest.parent].hold;
+  const Hold* before = rest.parent < 0 ? nullptr : &tree_[rest.parent].hold;
   if (!carrier_.LetFreeFingersWait(rest.hold, rest.node, nullptr, before)) {
     ++counts_.colliding;
     return false;
@@ -188,8 +199,9 @@ bool GaitSearch::Add(Rest rest) {
   if (!TakeRolledTips(rest)) return false;
   rest.carried = carrier_.StraightOn(rest.hold, rest.node);
   rest.score = ScoreOf(rest.hold.holding, rest.node, rest.slides, grid_.StepOf(rest.carried.end));
-  queue_.push({rest.score, static_cast<int>(rests_.size())});
-  rests_.push_back(std::move(rest));
+  taken.rest = tree_.size();
+  queue_.push({rest.score, taken.rest});
+  tree_.Add(std::move(rest));
   return true;
 }
 
@@ -304,36 +316,27 @@ std::optional<double> GaitSearch::ScoreAfter(const Rest& from, const Holding& to
   return ScoreOf(to, node, from.slides + static_cast<int>(slides), last);
 }
 
-GaitSearch::Rest GaitSearch::RestAfter(int from, const Holding& to, int node) const {
-  const Rest& before = rests_[from];
-  const Change change = ChangeBetween(before.hold.holding, to);
-  Rest rest{.hold = {to, before.hold.waiting},
-            .node = node,
-            .parent = from,
-            .slides = before.slides + static_cast<int>(!change.slid.empty())};
-  if (change.placed.valid()) rest.hold.waiting[change.placed] = {};
-  return rest;
-}
-
-void GaitSearch::SwitchAt(int index, int node) {
-  const Holding from = rests_[index].hold.holding;
-  const RolledTo rolled = RollTowards(rests_[index], node);
-  if (rolled.node != node) return;
+bool GaitSearch::SwitchAt(int index, int node) {
+  const Holding from = tree_[index].hold.holding;
+  const RolledTo rolled = RollTowards(tree_[index], node);
+  if (rolled.node != node) return false;
   std::vector<std::pair<double, Holding>> found;
   for (Holding& to : HoldingsAfter(from, node)) {
-    if (const auto score = ScoreAfter(rests_[index], to, node)) {
+    if (const auto score = ScoreAfter(tree_[index], to, node)) {
       found.emplace_back(*score, std::move(to));
     }
   }
   std::ranges::stable_sort(found, std::greater<>(), &std::pair<double, Holding>::first);
+  const bool is_start = !start_.empty() && tree_[index].parent < 0;
+  const int many = is_start ? kMoreAtStart : 1;
   int taken = 0;
   std::map<std::array<int, 3>, int> taken_by_fingers;
   for (const auto& [score, to] : found) {
-    if (taken == kTakenUp) break;
+    if (taken == many * kTakenUp) break;
     const Change change = ChangeBetween(from, to);
     int& alike = taken_by_fingers[KindOf(change)];
-    if (alike == kTakenUpOfAKind) continue;
-    Rest rest = RestAfter(index, to, node);
+    if (alike == many * kTakenUpOfAKind) continue;
+    Rest rest = tree_.After(index, to, node);
     // A switch passes a grasp of all fingers.
     Hold all = rest.hold;
     if (change.released.valid()) all.holding[change.released] = from[change.released];
@@ -343,138 +346,51 @@ void GaitSearch::SwitchAt(int index, int node) {
     ++taken;
     ++alike;
   }
+  return taken > 0;
 }
 
 void GaitSearch::Expand(int index) {
-  const Rest& rest = rests_[index];
+  const Rest& rest = tree_[index];
   const std::vector<int> path = rest.carried.PathTo(rest.carried.end);
   const std::size_t last = path.size() - 1;
   std::set<int> nodes = {path[last], path[last / 2], path[last - std::min<std::size_t>(last, 2)],
                          path[0]};
-  std::erase_if(nodes, [&](int node) { return rest.switched_at.contains(node); });
-  // Where the object has nowhere to go it stays while there is something else to do.
-  const int beside = grid_.steps() == 0 && rest.turns == 0 ? 0 : kNodesBeside;
+  const int beside = rest.carried.from.size() == 1 ? 0 : kNodesBeside;
   for (int i = 0; i < beside; ++i) {
     nodes.insert(std::next(rest.carried.from.begin(),
                            static_cast<int>(random_.Index(rest.carried.from.size())))
                      ->first);
   }
+  Rest& again = tree_[index];
+  bool is_worth_it = ++again.turns == 1;
   for (const int node : nodes) {
-    if (rests_[index].switched_at.insert(node).second) SwitchAt(index, node);
+    again.switched_at.insert(node);
+    is_worth_it = SwitchAt(index, node) || is_worth_it;
   }
-  // Somewhere else it may be worth another turn.
-  Rest& again = rests_[index];
-  ++again.turns;
-  if (again.switched_at.size() < again.carried.from.size()) {
+  // Another turn looks at grasps for which there was no room, and at other nodes.
+  if (is_worth_it || again.switched_at.size() < again.carried.from.size()) {
     queue_.push({again.score - kAnotherTurn * again.turns, index});
   }
 }
 
-void GaitSearch::CarryOn(Rest& rest) {
-  rest.carried = carrier_.Around(
-      rest.hold, rest.node, kPatience * (1 + rest.turns),
-      [&](int node) { return grid_.IsGoal(node) && goal_.IsHeldBy(rest.hold.holding); },
-      rest.barred);
-}
-
-const std::vector<Keyframe>* GaitSearch::MoveBetween(Rest& rest, int from, int to) {
-  const auto [found, is_new] = rest.moves.try_emplace({from, to});
-  if (is_new && !rest.barred.contains(std::minmax({from, to}))) {
-    const Keyframe first = from == rest.node ? rest.at : carrier_.FrameAt(rest.hold, from);
-    if (auto move = FindMove(setup_, rest.hold.holding, first, carrier_.FrameAt(rest.hold, to))) {
-      found->second = *std::move(move);
-    }
-  }
-  return found->second.empty() ? nullptr : &found->second;
-}
-
-std::optional<std::vector<Keyframe>> GaitSearch::MoveFrom(Rest& rest, int node) {
-  for (int detour = 0; rest.carried.from.contains(node); ++detour) {
-    const std::vector<int> path = rest.carried.PathTo(node);
-    std::vector<Keyframe> keyframes = {rest.at};
-    std::size_t at = 1;
-    while (at < path.size()) {
-      const std::vector<Keyframe>* move = MoveBetween(rest, path[at - 1], path[at]);
-      if (move == nullptr) break;
-      keyframes.insert(keyframes.end(), move->begin() + 1, move->end());
-      ++at;
-    }
-    if (at == path.size()) return keyframes;
-    rest.barred.insert(std::minmax({path[at - 1], path[at]}));
-    // Tips that roll were followed along this way.
-    if (detour == kMostDetours || setup_.rolled_on != nullptr) break;
-    CarryOn(rest);
-  }
-  ++counts_.no_move;
-  return std::nullopt;
-}
-
-/// The switch to this rest, from where its parent brought the object.
-bool GaitSearch::WorkOutWay(Rest& rest) {
-  rest.at = carrier_.FrameAt(rest.hold, rest.node);
-  if (rest.parent < 0) return true;
-  const Hold& before = rests_[rest.parent].hold;
-  auto way = paths_.Find(before, rest.hold, rest.node, {rest.rolled_before, rest.rolled});
-  if (!way) {
-    const bool slides = !ChangeBetween(before.holding, rest.hold.holding).slid.empty();
-    ++(slides ? counts_.no_slide : counts_.no_path);
-    return false;
-  }
-  rest.way = *std::move(way);
-  rest.at = rest.way.back().path.back();
-  return true;
-}
-
-void GaitSearch::CutOff(int index) {
-  rests_[index].is_cut_off = true;
-  for (int i = index; i < static_cast<int>(rests_.size()); ++i) {
-    Rest& rest = rests_[i];
-    rest.is_cut_off = rest.is_cut_off || (rest.parent >= 0 && rests_[rest.parent].is_cut_off);
-    if (rest.is_cut_off) std::erase(taken_[rest.hold.holding], rest.node);
-  }
-}
-
 bool GaitSearch::ComesToItsEnd(int index) {
-  while (!rests_[index].is_cut_off) {
-    Carried& carried = rests_[index].carried;
+  while (!tree_[index].is_cut_off) {
+    Carried& carried = tree_[index].carried;
     const int end = carried.end;
-    if (WayTo(index, end)) return true;
+    if (tree_.WayTo(index, end)) return true;
     if (carried.end == end && carried.from.contains(end)) carried.end = carried.from.at(end);
   }
   return false;
 }
 
-std::optional<Gait> GaitSearch::WayTo(int index, int node) {
-  std::vector<int> chain;
-  for (int i = index; i >= 0; i = rests_[i].parent) chain.push_back(i);
-  std::ranges::reverse(chain);
-  Gait gait{rests_[chain.front()].hold.holding, rests_[chain.front()].at, {}};
-  const auto move_to = [&](Rest& rest, int to) {
-    if (rest.node == to) return true;
-    auto move = MoveFrom(rest, to);
-    if (move) gait.stretches.push_back({Stretch::Kind::kMove, {}, kNone, *std::move(move)});
-    return move.has_value();
-  };
-  for (const int i : chain) {
-    Rest& rest = rests_[i];
-    if (rest.parent >= 0 && !move_to(rests_[rest.parent], rest.node)) {
-      CutOff(i);
-      return std::nullopt;
-    }
-    gait.stretches.insert(gait.stretches.end(), rest.way.begin(), rest.way.end());
-  }
-  if (!move_to(rests_[index], node)) return std::nullopt;
-  return gait;
-}
-
 /// The whole gait, where a rest's path leads to the goal and is free.
 std::optional<Gait> GaitSearch::GaitFrom(int index) {
-  Carried& carried = rests_[index].carried;
-  if (!grid_.IsGoal(carried.end) || !goal_.IsHeldBy(rests_[index].hold.holding)) {
+  Carried& carried = tree_[index].carried;
+  if (!grid_.IsGoal(carried.end) || !goal_.IsHeldBy(tree_[index].hold.holding)) {
     return std::nullopt;
   }
   const int end = carried.end;
-  std::optional<Gait> gait = WayTo(index, end);
+  std::optional<Gait> gait = tree_.WayTo(index, end);
   // Else the rest goes on from where it did not fail, or from another place.
   if (!gait && carried.from.contains(end)) carried.end = carried.from.at(end);
   return gait;
@@ -488,7 +404,7 @@ int GaitSearch::PopNext() {
   while (true) {
     const Waiting top = queue_.top();
     queue_.pop();
-    const Rest& rest = rests_[top.rest];
+    const Rest& rest = tree_[top.rest];
     const double score = crowding_.PutBack(rest.score - kAnotherTurn * rest.turns,
                                            rest.hold.holding, grid_.StepOf(rest.carried.end));
     if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
@@ -500,8 +416,17 @@ int GaitSearch::PopNext() {
 bool GaitSearch::WasExpandedAt(const Rest& rest) const {
   const auto found = expanded_.find(rest.hold.holding);
   return found != expanded_.end() && std::ranges::any_of(found->second, [&](int other) {
-           return !rests_[other].is_cut_off && rests_[other].carried.from.contains(rest.node);
+           return !tree_[other].is_cut_off && tree_[other].carried.from.contains(rest.node);
          });
+}
+
+int GaitSearch::ComeTo(int index) {
+  if (tree_.WorkOutWay(tree_[index])) return index;
+  const int other = tree_.AfterWaitingAbove(index);
+  // From another rest there may be a way.
+  Rest& failed = tree_[index];
+  if (other < 0 && ++failed_[failed.hold.holding] < kMostFailures) failed.is_cut_off = true;
+  return other;
 }
 
 std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& deadline) {
@@ -509,17 +434,20 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
   begun_ = true;
   while (!queue_.empty() && counts_.expanded < most_expanded) {
     if (deadline.IsOver()) return std::nullopt;
-    const int index = PopNext();
-    Rest& rest = rests_[index];
-    if (rest.is_cut_off) continue;
-    if (rest.turns == 0 && (WasExpandedAt(rest) || !WorkOutWay(rest))) continue;
-    CarryOn(rest);
+    int index = PopNext();
+    const bool is_new = tree_[index].turns == 0;
+    if (tree_[index].is_cut_off || (is_new && WasExpandedAt(tree_[index]))) continue;
+    if (is_new) index = ComeTo(index);
+    if (index < 0) continue;
+    Rest& rest = tree_[index];
+    // Where the object has nowhere to go it stays while there is something else to do.
+    if (grid_.steps() > 0 || !is_new) tree_.CarryOn(rest);
     rest.carried.end = RollTowards(rest, rest.carried.end).node;
     if (std::optional<Gait> gait = GaitFrom(index)) return gait;
     if (rest.is_cut_off) continue;
     // Whose way can't be gone had better be found out before much grows from it.
     if (grid_.StepOf(rest.carried.end) > counts_.farthest && !ComesToItsEnd(index)) continue;
-    if (rest.turns == 0) expanded_[rest.hold.holding].push_back(index);
+    if (is_new) expanded_[rest.hold.holding].push_back(index);
     const int last = grid_.StepOf(rest.carried.end);
     counts_.farthest = std::max(counts_.farthest, last);
     ++counts_.expanded;

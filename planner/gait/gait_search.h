@@ -10,7 +10,6 @@
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_memory.h"
 #include "planner/gait/carrier.h"
-#include "planner/gait/change_paths.h"
 #include "planner/gait/contact_kinds.h"
 #include "planner/gait/crowding.h"
 #include "planner/gait/finger_path.h"
@@ -18,6 +17,7 @@
 #include "planner/gait/goal_grasp.h"
 #include "planner/gait/hand_setup.h"
 #include "planner/gait/pose_grid.h"
+#include "planner/gait/rest_tree.h"
 #include "planner/gait/rolling.h"
 #include "planner/gait/slide_path.h"
 
@@ -25,11 +25,9 @@ namespace regrasp::gait {
 
 /// What a search did, and what stopped it.
 struct GaitCounts {
-  std::int64_t grasps = 0;     ///< rests that were looked at
-  std::int64_t expanded = 0;   ///< from which fingers were switched
-  std::int64_t no_path = 0;    ///< switches for which a finger found no free path
-  std::int64_t no_slide = 0;   ///< slides that a finger could not follow, or that lose the object
-  std::int64_t no_move = 0;    ///< moves that a finger could not follow, or that hit something
+  std::int64_t grasps = 0;    ///< rests that were looked at
+  std::int64_t expanded = 0;  ///< from which fingers were switched
+  WayCounts ways;
   std::int64_t colliding = 0;  ///< grasps in which fingers hit each other
   std::int64_t rolled = 0;     ///< that are lost where contacts roll, with reserve
   int farthest = 0;            ///< step of the track that was reached
@@ -65,49 +63,35 @@ class GaitSearch {
   /// Whether nothing is left to expand.
   [[nodiscard]] bool IsExhausted() const { return begun_ && queue_.empty(); }
 
-  [[nodiscard]] const GaitCounts& counts() const { return counts_; }
+  [[nodiscard]] GaitCounts counts() const;
 
   // For a search that goes the other way.
 
   /// Begins with a hold at the start of the grid, instead of others.
   void BeginWith(const Hold& hold);
   /// The first rest of the way to a rest.
-  [[nodiscard]] int RootOf(int rest) const;
+  [[nodiscard]] int RootOf(int rest) const { return tree_.RootOf(rest); }
   /// The rest that was expanded last, by number; −1 before.
   [[nodiscard]] int last_expanded() const { return last_expanded_; }
-  [[nodiscard]] const Hold& HoldOf(int rest) const { return rests_[rest].hold; }
+  [[nodiscard]] const Hold& HoldOf(int rest) const { return tree_[rest].hold; }
   /// The nodes to which an expanded rest is carried; others where WayTo had to go round something.
   [[nodiscard]] const std::map<int, int>& NodesOf(int rest) const {
-    return rests_[rest].carried.from;
+    return tree_[rest].carried.from;
   }
   /// Whether it turned out that the object can't be brought to a rest.
-  [[nodiscard]] bool IsCutOff(int rest) const { return rests_[rest].is_cut_off; }
+  [[nodiscard]] bool IsCutOff(int rest) const { return tree_[rest].is_cut_off; }
   /// The whole way with a rest to one of its nodes, where it is free.
-  [[nodiscard]] std::optional<Gait> WayTo(int rest, int node);
+  [[nodiscard]] std::optional<Gait> WayTo(int rest, int node) { return tree_.WayTo(rest, node); }
+  /// As RestTree::WithWaiting.
+  [[nodiscard]] int WithWaiting(int rest, FingerIndex finger, const Posture& posture) {
+    return tree_.WithWaiting(rest, finger, posture);
+  }
+  /// Finds more nodes to which an expanded rest is carried.
+  void CarryAround(int rest) { tree_.CarryOn(tree_[rest]); }
   /// From now on grasps near to this one are looked at before others, too.
   void AddTarget(const Holding& holding);
 
  private:
-  /// A grasp, and the nodes of the grid that it can be carried to.
-  struct Rest {
-    Hold hold;
-    int node = 0;                    ///< at which it was taken
-    Carried carried = {};            ///< to where
-    std::set<int> switched_at = {};  ///< nodes, in earlier turns
-    int turns = 0;                   ///< that it had
-    double score = 0;
-    int parent = -1;
-    int slides = 0;  ///< from the first rest to this one
-    /// Worked out when its turn comes: the switch, from where the parent brought the object.
-    std::vector<Stretch> way = {};
-    bool is_cut_off = false;  ///< the object can't be brought there
-    /// Moves from node to node that were worked out, empty where they can't be done.
-    std::map<std::pair<int, int>, std::vector<Keyframe>> moves = {};
-    Legs barred = {};  ///< those that can't
-    Keyframe at = {};  ///< at `node`
-    /// With reserve, where tips have rolled to at `node`: before the change, and after it.
-    RolledTips rolled_before = {}, rolled = {};
-  };
   /// The last node on a way at which tips that roll hold, and where they are there.
   struct RolledTo {
     int node = 0;
@@ -120,6 +104,11 @@ class GaitSearch {
       return score != other.score ? score < other.score : rest > other.rest;
     }
   };
+  /// Of a grasp that was taken up at a node; no rest: it could not be.
+  struct Taken {
+    int node;
+    int rest = -1;
+  };
   /// A contact that a finger reaches at a node, and the step to which it can keep it.
   struct Candidate {
     int point;
@@ -130,7 +119,8 @@ class GaitSearch {
   void AddFirstRests();
   void AddGivenStart();
   void Expand(int index);
-  void SwitchAt(int index, int node);
+  /// @returns whether rests are taken up.
+  bool SwitchAt(int index, int node);
   /// What fingers may hold after one change at a node, whether it is a grasp or not.
   [[nodiscard]] std::vector<Holding> HoldingsAfter(const Holding& from, int node);
   /// Those of goals and targets that the same fingers slide to, all at once.
@@ -142,7 +132,8 @@ class GaitSearch {
                    std::vector<Holding>& holdings) const;
   /// How good a grasp is that a change leads to; nullopt where it is none.
   [[nodiscard]] std::optional<double> ScoreAfter(const Rest& from, const Holding& to, int node);
-  [[nodiscard]] Rest RestAfter(int from, const Holding& to, int node) const;
+  /// Whether a grasp was taken up at a node, and is not cut off.
+  [[nodiscard]] bool IsTaken(const Holding& holding, int node) const;
   /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
   bool Add(Rest rest);
   [[nodiscard]] bool IsGrasp(const Holding& holding);
@@ -152,21 +143,13 @@ class GaitSearch {
   [[nodiscard]] bool TakeRolledTips(Rest& rest);
   [[nodiscard]] bool WasExpandedAt(const Rest& rest) const;
   [[nodiscard]] double ScoreOf(const Holding& holding, int node, int slides, int last);
-  [[nodiscard]] bool WorkOutWay(Rest& rest);
-  /// A rest that the object can't be brought to, and all that came of it, make room for others.
-  void CutOff(int index);
   /// Whether there is a way to a rest and on with it; `carried.end` is where it leads to, which
   /// may be nearer than before.
   [[nodiscard]] bool ComesToItsEnd(int index);
+  /// Works out the way to a new rest. @returns the rest as it is come to; −1 where it is not.
+  [[nodiscard]] int ComeTo(int index);
   /// The next rest in turn.
   [[nodiscard]] int PopNext();
-  /// Finds where a rest is carried, but for moves that can't be done.
-  void CarryOn(Rest& rest);
-  /// The move with a rest's grasp from a node to a neighbour; null where it can't be done.
-  [[nodiscard]] const std::vector<Keyframe>* MoveBetween(Rest& rest, int from, int to);
-  /// The move with a rest's grasp to a node that it comes to, past what can't be done; nullopt
-  /// where there is no way round it.
-  [[nodiscard]] std::optional<std::vector<Keyframe>> MoveFrom(Rest& rest, int node);
   [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
 
@@ -182,11 +165,11 @@ class GaitSearch {
   ContactKinds kinds_;
   Crowding crowding_;
   RollingTips rolling_;
-  ChangePaths paths_;
-  std::vector<Rest> rests_;
+  RestTree tree_;
   std::priority_queue<Waiting> queue_;
-  /// Of each grasp the nodes at which it was taken up, or could not be.
-  std::map<Holding, std::vector<int>> taken_;
+  /// Where each grasp was taken up, or could not be.
+  std::map<Holding, std::vector<Taken>> taken_;
+  std::map<Holding, int> failed_;  ///< times that a grasp was not come to
   /// Of each grasp the rests that were expanded.
   std::map<Holding, std::vector<int>> expanded_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;

@@ -24,6 +24,7 @@ constexpr int kCloser = 36;
 constexpr double kNoContact = 0.3;
 
 constexpr int kParkingDraws = 160;
+constexpr int kMostParkingDraws = 5000;  // where a finger has hardly any place
 constexpr int kParkingPlaces = 16;
 constexpr double kOtherPlace = 0.5;  // radians over all drives
 constexpr int kTrackSamples = 5;
@@ -232,7 +233,7 @@ std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& trac
   Parking parking(scene.finger_count());
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
     std::vector<Place> places;
-    for (int i = 0; i < kParkingDraws; ++i) {
+    for (int i = 0; i < kParkingDraws || (i < kMostParkingDraws && places.empty()); ++i) {
       const Posture& middle = setup.inverse[finger].middle();
       Posture posture = i == 0 ? middle : scene.DrawPosture(finger, random);
       const PlacedFinger placed = scene.Place(finger, posture);

@@ -349,6 +349,26 @@ TEST(FindGaitTest, FingersSlideAllAtOnce) {
   EXPECT_TRUE(plan::CheckPlan(*request.solid, plan).passed());
 }
 
+/// A grasp that is an align away is not worth ten switches.
+TEST(FindGaitTest, APreferredReserveDoesNotMakeAGaitMuchLonger) {
+  GaitRequest request = RequestFor("cube", 0.8, 0);
+  request.reserve = Reserve::kRequired;
+  const GaitResult first = FindGait(request);
+  ASSERT_TRUE(first.gait) << first.message;
+  request.start_pose = request.goal_pose = first.gait->start.pose;
+  request.start_grasp = request.goal_grasp = FirstGrasp(first);
+  for (grasp::Contact& contact : request.goal_grasp) {
+    contact.p += 0.0015 * contact.n.unitOrthogonal();
+  }
+  const GaitResult with = FindGait(request);
+  ASSERT_TRUE(with.gait) << with.message;
+  EXPECT_GT(with.gait->stretches.size(), 5u);
+  request.reserve = Reserve::kPreferred;
+  const GaitResult found = FindGait(request);
+  ASSERT_TRUE(found.gait) << found.message;
+  EXPECT_EQ(found.gait->stretches.size(), 1u);
+}
+
 TEST(FindGaitTest, AGivenGraspFindsAPoseWhereFingersReachIt) {
   const GaitResult turned = FindGait(RequestFor("prism", 0.5, 30));
   ASSERT_TRUE(turned.gait) << turned.message;

@@ -1,0 +1,172 @@
+#include "planner/gait/rest_tree.h"
+
+#include <gtest/gtest.h>
+
+#include "planner/gait/find_gait.h"
+#include "planner/gait/finger_path.h"
+#include "planner/kinematics/hand_file.h"
+#include "planner/object/polyhedron.h"
+#include "tests/fixtures/project_path.h"
+
+namespace regrasp::gait {
+namespace {
+
+using Eigen::Vector3d;
+
+GaitRequest StandingCube(const kinematics::HandModel& hand, const object::Polyhedron& cube) {
+  GaitRequest request;
+  request.hand = &hand;
+  request.solid = &cube;
+  request.scale = 0.8;
+  request.criteria.half_angle = std::atan(0.8);
+  request.reserve = Reserve::kNone;
+  request.seed = 2;
+  return request;
+}
+
+/// A hand of four fingers, three of which hold a cube.
+class RestTreeTest : public testing::Test {
+ protected:
+  RestTreeTest() {
+    memory_.Append(found_.contacts);
+    for (const grasp::Contact& contact : found_.contacts) {
+      points_.push_back({request_.scale * contact.p, contact.n});
+    }
+    for (const kinematics::Finger& finger : hand_.fingers) inverse_.emplace_back(finger);
+    while (first_.holding[free_] != kNone) ++free_;
+  }
+
+  RestTree Tree(bool has_given_start) {
+    return {setup_,  grid_,
+            carrier_, memory_,
+            routes_, random_,
+            [](int /*node*/, const Holding& /*holding*/) { return false; },
+            has_given_start};
+  }
+  int AddFirst(RestTree& tree) {
+    const int first = tree.Add({.hold = first_, .node = grid_.start()});
+    EXPECT_TRUE(tree.WorkOutWay(tree[first]));
+    return first;
+  }
+  /// Somewhere in the air.
+  Posture FreePosture() {
+    Hold hold = first_;
+    do {
+      hold.waiting[free_] = setup_.scene.DrawPosture(free_, random_);
+    } while (!setup_.scene.KeepsOffHand(setup_.scene.Place(free_, hold.waiting[free_])) ||
+             !carrier_.IsPassable(hold, grid_.start()));
+    return hold.waiting[free_];
+  }
+  Vector3d TipOf(const Posture& posture) const {
+    return kinematics::TipAt(hand_.fingers[free_], posture).centre;
+  }
+
+  const kinematics::HandModel hand_ = kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
+  const object::ObjectFile file_ = object::ReadObject(ProjectPath("models/cube.obj"));
+  const object::Polyhedron& cube_ = dynamic_cast<const object::Polyhedron&>(*file_.object);
+  const GaitRequest request_ = StandingCube(hand_, cube_);
+  const GaitResult found_ = FindGait(request_);
+  const collision::SurfaceTree surface_{cube_, request_.scale};
+  const HandScene scene_{hand_, surface_, request_.margin};
+  std::vector<kinematics::InverseKinematics> inverse_;
+  std::vector<SurfacePoint> points_;
+  const HandSetup setup_{scene_, inverse_, points_, request_.scale};
+  criteria::GraspMemory memory_{cube_, request_.criteria, FingersOf(request_),
+                                criteria::QualityTest::kQuick};
+  const Parking nowhere_ = Parking(4);
+  const PoseGrid grid_{{found_.gait->start.pose, Vector3d::Zero(), {}, Vector3d::Zero(), 0},
+                       hand_.up,
+                       PoseGrid::End::kPose};
+  Carrier carrier_{setup_, grid_, nowhere_};
+  SlideRoutes routes_{memory_};
+  RandomStream random_{1, RandomUse::kGaits};
+  const Hold first_{found_.gait->initial, found_.gait->start.postures};
+  FingerIndex free_{0};
+};
+
+TEST_F(RestTreeTest, AFingerThatHoldsNothingMayBeginElsewhere) {
+  RestTree tree = Tree(true);
+  const int first = AddFirst(tree);
+  const Posture elsewhere = FreePosture();
+  const int other = tree.WithWaiting(first, free_, elsewhere);
+  ASSERT_GE(other, 0);
+  EXPECT_EQ(tree[other].hold.holding, first_.holding);
+  EXPECT_EQ(tree[other].at.postures[free_], elsewhere);
+  EXPECT_EQ(tree[first].at.postures[free_], first_.waiting[free_]);
+}
+
+TEST_F(RestTreeTest, NotInTheObjectNotOneThatHoldsAndNotWhereTheBeginningSaysWhereItIs) {
+  RestTree tree = Tree(true);
+  const int first = AddFirst(tree);
+  int touching = 0;
+  for (int point = 0; point < std::ssize(points_); ++point) {
+    const Posture* there = carrier_.reach().Find(free_, point, grid_.start());
+    if (there == nullptr) continue;
+    ++touching;
+    EXPECT_LT(tree.WithWaiting(first, free_, *there), 0);
+  }
+  EXPECT_GT(touching, 0);
+  const FingerIndex holds{(free_ + 1) % 4};
+  EXPECT_LT(tree.WithWaiting(first, holds, FreePosture()), 0);
+  RestTree others = Tree(false);
+  EXPECT_LT(others.WithWaiting(AddFirst(others), free_, FreePosture()), 0);
+}
+
+/// Some millimetres above the contact that it goes to, wherever it waited before.
+TEST_F(RestTreeTest, AFingerThatIsPlacedMayWaitAboveItsContactBefore) {
+  RestTree tree = Tree(true);
+  const int first = AddFirst(tree);
+  int come_to = 0;
+  for (int point = 0; point < std::ssize(points_); ++point) {
+    if (carrier_.reach().Find(free_, point, grid_.start()) == nullptr) continue;
+    Holding to = first_.holding;
+    to[free_] = point;
+    if (!carrier_.IsPassable({to}, grid_.start())) continue;
+    const int placed = tree.Add(tree.After(first, to, grid_.start()));
+    const int after = tree.AfterWaitingAbove(placed);
+    if (after < 0) continue;
+    ++come_to;
+    const Rest& begin = tree[tree[after].parent];
+    EXPECT_EQ(begin.hold.holding, first_.holding);
+    const Vector3d ball =
+        TargetAt(hand_.fingers[free_], points_[point], grid_.PoseAt(grid_.start())).centre;
+    const double above = (TipOf(begin.at.postures[free_]) - ball).norm();
+    EXPECT_GT(above, 0.005);
+    EXPECT_LT(above, 0.021);
+    const auto gait = tree.WayTo(after, grid_.start());
+    ASSERT_TRUE(gait);
+    EXPECT_EQ(gait->start.postures, begin.at.postures);
+    ASSERT_EQ(gait->stretches.size(), 1u);
+    EXPECT_EQ(gait->stretches[0].contact, point);
+  }
+  EXPECT_GT(come_to, 0);
+}
+
+/// Straight up, or to a side where another finger is in the way; never to where it is not clear.
+TEST_F(RestTreeTest, WaysUpLeadOffTheSurface) {
+  const Surroundings around = AllBut(scene_, free_, found_.gait->start);
+  int straight = 0;
+  int sideways = 0;
+  for (int point = 0; point < std::ssize(points_); ++point) {
+    const Posture* touching = carrier_.reach().Find(free_, point, grid_.start());
+    if (touching == nullptr) continue;
+    const kinematics::TipTarget target =
+        TargetAt(hand_.fingers[free_], points_[point], around.pose);
+    const auto up = FindWayUp(scene_, inverse_[free_], free_, target, *touching, around);
+    if (!up) continue;
+    EXPECT_EQ(up->front(), *touching);
+    const Vector3d off = TipOf(up->back()) - target.centre;
+    EXPECT_GT(off.norm(), 0.0029);
+    const double along = off.normalized().dot(-target.towards);
+    EXPECT_GT(along, 0.5);
+    ++(along > 0.999 ? straight : sideways);
+    for (const Posture& posture : *up) {
+      EXPECT_TRUE(scene_.KeepsOffHand(scene_.Place(free_, posture), 0.0));
+    }
+  }
+  EXPECT_GT(straight, 0);
+  EXPECT_GT(sideways, 0);
+}
+
+}  // namespace
+}  // namespace regrasp::gait
