@@ -1,6 +1,7 @@
 // Frames of replays at 1280 × 960 with four samples a pixel: the drawing of one, and its PNG. The
 // baseline is MuJoCo's own renderer on the scene of the same replay, in the same size and with as
-// many samples, without labels and PNG.
+// many samples, without labels and PNG. Frames with a hand have none: what the hand costs is seen
+// beside those of the same object without one.
 
 #include <GL/osmesa.h>
 #include <benchmark/benchmark.h>
@@ -15,11 +16,14 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/file.h"
+#include "planner/gait/plan_in_hand.h"
+#include "planner/kinematics/hand_file.h"
 #include "planner/plan/check.h"
 #include "planner/planning/solve.h"
 #include "planner/registry/registry.h"
 #include "render/frames/frame.h"
 #include "render/picture/image.h"
+#include "report/pictures/hand_picture.h"
 #include "sim/replay/replay.h"
 
 namespace {
@@ -142,11 +146,73 @@ void BM_MuJoCoRender(benchmark::State& state) {
   OSMesaDestroyContext(context);
 }
 
+constexpr std::array<const char*, 2> kHands = {"ring4.json", "ring5.json"};
+
+/// Of a hand that turns a cube by 90 degrees.
+struct HandCase {
+  Case shown;
+  render::FrameOptions options;
+};
+
+HandCase MakeHandCase(const std::string& name) {
+  const std::filesystem::path models = REGRASP_MODELS;
+  const kinematics::HandFile hand = kinematics::ReadHandFile((models / "hands" / name).string());
+  HandCase made{{object::ReadObject(models / "cube.obj"), {}, {}}, {}};
+  const object::Object& object = *made.shown.file.object;
+  gait::GaitRequest request;
+  request.hand = &hand.hand;
+  request.solid = &dynamic_cast<const object::Polyhedron&>(object);
+  request.scale = 0.8;
+  request.criteria.half_angle = std::atan(0.8);
+  request.turn = {Eigen::Vector3d::UnitZ(), Radians(90)};
+  const planning::PlanResult result = gait::PlanInHand(request);
+  if (!result.plan) throw std::runtime_error(name + ": no plan to draw");
+  made.shown.plan = plan::LocatePlan(object, *result.plan);
+  const report::HandPicture picture(hand, made.shown.plan,
+                                    request.scale * object.mass_properties().centroid);
+  for (const sim::StepReplay& step : sim::ReplayPlan(object, made.shown.plan, {}).steps) {
+    made.shown.snapshots.push_back(step.snapshot);
+    plan::Fault none;
+    picture.Place(step.index, made.shown.snapshots.back(), none);
+  }
+  made.options = {.width = kWidth, .height = kHeight, .hand = picture.view()};
+  return made;
+}
+
+const HandCase& GetHandCase(std::int64_t index) {
+  static std::array<std::unique_ptr<HandCase>, kHands.size()> cases;
+  if (!cases.at(index)) cases[index] = std::make_unique<HandCase>(MakeHandCase(kHands[index]));
+  return *cases[index];
+}
+
+void BM_HandFrame(benchmark::State& state) {
+  const auto& [made, options] = GetHandCase(state.range(0));
+  render::FrameRenderer renderer(*made.file.object, made.plan.scale, made.plan.half_angle,
+                                 made.snapshots, options);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        render::EncodePng(renderer.Render(made.snapshots.back(), "step 1/1 · move")));
+  }
+  state.SetLabel(kHands.at(state.range(0)));
+}
+
+void BM_HandSetup(benchmark::State& state) {
+  const auto& [made, options] = GetHandCase(state.range(0));
+  for (auto _ : state) {
+    render::FrameRenderer renderer(*made.file.object, made.plan.scale, made.plan.half_angle,
+                                   made.snapshots, options);
+  }
+  state.SetLabel(kHands.at(state.range(0)));
+}
+
 constexpr int kLast = static_cast<int>(kModels.size()) - 1;
 BENCHMARK(BM_Frame)->DenseRange(0, kLast)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_MuJoCoRender)->DenseRange(0, kLast)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_EncodePng)->DenseRange(0, kLast)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_Setup)->DenseRange(0, kLast)->Unit(benchmark::kMillisecond);
+constexpr int kLastHand = static_cast<int>(kHands.size()) - 1;
+BENCHMARK(BM_HandFrame)->DenseRange(0, kLastHand)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_HandSetup)->DenseRange(0, kLastHand)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

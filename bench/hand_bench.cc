@@ -172,33 +172,19 @@ Deadline DeadlineIn(double seconds) {
   return {Now() + std::chrono::duration_cast<Clock::duration>(limit), Now};
 }
 
-/// At the pose that a search would begin at: fingers reach much there.
-/// @param request  outlives what is returned; nullopt where the search finds no grasp.
-std::optional<bench::RandomRests> RestsAtSomePose(const gait::GaitRequest& request) {
-  constexpr double kDrawing_s = 5;
-  gait::GaitRequest still = request;
-  still.turn.angle = 0;
-  still.deadline = DeadlineIn(kDrawing_s);
-  const gait::GaitResult found = gait::FindGait(still);
-  if (!found.gait) return std::nullopt;
-  return std::optional<bench::RandomRests>(std::in_place, request, found.contacts,
-                                           found.gait->start.pose);
-}
-
 /// A request for a way between two grasps that the hand reaches at one pose, each drawn alone.
 /// @returns nullopt where there are none.
 std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
   constexpr int kTries = 100'000;
   request.turn.angle = 0;
-  auto rests = RestsAtSomePose(request);
-  if (!rests) return std::nullopt;
+  bench::RandomRests rests(request);
   RandomStream random(request.seed, RandomUse::kGoal);
-  const auto start = rests->Draw(random, kTries);
-  const auto goal = rests->Draw(random, kTries);
+  const auto start = rests.Draw(random, kTries);
+  const auto goal = rests.Draw(random, kTries);
   if (!start || !goal) return std::nullopt;
   gait::GaitRequest pair = request;
-  pair.start_pose = rests->pose();
-  pair.goal_pose = rests->pose();
+  pair.start_pose = rests.pose();
+  pair.goal_pose = rests.pose();
   pair.start_grasp = *start;
   pair.goal_grasp = *goal;
   return pair;
@@ -325,15 +311,14 @@ void TimeRest(const kinematics::HandModel& hand, const Body& body) {
   request.solid = &body.solid;
   request.scale = body.scale;
   request.criteria.half_angle = std::atan(kMu);
-  const auto rests = RestsAtSomePose(request);
-  if (!rests) return;
+  const bench::RandomRests rests(request);
   RandomStream random(1, RandomUse::kGaits);
   constexpr int kRests = 2000;
   int free = 0;
   double seconds = 0;
   for (int i = 0; i < kRests; ++i) {
     const Clock::time_point begin = Now();
-    if (!rests->TryDraw(random)) continue;
+    if (!rests.TryDraw(random)) continue;
     ++free;
     seconds += SecondsSince(begin);
   }

@@ -1,6 +1,9 @@
 #include "bench/random_rests.h"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "planner/gait/home.h"
 
 namespace regrasp::bench {
 namespace {
@@ -9,13 +12,17 @@ constexpr int kHolding = 3;
 /// Postures drawn for a finger that does not hold.
 constexpr int kPostures = 200;
 
+/// Those that a search of the request has.
+std::vector<grasp::Contact> ContactsOf(gait::GaitRequest request) {
+  request.most_expanded = 0;
+  return gait::FindGait(request).contacts;
+}
+
 }  // namespace
 
-RandomRests::RandomRests(const gait::GaitRequest& request, std::vector<grasp::Contact> contacts,
-                         const Eigen::Isometry3d& pose)
+RandomRests::RandomRests(const gait::GaitRequest& request)
     : request_(request),
-      contacts_(std::move(contacts)),
-      pose_(pose),
+      contacts_(ContactsOf(request)),
       surface_(*request.solid, request.scale),
       scene_(*request.hand, surface_, request.margin),
       within_reach_(request.hand->fingers.size()),
@@ -23,6 +30,16 @@ RandomRests::RandomRests(const gait::GaitRequest& request, std::vector<grasp::Co
               criteria::QualityTest::kQuick) {
   memory_.Append(contacts_);
   for (const kinematics::Finger& finger : request.hand->fingers) inverse_.emplace_back(finger);
+  std::vector<gait::SurfacePoint> points;
+  for (const grasp::Contact& contact : contacts_) {
+    points.push_back({request.scale * contact.p, contact.n});
+  }
+  const gait::HandSetup setup{scene_, inverse_, points, request.scale};
+  const gait::Journey nowhere(request.scale * request.solid->mass_properties().centroid, {}, {});
+  RandomStream random(request.seed, RandomUse::kHomes);
+  const auto homes = gait::FindHomes(setup, nowhere, {}, memory_, random);
+  if (homes.empty()) throw std::runtime_error("the object is nowhere within reach of the fingers");
+  pose_ = homes.front();
   for (FingerIndex finger{0}; finger < scene_.finger_count(); ++finger) {
     for (int i = 0; i < std::ssize(contacts_); ++i) {
       if (PlaceAt(finger, i)) within_reach_[finger].push_back(i);

@@ -14,14 +14,13 @@
 namespace regrasp::bench {
 
 /// Rests of three fingers at one pose of the object in the hand, each contact drawn among all that
-/// its finger reaches there: no search has a say in which.
+/// its finger reaches there: no search has a say in which. The pose is the one where the hand's
+/// reach is best.
 class RandomRests {
  public:
   /// @param request  of the hand and the object; outlives this object.
-  /// @param contacts to draw from.
-  /// @param pose     of the object.
-  RandomRests(const gait::GaitRequest& request, std::vector<grasp::Contact> contacts,
-              const Eigen::Isometry3d& pose);
+  /// @throws std::runtime_error  the object is nowhere within reach of the fingers.
+  explicit RandomRests(const gait::GaitRequest& request);
   RandomRests(const RandomRests&) = delete;  // its parts refer to each other
   RandomRests& operator=(const RandomRests&) = delete;
 
@@ -44,12 +43,12 @@ class RandomRests {
 
   const gait::GaitRequest& request_;
   std::vector<grasp::Contact> contacts_;
-  Eigen::Isometry3d pose_;
   collision::SurfaceTree surface_;
   gait::HandScene scene_;
   std::vector<kinematics::InverseKinematics> inverse_;  ///< by finger
   std::vector<std::vector<int>> within_reach_;          ///< contacts by finger
   criteria::GraspMemory memory_;
+  Eigen::Isometry3d pose_;
 };
 
 }  // namespace regrasp::bench
