@@ -102,9 +102,8 @@ void HandOptions::AddTo(CLI::App& app) {
        {"none", gait::Reserve::kNone}},
       "Something to spare, for the hand's own motors: less friction used, better grasps that also "
       "hold where contacts roll to, more clearance, no slides. preferred, it is looked for where "
-      "there is a plan, for 30 % of the time that is left, and taken unless the plan gets more "
-      "than "
-      "thrice as long; required, or there is no plan; none (default preferred)");
+      "there is a plan, for 30 % of the time that is left, and taken unless the plan gets much "
+      "longer; required, or there is no plan; none (default preferred)");
 }
 
 void HandOptions::Check(const std::string& start, const std::string& goal) const {

@@ -81,6 +81,7 @@ std::optional<Gait> BidirectionalSearch::Meet(bool is_forward) {
 }
 
 int BidirectionalSearch::CommonNode(int forward, int backward) {
+  // Mostly it is one that they were carried to already.
   for (const bool further : {false, true}) {
     if (further) {
       forward_.CarryAround(forward);
@@ -114,11 +115,15 @@ std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
     }
     if (!stuck.valid()) return std::nullopt;
     // One of the ends may have it elsewhere all along.
-    const int later = backward_->WithWaiting(backward, stuck, EndOf(*gait).postures[stuck]);
-    const int earlier =
-        later >= 0 ? -1 : forward_.WithWaiting(forward, stuck, EndOf(*back).postures[stuck]);
-    if (later < 0 && earlier < 0) return std::nullopt;
-    (later >= 0 ? backward : forward) = std::max(later, earlier);
+    const Posture& there = EndOf(*gait).postures[stuck];
+    const Posture& other = EndOf(*back).postures[stuck];
+    if (const int later = backward_->WithWaiting(backward, stuck, there); later >= 0) {
+      backward = later;
+    } else if (const int sooner = forward_.WithWaiting(forward, stuck, other); sooner >= 0) {
+      forward = sooner;
+    } else {
+      return std::nullopt;
+    }
   }
   return std::nullopt;
 }

@@ -34,7 +34,7 @@ constexpr std::int64_t kExpandedWithReserve = 120;
 constexpr double kTimeWithReserve = 0.3;
 /// With it a gait may have so many times as many stretches as without, and so many more.
 constexpr std::size_t kTimesAsLong = 3;
-constexpr std::size_t kLonger = 2;
+constexpr std::size_t kLonger = 12;
 
 std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
   const sampling::SurfaceSampler sampler(*request.solid, FingersOf(request).fingertip_radius,

@@ -56,7 +56,7 @@ struct GaitResult {
 [[nodiscard]] hand::Hand FingersOf(const GaitRequest& request);
 
 /// Finds a gait of the hand that turns the object: chooses where in the hand it begins and with
-/// which grasp. A preferred reserve is left out where the gait gets more than thrice as long by it.
+/// which grasp. A preferred reserve is left out where the gait gets much longer by it.
 ///
 /// Laws: without a deadline the same request gives the same gait, bit for bit; every rest is force
 /// closure and meets the criteria where it can; every path is certified (certified_path.h).

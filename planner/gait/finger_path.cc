@@ -19,6 +19,9 @@ constexpr int kTrapped = 30;
 constexpr double kLowestAbove = 0.003;
 constexpr double kHighestAbove = 0.020;
 constexpr double kDescent = 0.002;  // between postures of the way down
+/// So far from its contact a tip may be as near to the object as one that touches, metres; the
+/// checker allows it (sim/hand/check_hand.cc) 2 mm more.
+constexpr double kStillTouching = 0.010;
 /// Where straight up is no way: so much off the normal, radians, to so many sides.
 constexpr double kSideways = 0.8;
 constexpr int kSides = 6;
@@ -156,9 +159,8 @@ std::optional<FingerPath> FindWayUp(const HandScene& scene,
     while (height < kHighestAbove - kDescent / 2) {
       const kinematics::TipTarget above{target.centre + (height + kDescent) * up, target.towards};
       const std::optional<Posture> next = inverse.SolveFrom(above, path.back());
-      if (!next || !IsClear(scene, finger, path.back(), *next, TipContact::kTouching, around)) {
-        break;
-      }
+      const TipContact tip = height < kStillTouching ? TipContact::kTouching : TipContact::kFree;
+      if (!next || !IsClear(scene, finger, path.back(), *next, tip, around)) break;
       path.push_back(*next);
       height += kDescent;
     }

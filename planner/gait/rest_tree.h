@@ -51,7 +51,8 @@ struct WayCounts {
 /// them. Ways are worked out when they are asked for, as they cost much.
 class RestTree {
  public:
-  /// @param is_enough  of a node, for a holding: where it is carried to, no more need be looked for.
+  /// @param is_enough  of a node, for a holding: where it is carried to, no more need be looked
+  /// for.
   /// @param has_given_start  the first rests are given by what they hold, and fingers that hold
   ///                         nothing may begin anywhere. All others outlive this object.
   RestTree(const HandSetup& setup, const PoseGrid& grid, Carrier& carrier,
@@ -90,8 +91,8 @@ class RestTree {
   /// @returns that rest, by number; −1 where the finger is in the way, or where the beginning says
   ///          where it is.
   [[nodiscard]] int WithWaiting(int rest, FingerIndex finger, const Posture& posture);
-  /// Of a rest to which the finger that is placed finds no way: has it wait above its contact before
-  /// that (WithWaiting).
+  /// Of a rest to which the finger that is placed finds no way: has it wait above its contact
+  /// before that (WithWaiting).
   /// @returns the rest as it is come to so, by number; −1 where it is not.
   [[nodiscard]] int AfterWaitingAbove(int rest);
 

@@ -362,7 +362,7 @@ TEST(FindGaitTest, APreferredReserveDoesNotMakeAGaitMuchLonger) {
   }
   const GaitResult with = FindGait(request);
   ASSERT_TRUE(with.gait) << with.message;
-  EXPECT_GT(with.gait->stretches.size(), 5u);
+  EXPECT_GT(with.gait->stretches.size(), 15u);
   request.reserve = Reserve::kPreferred;
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "planner/gait/find_gait.h"
 #include "planner/gait/finger_path.h"
 #include "planner/kinematics/hand_file.h"
@@ -13,21 +16,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-GaitRequest StandingCube(const kinematics::HandModel& hand, const object::Polyhedron& cube) {
+GaitRequest Standing(const kinematics::HandModel& hand, const object::Polyhedron& solid,
+                     double scale) {
   GaitRequest request;
   request.hand = &hand;
-  request.solid = &cube;
-  request.scale = 0.8;
+  request.solid = &solid;
+  request.scale = scale;
   request.criteria.half_angle = std::atan(0.8);
   request.reserve = Reserve::kNone;
   request.seed = 2;
   return request;
 }
 
-/// A hand of four fingers, three of which hold a cube.
+/// A hand of four fingers, three of which hold a body.
 class RestTreeTest : public testing::Test {
  protected:
-  RestTreeTest() {
+  explicit RestTreeTest(const char* model = "models/cube.obj", double scale = 0.8)
+      : file_(object::ReadObject(ProjectPath(model))), request_(Standing(hand_, solid_, scale)) {
     memory_.Append(found_.contacts);
     for (const grasp::Contact& contact : found_.contacts) {
       points_.push_back({request_.scale * contact.p, contact.n});
@@ -37,9 +42,12 @@ class RestTreeTest : public testing::Test {
   }
 
   RestTree Tree(bool has_given_start) {
-    return {setup_,  grid_,
-            carrier_, memory_,
-            routes_, random_,
+    return {setup_,
+            grid_,
+            carrier_,
+            memory_,
+            routes_,
+            random_,
             [](int /*node*/, const Holding& /*holding*/) { return false; },
             has_given_start};
   }
@@ -62,16 +70,16 @@ class RestTreeTest : public testing::Test {
   }
 
   const kinematics::HandModel hand_ = kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
-  const object::ObjectFile file_ = object::ReadObject(ProjectPath("models/cube.obj"));
-  const object::Polyhedron& cube_ = dynamic_cast<const object::Polyhedron&>(*file_.object);
-  const GaitRequest request_ = StandingCube(hand_, cube_);
+  const object::ObjectFile file_;
+  const object::Polyhedron& solid_ = dynamic_cast<const object::Polyhedron&>(*file_.object);
+  const GaitRequest request_;
   const GaitResult found_ = FindGait(request_);
-  const collision::SurfaceTree surface_{cube_, request_.scale};
+  const collision::SurfaceTree surface_{solid_, request_.scale};
   const HandScene scene_{hand_, surface_, request_.margin};
   std::vector<kinematics::InverseKinematics> inverse_;
   std::vector<SurfacePoint> points_;
   const HandSetup setup_{scene_, inverse_, points_, request_.scale};
-  criteria::GraspMemory memory_{cube_, request_.criteria, FingersOf(request_),
+  criteria::GraspMemory memory_{solid_, request_.criteria, FingersOf(request_),
                                 criteria::QualityTest::kQuick};
   const Parking nowhere_ = Parking(4);
   const PoseGrid grid_{{found_.gait->start.pose, Vector3d::Zero(), {}, Vector3d::Zero(), 0},
@@ -142,30 +150,64 @@ TEST_F(RestTreeTest, AFingerThatIsPlacedMayWaitAboveItsContactBefore) {
   EXPECT_GT(come_to, 0);
 }
 
-/// Straight up, or to a side where another finger is in the way; never to where it is not clear.
-TEST_F(RestTreeTest, WaysUpLeadOffTheSurface) {
-  const Surroundings around = AllBut(scene_, free_, found_.gait->start);
+/// Straight up is no way everywhere between its two legs.
+class WayUpTest : public RestTreeTest {
+ protected:
+  WayUpTest() : RestTreeTest("models/l_block.obj", 0.9) {}
+
+  /// About where the hand holds it.
+  Eigen::Isometry3d DrawPose() {
+    Eigen::Isometry3d pose = found_.gait->start.pose;
+    for (int k = 0; k < 3; ++k) pose.translation()[k] += 0.04 * (random_.Uniform() - 0.5);
+    pose.rotate(Eigen::AngleAxisd(2 * std::numbers::pi * random_.Uniform(), Vector3d::UnitZ()));
+    return pose;
+  }
+};
+
+/// Straight, or to a side where something is in the way; near the object only about the contact.
+TEST_F(WayUpTest, LeadsOffTheSurface) {
   int straight = 0;
   int sideways = 0;
-  for (int point = 0; point < std::ssize(points_); ++point) {
-    const Posture* touching = carrier_.reach().Find(free_, point, grid_.start());
-    if (touching == nullptr) continue;
-    const kinematics::TipTarget target =
-        TargetAt(hand_.fingers[free_], points_[point], around.pose);
-    const auto up = FindWayUp(scene_, inverse_[free_], free_, target, *touching, around);
-    if (!up) continue;
-    EXPECT_EQ(up->front(), *touching);
-    const Vector3d off = TipOf(up->back()) - target.centre;
-    EXPECT_GT(off.norm(), 0.0029);
-    const double along = off.normalized().dot(-target.towards);
-    EXPECT_GT(along, 0.5);
-    ++(along > 0.999 ? straight : sideways);
-    for (const Posture& posture : *up) {
-      EXPECT_TRUE(scene_.KeepsOffHand(scene_.Place(free_, posture), 0.0));
+  int near = 0;
+  for (int i = 0; i < 200; ++i) {
+    const FingerIndex finger{i % scene_.finger_count()};
+    Keyframe frame{DrawPose(), {}};
+    for (const kinematics::InverseKinematics& inverse : inverse_) {
+      frame.postures.push_back(inverse.middle());
+    }
+    const Surroundings around = AllBut(scene_, finger, frame);
+    for (const SurfacePoint& point : points_) {
+      const kinematics::TipTarget target = TargetAt(hand_.fingers[finger], point, around.pose);
+      const auto touching = inverse_[finger].Solve(target);
+      if (!touching) continue;
+      const PlacedFinger there = scene_.Place(finger, *touching);
+      if (!scene_.KeepsOffHand(there) ||
+          !scene_.KeepsOffObject(there, around.pose, TipContact::kTouching)) {
+        continue;
+      }
+      const auto up = FindWayUp(scene_, inverse_[finger], finger, target, *touching, around);
+      if (!up) continue;
+      const auto tip = [&](const Posture& posture) {
+        return kinematics::TipAt(hand_.fingers[finger], posture).centre;
+      };
+      EXPECT_EQ(up->front(), *touching);
+      const Vector3d off = tip(up->back()) - target.centre;
+      EXPECT_GT(off.norm(), 0.0029);
+      const double along = off.normalized().dot(-target.towards);
+      EXPECT_GT(along, 0.5);
+      ++(along > 0.999 ? straight : sideways);
+      for (const Posture& posture : *up) {
+        const PlacedFinger placed = scene_.Place(finger, posture);
+        EXPECT_TRUE(scene_.KeepsOffHand(placed, 0.0));
+        const bool is_off = scene_.KeepsOffObject(placed, around.pose, TipContact::kFree, 0.0);
+        near += static_cast<int>(!is_off);
+        EXPECT_TRUE(is_off || (tip(posture) - target.centre).norm() < 0.012);
+      }
     }
   }
   EXPECT_GT(straight, 0);
   EXPECT_GT(sideways, 0);
+  EXPECT_GT(near, 0);
 }
 
 }  // namespace
