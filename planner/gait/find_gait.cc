@@ -7,6 +7,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/gait/bidirectional_search.h"
+#include "planner/gait/fewer_moves.h"
 #include "planner/gait/gait_search.h"
 #include "planner/gait/turn_search.h"
 #include "planner/sampling/surface_sampler.h"
@@ -296,7 +297,7 @@ GaitResult FindGait(const GaitRequest& request) {
     }
     PlacesInHand places(asked, setup, ends, memory);
     std::optional<Gait> gait = places.Search();
-    if (gait) return {std::move(gait), ""};
+    if (gait) return {WithFewerMoves(setup, *gait), ""};
     return {std::nullopt, WhatStopped(asked, places.counts())};
   };
   const bool is_required = request.reserve == Reserve::kRequired;

@@ -107,7 +107,27 @@ TEST_P(TurnTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
     for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
     last = &stretch.path.back();
   }
-  EXPECT_GT(tips, 100);
+  EXPECT_GT(tips, 30);
+}
+
+/// Each with its own grasp, and somewhere to go.
+TEST_P(TurnTest, NoMoveFollowsAnother) {
+  int moves = 0;
+  for (int seed = 1; seed <= 4; ++seed) {
+    GaitRequest request = RequestFor("l_block", 0.7, 180);
+    request.seed = seed;
+    request.reserve = GetParam();
+    const GaitResult found = FindGait(request);
+    ASSERT_TRUE(found.gait) << found.message;
+    bool was_move = false;
+    for (const Stretch& stretch : found.gait->stretches) {
+      const bool is_move = stretch.kind == Stretch::Kind::kMove;
+      EXPECT_FALSE(is_move && was_move);
+      was_move = is_move;
+      moves += static_cast<int>(is_move);
+    }
+  }
+  EXPECT_GT(moves, 4);
 }
 
 TEST(FindGaitTest, PlansAreRightAsPlansOfContacts) {

@@ -1,0 +1,83 @@
+#include "planner/gait/fewer_moves.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/gait/find_gait.h"
+#include "planner/kinematics/hand_file.h"
+#include "planner/object/polyhedron.h"
+#include "tests/fixtures/project_path.h"
+
+namespace regrasp::gait {
+namespace {
+
+/// A hand turns a cube.
+class FewerMovesTest : public testing::Test {
+ protected:
+  FewerMovesTest() {
+    request_.hand = &hand_;
+    request_.solid = &cube_;
+    request_.scale = 0.8;
+    request_.criteria.half_angle = std::atan(0.8);
+    request_.turn = {Eigen::Vector3d::UnitZ(), Radians(30)};
+    request_.reserve = Reserve::kNone;
+    found_ = FindGait(request_);
+    for (const grasp::Contact& contact : found_.contacts) {
+      points_.push_back({request_.scale * contact.p, contact.n});
+    }
+    for (const kinematics::Finger& finger : hand_.fingers) inverse_.emplace_back(finger);
+  }
+
+  const kinematics::HandModel hand_ = kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
+  const object::ObjectFile file_ = object::ReadObject(ProjectPath("models/cube.obj"));
+  const object::Polyhedron& cube_ = dynamic_cast<const object::Polyhedron&>(*file_.object);
+  GaitRequest request_;
+  GaitResult found_;
+  const collision::SurfaceTree surface_{cube_, 0.8};
+  const HandScene scene_{hand_, surface_, 1e-3};
+  const collision::BallContact rolled_on_{cube_, 0.8};
+  std::vector<kinematics::InverseKinematics> inverse_;
+  std::vector<SurfacePoint> points_;
+};
+
+/// Of a move to and fro, and to again, one to is left; of one to and fro nothing.
+TEST_F(FewerMovesTest, DetoursAreLeftOutButNotWhereContactsRoll) {
+  const HandSetup setup{scene_, inverse_, points_, 0.8};
+  ASSERT_TRUE(found_.gait) << found_.message;
+  ASSERT_EQ(found_.gait->stretches.size(), 1u);
+  const Stretch to = found_.gait->stretches[0];
+  ASSERT_EQ(to.kind, Stretch::Kind::kMove);
+  Gait gait = *found_.gait;
+  gait.stretches = {to, Reversed(to)};
+  EXPECT_TRUE(WithFewerMoves(setup, gait).stretches.empty());
+  gait.stretches.push_back(to);
+  const Gait fewer = WithFewerMoves(setup, gait);
+  ASSERT_EQ(fewer.stretches.size(), 1u);
+  EXPECT_LE(fewer.stretches[0].path.size(), to.path.size());
+  EXPECT_EQ(EndOf(fewer).pose.matrix(), EndOf(gait).pose.matrix());
+  EXPECT_EQ(EndOf(fewer).postures, EndOf(gait).postures);
+  // There each way to a pose leaves contacts elsewhere.
+  const HandSetup rolling{scene_, inverse_, points_, 0.8, &rolled_on_};
+  const Gait rolled = WithFewerMoves(rolling, gait);
+  ASSERT_EQ(rolled.stretches.size(), 1u);
+  EXPECT_EQ(rolled.stretches[0].path.size(), 3 * to.path.size() - 2);
+}
+
+/// A straight way that would go through something is not taken.
+TEST_F(FewerMovesTest, AMoveThatCantBeStraightStays) {
+  const HandSetup setup{scene_, inverse_, points_, 0.8};
+  ASSERT_TRUE(found_.gait) << found_.message;
+  Gait gait = *found_.gait;
+  // Whatever it is: the straight way to a pose half a metre off is out of reach.
+  Keyframe away = gait.start;
+  away.pose.translation().x() += 0.5;
+  gait.stretches = {{Stretch::Kind::kMove, {}, kNone, {gait.start, EndOf(gait), away}}};
+  const Gait same = WithFewerMoves(setup, gait);
+  ASSERT_EQ(same.stretches.size(), 1u);
+  EXPECT_EQ(same.stretches[0].path.size(), 3u);
+}
+
+}  // namespace
+}  // namespace regrasp::gait
