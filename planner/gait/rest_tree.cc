@@ -88,6 +88,16 @@ bool RestTree::WorkOutWay(Rest& rest) {
   return true;
 }
 
+void RestTree::WaitAsBefore(Rest& rest) const {
+  if (rest.parent < 0) return;
+  const Hold& before = rests_[rest.parent].hold;
+  for (std::size_t finger = 0; finger < before.holding.size(); ++finger) {
+    if (before.holding[finger] == kNone && rest.hold.holding[finger] == kNone) {
+      rest.hold.waiting[finger] = before.waiting[finger];
+    }
+  }
+}
+
 int RestTree::WithWaiting(int index, FingerIndex finger, const Posture& posture) {
   std::vector<int> chain;
   int last = index;
@@ -103,6 +113,7 @@ int RestTree::WithWaiting(int index, FingerIndex finger, const Posture& posture)
     rest.way.clear();
     rest.moves.clear();
     rest.barred.clear();
+    WaitAsBefore(rest);
     rest.hold.waiting[finger] = posture;
     const bool is_free = carrier_.IsPassable(rest.hold, rest.node) && WorkOutWay(rest) &&
                          rest.hold.waiting[finger] == posture;
@@ -124,6 +135,7 @@ int RestTree::AfterWaitingAbove(int index) {
   if (begin < 0) return -1;
   Rest rest = rests_[index];
   rest.parent = begin;
+  WaitAsBefore(rest);
   if (!WorkOutWay(rest)) return -1;
   return Add(std::move(rest));
 }

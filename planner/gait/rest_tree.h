@@ -103,6 +103,9 @@ class RestTree {
   /// where there is no way round it.
   [[nodiscard]] std::optional<std::vector<Keyframe>> MoveFrom(Rest& rest, int node);
   void CutOff(int rest);
+  /// Fingers that hold nothing before a rest and in it stay where they are: with another way to its
+  /// parent that may be elsewhere, where one that was lifted found no way to where it was to wait.
+  void WaitAsBefore(Rest& rest) const;
 
   const HandSetup& setup_;
   Carrier& carrier_;
