@@ -51,35 +51,36 @@ bool Carrier::KeepApart(const Hold& hold, FingerIndex a, FingerIndex b, int node
 
 bool Carrier::IsPassable(const Hold& hold, int node) {
   if (!KeepsOffPalm(node)) return false;
-  const FingerIndex end{setup_.scene.finger_count()};
-  const auto holds = [&](FingerIndex finger) { return hold.holding[finger] != kNone; };
-  for (FingerIndex b{0}; b < end; ++b) {
-    for (FingerIndex a{0}; a < b; ++a) {
-      if (holds(a) && holds(b) && !KeepApart(hold, a, b, node)) return false;
+  std::vector<FingerIndex> holding;
+  std::vector<FingerIndex> waiting;
+  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+    if (hold.holding[finger] != kNone) {
+      holding.push_back(finger);
+    } else if (finger < std::ssize(hold.waiting) && hold.waiting[finger].size() > 0) {
+      waiting.push_back(finger);
     }
   }
-  const auto waits = [&](FingerIndex finger) {
-    return !holds(finger) && finger < std::ssize(hold.waiting) && hold.waiting[finger].size() > 0;
-  };
-  bool any_waits = false;
-  for (FingerIndex finger{0}; finger < end; ++finger) any_waits = any_waits || waits(finger);
-  if (!any_waits) return true;
-  const Eigen::Isometry3d pose = grid_.PoseAt(node);
-  std::vector<PlacedFinger> placed;
-  for (const bool waiting : {false, true}) {
-    for (FingerIndex finger{0}; finger < end; ++finger) {
-      if (waiting ? !waits(finger) : !holds(finger)) continue;
-      PlacedFinger there =
-          setup_.scene.Place(finger, waiting ? hold.waiting[finger]
-                                             : *reach_.Find(finger, hold.holding[finger], node));
-      const bool is_free =
-          !waiting || (setup_.scene.KeepsOffObject(there, pose, TipContact::kFree) &&
-                       std::ranges::all_of(placed, [&](const PlacedFinger& other) {
-                         return setup_.scene.KeepApart(other, there);
-                       }));
-      if (!is_free) return false;
-      placed.push_back(std::move(there));
+  for (std::size_t b = 1; b < holding.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      if (!KeepApart(hold, holding[a], holding[b], node)) return false;
     }
+  }
+  if (waiting.empty()) return true;
+  std::vector<PlacedFinger> placed;
+  for (const FingerIndex finger : holding) {
+    placed.push_back(setup_.scene.Place(finger, *reach_.Find(finger, hold.holding[finger], node)));
+  }
+  const Eigen::Isometry3d pose = grid_.PoseAt(node);
+  for (const FingerIndex finger : waiting) {
+    PlacedFinger there = setup_.scene.Place(finger, hold.waiting[finger]);
+    const auto keeps_apart = [&](const PlacedFinger& other) {
+      return setup_.scene.KeepApart(other, there);
+    };
+    if (!setup_.scene.KeepsOffObject(there, pose, TipContact::kFree) ||
+        !std::ranges::all_of(placed, keeps_apart)) {
+      return false;
+    }
+    placed.push_back(std::move(there));
   }
   return true;
 }

@@ -124,6 +124,17 @@ class Connector {
   RandomStream& random_;
 };
 
+/// Directions to leave a surface in: along its normal, or else to one of the sides.
+std::vector<Eigen::Vector3d> WaysOff(const Eigen::Vector3d& normal) {
+  std::vector<Eigen::Vector3d> ways = {normal};
+  const Eigen::Vector3d aslant =
+      std::cos(kSideways) * normal + std::sin(kSideways) * normal.unitOrthogonal();
+  for (int side = 0; side < kSides; ++side) {
+    ways.push_back(Eigen::AngleAxisd(2 * std::numbers::pi * side / kSides, normal) * aslant);
+  }
+  return ways;
+}
+
 }  // namespace
 
 Surroundings AllBut(const HandScene& scene, FingerIndex moving, const Keyframe& frame) {
@@ -145,15 +156,7 @@ std::optional<FingerPath> FindWayUp(const HandScene& scene,
                                     const kinematics::InverseKinematics& inverse,
                                     FingerIndex finger, const kinematics::TipTarget& target,
                                     const Posture& touching, const Surroundings& around) {
-  const Eigen::Vector3d off = -target.towards;
-  const Eigen::Vector3d across = off.unitOrthogonal();
-  // Straight, or else to one of the sides.
-  for (int side = -1; side < kSides; ++side) {
-    Eigen::Vector3d up = off;
-    if (side >= 0) {
-      const double angle = 2 * std::numbers::pi * side / kSides;
-      up = (off + std::tan(kSideways) * (Eigen::AngleAxisd(angle, off) * across)).normalized();
-    }
+  for (const Eigen::Vector3d& up : WaysOff(-target.towards)) {
     FingerPath path = {touching};
     double height = 0;
     while (height < kHighestAbove - kDescent / 2) {

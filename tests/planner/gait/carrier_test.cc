@@ -31,7 +31,7 @@ TEST(CarrierTest, FingersWaitWhereTheyKeepOffTheirOwnHand) {
   for (int seed = 0; seed < 60; ++seed) {
     RandomStream random(seed, RandomUse::kGaits);
     RandomStream same(seed, RandomUse::kGaits);
-    const FingerIndex first{0};
+    const FingerIndex first{same.Choose(scene.finger_count(), scene.finger_count()).front()};
     would_collide += !scene.KeepsOffHand(scene.Place(first, scene.DrawPosture(first, same)));
     Hold hold{Holding(scene.finger_count(), kNone)};
     ASSERT_TRUE(carrier.LetFreeFingersWait(hold, grid.start(), &random));
