@@ -41,7 +41,27 @@ struct Case {
   object::ObjectFile file;
   plan::Plan plan;  ///< located
   std::vector<plan::Snapshot> snapshots;
+  render::FrameOptions options = {.width = kWidth, .height = kHeight};
 };
+
+render::FrameRenderer RendererOf(const Case& made) {
+  return {*made.file.object, made.plan.scale, made.plan.half_angle, made.snapshots, made.options};
+}
+
+void DrawFrames(benchmark::State& state, const Case& made, const char* label) {
+  render::FrameRenderer renderer = RendererOf(made);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        render::EncodePng(renderer.Render(made.snapshots.back(), "step 1/1 · switch")));
+  }
+  state.SetLabel(label);
+}
+
+/// The view is chosen once for a plan.
+void ChooseViews(benchmark::State& state, const Case& made, const char* label) {
+  for (auto _ : state) benchmark::DoNotOptimize(RendererOf(made));
+  state.SetLabel(label);
+}
 
 Case MakeCase(const std::string& model) {
   Case made{object::ReadObject(std::filesystem::path(REGRASP_MODELS) / model), {}, {}};
@@ -68,30 +88,16 @@ const Case& GetCase(std::int64_t index) {
 }
 
 void BM_Frame(benchmark::State& state) {
-  const Case& made = GetCase(state.range(0));
-  render::FrameRenderer renderer(*made.file.object, 1, Radians(kHalfAngleDegrees), made.snapshots,
-                                 {.width = kWidth, .height = kHeight});
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        render::EncodePng(renderer.Render(made.snapshots.back(), "step 1/1 · switch")));
-  }
-  state.SetLabel(kModels.at(state.range(0)));
+  DrawFrames(state, GetCase(state.range(0)), kModels.at(state.range(0)));
 }
 
-/// The view is chosen once for a plan.
 void BM_Setup(benchmark::State& state) {
-  const Case& made = GetCase(state.range(0));
-  for (auto _ : state) {
-    render::FrameRenderer renderer(*made.file.object, 1, Radians(kHalfAngleDegrees), made.snapshots,
-                                   {.width = kWidth, .height = kHeight});
-  }
-  state.SetLabel(kModels.at(state.range(0)));
+  ChooseViews(state, GetCase(state.range(0)), kModels.at(state.range(0)));
 }
 
 void BM_EncodePng(benchmark::State& state) {
   const Case& made = GetCase(state.range(0));
-  render::FrameRenderer renderer(*made.file.object, 1, Radians(kHalfAngleDegrees), made.snapshots,
-                                 {.width = kWidth, .height = kHeight});
+  render::FrameRenderer renderer = RendererOf(made);
   const render::Image image = renderer.Render(made.snapshots.back(), "step 1/1 · switch");
   for (auto _ : state) benchmark::DoNotOptimize(render::EncodePng(image));
   state.SetLabel(kModels.at(state.range(0)));
@@ -149,16 +155,11 @@ void BM_MuJoCoRender(benchmark::State& state) {
 constexpr std::array<const char*, 2> kHands = {"ring4.json", "ring5.json"};
 
 /// Of a hand that turns a cube by 90 degrees.
-struct HandCase {
-  Case shown;
-  render::FrameOptions options;
-};
-
-HandCase MakeHandCase(const std::string& name) {
+Case MakeHandCase(const std::string& name) {
   const std::filesystem::path models = REGRASP_MODELS;
   const kinematics::HandFile hand = kinematics::ReadHandFile((models / "hands" / name).string());
-  HandCase made{{object::ReadObject(models / "cube.obj"), {}, {}}, {}};
-  const object::Object& object = *made.shown.file.object;
+  Case made{object::ReadObject(models / "cube.obj"), {}, {}};
+  const object::Object& object = *made.file.object;
   gait::GaitRequest request;
   request.hand = &hand.hand;
   request.solid = &dynamic_cast<const object::Polyhedron&>(object);
@@ -167,42 +168,30 @@ HandCase MakeHandCase(const std::string& name) {
   request.turn = {Eigen::Vector3d::UnitZ(), Radians(90)};
   const planning::PlanResult result = gait::PlanInHand(request);
   if (!result.plan) throw std::runtime_error(name + ": no plan to draw");
-  made.shown.plan = plan::LocatePlan(object, *result.plan);
-  const report::HandPicture picture(hand, made.shown.plan,
+  made.plan = plan::LocatePlan(object, *result.plan);
+  const report::HandPicture picture(hand, made.plan,
                                     request.scale * object.mass_properties().centroid);
-  for (const sim::StepReplay& step : sim::ReplayPlan(object, made.shown.plan, {}).steps) {
-    made.shown.snapshots.push_back(step.snapshot);
+  for (const sim::StepReplay& step : sim::ReplayPlan(object, made.plan, {}).steps) {
+    made.snapshots.push_back(step.snapshot);
     plan::Fault none;
-    picture.Place(step.index, made.shown.snapshots.back(), none);
+    picture.Place(step.index, made.snapshots.back(), none);
   }
-  made.options = {.width = kWidth, .height = kHeight, .hand = picture.view()};
+  made.options.hand = picture.view();
   return made;
 }
 
-const HandCase& GetHandCase(std::int64_t index) {
-  static std::array<std::unique_ptr<HandCase>, kHands.size()> cases;
-  if (!cases.at(index)) cases[index] = std::make_unique<HandCase>(MakeHandCase(kHands[index]));
+const Case& GetHandCase(std::int64_t index) {
+  static std::array<std::unique_ptr<Case>, kHands.size()> cases;
+  if (!cases.at(index)) cases[index] = std::make_unique<Case>(MakeHandCase(kHands[index]));
   return *cases[index];
 }
 
 void BM_HandFrame(benchmark::State& state) {
-  const auto& [made, options] = GetHandCase(state.range(0));
-  render::FrameRenderer renderer(*made.file.object, made.plan.scale, made.plan.half_angle,
-                                 made.snapshots, options);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        render::EncodePng(renderer.Render(made.snapshots.back(), "step 1/1 · move")));
-  }
-  state.SetLabel(kHands.at(state.range(0)));
+  DrawFrames(state, GetHandCase(state.range(0)), kHands.at(state.range(0)));
 }
 
 void BM_HandSetup(benchmark::State& state) {
-  const auto& [made, options] = GetHandCase(state.range(0));
-  for (auto _ : state) {
-    render::FrameRenderer renderer(*made.file.object, made.plan.scale, made.plan.half_angle,
-                                   made.snapshots, options);
-  }
-  state.SetLabel(kHands.at(state.range(0)));
+  ChooseViews(state, GetHandCase(state.range(0)), kHands.at(state.range(0)));
 }
 
 constexpr int kLast = static_cast<int>(kModels.size()) - 1;
