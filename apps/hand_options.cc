@@ -21,12 +21,12 @@ constexpr double kLargestNormError = 1e-3;
 constexpr double kFarthest_m = 10;
 
 /// "z 90" as a turn.
-gait::Turn ParseTurn(const std::string& turn) {
+planning::Turn ParseTurn(const std::string& turn) {
   std::istringstream words(turn);
   std::string axis;
   std::string rest;
   double degrees = 0;
-  const auto fail = [&]() -> gait::Turn {
+  const auto fail = [&]() -> planning::Turn {
     throw InputError("--turn: expected an axis and degrees, as in \"z 90\", found \"" + turn +
                      "\"");
   };
@@ -95,11 +95,11 @@ void HandOptions::AddTo(CLI::App& app) {
             "What links keep from each other, from the palm and from the object; in metres "
             "(default 0.001)",
             "M");
-  AddChoice<gait::Reserve>(
+  AddChoice<planning::Reserve>(
       app, "--reserve", reserve,
-      {{"preferred", gait::Reserve::kPreferred},
-       {"required", gait::Reserve::kRequired},
-       {"none", gait::Reserve::kNone}},
+      {{"preferred", planning::Reserve::kPreferred},
+       {"required", planning::Reserve::kRequired},
+       {"none", planning::Reserve::kNone}},
       "Something to spare, for the hand's own motors: less friction used, better grasps that also "
       "hold where contacts roll to, more clearance, no slides. preferred, it is looked for where "
       "there is a plan, for 30 % of the time that is left, and taken unless the plan gets much "
@@ -126,13 +126,11 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
   }
 }
 
-void HandOptions::AskFor(gait::GaitRequest& request) const {
-  request.reserve = reserve;
-  if (!turn.empty()) request.turn = ParseTurn(turn);
-  if (!start_pose.empty()) request.start_pose = ParsePose("--start-pose", start_pose);
-  if (!goal_pose.empty()) request.goal_pose = ParsePose("--goal-pose", goal_pose);
-  // A grasp for another one, and no word of the pose: the object stays where it is.
-  if (turn.empty() && !request.goal_pose) request.goal_pose = request.start_pose;
+void HandOptions::AskFor(planning::InHandTask& task) const {
+  task.reserve = reserve;
+  if (!turn.empty()) task.turn = ParseTurn(turn);
+  if (!start_pose.empty()) task.start_pose = ParsePose("--start-pose", start_pose);
+  if (!goal_pose.empty()) task.goal_pose = ParsePose("--goal-pose", goal_pose);
 }
 
 }  // namespace regrasp::apps

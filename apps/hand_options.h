@@ -4,7 +4,7 @@
 #include <string>
 
 #include "planner/base/deadline.h"
-#include "planner/gait/find_gait.h"
+#include "planner/planning/in_hand_task.h"
 
 namespace regrasp::apps {
 
@@ -15,7 +15,7 @@ struct HandOptions {
   std::string start_pose;
   std::string goal_pose;
   double clearance_m = 1e-3;
-  gait::Reserve reserve = gait::Reserve::kPreferred;
+  planning::Reserve reserve = planning::Reserve::kPreferred;
 
   void AddTo(CLI::App& app);
 
@@ -24,7 +24,7 @@ struct HandOptions {
   /// @throws InputError  they say too little or too much.
   void Check(const std::string& start, const std::string& goal) const;
   /// Fills in what is to be done. @throws InputError  as the options are written.
-  void AskFor(gait::GaitRequest& request) const;
+  void AskFor(planning::InHandTask& task) const;
 };
 
 }  // namespace regrasp::apps

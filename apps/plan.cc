@@ -20,8 +20,7 @@
 #include "planner/base/quantity_text.h"
 #include "planner/certificate/finish_plan.h"
 #include "planner/criteria/reach.h"
-#include "planner/gait/explain_gait.h"
-#include "planner/gait/plan_in_hand.h"
+#include "planner/gait/gait_planner.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/body_measures.h"
 #include "planner/object/mesh_defect.h"
@@ -94,7 +93,6 @@ struct PlanProgram {
                                const object::Object& object) const;
   planning::PlanRequest RequestFor(const object::Object& object) const;
   planning::PlanResult Find(const object::ObjectFile& object, const GivenPoints& given) const;
-  planning::PlanResult FindInHand(const object::ObjectFile& object) const;
   void CheckEnds() const;
   void CheckOutput() const;
   object::ObjectFile ReadObject() const;
@@ -154,10 +152,13 @@ void PlanProgram::AddSearch(CLI::App& app) {
       "switch where the smaller of its two grasps' contact regions is largest; default: well "
       "inside "
       "both sets)");
-  AddInteger(app, "--effort", effort, std::int64_t{1}, kMostEffort,
-             "Force-closure tests after which the planner general gives up; each takes some "
-             "microseconds (default " +
-                 std::to_string(tree::TreePlanner::kDefaultEffort) + ")");
+  AddInteger(
+      app, "--effort", effort, std::int64_t{1}, kMostEffort,
+      "When to give up; the planner general after so many force-closure tests, each of some "
+      "microseconds (default " +
+          std::to_string(tree::TreePlanner::kDefaultEffort) +
+          "), with --hand after so many grasps searched, each of some milliseconds (default " +
+          std::to_string(gait::kDefaultExpanded) + ")");
   app.add_flag(
       "--explain", explain,
       "Look for what would be enough where no sequence is found; the smallest friction (of "
@@ -193,9 +194,19 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
                                        const GivenPoints& given) const {
   planning::PlanRequest request = RequestFor(*object.object);
   if (given) request.given_points = &*given;
+  kinematics::HandModel model;
+  if (hand.given()) {
+    if (object.object->dimension() != 3) {
+      throw InputError("--hand: hands hold solids, and no planar objects");
+    }
+    model = kinematics::ReadHand(hand.hand);
+    planning::InHandTask task{.hand = &model, .scale = common.scale};
+    hand.AskFor(task);
+    gait::AskInHand(task, request);
+  }
   const planning::Planner& planner = common.PlannerFor(request);
-  request.start = Choose("--start", start, *object.object);
-  request.goal = Choose("--goal", goal, *object.object);
+  if (!start.empty()) request.start = Choose("--start", start, *object.object);
+  if (!goal.empty()) request.goal = Choose("--goal", goal, *object.object);
   ProgressLine progress(common.quiet);
   request.progress = progress.reporter();
   planning::PlanResult result = planning::Solve(planner, request);
@@ -215,9 +226,6 @@ void PlanProgram::CheckEnds() const {
     if (!hand.given() && value.empty()) throw InputError(std::string(option) + " is required");
   }
   hand.Check(start, goal);
-  if (hand.given() && common.planner != "auto") {
-    throw InputError("--planner: " + common.planner + " plans for fingers without a hand");
-  }
 }
 
 void PlanProgram::CheckOutput() const {
@@ -231,46 +239,6 @@ void PlanProgram::CheckOutput() const {
   outputs.Add("--output", output);
   CheckOutputsDiffer(inputs, outputs);
   CheckOutputsWritable(outputs);
-}
-
-planning::PlanResult PlanProgram::FindInHand(const object::ObjectFile& object) const {
-  const planning::PlanRequest asked = RequestFor(*object.object);
-  for (const planning::PlanOption option : planning::OptionsOf(asked)) {
-    if (option == planning::PlanOption::kExplain) continue;
-    throw InputError(planning::OptionName(option) + ": no option of plans for a hand");
-  }
-  if (common.contacts_given) {
-    throw InputError("--contacts given: no option of plans for a hand");
-  }
-  const auto* solid = dynamic_cast<const object::Polyhedron*>(object.object.get());
-  if (solid == nullptr) throw InputError("--hand: hands hold solids, and no planar objects");
-  const kinematics::HandModel model = kinematics::ReadHand(hand.hand);
-  ProgressLine progress(common.quiet);
-  gait::GaitRequest request;
-  request.hand = &model;
-  request.solid = solid;
-  request.scale = common.scale;
-  request.criteria = asked.criteria;
-  request.margin = hand.clearance_m;
-  hand.AskFor(request);
-  for (const auto& [file, grasp] :
-       {std::pair(&start, &request.start_grasp), {&goal, &request.goal_grasp}}) {
-    if (file->empty()) continue;
-    *grasp = plan::ReadGrasp(*file, *solid);
-    gait::CheckHandGrasp(*grasp, model, *file);
-  }
-  request.seed = common.seed;
-  request.deadline = asked.deadline;
-  request.progress = progress.reporter();
-  planning::PlanResult result = gait::PlanInHand(request);
-  if (!result.plan && explain) {
-    if (common.time_limit_s) {  // as long again
-      request.deadline = DeadlineAfter(std::chrono::steady_clock::now(), *common.time_limit_s);
-    }
-    result.message += "; " + gait::ExplainGait(request);
-  }
-  progress.Clear();
-  return result;
 }
 
 /// A surface that is refused is told what a repair would make of it.
@@ -287,8 +255,8 @@ int PlanProgram::Run() const {
   CheckEnds();
   CheckOutput();
   if (hand.given()) {  // before the object is read
-    gait::GaitRequest request;
-    hand.AskFor(request);
+    planning::InHandTask task;
+    hand.AskFor(task);
   }
   const object::ObjectFile object = ReadObject();
   criteria::CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
@@ -296,7 +264,7 @@ int PlanProgram::Run() const {
   const std::vector<std::string> doubts = {object::SizeWarning(body, common.scale),
                                            common.friction.warning()};
   const GivenPoints given = common.ReadGivenPoints();
-  planning::PlanResult result = hand.given() ? FindInHand(object) : Find(object, given);
+  planning::PlanResult result = Find(object, given);
   if (!result.plan) {
     PrintError(kProgram, result.message);
     return kExitNegative;

@@ -16,7 +16,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/file.h"
-#include "planner/gait/plan_in_hand.h"
+#include "planner/gait/gait_planner.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/check.h"
 #include "planner/planning/solve.h"
@@ -160,17 +160,17 @@ Case MakeHandCase(const std::string& name) {
   const kinematics::HandFile hand = kinematics::ReadHandFile((models / "hands" / name).string());
   Case made{object::ReadObject(models / "cube.obj"), {}, {}};
   const object::Object& object = *made.file.object;
-  gait::GaitRequest request;
-  request.hand = &hand.hand;
-  request.solid = &dynamic_cast<const object::Polyhedron&>(object);
-  request.scale = 0.8;
+  constexpr double kScale = 0.8;
+  planning::PlanRequest request;
+  request.object = &object;
   request.criteria.half_angle = std::atan(0.8);
-  request.turn = {Eigen::Vector3d::UnitZ(), Radians(90)};
-  const planning::PlanResult result = gait::PlanInHand(request);
+  gait::AskInHand(
+      {.hand = &hand.hand, .scale = kScale, .turn = {Eigen::Vector3d::UnitZ(), Radians(90)}},
+      request);
+  const planning::PlanResult result = planning::Solve(gait::GaitPlanner(), request);
   if (!result.plan) throw std::runtime_error(name + ": no plan to draw");
   made.plan = plan::LocatePlan(object, *result.plan);
-  const report::HandPicture picture(hand, made.plan,
-                                    request.scale * object.mass_properties().centroid);
+  const report::HandPicture picture(hand, made.plan, kScale * object.mass_properties().centroid);
   for (const sim::StepReplay& step : sim::ReplayPlan(object, made.plan, {}).steps) {
     made.snapshots.push_back(step.snapshot);
     plan::Fault none;

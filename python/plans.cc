@@ -2,10 +2,8 @@
 #include <pybind11/stl.h>
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -13,8 +11,7 @@
 #include "planner/base/memory.h"
 #include "planner/certificate/finish_plan.h"
 #include "planner/criteria/reach.h"
-#include "planner/gait/plan_in_hand.h"
-#include "planner/object/polyhedron.h"
+#include "planner/gait/gait_planner.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "planner/planning/solve.h"
@@ -33,9 +30,10 @@ constexpr char kRandom[] = "random";
 constexpr char kRandomAny[] = "random-any";
 
 struct PlanArguments {
-  std::string start, goal;  ///< the text of a grasp file, or "random" or "random-any"
+  /// The text of a grasp file, "random" or "random-any"; with a hand also empty, for any grasp.
+  std::string start, goal;
   double half_angle = 0;
-  std::string planner;
+  std::string planner = "auto";
   planning::Objective objective = planning::Objective::kSteps;
   std::uint64_t seed = 0;
   double min_quality = 0;
@@ -45,17 +43,12 @@ struct PlanArguments {
 };
 
 /// What is asked of a hand; poses are a position and a quaternion w, x, y, z.
-struct HandPlanArguments {
-  std::string start, goal;  ///< the text of a grasp file, or empty
-  double half_angle = 0;
+struct HandArguments {
   Eigen::Vector3d turn_axis = Eigen::Vector3d::UnitZ();
   double turn_angle = 0;  ///< radians
   std::optional<std::array<double, 7>> start_pose, goal_pose;
   double clearance = 1e-3;
-  gait::Reserve reserve = gait::Reserve::kPreferred;
-  std::uint64_t seed = 0;
-  double min_quality = 0;
-  std::optional<double> time_limit_s;
+  planning::Reserve reserve = planning::Reserve::kPreferred;
 };
 
 std::optional<Eigen::Isometry3d> PoseOf(const std::optional<std::array<double, 7>>& numbers) {
@@ -67,32 +60,14 @@ std::optional<Eigen::Isometry3d> PoseOf(const std::optional<std::array<double, 7
   return pose;
 }
 
-planning::PlanResult FindInHand(const PythonObject& object, const PythonHand& hand,
-                                const HandPlanArguments& given, Interrupt& interrupt) {
-  const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.file.object);
-  gait::GaitRequest request;
-  request.hand = &hand.file.hand;
-  request.solid = &solid;
-  request.scale = object.scale;
-  request.criteria.half_angle = given.half_angle;
-  request.criteria.min_quality = given.min_quality;
-  request.reserve = given.reserve;
-  request.margin = given.clearance;
-  if (given.turn_angle != 0) request.turn = {given.turn_axis, given.turn_angle};
-  request.start_pose = PoseOf(given.start_pose);
-  request.goal_pose = PoseOf(given.goal_pose);
-  // A grasp for another one, and no word of the pose: the object stays where it is.
-  if (given.turn_angle == 0 && !request.goal_pose) request.goal_pose = request.start_pose;
-  for (const auto& [name, text, grasp] : {std::tuple("start", &given.start, &request.start_grasp),
-                                          {"goal", &given.goal, &request.goal_grasp}}) {
-    if (text->empty()) continue;
-    *grasp = plan::ParseGrasp(*text, name, solid);
-    gait::CheckHandGrasp(*grasp, *request.hand, name);
-  }
-  request.seed = given.seed;
-  request.deadline = interrupt.deadline();
-  request.progress = interrupt.progress();
-  return gait::PlanInHand(request);
+planning::InHandTask TaskOf(const PythonHand& hand, const HandArguments& given, double scale) {
+  return {.hand = &hand.file.hand,
+          .scale = scale,
+          .reserve = given.reserve,
+          .margin = given.clearance,
+          .turn = {given.turn_axis, given.turn_angle},
+          .start_pose = PoseOf(given.start_pose),
+          .goal_pose = PoseOf(given.goal_pose)};
 }
 
 planning::GraspChoice Choose(const char* name, const std::string& value, bool any,
@@ -107,7 +82,7 @@ planning::GraspChoice Choose(const char* name, const std::string& value, bool an
 }
 
 planning::PlanResult Find(const PythonObject& object, const PlanArguments& given,
-                          Interrupt& interrupt) {
+                          const std::optional<planning::InHandTask>& task, Interrupt& interrupt) {
   const object::Object& body = *object.file.object;
   criteria::CheckFingerRadius(body, given.finger_radius, "finger_radius");
   planning::PlanRequest request;
@@ -122,34 +97,34 @@ planning::PlanResult Find(const PythonObject& object, const PlanArguments& given
   request.clusters = given.clusters;
   request.deadline = interrupt.deadline();
   request.progress = interrupt.progress();
+  if (task) gait::AskInHand(*task, request);
   const planning::Planner& planner = registry::PlannerFor(given.planner, request);
   if (const auto need = planner.EstimateMemory(request)) {
     const std::string why = MemoryComplaint(*need, UsableMemory());
     if (!why.empty()) throw InputError(object.file.file + ": " + why);
   }
   const bool any = given.planner == "auto";
-  request.start = Choose("start", given.start, any, body);
-  request.goal = Choose("goal", given.goal, any, body);
+  if (!given.start.empty()) request.start = Choose("start", given.start, any, body);
+  if (!given.goal.empty()) request.goal = Choose("goal", given.goal, any, body);
   return planning::Solve(planner, request);
 }
 
 /// The plan's text or None, why there is none, warnings, notes.
-py::tuple FindPlan(const PythonObject& object, double half_angle,
-                   std::optional<double> time_limit_s, py::object progress,
-                   const std::function<planning::PlanResult(Interrupt&)>& find) {
-  Interrupt interrupt(time_limit_s, std::move(progress));
+py::tuple FindPlan(const PythonObject& object, const PlanArguments& given, py::object progress,
+                   const std::optional<planning::InHandTask>& task) {
+  Interrupt interrupt(given.time_limit_s, std::move(progress));
   planning::PlanResult result;
   std::optional<std::string> text;
   {
     const py::gil_scoped_release unlocked;
     try {
-      result = find(interrupt);
+      result = Find(object, given, task, interrupt);
     } catch (const TimeUp&) {
       if (!interrupt.raised()) throw;
     }
     if (result.plan) {
       const plan::PlanCheck check = certificate::FinishPlan(
-          object.file, {.half_angle = half_angle, .scale = object.scale}, *result.plan);
+          object.file, {.half_angle = given.half_angle, .scale = object.scale}, *result.plan);
       if (!check.passed()) result.warnings.emplace_back("the checker fails this plan");
       text = plan::FormatPlan(*result.plan);
     }
@@ -182,39 +157,32 @@ void BindPlans(py::module_& module) {
       .def_readwrite("contacts", &PlanArguments::contacts)
       .def_readwrite("clusters", &PlanArguments::clusters)
       .def_readwrite("time_limit_s", &PlanArguments::time_limit_s);
-  module.def(
-      "find_plan", [](const PythonObject& object, const PlanArguments& given, py::object progress) {
-        return FindPlan(object, given.half_angle, given.time_limit_s, std::move(progress),
-                        [&](Interrupt& interrupt) { return Find(object, given, interrupt); });
-      });
-  py::enum_<gait::Reserve>(module, "Reserve")
-      .value("preferred", gait::Reserve::kPreferred)
-      .value("required", gait::Reserve::kRequired)
-      .value("none", gait::Reserve::kNone);
-  py::class_<HandPlanArguments>(module, "HandPlanArguments")
+  module.def("find_plan",
+             [](const PythonObject& object, const PlanArguments& given, py::object progress) {
+               return FindPlan(object, given, std::move(progress), std::nullopt);
+             });
+  py::enum_<planning::Reserve>(module, "Reserve")
+      .value("preferred", planning::Reserve::kPreferred)
+      .value("required", planning::Reserve::kRequired)
+      .value("none", planning::Reserve::kNone);
+  py::class_<HandArguments>(module, "HandArguments")
       .def(py::init<>())
-      .def_readwrite("start", &HandPlanArguments::start)
-      .def_readwrite("goal", &HandPlanArguments::goal)
-      .def_readwrite("half_angle", &HandPlanArguments::half_angle)
-      .def_readwrite("turn_axis", &HandPlanArguments::turn_axis)
-      .def_readwrite("turn_angle", &HandPlanArguments::turn_angle)
-      .def_readwrite("start_pose", &HandPlanArguments::start_pose)
-      .def_readwrite("goal_pose", &HandPlanArguments::goal_pose)
-      .def_readwrite("clearance", &HandPlanArguments::clearance)
-      .def_readwrite("reserve", &HandPlanArguments::reserve)
-      .def_readwrite("seed", &HandPlanArguments::seed)
-      .def_readwrite("min_quality", &HandPlanArguments::min_quality)
-      .def_readwrite("time_limit_s", &HandPlanArguments::time_limit_s);
-  module.def("find_plan_in_hand", [](const PythonObject& object, const PythonHand& hand,
-                                     const HandPlanArguments& given, py::object progress) {
-    return FindPlan(
-        object, given.half_angle, given.time_limit_s, std::move(progress),
-        [&](Interrupt& interrupt) { return FindInHand(object, hand, given, interrupt); });
+      .def_readwrite("turn_axis", &HandArguments::turn_axis)
+      .def_readwrite("turn_angle", &HandArguments::turn_angle)
+      .def_readwrite("start_pose", &HandArguments::start_pose)
+      .def_readwrite("goal_pose", &HandArguments::goal_pose)
+      .def_readwrite("clearance", &HandArguments::clearance)
+      .def_readwrite("reserve", &HandArguments::reserve);
+  module.def("find_plan_in_hand", [](const PythonObject& object, const PlanArguments& given,
+                                     const PythonHand& hand, const HandArguments& asked,
+                                     py::object progress) {
+    return FindPlan(object, given, std::move(progress), TaskOf(hand, asked, object.scale));
   });
+  // Of fingers without a hand.
   module.def("planner_names", [] {
     std::vector<std::string> names;
     for (const planning::Planner* planner : registry::AllPlanners()) {
-      names.push_back(planner->name());
+      if (!planner->traits().needs_hand) names.push_back(planner->name());
     }
     return names;
   });

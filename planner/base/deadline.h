@@ -37,6 +37,10 @@ class Deadline {
     const Clock::time_point now = now_();
     return {now + std::chrono::duration_cast<Clock::duration>(share * (*at_ - now)), now_};
   }
+  /// Another one by the same clock, after so long from now.
+  [[nodiscard]] Deadline In(Clock::duration time) const {
+    return at_ ? Deadline(now_() + time, now_) : Deadline();
+  }
   /// What is left until then, negative afterwards; nullopt: no end.
   [[nodiscard]] std::optional<Clock::duration> left() const {
     return at_ ? std::optional(*at_ - now_()) : std::nullopt;

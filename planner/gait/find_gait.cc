@@ -258,12 +258,12 @@ bool IsMuchLonger(const Gait& gait, const Gait& other) {
 
 }  // namespace
 
-hand::Hand FingersOf(const GaitRequest& request) {
+hand::Hand FingersOf(const planning::InHandTask& task) {
   double radius = 0;
-  for (const kinematics::Finger& finger : request.hand->fingers) {
+  for (const kinematics::Finger& finger : task.hand->fingers) {
     radius = std::max(radius, finger.tip.radius);
   }
-  return {static_cast<int>(request.hand->fingers.size()), radius / request.scale};
+  return {static_cast<int>(task.hand->fingers.size()), radius / task.scale};
 }
 
 GaitResult FindGait(const GaitRequest& request) {

@@ -2,13 +2,11 @@
 
 #include <Eigen/Geometry>
 
+#include "planner/planning/in_hand_task.h"
+
 namespace regrasp::gait {
 
-/// A turn of an object about one of its own axes.
-struct Turn {
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of length 1, in the object's frame
-  double angle = 0;                                 ///< radians
-};
+using planning::Turn;
 
 /// Poses of an object from one to another in equal steps: it turns about one axis through its
 /// centre, which goes straight.

@@ -14,6 +14,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/hand/hand.h"
 #include "planner/object/object.h"
+#include "planner/planning/in_hand_task.h"
 #include "planner/planning/spanning.h"
 
 namespace regrasp::planning {
@@ -24,6 +25,7 @@ struct GraspChoice {
     kGiven,      ///< `grasp`
     kRandom,     ///< drawn from the planner's own graph; a goal out of the start's component
     kRandomAny,  ///< drawn evenly over the surface, reachable or not
+    kAny,        ///< of plans for a hand: whichever suits it
   };
   Kind kind = Kind::kGiven;
   grasp::Grasp grasp;
@@ -78,11 +80,15 @@ struct PlanRequest {
   /// Of a roadmap of clusters: whether the grasps of all contact points are searched where the
   /// representatives do not join start and goal.
   bool last_resort = true;
-  /// Force-closure tests after which a search gives up, about two microseconds each; nullopt: a
-  /// million.
+  /// After what a search gives up, counted by the planner: `general` makes so many force-closure
+  /// tests, of about two microseconds (nullopt: a million), `gait` goes on from so many grasps, of
+  /// some milliseconds (nullopt: 8000).
   std::optional<std::int64_t> effort = std::nullopt;
-  /// Where there is no sequence: looks for the smallest friction at which one is found.
+  /// Where there is no sequence: looks for the smallest friction at which one is found, for a hand
+  /// also for another size of the object or tilt of the palm, for as long again as the deadline is.
   bool explain = false;
+  /// A hand that moves the object (gait/gait_planner.h), instead of fingers that come from nowhere.
+  std::optional<InHandTask> in_hand = std::nullopt;
 
   /// Set where a planner's graph is asked for (Planner::SummarizeGraph) and no plan.
   std::optional<GraphTasks> graph = std::nullopt;

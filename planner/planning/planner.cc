@@ -38,6 +38,8 @@ std::string OptionName(PlanOption option) {
       return "--effort";
     case PlanOption::kExplain:
       return "--explain";
+    case PlanOption::kHand:
+      return "--hand";
     case PlanOption::kFocusPoints:
       return "--sampling";
     case PlanOption::kQueries:
@@ -61,6 +63,7 @@ std::vector<PlanOption> OptionsOf(const PlanRequest& request) {
   add(!request.last_resort, PlanOption::kNoLastResort);
   add(request.effort.has_value(), PlanOption::kEffort);
   add(request.explain, PlanOption::kExplain);
+  add(request.in_hand.has_value(), PlanOption::kHand);
   const GraphTasks tasks = request.graph.value_or(GraphTasks());
   add(tasks.focus_points > 0, PlanOption::kFocusPoints);
   add(tasks.queries > 0, PlanOption::kQueries);
@@ -75,9 +78,8 @@ std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
     return name + (planar ? "a planar object" : "a solid") + ", and the planner " + planner.name() +
            " works on " + (planar ? "solids" : "planar objects") + " only";
   }
-  if (request.hand.fingers != 0 && request.hand.fingers < scope->fingers) {
-    return "the planner " + planner.name() + " needs a hand of " + std::to_string(scope->fingers) +
-           " fingers, and this one has " + std::to_string(request.hand.fingers);
+  if (planner.traits().needs_hand && !request.in_hand) {
+    return "the planner " + planner.name() + " plans for a hand, and none is given (--hand)";
   }
   if (request.graph && !planner.traits().has_graph) {
     return "the planner " + planner.name() + " has no graph";
@@ -86,6 +88,10 @@ std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
   for (const PlanOption option : OptionsOf(request)) {
     if (std::ranges::find(has, option) != has.end()) continue;
     return OptionName(option) + ": the planner " + planner.name() + " has no such option";
+  }
+  if (request.hand.fingers != 0 && request.hand.fingers < scope->fingers) {
+    return "the planner " + planner.name() + " needs a hand of " + std::to_string(scope->fingers) +
+           " fingers, and this one has " + std::to_string(request.hand.fingers);
   }
   return {};
 }

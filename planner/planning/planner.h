@@ -28,6 +28,7 @@ enum class PlanOption {
   kNoLastResort,
   kEffort,
   kExplain,
+  kHand,
   kFocusPoints,  ///< of GraphTasks
   kQueries,
 };
@@ -55,6 +56,8 @@ struct PlannerTraits {
   /// Whether it plans on a graph of its own: SummarizeGraph builds it, and
   /// GraspChoice::Kind::kRandom means grasps of it. Otherwise kRandom means the same as kRandomAny.
   bool has_graph = true;
+  /// Whether it plans for hands only (PlanRequest::in_hand).
+  bool needs_hand = false;
 };
 
 /// A method of planning. Whoever wants a plan calls Solve (solve.h), which sees to all that
@@ -94,8 +97,9 @@ class Planner {
 };
 
 /// Why a planner cannot serve a request: the object's dimension, the number of fingers of the hand,
-/// or an option or a graph that it does not have; empty where it can. Contacts of given grasps are
-/// not looked at: they are checked one by one, with a message for each (Solve).
+/// a hand that it needs, or an option or a graph that it does not have; empty where it can.
+/// Contacts of given grasps are not looked at: they are checked one by one, with a message for each
+/// (Solve).
 [[nodiscard]] std::string WhyNotServed(const Planner& planner, const PlanRequest& request);
 
 }  // namespace regrasp::planning

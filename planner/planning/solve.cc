@@ -1,5 +1,6 @@
 #include "planner/planning/solve.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -56,6 +57,10 @@ class GraspResolver {
 
   /// A given grasp checked, one that is drawn evenly over the surface drawn.
   [[nodiscard]] GraspChoice Resolve(GraspChoice choice, RandomUse use) const {
+    if (choice.kind == Kind::kAny) {
+      if (request_.in_hand) return choice;
+      throw std::invalid_argument("only a plan for a hand begins or ends with any grasp");
+    }
     if (choice.kind == Kind::kGiven) {
       Check(choice);
       return choice;
@@ -77,9 +82,11 @@ class GraspResolver {
     };
     const grasp::Grasp& grasp = choice.grasp;
     const int found = static_cast<int>(grasp.size());
-    if (found < scope_.contacts.least || found > scope_.contacts.most) {
-      refuse("the planner " + planner_.name() + " needs " + RangeText(scope_.contacts) +
-             " contacts, found " + std::to_string(found));
+    const grasp::ContactLimits taken{scope_.contacts.least,
+                                     std::min(scope_.contacts.most, request_.hand.fingers)};
+    if (found < taken.least || found > taken.most) {
+      refuse("the planner " + planner_.name() + " needs " + RangeText(taken) + " contacts, found " +
+             std::to_string(found));
     }
     if (const auto pair =
             ContactsAtSamePoint(grasp, criteria::kSamePoint * request_.object->diameter())) {

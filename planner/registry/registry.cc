@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/gait/gait_planner.h"
 #include "planner/roadmap/roadmap_planner.h"
 #include "planner/sets/contour/contour_planner.h"
 #include "planner/sets/polygon/polygon_planner.h"
@@ -16,8 +17,9 @@ const std::vector<const planning::Planner*>& AllPlanners() {
   static const polygon::PolygonPlanner polygon;
   static const polyhedron::PolyhedronPlanner polyhedron;
   static const roadmap::RoadmapPlanner roadmap;
-  static const std::vector<const planning::Planner*> all = {&tree, &polygon, &contour, &roadmap,
-                                                            &polyhedron};
+  static const gait::GaitPlanner gait;
+  static const std::vector<const planning::Planner*> all = {&tree,    &polygon,    &contour,
+                                                            &roadmap, &polyhedron, &gait};
   return all;
 }
 

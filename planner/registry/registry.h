@@ -9,7 +9,7 @@ namespace regrasp::registry {
 
 /// All planners: `general` first, then those that are complete over the grasps that they know, of
 /// which the first one in the plane and the first one in space are those whose graph is built where
-/// none is named.
+/// none is named; and `gait`, for hands.
 [[nodiscard]] const std::vector<const planning::Planner*>& AllPlanners();
 
 /// Their names and "auto", in the order of AllPlanners, for messages: "auto, general, polygon …".
@@ -22,7 +22,7 @@ namespace regrasp::registry {
 /// every option that it asks for. For a plan that is `general`, which joins at least as many pairs
 /// of grasps as any other and faster (bench/planners), unless an option asks for what only another
 /// gives: contact regions (contour), uniform spanning (polygon, polyhedron), contact points or
-/// clusters (roadmap).
+/// clusters (roadmap), a hand (gait).
 /// @throws InputError  none does; the message says for which option.
 [[nodiscard]] const planning::Planner& ChoosePlanner(const planning::PlanRequest& request);
 

@@ -139,8 +139,7 @@ def plan(object: Object, start, goal, mu: float | None = None, *,
     """
     if not isinstance(object, Object):
         raise InputError(f"object: an Object is needed, found {type(object).__name__}")
-    given = _regrasp.PlanArguments()
-    given.half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
+    given = _asked(mu, friction_angle_deg, seed, min_quality, time_limit)
     given.start = _grasp_text("start", start, object)
     given.goal = _grasp_text("goal", goal, object)
     given.planner = _arguments.choice("planner", planner, _PLANNERS)
@@ -152,12 +151,8 @@ def plan(object: Object, start, goal, mu: float | None = None, *,
     if clusters is not None:
         given.clusters = _arguments.integer("clusters", clusters, _regrasp.fewest_clusters,
                                             _regrasp.most_clusters)
-    given.seed = _arguments.integer("seed", seed, 0, 2**64 - 1)
-    given.min_quality = 0 if min_quality == 0 else _arguments.number("min_quality", min_quality, 0)
     given.finger_radius = 0 if finger_radius == 0 else _arguments.number(
         "finger_radius", finger_radius, 0)
-    if time_limit is not None:
-        given.time_limit_s = _arguments.number("time_limit", time_limit, 0)
     return _plan_of(*_regrasp.find_plan(object._core, given, progress))
 
 
@@ -214,22 +209,29 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
         raise InputError('turn: say what the hand is to do: turn=("z", 90), goal_pose or goal')
     if turn is None and goal_pose is None and start is None and start_pose is None:
         raise InputError("goal: start or start_pose says what is before it")
-    given = _regrasp.HandPlanArguments()
-    given.half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
-    if turn is not None:
-        given.turn_axis, given.turn_angle = _turn(turn)
+    given = _asked(mu, friction_angle_deg, seed, min_quality, time_limit)
     given.start = "" if start is None else _grasp_text("start", start, object, random=False)
     given.goal = "" if goal is None else _grasp_text("goal", goal, object, random=False)
-    given.start_pose = None if start_pose is None else _pose("start_pose", start_pose)
-    given.goal_pose = None if goal_pose is None else _pose("goal_pose", goal_pose)
+    task = _regrasp.HandArguments()
+    if turn is not None:
+        task.turn_axis, task.turn_angle = _turn(turn)
+    task.start_pose = None if start_pose is None else _pose("start_pose", start_pose)
+    task.goal_pose = None if goal_pose is None else _pose("goal_pose", goal_pose)
     words = ["preferred", "required", "none"]
-    given.reserve = getattr(_regrasp.Reserve, _arguments.choice("reserve", reserve, words))
-    given.clearance = 0 if clearance == 0 else _arguments.number("clearance", clearance, 0, 0.05)
+    task.reserve = getattr(_regrasp.Reserve, _arguments.choice("reserve", reserve, words))
+    task.clearance = 0 if clearance == 0 else _arguments.number("clearance", clearance, 0, 0.05)
+    return _plan_of(*_regrasp.find_plan_in_hand(object._core, given, hand._core, task, progress))
+
+
+def _asked(mu, friction_angle_deg, seed, min_quality, time_limit):
+    """What is asked of every planner."""
+    given = _regrasp.PlanArguments()
+    given.half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
     given.seed = _arguments.integer("seed", seed, 0, 2**64 - 1)
     given.min_quality = 0 if min_quality == 0 else _arguments.number("min_quality", min_quality, 0)
     if time_limit is not None:
         given.time_limit_s = _arguments.number("time_limit", time_limit, 0)
-    return _plan_of(*_regrasp.find_plan_in_hand(object._core, hand._core, given, progress))
+    return given
 
 
 def _turn(turn) -> tuple[list[float], float]:

@@ -207,7 +207,7 @@ class Gait(ProgramCase):
         self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
         self.write_json("two.json", {"format": "regrasp-grasp", "version": 1,
                                      "contacts": json.loads(self.read("goal.json"))["contacts"][:2]})
-        self.assert_refused(2, "two.json: a grasp of this hand has 3 to 4 contacts, found 2",
+        self.assert_refused(2, "two.json: /contacts: the planner gait needs 3 to 4 contacts, found 2",
                               *self.arguments("--turn", "z 9", "--start", "two.json"))
 
     def test_the_same_arguments_give_the_same_bytes(self):
@@ -377,9 +377,14 @@ class Gait(ProgramCase):
                 ("length must be 1, found 1.414", ("--goal-pose", "0 0 0.1 1 1 0 0")),
                 ("in metres from the palm, found 50 m", ("--goal-pose", "0 0 50 1 0 0 0")),
                 ("says what is before it", ("--goal", "goal.json")),
-                ("plans for fingers without a hand", ("--turn", "z 90", "--planner", "general")),
-                ("--effort: no option of plans for a hand", ("--turn", "z 90", "--effort", "9"))):
+                ("--hand: the planner general has no such option; use --planner gait",
+                 ("--turn", "z 90", "--planner", "general")),
+                ("no planner has all of --optimize margin (general) --hand (gait)",
+                 ("--turn", "z 90", "--optimize", "margin"))):
             self.assert_refused(2, words, *self.arguments(*more))
+        self.assert_refused(2, "plans for a hand, and none is given (--hand)", "--object",
+                            self.model("cube.obj"), "--mu", "0.5", "--output", "plan.json",
+                            "--planner", "gait", "--start", "random", "--goal", "random")
         self.assert_refused(2, "--start is required", "--object", self.model("cube.obj"), "--mu",
                             "0.5", "--output", "plan.json")
         self.assert_refused(2, "no planar objects", "--object", self.model("square.wkt"), "--mu",
@@ -436,6 +441,11 @@ class Gait(ProgramCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("0 of 90 degrees", done.stderr)
         self.assertFalse(os.path.exists(self.path("plan.json")))
+
+    def test_effort_is_when_to_give_up(self):
+        for effort, code in (("2", 1), ("8000", 0)):
+            done = self.run_program(*self.arguments("--turn", "z 300", "--effort", effort))
+            self.assertEqual(done.returncode, code, done.stderr)
 
     def test_explain_says_what_would_do(self):
         done = self.run_program("--object", self.model("cube.obj"), "--scale", "20", "--mu", "0.8",

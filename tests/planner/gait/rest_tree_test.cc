@@ -28,11 +28,14 @@ GaitRequest Standing(const kinematics::HandModel& hand, const object::Polyhedron
   return request;
 }
 
-/// A hand of four fingers, three of which hold a body.
+/// A hand, three fingers of which hold a body.
 class RestTreeTest : public testing::Test {
  protected:
-  explicit RestTreeTest(const char* model = "models/cube.obj", double scale = 0.8)
-      : file_(object::ReadObject(ProjectPath(model))), request_(Standing(hand_, solid_, scale)) {
+  explicit RestTreeTest(const char* model = "models/cube.obj", double scale = 0.8,
+                        const char* hand = "models/hands/ring4.json")
+      : hand_(kinematics::ReadHand(ProjectPath(hand))),
+        file_(object::ReadObject(ProjectPath(model))),
+        request_(Standing(hand_, solid_, scale)) {
     memory_.Append(found_.contacts);
     for (const grasp::Contact& contact : found_.contacts) {
       points_.push_back({request_.scale * contact.p, contact.n});
@@ -56,20 +59,20 @@ class RestTreeTest : public testing::Test {
     EXPECT_TRUE(tree.WorkOutWay(tree[first]));
     return first;
   }
+  Posture FreePosture() { return FreePostureOf(free_, first_); }
   /// Somewhere in the air.
-  Posture FreePosture() {
-    Hold hold = first_;
+  Posture FreePostureOf(FingerIndex finger, Hold hold) {
     do {
-      hold.waiting[free_] = setup_.scene.DrawPosture(free_, random_);
-    } while (!setup_.scene.KeepsOffHand(setup_.scene.Place(free_, hold.waiting[free_])) ||
+      hold.waiting[finger] = setup_.scene.DrawPosture(finger, random_);
+    } while (!setup_.scene.KeepsOffHand(setup_.scene.Place(finger, hold.waiting[finger])) ||
              !carrier_.IsPassable(hold, grid_.start()));
-    return hold.waiting[free_];
+    return hold.waiting[finger];
   }
   Vector3d TipOf(const Posture& posture) const {
     return kinematics::TipAt(hand_.fingers[free_], posture).centre;
   }
 
-  const kinematics::HandModel hand_ = kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
+  const kinematics::HandModel hand_;
   const object::ObjectFile file_;
   const object::Polyhedron& solid_ = dynamic_cast<const object::Polyhedron&>(*file_.object);
   const GaitRequest request_;
@@ -81,7 +84,7 @@ class RestTreeTest : public testing::Test {
   const HandSetup setup_{scene_, inverse_, points_, request_.scale};
   criteria::GraspMemory memory_{solid_, request_.criteria, FingersOf(request_),
                                 criteria::QualityTest::kQuick};
-  const Parking nowhere_ = Parking(4);
+  const Parking nowhere_ = Parking(hand_.fingers.size());
   const PoseGrid grid_{{found_.gait->start.pose, Vector3d::Zero(), {}, Vector3d::Zero(), 0},
                        hand_.up,
                        PoseGrid::End::kPose};
@@ -146,6 +149,60 @@ TEST_F(RestTreeTest, AFingerThatIsPlacedMayWaitAboveItsContactBefore) {
     EXPECT_EQ(gait->start.postures, begin.at.postures);
     ASSERT_EQ(gait->stretches.size(), 1u);
     EXPECT_EQ(gait->stretches[0].contact, point);
+  }
+  EXPECT_GT(come_to, 0);
+}
+
+/// Two fingers hold nothing.
+class FiveFingersTest : public RestTreeTest {
+ protected:
+  FiveFingersTest() : RestTreeTest("models/cube.obj", 0.8, "models/hands/ring5.json") {
+    other_free_ = FingerIndex(free_ + 1);
+    while (first_.holding[other_free_] != kNone) ++other_free_;
+    while (first_.holding[holds_] == kNone) ++holds_;
+  }
+
+  FingerIndex other_free_;
+  FingerIndex holds_{0};
+};
+
+/// A rest that was come to when the other free finger waited elsewhere before it.
+TEST_F(FiveFingersTest, WhoWaitsBeforeARestAndInItStaysWhereItIsWhenItIsComeToAnew) {
+  RestTree tree = Tree(true);
+  const int first = AddFirst(tree);
+  Holding released = first_.holding;
+  released[holds_] = kNone;
+  Rest after = tree.After(first, released, grid_.start());
+  after.hold.waiting[holds_] = FreePostureOf(holds_, after.hold);
+  const int second = tree.Add(after);
+  ASSERT_TRUE(tree.WorkOutWay(tree[second]));
+  tree[second].hold.waiting[other_free_] = FreePostureOf(other_free_, tree[second].hold);
+  ASSERT_NE(tree[second].hold.waiting[other_free_], first_.waiting[other_free_]);
+
+  const int anew = tree.WithWaiting(second, free_, FreePostureOf(free_, tree[second].hold));
+  ASSERT_GE(anew, 0);
+  const Rest& before = tree[tree[anew].parent];
+  EXPECT_EQ(before.hold.waiting[other_free_], first_.waiting[other_free_]);
+  EXPECT_EQ(tree[anew].hold.waiting[other_free_], first_.waiting[other_free_]);
+}
+
+/// The same where the finger that is placed waits above its contact since the beginning.
+TEST_F(FiveFingersTest, AndWhenAFingerWaitsAboveItsContact) {
+  RestTree tree = Tree(true);
+  const int first = AddFirst(tree);
+  int come_to = 0;
+  for (int point = 0; point < std::ssize(points_) && come_to == 0; ++point) {
+    if (carrier_.reach().Find(free_, point, grid_.start()) == nullptr) continue;
+    Holding to = first_.holding;
+    to[free_] = point;
+    if (!carrier_.IsPassable({to}, grid_.start())) continue;
+    Rest placed = tree.After(first, to, grid_.start());
+    placed.hold.waiting[other_free_] = FreePostureOf(other_free_, placed.hold);
+    ASSERT_NE(placed.hold.waiting[other_free_], first_.waiting[other_free_]);
+    const int after = tree.AfterWaitingAbove(tree.Add(placed));
+    if (after < 0) continue;
+    ++come_to;
+    EXPECT_EQ(tree[after].hold.waiting[other_free_], first_.waiting[other_free_]);
   }
   EXPECT_GT(come_to, 0);
 }

@@ -40,6 +40,7 @@ std::vector<std::pair<PlanOption, PlanRequest>> OneOptionEach() {
   add(PlanOption::kNoLastResort, [](PlanRequest& r) { r.last_resort = false; });
   add(PlanOption::kEffort, [](PlanRequest& r) { r.effort = 0; });
   add(PlanOption::kExplain, [](PlanRequest& r) { r.explain = true; });
+  add(PlanOption::kHand, [](PlanRequest& r) { r.in_hand = InHandTask(); });
   return requests;
 }
 

@@ -43,8 +43,8 @@ TEST(Registry, EveryPlannerIsFoundByItsNameAndHasOneOfItsOwn) {
     EXPECT_TRUE(planner->traits().in_plane || planner->traits().in_space) << planner->name();
     names.insert(planner->name());
   }
-  EXPECT_EQ(names,
-            (std::set<std::string>{"general", "contour", "polygon", "polyhedron", "roadmap"}));
+  EXPECT_EQ(names, (std::set<std::string>{"general", "contour", "gait", "polygon", "polyhedron",
+                                          "roadmap"}));
   EXPECT_EQ(FindPlanner("auto"), nullptr);
   EXPECT_EQ(FindPlanner("genral"), nullptr);
 }
@@ -82,6 +82,23 @@ TEST(ChoosePlanner, TakesTheOneThatHasTheOption) {
   planning::PlanRequest travel = On(Solid());
   travel.objective = planning::Objective::kTravel;
   EXPECT_EQ(ChoosePlanner(travel).name(), "general");
+}
+
+TEST(ChoosePlanner, TakesGaitForAHandAndSaysWhatNoPlannerJoinsWithIt) {
+  planning::PlanRequest request = On(Solid());
+  EXPECT_THAT(
+      [&] { (void)PlannerFor("gait", request); },
+      ThrowsMessage<InputError>(StrEq("the planner gait plans for a hand, and none is given "
+                                      "(--hand); use --planner general")));
+  request.in_hand = planning::InHandTask();
+  EXPECT_EQ(ChoosePlanner(request).name(), "gait");
+  EXPECT_THAT([&] { (void)PlannerFor("general", request); },
+              ThrowsMessage<InputError>(
+                  StrEq("--hand: the planner general has no such option; use --planner gait")));
+  request.objective = planning::Objective::kTravel;
+  EXPECT_THAT([&] { (void)ChoosePlanner(request); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("--optimize travel (general)"),
+                                              HasSubstr("--hand (gait) for a solid"))));
 }
 
 TEST(ChoosePlanner, TakesForAGraphTheFirstThatHasOneWithTheOption) {

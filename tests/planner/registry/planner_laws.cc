@@ -320,6 +320,7 @@ PlanRequest Asking(PlanOption option, PlanRequest request) {
     case PlanOption::kExplain:
       request.explain = true;
       break;
+    case PlanOption::kHand:         // gait/gait_planner_test.cc
     case PlanOption::kGivenPoints:  // are the object's
     case PlanOption::kFocusPoints:
     case PlanOption::kQueries:

@@ -1,0 +1,93 @@
+#include "planner/gait/gait_planner.h"
+
+#include <utility>
+#include <vector>
+
+#include "planner/gait/explain_gait.h"
+#include "planner/gait/plan_of_gait.h"
+#include "planner/planning/rest_summary.h"
+
+namespace regrasp::gait {
+namespace {
+
+using planning::GraspChoice;
+using planning::PlanOption;
+using planning::PlanRequest;
+using planning::PlanResult;
+
+/// No hand that is known has more.
+constexpr int kMostFingers = 20;
+constexpr int kFewestFingers = 3;
+
+GaitRequest RequestFor(const PlanRequest& asked) {
+  GaitRequest request;
+  static_cast<planning::InHandTask&>(request) = asked.in_hand.value();
+  // There are no other objects of three dimensions (WhyNotServed).
+  request.solid = &dynamic_cast<const object::Polyhedron&>(*asked.object);
+  request.criteria = asked.criteria;
+  // Of those that the planner chooses there is none.
+  request.start_grasp = asked.start.grasp;
+  request.goal_grasp = asked.goal.grasp;
+  request.seed = asked.seed;
+  request.most_expanded = asked.effort.value_or(kDefaultExpanded);
+  request.deadline = asked.deadline;
+  request.progress = asked.progress;
+  return request;
+}
+
+std::vector<planning::Rest> RestsOf(const plan::Plan& plan) {
+  plan::FingerGrasp holding = plan.initial;
+  std::vector<planning::Rest> rests = {{plan::ContactsOf(holding), {}}};
+  for (const plan::Step& step : plan.steps) {
+    holding = plan::GraspAfter(holding, step);
+    rests.push_back({plan::ContactsOf(holding), {}});
+  }
+  return rests;
+}
+
+}  // namespace
+
+GaitPlanner::GaitPlanner()
+    : Planner({.name = "gait",
+               .what = "a hand turns or carries the object",
+               .in_space = planning::PlannerScope{kFewestFingers,
+                                                  {kFewestFingers, kMostFingers},
+                                                  {kFewestFingers, kFewestFingers}},
+               .options = {PlanOption::kHand, PlanOption::kEffort, PlanOption::kExplain},
+               .has_graph = false,
+               .needs_hand = true}) {}
+
+PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
+  GaitRequest request = RequestFor(asked);
+  const auto time = request.deadline.left();
+  const GaitResult found = FindGait(request);
+  PlanResult result;
+  if (!found.gait) {
+    result.status = PlanResult::Status::kNoSequence;
+    result.message = found.message;
+    if (request.deadline.IsOver()) result.message += "; that was when the time was up";
+    if (asked.explain) {
+      if (time) request.deadline = request.deadline.In(*time);
+      result.message += "; " + ExplainGait(request);
+    }
+    return result;
+  }
+  result.plan = PlanOf(*found.gait, request, found.contacts);
+  const std::vector<planning::Rest> rests = RestsOf(*result.plan);
+  const criteria::GraspEvaluator evaluator(*asked.object, asked.criteria, FingersOf(request));
+  result.margin = planning::SmallestMargin(rests, evaluator);
+  result.warnings = planning::RestWarnings(rests, evaluator);
+  return result;
+}
+
+void AskInHand(const planning::InHandTask& task, PlanRequest& request) {
+  request.in_hand = task;
+  // A grasp for another one, and no word of the pose: the object stays where it is.
+  if (task.turn.angle == 0 && !task.goal_pose) request.in_hand->goal_pose = task.start_pose;
+  request.hand = FingersOf(task);
+  for (GraspChoice* choice : {&request.start, &request.goal}) {
+    *choice = {GraspChoice::Kind::kAny, {}, {}};
+  }
+}
+
+}  // namespace regrasp::gait

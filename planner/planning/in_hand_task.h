@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+namespace regrasp::kinematics {
+struct HandModel;
+}
+
+namespace regrasp::planning {
+
+/// A turn of an object about one of its own axes.
+struct Turn {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of length 1, in the object's frame
+  double angle = 0;                                 ///< radians
+};
+
+/// Whether a plan for a hand is to have something to spare, so that motors can carry it out:
+/// friction, better grasps, more clearance, grasps that hold where their contacts have rolled to,
+/// and no slides, whose drag the fingers that hold can seldom balance.
+enum class Reserve {
+  kNone,       ///< is not looked for
+  kPreferred,  ///< is looked for, for a while, where there is a plan; not at any length
+  kRequired,
+};
+
+/// What is asked of a hand beside start and goal grasps: that the object turns, or goes to a pose.
+/// Poses are of the object's own frame (its file's axes and origin) in the palm's, metres.
+struct InHandTask {
+  const kinematics::HandModel* hand = nullptr;  ///< outlives the task
+  double scale = 1;                             ///< metres per unit of the object's file
+  Reserve reserve = Reserve::kPreferred;
+  double margin = 1e-3;  ///< between links, palm and object, metres
+  Turn turn = {};        ///< about the object's centre, which may end some millimetres away
+  std::optional<Eigen::Isometry3d> start_pose = {};  ///< none: where the hand's reach is best
+  std::optional<Eigen::Isometry3d> goal_pose = {};   ///< instead of a turn
+};
+
+}  // namespace regrasp::planning

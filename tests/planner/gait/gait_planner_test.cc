@@ -1,0 +1,142 @@
+#include "planner/gait/gait_planner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "planner/base/error.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/kinematics/hand_file.h"
+#include "planner/plan/check.h"
+#include "tests/fixtures/models.h"
+#include "tests/fixtures/plan_with.h"
+#include "tests/fixtures/project_path.h"
+
+namespace regrasp::gait {
+namespace {
+
+using planning::GraspChoice;
+using planning::PlanRequest;
+using planning::PlanResult;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// A cube of 48 mm in a hand of four fingers.
+class GaitPlannerTest : public testing::Test {
+ protected:
+  planning::InHandTask TaskOf(double degrees) const {
+    return {.hand = &hand_,
+            .scale = 0.8,
+            .reserve = planning::Reserve::kNone,
+            .turn = {Eigen::Vector3d::UnitZ(), Radians(degrees)}};
+  }
+  PlanRequest Turning(double degrees) const {
+    PlanRequest request;
+    request.object = file_.object.get();
+    request.criteria.half_angle = std::atan(0.8);
+    request.seed = 2;
+    AskInHand(TaskOf(degrees), request);
+    return request;
+  }
+  PlanResult Solve(const PlanRequest& request) const { return planning::Solve(planner_, request); }
+
+  const kinematics::HandModel hand_ = kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
+  const object::ObjectFile file_ = ReadModel("cube.obj");
+  const GaitPlanner planner_;
+};
+
+/// Grasps at rest and all between hold; the margin is that of the weakest one at rest.
+TEST_F(GaitPlannerTest, PlansPassTheCheckerWithTheMarginThatTheySay) {
+  const PlanResult found = Solve(Turning(60));
+  ASSERT_TRUE(found.plan) << found.message;
+  EXPECT_EQ(found.plan->planner, "gait");
+  const plan::PlanCheck check = plan::CheckPlan(*file_.object, *found.plan);
+  EXPECT_TRUE(check.passed());
+  plan::FingerGrasp holding = found.plan->initial;
+  double required = 0;
+  const auto look_at = [&] {
+    required = std::max(required, grasp::ComputeRequiredHalfAngle(plan::ContactsOf(holding),
+                                                                  file_.object->wrench_frame())
+                                      ->upper);
+  };
+  look_at();
+  for (const plan::Step& step : found.plan->steps) {
+    holding = plan::GraspAfter(holding, step);
+    look_at();
+  }
+  EXPECT_NEAR(found.margin, std::atan(0.8) - required, 1e-9);
+}
+
+TEST_F(GaitPlannerTest, GivenGraspsAreTheEndsAndTheObjectStaysWhereNothingElseIsSaid) {
+  const PlanResult turned = Solve(Turning(30));
+  ASSERT_TRUE(turned.plan) << turned.message;
+  PlanRequest request = Turning(30);
+  planning::InHandTask stays = TaskOf(0);
+  stays.start_pose = turned.plan->hand->initial.pose;
+  AskInHand(stays, request);
+  const grasp::Grasp grasp = plan::ContactsOf(turned.plan->initial);
+  request.start = Given(grasp);
+  request.goal = Given(grasp);
+  const PlanResult found = Solve(request);
+  ASSERT_TRUE(found.plan) << found.message;
+  EXPECT_TRUE(found.plan->steps.empty());
+  EXPECT_TRUE(found.plan->hand->goal.isApprox(*stays.start_pose));
+}
+
+TEST_F(GaitPlannerTest, GivenGraspsAreCheckedLikeThoseOfOtherPlanners) {
+  const PlanResult turned = Solve(Turning(30));
+  ASSERT_TRUE(turned.plan) << turned.message;
+  PlanRequest request = Turning(30);
+  grasp::Grasp grasp = plan::ContactsOf(turned.plan->initial);
+  grasp.pop_back();
+  request.start = Given(grasp);
+  EXPECT_THAT([&] { (void)Solve(request); },
+              ThrowsMessage<InputError>(HasSubstr("the planner gait needs 3 to 4 contacts, found " +
+                                                  std::to_string(grasp.size()))));
+  request.start = Given(plan::ContactsOf(turned.plan->initial));
+  request.criteria.half_angle = Radians(1);
+  EXPECT_THAT([&] { (void)Solve(request); },
+              ThrowsMessage<InputError>(HasSubstr("given.json: /contacts: not force closure")));
+}
+
+TEST_F(GaitPlannerTest, AHandIsNeededAndOnlyThisPlannerHasOne) {
+  PlanRequest request = Turning(30);
+  EXPECT_EQ(planning::WhyNotServed(planner_, request), "");
+  request.in_hand.reset();
+  EXPECT_THAT(planning::WhyNotServed(planner_, request), HasSubstr("none is given (--hand)"));
+}
+
+/// With little effort the search gives up early, and an effort that is enough changes nothing.
+TEST_F(GaitPlannerTest, GivesUpAfterItsEffort) {
+  PlanRequest request = Turning(300);
+  request.effort = 2;
+  const PlanResult none = Solve(request);
+  EXPECT_FALSE(none.plan);
+  EXPECT_EQ(none.status, PlanResult::Status::kNoSequence);
+  EXPECT_THAT(none.message, HasSubstr("of 300 degrees"));
+  request.effort.reset();
+  EXPECT_TRUE(Solve(request).plan);
+}
+
+TEST_F(GaitPlannerTest, ExplainsWhatWouldDoForAsLongAgainAsThereWasTime) {
+  PlanRequest request = Turning(90);
+  request.in_hand->scale = 20;  // as large as a person
+  request.explain = true;
+  request.effort = 40;
+  const PlanResult none = Solve(request);
+  ASSERT_FALSE(none.plan);
+  EXPECT_THAT(none.message, HasSubstr("not found to help: more friction"));
+  EXPECT_THAT(none.message, testing::Not(HasSubstr("the time limit ended")));
+  // A clock that goes on by a second whenever it is looked at.
+  auto now = Deadline::Clock::time_point();
+  request.deadline = {now + std::chrono::seconds(3),
+                      [&] { return now += std::chrono::seconds(1); }};
+  EXPECT_THAT(Solve(request).message, AllOf(HasSubstr("when the time was up"),
+                                            HasSubstr("the time limit ended the tries")));
+}
+
+}  // namespace
+}  // namespace regrasp::gait
