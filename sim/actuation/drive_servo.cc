@@ -13,7 +13,7 @@ namespace {
 
 /// Of servos that the model leaves out, as small electric fingers have them: N m / rad, and the
 /// inertia of a motor behind its gear, kg m².
-constexpr double kServoStiffness = 2;
+constexpr double kServoStiffness = 4;
 constexpr double kServoInertia = 1e-3;
 
 /// @returns the critical damping of what a drive moves, which has the inertia of a small gear

@@ -22,6 +22,9 @@ constexpr double kDamping = 5e-3;
 constexpr double kPull = 0.02;
 /// The largest normal force of fingers that slide, of the squeeze.
 constexpr double kMostSliding = 0.5;
+/// In which a servo lets go of what it pressed with when its finger was attached, seconds: planned
+/// forces are all that is to be left.
+constexpr double kPreloadTime = 0.1;
 /// Planned joints go no faster, rad/s.
 constexpr double kFastest = 2;
 /// In which what a free finger is off goes, seconds.
@@ -141,8 +144,9 @@ void HandControl::Measure() {
   const Isometry3d pose = world_.object_pose();
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     Finger& finger = fingers_[f];
-    if (finger.mode == Mode::kAttached || finger.mode == Mode::kSliding)
-      finger.centre_O = pose.inverse() * world_.tip(f);
+    if (finger.mode != Mode::kAttached && finger.mode != Mode::kSliding) continue;
+    finger.centre_O = pose.inverse() * world_.tip(f);
+    finger.bias *= 1 - kPeriod / kPreloadTime;
   }
   if (!settings_.feedback || !corrects_) return;
   const Vector3d off = planned_.pose * world_.centroid_O() - pose * world_.centroid_O();

@@ -52,7 +52,9 @@ struct HoldingFingers {
 ///
 /// - The tip of a finger that holds is to be where it would be if the object were at its planned
 ///   pose: it keeps its place on the object as measured, so that it may roll. The target's joints
-///   follow by damped least squares, near the planned ones.
+///   follow by damped least squares, near the planned ones. What servos pressed with when a finger
+///   was attached goes in a tenth of a second, or fingers would push against each other with more
+///   than is planned.
 /// - The planned pose is moved by the integral of the object's measured offset, at most
 /// kMostOffset.
 /// - Torques balance the weight of the links and the planned forces at the contacts as measured:
@@ -112,7 +114,7 @@ class HandControl {
     Mode mode = Mode::kFree;
     Eigen::Vector3d centre_O = Eigen::Vector3d::Zero();
     Eigen::Vector3d led_O = Eigen::Vector3d::Zero();  ///< of one that slides
-    Eigen::Vector3d bias = Eigen::Vector3d::Zero();   ///< of its target when it was attached
+    Eigen::Vector3d bias = Eigen::Vector3d::Zero();   ///< of its target since it was attached
     kinematics::Posture target;
     kinematics::Posture offset;  ///< of a free finger from the planned joints
     kinematics::Posture rate;    ///< of the planned joints, per second

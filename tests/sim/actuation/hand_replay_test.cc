@@ -100,6 +100,19 @@ TEST(HandReplayTest, AGoodPlanEndsWhereItShouldWithinTheToleranceAllAlong) {
   }
 }
 
+/// What a finger was off when it came to its contact would press on for ever: fingers push against
+/// each other then, with forces that nobody planned.
+TEST(HandReplayTest, AtRestFingersPushAsHardAsIsPlannedAlsoAfterSwitches) {
+  const ReplayResult result = ReplayOf(GoodPlan());
+  for (const StepReplay& step : result.steps) {
+    double normal = 0;
+    for (const plan::FingerState& finger : step.snapshot.fingers) {
+      normal += finger.force_W.dot(finger.normal_W);
+    }
+    EXPECT_NEAR(normal, result.settings.squeeze_N, 0.02 * result.settings.squeeze_N) << step.index;
+  }
+}
+
 TEST(HandReplayTest, TheSamePlanGivesTheSameBits) {
   const ReplayResult a = ReplayOf(GoodPlan());
   const ReplayResult b = ReplayOf(GoodPlan());
