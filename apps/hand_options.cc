@@ -100,10 +100,13 @@ void HandOptions::AddTo(CLI::App& app) {
       {{"preferred", planning::Reserve::kPreferred},
        {"required", planning::Reserve::kRequired},
        {"none", planning::Reserve::kNone}},
-      "Something to spare, for the hand's own motors: less friction used, better grasps that also "
-      "hold where contacts roll to, more clearance, no slides. preferred, it is looked for where "
-      "there is a plan, for 30 % of the time that is left, and taken unless the plan gets much "
-      "longer; required, or there is no plan; none (default preferred)");
+      "Something to spare, for the hand's own motors: forces well inside their cones, better "
+      "grasps "
+      "that also hold where contacts roll to, more clearance, no slides. Plans are tried on the "
+      "hand's model, and one is taken that its motors carry out. preferred, where one is found in "
+      "a "
+      "while, and otherwise there is a warning; required, or there is no plan; none, nothing is "
+      "tried (default preferred)");
 }
 
 void HandOptions::Check(const std::string& start, const std::string& goal) const {

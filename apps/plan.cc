@@ -31,6 +31,7 @@
 #include "planner/planning/solve.h"
 #include "planner/repair/repair.h"
 #include "planner/tree/tree_planner.h"
+#include "sim/actuation/carry_out.h"
 
 namespace {
 
@@ -194,13 +195,15 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
                                        const GivenPoints& given) const {
   planning::PlanRequest request = RequestFor(*object.object);
   if (given) request.given_points = &*given;
-  kinematics::HandModel model;
+  kinematics::HandFile model;
   if (hand.given()) {
     if (object.object->dimension() != 3) {
       throw InputError("--hand: hands hold solids, and no planar objects");
     }
-    model = kinematics::ReadHand(hand.hand);
-    planning::InHandTask task{.hand = &model, .scale = common.scale};
+    model = kinematics::ReadHandFile(hand.hand);
+    planning::InHandTask task{.hand = &model.hand, .scale = common.scale};
+    task.is_carried_out =
+        sim::CarryOutTest(model, dynamic_cast<const object::Polyhedron&>(*object.object));
     hand.AskFor(task);
     gait::AskInHand(task, request);
   }

@@ -32,6 +32,7 @@
 #include "planner/object/body_measures.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/locate.h"
+#include "sim/actuation/carry_out.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/hand/check_hand.h"
 
@@ -233,6 +234,7 @@ Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Body
     request.solid = &body.solid;
     request.scale = body.scale;
     request.criteria.half_angle = std::atan(contest.plan_mu);
+    if (contest.replay) request.is_carried_out = sim::CarryOutTest(file, body.solid);
     request.criteria.min_quality = contest.min_quality;
     request.turn = contest.turn;
     request.reserve = contest.reserve;

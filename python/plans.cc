@@ -12,6 +12,7 @@
 #include "planner/certificate/finish_plan.h"
 #include "planner/criteria/reach.h"
 #include "planner/gait/gait_planner.h"
+#include "planner/object/polyhedron.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "planner/planning/solve.h"
@@ -19,6 +20,7 @@
 #include "planner/roadmap/build_roadmap.h"
 #include "python/binding.h"
 #include "python/interrupt.h"
+#include "sim/actuation/carry_out.h"
 
 namespace regrasp::python {
 
@@ -60,14 +62,17 @@ std::optional<Eigen::Isometry3d> PoseOf(const std::optional<std::array<double, 7
   return pose;
 }
 
-planning::InHandTask TaskOf(const PythonHand& hand, const HandArguments& given, double scale) {
+planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
+                            const HandArguments& given) {
   return {.hand = &hand.file.hand,
-          .scale = scale,
+          .scale = object.scale,
           .reserve = given.reserve,
           .margin = given.clearance,
           .turn = {given.turn_axis, given.turn_angle},
           .start_pose = PoseOf(given.start_pose),
-          .goal_pose = PoseOf(given.goal_pose)};
+          .goal_pose = PoseOf(given.goal_pose),
+          .is_carried_out = sim::CarryOutTest(
+              hand.file, dynamic_cast<const object::Polyhedron&>(*object.file.object))};
 }
 
 planning::GraspChoice Choose(const char* name, const std::string& value, bool any,
@@ -173,11 +178,11 @@ void BindPlans(py::module_& module) {
       .def_readwrite("goal_pose", &HandArguments::goal_pose)
       .def_readwrite("clearance", &HandArguments::clearance)
       .def_readwrite("reserve", &HandArguments::reserve);
-  module.def("find_plan_in_hand", [](const PythonObject& object, const PlanArguments& given,
-                                     const PythonHand& hand, const HandArguments& asked,
-                                     py::object progress) {
-    return FindPlan(object, given, std::move(progress), TaskOf(hand, asked, object.scale));
-  });
+  module.def("find_plan_in_hand",
+             [](const PythonObject& object, const PlanArguments& given, const PythonHand& hand,
+                const HandArguments& asked, py::object progress) {
+               return FindPlan(object, given, std::move(progress), TaskOf(object, hand, asked));
+             });
   // Of fingers without a hand.
   module.def("planner_names", [] {
     std::vector<std::string> names;

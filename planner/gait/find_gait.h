@@ -35,6 +35,7 @@ struct GaitRequest : planning::InHandTask {
 
 struct GaitResult {
   std::optional<Gait> gait;
+  std::optional<bool> is_carried_out;    ///< as the request's test has it; none: it was not asked
   std::vector<grasp::Contact> contacts;  ///< by the numbers that the gait has, the object's units
   std::string message;                   ///< where there is none: what stopped it, counted
 };

@@ -73,10 +73,19 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     return result;
   }
   result.plan = PlanOf(*found.gait, request, found.contacts);
+  if (found.is_carried_out.value_or(false)) {
+    result.notes.emplace_back("the hand's own motors carry it out in a simulation");
+  } else if (found.is_carried_out) {
+    result.warnings.emplace_back(
+        "the hand's own motors do not carry it out in a simulation; validate --replay hand says "
+        "what fails");
+  }
   const std::vector<planning::Rest> rests = RestsOf(*result.plan);
   const criteria::GraspEvaluator evaluator(*asked.object, asked.criteria, FingersOf(request));
   result.margin = planning::SmallestMargin(rests, evaluator);
-  result.warnings = planning::RestWarnings(rests, evaluator);
+  for (std::string& warning : planning::RestWarnings(rests, evaluator)) {
+    result.warnings.push_back(std::move(warning));
+  }
   return result;
 }
 

@@ -165,7 +165,7 @@ bool GaitSearch::TakeRolledTips(Rest& rest) {
                              *carrier_.reach().Find(finger, point, rest.node)};
     }
   }
-  if (rolling_.AreGrasp(rest.rolled)) return true;
+  if (rolling_.AreGrasp(rest.rolled, grid_.PoseAt(rest.node))) return true;
   ++counts_.rolled;
   return false;
 }

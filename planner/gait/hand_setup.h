@@ -18,6 +18,8 @@ struct HandSetup {
   /// For gaits with reserve: no finger slides, and grasps hold where their contacts have rolled to
   /// on this surface. Null: contacts count as they are planned, and fingers may slide.
   const collision::BallContact* rolled_on = nullptr;
+  /// With reserve: what forces that hold the object's weight have to spare (RollingTips).
+  double force_margin = 0;
 };
 
 /// By finger: postures in which it may wait while it holds nothing, the best first.

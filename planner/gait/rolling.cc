@@ -3,6 +3,7 @@
 #include <span>
 #include <utility>
 
+#include "planner/grasp/grasp_forces.h"
 #include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::gait {
@@ -22,13 +23,19 @@ SurfacePoint Rolled(const SurfacePoint& contact, const Eigen::Matrix3d& turn, do
   return {near.front().point, -near.front().outward};
 }
 
-bool RollingTips::AreGrasp(const RolledTips& tips) const {
+bool RollingTips::AreGrasp(const RolledTips& tips, const Eigen::Isometry3d& pose) const {
   grasp::Grasp grasp;
   for (const auto& tip : tips) {
     if (tip) grasp.push_back({tip->contact.p / setup_.scale, tip->contact.n, {}});
   }
   criteria::KnownGrasp known;
-  return memory_.GraspEvaluator::Admits(known, [&] { return std::span(std::as_const(grasp)); });
+  if (!memory_.GraspEvaluator::Admits(known, [&] { return std::span(std::as_const(grasp)); })) {
+    return false;
+  }
+  const grasp::Wrench weight{-(pose.linear().transpose() * setup_.scene.hand().up),
+                             Eigen::Vector3d::Zero()};
+  return grasp::ComputeGraspForces(grasp, memory_.frame(), memory_.half_angle(), weight, kSqueeze)
+             .margin >= setup_.force_margin;
 }
 
 std::optional<RolledTip> RollingTips::Follow(FingerIndex finger, const RolledTip& tip,
@@ -74,7 +81,7 @@ std::optional<RolledTips> RollingTips::Carry(const RolledTips& from,
     to[finger] = Follow(finger, *from[finger], from_pose, to_pose);
     if (!to[finger]) return std::nullopt;
   }
-  if (!AreGrasp(to) || !AreClear(to, to_pose, hold)) return std::nullopt;
+  if (!AreGrasp(to, to_pose) || !AreClear(to, to_pose, hold)) return std::nullopt;
   return to;
 }
 

@@ -37,6 +37,9 @@ struct RolledTip {
   SurfacePoint contact;
   Posture posture;
 };
+/// The sum of the normal forces of a grasp over the object's weight, as hands usually squeeze.
+inline constexpr double kSqueeze = 12;
+
 /// By finger; none where it holds nothing.
 using RolledTips = std::vector<std::optional<RolledTip>>;
 
@@ -46,8 +49,10 @@ class RollingTips {
   RollingTips(const HandSetup& setup, criteria::GraspMemory& memory)
       : setup_(setup), memory_(memory) {}
 
-  /// Whether the grasp where they are is one that the memory admits.
-  [[nodiscard]] bool AreGrasp(const RolledTips& tips) const;
+  /// Whether the grasp where they are is one that the memory admits, and fingers that push with
+  /// kSqueeze times the object's weight can hold it there with the setup's margin inside the cones
+  /// (grasp::GraspForces::margin): what the controller of a hand goes by.
+  [[nodiscard]] bool AreGrasp(const RolledTips& tips, const Eigen::Isometry3d& pose) const;
   /// Where they are when the object goes to a pose near by.
   /// @param hold  whose other fingers wait.
   /// @returns nullopt where a finger can't follow, something runs into something, or the grasp is

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <optional>
 
 namespace regrasp::kinematics {
 struct HandModel;
+}
+
+namespace regrasp::plan {
+struct Plan;
 }
 
 namespace regrasp::planning {
@@ -15,9 +20,9 @@ struct Turn {
   double angle = 0;                                 ///< radians
 };
 
-/// Whether a plan for a hand is to have something to spare, so that motors can carry it out:
-/// friction, better grasps, more clearance, grasps that hold where their contacts have rolled to,
-/// and no slides, whose drag the fingers that hold can seldom balance.
+/// Whether a plan for a hand is to have something to spare, so that motors can carry it out: forces
+/// well inside their cones, better grasps, more clearance, grasps that hold where their contacts
+/// have rolled to, and no slides, whose drag the fingers that hold can seldom balance.
 enum class Reserve {
   kNone,       ///< is not looked for
   kPreferred,  ///< is looked for, for a while, where there is a plan; not at any length
@@ -34,6 +39,9 @@ struct InHandTask {
   Turn turn = {};        ///< about the object's centre, which may end some millimetres away
   std::optional<Eigen::Isometry3d> start_pose = {};  ///< none: where the hand's reach is best
   std::optional<Eigen::Isometry3d> goal_pose = {};   ///< instead of a turn
+  /// Where reserve is looked for: whether the hand carries a plan out, nullopt where that can't be
+  /// told (sim/actuation/carry_out.h). None: reserve is all that is asked for.
+  std::function<std::optional<bool>(const plan::Plan&)> is_carried_out = {};
 };
 
 }  // namespace regrasp::planning

@@ -180,8 +180,8 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
         start_pose: of the object's frame in the palm's: seven numbers, position in metres and
             quaternion w, x, y, z; None: where the hand's reach is best.
         goal_pose: likewise.
-        reserve: whether something to spare for the hand's motors is "preferred", "required" or
-            "none".
+        reserve: whether something to spare for the hand's motors, and that they carry the plan
+            out in a simulation, is "preferred", "required" or not asked for ("none").
         clearance: that links keep from each other, from palm and object, metres.
         seed: of all that is drawn at random.
         min_quality: that the sequence prefers.

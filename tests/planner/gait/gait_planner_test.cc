@@ -121,20 +121,16 @@ TEST_F(GaitPlannerTest, GivesUpAfterItsEffort) {
   EXPECT_TRUE(Solve(request).plan);
 }
 
-TEST_F(GaitPlannerTest, ExplainsWhatWouldDoForAsLongAgainAsThereWasTime) {
+TEST_F(GaitPlannerTest, ExplainsWhatWouldDoAfterItsTimeToo) {
   PlanRequest request = Turning(90);
   request.in_hand->scale = 20;  // as large as a person
   request.explain = true;
-  request.effort = 40;
-  const PlanResult none = Solve(request);
-  ASSERT_FALSE(none.plan);
-  EXPECT_THAT(none.message, HasSubstr("not found to help: more friction"));
-  EXPECT_THAT(none.message, testing::Not(HasSubstr("the time limit ended")));
   // A clock that goes on by a second whenever it is looked at.
   auto now = Deadline::Clock::time_point();
   request.deadline = {now + std::chrono::seconds(3),
                       [&] { return now += std::chrono::seconds(1); }};
   EXPECT_THAT(Solve(request).message, AllOf(HasSubstr("when the time was up"),
+                                            HasSubstr("not found to help: more friction"),
                                             HasSubstr("the time limit ended the tries")));
 }
 

@@ -50,7 +50,7 @@ ReplayResult ReplayOf(const plan::Plan& plan, const HandReplayOptions& options =
 
 Reason ReasonOf(const ReplayResult& result) { return result.steps.back().reason; }
 
-/// A turn of 90° with a switch and no align, that passes; made once.
+/// A turn of 150° with a switch and no align, that passes; made once.
 const plan::Plan& GoodPlan() {
   static const plan::Plan plan = [] {
     constexpr int kSeeds = 30;
@@ -61,7 +61,7 @@ const plan::Plan& GoodPlan() {
       request.scale = kScale;
       request.criteria.half_angle = std::atan(kMu);
       request.criteria.min_quality = 0.06;
-      request.turn = {Vector3d::UnitZ(), Radians(90)};
+      request.turn = {Vector3d::UnitZ(), Radians(150)};
       request.seed = seed;
       const gait::GaitResult found = gait::FindGait(request);
       if (!found.gait) continue;

@@ -1,0 +1,69 @@
+#include "sim/actuation/carry_out.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/base/file.h"
+#include "planner/gait/gait_planner.h"
+#include "tests/fixtures/folder_test.h"
+#include "tests/fixtures/models.h"
+#include "tests/fixtures/plan_with.h"
+#include "tests/fixtures/project_path.h"
+
+namespace regrasp::sim {
+namespace {
+
+/// A cube of 5 cm in a hand of five fingers.
+class CarryOutTestTest : public FolderTest {
+ protected:
+  planning::PlanRequest Turning(double degrees) const {
+    planning::PlanRequest request;
+    request.object = &cube_;
+    request.criteria.half_angle = std::atan(0.8);
+    gait::AskInHand({.hand = &hand_.hand,
+                     .scale = 0.8333,
+                     .turn = {Eigen::Vector3d::UnitZ(), Radians(degrees)},
+                     .is_carried_out = CarryOutTest(hand_, cube_)},
+                    request);
+    return request;
+  }
+
+  const kinematics::HandFile hand_ =
+      kinematics::ReadHandFile(ProjectPath("models/hands/ring5.json"));
+  const object::ObjectFile file_ = ReadModel("cube.obj");
+  const object::Polyhedron& cube_ = dynamic_cast<const object::Polyhedron&>(*file_.object);
+  const gait::GaitPlanner planner_;
+};
+
+TEST_F(CarryOutTestTest, PlansThatThePlannerTriedAreCarriedOutAndWithLittleFrictionNot) {
+  const planning::PlanResult found = planning::Solve(planner_, Turning(90));
+  ASSERT_TRUE(found.plan) << found.message;
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_NE(found.notes.front().find("motors carry it out"), std::string::npos);
+  const auto is_carried_out = CarryOutTest(hand_, cube_);
+  EXPECT_EQ(is_carried_out(*found.plan), true);
+  plan::Plan slippery = *found.plan;
+  slippery.half_angle = std::atan(0.05);
+  EXPECT_EQ(is_carried_out(slippery), false);
+}
+
+TEST_F(CarryOutTestTest, OfAHandWithoutActuatorsItCanNotTell) {
+  std::string model = ReadFile(ProjectPath("models/hands/ring5.xml"));
+  const std::string end = "</actuator>";
+  const auto begin = model.find("<actuator>");
+  ASSERT_NE(begin, std::string::npos);
+  model.erase(begin, model.find(end) + end.size() - begin);
+  static_cast<void>(Write("ring5.xml", model));
+  const std::string path =
+      Write("ring5.json", ReadFile(ProjectPath("models/hands/ring5.json"))).string();
+  planning::PlanRequest request = Turning(20);
+  request.in_hand->reserve = planning::Reserve::kNone;
+  const planning::PlanResult found = planning::Solve(planner_, request);
+  ASSERT_TRUE(found.plan) << found.message;
+  EXPECT_EQ(CarryOutTest(kinematics::ReadHandFile(path), cube_)(*found.plan), std::nullopt);
+}
+
+}  // namespace
+}  // namespace regrasp::sim
