@@ -1,9 +1,7 @@
 #include "planner/gait/find_gait.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <memory>
 
 #include "planner/base/angle.h"
@@ -11,8 +9,8 @@
 #include "planner/gait/bidirectional_search.h"
 #include "planner/gait/fewer_moves.h"
 #include "planner/gait/gait_search.h"
-#include "planner/gait/plan_of_gait.h"
 #include "planner/gait/turn_search.h"
+#include "planner/gait/with_reserve.h"
 #include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::gait {
@@ -27,27 +25,6 @@ constexpr int kExpandedAtOnce = 6;
 constexpr int kExpandedForNext = 20;
 /// Times that places are looked for.
 constexpr int kDrawings = 4;
-
-/// What gaits with reserve have to spare.
-struct Spare {
-  double force_margin = 0;  ///< HandSetup
-  double quality = 0;
-};
-/// What is asked of them, one after the other until there is a gait. Of turns of ten bodies in five
-/// hands nearly all of the first kind are carried out, of the second more than of those without.
-constexpr std::array kSpares = {Spare{0.2, 0.05}, Spare{0.1, 0.02}};
-/// What links keep off beside the margin, metres.
-constexpr double kMoreClearance = 1.5e-3;
-/// What is spent on each of them where there is another gait: grasps that are expanded, share of
-/// the time that is left.
-constexpr std::int64_t kExpandedWithReserve = 500;
-constexpr double kTimeWithReserve = 0.5;
-/// Times that they are looked for, where the hand does not carry them out.
-constexpr int kRounds = 3;
-constexpr int kRoundShift = 32;  ///< of seeds
-/// With it a gait may have so many times as many stretches as without, and so many more.
-constexpr std::size_t kTimesAsLong = 3;
-constexpr std::size_t kLonger = 12;
 
 std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
   const sampling::SurfaceSampler sampler(*request.solid, FingersOf(request).fingertip_radius,
@@ -249,75 +226,6 @@ std::string GivenWithoutReserve(const GaitEnds& ends, criteria::GraspMemory& mem
          " grasp has no reserve: its quality is below " + FormatShort(quality);
 }
 
-/// Of gaits with something to spare. @param round  each draws others.
-GaitRequest WithReserve(GaitRequest request, const Spare& spare, int round) {
-  request.seed += static_cast<std::uint64_t>(round) << kRoundShift;
-  double& quality = request.criteria.min_quality;
-  quality = std::max(quality, spare.quality);
-  request.margin += kMoreClearance;
-  const bool is_required = request.reserve == Reserve::kRequired;
-  if (is_required && round == 0 && &spare == &kSpares.back()) return request;
-  request.most_expanded = is_required ? request.most_expanded / 2
-                                      : std::min(request.most_expanded, kExpandedWithReserve);
-  request.deadline = request.deadline.After(kTimeWithReserve);
-  return request;
-}
-
-/// Of a gait with reserve: whether one that does without is to be preferred.
-bool IsMuchLonger(const Gait& gait, const Gait& other) {
-  return gait.stretches.size() > kTimesAsLong * other.stretches.size() + kLonger;
-}
-
-struct Found {
-  std::optional<Gait> gait;
-  std::string message;  ///< where there is none
-};
-using Search = std::function<Found(const GaitRequest& asked, const Spare* spare)>;
-
-/// Looks for gaits with something to spare, until the hand carries one out, or the one without.
-/// @param found  without, where that is allowed and there is one; then the best of all.
-/// @returns whether the hand carries it out.
-std::optional<bool> FindWithReserve(const GaitRequest& request,
-                                    const std::vector<grasp::Contact>& contacts,
-                                    const Search& search, Found& found) {
-  const Found without = found;
-  const bool is_required = request.reserve == Reserve::kRequired;
-  const auto is_carried_out = [&](const Gait& gait) -> std::optional<bool> {
-    if (!request.is_carried_out) return std::nullopt;
-    request.progress("trying a plan on the hand's own motors");
-    return request.is_carried_out(PlanOf(gait, request, contacts));
-  };
-  bool has_spare = false;
-  for (int round = 0; round < kRounds; ++round) {
-    for (const Spare& spare : kSpares) {
-      Found other = search(WithReserve(request, spare, round), &spare);
-      if (is_required && !has_spare && !other.gait) found.message = other.message;
-      if (!other.gait || (without.gait && IsMuchLonger(*other.gait, *without.gait))) continue;
-      const std::optional<bool> carried = is_carried_out(*other.gait);
-      if (carried.value_or(true)) {
-        found = std::move(other);
-        return carried;
-      }
-      if (!has_spare) found = std::move(other);
-      has_spare = true;
-    }
-    if (round == 0 && without.gait) {
-      const std::optional<bool> carried = is_carried_out(*without.gait);
-      if (carried.value_or(true)) {
-        found = without;
-        return carried;
-      }
-    }
-    if (!request.is_carried_out || request.deadline.IsOver()) break;
-  }
-  if (!found.gait) return std::nullopt;
-  if (is_required) {
-    found = {std::nullopt,
-             "of the gaits with reserve that were found the hand's motors carry none out"};
-  }
-  return false;
-}
-
 }  // namespace
 
 hand::Hand FingersOf(const planning::InHandTask& task) {
@@ -343,8 +251,7 @@ GaitResult FindGait(const GaitRequest& request) {
   const collision::SurfaceTree surface(*request.solid, request.scale);
   const collision::BallContact rolled_on(*request.solid, request.scale);
   const hand::Hand fingers = FingersOf(request);
-  /// @param spare  null: none.
-  const Search search = [&](const GaitRequest& asked, const Spare* spare) -> Found {
+  const FindOne find = [&](const GaitRequest& asked, const Spare* spare) -> FoundGait {
     const HandScene scene(*request.hand, surface, asked.margin);
     HandSetup setup{scene, inverse, points, request.scale};
     criteria::GraspMemory memory(*asked.solid, asked.criteria, fingers,
@@ -362,10 +269,10 @@ GaitResult FindGait(const GaitRequest& request) {
     return {std::nullopt, WhatStopped(asked, places.counts())};
   };
   const bool is_required = request.reserve == Reserve::kRequired;
-  Found found;
-  if (!is_required) found = search(request, nullptr);
+  FoundGait found;
+  if (!is_required) found = find(request, nullptr);
   if (is_required || (request.reserve == Reserve::kPreferred && found.gait)) {
-    result.is_carried_out = FindWithReserve(request, result.contacts, search, found);
+    result.is_carried_out = FindWithReserve(request, result.contacts, find, found);
   }
   result.gait = std::move(found.gait);
   result.message = std::move(found.message);
