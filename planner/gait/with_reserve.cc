@@ -17,7 +17,7 @@ constexpr std::array kSpares = {Spare{0.2, 0.05}, Spare{0.1, 0.02}};
 constexpr double kMoreClearance = 1.5e-3;
 /// What is spent on each of them where there is another gait: grasps that are expanded, share of
 /// the time that is left.
-constexpr std::int64_t kExpandedWithReserve = 500;
+constexpr std::int64_t kExpandedWithReserve = 200;
 constexpr double kTimeWithReserve = 0.5;
 /// Times that they are looked for, where the hand does not carry them out.
 constexpr int kRounds = 3;
