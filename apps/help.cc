@@ -90,11 +90,19 @@ std::string HeadOf(const OptionHelp& option) {
   return option.name + (option.type.empty() ? "" : " " + option.type);
 }
 
+/// Choices that do not fit into the line go on in the next one, after a "|".
+std::string BreakChoices(const std::string& head, int width) {
+  if (Length(head) <= width) return head;
+  const std::size_t end = head.rfind('|', static_cast<std::size_t>(width) - 1);
+  if (end == std::string::npos) return head;
+  return head.substr(0, end + 1) + "\n" + BreakChoices("      " + head.substr(end + 1), width);
+}
+
 /// A name, and beside or below it what it does.
 std::string Describe(const std::string& name, const std::string& what, int width) {
   const std::string head = "  " + name;
   const std::string text = Wrap(what, kTextColumn, width);
-  if (Length(head) + 2 > kTextColumn) return head + "\n" + text;
+  if (Length(head) + 2 > kTextColumn) return BreakChoices(head, width) + "\n" + text;
   return head + text.substr(Length(head));
 }
 
