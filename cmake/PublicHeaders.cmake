@@ -34,7 +34,6 @@ set(regrasp_public_headers
   # Planning: a request, a result, and the planners by their names.
   planner/criteria/grasp_criteria.h
   planner/hand/hand.h
-  planner/planning/in_hand_task.h
   planner/planning/plan_request.h
   planner/planning/plan_result.h
   planner/planning/planner.h

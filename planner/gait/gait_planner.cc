@@ -1,5 +1,6 @@
 #include "planner/gait/gait_planner.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,7 @@ constexpr int kFewestFingers = 3;
 
 GaitRequest RequestFor(const PlanRequest& asked) {
   GaitRequest request;
-  static_cast<planning::InHandTask&>(request) = asked.in_hand.value();
+  static_cast<planning::InHandTask&>(request) = *asked.in_hand;
   // There are no other objects of three dimensions (WhyNotServed).
   request.solid = &dynamic_cast<const object::Polyhedron&>(*asked.object);
   request.criteria = asked.criteria;
@@ -90,7 +91,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
 }
 
 void AskInHand(const planning::InHandTask& task, PlanRequest& request) {
-  request.in_hand = task;
+  request.in_hand = std::make_shared<planning::InHandTask>(task);
   // A grasp for another one, and no word of the pose: the object stays where it is.
   if (task.turn.angle == 0 && !task.goal_pose) request.in_hand->goal_pose = task.start_pose;
   request.hand = FingersOf(task);

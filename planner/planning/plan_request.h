@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,10 +15,11 @@
 #include "planner/grasp/contact.h"
 #include "planner/hand/hand.h"
 #include "planner/object/object.h"
-#include "planner/planning/in_hand_task.h"
 #include "planner/planning/spanning.h"
 
 namespace regrasp::planning {
+
+struct InHandTask;
 
 /// How a plan's start or goal is chosen.
 struct GraspChoice {
@@ -88,7 +90,7 @@ struct PlanRequest {
   /// also for another size of the object or tilt of the palm, for as long again as the deadline is.
   bool explain = false;
   /// A hand that moves the object (gait/gait_planner.h), instead of fingers that come from nowhere.
-  std::optional<InHandTask> in_hand = std::nullopt;
+  std::shared_ptr<InHandTask> in_hand = nullptr;
 
   /// Set where a planner's graph is asked for (Planner::SummarizeGraph) and no plan.
   std::optional<GraphTasks> graph = std::nullopt;

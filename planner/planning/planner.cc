@@ -63,7 +63,7 @@ std::vector<PlanOption> OptionsOf(const PlanRequest& request) {
   add(!request.last_resort, PlanOption::kNoLastResort);
   add(request.effort.has_value(), PlanOption::kEffort);
   add(request.explain, PlanOption::kExplain);
-  add(request.in_hand.has_value(), PlanOption::kHand);
+  add(request.in_hand != nullptr, PlanOption::kHand);
   const GraphTasks tasks = request.graph.value_or(GraphTasks());
   add(tasks.focus_points > 0, PlanOption::kFocusPoints);
   add(tasks.queries > 0, PlanOption::kQueries);

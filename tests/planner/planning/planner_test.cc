@@ -6,6 +6,7 @@
 #include <set>
 
 #include "planner/base/angle.h"
+#include "planner/planning/in_hand_task.h"
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/solids.h"
 
@@ -40,7 +41,7 @@ std::vector<std::pair<PlanOption, PlanRequest>> OneOptionEach() {
   add(PlanOption::kNoLastResort, [](PlanRequest& r) { r.last_resort = false; });
   add(PlanOption::kEffort, [](PlanRequest& r) { r.effort = 0; });
   add(PlanOption::kExplain, [](PlanRequest& r) { r.explain = true; });
-  add(PlanOption::kHand, [](PlanRequest& r) { r.in_hand = InHandTask(); });
+  add(PlanOption::kHand, [](PlanRequest& r) { r.in_hand = std::make_shared<InHandTask>(); });
   return requests;
 }
 

@@ -6,6 +6,7 @@
 
 #include "planner/base/error.h"
 #include "planner/planning/graph_summary.h"
+#include "planner/planning/in_hand_task.h"
 #include "planner/registry/registry.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
@@ -90,7 +91,7 @@ TEST(ChoosePlanner, TakesGaitForAHandAndSaysWhatNoPlannerJoinsWithIt) {
       [&] { (void)PlannerFor("gait", request); },
       ThrowsMessage<InputError>(StrEq("the planner gait plans for a hand, and none is given "
                                       "(--hand); use --planner general")));
-  request.in_hand = planning::InHandTask();
+  request.in_hand = std::make_shared<planning::InHandTask>();
   EXPECT_EQ(ChoosePlanner(request).name(), "gait");
   EXPECT_THAT([&] { (void)PlannerFor("general", request); },
               ThrowsMessage<InputError>(
