@@ -101,12 +101,10 @@ void HandOptions::AddTo(CLI::App& app) {
        {"required", planning::Reserve::kRequired},
        {"none", planning::Reserve::kNone}},
       "Something to spare, for the hand's own motors: forces well inside their cones, better "
-      "grasps "
-      "that also hold where contacts roll to, more clearance, no slides. Plans are tried on the "
-      "hand's model, and one is taken that its motors carry out. preferred, where one is found in "
-      "a "
-      "while, and otherwise there is a warning; required, or there is no plan; none, nothing is "
-      "tried (default preferred)");
+      "grasps that also hold where contacts roll to, more clearance, no slides. Plans are tried on "
+      "the hand's model, and one is taken that its motors carry out. preferred, where one is found "
+      "in a while, and otherwise there is a warning; required, or there is no plan; none, nothing "
+      "is tried (default preferred)");
 }
 
 void HandOptions::Check(const std::string& start, const std::string& goal) const {
@@ -131,6 +129,7 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
 
 void HandOptions::AskFor(planning::InHandTask& task) const {
   task.reserve = reserve;
+  task.margin = clearance_m;
   if (!turn.empty()) task.turn = ParseTurn(turn);
   if (!start_pose.empty()) task.start_pose = ParsePose("--start-pose", start_pose);
   if (!goal_pose.empty()) task.goal_pose = ParsePose("--goal-pose", goal_pose);

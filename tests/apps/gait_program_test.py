@@ -372,6 +372,16 @@ class Gait(ProgramCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("hand-collides", [step["reason"] for step in report["steps"]])
 
+    def test_links_keep_the_clearance_that_is_asked_for(self):
+        verdicts = []
+        for clearance in ("0.0005", "0.008"):
+            self.assert_done(*self.arguments("--turn", "z 120", "--reserve", "none", "--clearance",
+                                             clearance))
+            _, report = self.validate(json.loads(self.read("plan.json")), "--hand",
+                                      self.hand("ring4"), "--clearance", "0.008", "--no-frames")
+            verdicts.append(report["verdict"])
+        self.assertEqual(verdicts, ["fail", "pass"])
+
     def test_bad_usage_is_one_line(self):
         for words, more in (
                 ("--goal says what the hand is to do", ()),
