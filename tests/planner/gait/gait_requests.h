@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "planner/base/angle.h"
+#include "planner/gait/find_gait.h"
+#include "planner/kinematics/hand_file.h"
+#include "tests/fixtures/project_path.h"
+
+namespace regrasp::gait {
+
+// What gaits are asked for in tests.
+
+inline const object::Polyhedron& Model(const std::string& name) {
+  static std::map<std::string, object::ObjectFile> files;
+  auto& file = files[name];
+  if (!file.object) {
+    file = object::ReadObject(ProjectPath("models/" + name + ".obj"));
+  }
+  return dynamic_cast<const object::Polyhedron&>(*file.object);
+}
+
+/// Of four fingers.
+inline const kinematics::HandModel& Ring() {
+  static const kinematics::HandModel hand =
+      kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
+  return hand;
+}
+
+/// To turn a model about z. @param scale  metres per unit of its file.
+inline GaitRequest RequestFor(const std::string& model, double scale, double degrees) {
+  GaitRequest request;
+  request.hand = &Ring();
+  request.solid = &Model(model);
+  request.scale = scale;
+  request.criteria.half_angle = std::atan(0.8);
+  request.turn = {Eigen::Vector3d::UnitZ(), Radians(degrees)};
+  request.seed = 2;
+  return request;
+}
+
+}  // namespace regrasp::gait
