@@ -258,8 +258,9 @@ GaitResult FindGait(const GaitRequest& request) {
                                  criteria::QualityTest::kQuick);
     memory.Append(result.contacts);
     if (spare != nullptr) {
-      setup.rolled_on = &rolled_on;
-      setup.force_margin = spare->force_margin;
+      setup.may_slide = false;
+      if (spare->force_margin) setup.rolled_on = &rolled_on;
+      setup.force_margin = spare->force_margin.value_or(0);
       std::string without = GivenWithoutReserve(ends, memory, asked.criteria.min_quality);
       if (!without.empty()) return {std::nullopt, std::move(without)};
     }

@@ -253,7 +253,7 @@ void GaitSearch::AddSwitches(const Holding& from, FingerIndex placed, int point,
 }
 
 bool GaitSearch::MaySlide(int from, int to) {
-  return setup_.rolled_on == nullptr && routes_.Between(from, to) != nullptr;
+  return setup_.may_slide && routes_.Between(from, to) != nullptr;
 }
 
 void GaitSearch::AddSlidesTogether(const Holding& from, int node, std::vector<Holding>& holdings) {

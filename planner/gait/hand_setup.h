@@ -15,11 +15,12 @@ struct HandSetup {
   const std::vector<kinematics::InverseKinematics>& inverse;  ///< by finger
   const std::vector<SurfacePoint>& points;
   double scale = 1;  ///< metres per unit of the object's file
-  /// For gaits with reserve: no finger slides, and grasps hold where their contacts have rolled to
-  /// on this surface. Null: contacts count as they are planned, and fingers may slide.
+  /// For gaits with reserve: grasps hold where their contacts have rolled to on this surface. Null:
+  /// contacts count as they are planned.
   const collision::BallContact* rolled_on = nullptr;
-  /// With reserve: what forces that hold the object's weight have to spare (RollingTips).
+  /// Where contacts roll: what forces that hold the object's weight have to spare (RollingTips).
   double force_margin = 0;
+  bool may_slide = true;  ///< fingers that hold
 };
 
 /// By finger: postures in which it may wait while it holds nothing, the best first.

@@ -9,10 +9,13 @@
 
 namespace regrasp::gait {
 
-/// What gaits with reserve have to spare.
+/// What gaits with reserve have to spare. None of their fingers slides.
 struct Spare {
-  double force_margin = 0;  ///< HandSetup
-  double quality = 0;       ///< of their grasps
+  double quality = 0;    ///< of their grasps
+  double clearance = 0;  ///< of links, beside the margin, metres
+  /// As HandSetup has it, where contacts have rolled to. None: contacts are not followed, which is
+  /// reserve only where the hand carries a gait out.
+  std::optional<double> force_margin = {};
 };
 
 struct FoundGait {
@@ -23,8 +26,9 @@ struct FoundGait {
 using FindOne = std::function<FoundGait(const GaitRequest& asked, const Spare* spare)>;
 
 /// Looks for gaits with reserve, first with more and then with less to spare, until the hand
-/// carries one out (planning::InHandTask::is_carried_out), or that without reserve; a few times, as
-/// each draws others. A gait much longer than the one without does not count.
+/// carries one out (planning::InHandTask::is_carried_out), or that without reserve; again and
+/// again, as each draws others, and every time for longer. A gait much longer than the one without
+/// does not count.
 ///
 /// @param contacts  of gaits, by their numbers.
 /// @param found     the one without, where the request allows it and there is one; then the one

@@ -130,6 +130,11 @@ TEST(WithReserveTest, WhereTheHandCarriesNoneOutThereIsAGaitUnlessThatIsRequired
   ASSERT_TRUE(found.gait);
   EXPECT_EQ(found.is_carried_out, false);
   EXPECT_GT(tried.plans.size(), 3U);
+  const auto slides = [](const plan::Plan& plan) {
+    return std::ranges::count(plan.steps, std::string("align"), plan::StepKind) > 0;
+  };
+  // The one without reserve.
+  EXPECT_LE(std::ranges::count_if(tried.plans, slides), 1);
   request.reserve = Reserve::kRequired;
   const GaitResult none = FindGait(request);
   EXPECT_FALSE(none.gait);
