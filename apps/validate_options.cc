@@ -190,7 +190,8 @@ void AddReplay(CLI::App& app, ValidateOptions& options) {
 void AddHandReplay(CLI::App& app, ValidateOptions& options) {
   AddChoice<bool>(app, "--replay", options.replay_by_hand, {{"points", false}, {"hand", true}},
                   "Who carries the plan out: points, ideal fingers without a hand, or hand, the "
-                  "model of --hand with its own actuators, gravity and friction (default points)");
+                  "model of --hand with its own actuators, gravity and friction (default hand "
+                  "where --hand is given, otherwise points)");
   constexpr double kMetre = 1e3;
   AddNumber(app, "--tolerance-mm", options.tolerance_mm, {0, kMetre, false, true},
             "How far the object may be from its planned place; with --replay hand, half of it at "
@@ -391,6 +392,7 @@ void ValidateOptions::Finish(const CLI::App& app) {
     refuse({"--jobs", "--time-limit", "--fresh"}, kSeveralPlans);
     if (!for_grasp()) plan_path = plans.front();
   }
+  if (app.count("--replay") == 0) replay_by_hand = !hand.empty();
   if (replay_by_hand) {
     if (hand.empty()) throw InputError("--replay hand: needs the hand (--hand)");
     refuse({"--protocol", "--stress", "--tolerance", "--align", "--finger-radius"},

@@ -78,8 +78,8 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     result.notes.emplace_back("the hand's own motors carry it out in a simulation");
   } else if (found.is_carried_out) {
     result.warnings.emplace_back(
-        "the hand's own motors do not carry it out in a simulation; validate --replay hand says "
-        "what fails");
+        "the hand's own motors do not carry it out in a simulation; validate --hand says what "
+        "fails");
   }
   const std::vector<planning::Rest> rests = RestsOf(*result.plan);
   const criteria::GraspEvaluator evaluator(*asked.object, asked.criteria, FingersOf(request));

@@ -88,10 +88,11 @@ class Report:
 def validate(object: Object, plan: Plan, mu: float | None = None, *,
              friction_angle_deg: float | None = None, mass: float | None = None,
              squeeze: float | None = None, shake: float = 0.01, tolerance: float = 0.001,
-             stress: bool = False, hand: Hand | None = None, replay: str = "points",
+             stress: bool = False, hand: Hand | None = None, replay: str | None = None,
              tolerance_mm: float = 2, tolerance_deg: float = 5, feedback: bool = True,
              progress=None) -> Report:
-    """Checks a plan analytically, replays it with frictional point fingers, and disturbs the object.
+    """Checks a plan analytically, replays it with frictional point fingers or by a hand, and disturbs
+    the object.
 
     Args:
         object: that the plan was made for.
@@ -105,7 +106,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         stress: also finds the largest push that each grasp bears in each direction.
         hand: of a plan for a hand: also checks its joints, limits, fingertips and collisions; frames
             show it.
-        replay: "points", by ideal fingers, or "hand", on the hand's own model with its motors.
+        replay: "points", by ideal fingers, or "hand", on the hand's own model with its motors; None:
+            by the hand where there is one.
         tolerance_mm: how far the object may be from its planned place in a replay by the hand.
         tolerance_deg: how far it may be turned from it.
         feedback: of a replay by the hand: joint targets follow the object's measured pose.
@@ -148,9 +150,13 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         raise InputError(f"hand: {plan.name} is a plan for fingers without a hand")
     if hand is not None and object.dimension != 3:
         raise InputError(f"object: {object.name} is a polygon; hands hold solids")
+    if replay is None:
+        replay = "points" if hand is None else "hand"
     given.replay_by_hand = _arguments.choice("replay", replay, ["points", "hand"]) == "hand"
     if given.replay_by_hand and hand is None:
         raise InputError("hand: is needed for a replay by it")
+    if given.replay_by_hand and stress:
+        raise InputError('stress: goes with replay="points"')
     given.feedback = bool(feedback)
     given.set_hand_tolerance(_arguments.number("tolerance_mm", tolerance_mm, 0),
                              _arguments.number("tolerance_deg", tolerance_deg, 0))

@@ -88,12 +88,17 @@ class Gait(ProgramCase):
             self.assertIn([step["reason"] for step in report["steps"] if step["reason"]][0],
                           reasons)
             self.assertIn("allowed" if more[0] == "--tolerance-mm" else "verdict", done.stdout)
+        # It is what a plan for a hand is validated by where nothing else is said.
+        _, by_points = self.validate(plan, "--hand", ring5, "--replay", "points", "--no-frames")
+        self.assertNotIn("hand", by_points["settings"])
+        _, usual = self.validate(plan, "--hand", ring5, "--no-frames")
+        self.assertIn("hand", usual["settings"])
+        points = ("--hand", ring5, "--replay", "points")
         for more, words in ((("--replay", "hand"), "needs the hand"),
-                            (("--hand", ring5, "--feedback", "none"), "goes with --replay hand"),
-                            (("--hand", ring5, "--trials", "2", "--joint-noise", "1"),
+                            ((*points, "--feedback", "none"), "goes with --replay hand"),
+                            ((*points, "--trials", "2", "--joint-noise", "1"),
                              "goes with --replay hand"),
-                            (("--hand", ring5, "--replay", "hand", "--stress"),
-                             "goes with --replay points")):
+                            (("--hand", ring5, "--stress"), "goes with --replay points")):
             done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
                                     *more, program="validate")
             self.assertEqual(done.returncode, 2)
@@ -378,7 +383,8 @@ class Gait(ProgramCase):
             self.assert_done(*self.arguments("--turn", "z 120", "--reserve", "none", "--clearance",
                                              clearance))
             _, report = self.validate(json.loads(self.read("plan.json")), "--hand",
-                                      self.hand("ring4"), "--clearance", "0.008", "--no-frames")
+                                      self.hand("ring4"), "--clearance", "0.008", "--replay",
+                                      "points", "--no-frames")
             verdicts.append(report["verdict"])
         self.assertEqual(verdicts, ["fail", "pass"])
 
