@@ -90,6 +90,7 @@ set(regrasp_slow_tests
   Repair.AnOpenSheet*
   Repair.WhatFillsAWideHole*
   Repair.WhatFormsNoSurface*
+  ResetStatesTest.*
   RoadmapMemory.*
   Stillness.GraspsThatAreNot*
   StressTest.*
