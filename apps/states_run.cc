@@ -39,6 +39,7 @@ struct StatesTask {
   kinematics::HandFile hand;
   gait::GaitRequest request;
   sim::ResetStateOptions states;
+  std::vector<std::string> doubts;  ///< about size and friction; empty ones are none
 };
 
 StatesTask ReadStatesTask(const ValidateOptions& options, ProgressLine& progress) {
@@ -58,8 +59,10 @@ StatesTask ReadStatesTask(const ValidateOptions& options, ProgressLine& progress
   task.request.scale = options.scale.value_or(1);
   task.request.margin = options.clearance_m;
   task.request.criteria = {task.states.half_angle, options.min_quality};
-  task.states.mass_kg =
-      sim::BodyOf(*task.object.object, task.request.scale, options.replay).mass_kg;
+  const object::BodyMeasures body =
+      sim::BodyOf(*task.object.object, task.request.scale, options.replay);
+  task.doubts = {object::SizeWarning(body, task.request.scale), options.friction.warning()};
+  task.states.mass_kg = body.mass_kg;
   task.states.squeeze_N = options.replay.squeeze_N;
   task.states.tolerance = options.tolerance;
   return task;
@@ -78,8 +81,9 @@ sim::DrawnStates Draw(const ValidateOptions& options, const StatesTask& task,
     log.Report(text);
   };
   const auto make_draw = [&]() -> sim::DrawRest {
-    const gait::HoldingCount count{kFewestFingers, static_cast<int>(request.hand->fingers.size())};
-    const auto rests = std::make_shared<gait::RandomRests>(request, count);
+    const gait::RandomRestOptions fingers{.fewest = kFewestFingers,
+                                          .most = static_cast<int>(request.hand->fingers.size())};
+    const auto rests = std::make_shared<gait::RandomRests>(request, fingers);
     return [rests](RandomStream& random) -> std::optional<sim::RestToHold> {
       auto rest = rests->Draw(random, kMostDraws);
       if (!rest) return std::nullopt;
@@ -137,6 +141,9 @@ int RunStates(const ValidateOptions& options) {
   const StatesTask task = ReadStatesTask(options, progress);
   const sim::DrawnStates drawn = Draw(options, task, progress);
   progress.Clear();
+  for (const std::string& doubt : task.doubts) {
+    if (!doubt.empty()) PrintMessage(kValidateName, "warning: " + doubt);
+  }
   if (!drawn.message.empty()) {
     PrintMessage(kValidateName,
                  "no states: " + options.object_path + ", " + options.hand + ": " + drawn.message);

@@ -1,6 +1,7 @@
 #include "bench/best_pose.h"
 
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "planner/gait/home.h"
@@ -16,8 +17,8 @@ std::vector<grasp::Contact> ContactsOf(gait::GaitRequest request) {
 
 }  // namespace
 
-Eigen::Isometry3d FindBestPose(const gait::GaitRequest& request) {
-  const std::vector<grasp::Contact> contacts = ContactsOf(request);
+BestPose FindBestPose(const gait::GaitRequest& request) {
+  std::vector<grasp::Contact> contacts = ContactsOf(request);
   const collision::SurfaceTree surface(*request.solid, request.scale);
   const gait::HandScene scene(*request.hand, surface, request.margin);
   criteria::GraspMemory memory(*request.solid, request.criteria, gait::FingersOf(request),
@@ -34,7 +35,7 @@ Eigen::Isometry3d FindBestPose(const gait::GaitRequest& request) {
   RandomStream random(request.seed, RandomUse::kHomes);
   const auto homes = gait::FindHomes(setup, nowhere, {}, memory, random);
   if (homes.empty()) throw std::runtime_error("the object is nowhere within reach of the fingers");
-  return homes.front();
+  return {homes.front(), std::move(contacts)};
 }
 
 }  // namespace regrasp::bench

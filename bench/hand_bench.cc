@@ -19,6 +19,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/best_pose.h"
@@ -179,8 +180,9 @@ Deadline DeadlineIn(double seconds) {
 std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
   constexpr int kTries = 100'000;
   request.turn.angle = 0;
-  request.start_pose = bench::FindBestPose(request);
-  const gait::RandomRests rests(request, {});
+  bench::BestPose best = bench::FindBestPose(request);
+  request.start_pose = best.pose;
+  const gait::RandomRests rests(request, {.among = std::move(best.contacts)});
   RandomStream random(request.seed, RandomUse::kGoal);
   const auto start = rests.Draw(random, kTries);
   const auto goal = rests.Draw(random, kTries);
@@ -314,8 +316,9 @@ void TimeRest(const kinematics::HandModel& hand, const Body& body) {
   request.solid = &body.solid;
   request.scale = body.scale;
   request.criteria.half_angle = std::atan(kMu);
-  request.start_pose = bench::FindBestPose(request);
-  const gait::RandomRests rests(request, {});
+  bench::BestPose best = bench::FindBestPose(request);
+  request.start_pose = best.pose;
+  const gait::RandomRests rests(request, {.among = std::move(best.contacts)});
   RandomStream random(1, RandomUse::kGaits);
   constexpr int kRests = 2000;
   int free = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "planner/gait/reach_map.h"
 #include "planner/kinematics/finger_kinematics.h"
@@ -18,16 +19,17 @@ constexpr int kPostures = 200;
 
 }  // namespace
 
-RandomRests::RandomRests(const GaitRequest& request, const HoldingCount& count)
+RandomRests::RandomRests(const GaitRequest& request, RandomRestOptions options)
     : request_(request),
-      count_(count),
+      options_(std::move(options)),
       sampler_(*request.solid, FingersOf(request).fingertip_radius, kFromBorder),
       surface_(*request.solid, request.scale),
       scene_(*request.hand, surface_, request.margin),
       evaluator_(*request.solid, request.criteria, FingersOf(request),
                  criteria::QualityTest::kQuick),
       centre_(request.scale * request.solid->mass_properties().centroid) {
-  if (count.fewest < 3 || count.most < count.fewest || count.most > scene_.finger_count()) {
+  if (options_.fewest < 3 || options_.most < options_.fewest ||
+      options_.most > scene_.finger_count()) {
     throw std::invalid_argument("random rests: from three to all fingers hold");
   }
   for (const kinematics::Finger& finger : request.hand->fingers) {
@@ -71,18 +73,27 @@ bool RandomRests::PlaceAt(FingerIndex finger, const grasp::Contact& contact, Hel
   return true;
 }
 
+std::vector<grasp::Contact> RandomRests::DrawContacts(RandomStream& random) const {
+  std::vector<grasp::Contact> contacts;
+  const auto given = static_cast<int>(options_.among.size());
+  for (const int i : random.Choose(given, std::min(given, kContacts))) {
+    contacts.push_back(options_.among[i]);
+  }
+  for (int i = 0; given == 0 && i < kContacts; ++i) {
+    if (const auto contact = sampler_.TryDraw(random)) contacts.push_back(*contact);
+  }
+  return contacts;
+}
+
 std::optional<RandomRests::Held> RandomRests::DrawHeld(RandomStream& random) const {
   Held held;
   held.rest.state.pose = DrawPose(random);
   if (!scene_.KeepsOffPalm(held.rest.state.pose)) return std::nullopt;
   const int fingers = scene_.finger_count();
   held.rest.state.joints.resize(fingers);
-  std::vector<grasp::Contact> contacts;
-  for (int i = 0; i < kContacts; ++i) {
-    if (const auto contact = sampler_.TryDraw(random)) contacts.push_back(*contact);
-  }
-  const int choices = count_.most - count_.fewest + 1;
-  const int wanted = count_.fewest + static_cast<int>(random.Index(choices));
+  const std::vector<grasp::Contact> contacts = DrawContacts(random);
+  const int choices = options_.most - options_.fewest + 1;
+  const int wanted = options_.fewest + static_cast<int>(random.Index(choices));
   const int count = static_cast<int>(contacts.size());
   for (const int finger : random.Choose(fingers, fingers)) {
     const std::vector<int> order = random.Choose(count, count);

@@ -21,11 +21,12 @@ struct RandomRest {
   plan::FingerGrasp grasp;  ///< by finger, in the object's units
 };
 
-/// Fingers that hold in a random rest: their number is drawn evenly, and rests of many are found
-/// less often.
-struct HoldingCount {
+struct RandomRestOptions {
+  /// Fingers that hold: their number is drawn evenly, and rests of many are found less often.
   int fewest = 3;
   int most = 3;
+  /// Contacts are drawn among these; none: anywhere on the surface.
+  std::vector<grasp::Contact> among = {};
 };
 
 /// Random rests of a hand: no search has a say in them. Where the object is in the hand is drawn,
@@ -35,7 +36,7 @@ class RandomRests {
  public:
   /// @param request  of the hand and the object; its criteria are what grasps meet, and where it
   ///                 has a start pose the object is nowhere else. Outlives this object.
-  RandomRests(const GaitRequest& request, const HoldingCount& count);
+  RandomRests(const GaitRequest& request, RandomRestOptions options);
   RandomRests(const RandomRests&) = delete;  // its parts refer to each other
   RandomRests& operator=(const RandomRests&) = delete;
 
@@ -54,13 +55,15 @@ class RandomRests {
   };
   [[nodiscard]] std::optional<Held> DrawHeld(RandomStream& random) const;
   [[nodiscard]] Eigen::Isometry3d DrawPose(RandomStream& random) const;
+  /// For all fingers together.
+  [[nodiscard]] std::vector<grasp::Contact> DrawContacts(RandomStream& random) const;
   /// @returns false where the finger does not reach the contact, or is in something's way there.
   [[nodiscard]] bool PlaceAt(FingerIndex finger, const grasp::Contact& contact, Held& held) const;
   [[nodiscard]] bool IsClear(const PlacedFinger& placed, const Held& held, TipContact tip) const;
   [[nodiscard]] bool LetOthersWait(Held& held, RandomStream& random) const;
 
   const GaitRequest& request_;
-  HoldingCount count_;
+  RandomRestOptions options_;
   sampling::SurfaceSampler sampler_;
   collision::SurfaceTree surface_;
   HandScene scene_;

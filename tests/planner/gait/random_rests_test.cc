@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "planner/kinematics/finger_kinematics.h"
 #include "tests/planner/gait/gait_requests.h"
@@ -20,7 +22,7 @@ kinematics::Posture PostureOf(const std::vector<double>& joints) {
 
 TEST(RandomRests, TipsTouchAtTheContactsOfAGraspThatHoldsAndNothingElseTouches) {
   const GaitRequest request = RequestFor("cube", kScale, 0);
-  const RandomRests rests(request, {3, 4});
+  const RandomRests rests(request, {.fewest = 3, .most = 4});
   const collision::SurfaceTree surface(*request.solid, request.scale);
   const HandScene scene(*request.hand, surface, request.margin);
   const criteria::GraspEvaluator evaluator(*request.solid, request.criteria);
@@ -79,6 +81,22 @@ TEST(RandomRests, AStartPoseIsKept) {
   }
 }
 
+TEST(RandomRests, ContactsAreAmongThoseThatAreGiven) {
+  const GaitRequest request = RequestFor("cube", kScale, 0);
+  RandomRestOptions options;
+  const sampling::SurfaceSampler sampler(*request.solid);
+  RandomStream random(1, RandomUse::kResetStates);
+  for (int i = 0; i < 100; ++i) options.among.push_back(sampler.Draw(random));
+  const RandomRests rests(request, options);
+  for (int i = 0; i < 5; ++i) {
+    const auto rest = rests.Draw(random, kTries);
+    ASSERT_TRUE(rest);
+    for (const plan::FingerContact& held : rest->grasp) {
+      EXPECT_EQ(std::ranges::count(options.among, held.contact.p, &grasp::Contact::p), 1);
+    }
+  }
+}
+
 TEST(RandomRests, WhatIsTooLargeOrTooSlipperyIsNotHeld) {
   RandomStream random(1, RandomUse::kResetStates);
   const GaitRequest large = RequestFor("cube", 10, 0);
@@ -90,8 +108,9 @@ TEST(RandomRests, WhatIsTooLargeOrTooSlipperyIsNotHeld) {
 
 TEST(RandomRests, ThreeFingersHoldAtLeastAndNoMoreThanTheHandHas) {
   const GaitRequest request = RequestFor("cube", kScale, 0);
-  for (const HoldingCount& count : {HoldingCount{2, 3}, {4, 3}, {3, 5}}) {
-    EXPECT_THROW(RandomRests(request, count), std::invalid_argument);
+  for (const auto& [fewest, most] : {std::pair(2, 3), {4, 3}, {3, 5}}) {
+    const RandomRestOptions options{.fewest = fewest, .most = most};
+    EXPECT_THROW(RandomRests(request, options), std::invalid_argument);
   }
 }
 
