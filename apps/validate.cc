@@ -1,9 +1,11 @@
 // validate: checks a plan, a library of plans or grasps analytically, replays it in MuJoCo,
-// draws a frame of each step, and says pass or fail.
+// draws a frame of each step, and says pass or fail. Or makes states in which a hand holds an
+// object.
 
 #include "apps/commands.h"
 #include "apps/grasps_run.h"
 #include "apps/program.h"
+#include "apps/states_run.h"
 #include "apps/validate_batch.h"
 #include "apps/validate_options.h"
 #include "apps/validate_run.h"
@@ -16,6 +18,7 @@ int main(int argc, char** argv) {
   options.AddTo(app);
   return RunProgram(app, argc, argv, [&] {
     options.Finish(app);
+    if (options.for_states()) return RunStates(options);
     if (options.for_grasps()) return RunGrasps(options);
     return options.for_batch() ? RunBatch(options) : RunValidation(options).exit_code;
   });

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "apps/help.h"
+#include "apps/validate_modes.h"
 #include "apps/view_options.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
@@ -97,8 +98,8 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
     return app.add_option(name, value, text)->type_name("FILE");
   };
   add("--out", options.out,
-      "Folder for report and frames, or verdicts (default out/<plan or grasp name>); of several "
-      "plans a folder "
+      "Folder for report and frames, verdicts or states (default out/<plan, grasp or object "
+      "name>); of several plans a folder "
       "for each in it, index.html and summary.json (default out/<folder name> or out/batch)")
       ->type_name("DIR");
   app.add_flag("--certificates", options.certificates,
@@ -215,7 +216,8 @@ void AddTrials(CLI::App& app, ValidateOptions& options) {
                  "Repeat the replay so often with noise: contacts off where fingers are put, "
                  "friction and mass other than the hand believes; the report gives the share that "
                  "passes. The verdict is that of the replay without noise");
-  AddSeed(app, options.trials.seed, "Seed of the noise (default 0)")->needs(trials);
+  AddSeed(app, options.trials.seed,
+          "Seed of the noise, or of what --export-states draws (default 0)");
   AddNumber(app, "--position-noise", options.trials.position_noise, share,
             "Standard deviation of each contact along the surface; in diameters of the object "
             "(default 0.01). With --replay hand of where the object is at first, along each axis, "
@@ -292,7 +294,8 @@ constexpr char kSinglePlan[] = "goes with a single plan or grasp";
 
 void AddBatch(CLI::App& app, ValidateOptions& options) {
   AddInteger(app, "--jobs", options.jobs, 1, kMostJobs,
-             "How many of several plans are validated at a time (default: one a processor)");
+             "How many of several plans are validated at a time; of --export-states, threads "
+             "(default: one a processor)");
   AddNumber(app, "--time-limit", options.time_limit_s,
             {.lower = 0, .upper = kLongestTime_s, .lower_included = false},
             "Longest time that one of several plans may take, seconds; it is then stopped and "
@@ -303,20 +306,6 @@ void AddBatch(CLI::App& app, ValidateOptions& options) {
       "Validate all of several plans anew; otherwise a plan keeps the results of an earlier "
       "run where plan, object, options and the program's build are the same and no result was "
       "edited");
-}
-
-/// Many grasps are judged by analysis alone.
-void CheckForGrasps(const CLI::App& app) {
-  static const std::set<std::string> kServed = {
-      "--object",         "--grasps",   "--required-angle", "--quality", "--out",
-      "--friction-angle", "--mu",       "--max-deviation",  "--faces",   "--part",
-      "--repair",         "--solidify", "--shells",         "--quiet",   "--scale"};
-  for (const CLI::Option* option : app.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() > 0 && !kServed.contains(name)) {
-      throw InputError(name + " goes with a plan or a single grasp, not with --grasps");
-    }
-  }
 }
 
 /// Options that say where things come from, where they go and how fast; --start and --goal count
@@ -350,6 +339,8 @@ void ValidateOptions::AddTo(CLI::App& app) {
   AddHandReplay(app, *this);
   BeginGroup(app, "Trials with noise");
   AddTrials(app, *this);
+  BeginGroup(app, "Reset states");
+  AddStates(app, *this);
   BeginGroup(app, "Pictures");
   AddPictures(app, *this);
   BeginGroup(app, "Several plans");
@@ -368,8 +359,14 @@ void ValidateOptions::AddTo(CLI::App& app) {
 }
 
 void ValidateOptions::Finish(const CLI::App& app) {
+  tolerance.length_m = 1e-3 * tolerance_mm;
+  tolerance.angle_rad = Radians(tolerance_deg);
+  if (for_states()) {
+    CheckForStates(*this, app);
+    return;
+  }
   if (plans.empty() && grasp_path.empty() && grasps_path.empty()) {
-    throw InputError("--plan, --grasp or --grasps is required");
+    throw InputError("--plan, --grasp, --grasps or --export-states is required");
   }
   if (for_grasps()) {
     CheckForGrasps(app);
@@ -404,9 +401,8 @@ void ValidateOptions::Finish(const CLI::App& app) {
       throw InputError("--trajectory: " + trajectory + ": NPZ goes with --replay hand");
     }
   }
+  if (trials.count == 0) refuse({"--seed"}, "goes with --trials or --export-states");
   if (replay_by_hand) trials.joint_noise = Radians(joint_noise_deg);
-  tolerance.length_m = 1e-3 * tolerance_mm;
-  tolerance.angle_rad = Radians(tolerance_deg);
   if (!animates()) refuse({kAnimateSize}, "goes with --animate or --video");
   animation_crop = frame.crop && animation_width == 0;
   if (animation_width == 0) {
@@ -429,6 +425,7 @@ bool ValidateOptions::for_batch() const {
 }
 
 const std::string& ValidateOptions::InputPath() const {
+  if (for_states()) return object_path;
   return for_grasps() ? grasps_path : for_grasp() ? grasp_path : plan_path;
 }
 

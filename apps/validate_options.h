@@ -9,6 +9,7 @@
 
 #include "apps/options.h"
 #include "apps/repair_options.h"
+#include "planner/criteria/grasp_criteria.h"
 #include "render/frames/contact_sheet.h"
 #include "render/frames/frame.h"
 #include "sim/hand/check_hand.h"
@@ -32,6 +33,8 @@ struct ValidateOptions {
   std::string grasps_path;         ///< many of them, as arrays
   bool required_angle = false;     ///< of each of those, too
   bool quality = false;            ///< likewise
+  int states = 0;                  ///< reset states that are made, instead of a plan
+  double min_quality = criteria::GraspCriteria().min_quality;  ///< of their grasps
   std::string out;
   std::string junit;
   std::string json;
@@ -67,7 +70,7 @@ struct ValidateOptions {
   bool allow_object_change = false;
   bool allow_undecided = false;
   bool quiet = false;
-  int jobs;  ///< plans at a time
+  int jobs;  ///< plans at a time, or threads that make states
   std::optional<double> time_limit_s;
   bool fresh = false;  ///< validates again what an earlier run did
   /// Given options that change results, each with its values: what a run's digest is over.
@@ -85,10 +88,11 @@ struct ValidateOptions {
   [[nodiscard]] bool trajectory_is_npz() const;
   [[nodiscard]] bool for_grasp() const { return !grasp_path.empty(); }
   [[nodiscard]] bool for_grasps() const { return !grasps_path.empty(); }
+  [[nodiscard]] bool for_states() const { return states > 0; }
   [[nodiscard]] bool animates() const { return animate || !video.empty(); }
-  /// The plan, the grasp or the grasps.
+  /// The plan, the grasp or the grasps; of states the object.
   [[nodiscard]] const std::string& InputPath() const;
-  /// Where results go: `out`, or out/<plan, grasp or folder name>, or out/batch.
+  /// Where results go: `out`, or out/<plan, grasp, object or folder name>, or out/batch.
   [[nodiscard]] std::filesystem::path Folder() const;
 };
 

@@ -17,6 +17,7 @@
 #include "apps/progress.h"
 #include "apps/run_date.h"
 #include "apps/run_digest.h"
+#include "apps/scene_folder.h"
 #include "apps/validate_task.h"
 #include "apps/verify_report.h"
 #include "planner/base/error.h"
@@ -337,15 +338,9 @@ void WriteScene(const ValidateOptions& options, const ValidateTask& task, const 
   sim::HandWorldOptions world;
   world.mu = std::tan(report.half_angle);
   world.mass_kg = sim::BodyOf(object, task.plan.scale, options.replay).mass_kg;
-  const std::vector<sim::SceneFile> files =
-      sim::ExportHandScene(*task.hand, dynamic_cast<const object::Polyhedron&>(object),
-                           task.plan.scale, world, samples.rests);
-  std::error_code error;
-  std::filesystem::create_directories(options.mjcf, error);
-  if (error) throw EnvironmentError(options.mjcf + ": cannot be made: " + error.message());
-  for (const sim::SceneFile& file : files) {
-    WriteFile(std::filesystem::path(options.mjcf) / file.name, file.bytes);
-  }
+  WriteSceneFolder(options.mjcf,
+                   sim::ExportHandScene(*task.hand, dynamic_cast<const object::Polyhedron&>(object),
+                                        task.plan.scale, world, samples.rests));
 }
 
 std::string TrajectoryText(const ValidateOptions& options, const Samples& samples) {

@@ -10,6 +10,7 @@
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/run_digest.h"
+#include "apps/states_run.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/criteria/reach.h"
@@ -30,6 +31,14 @@ OutputFiles OutputsOf(const ValidateOptions& options) {
   if (options.for_grasps()) {
     outputs.folders.push_back(
         {"--out", options.Folder(), [](const std::string& name) { return name == kVerdictsName; }});
+    return outputs;
+  }
+  if (options.for_states()) {
+    if (!options.mjcf.empty()) {
+      outputs.folders.push_back({"--export-mjcf", options.mjcf, sim::IsSceneFile});
+    }
+    outputs.folders.push_back(
+        {"--out", options.Folder(), [](const std::string& name) { return name == kStatesName; }});
     return outputs;
   }
   outputs.Add("--junit", options.junit);
@@ -99,9 +108,10 @@ void ReadPlanTask(const ValidateOptions& options, object::Reading reading, Valid
 
 void CheckOutputs(const ValidateOptions& options) {
   const OutputFiles outputs = OutputsOf(options);
-  const char* input = options.for_grasps()  ? "--grasps"
-                      : options.for_grasp() ? "--grasp"
-                                            : "--plan";
+  const char* input = options.for_states()   ? "--object"
+                      : options.for_grasps() ? "--grasps"
+                      : options.for_grasp()  ? "--grasp"
+                                             : "--plan";
   CheckOutputsDiffer({{"--object", options.object_path},
                       {input, options.InputPath()},
                       {"--start", options.start},

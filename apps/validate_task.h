@@ -28,7 +28,7 @@ struct ValidateTask {
 /// @throws InputError  an output is another file of the command line, or can't be written.
 void CheckOutputs(const ValidateOptions& options);
 
-/// The object of --grasp or --grasps, repaired where that is asked.
+/// The object of --grasp, --grasps or --export-states, repaired where that is asked.
 /// @throws InputError  it is none.
 [[nodiscard]] object::ObjectFile ReadGraspObject(const ValidateOptions& options,
                                                  ProgressLine& progress);

@@ -19,15 +19,17 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "bench/random_rests.h"
+#include "bench/best_pose.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/base/text_table.h"
 #include "planner/gait/plan_of_gait.h"
+#include "planner/gait/random_rests.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/body_measures.h"
 #include "planner/object/polyhedron.h"
@@ -178,16 +180,17 @@ Deadline DeadlineIn(double seconds) {
 std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
   constexpr int kTries = 100'000;
   request.turn.angle = 0;
-  bench::RandomRests rests(request);
+  bench::BestPose best = bench::FindBestPose(request);
+  request.start_pose = best.pose;
+  const gait::RandomRests rests(request, {.among = std::move(best.contacts)});
   RandomStream random(request.seed, RandomUse::kGoal);
   const auto start = rests.Draw(random, kTries);
   const auto goal = rests.Draw(random, kTries);
   if (!start || !goal) return std::nullopt;
   gait::GaitRequest pair = request;
-  pair.start_pose = rests.pose();
-  pair.goal_pose = rests.pose();
-  pair.start_grasp = *start;
-  pair.goal_grasp = *goal;
+  pair.goal_pose = request.start_pose;
+  pair.start_grasp = plan::ContactsOf(start->grasp);
+  pair.goal_grasp = plan::ContactsOf(goal->grasp);
   return pair;
 }
 
@@ -305,15 +308,17 @@ double TimeInverse(const kinematics::Finger& finger) {
   return seconds;
 }
 
-/// Of a rest: inverse kinematics of all fingers that hold, and whether they keep off each other,
-/// the palm and the object. Contacts are drawn that each finger reaches.
+/// Of a rest: contacts are drawn, inverse kinematics of fingers until three of them hold, and
+/// whether they keep off each other, the palm and the object.
 void TimeRest(const kinematics::HandModel& hand, const Body& body) {
   gait::GaitRequest request;
   request.hand = &hand;
   request.solid = &body.solid;
   request.scale = body.scale;
   request.criteria.half_angle = std::atan(kMu);
-  const bench::RandomRests rests(request);
+  bench::BestPose best = bench::FindBestPose(request);
+  request.start_pose = best.pose;
+  const gait::RandomRests rests(request, {.among = std::move(best.contacts)});
   RandomStream random(1, RandomUse::kGaits);
   constexpr int kRests = 2000;
   int free = 0;

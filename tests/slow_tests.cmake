@@ -20,6 +20,7 @@ set(regrasp_slow_tests
   apps.repair
   apps.shells
   apps.smooth_models
+  apps.states
   apps.trials
   apps.tutorials
   apps.validate
@@ -90,6 +91,7 @@ set(regrasp_slow_tests
   Repair.AnOpenSheet*
   Repair.WhatFillsAWideHole*
   Repair.WhatFormsNoSurface*
+  ResetStatesTest.*
   RoadmapMemory.*
   Stillness.GraspsThatAreNot*
   StressTest.*

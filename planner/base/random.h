@@ -21,6 +21,7 @@ enum class RandomUse : std::uint32_t {
   kCountedFaces = 10,
   kHomes = 11,
   kGaits = 12,
+  kResetStates = 13,
 };
 
 /// Random numbers that are the same on every machine: the engine and its seeding are fixed by the

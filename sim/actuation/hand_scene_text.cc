@@ -91,7 +91,7 @@ kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
   std::erase_if(root.children, [](const XmlElement& child) {
     return child.name == "keyframe" || child.name == "size" || child.name == "sensor";
   });
-  root.children.push_back(Element("size", {{"njmax", "2000"}, {"nconmax", "400"}}));
+  root.children.push_back(Element("size", {{"njmax", "600"}, {"nconmax", "150"}}));
   root.children.push_back(Element("worldbody", {}, {ObjectBody(solid, scale, mass)}));
   std::vector<XmlElement> couplings;
   for (const auto& coupling : file.description.couplings) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -126,13 +127,18 @@ struct HandWorld::Impl {
     }
   }
 
+  /// A hinge or a slide.
+  [[nodiscard]] bool IsScalar(int joint) const {
+    return model->jnt_type[joint] == mjJNT_HINGE || model->jnt_type[joint] == mjJNT_SLIDE;
+  }
+
   void Freeze() {
     for (int joint = 0; joint < model->njnt; ++joint) {
       const bool of_finger = std::ranges::any_of(fingers, [&](const FingerState& finger) {
         return std::ranges::find(finger.joints, joint) != finger.joints.end();
       });
       if (of_finger || model->jnt_bodyid[joint] == object_body) continue;
-      if (model->jnt_type[joint] != mjJNT_HINGE && model->jnt_type[joint] != mjJNT_SLIDE) continue;
+      if (!IsScalar(joint)) continue;
       frozen.push_back(joint);
       model->dof_armature[model->jnt_dofadr[joint]] += kFrozen;
     }
@@ -255,6 +261,8 @@ const Vector3d& HandWorld::centroid_O() const { return impl_->centroid; }
 void HandWorld::Place(const plan::HandState& state) {
   Impl& impl = *impl_;
   mj_resetData(impl.model.get(), impl.data.get());
+  // What was before has no say in what comes, to the last bit.
+  for (Impl::Neighbourhood& around : impl.neighbourhoods) around.triangles.reset();
   for (std::size_t i = 0; i < impl.fingers.size(); ++i) {
     for (std::size_t k = 0; k < impl.fingers[i].joints.size(); ++k) {
       impl.data->qpos[impl.model->jnt_qposadr[impl.fingers[i].joints[k]]] = state.joints[i][k];
@@ -344,6 +352,30 @@ std::vector<std::string> HandWorld::control_names() const {
 
 std::vector<double> HandWorld::controls() const {
   return {impl_->data->ctrl, impl_->data->ctrl + impl_->model->nu};
+}
+
+void HandWorld::SetControls(const std::vector<double>& controls) {
+  assert(std::ssize(controls) == impl_->model->nu);
+  std::ranges::copy(controls, impl_->data->ctrl);
+}
+
+std::vector<std::string> HandWorld::joint_names() const {
+  std::vector<std::string> names;
+  for (int joint = 0; joint < impl_->model->njnt; ++joint) {
+    if (!impl_->IsScalar(joint)) continue;
+    const char* name = mj_id2name(impl_->model.get(), mjOBJ_JOINT, joint);
+    names.push_back(name == nullptr ? "joint " + std::to_string(joint) : name);
+  }
+  return names;
+}
+
+std::vector<double> HandWorld::joint_angles() const {
+  std::vector<double> angles;
+  for (int joint = 0; joint < impl_->model->njnt; ++joint) {
+    if (!impl_->IsScalar(joint)) continue;
+    angles.push_back(impl_->data->qpos[impl_->model->jnt_qposadr[joint]]);
+  }
+  return angles;
 }
 
 double HandWorld::load_share(FingerIndex finger, int drive) const {

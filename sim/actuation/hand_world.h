@@ -77,6 +77,12 @@ class HandWorld {
   [[nodiscard]] std::vector<std::string> control_names() const;
   /// Their controls, as in the last step.
   [[nodiscard]] std::vector<double> controls() const;
+  /// @param controls  of all actuators, in the model's order, until they are set again.
+  void SetControls(const std::vector<double>& controls);
+  /// Of all joints of the hand's model, those of no finger too, in its order.
+  [[nodiscard]] std::vector<std::string> joint_names() const;
+  /// Their angles, radians.
+  [[nodiscard]] std::vector<double> joint_angles() const;
   /// What the actuator of a drive does now, over its limit; 0 where it has none.
   [[nodiscard]] double load_share(FingerIndex finger, int drive) const;
   /// The torques of the drives with which a force at the tip's contact and the weight of the links

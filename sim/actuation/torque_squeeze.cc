@@ -33,35 +33,46 @@ std::vector<PlannedRest> RestsOf(const plan::Plan& plan, int entries) {
 
 }  // namespace
 
-double TorqueSqueeze(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
-                     int entries, double half_angle, double weight) {
+double MostSqueeze(double weight) { return std::max(kMostWeights * weight, kEnough); }
+
+double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double scale,
+                   const plan::HandState& state, const plan::FingerGrasp& grasp, double half_angle,
+                   double weight, double most) {
+  world.Place(state);
+  const Eigen::Isometry3d& pose = state.pose;
+  const Eigen::Vector3d down = -weight * (pose.linear().transpose() * world.hand().up);
+  const grasp::Grasp contacts = plan::ContactsOf(grasp);
   /// The largest torque of an actuator over its limit.
-  const auto load = [&](const PlannedRest& rest, double squeeze) {
-    const Eigen::Isometry3d& pose = rest.state.pose;
-    const Eigen::Vector3d down = -weight * (pose.linear().transpose() * world.hand().up);
-    const grasp::GraspForces forces =
-        grasp::ComputeGraspForces(plan::ContactsOf(rest.grasp), solid.wrench_frame(), half_angle,
-                                  {down, Eigen::Vector3d::Zero()}, squeeze);
-    double most = 0;
-    for (std::size_t i = 0; i < rest.grasp.size(); ++i) {
-      const FingerIndex f = rest.grasp[i].finger;
-      const Eigen::VectorXd torques = world.BalancingTorques(
-          f, pose * (plan.scale * rest.grasp[i].contact.p), pose.linear() * forces.forces[i]);
+  const auto load = [&](double squeeze) {
+    const grasp::GraspForces forces = grasp::ComputeGraspForces(
+        contacts, solid.wrench_frame(), half_angle, {down, Eigen::Vector3d::Zero()}, squeeze);
+    double most_load = 0;
+    for (std::size_t i = 0; i < grasp.size(); ++i) {
+      const FingerIndex f = grasp[i].finger;
+      const Eigen::VectorXd torques = world.BalancingTorques(f, pose * (scale * grasp[i].contact.p),
+                                                             pose.linear() * forces.forces[i]);
       for (int drive = 0; drive < torques.size(); ++drive) {
-        most = std::max(most, std::abs(torques[drive]) / world.servo(f, drive).limit);
+        most_load = std::max(most_load, std::abs(torques[drive]) / world.servo(f, drive).limit);
       }
     }
-    return most;
+    return most_load;
   };
-  double squeeze = std::max(kMostWeights * weight, kEnough);
+  if (load(most) <= kTorqueShare) return most;
+  double low = 0;
+  double high = most;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (low + high) / 2;
+    (load(middle) <= kTorqueShare ? low : high) = middle;
+  }
+  return high;
+}
+
+double TorqueSqueeze(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
+                     int entries, double half_angle, double weight) {
+  double squeeze = MostSqueeze(weight);
   for (const PlannedRest& rest : RestsOf(plan, entries)) {
-    world.Place(rest.state);
-    if (load(rest, squeeze) <= kTorqueShare) continue;
-    double low = 0;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = (low + squeeze) / 2;
-      (load(rest, middle) <= kTorqueShare ? low : squeeze) = middle;
-    }
+    squeeze =
+        RestSqueeze(world, solid, plan.scale, rest.state, rest.grasp, half_angle, weight, squeeze);
   }
   return squeeze;
 }

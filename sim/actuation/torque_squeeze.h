@@ -15,6 +15,15 @@ namespace regrasp::sim {
                                    const plan::Plan& plan, int entries, double half_angle,
                                    double weight);
 
+/// The same of a single rest: as much as kTorqueShare allows, and no more than `most`.
+/// @param grasp  in the object's units, `scale` metres each.
+[[nodiscard]] double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double scale,
+                                 const plan::HandState& state, const plan::FingerGrasp& grasp,
+                                 double half_angle, double weight, double most);
+
+/// No rest is squeezed more than this, newtons.
+[[nodiscard]] double MostSqueeze(double weight);
+
 inline constexpr double kTorqueShare = 0.4;
 inline constexpr double kMostWeights = 12;
 inline constexpr double kEnough = 4;  ///< newtons

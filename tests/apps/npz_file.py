@@ -6,6 +6,8 @@ import zipfile
 
 
 def nested(values, shape):
+    if not shape:
+        return values[0]
     if len(shape) == 1:
         return values
     width = len(values) // shape[0] if shape[0] else 0
@@ -21,6 +23,8 @@ def read_array(data):
     kind, body = header["descr"], data[10 + length:]
     if kind == "<f8":
         values = list(struct.unpack(f"<{len(body) // 8}d", body))
+    elif kind == "|b1":
+        values = [byte != 0 for byte in body]
     else:
         assert kind.startswith("<U"), kind
         width = 4 * int(kind[2:])

@@ -1,0 +1,62 @@
+#include "apps/validate_modes.h"
+
+#include <set>
+#include <string>
+
+#include "planner/base/error.h"
+
+namespace regrasp::apps {
+namespace {
+
+/// @param why  after the name of an option that is given and not served.
+void RefuseOthers(const CLI::App& app, const std::set<std::string>& served,
+                  const std::string& why) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && !served.contains(name)) throw InputError(name + " " + why);
+  }
+}
+
+}  // namespace
+
+void AddStates(CLI::App& app, ValidateOptions& options) {
+  // Of a million the file has some 700 MB.
+  constexpr int kMostStates = 1'000'000;
+  CLI::Option* states = AddInteger(
+      app, "--export-states", options.states, 1, kMostStates,
+      "Make so many states in which a hand holds the object, instead of a plan; for those who "
+      "train policies. Random grasps anywhere in the hand: it takes hold, and the state that it "
+      "comes to is held for a second in MuJoCo from what is stored, velocities zero, all controls "
+      "as they are. What is not held is counted, and not written. In states.npz are joints (N, J), "
+      "rad; controls (N, A); object_position (N, 3), m, and object_quaternion (N, 4), w x y z, in "
+      "the palm's frame; holds (N, F), which fingers do; and what else docs/formats.md describes. "
+      "--export-mjcf writes the scene that they are for");
+  AddNumber(app, "--min-quality", options.min_quality, {0, 1},
+            "Quality that grasps of --export-states have at least (default 0.01)")
+      ->needs(states);
+}
+
+void CheckForGrasps(const CLI::App& app) {
+  RefuseOthers(app,
+               {"--object", "--grasps", "--required-angle", "--quality", "--out",
+                "--friction-angle", "--mu", "--max-deviation", "--faces", "--part", "--repair",
+                "--solidify", "--shells", "--quiet", "--scale"},
+               "goes with a plan or a single grasp, not with --grasps");
+}
+
+void CheckForStates(const ValidateOptions& options, const CLI::App& app) {
+  RefuseOthers(
+      app,
+      {"--object",       "--hand",          "--export-states", "--min-quality", "--seed",
+       "--jobs",         "--out",           "--export-mjcf",   "--scale",       "--friction-angle",
+       "--mu",           "--mass",          "--density",       "--squeeze",     "--clearance",
+       "--tolerance-mm", "--tolerance-deg", "--max-deviation", "--faces",       "--part",
+       "--repair",       "--solidify",      "--shells",        "--quiet"},
+      "does not go with --export-states");
+  if (options.hand.empty()) throw InputError("--export-states: needs a hand (--hand)");
+  if (options.replay.hand_squeeze) {
+    throw InputError("--squeeze realistic: goes with ideal fingers; with --export-states newtons");
+  }
+}
+
+}  // namespace regrasp::apps

@@ -1,0 +1,41 @@
+#include "bench/best_pose.h"
+
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "planner/gait/home.h"
+
+namespace regrasp::bench {
+namespace {
+
+/// Those that a search of the request has.
+std::vector<grasp::Contact> ContactsOf(gait::GaitRequest request) {
+  request.most_expanded = 0;
+  return gait::FindGait(request).contacts;
+}
+
+}  // namespace
+
+BestPose FindBestPose(const gait::GaitRequest& request) {
+  std::vector<grasp::Contact> contacts = ContactsOf(request);
+  const collision::SurfaceTree surface(*request.solid, request.scale);
+  const gait::HandScene scene(*request.hand, surface, request.margin);
+  criteria::GraspMemory memory(*request.solid, request.criteria, gait::FingersOf(request),
+                               criteria::QualityTest::kQuick);
+  memory.Append(contacts);
+  std::vector<kinematics::InverseKinematics> inverse;
+  for (const kinematics::Finger& finger : request.hand->fingers) inverse.emplace_back(finger);
+  std::vector<gait::SurfacePoint> points;
+  for (const grasp::Contact& contact : contacts) {
+    points.push_back({request.scale * contact.p, contact.n});
+  }
+  const gait::HandSetup setup{scene, inverse, points, request.scale};
+  const gait::Journey nowhere(request.scale * request.solid->mass_properties().centroid, {}, {});
+  RandomStream random(request.seed, RandomUse::kHomes);
+  const auto homes = gait::FindHomes(setup, nowhere, {}, memory, random);
+  if (homes.empty()) throw std::runtime_error("the object is nowhere within reach of the fingers");
+  return {homes.front(), std::move(contacts)};
+}
+
+}  // namespace regrasp::bench

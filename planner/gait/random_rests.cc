@@ -1,0 +1,141 @@
+#include "planner/gait/random_rests.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/gait/reach_map.h"
+#include "planner/kinematics/finger_kinematics.h"
+
+namespace regrasp::gait {
+namespace {
+
+/// Places of the surface that are drawn for all fingers together, in each rest.
+constexpr int kContacts = 24;
+/// Of the diameter: contacts keep off the borders of faces.
+constexpr double kFromBorder = 0.02;
+/// Postures drawn for a finger that does not hold.
+constexpr int kPostures = 200;
+
+}  // namespace
+
+RandomRests::RandomRests(const GaitRequest& request, RandomRestOptions options)
+    : request_(request),
+      options_(std::move(options)),
+      sampler_(*request.solid, FingersOf(request).fingertip_radius, kFromBorder),
+      surface_(*request.solid, request.scale),
+      scene_(*request.hand, surface_, request.margin),
+      evaluator_(*request.solid, request.criteria, FingersOf(request),
+                 criteria::QualityTest::kQuick),
+      centre_(request.scale * request.solid->mass_properties().centroid) {
+  if (options_.fewest < 3 || options_.most < options_.fewest ||
+      options_.most > scene_.finger_count()) {
+    throw std::invalid_argument("random rests: from three to all fingers hold");
+  }
+  for (const kinematics::Finger& finger : request.hand->fingers) {
+    inverse_.emplace_back(finger);
+    for (const Eigen::Vector3d& tip : inverse_.back().sampled_tips()) tips_box_.extend(tip);
+  }
+}
+
+Eigen::Isometry3d RandomRests::DrawPose(RandomStream& random) const {
+  if (request_.start_pose) return *request_.start_pose;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  // Four normal numbers are a direction in four dimensions, and so a turn, evenly.
+  Eigen::Quaterniond turn;
+  for (int k = 0; k < 4; ++k) turn.coeffs()[k] = random.Normal();
+  pose.linear() = turn.normalized().toRotationMatrix();
+  Eigen::Vector3d place;
+  for (int k = 0; k < 3; ++k) {
+    place[k] = tips_box_.min()[k] + random.Uniform() * tips_box_.sizes()[k];
+  }
+  pose.translation() = place - pose.linear() * centre_;
+  return pose;
+}
+
+bool RandomRests::IsClear(const PlacedFinger& placed, const Held& held, TipContact tip) const {
+  return scene_.KeepsOffHand(placed) && scene_.KeepsOffObject(placed, held.rest.state.pose, tip) &&
+         std::ranges::all_of(held.placed, [&](const PlacedFinger& other) {
+           return scene_.KeepApart(other, placed);
+         });
+}
+
+bool RandomRests::PlaceAt(FingerIndex finger, const grasp::Contact& contact, Held& held) const {
+  const kinematics::Finger& chain = scene_.finger(finger);
+  const SurfacePoint point{request_.scale * contact.p, contact.n};
+  const auto posture = inverse_[finger].Solve(TargetAt(chain, point, held.rest.state.pose));
+  if (!posture) return false;
+  PlacedFinger there = scene_.Place(finger, *posture);
+  if (!IsClear(there, held, TipContact::kTouching)) return false;
+  held.placed.push_back(std::move(there));
+  held.rest.state.joints[finger] = kinematics::JointAngles(chain, *posture);
+  held.rest.grasp.push_back({finger, contact});
+  return true;
+}
+
+std::vector<grasp::Contact> RandomRests::DrawContacts(RandomStream& random) const {
+  std::vector<grasp::Contact> contacts;
+  const auto given = static_cast<int>(options_.among.size());
+  for (const int i : random.Choose(given, std::min(given, kContacts))) {
+    contacts.push_back(options_.among[i]);
+  }
+  for (int i = 0; given == 0 && i < kContacts; ++i) {
+    if (const auto contact = sampler_.TryDraw(random)) contacts.push_back(*contact);
+  }
+  return contacts;
+}
+
+std::optional<RandomRests::Held> RandomRests::DrawHeld(RandomStream& random) const {
+  Held held;
+  held.rest.state.pose = DrawPose(random);
+  if (!scene_.KeepsOffPalm(held.rest.state.pose)) return std::nullopt;
+  const int fingers = scene_.finger_count();
+  held.rest.state.joints.resize(fingers);
+  const std::vector<grasp::Contact> contacts = DrawContacts(random);
+  const int choices = options_.most - options_.fewest + 1;
+  const int wanted = options_.fewest + static_cast<int>(random.Index(choices));
+  const int count = static_cast<int>(contacts.size());
+  for (const int finger : random.Choose(fingers, fingers)) {
+    const std::vector<int> order = random.Choose(count, count);
+    std::ranges::any_of(order,
+                        [&](int i) { return PlaceAt(FingerIndex{finger}, contacts[i], held); });
+    if (std::ssize(held.placed) == wanted) break;
+  }
+  if (std::ssize(held.placed) < wanted) return std::nullopt;
+  std::ranges::sort(held.rest.grasp, {}, &plan::FingerContact::finger);
+  return held;
+}
+
+std::optional<RandomRest> RandomRests::TryDraw(RandomStream& random) const {
+  auto held = DrawHeld(random);
+  if (!held) return std::nullopt;
+  return std::move(held->rest);
+}
+
+bool RandomRests::LetOthersWait(Held& held, RandomStream& random) const {
+  std::vector<std::vector<double>>& joints = held.rest.state.joints;
+  for (FingerIndex finger{0}; finger < scene_.finger_count(); ++finger) {
+    for (int i = 0; joints[finger].empty(); ++i) {
+      if (i == kPostures) return false;
+      const Posture posture = scene_.DrawPosture(finger, random);
+      PlacedFinger there = scene_.Place(finger, posture);
+      if (!IsClear(there, held, TipContact::kFree)) continue;
+      held.placed.push_back(std::move(there));
+      joints[finger] = kinematics::JointAngles(scene_.finger(finger), posture);
+    }
+  }
+  return true;
+}
+
+std::optional<RandomRest> RandomRests::Draw(RandomStream& random, int tries) const {
+  for (int i = 0; i < tries; ++i) {
+    auto held = DrawHeld(random);
+    if (!held) continue;
+    grasp::Grasp grasp;
+    for (const plan::FingerContact& one : held->rest.grasp) grasp.push_back(one.contact);
+    if (evaluator_.IsAdmitted(grasp) && LetOthersWait(*held, random)) return std::move(held->rest);
+  }
+  return std::nullopt;
+}
+
+}  // namespace regrasp::gait

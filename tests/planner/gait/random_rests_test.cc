@@ -1,0 +1,118 @@
+#include "planner/gait/random_rests.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/kinematics/finger_kinematics.h"
+#include "tests/planner/gait/gait_requests.h"
+
+namespace regrasp::gait {
+namespace {
+
+constexpr double kScale = 0.8333;
+constexpr int kTries = 20'000;
+
+/// As a finger's joints have it; they have a drive each.
+kinematics::Posture PostureOf(const std::vector<double>& joints) {
+  return Eigen::Map<const Eigen::VectorXd>(joints.data(), std::ssize(joints));
+}
+
+TEST(RandomRests, TipsTouchAtTheContactsOfAGraspThatHoldsAndNothingElseTouches) {
+  const GaitRequest request = RequestFor("cube", kScale, 0);
+  const RandomRests rests(request, {.fewest = 3, .most = 4});
+  const collision::SurfaceTree surface(*request.solid, request.scale);
+  const HandScene scene(*request.hand, surface, request.margin);
+  const criteria::GraspEvaluator evaluator(*request.solid, request.criteria);
+  RandomStream random(1, RandomUse::kResetStates);
+  std::map<std::size_t, int> by_fingers;
+  for (int i = 0; i < 40; ++i) {
+    const auto rest = rests.Draw(random, kTries);
+    ASSERT_TRUE(rest);
+    ++by_fingers[rest->grasp.size()];
+    EXPECT_TRUE(evaluator.IsAdmitted(plan::ContactsOf(rest->grasp)));
+    EXPECT_TRUE(scene.KeepsOffPalm(rest->state.pose));
+    std::vector<PlacedFinger> placed;
+    for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
+      placed.push_back(scene.Place(finger, PostureOf(rest->state.joints[finger])));
+      const plan::FingerContact* held = plan::FindFinger(rest->grasp, finger);
+      EXPECT_TRUE(scene.KeepsOffHand(placed.back()));
+      EXPECT_TRUE(scene.KeepsOffObject(placed.back(), rest->state.pose,
+                                       held ? TipContact::kTouching : TipContact::kFree));
+      for (FingerIndex other{0}; other < finger; ++other) {
+        EXPECT_TRUE(scene.KeepApart(placed[other], placed[finger]));
+      }
+      if (!held) continue;
+      const kinematics::Finger& chain = scene.finger(finger);
+      const auto tip = kinematics::TipAt(chain, PostureOf(rest->state.joints[finger]));
+      const Eigen::Vector3d centre = rest->state.pose.inverse() * tip.centre;
+      const Eigen::Vector3d contact = centre + chain.tip.radius * held->contact.n;
+      EXPECT_LT((contact - kScale * held->contact.p).norm(), 1e-8);
+    }
+  }
+  EXPECT_GT(by_fingers[3], 0);
+  EXPECT_GT(by_fingers[4], 0);
+}
+
+TEST(RandomRests, TheSameStreamGivesTheSameRestWhateverWasDrawnBefore) {
+  const GaitRequest request = RequestFor("cube", kScale, 0);
+  const RandomRests rests(request, {});
+  const auto draw = [&](std::uint64_t index) {
+    RandomStream random(1, RandomUse::kResetStates, index);
+    return *rests.Draw(random, kTries);
+  };
+  const RandomRest first = draw(0);
+  const RandomRest second = draw(1);
+  EXPECT_NE(first.state.joints, second.state.joints);
+  EXPECT_EQ(draw(0).state.joints, first.state.joints);
+}
+
+TEST(RandomRests, AStartPoseIsKept) {
+  GaitRequest request = RequestFor("cube", kScale, 0);
+  RandomStream random(1, RandomUse::kResetStates);
+  request.start_pose = RandomRests(request, {}).Draw(random, kTries)->state.pose;
+  const RandomRests rests(request, {});
+  for (int i = 0; i < 3; ++i) {
+    const auto rest = rests.Draw(random, kTries);
+    ASSERT_TRUE(rest);
+    EXPECT_TRUE(rest->state.pose.isApprox(*request.start_pose, 0));
+  }
+}
+
+TEST(RandomRests, ContactsAreAmongThoseThatAreGiven) {
+  const GaitRequest request = RequestFor("cube", kScale, 0);
+  RandomRestOptions options;
+  const sampling::SurfaceSampler sampler(*request.solid);
+  RandomStream random(1, RandomUse::kResetStates);
+  for (int i = 0; i < 100; ++i) options.among.push_back(sampler.Draw(random));
+  const RandomRests rests(request, options);
+  for (int i = 0; i < 5; ++i) {
+    const auto rest = rests.Draw(random, kTries);
+    ASSERT_TRUE(rest);
+    for (const plan::FingerContact& held : rest->grasp) {
+      EXPECT_EQ(std::ranges::count(options.among, held.contact.p, &grasp::Contact::p), 1);
+    }
+  }
+}
+
+TEST(RandomRests, WhatIsTooLargeOrTooSlipperyIsNotHeld) {
+  RandomStream random(1, RandomUse::kResetStates);
+  const GaitRequest large = RequestFor("cube", 10, 0);
+  EXPECT_FALSE(RandomRests(large, {}).Draw(random, 2000));
+  GaitRequest slippery = RequestFor("cube", kScale, 0);
+  slippery.criteria.half_angle = 0.01;
+  EXPECT_FALSE(RandomRests(slippery, {}).Draw(random, 2000));
+}
+
+TEST(RandomRests, ThreeFingersHoldAtLeastAndNoMoreThanTheHandHas) {
+  const GaitRequest request = RequestFor("cube", kScale, 0);
+  for (const auto& [fewest, most] : {std::pair(2, 3), {4, 3}, {3, 5}}) {
+    const RandomRestOptions options{.fewest = fewest, .most = most};
+    EXPECT_THROW(RandomRests(request, options), std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace regrasp::gait
