@@ -1,0 +1,138 @@
+#include "bench/inhand/judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/inhand/plan_task.h"
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/object/body_measures.h"
+#include "planner/plan/check.h"
+#include "planner/plan/hand_path.h"
+#include "sim/actuation/hand_replay.h"
+#include "sim/hand/check_hand.h"
+
+namespace regrasp::bench {
+namespace {
+
+constexpr double kMostOff_m = 1e-3;
+constexpr double kMostOff_rad = Radians(1);
+/// Of the centroid, where a task is a turn.
+constexpr double kMostWandered_m = 0.04;
+/// Of scales and half-angles, which are written as decimals.
+constexpr double kRounding = 1e-9;
+
+PoseError Between(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& goal,
+                  const Eigen::Vector3d& centre) {
+  return {(pose * centre - goal * centre).norm(),
+          Eigen::AngleAxisd(pose.linear().transpose() * goal.linear()).angle()};
+}
+
+/// About an axis of the body, summed along a plan's paths: whole turns count.
+double TurnedAbout(const Eigen::Vector3d& axis, const plan::Plan& plan) {
+  Eigen::Matrix3d before = plan.hand->initial.pose.linear();
+  double sum = 0;
+  for (const plan::Step& step : plan.steps) {
+    for (const plan::HandPath* path : plan::PathsOf(step)) {
+      for (const plan::HandState& state : *path) {
+        const Eigen::AngleAxisd turn(before.transpose() * state.pose.linear());
+        sum += turn.angle() * turn.axis().dot(axis);
+        before = state.pose.linear();
+      }
+    }
+  }
+  return sum;
+}
+
+void CheckGoal(const Task& task, const HandBody& body, const plan::Plan& plan,
+               const std::string& name) {
+  const Eigen::Isometry3d goal = GoalPose(task, body.centre(), plan.hand->initial.pose);
+  const PoseError off = Between(EndOf(plan).pose, goal, body.centre());
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(name + ": is no plan for " + task.name + ": " + what);
+  };
+  if (off.radians > kMostOff_rad) {
+    refuse("the body ends " + FormatShort(Degrees(off.radians), 3) + " degrees from its goal");
+  }
+  if (off.metres > (task.is_turn() ? kMostWandered_m : kMostOff_m)) {
+    refuse("the body ends " + FormatShort(1e3 * off.metres, 3) + " mm from its goal");
+  }
+  if (!task.is_turn()) return;
+  const double turned = TurnedAbout(task.turn.axis, plan);
+  if (std::abs(turned - task.turn.angle) > Radians(180)) {
+    refuse("the body turns by " + FormatShort(Degrees(turned), 3) + " degrees, not by " +
+           FormatShort(Degrees(task.turn.angle), 3));
+  }
+}
+
+plan::Plan LocatedPlan(const HandBody& body, const plan::Plan& plan) {
+  return plan::LocatePlan(body.solid(), plan);
+}
+
+/// By what needs no simulation.
+Verdict CheckedAlone(const HandBody& body, const kinematics::HandFile& hand,
+                     const plan::Plan& plan) {
+  plan::CheckOptions options;
+  options.half_angle = std::atan(kFriction);
+  options.hand_faults = sim::CheckHand(hand, body.solid(), LocatedPlan(body, plan));
+  const plan::PlanCheck check = plan::CheckPlan(body.solid(), plan, options);
+  const auto failed = std::ranges::find_if(
+      check.steps, [](const plan::StepCheck& step) { return step.reason != plan::Reason::kNone; });
+  if (failed == check.steps.end()) return {};
+  return {failed->reason, "step " + std::to_string(failed->index) + ": " + failed->detail, {}};
+}
+
+}  // namespace
+
+void CheckIsFor(const Task& task, const HandBody& body, const kinematics::HandFile& hand,
+                const plan::Plan& plan, const std::string& name) {
+  if (!plan.hand) throw InputError(name + ": /hand: the plan is for no hand");
+  if (plan.hand->sha256 != hand.hand.sha256) {
+    throw InputError(name + ": /hand/sha256: the plan is for the hand " + plan.hand->name +
+                     " with digest " + plan.hand->sha256 + ", but " + hand.hand.name + " has " +
+                     hand.hand.sha256);
+  }
+  if (plan.object_sha256 != body.file.sha256) {
+    throw InputError(name + ": /object/sha256: the plan is for " + plan.object_file +
+                     " with digest " + plan.object_sha256 + ", but the body " + body.name + " of " +
+                     task.name + " has " + body.file.sha256);
+  }
+  if (std::abs(plan.scale - body.scale) > kRounding * body.scale) {
+    throw InputError(name + ": /object/scale: " + FormatDouble(plan.scale) + ", but the body " +
+                     body.name + " has " + FormatDouble(body.scale));
+  }
+  if (plan.half_angle > std::atan(kFriction) + kRounding) {
+    throw InputError(name + ": the plan's friction is " + FormatShort(std::tan(plan.half_angle)) +
+                     ", more than " + FormatShort(kFriction));
+  }
+  CheckGoal(task, body, plan, name);
+}
+
+Verdict Judge(const Task& task, const HandBody& body, const kinematics::HandFile& hand,
+              const plan::Plan& plan) {
+  Verdict verdict = CheckedAlone(body, hand, plan);
+  if (verdict.reason != plan::Reason::kNone) return verdict;
+  sim::HandReplayOptions options;
+  options.half_angle = std::atan(kFriction);
+  options.mass_kg = object::MeasureBody(body.solid(), body.scale).mass_kg;
+  sim::HandReplayObserver observer;
+  std::optional<Eigen::Isometry3d> end;
+  observer.on_rest = [&](const sim::HandWorld& world, plan::EntryIndex entry) {
+    if (entry == plan::EntryIndex(static_cast<int>(plan.steps.size()))) end = world.object_pose();
+  };
+  const sim::ReplayResult replay =
+      sim::ReplayHand(hand, body.solid(), LocatedPlan(body, plan), options, observer);
+  const sim::StepReplay& last = replay.steps.back();
+  verdict.reason = last.reason;
+  if (last.reason != plan::Reason::kNone) {
+    verdict.detail = "step " + std::to_string(last.index) + ": " + last.detail;
+  }
+  if (!end) return verdict;
+  const Eigen::Isometry3d goal = GoalPose(task, body.centre(), plan.hand->initial.pose);
+  verdict.error = Between(*end, goal, body.centre());
+  if (task.is_turn()) verdict.error->metres = Between(*end, EndOf(plan).pose, body.centre()).metres;
+  return verdict;
+}
+
+}  // namespace regrasp::bench
