@@ -73,6 +73,7 @@ set(regrasp_slow_tests
   PlanOnPolygon.LeadsBetween*
   */PlanOnPolygonAt.*
   PlanOnRoadmap.FindsTheBest*
+  PlanTask.*
   PlanarAlign.TwoFingers*
   PlanarCornerSweep.*
   PlanarDiscrimination.*
@@ -91,6 +92,9 @@ set(regrasp_slow_tests
   Repair.WhatFillsAWideHole*
   Repair.WhatFormsNoSurface*
   RoadmapMemory.*
+  RunChain.*
+  ScoreRuns.*
+  Scoreboard.*
   Stillness.GraspsThatAreNot*
   StressTest.*
   SubsetForceClosureTest.IndicesBeyond*

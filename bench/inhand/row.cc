@@ -1,6 +1,7 @@
 #include "bench/inhand/row.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "planner/base/angle.h"
@@ -21,7 +22,11 @@ std::optional<Value> Maybe(const Json& json, const char* key) {
   return json.at(key).is_null() ? std::nullopt : std::optional(json.at(key).get<Value>());
 }
 
-Json JsonOf(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+/// To a ten-thousandth: of seconds, millimetres and degrees no more digits mean anything.
+Json JsonOf(const std::optional<double>& value) {
+  constexpr double kPerUnit = 1e4;
+  return value ? Json(std::round(*value * kPerUnit) / kPerUnit) : Json();
+}
 
 Row RowOf(const Json& json) {
   Row row;
@@ -84,7 +89,7 @@ std::string FormatRow(const Row& row) {
   json["hand"] = row.hand;
   json["hand_sha256"] = row.hand_sha256;
   json["planner"] = row.planner;
-  json["limit_s"] = JsonOf(row.limit_s);
+  json["limit_s"] = row.limit_s ? Json(*row.limit_s) : Json();
   json["seconds"] = JsonOf(row.seconds);
   json["found"] = row.found;
   json["switches"] = row.switches;
@@ -93,8 +98,14 @@ std::string FormatRow(const Row& row) {
   json["passed"] = row.passed;
   json["reason"] = row.reason;
   json["detail"] = row.detail;
-  json["error_mm"] = row.error ? Json(1e3 * row.error->metres) : Json();
-  json["error_deg"] = row.error ? Json(Degrees(row.error->radians)) : Json();
+  std::optional<double> mm;
+  std::optional<double> deg;
+  if (row.error) {
+    mm = 1e3 * row.error->metres;
+    deg = Degrees(row.error->radians);
+  }
+  json["error_mm"] = JsonOf(mm);
+  json["error_deg"] = JsonOf(deg);
   json["plan_sha256"] = row.plan_sha256;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -99,8 +99,8 @@ std::string SummaryTable(const Rows& rows, const std::vector<std::string>& conte
   std::string text = HeadOf({"hand", "found", "pass", "time, s", "switches", "moves",
                              "error, mm: median, worst", "error, degrees", "failures"});
   for (const std::string& contender : contenders) {
-    text += SummaryLine(
-        contender, Those(rows, [&](const Row& row) { return ContenderOf(row) == contender; }));
+    text += SummaryLine(contender,
+                        Those(rows, [&](const Row& row) { return ContenderOf(row) == contender; }));
   }
   return text;
 }
@@ -112,9 +112,8 @@ std::string TaskTable(const Rows& rows, const std::vector<std::string>& contende
   for (const std::string& task : Different(rows, [](const Row& row) { return row.task; })) {
     std::vector<std::string> cells = {task};
     for (const std::string& contender : contenders) {
-      const auto found = std::ranges::find_if(rows, [&](const Row& row) {
-        return row.task == task && ContenderOf(row) == contender;
-      });
+      const auto found = std::ranges::find_if(
+          rows, [&](const Row& row) { return row.task == task && ContenderOf(row) == contender; });
       const bool is_there = found != rows.end();
       cells.push_back(!is_there ? "" : found->passed ? "pass" : found->reason);
     }

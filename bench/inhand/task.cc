@@ -65,8 +65,11 @@ std::vector<Task> ReadTasks(const std::filesystem::path& path) {
   const CsvTable table = CsvTable::Parse(ReadFile(path), path.string());
   std::vector<Task> tasks;
   for (int i = 0; i < table.size(); ++i) {
-    Task task{table.At(i, "name"), table.At(i, "group"), table.At(i, "body"),
-              table.At(i, "after"), ParseTurn(table.At(i, "turn"), table.Place(i)),
+    Task task{table.At(i, "name"),
+              table.At(i, "group"),
+              table.At(i, "body"),
+              table.At(i, "after"),
+              ParseTurn(table.At(i, "turn"), table.Place(i)),
               ParseMove(table.At(i, "move_mm"), table.Place(i))};
     CheckTask(task, tasks, table.Place(i));
     tasks.push_back(std::move(task));
