@@ -2,15 +2,18 @@
 // hands' own actuators and writes the tables; or judges a plan of others.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "apps/options.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "bench/inhand/bih_tasks.h"
 #include "bench/inhand/judge.h"
 #include "bench/inhand/run.h"
 #include "bench/inhand/score_table.h"
@@ -39,6 +42,8 @@ struct InHandProgram {
   std::string write_bodies;
   std::string task;
   std::string plan;
+  std::string bih;
+  std::string meshes;
   std::vector<std::string> only;
   double limit_s = bench::ScoreRun().limit_s;
   int jobs = 1;
@@ -51,6 +56,7 @@ struct InHandProgram {
  private:
   void Check() const;
   void Read();
+  void ReadBih();
   void PrintTasks() const;
   void WriteBodies() const;
   int RunTasks() const;
@@ -66,8 +72,9 @@ void InHandProgram::AddTo(CLI::App& app) {
   app.add_option("hands", hand_files, "Hand files, of the format regrasp-hand")->type_name("HAND");
   app.add_option("--tasks", tasks_file, "Other tasks than those of the scoreboard")
       ->type_name("FILE");
-  app.add_option("--only", only, "Shell patterns of names or groups of tasks; in quotation marks")
-      ->type_name("PATTERN");
+  app.add_option("--only", only, "Shell pattern of names or groups of tasks; may be given again")
+      ->type_name("PATTERN")
+      ->allow_extra_args(false);
   app.add_option("--results", results,
                  "Where rows go, JSON Lines; what is there already is not run again")
       ->type_name("FILE");
@@ -81,6 +88,11 @@ void InHandProgram::AddTo(CLI::App& app) {
   app.add_option("--task", task, "Judge a plan for this task; --plan says which")
       ->type_name("NAME");
   app.add_option("--plan", plan, "A plan file that is judged")->type_name("FILE");
+  app.add_option("--bih", bih,
+                 "Also the tasks of the benchmark BIH; its sheet of palm poses, saved as CSV")
+      ->type_name("FILE");
+  app.add_option("--meshes", meshes, "Where the solids of BIH's objects are, in metres")
+      ->type_name("FOLDER");
   app.add_flag("--list", list, "Print tasks and bodies");
   app.add_option("--bodies", write_bodies, "Write the bodies' files there; for other planners")
       ->type_name("FOLDER");
@@ -92,6 +104,7 @@ void InHandProgram::Check() const {
   if (!task.empty() && hand_files.size() != 1) {
     throw InputError("--plan: one hand file says which hand the plan is for");
   }
+  if (bih.empty() != meshes.empty()) throw InputError("--bih and --meshes need each other");
   if (!table.empty() && results.empty()) throw InputError("--table: --results says of which rows");
   if (task.empty() && !hand_files.empty() && results.empty()) {
     throw InputError("--results is required where tasks are run");
@@ -110,7 +123,18 @@ void InHandProgram::Read() {
     }
   }
   for (const Task& read : tasks_) (void)bench::BodyNamed(bodies_, read.body);
+  if (!bih.empty()) ReadBih();
   for (const std::string& file : hand_files) hands_.push_back(kinematics::ReadHandFile(file));
+}
+
+void InHandProgram::ReadBih() {
+  bench::BihTasks read = bench::ReadBih(bih, meshes);
+  std::ranges::move(read.tasks, std::back_inserter(tasks_));
+  std::ranges::move(read.bodies, std::back_inserter(bodies_));
+  for (const std::string& object : read.without_mesh) {
+    apps::PrintMessage(kProgram, "warning: " + meshes + ": has no mesh of the object " + object +
+                                     ", whose tasks are left out");
+  }
 }
 
 void InHandProgram::PrintTasks() const {
