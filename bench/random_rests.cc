@@ -37,9 +37,8 @@ RandomRests::RandomRests(const gait::GaitRequest& request)
   const gait::HandSetup setup{scene_, inverse_, points, request.scale};
   const gait::Journey nowhere(request.scale * request.solid->mass_properties().centroid, {}, {});
   RandomStream random(request.seed, RandomUse::kHomes);
-  const auto homes = gait::FindHomes(setup, nowhere, {}, memory_, random);
-  if (homes.empty()) throw std::runtime_error("the object is nowhere within reach of the fingers");
-  pose_ = homes.front();
+  homes_ = gait::FindHomes(setup, nowhere, {}, memory_, random);
+  if (homes_.empty()) throw std::runtime_error("the object is nowhere within reach of the fingers");
   for (FingerIndex finger{0}; finger < scene_.finger_count(); ++finger) {
     for (int i = 0; i < std::ssize(contacts_); ++i) {
       if (PlaceAt(finger, i)) within_reach_[finger].push_back(i);
@@ -49,7 +48,7 @@ RandomRests::RandomRests(const gait::GaitRequest& request)
 
 std::optional<gait::PlacedFinger> RandomRests::PlaceAt(FingerIndex finger, int contact) const {
   const gait::SurfacePoint point{request_.scale * contacts_[contact].p, contacts_[contact].n};
-  const auto posture = inverse_[finger].Solve(TargetAt(scene_.finger(finger), point, pose_));
+  const auto posture = inverse_[finger].Solve(TargetAt(scene_.finger(finger), point, pose()));
   if (!posture) return std::nullopt;
   return scene_.Place(finger, *posture);
 }
@@ -57,7 +56,7 @@ std::optional<gait::PlacedFinger> RandomRests::PlaceAt(FingerIndex finger, int c
 bool RandomRests::IsClear(const gait::PlacedFinger& placed,
                           const std::vector<gait::PlacedFinger>& others,
                           gait::TipContact tip) const {
-  return scene_.KeepsOffHand(placed) && scene_.KeepsOffObject(placed, pose_, tip) &&
+  return scene_.KeepsOffHand(placed) && scene_.KeepsOffObject(placed, pose(), tip) &&
          std::ranges::all_of(others, [&](const gait::PlacedFinger& other) {
            return scene_.KeepApart(other, placed);
          });
@@ -65,7 +64,7 @@ bool RandomRests::IsClear(const gait::PlacedFinger& placed,
 
 std::optional<gait::Holding> RandomRests::TryDraw(RandomStream& random) const {
   gait::Holding holding(scene_.finger_count(), gait::kNone);
-  if (!scene_.KeepsOffPalm(pose_)) return std::nullopt;
+  if (!scene_.KeepsOffPalm(pose())) return std::nullopt;
   std::vector<gait::PlacedFinger> placed;
   for (const int drawn : random.Choose(scene_.finger_count(), kHolding)) {
     const FingerIndex finger{drawn};

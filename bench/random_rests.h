@@ -24,7 +24,9 @@ class RandomRests {
   RandomRests(const RandomRests&) = delete;  // its parts refer to each other
   RandomRests& operator=(const RandomRests&) = delete;
 
-  [[nodiscard]] const Eigen::Isometry3d& pose() const { return pose_; }
+  [[nodiscard]] const Eigen::Isometry3d& pose() const { return homes_.front(); }
+  /// Places where the hand's reach is good, the best first.
+  [[nodiscard]] const std::vector<Eigen::Isometry3d>& homes() const { return homes_; }
 
   /// The contacts of three fingers drawn, whatever they are worth. @returns nullopt where a finger
   /// or the object is in something's way.
@@ -48,7 +50,7 @@ class RandomRests {
   std::vector<kinematics::InverseKinematics> inverse_;  ///< by finger
   std::vector<std::vector<int>> within_reach_;          ///< contacts by finger
   criteria::GraspMemory memory_;
-  Eigen::Isometry3d pose_;
+  std::vector<Eigen::Isometry3d> homes_;
 };
 
 }  // namespace regrasp::bench

@@ -1,8 +1,10 @@
 #include "bench/inhand/plan_task.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "bench/processor_clock.h"
 #include "bench/random_rests.h"
@@ -16,43 +18,76 @@
 namespace regrasp::bench {
 namespace {
 
-/// Where the hand's reach is best.
-Eigen::Isometry3d HomeOf(const planning::InHandTask& task, const HandBody& body,
-                         const criteria::GraspCriteria& criteria) {
+/// Places in the hand that a task which moves the centroid may begin in, or have half-way.
+constexpr std::size_t kPlaces = 3;
+
+/// Where a task may begin that moves the centroid: where the hand's reach is best, or so that the
+/// body is there half-way.
+std::vector<Eigen::Isometry3d> StartsOf(const planning::InHandTask& in_hand, const HandBody& body,
+                                        const Task& task, const criteria::GraspCriteria& criteria) {
   gait::GaitRequest request;
-  static_cast<planning::InHandTask&>(request) = task;
+  static_cast<planning::InHandTask&>(request) = in_hand;
   request.solid = &body.solid();
   request.criteria = criteria;
-  return RandomRests(request).pose();
+  Task half = task;
+  half.turn.angle /= 2;
+  half.move_m /= 2;
+  const Eigen::Isometry3d to_half = GoalPose(half, body.centre(), Eigen::Isometry3d::Identity());
+  std::vector<Eigen::Isometry3d> starts;
+  const RandomRests rests(request);
+  for (std::size_t i = 0; i < std::min(kPlaces, rests.homes().size()); ++i) {
+    starts.push_back(rests.homes()[i]);
+    starts.push_back(rests.homes()[i] * to_half.inverse());
+  }
+  return starts;
 }
 
-planning::InHandTask InHandTaskOf(const kinematics::HandFile& hand, const HandBody& body,
-                                  const Task& task, const std::optional<TaskStart>& start,
-                                  const criteria::GraspCriteria& criteria) {
+/// All ways to ask for a task, in the order in which they are tried.
+std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand,
+                                                const HandBody& body, const Task& task,
+                                                const std::optional<TaskStart>& start,
+                                                const criteria::GraspCriteria& criteria) {
   planning::InHandTask in_hand{.hand = &hand.hand, .scale = body.scale};
+  in_hand.is_carried_out = sim::CarryOutTest(hand, body.solid());
   if (start) in_hand.start_pose = start->pose;
   if (task.is_turn()) {
     in_hand.turn = task.turn;
-  } else {
-    if (!start) in_hand.start_pose = HomeOf(in_hand, body, criteria);
-    in_hand.goal_pose = GoalPose(task, body.centre(), *in_hand.start_pose);
+    return {in_hand};
   }
-  in_hand.is_carried_out = sim::CarryOutTest(hand, body.solid());
-  return in_hand;
+  std::vector<planning::InHandTask> ways;
+  for (const Eigen::Isometry3d& pose :
+       start ? std::vector{start->pose} : StartsOf(in_hand, body, task, criteria)) {
+    in_hand.start_pose = pose;
+    in_hand.goal_pose = GoalPose(task, body.centre(), pose);
+    ways.push_back(in_hand);
+  }
+  return ways;
 }
 
+/// Each way has its share of the time that those before it left. The first plan that the hand
+/// carries out, or the first one.
 planning::PlanResult Solve(const kinematics::HandFile& hand, const HandBody& body, const Task& task,
                            const std::optional<TaskStart>& start, const Deadline& deadline) {
   planning::PlanRequest request;
   request.object = &body.solid();
   request.object_name = body.file.file;
   request.criteria.half_angle = std::atan(kFriction);
-  request.deadline = deadline;
-  gait::AskInHand(InHandTaskOf(hand, body, task, start, request.criteria), request);
-  if (start) {
-    request.start = {planning::GraspChoice::Kind::kGiven, start->grasp, "the end of " + task.after};
+  const auto ways = InHandTasksOf(hand, body, task, start, request.criteria);
+  planning::PlanResult found;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    gait::AskInHand(ways[i], request);
+    if (start) {
+      request.start = {planning::GraspChoice::Kind::kGiven, start->grasp,
+                       "the end of " + task.after};
+    }
+    request.deadline = deadline.After(1.0 / static_cast<double>(ways.size() - i));
+    planning::PlanResult result = planning::Solve(gait::GaitPlanner(), request);
+    const bool is_carried_out =
+        ways.size() > 1 && result.plan && ways[i].is_carried_out(*result.plan) == true;
+    if (is_carried_out || !found.plan) found = std::move(result);
+    if (is_carried_out || deadline.IsOver()) break;
   }
-  return planning::Solve(gait::GaitPlanner(), request);
+  return found;
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct PlannedTask {
 /// Plans a task as the program `plan` does by its usual options: with reserve where there is some,
 /// plans tried on the hand's own motors, and grasps of a quality of 0.01.
 /// @param start    where it begins; none: wherever the planner likes. A task that moves the
-///                 centroid begins where the hand's reach is best.
+///                 centroid begins where the hand's reach is good, or is there half-way.
 /// @param limit_s  of processor time.
 [[nodiscard]] PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body,
                                    const Task& task, const std::optional<TaskStart>& start,
