@@ -175,10 +175,11 @@ int InHandProgram::JudgePlan() const {
   const auto asked = std::ranges::find(tasks_, task, &Task::name);
   if (asked == tasks_.end()) throw InputError("--task: there is no task " + task);
   const HandBody& body = bench::BodyNamed(bodies_, asked->body);
-  const plan::Plan read = plan::ReadPlan(plan);
+  const std::string bytes = ReadFile(plan);
+  const plan::Plan read = plan::ParsePlan(bytes, plan);
   bench::CheckIsFor(*asked, body, hands_.front(), read, plan);
   Row row = bench::RowOf(*asked, hands_.front());
-  bench::AddPlan(read, bench::Judge(*asked, body, hands_.front(), read), row);
+  bench::AddPlan(read, bytes, bench::Judge(*asked, body, hands_.front(), read), row);
   std::cout << bench::FormatRow(row);
   if (!results.empty()) bench::AppendRows(results, bench::FormatRow(row));
   return row.passed ? apps::kExitDone : apps::kExitNegative;

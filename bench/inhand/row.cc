@@ -8,7 +8,6 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"
-#include "planner/plan/plan_io.h"
 
 namespace regrasp::bench {
 namespace {
@@ -68,7 +67,7 @@ Row RowOf(const Task& task, const kinematics::HandFile& hand) {
   return row;
 }
 
-void AddPlan(const plan::Plan& plan, const Verdict& verdict, Row& row) {
+void AddPlan(const plan::Plan& plan, std::string_view bytes, const Verdict& verdict, Row& row) {
   row.planner = plan.planner;
   row.found = true;
   row.switches = CountSteps(plan, "switch");
@@ -78,7 +77,7 @@ void AddPlan(const plan::Plan& plan, const Verdict& verdict, Row& row) {
   row.reason = plan::ReasonName(verdict.reason);
   row.detail = verdict.detail;
   row.error = verdict.error;
-  row.plan_sha256 = Sha256(plan::FormatPlan(plan));
+  row.plan_sha256 = Sha256(bytes);
 }
 
 std::string FormatRow(const Row& row) {

@@ -32,8 +32,8 @@ struct Row {
 /// What a row says of the task, the hand and nothing else.
 [[nodiscard]] Row RowOf(const Task& task, const kinematics::HandFile& hand);
 
-/// Adds what a plan is and what the judge says.
-void AddPlan(const plan::Plan& plan, const Verdict& verdict, Row& row);
+/// Adds what a plan is and what the judge says. @param bytes  of its file.
+void AddPlan(const plan::Plan& plan, std::string_view bytes, const Verdict& verdict, Row& row);
 
 /// One line of JSON, with its end.
 [[nodiscard]] std::string FormatRow(const Row& row);

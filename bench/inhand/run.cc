@@ -19,11 +19,11 @@ struct Job {
   const kinematics::HandFile* hand;
 };
 
-void WritePlan(const std::filesystem::path& folder, const Row& row, const plan::Plan& plan) {
+void WritePlan(const std::filesystem::path& folder, const Row& row, std::string_view bytes) {
   std::string file = row.task + ".json";
   std::ranges::replace(file, '/', '-');
   std::filesystem::create_directories(folder / row.hand);
-  WriteFile(folder / row.hand / file, plan::FormatPlan(plan));
+  WriteFile(folder / row.hand / file, bytes);
 }
 
 bool IsDone(const Job& job, const std::vector<Row>& rows, double limit_s) {
@@ -94,8 +94,9 @@ std::vector<Row> RunChain(const ScoreRun& run, const Chain& chain,
     start.reset();
     if (planned.plan) {
       CheckIsFor(task, body, hand, *planned.plan, "the planner's plan");
-      AddPlan(*planned.plan, Judge(task, body, hand, *planned.plan), row);
-      if (!run.plans.empty()) WritePlan(run.plans, row, *planned.plan);
+      const std::string bytes = plan::FormatPlan(*planned.plan);
+      AddPlan(*planned.plan, bytes, Judge(task, body, hand, *planned.plan), row);
+      if (!run.plans.empty()) WritePlan(run.plans, row, bytes);
       start = EndOf(*planned.plan);
     } else {
       row.reason = kNoPlan;
