@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/hand_bodies.h"
+#include "bench/hand_trial.h"
 #include "bench/processor_clock.h"
 #include "bench/random_rests.h"
 #include "bench/spread.h"
@@ -29,20 +29,16 @@
 #include "planner/base/text_table.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/hand_file.h"
-#include "planner/object/body_measures.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/check.h"
 #include "sim/actuation/carry_out.h"
-#include "sim/actuation/hand_replay.h"
-#include "sim/hand/check_hand.h"
 
 namespace {
 
 using namespace regrasp;
 using bench::HandBody;
+using bench::kFriction;
 using bench::Largest;
 using bench::Median;
-
-constexpr double kMu = 0.8;
 
 /// What became of plans that were replayed by their hand.
 struct Replays {
@@ -83,7 +79,7 @@ struct Contest {
   bool pairs = false;
   bool replay = false;
   gait::Reserve reserve = gait::Reserve::kPreferred;
-  double plan_mu = kMu;
+  double plan_mu = kFriction;
   double min_quality = criteria::GraspCriteria().min_quality;
   std::optional<double> of_critical;
 };
@@ -117,27 +113,22 @@ double CriticalFriction(const HandBody& body, const plan::Plan& plan) {
 
 void Replay(const Contest& contest, const kinematics::HandFile& file, const HandBody& body,
             const plan::Plan& plan, Replays& replays) {
-  sim::HandReplayOptions options;
-  options.half_angle = std::atan(kMu);
-  if (contest.of_critical) {
-    options.friction_factor = *contest.of_critical * CriticalFriction(body, plan) / kMu;
-  }
-  options.mass_kg = object::MeasureBody(body.solid(), body.scale).mass_kg;
+  const double factor =
+      contest.of_critical ? *contest.of_critical * CriticalFriction(body, plan) / kFriction : 1;
   const double begin = ProcessorSeconds();
-  const sim::ReplayResult result = sim::ReplayHand(file, body.solid(), plan, options);
+  const bench::HandTrial trial = bench::TryInHand(file, body, plan, factor);
   replays.seconds += ProcessorSeconds() - begin;
   ++replays.count;
-  for (const sim::StepReplay& step : result.steps) replays.simulated += step.hand->simulated_s;
-  const sim::StepReplay& last = result.steps.back();
-  if (last.reason != plan::Reason::kNone) {
-    ++replays.reasons[std::string(plan::ReasonName(last.reason))];
-    std::cerr << body.name << ": step " << last.index << " of " << plan.steps.size() << ": "
-              << last.detail << '\n';
+  replays.simulated += trial.simulated_s;
+  if (trial.fault) {
+    ++replays.reasons[std::string(plan::ReasonName(trial.fault->reason))];
+    std::cerr << body.name << ": of " << plan.steps.size() << " steps, " << trial.fault->detail
+              << '\n';
     return;
   }
   ++replays.passed;
-  replays.end_m.push_back(last.hand->rest_off_m);
-  replays.end_deg.push_back(Degrees(last.hand->rest_off_rad));
+  replays.end_m.push_back(trial.off_m);
+  replays.end_deg.push_back(Degrees(trial.off_rad));
 }
 
 Outcome Run(const Contest& contest, const kinematics::HandFile& file, const HandBody& body) {
@@ -174,11 +165,11 @@ Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Hand
     outcome.switches +=
         static_cast<int>(std::ranges::count(plan.steps, std::string("switch"), plan::StepKind));
     const double check = ProcessorSeconds();
-    const auto faults = sim::CheckHand(file, body.solid(), plan);
+    const auto fault = bench::CheckInHand(file, body, plan);
     outcome.checking += ProcessorSeconds() - check;
-    if (!faults.empty() || !plan::CheckPlan(body.solid(), plan).passed()) {
+    if (fault) {
       ++outcome.rejected;
-      if (!faults.empty()) std::cerr << "rejected: " << faults.front().detail << '\n';
+      std::cerr << "rejected: " << fault->detail << '\n';
     } else if (contest.replay) {
       Replay(contest, file, body, plan, outcome.replays);
     }
@@ -217,7 +208,7 @@ void TimeRest(const kinematics::HandModel& hand, const HandBody& body) {
   request.hand = &hand;
   request.solid = &body.solid();
   request.scale = body.scale;
-  request.criteria.half_angle = std::atan(kMu);
+  request.criteria.half_angle = std::atan(kFriction);
   const bench::RandomRests rests(request);
   RandomStream random(1, RandomUse::kGaits);
   constexpr int kRests = 2000;
@@ -324,7 +315,7 @@ int main(int argc, char** argv) {
                 contest.pairs
                     ? "pairs of grasps at one pose"
                     : ("turn of " + FormatShort(degrees, 4) + " degrees about " + axis).c_str(),
-                kMu, contest.limit_s, contest.seeds);
+                kFriction, contest.limit_s, contest.seeds);
     std::vector<HandBody> bodies = bench::TenBodies(REGRASP_MODELS);
     if (!only.empty()) {
       std::erase_if(bodies, [&](const HandBody& body) {

@@ -1,17 +1,12 @@
 #include "bench/inhand/judge.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "bench/inhand/plan_task.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/object/body_measures.h"
-#include "planner/plan/check.h"
 #include "planner/plan/hand_path.h"
-#include "sim/actuation/hand_replay.h"
-#include "sim/hand/check_hand.h"
 
 namespace regrasp::bench {
 namespace {
@@ -66,23 +61,6 @@ void CheckGoal(const Task& task, const HandBody& body, const plan::Plan& plan,
   }
 }
 
-plan::Plan LocatedPlan(const HandBody& body, const plan::Plan& plan) {
-  return plan::LocatePlan(body.solid(), plan);
-}
-
-/// By what needs no simulation.
-Verdict CheckedAlone(const HandBody& body, const kinematics::HandFile& hand,
-                     const plan::Plan& plan) {
-  plan::CheckOptions options;
-  options.half_angle = std::atan(kFriction);
-  options.hand_faults = sim::CheckHand(hand, body.solid(), LocatedPlan(body, plan));
-  const plan::PlanCheck check = plan::CheckPlan(body.solid(), plan, options);
-  const auto failed = std::ranges::find_if(
-      check.steps, [](const plan::StepCheck& step) { return step.reason != plan::Reason::kNone; });
-  if (failed == check.steps.end()) return {};
-  return {failed->reason, "step " + std::to_string(failed->index) + ": " + failed->detail, {}};
-}
-
 }  // namespace
 
 void CheckIsFor(const Task& task, const HandBody& body, const kinematics::HandFile& hand,
@@ -111,27 +89,15 @@ void CheckIsFor(const Task& task, const HandBody& body, const kinematics::HandFi
 
 Verdict Judge(const Task& task, const HandBody& body, const kinematics::HandFile& hand,
               const plan::Plan& plan) {
-  Verdict verdict = CheckedAlone(body, hand, plan);
-  if (verdict.reason != plan::Reason::kNone) return verdict;
-  sim::HandReplayOptions options;
-  options.half_angle = std::atan(kFriction);
-  options.mass_kg = object::MeasureBody(body.solid(), body.scale).mass_kg;
-  sim::HandReplayObserver observer;
-  std::optional<Eigen::Isometry3d> end;
-  observer.on_rest = [&](const sim::HandWorld& world, plan::EntryIndex entry) {
-    if (entry == plan::EntryIndex(static_cast<int>(plan.steps.size()))) end = world.object_pose();
-  };
-  const sim::ReplayResult replay =
-      sim::ReplayHand(hand, body.solid(), LocatedPlan(body, plan), options, observer);
-  const sim::StepReplay& last = replay.steps.back();
-  verdict.reason = last.reason;
-  if (last.reason != plan::Reason::kNone) {
-    verdict.detail = "step " + std::to_string(last.index) + ": " + last.detail;
-  }
-  if (!end) return verdict;
+  if (const auto fault = CheckInHand(hand, body, plan)) return {fault, {}};
+  const HandTrial trial = TryInHand(hand, body, plan);
+  Verdict verdict{trial.fault, {}};
+  if (!trial.end) return verdict;
   const Eigen::Isometry3d goal = GoalPose(task, body.centre(), plan.hand->initial.pose);
-  verdict.error = Between(*end, goal, body.centre());
-  if (task.is_turn()) verdict.error->metres = Between(*end, EndOf(plan).pose, body.centre()).metres;
+  verdict.error = Between(*trial.end, goal, body.centre());
+  if (task.is_turn()) {
+    verdict.error->metres = Between(*trial.end, EndOf(plan).pose, body.centre()).metres;
+  }
   return verdict;
 }
 

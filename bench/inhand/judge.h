@@ -3,11 +3,10 @@
 #include <optional>
 #include <string>
 
-#include "bench/hand_bodies.h"
+#include "bench/hand_trial.h"
 #include "bench/inhand/task.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/plan.h"
-#include "planner/plan/reason.h"
 
 namespace regrasp::bench {
 
@@ -26,15 +25,13 @@ void CheckIsFor(const Task& task, const HandBody& body, const kinematics::HandFi
                 const plan::Plan& plan, const std::string& name);
 
 struct Verdict {
-  plan::Reason reason = plan::Reason::kNone;  ///< none: it passes
-  std::string detail;
+  std::optional<TrialFault> fault;  ///< none: it passes
   /// Of the body at the end of the replay, from the task's goal; of a turn the centroid from where
   /// the plan has it. None where the replay does not come to its end.
   std::optional<PoseError> error;
 };
 
-/// Judges a plan: by the checker of plans, by that of hands, and by a replay on the hand's own
-/// actuators at the friction of the scoreboard, with shakes, for a body of the density of water.
+/// Judges a plan: by the checkers of plans and hands, and by a trial on the hand's own actuators.
 /// @param plan  for the task (CheckIsFor).
 [[nodiscard]] Verdict Judge(const Task& task, const HandBody& body,
                             const kinematics::HandFile& hand, const plan::Plan& plan);

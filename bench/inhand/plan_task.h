@@ -3,16 +3,13 @@
 #include <optional>
 #include <string>
 
-#include "bench/hand_bodies.h"
+#include "bench/hand_trial.h"
 #include "bench/inhand/task.h"
 #include "planner/grasp/contact.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/plan.h"
 
 namespace regrasp::bench {
-
-/// Of all contacts, in plans and in replays.
-inline constexpr double kFriction = 0.8;
 
 /// How a hand holds a body where a task begins.
 struct TaskStart {

@@ -73,9 +73,11 @@ void AddPlan(const plan::Plan& plan, std::string_view bytes, const Verdict& verd
   row.switches = CountSteps(plan, "switch");
   row.moves = CountSteps(plan, "move");
   row.aligns = CountSteps(plan, "align");
-  row.passed = verdict.reason == plan::Reason::kNone;
-  row.reason = plan::ReasonName(verdict.reason);
-  row.detail = verdict.detail;
+  row.passed = !verdict.fault;
+  if (verdict.fault) {
+    row.reason = plan::ReasonName(verdict.fault->reason);
+    row.detail = verdict.fault->detail;
+  }
   row.error = verdict.error;
   row.plan_sha256 = Sha256(bytes);
 }

@@ -65,7 +65,7 @@ TEST(Scoreboard, PassesThePlannersOwnPlan) {
   ASSERT_TRUE(given.planned.plan) << given.planned.message;
   EXPECT_EQ(Refusal(given.task, given.cube, *given.planned.plan), "");
   const Verdict verdict = Judge(given.task, given.cube, given.hand, *given.planned.plan);
-  EXPECT_EQ(verdict.reason, plan::Reason::kNone) << verdict.detail;
+  EXPECT_FALSE(verdict.fault) << verdict.fault->detail;
   ASSERT_TRUE(verdict.error);
   EXPECT_LT(verdict.error->metres, 1e-3);
   EXPECT_LT(verdict.error->radians, Radians(2));
@@ -105,8 +105,8 @@ TEST(Scoreboard, FailsAPlanThatTheHandCannotFollow) {
   plan::Plan plan = *given.planned.plan;
   plan.hand->initial.joints.front().front() += 1;
   const Verdict verdict = Judge(given.task, given.cube, given.hand, plan);
-  EXPECT_NE(verdict.reason, plan::Reason::kNone);
-  EXPECT_THAT(verdict.detail, HasSubstr("step 0"));
+  ASSERT_TRUE(verdict.fault);
+  EXPECT_THAT(verdict.fault->detail, HasSubstr("step 0"));
   EXPECT_FALSE(verdict.error);
 }
 
