@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "bench/inhand/plan_task.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -99,6 +98,17 @@ Verdict Judge(const Task& task, const HandBody& body, const kinematics::HandFile
     verdict.error->metres = Between(*trial.end, EndOf(plan).pose, body.centre()).metres;
   }
   return verdict;
+}
+
+std::optional<TrialFault> CheckStart(const TaskStart& start, const plan::Plan& plan) {
+  for (const plan::FingerContact& before : start.holding) {
+    const plan::FingerContact* now = plan::FindFinger(plan.initial, before.finger);
+    if (now != nullptr && now->contact.p == before.contact.p) continue;
+    return TrialFault{plan::Reason::kStartDiffers, "finger " + std::to_string(before.finger) +
+                                                       " holds another contact than at the end of "
+                                                       "the plan before"};
+  }
+  return std::nullopt;
 }
 
 }  // namespace regrasp::bench

@@ -3,8 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "bench/hand_trial.h"
-#include "bench/inhand/task.h"
+#include "bench/inhand/plan_task.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/plan.h"
 
@@ -35,5 +34,9 @@ struct Verdict {
 /// @param plan  for the task (CheckIsFor).
 [[nodiscard]] Verdict Judge(const Task& task, const HandBody& body,
                             const kinematics::HandFile& hand, const plan::Plan& plan);
+
+/// Whether a plan begins as the one before it ended: with the same fingers at the same contacts.
+/// @returns what differs. Where the other fingers stand is not asked.
+[[nodiscard]] std::optional<TrialFault> CheckStart(const TaskStart& start, const plan::Plan& plan);
 
 }  // namespace regrasp::bench

@@ -77,7 +77,7 @@ planning::PlanResult Solve(const kinematics::HandFile& hand, const HandBody& bod
   for (std::size_t i = 0; i < ways.size(); ++i) {
     gait::AskInHand(ways[i], request);
     if (start) {
-      request.start = {planning::GraspChoice::Kind::kGiven, start->grasp,
+      request.start = {planning::GraspChoice::Kind::kGiven, plan::ContactsOf(start->holding),
                        "the end of " + task.after};
     }
     request.deadline = deadline.After(1.0 / static_cast<double>(ways.size() - i));
@@ -101,7 +101,7 @@ TaskStart EndOf(const plan::Plan& plan) {
       if (!path->empty()) state = &path->back();
     }
   }
-  return {state->pose, plan::ContactsOf(holding)};
+  return {state->pose, std::move(holding)};
 }
 
 PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body, const Task& task,

@@ -5,7 +5,6 @@
 
 #include "bench/hand_trial.h"
 #include "bench/inhand/task.h"
-#include "planner/grasp/contact.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/plan.h"
 
@@ -14,7 +13,7 @@ namespace regrasp::bench {
 /// How a hand holds a body where a task begins.
 struct TaskStart {
   Eigen::Isometry3d pose;
-  grasp::Grasp grasp;
+  plan::FingerGrasp holding;
 };
 
 /// Where a plan ends, for the task after it. @param plan  for a hand.

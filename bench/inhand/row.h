@@ -13,7 +13,7 @@ namespace regrasp::bench {
 
 /// Reasons of rows beside those of plan::Reason.
 inline constexpr char kNoPlan[] = "no-plan";
-inline constexpr char kNoStart[] = "no-start";  ///< the task before it has no plan
+inline constexpr char kNoStart[] = "no-start";  ///< the task before it has no plan that goes on
 inline constexpr char kCrash[] = "crash";       ///< the planner or the judge ended by itself
 
 /// What became of a task in a hand: a line of the results, which are JSON Lines.

@@ -61,6 +61,45 @@ std::vector<Row> CrashRows(const ScoreRun& run, const Job& job, const apps::Chil
   return rows;
 }
 
+/// Of a plan for a task that starts where another one ended.
+Verdict JudgeFrom(const std::optional<TaskStart>& start, const Task& task, const HandBody& body,
+                  const kinematics::HandFile& hand, const plan::Plan& plan) {
+  if (start) {
+    if (const auto fault = CheckStart(*start, plan)) return {fault, {}};
+  }
+  return Judge(task, body, hand, plan);
+}
+
+/// @param start  where the task before ended, and then where this one does; none where it has no
+///               plan that goes on.
+Row RunTask(const ScoreRun& run, const Task& task, const kinematics::HandFile& hand,
+            std::optional<TaskStart>& start) {
+  const HandBody& body = BodyNamed(*run.bodies, task.body);
+  Row row = RowOf(task, hand);
+  row.limit_s = run.limit_s;
+  if (!task.after.empty() && !start) {
+    row.reason = kNoStart;
+    row.detail = task.after + " has no plan that goes on";
+    return row;
+  }
+  const PlannedTask planned = PlanTask(hand, body, task, start, run.limit_s);
+  row.seconds = planned.seconds;
+  if (!planned.plan) {
+    row.reason = kNoPlan;
+    row.detail = planned.message;
+    start.reset();
+    return row;
+  }
+  CheckIsFor(task, body, hand, *planned.plan, "the planner's plan");
+  const Verdict verdict = JudgeFrom(start, task, body, hand, *planned.plan);
+  const std::string bytes = plan::FormatPlan(*planned.plan);
+  AddPlan(*planned.plan, bytes, verdict, row);
+  if (!run.plans.empty()) WritePlan(run.plans, row, bytes);
+  start = EndOf(*planned.plan);
+  if (verdict.fault && verdict.fault->reason == plan::Reason::kStartDiffers) start.reset();
+  return row;
+}
+
 std::string FormatRows(const std::vector<Row>& rows) {
   std::string text;
   for (const Row& row : rows) text += FormatRow(row);
@@ -79,31 +118,7 @@ std::vector<Row> RunChain(const ScoreRun& run, const Chain& chain,
                           const kinematics::HandFile& hand) {
   std::vector<Row> rows;
   std::optional<TaskStart> start;
-  for (const Task& task : chain) {
-    const HandBody& body = BodyNamed(*run.bodies, task.body);
-    Row row = RowOf(task, hand);
-    row.limit_s = run.limit_s;
-    if (!task.after.empty() && !start) {
-      row.reason = kNoStart;
-      row.detail = task.after + " has no plan";
-      rows.push_back(std::move(row));
-      continue;
-    }
-    const PlannedTask planned = PlanTask(hand, body, task, start, run.limit_s);
-    row.seconds = planned.seconds;
-    start.reset();
-    if (planned.plan) {
-      CheckIsFor(task, body, hand, *planned.plan, "the planner's plan");
-      const std::string bytes = plan::FormatPlan(*planned.plan);
-      AddPlan(*planned.plan, bytes, Judge(task, body, hand, *planned.plan), row);
-      if (!run.plans.empty()) WritePlan(run.plans, row, bytes);
-      start = EndOf(*planned.plan);
-    } else {
-      row.reason = kNoPlan;
-      row.detail = planned.message;
-    }
-    rows.push_back(std::move(row));
-  }
+  for (const Task& task : chain) rows.push_back(RunTask(run, task, hand, start));
   return rows;
 }
 

@@ -91,7 +91,7 @@ std::string SummaryLine(const std::string& contender, const Rows& rows) {
                  median([](const Row& row) { return row.seconds; }, 1),
                  median([](const Row& row) { return std::optional<double>(row.switches); }, 1),
                  median([](const Row& row) { return std::optional<double>(row.moves); }, 1),
-                 MedianOf(passed, error_mm, 2, true), MedianOf(passed, error_deg, 2, true),
+                 MedianOf(passed, error_mm, 3, true), MedianOf(passed, error_deg, 3, true),
                  FailuresOf(rows)});
 }
 
@@ -103,6 +103,17 @@ std::string SummaryTable(const Rows& rows, const std::vector<std::string>& conte
                         Those(rows, [&](const Row& row) { return ContenderOf(row) == contender; }));
   }
   return text;
+}
+
+/// "At most 8 s to plan a task."
+std::string LimitsText(const Rows& rows) {
+  std::string text;
+  for (const std::string& limit : Different(rows, [](const Row& row) {
+         return row.limit_s ? FormatShort(*row.limit_s) + " s" : "";
+       })) {
+    if (!limit.empty()) text += (text.empty() ? "At most " : " or ") + limit;
+  }
+  return text.empty() ? "" : text + " of processor time to plan a task.\n\n";
 }
 
 std::string TaskTable(const Rows& rows, const std::vector<std::string>& contenders) {
@@ -140,7 +151,7 @@ std::string ScoreTables(const std::vector<Row>& rows, const std::vector<Task>& t
     std::ranges::copy_if(all, std::back_inserter(contenders), [&](const std::string& name) {
       return std::ranges::find(there, name) != there.end();
     });
-    text += "### " + group + "\n\n" + SummaryTable(of_group, contenders) +
+    text += "### " + group + "\n\n" + LimitsText(of_group) + SummaryTable(of_group, contenders) +
             "\n<details><summary>Every task</summary>\n\n" + TaskTable(of_group, contenders) +
             "\n</details>\n\n";
   }

@@ -83,8 +83,9 @@ TEST(ScoreTables, CountPassesAndNameReasons) {
   const std::vector<Row> rows = {Passing("t2", "ring", 2), Passing("t1", "ring", 1),
                                  Failing("t3", "ring", "slipped"), Failing("t1", "leap", kNoPlan)};
   const std::string text = ScoreTables(rows, {Named("t1"), Named("t2"), Named("t3")});
-  EXPECT_THAT(text, HasSubstr("| ring | 3 of 3 | 2 of 3 | 2.5 | 3.0 | 4.0 | 1.50, 2.00 | "
-                              "0.50, 0.50 | slipped 1 |"));
+  EXPECT_THAT(text, HasSubstr("| ring | 3 of 3 | 2 of 3 | 2.5 | 3.0 | 4.0 | 1.500, 2.000 | "
+                              "0.500, 0.500 | slipped 1 |"));
+  EXPECT_THAT(text, HasSubstr("### g\n\nAt most 8 s of processor time"));
   EXPECT_THAT(text, HasSubstr("| leap | 0 of 1 | 0 of 1 | – | – | – | – | – | no-plan 1 |"));
   EXPECT_THAT(text, HasSubstr("| task | ring | leap |\n| --- | --- | --- |\n"
                               "| t1 | pass | no-plan |\n| t2 | pass |  |\n| t3 | slipped |  |\n"));

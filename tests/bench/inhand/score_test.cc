@@ -155,12 +155,13 @@ TEST(PlanTask, BeginsWhereThePlanBeforeItEnds) {
   const PlannedTask planned = PlanTask(given.hand, given.cube, second, start, kNoLimit_s);
   ASSERT_TRUE(planned.plan) << planned.message;
   EXPECT_TRUE(planned.plan->hand->initial.pose.isApprox(start.pose, 1e-12));
-  const grasp::Grasp grasp = plan::ContactsOf(planned.plan->initial);
-  ASSERT_EQ(grasp.size(), start.grasp.size());
-  for (const grasp::Contact& contact : grasp) {
-    EXPECT_TRUE(std::ranges::any_of(
-        start.grasp, [&](const grasp::Contact& before) { return before.p == contact.p; }));
-  }
+  EXPECT_EQ(planned.plan->initial.size(), start.holding.size());
+  EXPECT_FALSE(CheckStart(start, *planned.plan));
+  TaskStart other = start;
+  std::swap(other.holding[0].finger, other.holding[1].finger);
+  const auto fault = CheckStart(other, *planned.plan);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->reason, plan::Reason::kStartDiffers);
 }
 
 }  // namespace
