@@ -49,7 +49,12 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
                                                 const criteria::GraspCriteria& criteria) {
   planning::InHandTask in_hand{.hand = &hand.hand, .scale = body.scale};
   in_hand.is_carried_out = sim::CarryOutTest(hand, body.solid());
-  if (start) in_hand.start_pose = start->pose;
+  if (start) {
+    in_hand.start_pose = start->pose;
+    for (const plan::FingerContact& held : start->holding) {
+      in_hand.start_fingers.push_back(held.finger);
+    }
+  }
   if (task.is_turn()) {
     in_hand.turn = task.turn;
     return {in_hand};
