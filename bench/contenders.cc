@@ -1,9 +1,9 @@
 #include "bench/contenders.h"
 
-#include <ctime>
 #include <memory>
 #include <utility>
 
+#include "bench/processor_clock.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/random.h"
@@ -119,13 +119,6 @@ Contender OnPolyhedron(const object::Polyhedron& solid, const ContestSetting& se
 }
 
 }  // namespace
-
-double ProcessorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  constexpr double kNanosecond = 1e-9;
-  return static_cast<double>(now.tv_sec) + kNanosecond * static_cast<double>(now.tv_nsec);
-}
 
 std::vector<Contender> MakeContenders(const object::Object& object, const ContestSetting& setting) {
   const auto whole = [&](const char* name) {

@@ -25,9 +25,6 @@ struct ContestSetting {
   int most_contacts = 0;
 };
 
-/// Processor time of this process, seconds: other work on the machine hardly counts.
-[[nodiscard]] double ProcessorSeconds();
-
 struct Answer {
   planning::PlanResult result;
   double seconds = 0;  ///< processor time

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/plan_figures.h"
+#include "bench/processor_clock.h"
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/sampling/draw_grasp.h"

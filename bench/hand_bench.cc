@@ -9,20 +9,20 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <iostream>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "bench/best_pose.h"
+#include "bench/good_poses.h"
+#include "bench/hand_trial.h"
+#include "bench/processor_clock.h"
+#include "bench/spread.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -31,100 +31,16 @@
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/random_rests.h"
 #include "planner/kinematics/hand_file.h"
-#include "planner/object/body_measures.h"
-#include "planner/object/polyhedron.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/check.h"
 #include "sim/actuation/carry_out.h"
-#include "sim/actuation/hand_replay.h"
-#include "sim/hand/check_hand.h"
 
 namespace {
 
 using namespace regrasp;
-using Clock = std::chrono::steady_clock;
-using Eigen::Vector3d;
-
-constexpr double kMu = 0.8;
-/// Of bodies that are no cubes: their diameter, metres.
-constexpr double kSize = 0.075;
-
-/// Processor time of this program, which has one thread: other programs change nothing.
-Clock::time_point Now() {
-  timespec time = {};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return Clock::time_point(std::chrono::seconds(time.tv_sec) +
-                           std::chrono::nanoseconds(time.tv_nsec));
-}
-
-double SecondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Now() - begin).count();
-}
-
-struct Body {
-  std::string name;
-  object::Polyhedron solid;
-  double scale;
-};
-
-Body ReadBody(const std::string& name, const std::string& file, double size_m) {
-  const object::ObjectFile read =
-      object::ReadObject(std::string(REGRASP_MODELS) + "/" + file + ".obj");
-  const auto& solid = dynamic_cast<const object::Polyhedron&>(*read.object);
-  return {name, solid, size_m / solid.diameter()};
-}
-
-/// A tube along a curve in the plane x, z, closed at both ends.
-object::PolygonSoup Tube(int rings, int sides, double bend, double length, double radius) {
-  object::PolygonSoup soup;
-  for (int i = 0; i < rings; ++i) {
-    const double s = i / (rings - 1.0) - 0.5;
-    const double angle = bend * s;
-    const double curve = bend == 0 ? 0 : length / bend;
-    const Vector3d centre =
-        bend == 0 ? Vector3d(0, 0, length * s)
-                  : Vector3d(curve * (1 - std::cos(angle)), 0, curve * std::sin(angle));
-    const Vector3d across(std::cos(angle), 0, -std::sin(angle));
-    for (int k = 0; k < sides; ++k) {
-      const double turn = 2 * std::numbers::pi * k / sides;
-      soup.vertices.push_back(
-          centre + radius * (std::cos(turn) * across + std::sin(turn) * Vector3d::UnitY()));
-    }
-  }
-  std::vector<int> bottom;
-  std::vector<int> top;
-  for (int k = 0; k < sides; ++k) {
-    const int next = (k + 1) % sides;
-    for (int i = 0; i + 1 < rings; ++i) {
-      const int a = i * sides + k;
-      const int b = i * sides + next;
-      soup.facets.push_back({a, b, b + sides});
-      soup.facets.push_back({a, b + sides, a + sides});
-    }
-    bottom.insert(bottom.begin(), k);
-    top.push_back((rings - 1) * sides + k);
-  }
-  soup.facets.push_back(bottom);
-  soup.facets.push_back(top);
-  return soup;
-}
-
-std::vector<Body> MakeBodies() {
-  std::vector<Body> bodies;
-  for (const int millimetres : {40, 50, 60}) {
-    bodies.push_back(ReadBody("cube " + std::to_string(millimetres), "cube",
-                              1e-3 * millimetres * std::sqrt(3.0)));
-  }
-  bodies.push_back(
-      {"cylinder", object::Polyhedron::FromSoup(Tube(2, 32, 0, 0.06, 0.022), "cylinder"), 1});
-  bodies.push_back(ReadBody("prism", "prism", kSize));
-  bodies.push_back(ReadBody("L-block", "l_block", kSize));
-  bodies.push_back(ReadBody("duck", "duck500", kSize));
-  bodies.push_back(ReadBody("mug", "mug500", kSize));
-  bodies.push_back(ReadBody("ellipsoid", "ellipsoid500", kSize));
-  bodies.push_back(
-      {"banana", object::Polyhedron::FromSoup(Tube(13, 16, 1.2, 0.09, 0.016), "banana"), 1});
-  return bodies;
-}
+using bench::HandBody;
+using bench::kFriction;
+using bench::Largest;
+using bench::Median;
 
 /// What became of plans that were replayed by their hand.
 struct Replays {
@@ -165,24 +81,19 @@ struct Contest {
   bool pairs = false;
   bool replay = false;
   gait::Reserve reserve = gait::Reserve::kPreferred;
-  double plan_mu = kMu;
+  double plan_mu = kFriction;
   double min_quality = criteria::GraspCriteria().min_quality;
   std::optional<double> of_critical;
 };
-
-Deadline DeadlineIn(double seconds) {
-  const std::chrono::duration<double> limit(seconds);
-  return {Now() + std::chrono::duration_cast<Clock::duration>(limit), Now};
-}
 
 /// A request for a way between two grasps that the hand reaches at one pose, each drawn alone.
 /// @returns nullopt where there are none.
 std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
   constexpr int kTries = 100'000;
   request.turn.angle = 0;
-  bench::BestPose best = bench::FindBestPose(request);
-  request.start_pose = best.pose;
-  const gait::RandomRests rests(request, {.among = std::move(best.contacts)});
+  bench::GoodPoses good = bench::FindGoodPoses(request);
+  request.start_pose = good.poses.front();
+  const gait::RandomRests rests(request, {.among = std::move(good.contacts)});
   RandomStream random(request.seed, RandomUse::kGoal);
   const auto start = rests.Draw(random, kTries);
   const auto goal = rests.Draw(random, kTries);
@@ -195,49 +106,44 @@ std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
 }
 
 /// That the weakest rest of a plan needs.
-double CriticalFriction(const Body& body, const plan::Plan& plan) {
+double CriticalFriction(const HandBody& body, const plan::Plan& plan) {
   double most = 0;
-  for (const plan::StepCheck& step : plan::CheckPlan(body.solid, plan).steps) {
+  for (const plan::StepCheck& step : plan::CheckPlan(body.solid(), plan).steps) {
     if (step.required) most = std::max(most, step.required->upper);
   }
   return std::tan(most);
 }
 
-void Replay(const Contest& contest, const kinematics::HandFile& file, const Body& body,
+void Replay(const Contest& contest, const kinematics::HandFile& file, const HandBody& body,
             const plan::Plan& plan, Replays& replays) {
-  sim::HandReplayOptions options;
-  options.half_angle = std::atan(kMu);
-  if (contest.of_critical) {
-    options.friction_factor = *contest.of_critical * CriticalFriction(body, plan) / kMu;
-  }
-  options.mass_kg = object::MeasureBody(body.solid, body.scale).mass_kg;
-  const Clock::time_point begin = Now();
-  const sim::ReplayResult result = sim::ReplayHand(file, body.solid, plan, options);
-  replays.seconds += SecondsSince(begin);
+  const double factor =
+      contest.of_critical ? *contest.of_critical * CriticalFriction(body, plan) / kFriction : 1;
+  const double begin = ProcessorSeconds();
+  const bench::HandTrial trial = bench::TryInHand(file, body, plan, factor);
+  replays.seconds += ProcessorSeconds() - begin;
   ++replays.count;
-  for (const sim::StepReplay& step : result.steps) replays.simulated += step.hand->simulated_s;
-  const sim::StepReplay& last = result.steps.back();
-  if (last.reason != plan::Reason::kNone) {
-    ++replays.reasons[std::string(plan::ReasonName(last.reason))];
-    std::cerr << body.name << ": step " << last.index << " of " << plan.steps.size() << ": "
-              << last.detail << '\n';
+  replays.simulated += trial.simulated_s;
+  if (trial.fault) {
+    ++replays.reasons[std::string(plan::ReasonName(trial.fault->reason))];
+    std::cerr << body.name << ": of " << plan.steps.size() << " steps, " << trial.fault->detail
+              << '\n';
     return;
   }
   ++replays.passed;
-  replays.end_m.push_back(last.hand->rest_off_m);
-  replays.end_deg.push_back(Degrees(last.hand->rest_off_rad));
+  replays.end_m.push_back(trial.off_m);
+  replays.end_deg.push_back(Degrees(trial.off_rad));
 }
 
-Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Body& body) {
+Outcome Run(const Contest& contest, const kinematics::HandFile& file, const HandBody& body) {
   const kinematics::HandModel& hand = file.hand;
   Outcome outcome;
   for (int seed = 1; seed <= contest.seeds; ++seed) {
     gait::GaitRequest request;
     request.hand = &hand;
-    request.solid = &body.solid;
+    request.solid = &body.solid();
     request.scale = body.scale;
     request.criteria.half_angle = std::atan(contest.plan_mu);
-    if (contest.replay) request.is_carried_out = sim::CarryOutTest(file, body.solid);
+    if (contest.replay) request.is_carried_out = sim::CarryOutTest(file, body.solid());
     request.criteria.min_quality = contest.min_quality;
     request.turn = contest.turn;
     request.reserve = contest.reserve;
@@ -248,40 +154,30 @@ Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Body
       request = *pair;
     }
     ++outcome.asked;
-    const Clock::time_point begin = Now();
-    request.deadline = DeadlineIn(contest.limit_s);
+    const double begin = ProcessorSeconds();
+    request.deadline = ProcessorDeadline(contest.limit_s);
     const gait::GaitResult found = gait::FindGait(request);
     if (!found.gait) {
       std::cerr << body.name << ", seed " << seed << ": " << found.message << '\n';
       continue;
     }
     ++outcome.found;
-    outcome.seconds.push_back(SecondsSince(begin));
+    outcome.seconds.push_back(ProcessorSeconds() - begin);
     const plan::Plan plan =
-        plan::LocatePlan(body.solid, gait::PlanOf(*found.gait, request, found.contacts));
+        plan::LocatePlan(body.solid(), gait::PlanOf(*found.gait, request, found.contacts));
     outcome.switches +=
         static_cast<int>(std::ranges::count(plan.steps, std::string("switch"), plan::StepKind));
-    const Clock::time_point check = Now();
-    const auto faults = sim::CheckHand(file, body.solid, plan);
-    outcome.checking += SecondsSince(check);
-    if (!faults.empty() || !plan::CheckPlan(body.solid, plan).passed()) {
+    const double check = ProcessorSeconds();
+    const auto fault = bench::CheckInHand(file, body, plan);
+    outcome.checking += ProcessorSeconds() - check;
+    if (fault) {
       ++outcome.rejected;
-      if (!faults.empty()) std::cerr << "rejected: " << faults.front().detail << '\n';
+      std::cerr << "rejected: " << fault->detail << '\n';
     } else if (contest.replay) {
       Replay(contest, file, body, plan, outcome.replays);
     }
   }
   return outcome;
-}
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  return (values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2;
-}
-
-double Largest(const std::vector<double>& values) {
-  return values.empty() ? 0 : *std::ranges::max_element(values);
 }
 
 /// Microseconds of a solve for a place that the finger's tip can be in.
@@ -298,11 +194,11 @@ double TimeInverse(const kinematics::Finger& finger) {
     targets.push_back({tip.centre, tip.axis});
   }
   int solved = 0;
-  const Clock::time_point begin = Now();
+  const double begin = ProcessorSeconds();
   for (const kinematics::TipTarget& target : targets) {
     solved += static_cast<int>(inverse.Solve(target).has_value());
   }
-  const double seconds = SecondsSince(begin);
+  const double seconds = ProcessorSeconds() - begin;
   std::printf("inverse kinematics of %s: %.1f µs, %d of %zu places reached\n", finger.name.c_str(),
               1e6 * seconds / static_cast<double>(targets.size()), solved, targets.size());
   return seconds;
@@ -310,24 +206,24 @@ double TimeInverse(const kinematics::Finger& finger) {
 
 /// Of a rest: contacts are drawn, inverse kinematics of fingers until three of them hold, and
 /// whether they keep off each other, the palm and the object.
-void TimeRest(const kinematics::HandModel& hand, const Body& body) {
+void TimeRest(const kinematics::HandModel& hand, const HandBody& body) {
   gait::GaitRequest request;
   request.hand = &hand;
-  request.solid = &body.solid;
+  request.solid = &body.solid();
   request.scale = body.scale;
-  request.criteria.half_angle = std::atan(kMu);
-  bench::BestPose best = bench::FindBestPose(request);
-  request.start_pose = best.pose;
-  const gait::RandomRests rests(request, {.among = std::move(best.contacts)});
+  request.criteria.half_angle = std::atan(kFriction);
+  bench::GoodPoses good = bench::FindGoodPoses(request);
+  request.start_pose = good.poses.front();
+  const gait::RandomRests rests(request, {.among = std::move(good.contacts)});
   RandomStream random(1, RandomUse::kGaits);
   constexpr int kRests = 2000;
   int free = 0;
   double seconds = 0;
   for (int i = 0; i < kRests; ++i) {
-    const Clock::time_point begin = Now();
+    const double begin = ProcessorSeconds();
     if (!rests.TryDraw(random)) continue;
     ++free;
-    seconds += SecondsSince(begin);
+    seconds += ProcessorSeconds() - begin;
   }
   std::printf("a free rest of three fingers on %s: %.0f µs; %d of %d are free\n", body.name.c_str(),
               1e6 * seconds / std::max(1, free), free, kRests);
@@ -355,7 +251,7 @@ void PrintReplays(const Replays& replays) {
 
 /// @returns its row of the table.
 std::string RunHand(const Contest& contest, const std::string& file,
-                    const std::vector<Body>& bodies) {
+                    const std::vector<HandBody>& bodies) {
   const kinematics::HandFile read = kinematics::ReadHandFile(file);
   const kinematics::HandModel& hand = read.hand;
   std::printf("\n%s, %zu fingers\n", hand.name.c_str(), hand.fingers.size());
@@ -366,7 +262,7 @@ std::string RunHand(const Contest& contest, const std::string& file,
   Outcome all;
   std::vector<double> medians;
   std::vector<double> switches;
-  for (const Body& body : bodies) {
+  for (const HandBody& body : bodies) {
     const Outcome outcome = Run(contest, read, body);
     all.asked += outcome.asked;
     all.found += outcome.found;
@@ -419,15 +315,15 @@ int main(int argc, char** argv) {
   app.add_option("hands", hands, "Hand files")->required();
   CLI11_PARSE(app, argc, argv);
   try {
-    contest.turn = {Vector3d::Unit(axis[0] - 'x'), Radians(degrees)};
+    contest.turn = {Eigen::Vector3d::Unit(axis[0] - 'x'), Radians(degrees)};
     std::printf("%s, friction %g, at most %g s of processor time, %d seeds\n",
                 contest.pairs
                     ? "pairs of grasps at one pose"
                     : ("turn of " + FormatShort(degrees, 4) + " degrees about " + axis).c_str(),
-                kMu, contest.limit_s, contest.seeds);
-    std::vector<Body> bodies = MakeBodies();
+                kFriction, contest.limit_s, contest.seeds);
+    std::vector<HandBody> bodies = bench::TenBodies(REGRASP_MODELS);
     if (!only.empty()) {
-      std::erase_if(bodies, [&](const Body& body) {
+      std::erase_if(bodies, [&](const HandBody& body) {
         return std::ranges::find(only, body.name) == only.end();
       });
       if (bodies.empty()) throw InputError("--body: none of the bodies has such a name");

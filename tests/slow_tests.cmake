@@ -74,6 +74,7 @@ set(regrasp_slow_tests
   PlanOnPolygon.LeadsBetween*
   */PlanOnPolygonAt.*
   PlanOnRoadmap.FindsTheBest*
+  PlanTask.*
   PlanarAlign.TwoFingers*
   PlanarCornerSweep.*
   PlanarDiscrimination.*
@@ -93,6 +94,9 @@ set(regrasp_slow_tests
   Repair.WhatFormsNoSurface*
   ResetStatesTest.*
   RoadmapMemory.*
+  RunChain.*
+  ScoreRuns.*
+  Scoreboard.*
   Stillness.GraspsThatAreNot*
   StressTest.*
   SubsetForceClosureTest.IndicesBeyond*

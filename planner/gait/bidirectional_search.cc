@@ -30,7 +30,8 @@ BidirectionalSearch::BidirectionalSearch(const HandSetup& setup, const PoseGrid&
   if (ends.start.empty() || ends.goal.empty() || !forward_.GoalIsHeld()) return;
   if (grid.steps() > 0) reversed_carrier_.emplace(setup, reversed_, parking_);
   backward_.emplace(setup, reversed_, reversed_carrier_ ? *reversed_carrier_ : carrier_,
-                    GaitEnds{ends.goal, ends.start}, memory, random);
+                    GaitEnds{ends.goal, ends.start, ends.goal_fingers, ends.start_fingers}, memory,
+                    random);
 }
 
 bool BidirectionalSearch::IsExhausted() const {

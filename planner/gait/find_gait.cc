@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
@@ -208,6 +209,17 @@ std::vector<int> AppendGrasp(const grasp::Grasp& grasp, std::vector<grasp::Conta
   return numbers;
 }
 
+/// @throws std::invalid_argument  there are not as many as contacts, or one that the hand lacks.
+void CheckStartFingers(const GaitRequest& request) {
+  const std::vector<FingerIndex>& fingers = request.start_fingers;
+  const int count = static_cast<int>(request.hand->fingers.size());
+  const auto is_there = [&](FingerIndex finger) { return finger >= 0 && finger < count; };
+  if (fingers.empty()) return;
+  if (fingers.size() != request.start_grasp.size() || !std::ranges::all_of(fingers, is_there)) {
+    throw std::invalid_argument("start_fingers: one of the hand for each contact of the start");
+  }
+}
+
 bool Holds(const std::vector<int>& grasp, criteria::GraspMemory& memory) {
   criteria::ContactSet contacts;
   for (const int number : grasp) {
@@ -237,10 +249,11 @@ hand::Hand FingersOf(const planning::InHandTask& task) {
 }
 
 GaitResult FindGait(const GaitRequest& request) {
+  CheckStartFingers(request);
   GaitResult result;
   result.contacts = DrawContacts(request);
   const GaitEnds ends{AppendGrasp(request.start_grasp, result.contacts),
-                      AppendGrasp(request.goal_grasp, result.contacts)};
+                      AppendGrasp(request.goal_grasp, result.contacts), request.start_fingers};
   std::vector<SurfacePoint> points;
   for (const grasp::Contact& contact : result.contacts) {
     points.push_back({request.scale * contact.p, contact.n});

@@ -49,6 +49,7 @@ struct GaitResult {
 ///
 /// Laws: without a deadline the same request gives the same gait, bit for bit; every rest is force
 /// closure and meets the criteria where it can; every path is certified (certified_path.h).
+/// @throws std::invalid_argument  start_fingers are not one of the hand for each contact.
 [[nodiscard]] GaitResult FindGait(const GaitRequest& request);
 
 }  // namespace regrasp::gait

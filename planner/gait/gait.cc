@@ -4,6 +4,14 @@
 
 namespace regrasp::gait {
 
+bool AreHeldBy(const std::vector<FingerIndex>& fingers, const std::vector<int>& contacts,
+               const Holding& holding) {
+  for (std::size_t i = 0; i < fingers.size(); ++i) {
+    if (holding[fingers[i]] != contacts[i]) return false;
+  }
+  return true;
+}
+
 Stretch Reversed(Stretch stretch) {
   std::ranges::reverse(stretch.path);
   std::ranges::reverse(stretch.along);

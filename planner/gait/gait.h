@@ -12,7 +12,14 @@ namespace regrasp::gait {
 struct GaitEnds {
   std::vector<int> start;
   std::vector<int> goal;
+  /// That hold the contacts of the start, and of the goal, in their order; none: whichever can.
+  std::vector<FingerIndex> start_fingers = {};
+  std::vector<FingerIndex> goal_fingers = {};
 };
+
+/// Whether contacts are held by the fingers that are asked for; true where none are.
+[[nodiscard]] bool AreHeldBy(const std::vector<FingerIndex>& fingers,
+                             const std::vector<int>& contacts, const Holding& holding);
 
 /// A stretch of a gait: keyframes, the first of which is the last one of the stretch before.
 struct Stretch {

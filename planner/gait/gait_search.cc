@@ -57,6 +57,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
     : setup_(setup),
       grid_(grid),
       start_(ends.start),
+      start_fingers_(ends.start_fingers),
       goal_(ends.goal, setup.points),
       most_holding_(static_cast<int>(std::max(
           {static_cast<std::size_t>(kFewestHolding), ends.start.size(), ends.goal.size()}))),
@@ -76,6 +77,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
   counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
   ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
+    if (!AreHeldBy(ends.goal_fingers, ends.goal, holding)) return;
     Hold hold{std::move(holding)};
     if (carrier_.LetFreeFingersWait(hold, grid.goal(), &random))
       goal_.AddWay(std::move(hold.holding));
@@ -207,6 +209,7 @@ bool GaitSearch::Add(Rest rest) {
 
 void GaitSearch::AddGivenStart() {
   ForEachAssignment(start_, setup_.scene.finger_count(), [&](Holding holding) {
+    if (!AreHeldBy(start_fingers_, start_, holding)) return;
     Hold hold{std::move(holding)};
     if (carrier_.LetFreeFingersWait(hold, grid_.start(), &random_)) {
       Add({.hold = std::move(hold), .node = grid_.start()});

@@ -156,6 +156,7 @@ class GaitSearch {
   const HandSetup& setup_;
   const PoseGrid& grid_;
   std::vector<int> start_;  ///< the grasp to begin with; none: any
+  std::vector<FingerIndex> start_fingers_;
   GoalGrasp goal_;
   int most_holding_;
   criteria::GraspMemory& memory_;

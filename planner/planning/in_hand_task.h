@@ -3,6 +3,9 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <optional>
+#include <vector>
+
+#include "planner/base/index.h"
 
 namespace regrasp::kinematics {
 struct HandModel;
@@ -39,6 +42,8 @@ struct InHandTask {
   Turn turn = {};        ///< about the object's centre, which may end some millimetres away
   std::optional<Eigen::Isometry3d> start_pose = {};  ///< none: where the hand's reach is best
   std::optional<Eigen::Isometry3d> goal_pose = {};   ///< instead of a turn
+  /// That hold the contacts of a given start grasp, in its order; none: whichever can.
+  std::vector<FingerIndex> start_fingers = {};
   /// Where reserve is looked for: whether the hand carries a plan out, nullopt where that can't be
   /// told (sim/actuation/carry_out.h). None: reserve is all that is asked for.
   std::function<std::optional<bool>(const plan::Plan&)> is_carried_out = {};

@@ -220,6 +220,31 @@ GaitRequest PairAtOnePose(std::uint64_t seed) {
   return request;
 }
 
+/// In a hand whose fingers are alike each of them may hold each contact.
+TEST(FindGaitTest, BeginsWithTheFingersThatAreAskedFor) {
+  GaitRequest request = RequestFor("cube", 0.8, 0);
+  const GaitResult first = FindGait(request);
+  ASSERT_TRUE(first.gait) << first.message;
+  request.start_pose = first.gait->start.pose;
+  request.turn = {Eigen::Vector3d::UnitZ(), 0.3};
+  request.start_grasp = FirstGrasp(first);
+  for (FingerIndex finger{0}; finger < std::ssize(first.gait->initial); ++finger) {
+    if (first.gait->initial[finger] != kNone) request.start_fingers.push_back(finger);
+  }
+  const GaitResult found = FindGait(request);
+  ASSERT_TRUE(found.gait) << found.message;
+  for (std::size_t i = 0; i < request.start_fingers.size(); ++i) {
+    const int contact = found.gait->initial[request.start_fingers[i]];
+    ASSERT_NE(contact, kNone);
+    EXPECT_EQ(found.contacts[contact].p, request.start_grasp[i].p);
+  }
+  // The other way round no finger reaches its contact.
+  std::swap(request.start_fingers[0], request.start_fingers[1]);
+  EXPECT_FALSE(FindGait(request).gait);
+  request.start_fingers.pop_back();
+  EXPECT_THROW((void)FindGait(request), std::invalid_argument);
+}
+
 TEST(FindGaitTest, FingersThatHoldSlideAlongTheSurface) {
   int slides = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {

@@ -7,14 +7,13 @@
 
 namespace regrasp::bench {
 
-struct BestPose {
-  Eigen::Isometry3d pose;
+struct GoodPoses {
+  std::vector<Eigen::Isometry3d> poses;  ///< the best first; one at least
   std::vector<grasp::Contact> contacts;  ///< that a search of the request has
 };
 
-/// Where in the hand its reach is best for the object: the first pose that a search would begin
-/// in.
+/// Where in the hand its reach is good for the object: the poses that a search would begin in.
 /// @throws std::runtime_error  the object is nowhere within reach of the fingers.
-[[nodiscard]] BestPose FindBestPose(const gait::GaitRequest& request);
+[[nodiscard]] GoodPoses FindGoodPoses(const gait::GaitRequest& request);
 
 }  // namespace regrasp::bench

@@ -1,4 +1,4 @@
-#include "bench/best_pose.h"
+#include "bench/good_poses.h"
 
 #include <stdexcept>
 #include <utility>
@@ -17,7 +17,7 @@ std::vector<grasp::Contact> ContactsOf(gait::GaitRequest request) {
 
 }  // namespace
 
-BestPose FindBestPose(const gait::GaitRequest& request) {
+GoodPoses FindGoodPoses(const gait::GaitRequest& request) {
   std::vector<grasp::Contact> contacts = ContactsOf(request);
   const collision::SurfaceTree surface(*request.solid, request.scale);
   const gait::HandScene scene(*request.hand, surface, request.margin);
@@ -33,9 +33,9 @@ BestPose FindBestPose(const gait::GaitRequest& request) {
   const gait::HandSetup setup{scene, inverse, points, request.scale};
   const gait::Journey nowhere(request.scale * request.solid->mass_properties().centroid, {}, {});
   RandomStream random(request.seed, RandomUse::kHomes);
-  const auto homes = gait::FindHomes(setup, nowhere, {}, memory, random);
+  auto homes = gait::FindHomes(setup, nowhere, {}, memory, random);
   if (homes.empty()) throw std::runtime_error("the object is nowhere within reach of the fingers");
-  return {homes.front(), std::move(contacts)};
+  return {std::move(homes), std::move(contacts)};
 }
 
 }  // namespace regrasp::bench
