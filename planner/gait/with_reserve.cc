@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 
 #include "planner/gait/plan_of_gait.h"
@@ -16,9 +18,9 @@ namespace {
 constexpr std::array kSpares = {Spare{0.05, 1.5e-3, 0.2}, Spare{0.05, 0.5e-3}, Spare{0.02, 0},
                                 Spare{0.02, 1.5e-3, 0.1}};
 /// What is spent on each of them where there is another gait or others follow: grasps that are
-/// expanded, by round, and share of the time that is left.
-constexpr std::array<std::int64_t, 8> kExpandedInRound = {40, 40, 80, 80, 80, 160, 160, 160};
-constexpr double kTimeWithReserve = 0.25;
+/// expanded, by round and for each quarter turn, and share of the time that is left.
+constexpr std::array<std::int64_t, 8> kExpandedInRound = {40, 80, 160, 160, 160, 160, 160, 160};
+constexpr double kTimeWithReserve = 0.4;
 constexpr int kRoundShift = 32;  ///< of seeds
 /// With it a gait may have so many times as many stretches as without, and so many more.
 constexpr std::size_t kTimesAsLong = 3;
@@ -34,9 +36,13 @@ class ReserveSearch {
   std::optional<bool> Run() {
     const int rounds = is_tried() ? static_cast<int>(kExpandedInRound.size()) : 1;
     for (int round = 0; round < rounds; ++round) {
-      for (const Spare& spare : kSpares) {
+      for (std::size_t kind = 0; kind < kSpares.size(); ++kind) {
+        const Spare& spare = kSpares[kind];
         if (!spare.force_margin && !is_tried()) continue;
+        // What found nothing has its turn in the round after the next.
+        if (std::exchange(has_failed_[kind], false)) continue;
         FoundGait other = find_(Asked(spare, round), &spare);
+        has_failed_[kind] = !other.gait;
         if (!other.gait && !best_.gait && best_.message.empty()) best_ = std::move(other);
         if (other.gait && !IsMuchLonger(*other.gait) && IsTaken(std::move(other))) return carried_;
       }
@@ -57,12 +63,17 @@ class ReserveSearch {
     asked.criteria.min_quality = std::max(asked.criteria.min_quality, spare.quality);
     asked.margin += spare.clearance;
     if (without_.gait || is_tried()) {
-      asked.most_expanded = std::min(asked.most_expanded, kExpandedInRound[round]);
+      asked.most_expanded = std::min(asked.most_expanded, ExpandedIn(round));
       asked.deadline = asked.deadline.After(kTimeWithReserve);
     } else {
       asked.most_expanded /= 2;
     }
     return asked;
+  }
+
+  [[nodiscard]] std::int64_t ExpandedIn(int round) const {
+    const double quarters = std::max(1.0, std::abs(request_.turn.angle) / (std::numbers::pi / 2));
+    return std::llround(quarters * static_cast<double>(kExpandedInRound[round]));
   }
 
   [[nodiscard]] bool IsMuchLonger(const Gait& gait) const {
@@ -89,6 +100,7 @@ class ReserveSearch {
   FoundGait best_;
   std::optional<bool> carried_;
   bool has_spare_ = false;
+  std::array<bool, kSpares.size()> has_failed_ = {};  ///< in the round before
 };
 
 }  // namespace
