@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "planner/grasp/required_half_angle.h"
 #include "planner/object/body_measures.h"
 #include "planner/plan/check.h"
 #include "sim/actuation/hand_replay.h"
@@ -13,6 +15,18 @@ namespace {
 
 TrialFault FaultOf(plan::Reason reason, plan::EntryIndex entry, const std::string& detail) {
   return {reason, "step " + std::to_string(entry) + ": " + detail};
+}
+
+/// That the contacts need which press on the object.
+double CriticalFriction(const sim::HandWorld& world, const HandBody& body, double scale) {
+  grasp::Grasp grasp;
+  for (FingerIndex finger{0}; finger < std::ssize(world.hand().fingers); ++finger) {
+    const sim::TipTouch touch = world.touch(finger);
+    if (touch.force.isZero(0)) continue;
+    grasp.push_back({touch.point_O / scale, touch.inward_O, {}});
+  }
+  const auto required = grasp::ComputeRequiredHalfAngle(grasp, body.solid().wrench_frame());
+  return required ? std::tan(required->upper) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -39,6 +53,8 @@ HandTrial TryInHand(const kinematics::HandFile& hand, const HandBody& body, cons
   sim::HandReplayObserver observer;
   observer.on_rest = [&](const sim::HandWorld& world, plan::EntryIndex entry) {
     if (entry == end) trial.end = world.object_pose();
+    trial.critical_friction =
+        std::max(trial.critical_friction, CriticalFriction(world, body, plan.scale));
   };
   const sim::ReplayResult replay =
       sim::ReplayHand(hand, body.solid(), plan::LocatePlan(body.solid(), plan), options, observer);

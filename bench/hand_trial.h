@@ -28,6 +28,8 @@ struct TrialFault {
 struct HandTrial {
   std::optional<TrialFault> fault;
   double simulated_s = 0;  ///< without the shakes
+  /// The least friction at which all rests are force closure, with contacts where they came to be.
+  double critical_friction = 0;
   // At the last rest, before it is shaken; none where the replay does not come there.
   std::optional<Eigen::Isometry3d> end;  ///< of the body
   double off_m = 0;                      ///< from where the plan has it

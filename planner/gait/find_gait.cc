@@ -162,6 +162,7 @@ class PlacesInHand {
 std::string HowFar(const GaitRequest& request, const GaitCounts& counts) {
   const double share = counts.steps == 0 ? 1 : static_cast<double>(counts.farthest) / counts.steps;
   if (share == 1 && !request.goal_grasp.empty()) return "the goal grasp is not reached";
+  if (share == 1) return "every way to the goal fails where its paths are worked out";
   if (request.goal_pose) {
     return "the object comes " + FormatShort(100 * share, 3) + " % of the way to its goal pose";
   }
