@@ -24,7 +24,8 @@ std::string SqueezeText(const sim::ReplaySettings& settings) {
       return squeeze + ": as a hand grips, " + FormatShort(sim::kGripSafety) +
              " times what the weight needs in the grasp that carries it worst";
     case sim::SqueezeSource::kTorques:
-      return squeeze + ": what the torques of the hand's actuators allow, at most twelve weights";
+      return squeeze +
+             ": what the torques of the hand's actuators allow, at most twelve weights or 4 N";
     case sim::SqueezeSource::kGiven:
       return squeeze + ": as --squeeze says";
   }
