@@ -61,11 +61,16 @@ std::vector<Row> CrashRows(const ScoreRun& run, const Job& job, const apps::Chil
   return rows;
 }
 
-/// Of a plan for a task that starts where another one ended.
+/// Of a plan that was made for a task, which may start where another one ended.
 Verdict JudgeFrom(const std::optional<TaskStart>& start, const Task& task, const HandBody& body,
                   const kinematics::HandFile& hand, const plan::Plan& plan) {
   if (start) {
     if (const auto fault = CheckStart(*start, plan)) return {fault, {}};
+  }
+  try {
+    CheckIsFor(task, body, hand, plan, "the planner's plan");
+  } catch (const InputError& error) {  // a turn may end too far away
+    return {TrialFault{plan::Reason::kGoalNotReached, error.what()}, {}};
   }
   return Judge(task, body, hand, plan);
 }
@@ -90,7 +95,6 @@ Row RunTask(const ScoreRun& run, const Task& task, const kinematics::HandFile& h
     start.reset();
     return row;
   }
-  CheckIsFor(task, body, hand, *planned.plan, "the planner's plan");
   const Verdict verdict = JudgeFrom(start, task, body, hand, *planned.plan);
   const std::string bytes = plan::FormatPlan(*planned.plan);
   AddPlan(*planned.plan, bytes, verdict, row);
