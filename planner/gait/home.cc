@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "planner/gait/random_turn.h"
+
 namespace regrasp::gait {
 namespace {
 
@@ -170,10 +172,7 @@ class PoseDraw {
     const FingerIndex finger{static_cast<int>(random_.Index(setup_.inverse.size()))};
     const std::vector<Vector3d>& tips = setup_.inverse[finger].sampled_tips();
     Isometry3d pose = Isometry3d::Identity();
-    // Four normal numbers are a direction in four dimensions, and so a turn, evenly.
-    Eigen::Quaterniond turn;
-    for (int k = 0; k < 4; ++k) turn.coeffs()[k] = random_.Normal();
-    pose.linear() = turn.normalized().toRotationMatrix();
+    pose.linear() = DrawTurn(random_);
     const Vector3d centre = TargetAt(setup_.scene.finger(finger),
                                      setup_.points[grasp_[random_.Index(grasp_.size())]], pose)
                                 .centre;

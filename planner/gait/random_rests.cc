@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "planner/gait/random_turn.h"
 #include "planner/gait/reach_map.h"
 #include "planner/kinematics/finger_kinematics.h"
 
@@ -41,10 +42,7 @@ RandomRests::RandomRests(const GaitRequest& request, RandomRestOptions options)
 Eigen::Isometry3d RandomRests::DrawPose(RandomStream& random) const {
   if (request_.start_pose) return *request_.start_pose;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  // Four normal numbers are a direction in four dimensions, and so a turn, evenly.
-  Eigen::Quaterniond turn;
-  for (int k = 0; k < 4; ++k) turn.coeffs()[k] = random.Normal();
-  pose.linear() = turn.normalized().toRotationMatrix();
+  pose.linear() = DrawTurn(random);
   Eigen::Vector3d place;
   for (int k = 0; k < 3; ++k) {
     place[k] = tips_box_.min()[k] + random.Uniform() * tips_box_.sizes()[k];

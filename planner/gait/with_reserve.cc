@@ -12,9 +12,9 @@
 namespace regrasp::gait {
 namespace {
 
-/// Of turns of ten bodies in five hands nearly all of the first kind are carried out and a third to
-/// two thirds of the third, which are found in a tenth of the time; of the others fewer, but there
-/// are some where those are none.
+/// Of turns of ten bodies in five hands nearly all of the first kind are carried out, and a tenth
+/// to two thirds of the second and third, which are found in a tenth of the time. The last has some
+/// where the others have none.
 constexpr std::array kSpares = {Spare{0.05, 1.5e-3, 0.2}, Spare{0.05, 0.5e-3}, Spare{0.02, 0},
                                 Spare{0.02, 1.5e-3, 0.1}};
 /// What is spent on each of them where there is another gait or others follow: grasps that are

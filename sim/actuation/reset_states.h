@@ -80,7 +80,7 @@ class ResetStates {
 
   inline static constexpr double kTakeHold = 0.15;  ///< seconds, the object pinned
   inline static constexpr double kSettle = 0.15;    ///< and then free, under control
-  inline static constexpr double kHeld = 1;
+  inline static constexpr double kHeld = 1;         ///< seconds, with the controls as they are
 
  private:
   void TakeHold(const plan::HandState& rest, const plan::FingerGrasp& grasp, double squeeze_N);

@@ -14,6 +14,7 @@
 #include "sim/scene/scaling.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/project_path.h"
+#include "tests/sim/actuation/stock_scene.h"
 
 namespace regrasp::sim {
 namespace {
@@ -53,14 +54,8 @@ TEST_F(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
   const std::vector<SceneFile> files =
       ExportHandScene(hand, solid, request.scale, {0.8, options.mass_kg, kGravity, 1}, keys);
   EXPECT_EQ(files.back().name, kSceneName);
-  for (const SceneFile& file : files) {
-    EXPECT_TRUE(IsSceneFile(file.name)) << file.name;
-    Write(file.name, file.bytes);
-  }
-  std::array<char, 1000> error{};
-  const mujoco::ModelPtr model(mj_loadXML((folder_ / kSceneName).c_str(), nullptr, error.data(),
-                                          static_cast<int>(error.size())));
-  ASSERT_TRUE(model) << error.data();
+  for (const SceneFile& file : files) EXPECT_TRUE(IsSceneFile(file.name)) << file.name;
+  const mujoco::ModelPtr model = LoadStockScene(files, folder_);
   const mujoco::DataPtr data(mj_makeData(model.get()));
   ASSERT_EQ(model->nkey, static_cast<int>(keys.size()));
   const int object = mj_name2id(model.get(), mjOBJ_BODY, "regrasp_object");

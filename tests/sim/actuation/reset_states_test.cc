@@ -15,6 +15,7 @@
 #include "sim/scene/scaling.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/project_path.h"
+#include "tests/sim/actuation/stock_scene.h"
 
 namespace regrasp::sim {
 namespace {
@@ -140,14 +141,9 @@ TEST_F(ResetStatesTest, WhatNoHandHoldsEndsWithTheReason) {
 TEST_F(ResetStatesTest, StockMuJoCoHoldsThemInTheSceneThatIsExported) {
   const DrawnStates drawn = Draw(10, 2, 2);
   ASSERT_EQ(drawn.states.size(), 10U) << drawn.message;
-  for (const SceneFile& file :
-       ExportHandScene(hand_, solid(), request_.scale, {0.8, options_.mass_kg, kGravity}, {})) {
-    Write(file.name, file.bytes);
-  }
-  std::array<char, 1000> error{};
-  const mujoco::ModelPtr model(mj_loadXML((folder_ / kSceneName).c_str(), nullptr, error.data(),
-                                          static_cast<int>(error.size())));
-  ASSERT_TRUE(model) << error.data();
+  const mujoco::ModelPtr model = LoadStockScene(
+      ExportHandScene(hand_, solid(), request_.scale, {0.8, options_.mass_kg, kGravity}, {}),
+      folder_);
   const mujoco::DataPtr data(mj_makeData(model.get()));
   const int object = mj_name2id(model.get(), mjOBJ_BODY, "regrasp_object");
   for (const ResetState& state : drawn.states) {
