@@ -205,6 +205,15 @@ void AddHandReplay(CLI::App& app, ValidateOptions& options) {
   AddChoice<bool>(app, "--feedback", options.feedback, {{"pose", true}, {"none", false}},
                   "What the hand knows of the object; with --replay hand. pose: joint targets are "
                   "corrected by its pose, as a camera sees it; none: they are not (default pose)");
+  AddChoice<sim::TipShape>(
+      app, "--tip", options.tip,
+      {{"ball", sim::TipShape::kBall}, {"geometry", sim::TipShape::kGeometry}},
+      "What of a fingertip touches the object; with --replay hand. ball: the ball of the hand's "
+      "file, for which plans are made; geometry: what the hand's model has at the tip's link for "
+      "collisions, boxes, capsules or convex hulls of meshes, with the same friction and objects "
+      "without hollows. Where fingers are placed, what the controller steers and where contacts "
+      "should be still goes by the balls, so that it tells whether a plan for balls holds with "
+      "these tips (default ball)");
 }
 
 void AddTrials(CLI::App& app, ValidateOptions& options) {
@@ -395,7 +404,7 @@ void ValidateOptions::Finish(const CLI::App& app) {
     refuse({"--protocol", "--stress", "--tolerance", "--align", "--finger-radius"},
            "goes with --replay points");
   } else {
-    refuse({"--tolerance-mm", "--tolerance-deg", "--feedback", "--joint-noise"},
+    refuse({"--tolerance-mm", "--tolerance-deg", "--feedback", "--tip", "--joint-noise"},
            "goes with --replay hand");
     if (trajectory_is_npz()) {
       throw InputError("--trajectory: " + trajectory + ": NPZ goes with --replay hand");

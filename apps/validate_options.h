@@ -46,7 +46,8 @@ struct ValidateOptions {
   double clearance_m = sim::HandCheckOptions().clearance_m;
   bool replay_by_hand = false;  ///< on the hand's own model, not by ideal fingers
   bool feedback = true;         ///< of that replay: joint targets follow the object's pose
-  double tolerance_mm = 2;      ///< of the same
+  sim::TipShape tip = sim::TipShape::kBall;  ///< of the same: what touches the object
+  double tolerance_mm = 2;                   ///< of the same
   double tolerance_deg = 5;
   sim::HandTolerance tolerance;  ///< after Finish
   std::string verify;            ///< a report whose proofs are checked; nothing else is done

@@ -35,6 +35,7 @@
 #include "sim/actuation/hand_scene_export.h"
 #include "sim/actuation/hand_trajectory.h"
 #include "sim/actuation/hand_trials.h"
+#include "sim/actuation/tip_geometry.h"
 #include "sim/hand/check_hand.h"
 #include "sim/replay/trajectory.h"
 #include "sim/scene/scaling.h"
@@ -116,6 +117,7 @@ sim::HandReplayOptions HandOptions(const ValidateOptions& options, const Validat
   sim::HandReplayOptions by_hand;
   by_hand.tolerance = options.tolerance;
   by_hand.feedback = options.feedback;
+  by_hand.tip = options.tip;
   by_hand.mass_kg = sim::BodyOf(*task.object.object, task.plan.scale, options.replay).mass_kg;
   by_hand.shake = options.replay.shake;
   by_hand.squeeze_N = options.replay.squeeze_N;
@@ -127,6 +129,9 @@ report::Replayer HandReplayer(const ValidateOptions& options, const ValidateTask
                               const sim::ReplayObserver& observer, Samples& samples) {
   const auto& solid = dynamic_cast<const object::Polyhedron&>(*task.object.object);
   const sim::HandReplayOptions by_hand = HandOptions(options, task);
+  if (options.tip == sim::TipShape::kGeometry) {
+    sim::RequireTipGeometry(*task.hand, solid, task.plan.scale);
+  }
   sim::HandReplayObserver watch;
   watch.on_progress = observer.on_progress;
   if (!options.trajectory.empty()) {
@@ -337,6 +342,7 @@ void WriteScene(const ValidateOptions& options, const ValidateTask& task, const 
   }
   sim::HandWorldOptions world;
   world.mu = std::tan(report.half_angle);
+  world.tip = options.tip;
   world.mass_kg = sim::BodyOf(object, task.plan.scale, options.replay).mass_kg;
   WriteSceneFolder(options.mjcf,
                    sim::ExportHandScene(*task.hand, dynamic_cast<const object::Polyhedron&>(object),

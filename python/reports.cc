@@ -23,6 +23,7 @@
 #include "report/pictures/report_pictures.h"
 #include "report/report.h"
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/tip_geometry.h"
 #include "sim/hand/check_hand.h"
 #include "sim/scene/scaling.h"
 
@@ -46,6 +47,7 @@ struct ValidateArguments {
   bool stress = false;
   bool replay_by_hand = false;
   bool feedback = true;
+  bool own_tips = false;
   sim::HandTolerance hand_tolerance;
   double clearance = sim::HandCheckOptions().clearance_m;
 };
@@ -72,6 +74,10 @@ report::Replayer HandReplayer(const kinematics::HandFile& hand, const object::Po
   sim::HandReplayOptions by_hand;
   by_hand.tolerance = given.hand_tolerance;
   by_hand.feedback = given.feedback;
+  if (given.own_tips) {
+    by_hand.tip = sim::TipShape::kGeometry;
+    sim::RequireTipGeometry(hand, solid, plan.scale);
+  }
   by_hand.mass_kg = sim::BodyOf(solid, plan.scale, replay).mass_kg;
   by_hand.shake = replay.shake;
   by_hand.squeeze_N = replay.squeeze_N;
@@ -198,6 +204,7 @@ void BindReports(py::module_& module) {
       .def_readwrite("stress", &ValidateArguments::stress)
       .def_readwrite("replay_by_hand", &ValidateArguments::replay_by_hand)
       .def_readwrite("feedback", &ValidateArguments::feedback)
+      .def_readwrite("own_tips", &ValidateArguments::own_tips)
       .def("set_hand_tolerance",
            [](ValidateArguments& of, double length_mm, double angle_deg) {
              of.hand_tolerance.length_m = 1e-3 * length_mm;

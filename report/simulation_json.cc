@@ -87,6 +87,7 @@ Json HandSettingsJson(const sim::HandReplaySettings& settings) {
           {"lost_s", settings.tolerance.lost_s},
           {"limit_s", settings.tolerance.limit_s},
           {"feedback", settings.feedback ? "pose" : "none"},
+          {"tip", settings.tip == sim::TipShape::kBall ? "ball" : "geometry"},
           {"servo_stiffness_Nm_rad", {settings.least_stiffness, settings.largest_stiffness}},
           {"derived_servos", settings.derived_servos}};
 }

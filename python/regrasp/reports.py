@@ -89,8 +89,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
              friction_angle_deg: float | None = None, mass: float | None = None,
              squeeze: float | None = None, shake: float = 0.01, tolerance: float = 0.001,
              stress: bool = False, hand: Hand | None = None, replay: str | None = None,
-             tolerance_mm: float = 2, tolerance_deg: float = 5, feedback: bool = True,
-             progress=None) -> Report:
+             tip: str | None = None, tolerance_mm: float = 2, tolerance_deg: float = 5,
+             feedback: bool = True, progress=None) -> Report:
     """Checks a plan analytically, replays it with frictional point fingers or by a hand, and disturbs
     the object.
 
@@ -108,6 +108,9 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
             show it.
         replay: "points", by ideal fingers, or "hand", on the hand's own model with its motors; None:
             by the hand where there is one.
+        tip: what of a fingertip touches the object in a replay by the hand: "ball", that of the hand's
+            file, for which plans are made, or "geometry", what the hand's model has there for
+            collisions; None: "ball".
         tolerance_mm: how far the object may be from its planned place in a replay by the hand.
         tolerance_deg: how far it may be turned from it.
         feedback: of a replay by the hand: joint targets follow the object's measured pose.
@@ -157,6 +160,10 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         raise InputError("hand: is needed for a replay by it")
     if given.replay_by_hand and stress:
         raise InputError('stress: goes with replay="points"')
+    if tip is not None:
+        given.own_tips = _arguments.choice("tip", tip, ["ball", "geometry"]) == "geometry"
+        if not given.replay_by_hand:
+            raise InputError('tip: goes with replay="hand"')
     given.feedback = bool(feedback)
     given.set_hand_tolerance(_arguments.number("tolerance_mm", tolerance_mm, 0),
                              _arguments.number("tolerance_deg", tolerance_deg, 0))

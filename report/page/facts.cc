@@ -48,6 +48,9 @@ void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
     facts.Add("Replay", settings.hand->feedback
                             ? "by the hand's own actuators, corrected by the object's pose"
                             : "by the hand's own actuators");
+    facts.Add("Fingertips", settings.hand->tip == sim::TipShape::kBall
+                                ? "balls"
+                                : "the model's own collision geometry");
     facts.Add("Tolerance", LengthText(tolerance.length_m) + ", " +
                                FormatDegrees(Degrees(tolerance.angle_rad)) + " off the plan");
     return;

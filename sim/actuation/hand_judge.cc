@@ -51,7 +51,8 @@ void HandJudge::CopyState(const HandJudge& other) {
 
 void HandJudge::WatchContacts(const plan::FingerGrasp& grasp, double scale, double known_off) {
   for (const plan::FingerContact& held : grasp) {
-    const TipTouch touch = world_.touch(held.finger);
+    // Of the planned ball: another tip touches elsewhere.
+    const TipTouch touch = world_.ball_touch(held.finger);
     const double off =
         std::isfinite(touch.gap)
             ? std::max((touch.point_O - scale * held.contact.p).norm(), std::abs(touch.gap))

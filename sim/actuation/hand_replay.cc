@@ -433,6 +433,7 @@ ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& soli
   HandReplaySettings& hand = s.hand.emplace();
   hand.tolerance = options.tolerance;
   hand.feedback = options.feedback;
+  hand.tip = options.tip;
   hand.least_stiffness = std::numeric_limits<double>::infinity();
   for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
     for (int drive = 0; drive < world.hand().fingers[f].drives; ++drive) {
@@ -455,7 +456,7 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
   HandWorld world(
       file, solid, plan.scale,
       {options.friction_factor * std::tan(half_angle), options.mass_factor * options.mass_kg,
-       kGravity, options.force_factor, options.joint_offsets});
+       kGravity, options.force_factor, options.joint_offsets, options.tip});
   HandControlSettings control{half_angle, 0, options.mass_kg * kGravity, options.feedback};
   control.squeeze_N = options.squeeze_N.value_or(
       TorqueSqueeze(world, solid, plan, entries, half_angle, control.weight_N));

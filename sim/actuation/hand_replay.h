@@ -15,6 +15,7 @@ namespace regrasp::sim {
 struct HandReplayOptions {
   HandTolerance tolerance;
   bool feedback = true;              ///< joint targets are corrected by the object's offset
+  TipShape tip = TipShape::kBall;    ///< what of a fingertip touches the object
   std::optional<double> half_angle;  ///< friction, radians; the plan's where left out
   double mass_kg = 0;
   std::optional<double> squeeze_N;  ///< otherwise derived (DeriveSqueeze)
@@ -42,6 +43,9 @@ struct HandReplayObserver {
 /// What a pass means: with this friction and this mass the hand's actuators, as its model has them,
 /// carried the object along the plan to within the tolerance, and nothing but its fingertips held
 /// it. It believes nothing of the analytic check.
+///
+/// With the model's own tips (TipShape::kGeometry) all else goes by the planned balls: where
+/// fingers are placed, where a tip is held on the object, and whether one is at its contact.
 ///
 /// Deterministic: the same plan gives the same bits.
 /// @param plan   located, with a hand.

@@ -10,6 +10,7 @@
 
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/hand_scene_text.h"
 #include "sim/actuation/tip_contact.h"
@@ -58,6 +59,7 @@ class SceneWriter {
         solid_(solid),
         scale_(scale),
         mu_(options.mu),
+        own_tips_(options.tip == TipShape::kGeometry),
         world_(file, solid, scale, options),
         text_(kinematics::AsMjcf(file.compiled->text.files.front(),
                                  HandSceneText(file, solid, scale, options.mass_kg))) {}
@@ -129,18 +131,19 @@ class SceneWriter {
                          {"cone", "elliptic"},
                          {"impratio", FormatDouble(opt.impratio)}};
     option.children.clear();
+    if (own_tips_) option.children.push_back(Element("flag", {{"multiccd", "enable"}}));
   }
 
   void SetBodies() {
     const mjModel& model = world_.model();
-    Section(text_.root, "asset").children.push_back(ObjectMesh());
+    Section(text_.root, "asset").children.push_back(ObjectMesh(solid_, scale_));
     ForEach(text_.root, [&](XmlElement& element) {
       const std::string* name = element.Find("name");
       if (element.name == "geom") {
         if (name != nullptr && *name == kHandSceneObject) {
           element.attributes = {{"name", *name}, {"type", "mesh"}, {"mesh", kHandSceneObject}};
         }
-        // Only balls of tips touch anything, and only the object.
+        // Only tips touch anything, and only the object: SetContacts.
         element.Set("contype", "0");
         element.Set("conaffinity", "0");
       } else if (element.name == "joint" && name != nullptr) {
@@ -154,11 +157,16 @@ class SceneWriter {
     });
   }
 
-  void AddTip(const std::string& body, XmlElement& element) const {
+  void AddTip(const std::string& body, XmlElement& element) {
     const auto& tips = file_.description.tips;
     for (std::size_t i = 0; i < tips.size(); ++i) {
       if (tips[i].body != body) continue;
-      element.children.push_back(Element("geom", {{"name", kTipPrefix + std::to_string(i)},
+      if (own_tips_) {
+        NameTips(mj_name2id(&world_.model(), mjOBJ_BODY, body.c_str()), element);
+        continue;
+      }
+      tips_.push_back(kTipPrefix + std::to_string(i));
+      element.children.push_back(Element("geom", {{"name", tips_.back()},
                                                   {"type", "sphere"},
                                                   {"size", FormatDouble(tips[i].radius)},
                                                   {"pos", Numbers(tips[i].centre.data(), 3)},
@@ -169,20 +177,18 @@ class SceneWriter {
     }
   }
 
-  /// About the object's centroid, in metres.
-  [[nodiscard]] XmlElement ObjectMesh() const {
-    std::vector<double> vertices;
-    for (const Eigen::Vector3d& vertex : solid_.vertices()) {
-      const Eigen::Vector3d at = scale_ * (vertex - solid_.mass_properties().centroid);
-      vertices.insert(vertices.end(), at.begin(), at.end());
+  /// Geoms of a tip's link that collide.
+  void NameTips(int body, XmlElement& element) {
+    int geom = world_.model().body_geomadr[body];
+    for (XmlElement& child : element.children) {
+      if (child.name != "geom") continue;
+      if (kinematics::Collides(world_.model(), geom++)) {
+        if (child.Find("name") == nullptr) {
+          child.Set("name", kTipPrefix + std::to_string(tips_.size()));
+        }
+        tips_.push_back(*child.Find("name"));
+      }
     }
-    std::string faces;
-    for (const auto& triangle : solid_.triangles()) {
-      for (const int corner : triangle)
-        faces += (faces.empty() ? "" : " ") + std::to_string(corner);
-    }
-    return Element("mesh",
-                   {{"name", kHandSceneObject}, {"vertex", Numbers(vertices)}, {"face", faces}});
   }
 
   void SetActuators(XmlElement& section) const {
@@ -207,9 +213,9 @@ class SceneWriter {
   void SetContacts(XmlElement& section) const {
     std::erase_if(section.children, [](const XmlElement& child) { return child.name == "pair"; });
     const std::string mu = FormatDouble(mu_);
-    for (std::size_t i = 0; i < file_.description.tips.size(); ++i) {
+    for (const std::string& tip : tips_) {
       section.children.push_back(
-          Element("pair", {{"geom1", kTipPrefix + std::to_string(i)},
+          Element("pair", {{"geom1", tip},
                            {"geom2", kHandSceneObject},
                            {"condim", "3"},
                            {"friction", mu + " " + mu + " 0.005 0.0001 0.0001"},
@@ -222,8 +228,10 @@ class SceneWriter {
   const object::Polyhedron& solid_;
   double scale_;
   double mu_;
+  bool own_tips_;
   HandWorld world_;
   kinematics::ModelText text_;
+  std::vector<std::string> tips_;  ///< names of the geoms that touch the object
 };
 
 }  // namespace

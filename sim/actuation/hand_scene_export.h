@@ -31,7 +31,8 @@ inline constexpr const char* kSceneName = "scene.xml";
 
 /// The world of a hand as a folder that stock MuJoCo loads, from 2.2.2 on: scene.xml, last, and
 /// before it copies of the meshes of the hand. It has the hand's servos and their limits, the
-/// object as a mesh, balls at the tips, friction, gravity, and a keyframe for each rest.
+/// object as a mesh, balls at the tips or the model's own, friction, gravity, and a keyframe for
+/// each rest.
 ///
 /// What differs from HandWorld: MuJoCo collides the mesh as its convex hull. Pictures on surfaces
 /// (textures from files) are left out.

@@ -12,10 +12,12 @@
 #include "planner/base/error.h"
 #include "planner/collision/ball_contact.h"
 #include "planner/kinematics/finger_kinematics.h"
+#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/drive_servo.h"
 #include "sim/actuation/hand_scene_text.h"
 #include "sim/actuation/tip_contact.h"
+#include "sim/actuation/tip_geometry.h"
 #include "sim/scene/engine_hooks.h"
 
 namespace regrasp::sim {
@@ -24,27 +26,21 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using kinematics::VectorAt;
 
 constexpr double kTimestep = 1e-3;
 /// Friction of tips is ten times as hard as the normal, so that what sticks creeps little.
 constexpr double kFrictionHardness = 100;
 /// What holds joints of no finger.
 constexpr double kFrozen = 1e3;
-/// Surface farther than this from a tip is not looked for, metres.
+/// Surface farther than this from a tip's ball, or from what else of the tip touches, is not looked
+/// for, metres.
 constexpr double kNear = 5e-3;
 /// A tip goes this far before the triangles near it are looked for anew, metres.
 constexpr double kNeighbourhood = 3e-3;
 
-Vector3d VectorAt(const mjtNum* values, int index) {
-  return Eigen::Map<const Vector3d>(values + std::ptrdiff_t{3} * index);
-}
-
 Isometry3d PoseAt(const mjData& data, int body) {
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = VectorAt(data.xpos, body);
-  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  pose.linear() = Eigen::Map<const RowMajor>(data.xmat + std::ptrdiff_t{9} * body);
-  return pose;
+  return kinematics::PoseAt(data.xpos, data.xmat, body);
 }
 
 /// Two directions at right angles to a unit vector and to each other.
@@ -59,7 +55,8 @@ struct HandWorld::Impl {
   struct FingerState {
     std::vector<int> joints;  ///< of the model
     int tip_body = 0;
-    int tip_geom = 0;
+    std::vector<int> tip_geoms;  ///< of a ball one that stands for it
+    double beyond_ball = 0;      ///< what they reach beyond the ball, at most
     std::vector<DriveActuator> drives;
   };
 
@@ -80,8 +77,10 @@ struct HandWorld::Impl {
   Impl(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
        const HandWorldOptions& given)
       : hand(file.hand), surface(solid, scale), options(given) {
-    model = kinematics::CompileText(file.compiled->text.files.front(),
-                                    HandSceneText(file, solid, scale, options.mass_kg));
+    if (options.tip == TipShape::kGeometry) RequireTipGeometry(file, solid, scale);
+    model =
+        kinematics::CompileText(file.compiled->text.files.front(),
+                                HandSceneText(file, solid, scale, options.mass_kg, options.tip));
     data.reset(mj_makeData(model.get()));
     if (!data) throw EnvironmentError("MuJoCo has no memory for a hand");
     centroid = scale * solid.mass_properties().centroid;
@@ -96,10 +95,20 @@ struct HandWorld::Impl {
     model->opt.impratio = kFrictionHardness;
     const Vector3d gravity = -options.gravity_m_s2 * (palm.linear() * hand.up);
     std::copy_n(gravity.data(), 3, model->opt.gravity);
+    const bool own_tips = options.tip == TipShape::kGeometry;
+    const auto tips = own_tips ? TipGeoms(file, *model) : std::vector<std::vector<int>>();
     // Links that touch anything are a failure and not a matter of forces: HandJudge looks.
     std::fill_n(model->geom_contype, model->ngeom, 0);
     std::fill_n(model->geom_conaffinity, model->ngeom, 0);
     model->npair = 0;
+    if (!own_tips) return;
+    for (std::size_t i = 0; i < fingers.size(); ++i) {
+      fingers[i].tip_geoms = tips[i];
+      const Vector3d& centre = file.description.tips[i].centre;
+      fingers[i].beyond_ball =
+          std::max(0.0, ReachFrom(centre, tips[i], *model) - hand.fingers[i].tip.radius);
+    }
+    LetTipsCollide(tips, object_geom, options.mu, *model);
   }
 
   [[nodiscard]] int Id(int kind, const std::string& name) const {
@@ -123,7 +132,7 @@ struct HandWorld::Impl {
       if (model->body_geomnum[state.tip_body] == 0) {
         throw InputError(file.description.model + ": the body " + finger.tip.body + " has no geom");
       }
-      state.tip_geom = model->body_geomadr[state.tip_body];
+      state.tip_geoms = {model->body_geomadr[state.tip_body]};
     }
   }
 
@@ -198,6 +207,7 @@ struct HandWorld::Impl {
     return moving + turning.cross(point - about);
   }
 
+  /// Where balls are near the object, and their contacts where they are what touches.
   void AddTipContacts() {
     const Isometry3d pose = ObjectInWorld();
     const Isometry3d to_object = pose.inverse();
@@ -205,16 +215,18 @@ struct HandWorld::Impl {
       const double radius = hand.fingers[finger].tip.radius;
       const Vector3d centre = to_object * BallInWorld(finger);
       nearest[finger].reset();
-      if ((centre - centroid).norm() > object_reach + radius + kNear) continue;
+      const double reach = radius + fingers[finger].beyond_ball + kNear;
+      if ((centre - centroid).norm() > object_reach + reach) continue;
       Neighbourhood& around = neighbourhoods[finger];
       if (!around.triangles || (centre - around.centre).norm() > kNeighbourhood) {
         around.centre = centre;
-        around.triangles = surface.Around(centre, radius + kNear + kNeighbourhood);
+        around.triangles = surface.Around(centre, reach + kNeighbourhood);
       }
       // Of what is farther only the nearest point counts, where nothing touches.
       std::vector<collision::NearPoint> found = surface.Find(centre, radius, *around.triangles);
-      if (found.empty()) found = surface.Find(centre, radius + kNear, *around.triangles);
+      if (found.empty()) found = surface.Find(centre, reach, *around.triangles);
       if (!found.empty()) nearest[finger] = found.front();
+      if (options.tip != TipShape::kBall) continue;
       for (const collision::NearPoint& near : found) {
         if (near.distance < radius) AddContact(finger, near, pose);
       }
@@ -238,7 +250,7 @@ struct HandWorld::Impl {
     std::ranges::copy(kTipImpedance, contact.solimp);
     contact.dim = 3;
     contact.geom1 = object_geom;
-    contact.geom2 = fingers[finger].tip_geom;
+    contact.geom2 = fingers[finger].tip_geoms.front();
     mj_addContact(model.get(), data.get(), &contact);
   }
 };
@@ -308,27 +320,30 @@ Vector3d HandWorld::tip(FingerIndex finger) const {
   return impl_->palm.inverse() * impl_->BallInWorld(finger);
 }
 
-TipTouch HandWorld::touch(FingerIndex finger) const {
+TipTouch HandWorld::ball_touch(FingerIndex finger) const {
   const Impl& impl = *impl_;
   TipTouch touch;
-  const Isometry3d pose = impl.ObjectInWorld();
   const std::optional<collision::NearPoint>& near = impl.nearest[finger];
   if (!near) return touch;
   touch.point_O = near->point;
   touch.inward_O = -near->outward;
   touch.gap = near->distance - impl.hand.fingers[finger].tip.radius;
-  Vector3d force = Vector3d::Zero();
-  for (int i = 0; i < impl.data->ncon; ++i) {
-    const mjContact& contact = impl.data->contact[i];
-    if (contact.geom1 != impl.object_geom || contact.geom2 != impl.fingers[finger].tip_geom) {
-      continue;
-    }
-    mjtNum local[6];
-    mj_contactForce(impl.model.get(), impl.data.get(), i, local);
-    // The engine gives the force on the second geom.
-    for (int k = 0; k < 3; ++k) force -= local[k] * VectorAt(contact.frame, k);
+  return touch;
+}
+
+TipTouch HandWorld::touch(FingerIndex finger) const {
+  const Impl& impl = *impl_;
+  TipTouch touch = ball_touch(finger);
+  const Isometry3d pose = impl.ObjectInWorld();
+  const auto sum =
+      SumContacts(impl.fingers[finger].tip_geoms, impl.object_geom, *impl.model, *impl.data);
+  if (sum) touch.force = impl.palm.linear().transpose() * sum->force;
+  if (sum && impl.options.tip == TipShape::kGeometry) {
+    touch.point_O = pose.inverse() * sum->point;
+    touch.inward_O = -(pose.linear().transpose() * sum->outward);
+    touch.gap = sum->gap;
   }
-  touch.force = impl.palm.linear().transpose() * force;
+  if (!std::isfinite(touch.gap)) return touch;
   const Vector3d at = pose * touch.point_O;
   const Vector3d speed =
       pose.linear().transpose() *

@@ -13,6 +13,7 @@
 #include "planner/plan/plan.h"
 #include "sim/actuation/drive_servo.h"
 #include "sim/scene/engine_state.h"
+#include "sim/scene/settings.h"
 
 struct mjModel_;
 
@@ -27,13 +28,14 @@ struct HandWorldOptions {
   /// What the hand's sensors say of the angles of drives, by finger, less what they are, radians;
   /// none: nothing.
   std::vector<kinematics::Posture> joint_offsets = {};
+  TipShape tip = TipShape::kBall;
 };
 
 /// Where a fingertip and the object touch.
 struct TipTouch {
   Eigen::Vector3d point_O = Eigen::Vector3d::Zero();  ///< of the surface, nearest to the tip
   Eigen::Vector3d inward_O = Eigen::Vector3d::Zero();
-  double gap = std::numeric_limits<double>::infinity();  ///< negative: the ball is in the surface
+  double gap = std::numeric_limits<double>::infinity();  ///< negative: the tip is in the surface
   Eigen::Vector3d force = Eigen::Vector3d::Zero();       ///< on the object, newtons
   Eigen::Vector3d sliding_O = Eigen::Vector3d::Zero();  ///< speed of the tip along the surface, m/s
 };
@@ -41,14 +43,15 @@ struct TipTouch {
 /// A hand's own model in MuJoCo, its palm fixed, and a free object that only its fingertips hold.
 ///
 /// The tips are balls that touch the object's true surface (BallContact), with friction and no
-/// torsion. Links pass through each other and the object: that they do not is for a judge to see.
-/// Joints of no finger stay where they are at rest. All in the palm's frame, metres, newtons,
-/// seconds; O is the object's frame (its file's axes and origin, in metres).
+/// torsion; or they are what the model has there for collisions, and MuJoCo finds where that
+/// touches (tip_geometry.h). Links pass through each other and the object: that they do not is for
+/// a judge to see. Joints of no finger stay where they are at rest. All in the palm's frame,
+/// metres, newtons, seconds; O is the object's frame (its file's axes and origin, in metres).
 class HandWorld {
  public:
   using State = EngineState;
 
-  /// @throws InputError  the hand's model does not allow it.
+  /// @throws InputError  the hand's model does not allow it, or RequireTipGeometry.
   HandWorld(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
             const HandWorldOptions& options);
   ~HandWorld();
@@ -70,8 +73,12 @@ class HandWorld {
   /// As the hand's sensors have it.
   [[nodiscard]] kinematics::Posture measured_posture(FingerIndex finger) const;
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
-  /// As in the last step; without a place where the surface is farther than 5 mm.
+  /// As in the last step; without a place where the surface is farther than 5 mm. Of a tip that is
+  /// no ball the contacts as one: their mean, weighted with their normal forces; while it has none
+  /// it is where its ball would touch.
   [[nodiscard]] TipTouch touch(FingerIndex finger) const;
+  /// The same of the tip's ball, whatever touches; without force and sliding.
+  [[nodiscard]] TipTouch ball_touch(FingerIndex finger) const;
   [[nodiscard]] const DriveServo& servo(FingerIndex finger, int drive) const;
   /// Of the model's actuators, in its order; one without a name is called after its number.
   [[nodiscard]] std::vector<std::string> control_names() const;

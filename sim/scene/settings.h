@@ -50,6 +50,12 @@ struct ReplayOptions {
                                 ///< it in the plane, which carries a planar object's weight
 };
 
+/// What of a fingertip touches the object in a replay by a hand.
+enum class TipShape {
+  kBall,      ///< of the hand's file, which plans are made for
+  kGeometry,  ///< what the hand's own model has at the tip for collisions
+};
+
 /// What a replay by a hand may be off.
 struct HandTolerance {
   double length_m = 2e-3;     ///< of the object's centroid from its planned place
@@ -63,7 +69,8 @@ struct HandTolerance {
 /// What a replay by a hand ran with beside the rest.
 struct HandReplaySettings {
   HandTolerance tolerance;
-  bool feedback = true;          ///< joint targets are corrected by the object's measured offset
+  bool feedback = true;  ///< joint targets are corrected by the object's measured offset
+  TipShape tip = TipShape::kBall;
   double least_stiffness = 0;    ///< of the servos of joints, N m / rad
   double largest_stiffness = 0;  ///< the same
   bool derived_servos = false;   ///< some actuators of the model are no servos: they are made so
