@@ -129,9 +129,7 @@ report::Replayer HandReplayer(const ValidateOptions& options, const ValidateTask
                               const sim::ReplayObserver& observer, Samples& samples) {
   const auto& solid = dynamic_cast<const object::Polyhedron&>(*task.object.object);
   const sim::HandReplayOptions by_hand = HandOptions(options, task);
-  if (options.tip == sim::TipShape::kGeometry) {
-    sim::RequireTipGeometry(*task.hand, solid, task.plan.scale);
-  }
+  static_cast<void>(sim::TipShapesOf(*task.hand, options.tip));  // before any work is done
   sim::HandReplayObserver watch;
   watch.on_progress = observer.on_progress;
   if (!options.trajectory.empty()) {

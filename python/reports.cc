@@ -74,10 +74,8 @@ report::Replayer HandReplayer(const kinematics::HandFile& hand, const object::Po
   sim::HandReplayOptions by_hand;
   by_hand.tolerance = given.hand_tolerance;
   by_hand.feedback = given.feedback;
-  if (given.own_tips) {
-    by_hand.tip = sim::TipShape::kGeometry;
-    sim::RequireTipGeometry(hand, solid, plan.scale);
-  }
+  by_hand.tip = given.own_tips ? sim::TipShape::kGeometry : sim::TipShape::kBall;
+  static_cast<void>(sim::TipShapesOf(hand, by_hand.tip));  // before any work is done
   by_hand.mass_kg = sim::BodyOf(solid, plan.scale, replay).mass_kg;
   by_hand.shake = replay.shake;
   by_hand.squeeze_N = replay.squeeze_N;

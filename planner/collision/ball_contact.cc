@@ -44,13 +44,20 @@ BallContact::BallContact(const object::Polyhedron& solid, double scale) {
     Triangle triangle{
         {scale * solid.vertices()[a], scale * solid.vertices()[b], scale * solid.vertices()[c]},
         Vector3d::Zero(),
+        Vector3d::Zero(),
         0};
+    const auto& corners = triangle.corners;
+    triangle.normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
     for (const Vector3d& corner : triangle.corners) triangle.middle += corner / 3;
     for (const Vector3d& corner : triangle.corners) {
       triangle.radius = std::max(triangle.radius, (corner - triangle.middle).norm());
     }
     triangles_.push_back(triangle);
   }
+}
+
+Vector3d BallContact::ClosestOn(int triangle, const Vector3d& point) const {
+  return ClosestOnTriangle(point, triangles_[triangle].corners);
 }
 
 std::vector<int> BallContact::Around(const Vector3d& centre, double reach) const {

@@ -34,9 +34,21 @@ class BallContact {
   /// Triangles that may be within `reach` of `centre`, in their order.
   [[nodiscard]] std::vector<int> Around(const Eigen::Vector3d& centre, double reach) const;
 
+  /// Of a triangle, metres, counter-clockwise from outside.
+  [[nodiscard]] const std::array<Eigen::Vector3d, 3>& corners(int triangle) const {
+    return triangles_[triangle].corners;
+  }
+  /// Outward and unit.
+  [[nodiscard]] const Eigen::Vector3d& normal(int triangle) const {
+    return triangles_[triangle].normal;
+  }
+  /// The point of a triangle that is nearest to a point.
+  [[nodiscard]] Eigen::Vector3d ClosestOn(int triangle, const Eigen::Vector3d& point) const;
+
  private:
   struct Triangle {
     std::array<Eigen::Vector3d, 3> corners;
+    Eigen::Vector3d normal;
     Eigen::Vector3d middle;
     double radius;  ///< of a ball about the middle
   };

@@ -90,6 +90,7 @@ void HandControl::Attach(FingerIndex finger) {
   Finger& state = fingers_[finger];
   state.mode = Mode::kAttached;
   state.centre_O = world_.object_pose().inverse() * world_.tip(finger);
+  state.touched = world_.touch(finger);
   const kinematics::TipState tip = kinematics::TipAt(world_.hand().fingers[finger], state.target);
   state.bias = CorrectedPose() * state.centre_O - tip.centre;
 }
@@ -147,6 +148,7 @@ void HandControl::Measure() {
     if (finger.mode != Mode::kAttached && finger.mode != Mode::kSliding) continue;
     finger.centre_O = pose.inverse() * world_.tip(f);
     finger.bias *= 1 - kPeriod / kPreloadTime;
+    if (const TipTouch touch = world_.touch(f); std::isfinite(touch.gap)) finger.touched = touch;
   }
   if (!settings_.feedback || !corrects_) return;
   const Vector3d off = planned_.pose * world_.centroid_O() - pose * world_.centroid_O();
@@ -158,7 +160,8 @@ void HandControl::Measure() {
 grasp::Grasp HandControl::ContactsOf(const std::vector<FingerIndex>& fingers) const {
   grasp::Grasp contacts;
   for (const FingerIndex f : fingers) {
-    const TipTouch touch = world_.touch(f);
+    TipTouch touch = world_.touch(f);
+    if (!std::isfinite(touch.gap)) touch = fingers_[f].touched;
     contacts.push_back({touch.point_O / scale_, touch.inward_O, {}});
   }
   return contacts;

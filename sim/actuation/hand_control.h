@@ -121,6 +121,7 @@ class HandControl {
     bool keeps_offset = false;
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< where the force acts
+    TipTouch touched;  ///< where it is, or was while the object was near
   };
 
   void Measure();

@@ -51,12 +51,12 @@ void HandJudge::CopyState(const HandJudge& other) {
 
 void HandJudge::WatchContacts(const plan::FingerGrasp& grasp, double scale, double known_off) {
   for (const plan::FingerContact& held : grasp) {
-    // Of the planned ball: another tip touches elsewhere.
-    const TipTouch touch = world_.ball_touch(held.finger);
-    const double off =
-        std::isfinite(touch.gap)
-            ? std::max((touch.point_O - scale * held.contact.p).norm(), std::abs(touch.gap))
-            : touch.gap;
+    // Contacts are planned for balls: another tip touches elsewhere.
+    const std::optional<collision::NearPoint> near = world_.NearBall(held.finger);
+    const double radius = world_.hand().fingers[held.finger].tip.radius;
+    const double off = near ? std::max((near->point - scale * held.contact.p).norm(),
+                                       std::abs(near->distance - radius))
+                            : std::numeric_limits<double>::infinity();
     if (off <= tolerance_.slip_m + known_off) continue;
     const std::string how = std::isfinite(off) ? FormatLength(off) + " from" : "far from";
     const int joints = static_cast<int>(world_.hand().fingers[held.finger].joints.size());

@@ -131,12 +131,11 @@ class SceneWriter {
                          {"cone", "elliptic"},
                          {"impratio", FormatDouble(opt.impratio)}};
     option.children.clear();
-    if (own_tips_) option.children.push_back(Element("flag", {{"multiccd", "enable"}}));
   }
 
   void SetBodies() {
     const mjModel& model = world_.model();
-    Section(text_.root, "asset").children.push_back(ObjectMesh(solid_, scale_));
+    Section(text_.root, "asset").children.push_back(ObjectMesh());
     ForEach(text_.root, [&](XmlElement& element) {
       const std::string* name = element.Find("name");
       if (element.name == "geom") {
@@ -162,7 +161,7 @@ class SceneWriter {
     for (std::size_t i = 0; i < tips.size(); ++i) {
       if (tips[i].body != body) continue;
       if (own_tips_) {
-        NameTips(mj_name2id(&world_.model(), mjOBJ_BODY, body.c_str()), element);
+        NameTips(body, element);
         continue;
       }
       tips_.push_back(kTipPrefix + std::to_string(i));
@@ -177,12 +176,33 @@ class SceneWriter {
     }
   }
 
+  /// About the object's centroid, in metres.
+  [[nodiscard]] XmlElement ObjectMesh() const {
+    std::vector<double> vertices;
+    for (const Eigen::Vector3d& vertex : solid_.vertices()) {
+      const Eigen::Vector3d at = scale_ * (vertex - solid_.mass_properties().centroid);
+      vertices.insert(vertices.end(), at.begin(), at.end());
+    }
+    std::string faces;
+    for (const auto& triangle : solid_.triangles()) {
+      for (const int corner : triangle)
+        faces += (faces.empty() ? "" : " ") + std::to_string(corner);
+    }
+    return Element("mesh",
+                   // The hand's model may scale all meshes that do not say.
+                   {{"name", kHandSceneObject},
+                    {"scale", "1 1 1"},
+                    {"vertex", Numbers(vertices)},
+                    {"face", faces}});
+  }
+
   /// Geoms of a tip's link that collide.
-  void NameTips(int body, XmlElement& element) {
-    int geom = world_.model().body_geomadr[body];
+  void NameTips(const std::string& body, XmlElement& element) {
+    const mjModel& model = *file_.compiled->model;
+    int geom = model.body_geomadr[mj_name2id(&model, mjOBJ_BODY, body.c_str())];
     for (XmlElement& child : element.children) {
       if (child.name != "geom") continue;
-      if (kinematics::Collides(world_.model(), geom++)) {
+      if (kinematics::Collides(model, geom++)) {
         if (child.Find("name") == nullptr) {
           child.Set("name", kTipPrefix + std::to_string(tips_.size()));
         }

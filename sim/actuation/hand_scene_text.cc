@@ -30,18 +30,9 @@ XmlElement Element(std::string name, std::vector<std::pair<std::string, std::str
 }
 
 /// The object as the engine has it: a free body at its centroid, with the axes of its frame.
-XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass, TipShape tip) {
+XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass) {
   const object::MassProperties& properties = solid.mass_properties();
   const Matrix3d inertia = mass / properties.volume * scale * scale * properties.inertia;
-  XmlElement geom =
-      Element("geom", {{"name", kHandSceneObject}, {"contype", "0"}, {"conaffinity", "0"}});
-  if (tip == TipShape::kBall) {
-    geom.Set("type", "sphere");
-    geom.Set("size", "0.001");
-  } else {
-    geom.Set("type", "mesh");
-    geom.Set("mesh", kHandSceneObject);
-  }
   return Element("body", {{"name", kHandSceneObject}},
                  {Element("freejoint", {}),
                   Element("inertial", {{"pos", "0 0 0"},
@@ -49,7 +40,11 @@ XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass
                                        {"fullinertia",
                                         Numbers({inertia(0, 0), inertia(1, 1), inertia(2, 2),
                                                  inertia(0, 1), inertia(0, 2), inertia(1, 2)})}}),
-                  std::move(geom)});
+                  Element("geom", {{"name", kHandSceneObject},
+                                   {"type", "sphere"},
+                                   {"size", "0.001"},
+                                   {"contype", "0"},
+                                   {"conaffinity", "0"}})});
 }
 
 /// The largest torque of a joint by its URDF; 0 where it does not say.
@@ -89,8 +84,7 @@ kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
 }  // namespace
 
 kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
-                                    const object::Polyhedron& solid, double scale, double mass,
-                                    TipShape tip) {
+                                    const object::Polyhedron& solid, double scale, double mass) {
   kinematics::ModelText text = file.compiled->text;
   if (text.root.name == "robot") text = UrdfWithMotors(file);
   XmlElement& root = text.root;
@@ -98,10 +92,7 @@ kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
     return child.name == "keyframe" || child.name == "size" || child.name == "sensor";
   });
   root.children.push_back(Element("size", {{"njmax", "600"}, {"nconmax", "150"}}));
-  if (tip == TipShape::kGeometry) {
-    root.children.push_back(Element("asset", {}, {ObjectMesh(solid, scale)}));
-  }
-  root.children.push_back(Element("worldbody", {}, {ObjectBody(solid, scale, mass, tip)}));
+  root.children.push_back(Element("worldbody", {}, {ObjectBody(solid, scale, mass)}));
   std::vector<XmlElement> couplings;
   for (const auto& coupling : file.description.couplings) {
     couplings.push_back(
@@ -111,22 +102,6 @@ kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
   }
   if (!couplings.empty()) root.children.push_back(Element("equality", {}, std::move(couplings)));
   return text;
-}
-
-XmlElement ObjectMesh(const object::Polyhedron& solid, double scale) {
-  std::string vertices;
-  for (const Eigen::Vector3d& vertex : solid.vertices()) {
-    const Eigen::Vector3d at = scale * (vertex - solid.mass_properties().centroid);
-    vertices += (vertices.empty() ? "" : " ") + Numbers({at.x(), at.y(), at.z()});
-  }
-  std::string faces;
-  for (const auto& triangle : solid.triangles()) {
-    for (const int corner : triangle) faces += (faces.empty() ? "" : " ") + std::to_string(corner);
-  }
-  // The hand's model may scale all meshes that do not say.
-  return Element(
-      "mesh",
-      {{"name", kHandSceneObject}, {"scale", "1 1 1"}, {"vertex", vertices}, {"face", faces}});
 }
 
 }  // namespace regrasp::sim

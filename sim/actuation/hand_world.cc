@@ -11,6 +11,7 @@
 
 #include "planner/base/error.h"
 #include "planner/collision/ball_contact.h"
+#include "planner/collision/shape_contact.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
@@ -33,9 +34,11 @@ constexpr double kTimestep = 1e-3;
 constexpr double kFrictionHardness = 100;
 /// What holds joints of no finger.
 constexpr double kFrozen = 1e3;
-/// Surface farther than this from a tip's ball, or from what else of the tip touches, is not looked
-/// for, metres.
+/// Surface farther than this from a tip is not looked for, metres.
 constexpr double kNear = 5e-3;
+/// What is deeper in the object is pushed out as if it were this deep, or tips that overlap it
+/// where their balls do not were thrown off, metres: ten times what presses at rest.
+constexpr double kDeepest = 3e-4;
 /// A tip goes this far before the triangles near it are looked for anew, metres.
 constexpr double kNeighbourhood = 3e-3;
 
@@ -55,8 +58,9 @@ struct HandWorld::Impl {
   struct FingerState {
     std::vector<int> joints;  ///< of the model
     int tip_body = 0;
-    std::vector<int> tip_geoms;  ///< of a ball one that stands for it
-    double beyond_ball = 0;      ///< what they reach beyond the ball, at most
+    int tip_geom = 0;  ///< that stands for all that touches
+    TipShapes tip;     ///< in the frame of the body
+    double reach = 0;  ///< of the tip from the centre of its ball
     std::vector<DriveActuator> drives;
   };
 
@@ -77,10 +81,8 @@ struct HandWorld::Impl {
   Impl(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
        const HandWorldOptions& given)
       : hand(file.hand), surface(solid, scale), options(given) {
-    if (options.tip == TipShape::kGeometry) RequireTipGeometry(file, solid, scale);
-    model =
-        kinematics::CompileText(file.compiled->text.files.front(),
-                                HandSceneText(file, solid, scale, options.mass_kg, options.tip));
+    model = kinematics::CompileText(file.compiled->text.files.front(),
+                                    HandSceneText(file, solid, scale, options.mass_kg));
     data.reset(mj_makeData(model.get()));
     if (!data) throw EnvironmentError("MuJoCo has no memory for a hand");
     centroid = scale * solid.mass_properties().centroid;
@@ -95,20 +97,10 @@ struct HandWorld::Impl {
     model->opt.impratio = kFrictionHardness;
     const Vector3d gravity = -options.gravity_m_s2 * (palm.linear() * hand.up);
     std::copy_n(gravity.data(), 3, model->opt.gravity);
-    const bool own_tips = options.tip == TipShape::kGeometry;
-    const auto tips = own_tips ? TipGeoms(file, *model) : std::vector<std::vector<int>>();
     // Links that touch anything are a failure and not a matter of forces: HandJudge looks.
     std::fill_n(model->geom_contype, model->ngeom, 0);
     std::fill_n(model->geom_conaffinity, model->ngeom, 0);
     model->npair = 0;
-    if (!own_tips) return;
-    for (std::size_t i = 0; i < fingers.size(); ++i) {
-      fingers[i].tip_geoms = tips[i];
-      const Vector3d& centre = file.description.tips[i].centre;
-      fingers[i].beyond_ball =
-          std::max(0.0, ReachFrom(centre, tips[i], *model) - hand.fingers[i].tip.radius);
-    }
-    LetTipsCollide(tips, object_geom, options.mu, *model);
   }
 
   [[nodiscard]] int Id(int kind, const std::string& name) const {
@@ -132,8 +124,25 @@ struct HandWorld::Impl {
       if (model->body_geomnum[state.tip_body] == 0) {
         throw InputError(file.description.model + ": the body " + finger.tip.body + " has no geom");
       }
-      state.tip_geoms = {model->body_geomadr[state.tip_body]};
+      state.tip_geom = model->body_geomadr[state.tip_body];
     }
+    FindTips(file);
+  }
+
+  void FindTips(const kinematics::HandFile& file) {
+    const std::vector<TipShapes> tips = TipShapesOf(file, options.tip);
+    for (std::size_t i = 0; i < fingers.size(); ++i) {
+      ball_in_body.push_back(file.description.tips[i].centre);
+      fingers[i].tip = tips[i];
+      for (const collision::ConvexShape& shape : tips[i]) {
+        for (const Vector3d& point : shape.points) {
+          fingers[i].reach =
+              std::max(fingers[i].reach, (point - ball_in_body[i]).norm() + shape.radius);
+        }
+      }
+    }
+    nearest.resize(fingers.size());
+    neighbourhoods.resize(fingers.size());
   }
 
   /// A hinge or a slide.
@@ -196,7 +205,8 @@ struct HandWorld::Impl {
     std::optional<std::vector<int>> triangles;
   };
   std::vector<Neighbourhood> neighbourhoods;
-  std::vector<std::optional<collision::NearPoint>> nearest;  ///< to each tip, in the object's frame
+  /// To each tip, in the object's frame: its deepest contact, or where it is near without one.
+  std::vector<std::optional<collision::SurfaceContact>> nearest;
 
   /// The ball's speed where it is at `point`, of a body.
   [[nodiscard]] Vector3d SpeedAt(int body, const Vector3d& point) const {
@@ -207,37 +217,51 @@ struct HandWorld::Impl {
     return moving + turning.cross(point - about);
   }
 
-  /// Where balls are near the object, and their contacts where they are what touches.
   void AddTipContacts() {
     const Isometry3d pose = ObjectInWorld();
     const Isometry3d to_object = pose.inverse();
     for (FingerIndex finger{0}; finger < std::ssize(fingers); ++finger) {
-      const double radius = hand.fingers[finger].tip.radius;
       const Vector3d centre = to_object * BallInWorld(finger);
       nearest[finger].reset();
-      const double reach = radius + fingers[finger].beyond_ball + kNear;
+      const double reach = fingers[finger].reach + kNear;
       if ((centre - centroid).norm() > object_reach + reach) continue;
       Neighbourhood& around = neighbourhoods[finger];
       if (!around.triangles || (centre - around.centre).norm() > kNeighbourhood) {
         around.centre = centre;
         around.triangles = surface.Around(centre, reach + kNeighbourhood);
       }
-      // Of what is farther only the nearest point counts, where nothing touches.
-      std::vector<collision::NearPoint> found = surface.Find(centre, radius, *around.triangles);
-      if (found.empty()) found = surface.Find(centre, reach, *around.triangles);
-      if (!found.empty()) nearest[finger] = found.front();
-      if (options.tip != TipShape::kBall) continue;
-      for (const collision::NearPoint& near : found) {
-        if (near.distance < radius) AddContact(finger, near, pose);
+      const Isometry3d body = PoseAt(*data, fingers[finger].tip_body);
+      TipShapes placed = fingers[finger].tip;
+      for (collision::ConvexShape& shape : placed) {
+        for (Vector3d& point : shape.points) point = to_object * (body * point);
       }
+      for (const collision::ConvexShape& shape : placed) {
+        for (const auto& contact : collision::FindContacts(surface, shape, *around.triangles)) {
+          if (!nearest[finger] || contact.gap < nearest[finger]->gap) nearest[finger] = contact;
+          AddContact(finger, contact, pose);
+        }
+      }
+      if (!nearest[finger]) nearest[finger] = NearestTo(placed, *around.triangles);
     }
   }
 
-  void AddContact(FingerIndex finger, const collision::NearPoint& near, const Isometry3d& pose) {
+  /// Where the shapes are near the surface and nothing touches.
+  [[nodiscard]] std::optional<collision::SurfaceContact> NearestTo(
+      const TipShapes& placed, const std::vector<int>& among) const {
+    std::optional<collision::SurfaceContact> best;
+    for (const collision::ConvexShape& shape : placed) {
+      const auto near = collision::FindNearest(surface, shape, shape.radius + kNear, among);
+      if (near && (!best || near->gap < best->gap)) best = near;
+    }
+    return best;
+  }
+
+  void AddContact(FingerIndex finger, const collision::SurfaceContact& touching,
+                  const Isometry3d& pose) {
     mjContact contact = {};
-    contact.dist = near.distance - hand.fingers[finger].tip.radius;
-    const Vector3d normal = pose.linear() * near.outward;
-    const Vector3d at = pose * near.point + contact.dist / 2 * normal;
+    contact.dist = std::max(touching.gap, -kDeepest);
+    const Vector3d normal = pose.linear() * touching.outward;
+    const Vector3d at = pose * touching.point + contact.dist / 2 * normal;
     const auto [first, second] = Tangents(normal);
     std::copy_n(at.data(), 3, contact.pos);
     std::copy_n(normal.data(), 3, contact.frame);
@@ -250,18 +274,38 @@ struct HandWorld::Impl {
     std::ranges::copy(kTipImpedance, contact.solimp);
     contact.dim = 3;
     contact.geom1 = object_geom;
-    contact.geom2 = fingers[finger].tip_geoms.front();
+    contact.geom2 = fingers[finger].tip_geom;
     mj_addContact(model.get(), data.get(), &contact);
+  }
+
+  /// The contacts of a tip as one, in the engine's world.
+  struct ContactSum {
+    Vector3d force = Vector3d::Zero();   ///< on the object
+    double pressing = 0;                 ///< sum of the normal forces
+    Vector3d point = Vector3d::Zero();   ///< of the surface, times `pressing`; so the next
+    Vector3d normal = Vector3d::Zero();  ///< outward
+  };
+  [[nodiscard]] ContactSum SumContacts(FingerIndex finger) const {
+    ContactSum sum;
+    for (int i = 0; i < data->ncon; ++i) {
+      const mjContact& contact = data->contact[i];
+      if (contact.geom1 != object_geom || contact.geom2 != fingers[finger].tip_geom) continue;
+      mjtNum local[6];
+      mj_contactForce(model.get(), data.get(), i, local);
+      // The engine gives the force on the second geom.
+      for (int k = 0; k < 3; ++k) sum.force -= local[k] * VectorAt(contact.frame, k);
+      const Vector3d normal = VectorAt(contact.frame, 0);
+      sum.pressing += local[0];
+      sum.point += local[0] * (VectorAt(contact.pos, 0) - contact.dist / 2 * normal);
+      sum.normal += local[0] * normal;
+    }
+    return sum;
   }
 };
 
 HandWorld::HandWorld(const kinematics::HandFile& file, const object::Polyhedron& solid,
                      double scale, const HandWorldOptions& options)
-    : impl_(std::make_unique<Impl>(file, solid, scale, options)) {
-  for (const auto& tip : file.description.tips) impl_->ball_in_body.push_back(tip.centre);
-  impl_->nearest.resize(impl_->fingers.size());
-  impl_->neighbourhoods.resize(impl_->fingers.size());
-}
+    : impl_(std::make_unique<Impl>(file, solid, scale, options)) {}
 HandWorld::~HandWorld() = default;
 
 const kinematics::HandModel& HandWorld::hand() const { return impl_->hand; }
@@ -320,36 +364,33 @@ Vector3d HandWorld::tip(FingerIndex finger) const {
   return impl_->palm.inverse() * impl_->BallInWorld(finger);
 }
 
-TipTouch HandWorld::ball_touch(FingerIndex finger) const {
+TipTouch HandWorld::touch(FingerIndex finger) const {
   const Impl& impl = *impl_;
   TipTouch touch;
-  const std::optional<collision::NearPoint>& near = impl.nearest[finger];
+  const Isometry3d pose = impl.ObjectInWorld();
+  const std::optional<collision::SurfaceContact>& near = impl.nearest[finger];
   if (!near) return touch;
   touch.point_O = near->point;
   touch.inward_O = -near->outward;
-  touch.gap = near->distance - impl.hand.fingers[finger].tip.radius;
-  return touch;
-}
-
-TipTouch HandWorld::touch(FingerIndex finger) const {
-  const Impl& impl = *impl_;
-  TipTouch touch = ball_touch(finger);
-  const Isometry3d pose = impl.ObjectInWorld();
-  const auto sum =
-      SumContacts(impl.fingers[finger].tip_geoms, impl.object_geom, *impl.model, *impl.data);
-  if (sum) touch.force = impl.palm.linear().transpose() * sum->force;
-  if (sum && impl.options.tip == TipShape::kGeometry) {
-    touch.point_O = pose.inverse() * sum->point;
-    touch.inward_O = -(pose.linear().transpose() * sum->outward);
-    touch.gap = sum->gap;
+  touch.gap = near->gap;
+  const Impl::ContactSum sum = impl.SumContacts(finger);
+  touch.force = impl.palm.linear().transpose() * sum.force;
+  if (impl.options.tip == TipShape::kGeometry && sum.pressing > 0) {
+    touch.point_O = pose.inverse() * (sum.point / sum.pressing);
+    touch.inward_O = -(pose.linear().transpose() * sum.normal).stableNormalized();
   }
-  if (!std::isfinite(touch.gap)) return touch;
   const Vector3d at = pose * touch.point_O;
   const Vector3d speed =
       pose.linear().transpose() *
       (impl.SpeedAt(impl.fingers[finger].tip_body, at) - impl.SpeedAt(impl.object_body, at));
   touch.sliding_O = speed - speed.dot(touch.inward_O) * touch.inward_O;
   return touch;
+}
+
+std::optional<collision::NearPoint> HandWorld::NearBall(FingerIndex finger) const {
+  const Vector3d centre = impl_->ObjectInWorld().inverse() * impl_->BallInWorld(finger);
+  const auto found = impl_->surface.Find(centre, impl_->hand.fingers[finger].tip.radius + kNear);
+  return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 const DriveServo& HandWorld::servo(FingerIndex finger, int drive) const {

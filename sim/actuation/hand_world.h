@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/collision/ball_contact.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
@@ -42,16 +43,16 @@ struct TipTouch {
 
 /// A hand's own model in MuJoCo, its palm fixed, and a free object that only its fingertips hold.
 ///
-/// The tips are balls that touch the object's true surface (BallContact), with friction and no
-/// torsion; or they are what the model has there for collisions, and MuJoCo finds where that
-/// touches (tip_geometry.h). Links pass through each other and the object: that they do not is for
-/// a judge to see. Joints of no finger stay where they are at rest. All in the palm's frame,
-/// metres, newtons, seconds; O is the object's frame (its file's axes and origin, in metres).
+/// The tips are balls, or what the model has there for collisions (TipShapesOf), that touch the
+/// object's true surface (BallContact, FindContacts), with friction and no torsion. Links pass
+/// through each other and the object: that they do not is for a judge to see.
+/// Joints of no finger stay where they are at rest. All in the palm's frame, metres, newtons,
+/// seconds; O is the object's frame (its file's axes and origin, in metres).
 class HandWorld {
  public:
   using State = EngineState;
 
-  /// @throws InputError  the hand's model does not allow it, or RequireTipGeometry.
+  /// @throws InputError  the hand's model does not allow it; as TipShapesOf.
   HandWorld(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
             const HandWorldOptions& options);
   ~HandWorld();
@@ -73,12 +74,13 @@ class HandWorld {
   /// As the hand's sensors have it.
   [[nodiscard]] kinematics::Posture measured_posture(FingerIndex finger) const;
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
-  /// As in the last step; without a place where the surface is farther than 5 mm. Of a tip that is
-  /// no ball the contacts as one: their mean, weighted with their normal forces; while it has none
-  /// it is where its ball would touch.
+  /// As in the last step; without a place where the surface is farther than 5 mm. The contacts of a
+  /// tip that is no ball count as one: force is their sum, point and normal are their means,
+  /// weighted with what each presses with.
   [[nodiscard]] TipTouch touch(FingerIndex finger) const;
-  /// The same of the tip's ball, whatever touches; without force and sliding.
-  [[nodiscard]] TipTouch ball_touch(FingerIndex finger) const;
+  /// Where the tip's ball, whatever it is that touches, is near the surface, in the object's frame;
+  /// nullopt where that is farther than 5 mm.
+  [[nodiscard]] std::optional<collision::NearPoint> NearBall(FingerIndex finger) const;
   [[nodiscard]] const DriveServo& servo(FingerIndex finger, int drive) const;
   /// Of the model's actuators, in its order; one without a name is called after its number.
   [[nodiscard]] std::vector<std::string> control_names() const;

@@ -1,54 +1,22 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
 #include <vector>
 
+#include "planner/collision/convex_shape.h"
 #include "planner/kinematics/hand_file.h"
-#include "planner/object/polyhedron.h"
-
-struct mjModel_;
-struct mjData_;
+#include "sim/scene/settings.h"
 
 namespace regrasp::sim {
 
-// Fingertips that touch with what the hand's own model has there for collisions: convex shapes, as
-// MuJoCo has them, against the object as the hull of its mesh.
+/// What of a fingertip touches the object, in the frame of the tip's link, metres.
+using TipShapes = std::vector<collision::ConvexShape>;
 
-/// By finger, the geoms of its tip's link that collide.
-/// @param model  the hand's, or one that it is part of, with its flags of collisions.
-/// @throws InputError  a finger has none: names the model's file, the link and the finger.
-[[nodiscard]] std::vector<std::vector<int>> TipGeoms(const kinematics::HandFile& file,
-                                                     const mjModel_& model);
+/// By finger: the ball of the hand's file; or with TipShape::kGeometry each geom of the tip's link
+/// that collides, as links have them elsewhere (kinematics::ReadHandFile). A shape without a radius
+/// gets one of kTipSkin, in which its contacts are found.
+/// @throws InputError  a tip's link has no such geom: names the model's file, the link and finger.
+[[nodiscard]] std::vector<TipShapes> TipShapesOf(const kinematics::HandFile& file, TipShape tip);
 
-/// No point of the geoms, all of one body, is farther than this from a point of the body's frame.
-[[nodiscard]] double ReachFrom(const Eigen::Vector3d& point, const std::vector<int>& geoms,
-                               const mjModel_& model);
-
-/// @param scale  metres per unit of the solid.
-/// @throws InputError  as TipGeoms; or the object has hollows, which its hull has not.
-void RequireTipGeometry(const kinematics::HandFile& file, const object::Polyhedron& solid,
-                        double scale);
-
-/// Tips collide with the object, and with nothing else: with friction `mu` and no torsion, as hard
-/// as balls do (tip_contact.h), several contacts for shapes that lie flat.
-/// @param model  in which nothing collides.
-void LetTipsCollide(const std::vector<std::vector<int>>& tips, int object_geom, double mu,
-                    mjModel_& model);
-
-/// The contacts of a tip with the object as one, in the engine's world.
-struct ContactSum {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of the object's surface
-  Eigen::Vector3d outward = Eigen::Vector3d::UnitZ();
-  double gap = 0;                                   ///< the least
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on the object, newtons
-};
-
-/// Force is the sum; point and normal are means weighted with the normal forces, or without weights
-/// while nothing presses.
-/// @returns nullopt where there is no contact.
-[[nodiscard]] std::optional<ContactSum> SumContacts(const std::vector<int>& tip_geoms,
-                                                    int object_geom, const mjModel_& model,
-                                                    const mjData_& data);
+inline constexpr double kTipSkin = 2e-4;  ///< ten times as deep as tips are in the object at rest
 
 }  // namespace regrasp::sim

@@ -1,0 +1,143 @@
+#include "planner/collision/shape_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "planner/collision/nearest_points.h"
+
+namespace regrasp::collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A point that is nearest to the inside of a triangle is off its plane by its distance, metres.
+constexpr double kOrthogonal = 1e-9;
+/// Nearer than a corner by less than this is at the corner, metres.
+constexpr double kNearer = 1e-7;
+
+/// What a point of the shape may touch.
+struct PointPlace {
+  bool near = false;                     ///< nearer than the radius, from outside
+  std::optional<SurfaceContact> inside;  ///< of a point in the solid
+};
+
+PointPlace PlaceOf(const BallContact& surface, const Vector3d& point, double radius,
+                   const std::vector<int>& among) {
+  PointPlace place;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const int index : among) {
+    const Vector3d& normal = surface.normal(index);
+    const double height = normal.dot(point - surface.corners(index)[0]);
+    if (std::abs(height) > std::max(radius, kMostInside)) continue;
+    const Vector3d on_surface = surface.ClosestOn(index, point);
+    const double distance = (point - on_surface).norm();
+    place.near = place.near || (height > 0 && distance < radius);
+    if (distance > kMostInside || distance >= nearest) continue;
+    nearest = distance;
+    place.inside.reset();
+    if (height <= 0 && distance <= -height + kOrthogonal) {
+      place.inside = {on_surface, normal, -distance - radius};
+    }
+  }
+  return place;
+}
+
+void AddPoint(const BallContact& surface, const Vector3d& point, double radius,
+              const std::vector<int>& among, std::vector<SurfaceContact>& contacts) {
+  const PointPlace place = PlaceOf(surface, point, radius, among);
+  if (place.inside) {
+    contacts.push_back(*place.inside);
+  } else if (place.near) {
+    for (const NearPoint& near : surface.Find(point, radius, among)) {
+      if (near.distance < radius) {
+        contacts.push_back({near.point, near.outward, near.distance - radius});
+      }
+    }
+  }
+}
+
+/// Where the points' hull meets the surface: out along the line from the surface to the middle of
+/// the shape.
+std::optional<SurfaceContact> Overlap(const BallContact& surface, const ConvexShape& shape,
+                                      const std::vector<int>& among) {
+  const Ball around = BallAround(shape);
+  const std::vector<NearPoint> found = surface.Find(around.centre, around.radius, among);
+  if (found.empty()) return std::nullopt;
+  const NearPoint& near = found.front();
+  double depth = 0;
+  for (const Vector3d& point : shape.points) {
+    depth = std::max(depth, near.outward.dot(near.point - point));
+  }
+  return SurfaceContact{near.point, near.outward, -depth - shape.radius};
+}
+
+/// The deepest, and those that are not within kApart of them.
+std::vector<SurfaceContact> Thinned(std::vector<SurfaceContact> contacts) {
+  std::ranges::stable_sort(contacts, {}, &SurfaceContact::gap);
+  std::vector<SurfaceContact> kept;
+  for (const SurfaceContact& contact : contacts) {
+    if (std::ssize(kept) == kMostContacts) break;
+    const bool adds = std::ranges::none_of(kept, [&](const SurfaceContact& other) {
+      return (other.point - contact.point).norm() < kApart;
+    });
+    if (adds) kept.push_back(contact);
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<SurfaceContact> FindContacts(const BallContact& surface, const ConvexShape& shape,
+                                         const std::vector<int>& among) {
+  std::vector<SurfaceContact> contacts;
+  if (shape.points.size() == 1) {
+    for (const NearPoint& near : surface.Find(shape.points[0], shape.radius, among)) {
+      if (near.distance < shape.radius) {
+        contacts.push_back({near.point, near.outward, near.distance - shape.radius});
+      }
+    }
+    return contacts;
+  }
+  for (const Vector3d& point : shape.points) {
+    AddPoint(surface, point, shape.radius, among, contacts);
+  }
+  double deepest = 0;
+  for (const SurfaceContact& contact : contacts) deepest = std::min(deepest, contact.gap);
+  // Elsewhere than at its points it touches only where it is nearer than they are. Where the
+  // points' hull is in the surface they say how.
+  const auto nearest = FindNearest(surface, shape, shape.radius, among);
+  const bool meets = nearest && nearest->gap <= -shape.radius;
+  if (nearest && (meets ? contacts.empty() : nearest->gap < deepest - kNearer)) {
+    contacts.push_back(*nearest);
+  }
+  return Thinned(std::move(contacts));
+}
+
+std::optional<SurfaceContact> FindNearest(const BallContact& surface, const ConvexShape& shape,
+                                          double reach, const std::vector<int>& among) {
+  std::optional<SurfaceContact> best;
+  double nearest = reach;
+  for (const int index : among) {
+    const std::array<Vector3d, 3>& corners = surface.corners(index);
+    const Vector3d& normal = surface.normal(index);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Vector3d& point : shape.points) {
+      lowest = std::min(lowest, normal.dot(point - corners[0]));
+    }
+    if (lowest >= nearest) continue;
+    const std::optional<NearestPair> pair = FindNearestPoints(shape.points, corners);
+    if (!pair) return Overlap(surface, shape, among);
+    const Vector3d between = pair->on_a - pair->on_b;
+    const double distance = between.norm();
+    // A triangle that faces away is in front of none.
+    if (distance >= nearest || normal.dot(between) <= 0) continue;
+    nearest = distance;
+    best = {pair->on_b, between / distance, distance - shape.radius};
+  }
+  return best;
+}
+
+}  // namespace regrasp::collision
