@@ -10,15 +10,13 @@
 #include <utility>
 
 #include "planner/base/error.h"
-#include "planner/collision/ball_contact.h"
-#include "planner/collision/shape_contact.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/drive_servo.h"
 #include "sim/actuation/hand_scene_text.h"
 #include "sim/actuation/tip_contact.h"
-#include "sim/actuation/tip_geometry.h"
+#include "sim/actuation/tip_surface.h"
 #include "sim/scene/engine_hooks.h"
 
 namespace regrasp::sim {
@@ -34,13 +32,9 @@ constexpr double kTimestep = 1e-3;
 constexpr double kFrictionHardness = 100;
 /// What holds joints of no finger.
 constexpr double kFrozen = 1e3;
-/// Surface farther than this from a tip is not looked for, metres.
-constexpr double kNear = 5e-3;
 /// What is deeper in the object is pushed out as if it were this deep, or tips that overlap it
-/// where their balls do not were thrown off, metres: ten times what presses at rest.
+/// where their balls do not were thrown off, metres: five times what presses at rest.
 constexpr double kDeepest = 3e-4;
-/// A tip goes this far before the triangles near it are looked for anew, metres.
-constexpr double kNeighbourhood = 3e-3;
 
 Isometry3d PoseAt(const mjData& data, int body) {
   return kinematics::PoseAt(data.xpos, data.xmat, body);
@@ -59,20 +53,17 @@ struct HandWorld::Impl {
     std::vector<int> joints;  ///< of the model
     int tip_body = 0;
     int tip_geom = 0;  ///< that stands for all that touches
-    TipShapes tip;     ///< in the frame of the body
-    double reach = 0;  ///< of the tip from the centre of its ball
     std::vector<DriveActuator> drives;
   };
 
   EngineHooks hooks;
   kinematics::HandModel hand;
-  collision::BallContact surface;
+  TipSurface surface;
   HandWorldOptions options;
   kinematics::ModelPtr model;
   kinematics::DataPtr data;
   Isometry3d palm = Isometry3d::Identity();  ///< in the engine's world
   Vector3d centroid;
-  double object_reach = 0;  ///< from the centroid
   int object_body = 0, object_geom = 0, object_qpos = 0;
   std::vector<FingerState> fingers;
   std::vector<int> frozen;  ///< joints
@@ -80,15 +71,12 @@ struct HandWorld::Impl {
 
   Impl(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
        const HandWorldOptions& given)
-      : hand(file.hand), surface(solid, scale), options(given) {
+      : hand(file.hand), surface(file, given.tip, solid, scale), options(given) {
     model = kinematics::CompileText(file.compiled->text.files.front(),
                                     HandSceneText(file, solid, scale, options.mass_kg));
     data.reset(mj_makeData(model.get()));
     if (!data) throw EnvironmentError("MuJoCo has no memory for a hand");
     centroid = scale * solid.mass_properties().centroid;
-    for (const Vector3d& vertex : solid.vertices()) {
-      object_reach = std::max(object_reach, (scale * vertex - centroid).norm());
-    }
     FindParts(file);
     Freeze();
     FindServos();
@@ -126,23 +114,6 @@ struct HandWorld::Impl {
       }
       state.tip_geom = model->body_geomadr[state.tip_body];
     }
-    FindTips(file);
-  }
-
-  void FindTips(const kinematics::HandFile& file) {
-    const std::vector<TipShapes> tips = TipShapesOf(file, options.tip);
-    for (std::size_t i = 0; i < fingers.size(); ++i) {
-      ball_in_body.push_back(file.description.tips[i].centre);
-      fingers[i].tip = tips[i];
-      for (const collision::ConvexShape& shape : tips[i]) {
-        for (const Vector3d& point : shape.points) {
-          fingers[i].reach =
-              std::max(fingers[i].reach, (point - ball_in_body[i]).norm() + shape.radius);
-        }
-      }
-    }
-    nearest.resize(fingers.size());
-    neighbourhoods.resize(fingers.size());
   }
 
   /// A hinge or a slide.
@@ -196,17 +167,8 @@ struct HandWorld::Impl {
   /// The centre of the tip's ball, whatever coupled joints do.
   [[nodiscard]] Vector3d BallInWorld(FingerIndex finger) const {
     const FingerState& state = fingers[finger];
-    return PoseAt(*data, state.tip_body) * ball_in_body[finger];
+    return PoseAt(*data, state.tip_body) * surface.ball(finger);
   }
-  std::vector<Vector3d> ball_in_body;
-  /// The triangles that a tip may touch before it has gone kNeighbourhood.
-  struct Neighbourhood {
-    Vector3d centre = Vector3d::Zero();
-    std::optional<std::vector<int>> triangles;
-  };
-  std::vector<Neighbourhood> neighbourhoods;
-  /// To each tip, in the object's frame: its deepest contact, or where it is near without one.
-  std::vector<std::optional<collision::SurfaceContact>> nearest;
 
   /// The ball's speed where it is at `point`, of a body.
   [[nodiscard]] Vector3d SpeedAt(int body, const Vector3d& point) const {
@@ -221,39 +183,11 @@ struct HandWorld::Impl {
     const Isometry3d pose = ObjectInWorld();
     const Isometry3d to_object = pose.inverse();
     for (FingerIndex finger{0}; finger < std::ssize(fingers); ++finger) {
-      const Vector3d centre = to_object * BallInWorld(finger);
-      nearest[finger].reset();
-      const double reach = fingers[finger].reach + kNear;
-      if ((centre - centroid).norm() > object_reach + reach) continue;
-      Neighbourhood& around = neighbourhoods[finger];
-      if (!around.triangles || (centre - around.centre).norm() > kNeighbourhood) {
-        around.centre = centre;
-        around.triangles = surface.Around(centre, reach + kNeighbourhood);
+      const Isometry3d link = PoseAt(*data, fingers[finger].tip_body);
+      for (const auto& contact : surface.FindContacts(finger, link, to_object)) {
+        AddContact(finger, contact, pose);
       }
-      const Isometry3d body = PoseAt(*data, fingers[finger].tip_body);
-      TipShapes placed = fingers[finger].tip;
-      for (collision::ConvexShape& shape : placed) {
-        for (Vector3d& point : shape.points) point = to_object * (body * point);
-      }
-      for (const collision::ConvexShape& shape : placed) {
-        for (const auto& contact : collision::FindContacts(surface, shape, *around.triangles)) {
-          if (!nearest[finger] || contact.gap < nearest[finger]->gap) nearest[finger] = contact;
-          AddContact(finger, contact, pose);
-        }
-      }
-      if (!nearest[finger]) nearest[finger] = NearestTo(placed, *around.triangles);
     }
-  }
-
-  /// Where the shapes are near the surface and nothing touches.
-  [[nodiscard]] std::optional<collision::SurfaceContact> NearestTo(
-      const TipShapes& placed, const std::vector<int>& among) const {
-    std::optional<collision::SurfaceContact> best;
-    for (const collision::ConvexShape& shape : placed) {
-      const auto near = collision::FindNearest(surface, shape, shape.radius + kNear, among);
-      if (near && (!best || near->gap < best->gap)) best = near;
-    }
-    return best;
   }
 
   void AddContact(FingerIndex finger, const collision::SurfaceContact& touching,
@@ -273,6 +207,7 @@ struct HandWorld::Impl {
     contact.solref[1] = 1;
     std::ranges::copy(kTipImpedance, contact.solimp);
     contact.dim = 3;
+    contact.efc_address = -1;  // it has no force before a step
     contact.geom1 = object_geom;
     contact.geom2 = fingers[finger].tip_geom;
     mj_addContact(model.get(), data.get(), &contact);
@@ -318,7 +253,7 @@ void HandWorld::Place(const plan::HandState& state) {
   Impl& impl = *impl_;
   mj_resetData(impl.model.get(), impl.data.get());
   // What was before has no say in what comes, to the last bit.
-  for (Impl::Neighbourhood& around : impl.neighbourhoods) around.triangles.reset();
+  impl.surface.Forget();
   for (std::size_t i = 0; i < impl.fingers.size(); ++i) {
     for (std::size_t k = 0; k < impl.fingers[i].joints.size(); ++k) {
       impl.data->qpos[impl.model->jnt_qposadr[impl.fingers[i].joints[k]]] = state.joints[i][k];
@@ -368,7 +303,7 @@ TipTouch HandWorld::touch(FingerIndex finger) const {
   const Impl& impl = *impl_;
   TipTouch touch;
   const Isometry3d pose = impl.ObjectInWorld();
-  const std::optional<collision::SurfaceContact>& near = impl.nearest[finger];
+  const std::optional<collision::SurfaceContact>& near = impl.surface.nearest(finger);
   if (!near) return touch;
   touch.point_O = near->point;
   touch.inward_O = -near->outward;
@@ -389,8 +324,7 @@ TipTouch HandWorld::touch(FingerIndex finger) const {
 
 std::optional<collision::NearPoint> HandWorld::NearBall(FingerIndex finger) const {
   const Vector3d centre = impl_->ObjectInWorld().inverse() * impl_->BallInWorld(finger);
-  const auto found = impl_->surface.Find(centre, impl_->hand.fingers[finger].tip.radius + kNear);
-  return found.empty() ? std::nullopt : std::optional(found.front());
+  return impl_->surface.NearBall(finger, centre);
 }
 
 const DriveServo& HandWorld::servo(FingerIndex finger, int drive) const {

@@ -17,6 +17,6 @@ using TipShapes = std::vector<collision::ConvexShape>;
 /// @throws InputError  a tip's link has no such geom: names the model's file, the link and finger.
 [[nodiscard]] std::vector<TipShapes> TipShapesOf(const kinematics::HandFile& file, TipShape tip);
 
-inline constexpr double kTipSkin = 2e-4;  ///< ten times as deep as tips are in the object at rest
+inline constexpr double kTipSkin = 2e-4;  ///< metres: thrice as deep as tips press at rest
 
 }  // namespace regrasp::sim
