@@ -56,6 +56,12 @@ std::vector<SurfaceContact> TipSurface::FindContacts(FingerIndex finger, const I
   }
   const auto deepest = std::ranges::min_element(contacts, {}, &SurfaceContact::gap);
   tip.nearest = deepest != contacts.end() ? std::optional(*deepest) : NearestTo(placed, tip);
+  if (tip.nearest) return contacts;
+  for (const collision::NearPoint& ball :
+       surface_.Find(centre, tip.radius + kNear, *tip.triangles)) {
+    tip.nearest = {ball.point, ball.outward, ball.distance - tip.radius};
+    break;
+  }
   return contacts;
 }
 

@@ -27,7 +27,8 @@ class TipSurface {
   std::vector<collision::SurfaceContact> FindContacts(FingerIndex finger,
                                                       const Eigen::Isometry3d& link,
                                                       const Eigen::Isometry3d& to_object);
-  /// The deepest of them, or where the tip was nearest without one; nullopt farther than kNear.
+  /// The deepest of them; without one where the tip was nearest, or at least its ball; nullopt
+  /// farther than kNear.
   [[nodiscard]] const std::optional<collision::SurfaceContact>& nearest(FingerIndex finger) const {
     return tips_[finger].nearest;
   }

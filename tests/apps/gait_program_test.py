@@ -79,6 +79,7 @@ class Gait(ProgramCase):
         self.check_trajectory(plan, by_hand)
         self.check_scene(plan, by_hand)
         self.check_trials(plan, by_hand)
+        self.check_tips(plan, by_hand)
         # Ten micrometres are not kept; and no hand holds 20 kg.
         for more, reasons in ((("--tolerance-mm", "0.01"), ("object-moved",)),
                               (("--mass", "20"), ("torque-limit", "object-moved", "slipped",
@@ -96,6 +97,9 @@ class Gait(ProgramCase):
         points = ("--hand", ring5, "--replay", "points")
         for more, words in ((("--replay", "hand"), "needs the hand"),
                             ((*points, "--feedback", "none"), "goes with --replay hand"),
+                            ((*points, "--tip", "geometry"), "--tip goes with --replay hand"),
+                            (("--hand", ring5, "--tip", "box"), "--tip: "),
+                            (("--hand", ring5, "--tip"), "--tip"),
                             ((*points, "--trials", "2", "--joint-noise", "1"),
                              "goes with --replay hand"),
                             (("--hand", ring5, "--stress"), "goes with --replay points")):
@@ -149,6 +153,51 @@ class Gait(ProgramCase):
             self.assertEqual(trials["joint_noise_deg"], float(noise))
             self.assertEqual(sum(trials["reasons"].values()), 3 - passed)
             self.assertIn("noise: object at first off by " + noise, done.stdout)
+
+    def check_tips(self, plan, by_hand):
+        """The model's own tips are the balls of the hand's file, and a capsule that touches nothing."""
+        reports = {}
+        for tip in ("ball", "geometry"):
+            more = ("--no-frames", "--tip", tip, "--trials", "2", "--trajectory", tip + ".csv",
+                    "--export-mjcf", tip)
+            done, report = self.validate(plan, *by_hand, *more)
+            self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
+            self.assertEqual(report["settings"]["hand"]["tip"], tip)
+            self.assertEqual(report["trials"]["count"], 2)
+            reports[tip] = report
+            # What touches in the scene are geoms that it has.
+            scene = xml.etree.ElementTree.fromstring(self.read(tip + "/scene.xml"))
+            geoms = {geom.get("name"): geom for geom in scene.iter("geom")}
+            pairs = [geoms[pair.get("geom1")] for pair in scene.findall("contact/pair")]
+            self.assertEqual(sorted(geom.get("type", "sphere") for geom in pairs),
+                             (["capsule"] * 5 if tip == "geometry" else []) + ["sphere"] * 5)
+        for ball, own in zip(reports["ball"]["steps"], reports["geometry"]["steps"]):
+            for name in ("displacement_m", "slip_m"):
+                self.assertAlmostEqual(ball["simulation"][name], own["simulation"][name],
+                                       delta=1e-6)
+        _, usual = self.validate(plan, *by_hand, "--no-frames")
+        self.assertEqual(usual["settings"]["hand"]["tip"], "ball")
+
+    def test_a_tip_without_collision_geometry_is_one_line(self):
+        with open(self.hand("ring5").replace(".json", ".xml"), encoding="utf-8") as file:
+            model = xml.etree.ElementTree.fromstring(file.read())
+        bare = model.find(".//body[@name='finger3_distal']")
+        for geom in bare.findall("geom"):
+            geom.set("contype", "0")
+            geom.set("conaffinity", "0")
+        self.write("ring5.xml", xml.etree.ElementTree.tostring(model).decode())
+        with open(self.hand("ring5"), encoding="utf-8") as file:
+            self.write("hand.json", file.read())
+        cube = ("--object", self.model("cube.obj"), "--hand", "hand.json")
+        self.assert_done(*cube, "--scale", "0.8333", "--mu", "0.8", "--turn", "z 20",
+                         "--output", "plan.json")
+        plan = ("--plan", "plan.json", "--no-frames")
+        self.assert_done(*cube, *plan, program="validate")
+        self.assert_refused(2, "ring5.xml: the tip link finger3_distal of finger 3 (finger3) has no "
+                            "collision geometry", *cube, *plan, "--tip", "geometry",
+                            program="validate")
+        self.assert_refused(2, "--tip does not go with --export-states", *cube, "--mu", "0.8",
+                            "--export-states", "1", "--tip", "geometry", program="validate")
 
     def check_scene(self, plan, by_hand):
         """A folder with a keyframe for each rest, in a folder that is made, twice the same."""

@@ -21,7 +21,15 @@ namespace {
 
 class HandSceneExportTest : public FolderTest {};
 
-TEST_F(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRest) {
+/// With tips of either kind: the model's own are balls as well.
+class TipsOfSceneTest : public HandSceneExportTest, public testing::WithParamInterface<TipShape> {};
+INSTANTIATE_TEST_SUITE_P(Tips, TipsOfSceneTest,
+                         testing::Values(TipShape::kBall, TipShape::kGeometry),
+                         [](const auto& tip) {
+                           return tip.param == TipShape::kBall ? "Ball" : "Geometry";
+                         });
+
+TEST_P(TipsOfSceneTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRest) {
   const std::string models = ProjectPath("models/");
   const kinematics::HandFile hand = kinematics::ReadHandFile(models + "hands/ring5.json");
   const object::ObjectFile cube = object::ReadObject(models + "cube.obj");
@@ -42,6 +50,7 @@ TEST_F(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
   HandReplayOptions options;
   options.half_angle = std::atan(0.8);
   options.mass_kg = 0.125;
+  options.tip = GetParam();
   HandReplayObserver observer;
   observer.on_rest = [&](const HandWorld& world, plan::EntryIndex entry) {
     keys.push_back(
@@ -52,7 +61,8 @@ TEST_F(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
   ASSERT_EQ(keys.size(), plan.steps.size() + 1);
 
   const std::vector<SceneFile> files =
-      ExportHandScene(hand, solid, request.scale, {0.8, options.mass_kg, kGravity, 1}, keys);
+      ExportHandScene(hand, solid, request.scale,
+                      {0.8, options.mass_kg, kGravity, 1, {}, options.tip}, keys);
   EXPECT_EQ(files.back().name, kSceneName);
   for (const SceneFile& file : files) EXPECT_TRUE(IsSceneFile(file.name)) << file.name;
   const mujoco::ModelPtr model = LoadStockScene(files, folder_);
