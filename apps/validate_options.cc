@@ -209,11 +209,9 @@ void AddHandReplay(CLI::App& app, ValidateOptions& options) {
       app, "--tip", options.tip,
       {{"ball", sim::TipShape::kBall}, {"geometry", sim::TipShape::kGeometry}},
       "What of a fingertip touches the object; with --replay hand. ball: the ball of the hand's "
-      "file, for which plans are made; geometry: what the hand's model has at the tip's link for "
-      "collisions, boxes, capsules or convex hulls of meshes, with the same friction. "
-      "Where fingers are placed, what the controller steers and where contacts "
-      "should be still goes by the balls, so that it tells whether a plan for balls holds with "
-      "these tips (default ball)");
+      "file, for which plans are made. geometry: what the model's tip link has for collisions "
+      "(boxes, capsules, hulls of meshes); fingers are still placed, steered and held to their "
+      "contacts as planned for balls, so that it tells whether such a plan holds (default ball)");
 }
 
 void AddTrials(CLI::App& app, ValidateOptions& options) {

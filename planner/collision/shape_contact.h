@@ -42,7 +42,7 @@ struct SurfaceContact {
                                                         const ConvexShape& shape, double reach,
                                                         const std::vector<int>& among);
 
-inline constexpr double kMostInside = 3e-3;  ///< metres
+inline constexpr double kMostInside = 5e-3;  ///< metres
 inline constexpr double kApart = 1e-3;       ///< metres
 inline constexpr int kMostContacts = 8;
 

@@ -42,6 +42,10 @@ class HandsTest(RegraspCase):
             with open(self.path(f"{replay}/000_hold.png"), "rb") as file:
                 self.assertEqual(regrasp._regrasp.encode_png(report.frames((320, 240))[0]),
                                  file.read())
+        # The model's own tips are those balls.
+        own = regrasp.validate(self.cube, plan, hand=self.hand, tip="geometry")
+        self.assertEqual(own.data["settings"]["hand"]["tip"], "geometry")
+        self.assertEqual(own.passed, report.passed)
         # Another hand is not the one that it was made for.
         other = regrasp.Hand.read("models/hands/ring5.json")
         with self.assertRaises(regrasp.InputError):
@@ -84,6 +88,10 @@ class HandsTest(RegraspCase):
             self.cube, self.points_plan, hand=self.hand))
         self.refuses(["hand", "needed"], lambda: regrasp.validate(
             self.cube, self.points_plan, replay="hand"))
+        self.refuses(["tip", "'box'", "geometry"], lambda: regrasp.validate(
+            self.cube, self.points_plan, tip="box"))
+        self.refuses(["tip", 'replay="hand"'], lambda: regrasp.validate(
+            self.cube, self.points_plan, tip="ball"))
 
 
 if __name__ == "__main__":
