@@ -56,7 +56,7 @@ set(regrasp_slow_tests
   GraphOracle.*
   GraphProgram.*
   HandReplayTest.*
-  HandSceneExportTest.*
+  */HandSceneExportTest.*
   HandTrialsTest.*
   HostileFiles.AnyPart*
   HostileFiles.GraspsOfFar*

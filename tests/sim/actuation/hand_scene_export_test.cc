@@ -19,17 +19,15 @@
 namespace regrasp::sim {
 namespace {
 
-class HandSceneExportTest : public FolderTest {};
-
 /// With tips of either kind: the model's own are balls as well.
-class TipsOfSceneTest : public HandSceneExportTest, public testing::WithParamInterface<TipShape> {};
-INSTANTIATE_TEST_SUITE_P(Tips, TipsOfSceneTest,
+class HandSceneExportTest : public FolderTest, public testing::WithParamInterface<TipShape> {};
+INSTANTIATE_TEST_SUITE_P(Tips, HandSceneExportTest,
                          testing::Values(TipShape::kBall, TipShape::kGeometry),
                          [](const auto& tip) {
                            return tip.param == TipShape::kBall ? "Ball" : "Geometry";
                          });
 
-TEST_P(TipsOfSceneTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRest) {
+TEST_P(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRest) {
   const std::string models = ProjectPath("models/");
   const kinematics::HandFile hand = kinematics::ReadHandFile(models + "hands/ring5.json");
   const object::ObjectFile cube = object::ReadObject(models + "cube.obj");
