@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "planner/base/random.h"
-#include "planner/collision/nearest_points.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::collision {
@@ -168,30 +167,6 @@ TEST(ShapeContactTest, TheNearestPlaceIsAsFarAsTheNearestTriangle) {
     ++checked;
   }
   EXPECT_GT(checked, 100);
-}
-
-/// A plane between the points that it finds has each hull on its side: none are nearer.
-TEST(NearestPointsTest, ThePlaneThroughEachIsAtTheHull) {
-  RandomStream random(2, RandomUse::kTrialContacts);
-  int apart = 0;
-  for (int i = 0; i < 500; ++i) {
-    std::vector<Vector3d> a;
-    std::vector<Vector3d> b;
-    for (int k = 0; k < 1 + i % 12; ++k) {
-      a.push_back(Draw(random) + 2 * Vector3d::UnitZ());
-      if (k < 3) b.push_back(Draw(random) - 2 * Vector3d::UnitZ());
-    }
-    const auto pair = FindNearestPoints(a, b);
-    const DistanceBounds bounds = Distance({a, 0}, {b, 0});
-    EXPECT_EQ(pair.has_value(), bounds.upper > 0) << i;
-    if (!pair) continue;
-    const Vector3d normal = (pair->on_a - pair->on_b).normalized();
-    for (const Vector3d& point : a) EXPECT_GE(normal.dot(point - pair->on_a), -1e-6) << i;
-    for (const Vector3d& point : b) EXPECT_LE(normal.dot(point - pair->on_b), 1e-6) << i;
-    EXPECT_NEAR((pair->on_a - pair->on_b).norm(), bounds.upper, 1e-7) << i;
-    ++apart;
-  }
-  EXPECT_GT(apart, 100);
 }
 
 }  // namespace
