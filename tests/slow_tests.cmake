@@ -37,6 +37,7 @@ set(regrasp_slow_tests
   fuzz.stl
   fuzz.wkt
   package.find_package
+  python.arguments
   schema
   AlignsOfPolyhedra.*
   BadFiles.Truncated*

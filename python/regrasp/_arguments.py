@@ -5,18 +5,25 @@ from __future__ import annotations
 import difflib
 import math
 import operator
+import os
 
 import numpy as np
 
 from ._regrasp import InputError
 
 
+def shown(value) -> str:
+    """A value in a message: of one line, and short."""
+    try:
+        text = " ".join(repr(value).split())
+    except Exception:  # of a class that cannot say what it is
+        text = type(value).__name__
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
 def numbers(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
     """Finite float64 values with so many axes; `shapes` says which, for the message."""
-    try:
-        array = np.asarray(value)
-    except ValueError as error:
-        raise InputError(f"{name}: no array of shape {shapes}: {error}") from None
+    array = _array(name, value, shapes)
     if array.dtype.kind not in "fiu":
         raise InputError(f"{name}: numbers are needed, found an array of {array.dtype}")
     if array.ndim not in dimensions:
@@ -28,12 +35,33 @@ def numbers(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.nd
     return array
 
 
-def number(name: str, value, lower: float, upper: float = math.inf) -> float:
-    """A finite number above `lower` and below `upper`."""
+def indices(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
+    """The same for int64 values."""
+    array = _array(name, value, shapes)
+    if array.ndim not in dimensions:
+        raise InputError(f"{name}: the shape is {shapes}, found {array.shape}")
+    if array.dtype.kind not in "iu":
+        raise InputError(f"{name}: integers are needed, found an array of {array.dtype}")
+    return np.ascontiguousarray(array, dtype=np.int64)
+
+
+def _array(name: str, value, shapes: str) -> np.ndarray:
     try:
+        return np.asarray(value)
+    except ValueError as error:
+        raise InputError(f"{name}: no array of shape {shapes}: {error}") from None
+
+
+def number(name: str, value, lower: float, upper: float = math.inf, *, zero: bool = False) -> float:
+    """A finite number above `lower` and below `upper`; also 0 where that is said."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
         result = float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"{name}: a number is needed, found {value!r}") from None
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name}: a number is needed, found {shown(value)}") from None
+    if zero and result == 0:
+        return 0
     if not (lower < result < upper):
         limits = f"above {lower:g}" if upper == math.inf else f"between {lower:g} and {upper:g}"
         raise InputError(f"{name}: {limits}, found {result!r}")
@@ -45,7 +73,7 @@ def integer(name: str, value, lower: int, upper: int) -> int:
     try:
         result = operator.index(value)
     except TypeError:
-        raise InputError(f"{name}: an integer is needed, found {value!r}") from None
+        raise InputError(f"{name}: an integer is needed, found {shown(value)}") from None
     if not lower <= result <= upper:
         raise InputError(f"{name}: from {lower} to {upper}, found {result}")
     return result
@@ -54,11 +82,50 @@ def integer(name: str, value, lower: int, upper: int) -> int:
 def choice(name: str, value: str, words) -> str:
     """One of some words."""
     words = list(words)
-    if value in words:
+    if isinstance(value, str) and value in words:
         return value
-    near = difflib.get_close_matches(str(value), words, 1)
+    near = difflib.get_close_matches(value, words, 1) if isinstance(value, str) else []
     hint = f"; did you mean {near[0]!r}?" if near else ""
-    raise InputError(f"{name}: {value!r} is none of {', '.join(map(repr, words))}{hint}")
+    raise InputError(f"{name}: {shown(value)} is none of {', '.join(map(repr, words))}{hint}")
+
+
+def flag(name: str, value) -> bool:
+    """True or False."""
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise InputError(f"{name}: True or False is needed, found {shown(value)}")
+
+
+def text(name: str, value) -> str:
+    """A text."""
+    if isinstance(value, str):
+        return value
+    raise InputError(f"{name}: a text is needed, found {shown(value)}")
+
+
+def path(name: str, value) -> str:
+    """A path of the file system, as a text."""
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise InputError(f"{name}: a path is needed, found {shown(value)}")
+    result = os.fsdecode(value)
+    if not result or "\0" in result:
+        raise InputError(f"{name}: a path is needed, found {shown(result)}")
+    return result
+
+
+def callback(name: str, value):
+    """A function, or None."""
+    if value is None or callable(value):
+        return value
+    raise InputError(f"{name}: a function is needed, found {shown(value)}")
+
+
+def of_type(name: str, value, kind: type, hint: str = ""):
+    """A value of that class."""
+    if isinstance(value, kind):
+        return value
+    article = "an" if kind.__name__[0] in "AEIOU" else "a"
+    raise InputError(f"{name}: {article} {kind.__name__} is needed, found {type(value).__name__}{hint}")
 
 
 def half_angle(mu: float | None, friction_angle_deg: float | None) -> float | None:
@@ -66,7 +133,10 @@ def half_angle(mu: float | None, friction_angle_deg: float | None) -> float | No
     if mu is not None and friction_angle_deg is not None:
         raise InputError("mu and friction_angle_deg: give one of them")
     if mu is not None:
-        return math.atan(number("mu", mu, 0))
+        mu = number("mu", mu, 0)
+        if mu > 1e15:  # a right angle to doubles
+            raise InputError(f"mu: at most 1e15, found {mu:g}")
+        return math.atan(mu)
     if friction_angle_deg is not None:
         # As the programs' Radians().
         return number("friction_angle_deg", friction_angle_deg, 0, 90) * (math.pi / 180)

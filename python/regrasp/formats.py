@@ -34,6 +34,25 @@ class HandGrasps:
     lost: list[str] = field(default_factory=list)
     """What the file has besides and could not be carried over, in words."""
 
+    def __post_init__(self):
+        """
+        Raises:
+            InputError: the arrays have other shapes than each other, or values that are not finite.
+        """
+        self.names, self.joint_names = _texts("names", self.names), _texts("joint_names",
+                                                                            self.joint_names)
+        count, joints = len(self.names), len(self.joint_names)
+        for name, shape in [("positions", (count, 3)), ("quaternions", (count, 4)),
+                            ("joints", (count, joints)), ("confidence", (count,))]:
+            text = "(" + ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "") + ")"
+            text = text if name != "joints" or joints else f"({count}, J)"
+            array = _arguments.numbers(name, getattr(self, name), text, (len(shape),))
+            unnamed = name == "joints" and not joints and len(array) == count
+            if array.shape != shape and not unnamed:
+                raise InputError(f"{name}: the shape is {text} for {count} names, found {array.shape}")
+            setattr(self, name, array)
+        self.quaternions = _unit("quaternions", self.quaternions)
+
     def __len__(self) -> int:
         return len(self.names)
 
@@ -60,7 +79,7 @@ class HandGrasps:
         Raises:
             InputError: a joint of the hand is missing, or the number differs where none has a name.
         """
-        wanted = hand.joint_names
+        wanted = _arguments.of_type("hand", hand, Hand, "; Hand.read reads one").joint_names
         if not self.joint_names:
             if self.joints.shape[1] != len(wanted):
                 raise InputError(f"joints: {hand.name} has {len(wanted)}, found "
@@ -86,8 +105,10 @@ class HandGrasps:
             points (N, F, 3) in the object's unit, unit normals (N, F, 3) into the object, and
             whether the fingertip touches (N, F).
         """
-        if object.dimension != 3:
+        _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
+        if _arguments.of_type("object", object, Object).dimension != 3:
             raise InputError(f"object: {object.name} is a polygon; hands hold solids")
+        tolerance = _arguments.number("tolerance", tolerance, 0)
         tips = hand.tips(self.in_order_of(hand))
         turned = np.einsum("nij,nkj->nki", _matrices(self.quaternions), tips)
         centres = (turned + self.positions[:, None]) / object.scale
@@ -117,6 +138,12 @@ def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 def _inverse(position: np.ndarray, quaternion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     back = quaternion * [1, -1, -1, -1]
     return -np.einsum("...ij,...j->...i", _matrices(back), position), back
+
+
+def _texts(name: str, values) -> list[str]:
+    if not isinstance(values, (list, tuple)) or not all(isinstance(v, str) for v in values):
+        raise InputError(f"{name}: a list of texts is needed, found {_arguments.shown(values)}")
+    return list(values)
 
 
 def _unit(name: str, quaternions) -> np.ndarray:
@@ -154,7 +181,7 @@ def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
         InputError: names the file, the grasp and what is wrong.
     """
     import yaml
-    name = os.fspath(path)
+    name = path = _arguments.path("path", path)
     try:
         with open(path, encoding="utf-8") as file:
             data = _mapping(name, yaml.safe_load(file))
@@ -194,6 +221,10 @@ def write_isaac_grasp(path: str | os.PathLike, grasps: HandGrasps, *, object_fra
                       gripper_frame: str = "palm") -> None:
     """Writes a file of the format isaac_grasp 1.0; all numbers read back as the same bits."""
     import yaml
+    path = _arguments.path("path", path)
+    _arguments.of_type("grasps", grasps, HandGrasps)
+    _arguments.text("object_frame", object_frame)
+    _arguments.text("gripper_frame", gripper_frame)
     entries = {}
     for i, name in enumerate(grasps.names):
         angles = dict(zip(grasps.joint_names, grasps.joints[i].tolist()))
@@ -214,7 +245,7 @@ def read_dexgraspbench(path: str | os.PathLike) -> HandGrasps:
     Raises:
         InputError: names the file, the member and what is wrong.
     """
-    name = os.fspath(path)
+    name = path = _arguments.path("path", path)
     data = _dict_file.read_dict(path)
     qpos = _arguments.numbers(f"{name}: grasp_qpos", _member(name, data, "grasp_qpos"),
                               "(7 + J,) or (N, 7 + J)", (1, 2))
@@ -262,7 +293,7 @@ def read_graspit(path: str | os.PathLike) -> HandGrasps:
     Raises:
         InputError: names the file, the element and what is wrong.
     """
-    name = os.fspath(path)
+    name = path = _arguments.path("path", path)
     try:
         world = xml.etree.ElementTree.parse(path).getroot()
     except xml.etree.ElementTree.ParseError as error:
@@ -298,7 +329,8 @@ def of_plan(path: str | os.PathLike, hand: Hand) -> HandGrasps:
         InputError: the plan is for fingers without a hand, or for another one.
     """
     from .plans import Plan
-    name = os.fspath(path)
+    name = path = _arguments.path("path", path)
+    _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     data = Plan.read(path).data
     if "hand" not in data:
         raise InputError(f"{name}: a plan for fingers without a hand has no joints")

@@ -83,6 +83,8 @@ def force_closure(points, normals, object: Object | None = None, mu: float | Non
     >>> many.holds.all(), many.required_angle_deg.shape
     (True, (1000,))
     """
+    required_angle = _arguments.flag("required_angle", required_angle)
+    quality = _arguments.flag("quality", quality)
     shapes = "(k, 3) or (N, k, 3), in the plane (k, 2) or (N, k, 2)"
     points = _arguments.numbers("points", points, shapes, (2, 3))
     normals = _arguments.numbers("normals", normals, shapes, (2, 3))
@@ -96,8 +98,7 @@ def force_closure(points, normals, object: Object | None = None, mu: float | Non
         raise InputError(f"points: a grasp has a contact or more, found {points.shape}")
     _check_unit(normals)
     if object is not None:
-        if not isinstance(object, Object):
-            raise InputError(f"object: an Object is needed, found {type(object).__name__}")
+        _arguments.of_type("object", object, Object)
         if object.dimension != dimension:
             raise InputError(f"points: {object.name} has dimension {object.dimension}, "
                              f"found {points.shape}")
@@ -108,7 +109,7 @@ def force_closure(points, normals, object: Object | None = None, mu: float | Non
     shape = (1 if single else len(points), points.shape[-2], 3)
     decisions, lower, _, required, worth = _regrasp.judge_grasps(
         _in_space(points, shape), _in_space(normals, shape), object._core if object else None,
-        dimension, half_angle, bool(required_angle), bool(quality),
+        dimension, half_angle, required_angle, quality,
         _arguments.integer("threads", threads, 0, 4096))
     holds = decisions == 2
     too_close = decisions == 1

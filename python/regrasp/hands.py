@@ -25,7 +25,7 @@ class Hand:
         >>> Hand.read("models/hands/ring4.json").fingers
         ['finger0', 'finger1', 'finger2', 'finger3']
         """
-        return cls(_regrasp.read_hand(os.fspath(path)))
+        return cls(_regrasp.read_hand(_arguments.path("path", path)))
 
     @property
     def name(self) -> str:

@@ -37,7 +37,7 @@ class Plan:
         Raises:
             InputError: it is none; names the element.
         """
-        _regrasp.check_plan_text(text, name)
+        _regrasp.check_plan_text(_arguments.text("text", text), _arguments.text("name", name))
         self.text = text
         self.name = name
         self.data: dict = json.loads(text)
@@ -47,12 +47,12 @@ class Plan:
     @classmethod
     def read(cls, path: str | os.PathLike) -> Plan:
         """Reads a plan file."""
-        with open(path, encoding="utf-8") as file:
-            return cls(file.read(), os.path.basename(os.fspath(path)))
+        path = _arguments.path("path", path)
+        return cls(_text_of(path), os.path.basename(path))
 
     def write(self, path: str | os.PathLike) -> None:
         """Writes the plan file."""
-        with open(path, "w", encoding="utf-8") as file:
+        with open(_arguments.path("path", path), "w", encoding="utf-8") as file:
             file.write(self.text)
 
     @property
@@ -75,6 +75,14 @@ class Plan:
         counts = [f"{kinds.count(kind)} {kind if kinds.count(kind) == 1 else several[kind]}"
                   for kind in several if kind in kinds]
         return f"<Plan of {self.data['object']['file']}: {', '.join(counts) or 'no steps'}>"
+
+
+def _text_of(path: str) -> str:
+    try:
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: not UTF-8: {error}") from None
 
 
 def _fingers(contacts: list[dict]) -> str:
@@ -137,8 +145,7 @@ def plan(object: Object, start, goal, mu: float | None = None, *,
     >>> found.steps[0]["kind"]
     'align'
     """
-    if not isinstance(object, Object):
-        raise InputError(f"object: an Object is needed, found {type(object).__name__}")
+    _arguments.of_type("object", object, Object)
     given = _asked(mu, friction_angle_deg, seed, min_quality, time_limit)
     given.start = _grasp_text("start", start, object)
     given.goal = _grasp_text("goal", goal, object)
@@ -151,9 +158,9 @@ def plan(object: Object, start, goal, mu: float | None = None, *,
     if clusters is not None:
         given.clusters = _arguments.integer("clusters", clusters, _regrasp.fewest_clusters,
                                             _regrasp.most_clusters)
-    given.finger_radius = 0 if finger_radius == 0 else _arguments.number(
-        "finger_radius", finger_radius, 0)
-    return _plan_of(*_regrasp.find_plan(object._core, given, progress))
+    given.finger_radius = _arguments.number("finger_radius", finger_radius, 0, zero=True)
+    return _plan_of(*_regrasp.find_plan(object._core, given,
+                                        _arguments.callback("progress", progress)))
 
 
 def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
@@ -197,10 +204,8 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     >>> plan_in_hand(cube, ring, mu=0.8, turn=("z", 30))
     <Plan of cube.obj: 1 move>
     """
-    if not isinstance(object, Object):
-        raise InputError(f"object: an Object is needed, found {type(object).__name__}")
-    if not isinstance(hand, Hand):
-        raise InputError(f"hand: a Hand is needed, found {type(hand).__name__}; Hand.read reads one")
+    _arguments.of_type("object", object, Object)
+    _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     if object.dimension != 3:
         raise InputError(f"object: {object.name} is a polygon; hands hold solids")
     if turn is not None and goal_pose is not None:
@@ -219,8 +224,9 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     task.goal_pose = None if goal_pose is None else _pose("goal_pose", goal_pose)
     words = ["preferred", "required", "none"]
     task.reserve = getattr(_regrasp.Reserve, _arguments.choice("reserve", reserve, words))
-    task.clearance = 0 if clearance == 0 else _arguments.number("clearance", clearance, 0, 0.05)
-    return _plan_of(*_regrasp.find_plan_in_hand(object._core, given, hand._core, task, progress))
+    task.clearance = _arguments.number("clearance", clearance, 0, 0.05, zero=True)
+    return _plan_of(*_regrasp.find_plan_in_hand(object._core, given, hand._core, task,
+                                                _arguments.callback("progress", progress)))
 
 
 def _asked(mu, friction_angle_deg, seed, min_quality, time_limit):
@@ -228,7 +234,7 @@ def _asked(mu, friction_angle_deg, seed, min_quality, time_limit):
     given = _regrasp.PlanArguments()
     given.half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
     given.seed = _arguments.integer("seed", seed, 0, 2**64 - 1)
-    given.min_quality = 0 if min_quality == 0 else _arguments.number("min_quality", min_quality, 0)
+    given.min_quality = _arguments.number("min_quality", min_quality, 0, zero=True)
     if time_limit is not None:
         given.time_limit_s = _arguments.number("time_limit", time_limit, 0)
     return given
@@ -238,7 +244,8 @@ def _turn(turn) -> tuple[list[float], float]:
     try:
         axis, degrees = turn
     except (TypeError, ValueError):
-        raise InputError(f'turn: an axis and degrees, as in ("z", 90), found {turn!r}') from None
+        raise InputError('turn: an axis and degrees, as in ("z", 90), found '
+                         f"{_arguments.shown(turn)}") from None
     axis = _arguments.choice("turn[0]", axis, ["x", "y", "z"])
     degrees = _arguments.number("turn[1]", degrees, -3600.1, 3600.1)
     if degrees == 0:
@@ -270,12 +277,12 @@ def _plan_of(text, message, warnings, notes) -> Plan:
 
 def _grasp_text(name: str, grasp, object: Object, random: bool = True) -> str:
     """A grasp argument as the text of a grasp file, or one of the words for random ones."""
-    if isinstance(grasp, (str, os.PathLike)):
+    if isinstance(grasp, (str, bytes, os.PathLike)):
         if random and grasp in _RANDOM:
             return grasp
+        grasp = _arguments.path(name, grasp)
         try:
-            with open(grasp, encoding="utf-8") as file:
-                return file.read()
+            return _text_of(grasp)
         except FileNotFoundError:
             words = f", {' or '.join(map(repr, _RANDOM))}" if random else ""
             raise InputError(f"{name}: there is no file {grasp}; give points, a file{words}") from None

@@ -66,7 +66,7 @@ class ObjectsTest(RegraspCase):
         self.refuses(["faces[0, 2]", "vertex 9"], make, CORNERS, [[0, 1, 9]])
         self.refuses(["faces[0, 0]", "vertex -1"], make, CORNERS, [[-1, 1, 2]])
         self.refuses(["object.obj", "closed"], make, CORNERS, FACES[:-1])
-        self.refuses(["object.obj", "empty"], make, np.zeros((0, 3)), np.zeros((0, 3), int))
+        self.refuses(["vertices", "none"], make, np.zeros((0, 3)), np.zeros((0, 3), int))
         self.refuses(["scale", "above 0"], make, CORNERS, FACES, scale=0)
         self.refuses(["scale", "'a'"], make, CORNERS, FACES, scale="a")
 
