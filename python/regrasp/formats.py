@@ -9,10 +9,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from . import _arguments, _dict_file, _regrasp
+from . import _arguments, _dict_file, _html, _regrasp
 from ._regrasp import InputError
 from .hands import Hand
 from .objects import Object
+
+_ROWS = 10
+"""That a notebook shows."""
 
 
 @dataclass
@@ -55,6 +58,15 @@ class HandGrasps:
 
     def __len__(self) -> int:
         return len(self.names)
+
+    def _repr_html_(self) -> str:
+        rows = [[name, ", ".join(f"{x:.4g}" for x in self.positions[i]),
+                 ", ".join(f"{x:.4g}" for x in self.quaternions[i]), f"{self.confidence[i]:.3g}"]
+                for i, name in enumerate(self.names[:_ROWS])]
+        more = f"{len(self)} grasps" + (f", the first {_ROWS}" if len(self) > _ROWS else "")
+        lost = f"; not carried over: {', '.join(self.lost)}" if self.lost else ""
+        return _html.text(f"{more}, {self.joints.shape[1]} joints{lost}") + _html.table(
+            ["grasp", "palm (m)", "quaternion w, x, y, z", "confidence"], rows)
 
     def with_palm_at(self, palm) -> HandGrasps:
         """The same grasps, where the poses of a file are not of the palm but of another body of the

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -29,8 +29,23 @@ class ForceClosure:
     """The largest ball of wrenches that is resisted with normal forces summing to 1, torques over
     half the object's diameter (Ferrari and Canny's L1 metric, its lower bound); None where it was
     not asked for."""
+    _asked: tuple | None = field(default=None, repr=False, compare=False)
+    """Of one grasp on an object: object, points, normals, half-angle; a notebook draws it."""
 
     def _repr_html_(self) -> str:
+        return self._table() + self._drawing()
+
+    def _drawing(self) -> str:
+        if self._asked is None:
+            return ""
+        object, points, normals, half_angle = self._asked
+        try:
+            return _html.drawing(_regrasp.draw_grasp(object._core, points, normals, half_angle, 85),
+                                 f"a grasp of {object.name}")
+        except InputError:  # a contact is not on the object, which is not asked here
+            return ""
+
+    def _table(self) -> str:
         if np.ndim(self.holds) == 0:
             verdict = ("force closure" if self.holds else
                        "too close to call" if self.too_close else "no force closure")
@@ -117,9 +132,11 @@ def force_closure(points, normals, object: Object | None = None, mu: float | Non
     worth = worth if quality else None
     if not single:
         return ForceClosure(holds, too_close, lower, angles, worth)
+    asked = None if object is None else (
+        object, _in_space(points, shape)[0], _in_space(normals, shape)[0], half_angle)
     return ForceClosure(bool(holds[0]), bool(too_close[0]), float(lower[0]),
                         None if angles is None else float(angles[0]),
-                        None if worth is None else float(worth[0]))
+                        None if worth is None else float(worth[0]), asked)
 
 
 def _check_unit(normals: np.ndarray) -> None:

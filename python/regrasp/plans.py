@@ -41,6 +41,9 @@ class Plan:
         self.text = text
         self.name = name
         self.data: dict = json.loads(text)
+        self.object: Object | None = None
+        """That it is for, where that is known: `plan` sets it, and you may after `Plan.read`. A
+        notebook then shows every step."""
         self.warnings: list[str] = []
         self.notes: list[str] = []
 
@@ -60,11 +63,42 @@ class Plan:
         """The steps, as in the file."""
         return self.data["steps"]
 
+    def figure(self, object: Object | None = None, *, width_mm: float = 174) -> str:
+        """A drawing of all steps, in lines, as the program `figure` makes it.
+
+        Args:
+            object: that the plan is for; None: `Plan.object`.
+            width_mm: of the drawing, millimetres.
+
+        Returns:
+            SVG.
+
+        Raises:
+            InputError: the object is not known or another one, or a step breaks a rule.
+
+        >>> cube = Object.read("models/cube.obj")
+        >>> plan(cube, "models/cube.start.json", "models/cube.goal.json", mu=0.4).figure()[:5]
+        '<?xml'
+        """
+        object = self.object if object is None else object
+        if object is None:
+            raise InputError(f"object: {self.name} does not hold {self.data['object']['file']}; "
+                             "give it")
+        return _regrasp.draw_plan(_arguments.of_type("object", object, Object)._core, self.text,
+                                  self.name, _arguments.number("width_mm", width_mm, 20, 2000))
+
     def _repr_html_(self) -> str:
         rows = [["0", "hold", _fingers(self.data["initial"]["contacts"])]]
         for i, step in enumerate(self.steps, 1):
             rows.append([str(i), step["kind"], _describe(step)])
-        return f"<p>{html.escape(repr(self)[1:-1])}</p>" + _html.table(["step", "kind", "what happens"], rows)
+        page = f"<p>{html.escape(repr(self)[1:-1])}</p>" + _html.table(
+            ["step", "kind", "what happens"], rows)
+        if self.object is None:
+            return page
+        try:
+            return page + _html.drawing(self.figure(), repr(self))
+        except InputError as error:  # a step that cannot be drawn; the table says what there is
+            return page + _html.text(str(error))
 
     def __len__(self) -> int:
         return len(self.steps)
@@ -159,8 +193,8 @@ def plan(object: Object, start, goal, mu: float | None = None, *,
         given.clusters = _arguments.integer("clusters", clusters, _regrasp.fewest_clusters,
                                             _regrasp.most_clusters)
     given.finger_radius = _arguments.number("finger_radius", finger_radius, 0, zero=True)
-    return _plan_of(*_regrasp.find_plan(object._core, given,
-                                        _arguments.callback("progress", progress)))
+    return _plan_of(object, *_regrasp.find_plan(object._core, given,
+                                                _arguments.callback("progress", progress)))
 
 
 def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
@@ -225,8 +259,8 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     words = ["preferred", "required", "none"]
     task.reserve = getattr(_regrasp.Reserve, _arguments.choice("reserve", reserve, words))
     task.clearance = _arguments.number("clearance", clearance, 0, 0.05, zero=True)
-    return _plan_of(*_regrasp.find_plan_in_hand(object._core, given, hand._core, task,
-                                                _arguments.callback("progress", progress)))
+    return _plan_of(object, *_regrasp.find_plan_in_hand(
+        object._core, given, hand._core, task, _arguments.callback("progress", progress)))
 
 
 def _asked(mu, friction_angle_deg, seed, min_quality, time_limit):
@@ -266,10 +300,11 @@ def _pose(name: str, pose) -> list[float]:
     return pose.tolist()
 
 
-def _plan_of(text, message, warnings, notes) -> Plan:
+def _plan_of(object: Object, text, message, warnings, notes) -> Plan:
     if text is None:
         raise NoPlan(message)
     result = Plan(text)
+    result.object = object
     result.warnings = [warning for warning in warnings if warning]
     result.notes = notes
     return result

@@ -79,6 +79,11 @@ class FormatsTest(RegraspCase):
             np.testing.assert_allclose(normals[0, contact["finger"]], contact["normal"], atol=1e-9)
         self.assertFalse(self.grasps.touching(self.hand, self.cube, tolerance=1e-15)[2].all())
 
+    def test_a_notebook_shows_grasps_of_hands(self):
+        page = self.grasps._repr_html_()
+        self.assertEqual(page.count("<tr>"), 1 + len(self.grasps))
+        self.assertIn("not carried over: contacts", page)
+
     def test_isaac_grasp_comes_back_bit_for_bit(self):
         path = self.path("grasps.yaml")
         formats.write_isaac_grasp(path, self.grasps)

@@ -96,6 +96,21 @@ class GraspsTest(RegraspCase):
         one = regrasp.force_closure(TETRAHEDRON, -TETRAHEDRON, mu=0.5)._repr_html_()
         self.assertIn("<td>force closure</td>", one)
 
+    def test_a_notebook_draws_a_grasp_of_an_object(self):
+        cube = regrasp.Object.read("models/cube.obj")
+        points = np.array([[.03, 0, 0], [-.03, 0, .01], [0, .03, 0], [0, -.03, 0]])
+        normals = -np.eye(3)[[0, 0, 1, 1]] * np.sign(points.sum(axis=1, where=np.abs(points) > .02)
+                                                     )[:, None]
+        page = regrasp.force_closure(points, normals, cube, mu=0.5)._repr_html_()
+        self.assertEqual(page.count("data:image/svg+xml"), 1)
+        for other in (regrasp.force_closure(points, normals, mu=0.5),
+                      regrasp.force_closure(points + [0, 0, 1], normals, cube, mu=0.5),
+                      regrasp.force_closure([points] * 2, [normals] * 2, cube, mu=0.5)):
+            self.assertNotIn("<img", other._repr_html_())
+        plate = regrasp.Object.from_polygon([[0, 0], [.1, 0], [.1, .04], [0, .04]])
+        planar = regrasp.force_closure([[.05, 0], [.05, .04]], [[0, 1], [0, -1]], plate, mu=0.5)
+        self.assertIn("<img", planar._repr_html_())
+
     def test_arguments_that_are_wrong_are_named(self):
         def refuses(words, *arguments, **named):
             self.refuses(words, regrasp.force_closure, *arguments, **named)
