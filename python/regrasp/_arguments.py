@@ -23,16 +23,21 @@ def shown(value) -> str:
 
 def numbers(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
     """Finite float64 values with so many axes; `shapes` says which, for the message."""
+    array = numbers_or_nan(name, value, shapes, dimensions)
+    if not np.isfinite(array).all():
+        place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        raise InputError(f"{name}{list(place)}: {array[place]} is not finite")
+    return array
+
+
+def numbers_or_nan(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
+    """The same, whether finite or not."""
     array = _array(name, value, shapes)
     if array.dtype.kind not in "fiu":
         raise InputError(f"{name}: numbers are needed, found an array of {array.dtype}")
     if array.ndim not in dimensions:
         raise InputError(f"{name}: the shape is {shapes}, found {array.shape}")
-    array = np.ascontiguousarray(array, dtype=np.float64)
-    if not np.isfinite(array).all():
-        place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-        raise InputError(f"{name}{list(place)}: {array[place]} is not finite")
-    return array
+    return np.ascontiguousarray(array, dtype=np.float64)
 
 
 def indices(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
@@ -126,6 +131,35 @@ def of_type(name: str, value, kind: type, hint: str = ""):
         return value
     article = "an" if kind.__name__[0] in "AEIOU" else "a"
     raise InputError(f"{name}: {article} {kind.__name__} is needed, found {type(value).__name__}{hint}")
+
+
+def vector(name: str, value, length: int) -> np.ndarray:
+    """So many finite numbers."""
+    vector = numbers(name, value, f"({length},)", (1,))
+    if len(vector) != length:
+        raise InputError(f"{name}: {length} numbers are needed, found {len(vector)}")
+    return vector
+
+
+def mapping(name: str, value) -> dict:
+    """A dictionary."""
+    if not isinstance(value, dict):
+        raise InputError(f"{name}: a mapping is needed, found {type(value).__name__}")
+    return value
+
+
+def member(name: str, mapping: dict, key: str):
+    """What a dictionary has under a key."""
+    if key not in mapping:
+        raise InputError(f"{name}: no {key}")
+    return mapping[key]
+
+
+def texts(name: str, values) -> list[str]:
+    """A list of texts."""
+    if not isinstance(values, (list, tuple)) or not all(isinstance(v, str) for v in values):
+        raise InputError(f"{name}: a list of texts is needed, found {shown(values)}")
+    return list(values)
 
 
 def half_angle(mu: float | None, friction_angle_deg: float | None) -> float | None:

@@ -66,5 +66,29 @@ class Hand:
         tips = self._core.tips(np.atleast_2d(joints))
         return tips[0] if joints.ndim == 1 else tips
 
+    def ordered(self, names: list[str], joints) -> np.ndarray:
+        """Angles in the order of `joint_names`.
+
+        Args:
+            names: of J or more joints.
+            joints: (N, as many) their angles.
+
+        Returns:
+            (N, J).
+
+        Raises:
+            InputError: a joint of the hand is missing.
+        """
+        names = _arguments.texts("names", names)
+        joints = _arguments.numbers("joints", joints, f"(N, {len(names)})", (2,))
+        if joints.shape[1] != len(names):
+            raise InputError(f"joints: the shape is (N, {len(names)}) for {len(names)} names, "
+                             f"found {joints.shape}")
+        missing = [name for name in self.joint_names if name not in names]
+        if missing:
+            raise InputError(f"names: {self.name} has joints {missing[0]} …, found "
+                             f"{', '.join(names)}")
+        return joints[:, [names.index(name) for name in self.joint_names]]
+
     def __repr__(self) -> str:
         return f"<Hand {self.name}: {len(self.fingers)} fingers, {len(self.joint_names)} joints>"

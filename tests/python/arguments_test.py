@@ -115,12 +115,31 @@ class ArgumentsTest(RegraspCase):
         self.check(grasps.with_palm_at, palm=[0, 0, 0])
         self.check(grasps.in_order_of, hand=self.hand)
         os.chdir(self.folder)
-        for reader in (formats.read_isaac_grasp, formats.read_dexgraspbench, formats.read_graspit):
+        for reader in (formats.read_isaac_grasp, formats.read_dexgraspbench, formats.read_graspit,
+                       formats.read_bodex, formats.read_hidex, formats.read_trajectory):
             self.check(reader, path="grasps")
         self.check(formats.of_plan, path="plan.json", hand=self.hand)
         self.check(formats.write_isaac_grasp, path="grasps.yaml", grasps=grasps,
                    object_frame="object", gripper_frame="palm")
+        self.check(formats.motion_of_plan, path="plan.json", hand=self.hand)
         self.check(self.plan.write, path="plan.json")
+
+    def test_of_fingers_and_motions(self):
+        contacts = {"points": np.zeros((1, 3, 3)), "normals": np.zeros((1, 3, 3)), "names": ["a"]}
+        self.check(formats.FingerGrasps, **contacts)
+        grasps = formats.FingerGrasps(np.array([[[.03, 0, 0]]]), np.array([[[-1., 0, 0]]]), ["a"])
+        self.check(grasps.on, object=self.cube, tolerance=0.001)
+        self.check(grasps.as_plan, object=self.cube, mu=0.5)
+        moves = {"times": [0.], "joint_names": self.hand.joint_names, "joints": np.zeros((1, 16)),
+                 "object_poses": [[0, 0, 0, 1., 0, 0, 0]], "control_names": [], "controls": None}
+        checked = self.outcomes(formats.HandMotion, **moves)
+        self.assertGreater(min(count for name, count in checked.items() if name != "controls"), 8)
+        self.check(self.hand.ordered, names=self.hand.joint_names, joints=np.zeros((1, 16)))
+        moves["controls"] = np.zeros((1, 0))
+        os.chdir(self.folder)
+        self.check(grasps.write_npz, path="grasps.npz")
+        self.check(formats.write_mcap, path="a.mcap", motion=formats.HandMotion(**moves),
+                   hand=self.hand, start_time=0, palm_frame="palm", object_frame="object")
 
     def test_a_function_that_does_not_look_is_found(self):
         def sloppy(length, words):
