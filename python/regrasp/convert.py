@@ -9,6 +9,7 @@ import sys
 import numpy as np
 
 from . import _arguments, _dict_file, formats
+from ._help_as import help_as
 from ._regrasp import InputError, version
 from .hands import Hand
 from .objects import Object
@@ -24,6 +25,17 @@ class _Parser(argparse.ArgumentParser):
     def error(self, message):
         """One line, as of the other programs."""
         self.exit(2, f"{self.prog}: {message} ({self.prog} --help lists all options)\n")
+
+
+class _HelpAs(argparse.Action):
+    """As of the other programs: prints the text in another format, and exits."""
+
+    def __call__(self, parser, namespace, value, option_string=None):
+        try:
+            print(help_as(parser, value), end="")
+        except InputError as error:
+            parser.error(str(error))
+        parser.exit(0)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -53,7 +65,9 @@ def parser() -> argparse.ArgumentParser:
     parser.add_argument("--mesh-scale", type=float, default=1, metavar="X", help="by which HiDex scales "
                         "the object's file, scale in its setup.yaml; of .csv (default 1)")
     parser.add_argument("--mu", type=float, metavar="X", help="friction coefficient; of .csv to .json")
-    parser.add_argument("--version", action="version", version=f"regrasp-convert {version}")
+    parser.add_argument("--version", action="version", version=f"regrasp-convert {version}",
+                        help="print the version and exit")
+    parser.add_argument("--help-as", action=_HelpAs, metavar="FORMAT", help=argparse.SUPPRESS)
     return parser
 
 
