@@ -41,7 +41,7 @@ class ConvertProgramTest(RegraspCase):
         done = subprocess.run(["groff", "-man", "-Tutf8", "-ww"], input=page, capture_output=True,
                               text=True, check=True)
         self.assertEqual(done.stderr, "")
-        self.assertIn("--mesh-scale", re.sub("\x1b\\[[0-9;]*m", "", done.stdout))
+        self.assertIn("--mesh-scale", re.sub("\x1b\\[[0-9;]*m|.\b", "", done.stdout))
         with open(self.path("completion"), "w", encoding="utf-8") as file:
             file.write(run("--help-as", "bash").stdout)
         with open(self.path("a.yaml"), "w", encoding="utf-8"):
