@@ -125,8 +125,8 @@ void FigureProgram::AddTo(CLI::App& app) {
   AddScale(app, scale, "Metres per unit of length of the object file; must be the plan's");
   AddQuiet(app, quiet);
   app.footer(
-      "  figure --object polygon15.wkt --plan plan.json --out figures --format pdf\n"
-      "  figure --object cube.obj --plan plan.json --out figures --view 30,20\n");
+      "  figure --object polygon15.wkt --plan polygon15.json --out figures --format pdf\n"
+      "  figure --object cube.obj --plan cube.json --out figures --view 30,20\n");
 }
 
 void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const {

@@ -22,7 +22,7 @@ set(regrasp_slow_tests
   apps.smooth_models
   apps.states
   apps.trials
-  apps.tutorials
+  apps.pages
   apps.validate
   fuzz.assimp
   fuzz.grasp

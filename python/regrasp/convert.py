@@ -59,7 +59,8 @@ def parser() -> argparse.ArgumentParser:
     parser.add_argument("--tolerance-mm", type=float, default=2, metavar="MM", help="a fingertip "
                         "touches that is no farther from the surface, or deeper in it; so far a contact "
                         "of .csv may be off it (default 2)")
-    parser.add_argument("--fingers", metavar="NAME,...", help="those that must touch (default: all)")
+    parser.add_argument("--fingers", metavar="NAME,...", help="those whose contacts are "
+                        "written, and which must all touch (default: all fingers, where they touch)")
     parser.add_argument("--frame", choices=["object", "world"], help="that contacts of .csv are in, "
                         "where all fingers touch all the time and so the file does not tell")
     parser.add_argument("--mesh-scale", type=float, default=1, metavar="X", help="by which HiDex scales "
@@ -169,17 +170,20 @@ def _write_contacts(options, grasps: formats.HandGrasps, hand: Hand) -> list[str
     points, normals, touching = grasps.touching(hand, _object(options),
                                                 tolerance=options.tolerance_mm / 1000)
     chosen = _chosen(options.fingers, hand)
-    held = np.flatnonzero(touching[:, chosen].all(axis=1))
-    np.savez(options.output, points=points[held][:, chosen], normals=normals[held][:, chosen],
-             grasps=held)
+    touching = touching[:, chosen]
+    kept = np.flatnonzero(touching.all(axis=1) if options.fingers else touching.any(axis=1))
+    np.savez(options.output, points=points[kept][:, chosen], normals=normals[kept][:, chosen],
+             holds=touching[kept], grasps=kept)
     lost = grasps.lost + ["palm and joints"]
-    if len(held) < len(grasps):
-        off = (~touching[:, chosen]).sum(axis=0)
-        lost.append(
-            f"{len(grasps) - len(held)} of {len(grasps)} grasps: a fingertip is not within "
-            f"{options.tolerance_mm:g} mm of the surface: "
-            + ", ".join(f"{hand.fingers[f]} in {n}" for f, n in zip(chosen, off) if n)
-            + "; --fingers says which must be")
+    off = (~touching).sum(axis=0)
+    if off.any():
+        lost.append(f"fingertips that are not within {options.tolerance_mm:g} mm of the surface: "
+                    + ", ".join(f"{hand.fingers[f]} in {n}" for f, n in zip(chosen, off) if n)
+                    + f" of {len(grasps)} grasps")
+    if len(kept) < len(grasps):
+        lost.append(f"{len(grasps) - len(kept)} of {len(grasps)} grasps, in which "
+                    + ("one of --fingers does not touch" if options.fingers
+                       else "no fingertip touches"))
     return lost
 
 

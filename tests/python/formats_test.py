@@ -293,11 +293,27 @@ class FormatsTest(RegraspCase):
                                self.path("a.npz"), "--mu", "0.8", "--out", self.path("out")],
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        # Of all fingers those count that touch; the same verdicts.
         said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--output",
                             self.path("b.npz"))
-        self.assertIn(f"{len(self.grasps)} of {len(self.grasps)} grasps", said)
+        idle, = {"0", "1", "2", "3"} - set(held)
+        self.assertIn(f"finger{idle} in {len(self.grasps)} of {len(self.grasps)} grasps", said)
+        margins = []
+        for name in ("a.npz", "b.npz"):
+            subprocess.run([f"{PROGRAMS}/validate", "--object", CUBE, "--grasps", self.path(name),
+                            "--mu", "0.8", "--out", self.path("out"), "--quiet"], check=True)
+            with np.load(self.path("out/verdicts.npz")) as verdicts:
+                margins.append(verdicts["margin"])
+        np.testing.assert_array_equal(*margins)
         with np.load(self.path("b.npz")) as arrays:
-            self.assertEqual(arrays["points"].shape, (0, 4, 3))
+            self.assertEqual(arrays["points"].shape, (len(self.grasps), 4, 3))
+            self.assertFalse(arrays["holds"][:, int(idle)].any())
+        # Of a finger that must touch and does not no grasp is left.
+        said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--fingers",
+                            "finger" + idle, "--output", self.path("c.npz"))
+        self.assertIn("one of --fingers does not touch", said)
+        with np.load(self.path("c.npz")) as arrays:
+            self.assertEqual(arrays["points"].shape, (0, 1, 3))
 
     def test_poses_of_another_body_than_the_palm(self):
         # In a body's frame the palm is at (1, 2, 3), turned by 90° about z.
