@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import zipfile
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -79,8 +78,10 @@ def read_trajectory(path: str | os.PathLike) -> HandMotion:
             raise ValueError("a single array")
         with arrays:
             found = {key: arrays[key] for key in keys if key in arrays}
-    except (ValueError, zipfile.BadZipFile, EOFError) as error:
-        raise InputError(f"{name}: no NPZ file of arrays: {error}") from None
+    except (FileNotFoundError, IsADirectoryError, PermissionError):
+        raise
+    except Exception as error:  # what an archive that is damaged or made up brings about
+        raise InputError(f"{name}: no NPZ file of arrays: {error}".replace("\n", " ")) from None
     for key in keys:
         _arguments.member(name, found, key)
     try:

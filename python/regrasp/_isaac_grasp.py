@@ -30,7 +30,7 @@ def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
         raise InputError(f"{name}: format_version: 1.0 is needed, found {data['format_version']!r}")
     grasps = _arguments.mapping(f"{name}: grasps", _arguments.member(name, data, "grasps"))
     positions, quaternions, joints, confidence, lost = [], [], [], [], set()
-    joint_names: list[str] = []
+    joint_names: list | None = None
     for key, grasp in grasps.items():
         where = f"{name}: grasps: {key}"
         grasp = _arguments.mapping(where, grasp)
@@ -41,7 +41,7 @@ def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
         w = _arguments.vector(f"{where}: orientation: w", [_arguments.member(f"{where}: orientation", turn, "w")], 1)
         quaternions.append(_poses.unit(f"{where}: orientation", [*w, *xyz]))
         angles = _arguments.mapping(f"{where}: cspace_position", grasp.get("cspace_position") or {})
-        joint_names = joint_names or list(angles)
+        joint_names = list(angles) if joint_names is None else joint_names
         if set(angles) != set(joint_names):
             raise InputError(f"{where}: cspace_position: other joints than in the first grasp")
         joints.append(_arguments.vector(f"{where}: cspace_position", [angles[j] for j in joint_names],
@@ -49,7 +49,7 @@ def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
         confidence.append(_arguments.vector(f"{where}: confidence", [grasp.get("confidence", 1)], 1)[0])
         lost |= set(grasp) - {"position", "orientation", "cspace_position", "confidence"}
     return HandGrasps(np.array(positions).reshape(-1, 3), np.array(quaternions).reshape(-1, 4),
-                      [str(joint) for joint in joint_names],
+                      [str(joint) for joint in joint_names or []],
                       np.array(joints).reshape(len(grasps), -1) if grasps else np.zeros((0, 0)),
                       [str(key) for key in grasps], np.array(confidence), sorted(map(str, lost)))
 
