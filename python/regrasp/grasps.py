@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,6 +10,10 @@ import numpy as np
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
 from .objects import Object
+
+# Grasps that a core judges in about a tenth of a second: half a microsecond, some 64, or
+# milliseconds each.
+_PART, _PART_WITH_ANGLE, _PART_WITH_QUALITY = 200_000, 1500, 30
 
 
 @dataclass(frozen=True)
@@ -67,7 +72,7 @@ class ForceClosure:
 
 def force_closure(points, normals, object: Object | None = None, mu: float | None = None, *,
                   friction_angle_deg: float | None = None, required_angle: bool = False,
-                  quality: bool = False, threads: int = 0) -> ForceClosure:
+                  quality: bool = False, threads: int = 0, progress=None) -> ForceClosure:
     """Decides whether grasps are force closure, with circular friction cones and a certified margin.
 
     Args:
@@ -81,6 +86,8 @@ def force_closure(points, normals, object: Object | None = None, mu: float | Non
         required_angle: whether to compute `ForceClosure.required_angle_deg`.
         quality: whether to compute `ForceClosure.quality`.
         threads: how many work; 0: as many as the machine has cores. Verdicts do not depend on it.
+        progress: called with a line of text after each part of many grasps; Ctrl-C ends the work after
+            the part that is under way.
 
     Raises:
         InputError: names the argument, the grasp and the value.
@@ -122,21 +129,38 @@ def force_closure(points, normals, object: Object | None = None, mu: float | Non
     half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
     single = points.ndim == 2
     shape = (1 if single else len(points), points.shape[-2], 3)
-    decisions, lower, _, required, worth = _regrasp.judge_grasps(
-        _in_space(points, shape), _in_space(normals, shape), object._core if object else None,
-        dimension, half_angle, required_angle, quality,
-        _arguments.integer("threads", threads, 0, 4096))
+    flat = _in_space(points, shape), _in_space(normals, shape)
+    threads = _arguments.integer("threads", threads, 0, 4096)
+    part = (threads or os.cpu_count() or 1) * (
+        _PART_WITH_QUALITY if quality else _PART_WITH_ANGLE if required_angle else _PART)
+    decisions, lower, required, worth = _in_parts(
+        lambda begin, end: _regrasp.judge_grasps(
+            flat[0][begin:end], flat[1][begin:end], object._core if object else None, dimension,
+            half_angle, required_angle, quality, threads),
+        shape[0], part, _arguments.callback("progress", progress))
     holds = decisions == 2
     too_close = decisions == 1
     angles = np.degrees(required) if required_angle else None
     worth = worth if quality else None
     if not single:
         return ForceClosure(holds, too_close, lower, angles, worth)
-    asked = None if object is None else (
-        object, _in_space(points, shape)[0], _in_space(normals, shape)[0], half_angle)
+    asked = None if object is None else (object, flat[0][0], flat[1][0], half_angle)
     return ForceClosure(bool(holds[0]), bool(too_close[0]), float(lower[0]),
                         None if angles is None else float(angles[0]),
                         None if worth is None else float(worth[0]), asked)
+
+
+def _in_parts(judge, count: int, part: int, progress) -> list[np.ndarray]:
+    """Decisions, margins, required half-angles and qualities of all grasps, judged part by part:
+    between them the interpreter sees to signals."""
+    results = []
+    for begin in range(0, max(count, 1), part):
+        end = min(begin + part, count)
+        decisions, lower, _, required, worth = judge(begin, end)
+        results.append((decisions, lower, required, worth))
+        if progress is not None and count > part:
+            progress(f"judged {end} of {count} grasps")
+    return [np.concatenate(columns) for columns in zip(*results)]
 
 
 def _check_unit(normals: np.ndarray) -> None:

@@ -74,7 +74,7 @@ class ArgumentsTest(RegraspCase):
         points = np.random.default_rng(0).normal(size=(3, 4, 3))
         normals = points / np.linalg.norm(points, axis=-1, keepdims=True)
         self.check(regrasp.force_closure, points=points, normals=normals, object=self.cube, mu=0.5,
-                   quality=True, required_angle=False, threads=1)
+                   quality=True, required_angle=False, threads=1, progress=None)
         self.check(regrasp.force_closure, points=points, normals=normals, friction_angle_deg=20)
 
     def test_of_objects(self):

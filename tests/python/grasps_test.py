@@ -1,5 +1,7 @@
 """Force closure of one grasp and of many."""
 
+import os
+import signal
 import unittest
 
 import numpy as np
@@ -64,6 +66,26 @@ class GraspsTest(RegraspCase):
             alone = regrasp.force_closure(points[i], normals[i], cube, mu=0.6, quality=True)
             self.assertEqual((alone.holds, alone.margin, alone.quality),
                              (few.holds[i], few.margin[i], few.quality[i]))
+
+    def test_many_are_judged_in_parts_between_which_work_may_end(self):
+        points, normals = random_grasps(4000, 4, 8)
+        told = []
+        parts = regrasp.force_closure(points, normals, mu=0.6, threads=1, required_angle=True,
+                                      progress=told.append)
+        self.assertEqual(told[-1], "judged 4000 of 4000 grasps")
+        self.assertEqual(len(told), 3)
+        whole = regrasp.force_closure(points, normals, mu=0.6, threads=3, required_angle=True)
+        np.testing.assert_array_equal(parts.margin, whole.margin)
+        np.testing.assert_array_equal(parts.required_angle_deg, whole.required_angle_deg)
+
+        def stop(text):
+            told.append(text)
+            os.kill(os.getpid(), signal.SIGINT)
+        told.clear()
+        with self.assertRaises(KeyboardInterrupt):
+            regrasp.force_closure(points, normals, mu=0.6, threads=1, required_angle=True,
+                                  progress=stop)
+        self.assertEqual(len(told), 1)
 
     def test_monotone_in_friction_and_independent_of_the_frame(self):
         points, normals = random_grasps(500, 5, 3)
