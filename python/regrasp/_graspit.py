@@ -41,6 +41,9 @@ def read_graspit(path: str | os.PathLike) -> HandGrasps:
         world = xml.etree.ElementTree.parse(path).getroot()
     except xml.etree.ElementTree.ParseError as error:
         raise InputError(f"{name}: no XML: {error}") from None
+    if world.tag == "virtual_contacts":
+        raise InputError(f"{name}: contacts on links of GraspIt!'s own model of a hand, whose frames are "
+                         "not known here; save the world instead")
     bodies, robots = world.findall("graspableBody"), world.findall("robot")
     if world.tag != "world" or not bodies or not robots:
         raise InputError(f"{name}: a world with a graspableBody and a robot is needed, found "

@@ -265,6 +265,8 @@ class FormatsTest(RegraspCase):
         np.testing.assert_allclose(found.positions, self.grasps.positions[:1], atol=1e-12)
         np.testing.assert_array_equal(found.in_order_of(self.hand), self.grasps.joints[:1])
         self.assertEqual(found.lost, ["1 obstacle"])
+        contacts = self.path("contacts.xml", "<virtual_contacts><robot_name>a</robot_name></virtual_contacts>")
+        self.refuses([contacts, "save the world"], formats.read_graspit, contacts)
         for change, words in [(("<world>", "<worlds>"), ["no XML"]),
                               (("<robot>", "<robots>"), ["no XML"]),
                               (("graspableBody", "body"), ["0 and 1"]),
