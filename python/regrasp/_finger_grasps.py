@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import _arguments, _regrasp
+from . import _arguments
 from ._regrasp import InputError
 from .objects import Object
 from .plans import Plan
@@ -67,7 +67,7 @@ class FingerGrasps:
         tolerance = _arguments.number("tolerance", tolerance, 0)
         holds = self.holds
         points, normals = self.points.copy(), self.normals.copy()
-        points[holds], normals[holds] = _regrasp.nearest(object._core, self.points[holds])
+        points[holds], normals[holds] = object.nearest(self.points[holds])
         off = np.linalg.norm(points - self.points, axis=-1) * object.scale
         self._check("points", off > tolerance, lambda at:
                     f"{1000 * off[at]:.3g} mm off {object.name}, {1000 * tolerance:g} mm are allowed")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from . import _arguments, _html, _poses, _regrasp
+from . import _arguments, _html, _poses
 from ._hand_motion import hand_plan, paths_of
 from ._regrasp import InputError
 from .hands import Hand
@@ -119,8 +119,7 @@ class HandGrasps:
         tips = hand.tips(self.in_order_of(hand))
         turned = np.einsum("nij,nkj->nki", _poses.matrices(self.quaternions), tips)
         centres = (turned + self.positions[:, None]) / object.scale
-        points, normals = _regrasp.nearest(object._core,
-                                           np.ascontiguousarray(centres.reshape(-1, 3)))
+        points, normals = object.nearest(centres.reshape(-1, 3))
         points, normals = points.reshape(centres.shape), normals.reshape(centres.shape)
         away = centres - points
         side = np.where(np.einsum("nki,nki->nk", away, normals) > 0, -1, 1)  # -1: in the object

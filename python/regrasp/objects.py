@@ -112,6 +112,32 @@ class Object:
                                             _arguments.number("scale", scale, 0),
                                             _arguments.text("name", name)))
 
+    def nearest(self, points) -> tuple[np.ndarray, np.ndarray]:
+        """The places on the surface that are nearest to points, on all cores.
+
+        Args:
+            points: (N, 3), or (N, 2) of a polygon, in the object's unit.
+
+        Returns:
+            Places of the same shape, and unit normals into the object there.
+
+        >>> place, normal = Object.read("models/cube.obj").nearest([[0.05, 0.01, 0.02]])
+        >>> place.tolist(), normal.tolist()
+        ([[0.03, 0.01, 0.02]], [[-1.0, 0.0, 0.0]])
+        """
+        shape = f"(N, {self.dimension})"
+        points = _arguments.numbers("points", points, shape, (2,))
+        if points.shape[1] != self.dimension:
+            raise InputError(f"points: the shape is {shape}, found {points.shape}")
+        padded = np.zeros((len(points), 3))
+        padded[:, :self.dimension] = points
+        # In parts, between which the interpreter sees to signals.
+        part = 20_000
+        found = [_regrasp.nearest(self._core, padded[begin:begin + part])
+                 for begin in range(0, max(len(points), 1), part)]
+        places, normals = (np.concatenate(columns)[:, :self.dimension] for columns in zip(*found))
+        return places, normals
+
     def write(self, path: str | os.PathLike) -> None:
         """Writes the file that the programs read as this object; of one made from arrays only."""
         if not self._core.text:

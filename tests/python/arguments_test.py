@@ -84,6 +84,7 @@ class ArgumentsTest(RegraspCase):
                    faces=self.cube.triangles, scale=1, name="object.obj")
         self.check(regrasp.Object.from_polygon, outline=[[0, 0], [1, 0], [0, 1]], holes=[], scale=1,
                    name="object.wkt")
+        self.check(self.cube.nearest, points=np.zeros((2, 3)))
         self.check(regrasp.Hand.read, path="models/hands/ring4.json")
         self.check(self.hand.tips, joints=np.zeros(16))
 
