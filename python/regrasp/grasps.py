@@ -54,9 +54,11 @@ class ForceClosure:
         if np.ndim(self.holds) == 0:
             verdict = ("force closure" if self.holds else
                        "too close to call" if self.too_close else "no force closure")
-            rows = [["verdict", verdict], ["margin", f"{self.margin:.4g}"]]
+            rows = [["verdict", verdict]]
+            if 1e-9 < abs(self.margin) < 1e9:  # beyond it is the bound of what was clear early
+                rows.append(["margin", f"{self.margin:.4g} or more"])
             if self.required_angle_deg is not None:
-                rows.append(["required half-angle", f"{self.required_angle_deg:.4g}°"])
+                rows.append(["required half-angle", f"{self.required_angle_deg:.2f}°"])
             if self.quality is not None:
                 rows.append(["quality", f"{self.quality:.4g}"])
             return _html.table(["", "of one grasp"], rows)

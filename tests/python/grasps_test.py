@@ -117,6 +117,8 @@ class GraspsTest(RegraspCase):
         self.assertIn(f"<td>{many.holds.sum()}</td>", page)
         one = regrasp.force_closure(TETRAHEDRON, -TETRAHEDRON, mu=0.5)._repr_html_()
         self.assertIn("<td>force closure</td>", one)
+        self.assertNotIn("margin", one)
+        self.assertIn("-0.5 or more", regrasp.force_closure(TETRAHEDRON[:2], -TETRAHEDRON[:2], mu=0.5)._repr_html_())
 
     def test_a_notebook_draws_a_grasp_of_an_object(self):
         cube = regrasp.Object.read("models/cube.obj")
