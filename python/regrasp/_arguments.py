@@ -23,10 +23,24 @@ def shown(value) -> str:
 
 def numbers(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
     """Finite float64 values with so many axes; `shapes` says which, for the message."""
-    array = numbers_or_nan(name, value, shapes, dimensions)
+    return finite(name, numbers_or_nan(name, value, shapes, dimensions))
+
+
+def finite(name: str, array: np.ndarray) -> np.ndarray:
+    """The array, if all its values are finite."""
     if not np.isfinite(array).all():
         place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
         raise InputError(f"{name}{list(place)}: {array[place]} is not finite")
+    return array
+
+
+def flags(name: str, value, shape: tuple[int, ...]) -> np.ndarray:
+    """An array of truth values of that shape."""
+    array = _array(name, value, str(shape))
+    if array.dtype != bool:
+        raise InputError(f"{name}: truth values are needed, found an array of {array.dtype}")
+    if array.shape != shape:
+        raise InputError(f"{name}: the shape is {shape}, found {array.shape}")
     return array
 
 

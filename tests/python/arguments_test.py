@@ -75,7 +75,8 @@ class ArgumentsTest(RegraspCase):
         normals = points / np.linalg.norm(points, axis=-1, keepdims=True)
         self.check(regrasp.force_closure, points=points, normals=normals, object=self.cube, mu=0.5,
                    quality=True, required_angle=False, threads=1, progress=None)
-        self.check(regrasp.force_closure, points=points, normals=normals, friction_angle_deg=20)
+        self.check(regrasp.force_closure, points=points, normals=normals, friction_angle_deg=20,
+                   touching=np.ones((3, 4), bool))
 
     def test_of_objects(self):
         self.check(regrasp.Object.read, path="models/cube.obj", scale=1, repair=False, shells=None,

@@ -87,6 +87,39 @@ class GraspsTest(RegraspCase):
                                   progress=stop)
         self.assertEqual(len(told), 1)
 
+    def test_contacts_that_do_not_touch_do_not_count(self):
+        points, normals = random_grasps(300, 5, 9)
+        touching = np.random.default_rng(1).uniform(size=(300, 5)) < 0.75
+        touching[7] = False
+        cube = regrasp.Object.read("models/cube.obj")
+        given = np.where(touching[..., None], points, np.nan), np.where(touching[..., None], normals, 9)
+        found = regrasp.force_closure(*given, cube, mu=0.8, touching=touching, required_angle=True)
+        self.assertTrue(found.holds.any() and not found.holds.all())
+        for i in range(0, 300, 7):
+            if not touching[i].any():
+                self.assertEqual((found.holds[i], np.isnan(found.margin[i])), (False, True))
+                continue
+            alone = regrasp.force_closure(points[i][touching[i]], normals[i][touching[i]], cube, mu=0.8,
+                                          required_angle=True)
+            self.assertEqual((alone.holds, alone.margin), (found.holds[i], found.margin[i]))
+            np.testing.assert_array_equal(alone.required_angle_deg, found.required_angle_deg[i])
+        every = regrasp.force_closure(points, normals, mu=0.8)
+        self.assertFalse(np.array_equal(every.holds, found.holds))
+        np.testing.assert_array_equal(every.margin, regrasp.force_closure(
+            points, normals, mu=0.8, touching=np.ones((300, 5), bool)).margin)
+        nobody = regrasp.force_closure(points, normals, cube, mu=0.8, touching=np.zeros((300, 5), bool),
+                                       quality=True)
+        self.assertFalse(nobody.holds.any() or nobody.quality.any())
+        self.assertFalse(regrasp.force_closure(points[0], normals[0], mu=0.8, touching=[False] * 5).holds)
+        self.refuses(["touching", "(300, 5)", "(300, 4)"], regrasp.force_closure, points, normals, mu=1,
+                     touching=touching[:, :4])
+        self.refuses(["touching", "float64"], regrasp.force_closure, points, normals, mu=1,
+                     touching=touching * 1.)
+        broken = points.copy()
+        broken[np.argwhere(touching)[0][0], np.argwhere(touching)[0][1], 2] = np.nan
+        self.refuses(["points[0, ", "nan"], regrasp.force_closure, broken, normals, mu=1,
+                     touching=touching)
+
     def test_monotone_in_friction_and_independent_of_the_frame(self):
         points, normals = random_grasps(500, 5, 3)
         before = np.zeros(500, bool)
