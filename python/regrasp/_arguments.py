@@ -144,7 +144,8 @@ def of_type(name: str, value, kind: type, hint: str = ""):
     if isinstance(value, kind):
         return value
     article = "an" if kind.__name__[0] in "AEIOU" else "a"
-    raise InputError(f"{name}: {article} {kind.__name__} is needed, found {type(value).__name__}{hint}")
+    raise InputError(f"{name}: {article} {kind.__name__} is needed, found "
+                     f"{type(value).__name__}{hint}")
 
 
 def vector(name: str, value, length: int) -> np.ndarray:

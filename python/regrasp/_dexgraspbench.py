@@ -7,8 +7,10 @@ import os
 import numpy as np
 
 from . import _arguments, _dict_file, _poses
+from ._arguments import member, vector
 from ._hand_grasps import HandGrasps
 from ._regrasp import InputError
+from ._types import ArrayLike
 
 
 def read_dexgraspbench(path: str | os.PathLike) -> HandGrasps:
@@ -20,13 +22,13 @@ def read_dexgraspbench(path: str | os.PathLike) -> HandGrasps:
     """
     name = path = _arguments.path("path", path)
     data = _dict_file.read_dict(path)
-    qpos = _arguments.numbers(f"{name}: grasp_qpos", _arguments.member(name, data, "grasp_qpos"),
+    qpos = _arguments.numbers(f"{name}: grasp_qpos", member(name, data, "grasp_qpos"),
                               "(7 + J,) or (N, 7 + J)", (1, 2))
-    pose = _arguments.vector(f"{name}: obj_pose", _arguments.member(name, data, "obj_pose"), 7)
+    pose = vector(f"{name}: obj_pose", member(name, data, "obj_pose"), 7)
     return _grasps(name, data, "grasp_qpos", np.atleast_2d(qpos), pose)
 
 
-def read_bodex(path: str | os.PathLike, *, object_pose=None) -> HandGrasps:
+def read_bodex(path: str | os.PathLike, *, object_pose: ArrayLike | None = None) -> HandGrasps:
     """Reads a dictionary as BODex saves it (`robot_pose`, `joint_names`), without executing anything in
     it: of the stages of each grasp the second, in which the fingers touch.
 
@@ -42,19 +44,19 @@ def read_bodex(path: str | os.PathLike, *, object_pose=None) -> HandGrasps:
     data = _dict_file.read_dict(path)
     where = f"{name}: robot_pose"
     shape = "(1, N, stages, 7 + J)"
-    stages = _arguments.numbers(where, _arguments.member(name, data, "robot_pose"), shape, (4,))
+    stages = _arguments.numbers(where, member(name, data, "robot_pose"), shape, (4,))
     if stages.shape[0] != 1 or stages.shape[2] < 2:
         raise InputError(f"{where}: the shape is {shape} with two stages or more, "
                          f"found {stages.shape}")
     if object_pose is not None:
-        pose = _arguments.vector("object_pose", object_pose, 7)
+        pose = vector("object_pose", object_pose, 7)
         _poses.unit("object_pose", pose[3:])
     elif "obj_pose" in data:
         pose = _arguments.numbers(f"{name}: obj_pose", data["obj_pose"], "(1, 7)", (1, 2)).ravel()
     else:
         raise InputError(f"object_pose: {name} has no obj_pose, it is to be given")
     grasps = _grasps(name, data, "robot_pose", stages[0, :, 1],
-                     _arguments.vector(f"{name}: obj_pose", pose, 7))
+                     vector(f"{name}: obj_pose", pose, 7))
     grasps.lost.append("all stages of robot_pose but the second")
     return grasps
 
@@ -75,7 +77,8 @@ def _grasps(name: str, data: dict, key: str, qpos: np.ndarray, pose: np.ndarray)
     stem = os.path.splitext(os.path.basename(name))[0]
     lost = set(data) - {key, "obj_pose", "joint_names", "obj_scale"}
     if "obj_scale" in data:
-        scale = _arguments.numbers(f"{name}: obj_scale", data["obj_scale"], "() or (1,)", (0, 1)).ravel()
+        scale = _arguments.numbers(f"{name}: obj_scale", data["obj_scale"], "() or (1,)", (0, 1))
+        scale = scale.ravel()
         # BODex has it for each axis in some versions.
         if len(scale) == 0 or (scale != scale[0]).any():
             raise InputError(f"{name}: obj_scale: one scale is needed, found "

@@ -9,10 +9,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import _arguments
+from . import _arguments, _html
 from ._regrasp import InputError
 from .objects import Object
 from .plans import Plan
+
+_ROWS = 10
+"""That a notebook shows."""
 
 
 @dataclass
@@ -46,6 +49,13 @@ class FingerGrasps:
 
     def __len__(self) -> int:
         return len(self.names)
+
+    def _repr_html_(self) -> str:
+        held = [", ".join(map(str, np.flatnonzero(row))) for row in self.holds[:_ROWS]]
+        more = f"{len(self)} grasps" + (f", the first {_ROWS}" if len(self) > _ROWS else "")
+        lost = f"; not carried over: {', '.join(self.lost)}" if self.lost else ""
+        return _html.text(more + lost) + _html.table(["grasp", "fingers"],
+                                                     [list(row) for row in zip(self.names, held)])
 
     @property
     def holds(self) -> np.ndarray:

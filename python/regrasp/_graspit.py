@@ -9,6 +9,7 @@ import xml.etree.ElementTree
 import numpy as np
 
 from . import _arguments, _poses
+from ._arguments import vector
 from ._hand_grasps import HandGrasps
 from ._regrasp import InputError
 
@@ -25,7 +26,7 @@ def _graspit_pose(name: str, element) -> tuple[np.ndarray, np.ndarray]:
         values = np.array([float(number) for number in match.groups()])
     except ValueError:
         raise InputError(f"{name}: transform: seven numbers are needed, found {text!r}") from None
-    values = _arguments.vector(f"{name}: transform", values, 7)
+    values = vector(f"{name}: transform", values, 7)
     return values[4:] / 1000, _poses.unit(f"{name}: transform", values[:4])
 
 
@@ -55,10 +56,10 @@ def read_graspit(path: str | os.PathLike) -> HandGrasps:
         joints = np.array([float(number) for number in text])
     except ValueError:
         raise InputError(f"{name}: robot: dofValues: numbers are needed") from None
-    _arguments.vector(f"{name}: robot: dofValues", joints, len(joints))
+    vector(f"{name}: robot: dofValues", joints, len(joints))
     lost = [f"{len(world.findall(tag))} {tag}" for tag in ("obstacle", "connection", "camera")
             if world.findall(tag)]
     lost += [f"{len(items) - 1} other {tag}" for tag, items in
              (("graspableBody", bodies), ("robot", robots)) if len(items) > 1]
-    return HandGrasps((_poses.matrices(back) @ palm + position)[None], _poses.product(back, turn)[None], [],
-                      joints[None], [os.path.splitext(os.path.basename(name))[0]], np.ones(1), lost)
+    return HandGrasps((_poses.matrices(back) @ palm + position)[None],
+                      _poses.product(back, turn)[None], [], joints[None], [os.path.splitext(os.path.basename(name))[0]], np.ones(1), lost)

@@ -10,6 +10,7 @@ import numpy as np
 from . import _arguments, _html, _poses
 from ._hand_motion import hand_plan, paths_of
 from ._regrasp import InputError
+from ._types import ArrayLike
 from .hands import Hand
 from .objects import Object
 
@@ -41,8 +42,8 @@ class HandGrasps:
         Raises:
             InputError: the arrays have other shapes than each other, or values that are not finite.
         """
-        self.names, self.joint_names = _arguments.texts("names", self.names), _arguments.texts("joint_names",
-                                                                            self.joint_names)
+        self.names = _arguments.texts("names", self.names)
+        self.joint_names = _arguments.texts("joint_names", self.joint_names)
         count, joints = len(self.names), len(self.joint_names)
         for name, shape in [("positions", (count, 3)), ("quaternions", (count, 4)),
                             ("joints", (count, joints)), ("confidence", (count,))]:
@@ -67,7 +68,7 @@ class HandGrasps:
         return _html.text(f"{more}, {self.joints.shape[1]} joints{lost}") + _html.table(
             ["grasp", "palm (m)", "quaternion w, x, y, z", "confidence"], rows)
 
-    def with_palm_at(self, palm) -> HandGrasps:
+    def with_palm_at(self, palm: ArrayLike) -> HandGrasps:
         """The same grasps, where the poses of a file are not of the palm but of another body of the
         hand, as of its wrist.
 

@@ -7,6 +7,7 @@ import os
 import numpy as np
 
 from . import _arguments, _poses
+from ._arguments import mapping, member, vector
 from ._hand_grasps import HandGrasps
 from ._regrasp import InputError
 
@@ -21,32 +22,32 @@ def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
     name = path = _arguments.path("path", path)
     try:
         with open(path, encoding="utf-8") as file:
-            data = _arguments.mapping(name, yaml.safe_load(file))
+            data = mapping(name, yaml.safe_load(file))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise InputError(f"{name}: no YAML: {error}".replace("\n", " ")) from None
     if data.get("format") != "isaac_grasp":
         raise InputError(f"{name}: format: isaac_grasp is needed, found {data.get('format')!r}")
     if str(data.get("format_version", "1.0")) not in ("1.0", "1"):
         raise InputError(f"{name}: format_version: 1.0 is needed, found {data['format_version']!r}")
-    grasps = _arguments.mapping(f"{name}: grasps", _arguments.member(name, data, "grasps"))
+    grasps = mapping(f"{name}: grasps", member(name, data, "grasps"))
     positions, quaternions, joints, confidence, lost = [], [], [], [], set()
     joint_names: list | None = None
     for key, grasp in grasps.items():
         where = f"{name}: grasps: {key}"
-        grasp = _arguments.mapping(where, grasp)
-        positions.append(_arguments.vector(f"{where}: position", _arguments.member(where, grasp, "position"), 3))
-        turn = _arguments.mapping(f"{where}: orientation", _arguments.member(where, grasp, "orientation"))
-        turn_xyz = _arguments.member(f"{where}: orientation", turn, "xyz")
-        xyz = _arguments.vector(f"{where}: orientation: xyz", turn_xyz, 3)
-        w = _arguments.vector(f"{where}: orientation: w", [_arguments.member(f"{where}: orientation", turn, "w")], 1)
+        grasp = mapping(where, grasp)
+        positions.append(vector(f"{where}: position", member(where, grasp, "position"), 3))
+        turn = mapping(f"{where}: orientation", member(where, grasp, "orientation"))
+        turn_xyz = member(f"{where}: orientation", turn, "xyz")
+        xyz = vector(f"{where}: orientation: xyz", turn_xyz, 3)
+        w = vector(f"{where}: orientation: w", [member(f"{where}: orientation", turn, "w")], 1)
         quaternions.append(_poses.unit(f"{where}: orientation", [*w, *xyz]))
-        angles = _arguments.mapping(f"{where}: cspace_position", grasp.get("cspace_position") or {})
+        angles = mapping(f"{where}: cspace_position", grasp.get("cspace_position") or {})
         joint_names = list(angles) if joint_names is None else joint_names
         if set(angles) != set(joint_names):
             raise InputError(f"{where}: cspace_position: other joints than in the first grasp")
-        joints.append(_arguments.vector(f"{where}: cspace_position", [angles[j] for j in joint_names],
+        joints.append(vector(f"{where}: cspace_position", [angles[j] for j in joint_names],
                               len(joint_names)) if angles else np.zeros(0))
-        confidence.append(_arguments.vector(f"{where}: confidence", [grasp.get("confidence", 1)], 1)[0])
+        confidence.append(vector(f"{where}: confidence", [grasp.get("confidence", 1)], 1)[0])
         lost |= set(grasp) - {"position", "orientation", "cspace_position", "confidence"}
     return HandGrasps(np.array(positions).reshape(-1, 3), np.array(quaternions).reshape(-1, 4),
                       [str(joint) for joint in joint_names or []],

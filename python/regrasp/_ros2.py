@@ -105,7 +105,8 @@ def write_mcap(path: str | os.PathLike, motion: HandMotion, hand: Hand | None = 
         tips = hand.tips(hand.ordered(motion.joint_names, motion.joints))
         names = [f"{finger}_tip" for finger in hand.fingers]
     if len({*frames, *names}) < 2 + len(names):
-        raise InputError(f"palm_frame: frames need different names, found {', '.join([*frames, *names])}")
+        raise InputError("palm_frame: frames need different names, found "
+                         + ", ".join([*frames, *names]))
     writer = _mcap.Writer("ros2", f"regrasp {version}")
     # Of rosbag2; empty: its defaults.
     metadata = {"offered_qos_profiles": ""}

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
+from ._types import ArrayLike, Progress
 from .objects import Object
 
 # Grasps that a core judges in about a tenth of a second: half a microsecond, some 64, or
@@ -72,10 +73,10 @@ class ForceClosure:
         return _html.table(["", f"of {len(self.holds)} grasps"], rows)
 
 
-def force_closure(points, normals, object: Object | None = None, mu: float | None = None, *,
-                  friction_angle_deg: float | None = None, touching=None,
+def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None = None,
+                  mu: float | None = None, *, friction_angle_deg: float | None = None, touching: ArrayLike | None = None,
                   required_angle: bool = False, quality: bool = False, threads: int = 0,
-                  progress=None) -> ForceClosure:
+                  progress: Progress = None) -> ForceClosure:
     """Decides whether grasps are force closure, with circular friction cones and a certified margin.
 
     Args:
@@ -171,7 +172,11 @@ def _contacts(points, normals, touching) -> tuple[np.ndarray, np.ndarray, np.nda
 
 
 def _judge(judge, points, normals, touching, part: int, progress) -> list[np.ndarray]:
-    """Decisions, margins, required half-angles and qualities of all grasps; `touching` (N, k) or None."""
+    """Decisions, margins, required half-angles and qualities of all grasps.
+
+    Args:
+        touching: (N, k), or None where all do.
+    """
     if touching is None or touching.all():
         return _in_parts(judge, points, normals, part, progress)
     counts = touching.sum(axis=1)
@@ -194,8 +199,8 @@ def _judge(judge, points, normals, touching, part: int, progress) -> list[np.nda
 
 
 def _in_parts(judge, points, normals, part: int, progress) -> list[np.ndarray]:
-    """The same of grasps all of whose contacts touch, part by part: between them the interpreter sees to
-    signals."""
+    """The same of grasps all of whose contacts touch, part by part: between them the interpreter
+    sees to signals."""
     results, count = [], len(points)
     for begin in range(0, max(count, 1), part):
         end = min(begin + part, count)

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _arguments, _regrasp
 from ._regrasp import InputError
+from ._types import ArrayLike
 
 
 class Hand:
@@ -47,7 +48,7 @@ class Hand:
         """(F,) radii of the fingertips' balls, metres."""
         return np.array(self._core.radii)
 
-    def tips(self, joints) -> np.ndarray:
+    def tips(self, joints: ArrayLike) -> np.ndarray:
         """Centres of the fingertips' balls in the palm's frame, metres.
 
         Args:
@@ -66,7 +67,7 @@ class Hand:
         tips = self._core.tips(np.atleast_2d(joints))
         return tips[0] if joints.ndim == 1 else tips
 
-    def ordered(self, names: list[str], joints) -> np.ndarray:
+    def ordered(self, names: list[str], joints: ArrayLike) -> np.ndarray:
         """Angles in the order of `joint_names`.
 
         Args:

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _arguments, _regrasp
 from ._regrasp import InputError
+from ._types import ArrayLike, Progress, Sequence
 
 _SHELLS = {None: None, "union": _regrasp.Shells.union, "largest": _regrasp.Shells.largest}
 
@@ -25,7 +26,7 @@ class Object:
 
     @classmethod
     def read(cls, path: str | os.PathLike, *, scale: float = 1, repair: bool = False,
-             shells: str | None = None, progress=None) -> Object:
+             shells: str | None = None, progress: Progress = None) -> Object:
         """Reads a mesh (OBJ, OFF, PLY, STL, GLB, 3MF, …) or a polygon (WKT).
 
         Args:
@@ -48,7 +49,8 @@ class Object:
             _arguments.callback("progress", progress)))
 
     @classmethod
-    def from_arrays(cls, vertices, faces, *, scale: float = 1, name: str = "object.obj") -> Object:
+    def from_arrays(cls, vertices: ArrayLike, faces: ArrayLike, *, scale: float = 1,
+                    name: str = "object.obj") -> Object:
         """A solid of a closed triangle mesh.
 
         Args:
@@ -81,7 +83,7 @@ class Object:
             vertices, faces, _arguments.number("scale", scale, 0), _arguments.text("name", name)))
 
     @classmethod
-    def from_polygon(cls, outline, holes=(), *, scale: float = 1,
+    def from_polygon(cls, outline: ArrayLike, holes: Sequence[ArrayLike] = (), *, scale: float = 1,
                      name: str = "object.wkt") -> Object:
         """A planar object.
 
@@ -112,7 +114,7 @@ class Object:
                                             _arguments.number("scale", scale, 0),
                                             _arguments.text("name", name)))
 
-    def nearest(self, points) -> tuple[np.ndarray, np.ndarray]:
+    def nearest(self, points: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """The places on the surface that are nearest to points, on all cores.
 
         Args:

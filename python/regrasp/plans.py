@@ -10,6 +10,7 @@ import os
 
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
+from ._types import ArrayLike, GivenGrasp, Progress
 from .hands import Hand
 from .objects import Object
 
@@ -137,11 +138,11 @@ def _describe(step: dict) -> str:
     return "the object moves in the hand"
 
 
-def plan(object: Object, start, goal, mu: float | None = None, *,
+def plan(object: Object, start: GivenGrasp, goal: GivenGrasp, mu: float | None = None, *,
          friction_angle_deg: float | None = None, planner: str = "auto", optimize: str = "steps",
          contacts: int | None = None, clusters: int | None = None, seed: int = 0,
          min_quality: float = 0.01, finger_radius: float = 0, time_limit: float | None = None,
-         progress=None) -> Plan:
+         progress: Progress = None) -> Plan:
     """Finds a sequence from one grasp to another with force closure at every instant.
 
     The same arguments give the same plan, bit for bit, and the same that the program `plan` writes.
@@ -199,10 +200,11 @@ def plan(object: Object, start, goal, mu: float | None = None, *,
 
 def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
                  friction_angle_deg: float | None = None, turn: tuple[str, float] | None = None,
-                 start=None, goal=None, start_pose=None, goal_pose=None,
+                 start: GivenGrasp | None = None, goal: GivenGrasp | None = None,
+                 start_pose: ArrayLike | None = None, goal_pose: ArrayLike | None = None,
                  reserve: str = "preferred", clearance: float = 0.001, seed: int = 0,
                  min_quality: float = 0.01, time_limit: float | None = None,
-                 progress=None) -> Plan:
+                 progress: Progress = None) -> Plan:
     """Finds how a hand turns an object, moves it, or changes its grasp: with all joints, and without
     collisions.
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
+from ._types import Progress
 from .hands import Hand
 from .objects import Object
 from .plans import Plan
@@ -94,7 +95,7 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
              squeeze: float | None = None, shake: float = 0.01, tolerance: float = 0.001,
              stress: bool = False, hand: Hand | None = None, replay: str | None = None,
              tolerance_mm: float = 2, tolerance_deg: float = 5, feedback: bool = True,
-             progress=None) -> Report:
+             progress: Progress = None) -> Report:
     """Checks a plan analytically, replays it with frictional point fingers or by a hand, and disturbs
     the object.
 

@@ -46,12 +46,15 @@ class ExamplesTest(unittest.TestCase):
             if inspect.isclass(item):
                 functions = [f for key, f in inspect.getmembers(item, inspect.isroutine)
                              if not key.startswith("_") and key in vars(item)]
-                functions += [p.fget for key, p in vars(item).items() if isinstance(p, property)]
+                functions += [p.fget for p in vars(item).values() if isinstance(p, property)]
             else:
                 functions = [item]
             for function in functions:
-                hints = inspect.get_annotations(inspect.unwrap(getattr(function, "__func__", function)))
-                self.assertIn("return", hints, f"{name}: {function.__qualname__}")
+                function = getattr(function, "__func__", function)
+                hints = inspect.get_annotations(function)
+                arguments = [argument for argument in inspect.signature(function).parameters
+                             if argument not in ("self", "cls")]
+                self.assertEqual(set(hints), {*arguments, "return"}, function.__qualname__)
                 checked += 1
         self.assertGreater(checked, 40)
 

@@ -65,6 +65,12 @@ class HidexTest(RegraspCase):
         self.assertEqual(found.names, ["row_1", "row_3", "row_4"])
         self.assertEqual(found.lost, ["the object's poses"])
 
+    def test_a_notebook_shows_which_fingers_touch(self):
+        page = formats.FingerGrasps(POINTS, NORMALS, ["a", "b", "<c>"], ["poses"])._repr_html_()
+        self.assertIn("<td>b</td><td>0, 1, 3</td>", page)
+        self.assertIn("not carried over: poses", page)
+        self.assertNotIn("<c>", page)
+
     def test_contacts_in_the_world(self):
         path = self.write(np.concatenate(row) for row in self.rows(world=True))
         self.assert_read(formats.read_hidex(path))
