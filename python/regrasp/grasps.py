@@ -74,9 +74,9 @@ class ForceClosure:
 
 
 def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None = None,
-                  mu: float | None = None, *, friction_angle_deg: float | None = None, touching: ArrayLike | None = None,
-                  required_angle: bool = False, quality: bool = False, threads: int = 0,
-                  progress: Progress = None) -> ForceClosure:
+                  mu: float | None = None, *, friction_angle_deg: float | None = None,
+                  touching: ArrayLike | None = None, required_angle: bool = False,
+                  quality: bool = False, threads: int = 0, progress: Progress = None) -> ForceClosure:
     """Decides whether grasps are force closure, with circular friction cones and a certified margin.
 
     Args:
