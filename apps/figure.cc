@@ -28,7 +28,7 @@
 #include "planner/plan/plan_io.h"
 #include "render/figures/contact_space_figure.h"
 #include "render/figures/figure_mark.h"
-#include "render/figures/plan_figure.h"
+#include "render/figures/make_panels.h"
 #include "render/figures/solid_figure.h"
 #include "render/frames/step_scene.h"
 
@@ -84,8 +84,6 @@ struct FigureProgram {
   [[nodiscard]] object::ObjectFile ReadTold(const plan::Plan& plan) const;
   [[nodiscard]] plan::Plan Located(const plan::Plan& plan, const object::Object& object) const;
   void CheckHasContactSpace(const plan::Plan& plan) const;
-  [[nodiscard]] std::unique_ptr<render::FigurePanels> MakePanels(const object::Object& object,
-                                                                 const plan::Plan& plan) const;
   void WriteFigures(const object::Object& object, const plan::Plan& plan) const;
   void WriteContactSpace(const object::Polygon& polygon, const plan::Plan& plan,
                          FigureFolder& folder) const;
@@ -127,8 +125,8 @@ void FigureProgram::AddTo(CLI::App& app) {
   AddScale(app, scale, "Metres per unit of length of the object file; must be the plan's");
   AddQuiet(app, quiet);
   app.footer(
-      "  figure --object polygon15.wkt --plan plan.json --out figures --format pdf\n"
-      "  figure --object cube.obj --plan plan.json --out figures --view 30,20\n");
+      "  figure --object polygon15.wkt --plan polygon15.json --out figures --format pdf\n"
+      "  figure --object cube.obj --plan cube.json --out figures --view 30,20\n");
 }
 
 void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const {
@@ -262,22 +260,12 @@ std::string KindOf(const plan::Plan& plan, plan::EntryIndex entry) {
   return entry == 0 ? "hold" : plan::StepKind(plan::StepOf(plan, entry));
 }
 
-std::unique_ptr<render::FigurePanels> FigureProgram::MakePanels(const object::Object& object,
-                                                                const plan::Plan& plan) const {
-  if (const auto* polygon = dynamic_cast<const object::Polygon*>(&object)) {
-    return std::make_unique<render::PlanPanels>(*polygon, render::DescribePlan(*polygon, plan),
-                                                plan.scale);
-  }
-  return std::make_unique<render::SolidPanels>(dynamic_cast<const object::Polyhedron&>(object),
-                                               plan, solid);
-}
-
 void FigureProgram::WriteFigures(const object::Object& object, const plan::Plan& plan) const {
   const std::vector<int> on_sheet = ParsePanels(panels, static_cast<int>(plan.steps.size()) + 1);
   FigureFolder folder(out);
   ProgressLine progress(quiet);
   progress.Report("laying out the figures");
-  const std::unique_ptr<render::FigurePanels> drawn = MakePanels(object, plan);
+  const std::unique_ptr<render::FigurePanels> drawn = render::MakePanels(object, plan, solid);
   const int count = drawn->count();
   render::FigureStyle printed = style;
   printed.format = FormatOf(format);

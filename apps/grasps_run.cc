@@ -5,108 +5,38 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/grasp_table.h"
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/validate_task.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
-#include "planner/base/file.h"
+#include "planner/base/in_blocks.h"
 #include "planner/base/npz.h"
 #include "planner/base/number.h"
-#include "planner/base/read_npz.h"
 #include "planner/base/stopwatch.h"
 #include "planner/base/text_table.h"
 #include "planner/base/write_file.h"
 #include "planner/grasp/judge_grasps.h"
 #include "planner/plan/locate_grasps.h"
+#include "report/report.h"
 
 namespace regrasp::apps {
 
 namespace {
 
-constexpr char kPoints[] = "points";
-constexpr char kNormals[] = "normals";
-
-/// The grasps of a file, in space: N x k x 3 values each.
-struct GraspTable {
-  std::size_t count = 0;
-  int contacts = 0;
-  std::vector<double> points;
-  std::vector<double> normals;  ///< empty where the file has none
-};
-
-const NpzArray* Find(const std::vector<NpzArray>& arrays, const std::string& name) {
-  const auto found = std::ranges::find(arrays, name, &NpzArray::name);
-  return found == arrays.end() ? nullptr : &*found;
-}
-
-std::string ShapeText(const std::vector<std::size_t>& shape) {
-  std::string text;
-  for (const std::size_t length : shape)
-    text += (text.empty() ? "" : ", ") + std::to_string(length);
-  return "(" + text + ")";
-}
-
-void CheckFinite(const NpzArray& array, const std::string& file) {
-  const auto found = std::ranges::find_if(array.values, [](double x) { return !std::isfinite(x); });
-  if (found == array.values.end()) return;
-  const auto at = static_cast<std::size_t>(found - array.values.begin());
-  const std::size_t width = array.shape[2];
-  throw InputError(file + ": " + array.name + "[" + std::to_string(at / (array.shape[1] * width)) +
-                   ", " + std::to_string(at / width % array.shape[1]) + ", " +
-                   std::to_string(at % width) + "] is not finite");
-}
-
-/// With z = 0 where it has none.
-std::vector<double> InSpace(const NpzArray& array) {
-  if (array.shape[2] == 3) return array.values;
-  std::vector<double> values;
-  values.reserve(array.values.size() / 2 * 3);
-  for (std::size_t i = 0; i < array.values.size(); i += 2) {
-    values.insert(values.end(), {array.values[i], array.values[i + 1], 0});
-  }
-  return values;
-}
-
-GraspTable ReadGrasps(const std::string& file, int dimension) {
-  const std::vector<NpzArray> arrays = ReadNpz(ReadFile(file), file, {kPoints, kNormals});
-  const NpzArray* points = Find(arrays, kPoints);
-  const NpzArray* normals = Find(arrays, kNormals);
-  if (points == nullptr) {
-    throw InputError(file + ": no array \"points\", of shape (N, k, " + std::to_string(dimension) +
-                     ") for N grasps of k contacts");
-  }
-  const std::vector<std::size_t>& shape = points->shape;
-  constexpr std::size_t kMostContacts = 1000;
-  if (shape.size() != 3 || shape[2] != static_cast<std::size_t>(dimension) || shape[1] < 1 ||
-      shape[1] > kMostContacts) {
-    throw InputError(file + ": points: the shape is (N, k, " + std::to_string(dimension) +
-                     ") for N grasps of k contacts, 1 to " + std::to_string(kMostContacts) +
-                     ", found " + ShapeText(shape));
-  }
-  if (shape[0] == 0)
-    throw InputError(file + ": points: no grasp, the shape is " + ShapeText(shape));
-  if (normals != nullptr && normals->shape != shape) {
-    throw InputError(file + ": normals: the shape is that of points, " + ShapeText(shape) +
-                     ", found " + ShapeText(normals->shape));
-  }
-  CheckFinite(*points, file);
-  GraspTable table{shape[0], static_cast<int>(shape[1]), InSpace(*points), {}};
-  if (normals != nullptr) {
-    CheckFinite(*normals, file);
-    table.normals = InSpace(*normals);
-  }
-  return table;
-}
+/// The last that a grasp can fail for.
+constexpr auto kLastReason = plan::Reason::kObjectMoved;
 
 /// The verdicts on those grasps that are on the object, at their places among all.
 struct Verdicts {
-  std::vector<double> holds, too_close, margin, required_deg, quality, reason;
+  std::vector<double> holds, too_close, margin, required_deg, quality, reason, replayed;
 
   explicit Verdicts(std::size_t count)
       : holds(count, 0),
@@ -114,36 +44,46 @@ struct Verdicts {
         margin(count, std::numeric_limits<double>::quiet_NaN()),
         required_deg(margin),
         quality(margin),
-        reason(count, 0) {}
+        reason(count, 0),
+        replayed(count, 0) {}
 };
 
-Verdicts Judge(const object::Object& object, const GraspTable& table,
-               const ValidateOptions& options) {
-  const plan::LocatedGrasps located =
-      plan::LocateGrasps(object, table.points, table.normals, table.contacts);
-  const auto values = 3 * static_cast<std::size_t>(table.contacts);
-  std::vector<std::size_t> placed;
+/// Those of a group's grasps that have a place on the object.
+struct PlacedGrasps {
+  std::vector<std::size_t> places;  ///< among all grasps
   std::vector<double> points, normals;
-  for (std::size_t g = 0; g < table.count; ++g) {
-    if (located.reasons[g] != plan::Reason::kNone) continue;
-    placed.push_back(g);
-    const auto begin = static_cast<std::ptrdiff_t>(g * values);
+};
+
+PlacedGrasps Place(const object::Object& object, const GraspGroup& group, Verdicts& verdicts) {
+  const plan::LocatedGrasps located =
+      plan::LocateGrasps(object, group.points, group.normals, group.contacts);
+  const auto values = 3 * static_cast<std::size_t>(group.contacts);
+  PlacedGrasps placed;
+  for (std::size_t i = 0; i < group.places.size(); ++i) {
+    verdicts.reason[group.places[i]] = static_cast<double>(located.reasons[i]);
+    if (located.reasons[i] != plan::Reason::kNone) continue;
+    placed.places.push_back(group.places[i]);
+    const auto begin = static_cast<std::ptrdiff_t>(i * values);
     const auto end = begin + static_cast<std::ptrdiff_t>(values);
-    points.insert(points.end(), located.points.begin() + begin, located.points.begin() + end);
-    normals.insert(normals.end(), located.normals.begin() + begin, located.normals.begin() + end);
+    placed.points.insert(placed.points.end(), located.points.begin() + begin,
+                         located.points.begin() + end);
+    placed.normals.insert(placed.normals.end(), located.normals.begin() + begin,
+                          located.normals.begin() + end);
   }
+  return placed;
+}
+
+void Judge(const object::Object& object, const PlacedGrasps& placed, int contacts,
+           const ValidateOptions& options, Verdicts& verdicts) {
   grasp::JudgeOptions judge;
   judge.half_angle = options.friction.required_half_angle();
   judge.frame = object.wrench_frame();
   judge.required_half_angle = options.required_angle;
   judge.quality = options.quality;
-  const grasp::GraspVerdicts found = grasp::JudgeGrasps({points, normals, table.contacts}, judge);
-  Verdicts verdicts(table.count);
-  for (std::size_t g = 0; g < table.count; ++g) {
-    verdicts.reason[g] = static_cast<double>(located.reasons[g]);
-  }
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    const std::size_t g = placed[i];
+  const grasp::GraspVerdicts found =
+      grasp::JudgeGrasps({placed.points, placed.normals, contacts}, judge);
+  for (std::size_t i = 0; i < placed.places.size(); ++i) {
+    const std::size_t g = placed.places[i];
     const grasp::Decision decision = found.force_closure[i].decision;
     verdicts.holds[g] = decision == grasp::Decision::kYes ? 1 : 0;
     verdicts.too_close[g] = decision == grasp::Decision::kTooClose ? 1 : 0;
@@ -154,13 +94,65 @@ Verdicts Judge(const object::Object& object, const GraspTable& table,
       verdicts.reason[g] = static_cast<double>(plan::Reason::kNotForceClosure);
     }
   }
+}
+
+grasp::Grasp GraspAt(const PlacedGrasps& placed, int contacts, std::size_t i) {
+  grasp::Grasp grasp;
+  for (int c = 0; c < contacts; ++c) {
+    const std::size_t at =
+        3 * (i * static_cast<std::size_t>(contacts) + static_cast<std::size_t>(c));
+    grasp.push_back(
+        {Eigen::Vector3d::Map(&placed.points[at]), Eigen::Vector3d::Map(&placed.normals[at])});
+  }
+  return grasp;
+}
+
+/// Holds and shakes, in MuJoCo, those that are force closure: each on its own, on all cores.
+void Replay(const object::Object& object, const PlacedGrasps& placed, int contacts,
+            const ValidateOptions& options, ProgressLine& progress, Verdicts& verdicts) {
+  std::vector<std::size_t> held;
+  for (std::size_t i = 0; i < placed.places.size(); ++i) {
+    if (verdicts.holds[placed.places[i]] == 1) held.push_back(i);
+  }
+  std::size_t done = 0;
+  std::mutex telling;
+  InBlocks(held.size(), 1, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t g = placed.places[held[k]];
+      plan::Plan hold =
+          report::MakeHoldPlan(object, GraspAt(placed, contacts, held[k]),
+                               options.friction.required_half_angle(), options.scale.value_or(1));
+      hold.finger_radius = options.replay.finger_radius;
+      const report::Report report = report::Validate(object, hold, {}, options.replay);
+      verdicts.reason[g] = static_cast<double>(report.steps.front().reason());
+      verdicts.holds[g] = report.passed() ? 1 : 0;
+      verdicts.replayed[g] = 1;
+      const std::lock_guard lock(telling);
+      progress.Report("replayed " + std::to_string(++done) + " of " + std::to_string(held.size()) +
+                      " grasps of " + std::to_string(contacts) + " contacts");
+    }
+  });
+}
+
+Verdicts JudgeAll(const object::Object& object, const GraspTable& table,
+                  const ValidateOptions& options, ProgressLine& progress) {
+  Verdicts verdicts(table.count);
+  // Of a grasp that nobody holds nothing else is said.
+  verdicts.reason.assign(table.count, static_cast<double>(plan::Reason::kNotForceClosure));
+  for (const GraspGroup& group : table.groups) {
+    const PlacedGrasps placed = Place(object, group, verdicts);
+    Judge(object, placed, group.contacts, options, verdicts);
+    if (options.replay_grasps) {
+      Replay(object, placed, group.contacts, options, progress, verdicts);
+    }
+  }
   return verdicts;
 }
 
 /// The codes that stand in `reason`, as words.
 std::vector<std::string> ReasonWords() {
   std::vector<std::string> words;
-  for (int i = 0; i <= static_cast<int>(plan::Reason::kUnreachable); ++i) {
+  for (int i = 0; i <= static_cast<int>(kLastReason); ++i) {
     words.emplace_back(plan::ReasonName(static_cast<plan::Reason>(i)));
   }
   return words;
@@ -176,6 +168,9 @@ std::string FormatVerdicts(Verdicts verdicts, const ValidateOptions& options) {
     arrays.push_back({"required_angle_deg", {count}, std::move(verdicts.required_deg)});
   }
   if (options.quality) arrays.push_back({"quality", {count}, std::move(verdicts.quality)});
+  if (options.replay_grasps) {
+    arrays.push_back({"replayed", {count}, std::move(verdicts.replayed), {}, true});
+  }
   const std::vector<std::string> words = ReasonWords();
   arrays.push_back({"reasons", {words.size()}, {}, words});
   return FormatNpz(arrays);
@@ -187,21 +182,19 @@ std::size_t Count(const std::vector<double>& values, double value) {
 
 /// What the table of a terminal has, by verdict.
 std::string CountsText(const Verdicts& verdicts) {
-  const auto reasons = [&](plan::Reason reason) {
-    return Count(verdicts.reason, static_cast<double>(reason));
-  };
   std::vector<TextRow> rows = {{"verdict", "grasps"}};
   const auto add = [&](const std::string& what, std::size_t n) {
     if (n > 0) rows.push_back({what, std::to_string(n)});
   };
   const std::size_t too_close = Count(verdicts.too_close, 1);
   add("pass", Count(verdicts.holds, 1));
-  add("fail: off-surface", reasons(plan::Reason::kOffSurface));
-  add("fail: wrong-normal", reasons(plan::Reason::kWrongNormal));
-  add("fail: coincident-fingers", reasons(plan::Reason::kCoincidentFingers));
-  add("fail: unreachable", reasons(plan::Reason::kUnreachable));
-  add("fail: not-force-closure", reasons(plan::Reason::kNotForceClosure) - too_close);
-  add("fail: not-force-closure, too close to call", too_close);
+  for (int i = 1; i <= static_cast<int>(kLastReason); ++i) {
+    const auto reason = static_cast<plan::Reason>(i);
+    const bool closure = reason == plan::Reason::kNotForceClosure;
+    add("fail: " + std::string(plan::ReasonName(reason)),
+        Count(verdicts.reason, i) - (closure ? too_close : 0));
+    if (closure) add("fail: not-force-closure, too close to call", too_close);
+  }
   return FormatRows(rows);
 }
 
@@ -215,7 +208,7 @@ int RunGrasps(const ValidateOptions& options) {
   progress.Report("reading " + options.grasps_path);
   const GraspTable table = ReadGrasps(options.grasps_path, object.object->dimension());
   progress.Report("judging " + std::to_string(table.count) + " grasps");
-  Verdicts verdicts = Judge(*object.object, table, options);
+  Verdicts verdicts = JudgeAll(*object.object, table, options, progress);
   progress.Clear();
   const std::string counts = CountsText(verdicts);
   const bool passed = Count(verdicts.holds, 1) == table.count;

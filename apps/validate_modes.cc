@@ -36,12 +36,25 @@ void AddStates(CLI::App& app, ValidateOptions& options) {
       ->needs(states);
 }
 
-void CheckForGrasps(const CLI::App& app) {
-  RefuseOthers(app,
-               {"--object", "--grasps", "--required-angle", "--quality", "--out",
-                "--friction-angle", "--mu", "--max-deviation", "--faces", "--part", "--repair",
-                "--solidify", "--shells", "--quiet", "--scale"},
-               "goes with a plan or a single grasp, not with --grasps");
+void CheckForGrasps(ValidateOptions& options, const CLI::App& app) {
+  const std::set<std::string> of_replay = {"--mass",          "--density",  "--thickness",
+                                           "--finger-radius", "--squeeze",  "--shake",
+                                           "--protocol",      "--tolerance"};
+  std::set<std::string> served = {
+      "--object",         "--grasps",   "--required-angle", "--quality", "--out",
+      "--friction-angle", "--mu",       "--max-deviation",  "--faces",   "--part",
+      "--repair",         "--solidify", "--shells",         "--quiet",   "--scale",
+      "--replay"};
+  options.replay_grasps = app.count("--replay") > 0;
+  if (options.replay_by_hand) {
+    throw InputError("--replay hand: goes with a plan; grasps are replayed by points");
+  }
+  served.insert(of_replay.begin(), of_replay.end());
+  RefuseOthers(app, served, "goes with a plan or a single grasp, not with --grasps");
+  if (options.replay_grasps) return;
+  for (const std::string& name : of_replay) {
+    if (app.count(name) > 0) throw InputError(name + " goes with --replay points, of --grasps");
+  }
 }
 
 void CheckForStates(const ValidateOptions& options, const CLI::App& app) {

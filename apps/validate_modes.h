@@ -12,7 +12,7 @@ namespace regrasp::apps {
 void AddStates(CLI::App& app, ValidateOptions& options);
 
 /// @throws InputError  an option is given that does not go with --grasps.
-void CheckForGrasps(const CLI::App& app);
+void CheckForGrasps(ValidateOptions& options, const CLI::App& app);
 
 /// @throws InputError  the same of --export-states, or there is no hand.
 void CheckForStates(const ValidateOptions& options, const CLI::App& app);

@@ -66,7 +66,9 @@ void AddInputs(CLI::App& app, ValidateOptions& options) {
       add("--grasps", options.grasps_path,
           "NPZ file of many grasps: arrays points and normals of shape (N, k, 3), or (N, k, 2) in "
           "the plane; says of each whether it is on the object and force closure, by analysis "
-          "alone, and writes verdicts.npz; normals may be left out in the interior of faces")
+          "alone, and writes verdicts.npz; normals may be left out in the interior of faces, and "
+          "holds (N, k) says which contacts count. With --replay points also holds and shakes each "
+          "that is force closure")
           ->excludes(plan)
           ->excludes(grasp);
   app.add_flag("--required-angle", options.required_angle,
@@ -376,7 +378,7 @@ void ValidateOptions::Finish(const CLI::App& app) {
     throw InputError("--plan, --grasp, --grasps or --export-states is required");
   }
   if (for_grasps()) {
-    CheckForGrasps(app);
+    CheckForGrasps(*this, app);
     return;
   }
   if (for_grasp() && allow_object_change) {

@@ -33,6 +33,7 @@ struct ValidateOptions {
   std::string grasps_path;         ///< many of them, as arrays
   bool required_angle = false;     ///< of each of those, too
   bool quality = false;            ///< likewise
+  bool replay_grasps = false;      ///< holds and shakes those that are force closure
   int states = 0;                  ///< reset states that are made, instead of a plan
   double min_quality = criteria::GraspCriteria().min_quality;  ///< of their grasps
   std::string out;

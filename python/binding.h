@@ -6,6 +6,7 @@
 
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::python {
 
@@ -21,6 +22,10 @@ struct PythonHand {
   kinematics::HandFile file;
 };
 
+/// @param name  of the plan, for the message.
+/// @throws InputError  the plan was made for another object.
+void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::string& name);
+
 // Each adds its functions to the extension module. They check no argument whose type or shape the
 // Python code above them has already checked.
 void BindObjects(pybind11::module_& module);
@@ -28,5 +33,6 @@ void BindGrasps(pybind11::module_& module);
 void BindHands(pybind11::module_& module);
 void BindPlans(pybind11::module_& module);
 void BindReports(pybind11::module_& module);
+void BindFigures(pybind11::module_& module);
 
 }  // namespace regrasp::python

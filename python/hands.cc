@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/base/in_blocks.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/locate.h"
@@ -59,16 +60,25 @@ std::vector<std::vector<std::string>> JointNames(const PythonHand& of) {
   return names;
 }
 
-/// The nearest points of the surface, the normals there, for M x 3 points.
+/// The nearest points of the surface, the normals there, for M x 3 points; on all cores.
 py::tuple NearestOf(const PythonObject& object, const Values& points) {
   py::array_t<double> nearest({points.shape(0), py::ssize_t{3}});
   py::array_t<double> normals({points.shape(0), py::ssize_t{3}});
-  for (py::ssize_t i = 0; i < points.shape(0); ++i) {
-    const Eigen::Vector3d p = Eigen::Vector3d::Map(points.data(i, 0));
-    const grasp::Contact found = plan::NearestContact(*object.file.object, {p, {}});
-    Eigen::Vector3d::Map(nearest.mutable_data(i, 0)) = found.p;
-    Eigen::Vector3d::Map(normals.mutable_data(i, 0)) = found.n;
-  }
+  const double* from = points.data();
+  double* to = nearest.mutable_data();
+  double* inward = normals.mutable_data();
+  const auto count = static_cast<std::size_t>(points.shape(0));
+  const py::gil_scoped_release unlocked;
+  constexpr std::size_t kBlock = 64;
+  InBlocks(count, kBlock, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
+      const grasp::Contact found =
+          plan::NearestContact(*object.file.object, {Eigen::Vector3d::Map(from + i), {}});
+      Eigen::Vector3d::Map(to + i) = found.p;
+      Eigen::Vector3d::Map(inward + i) = found.n;
+    }
+  });
+  const py::gil_scoped_acquire locked;
   return py::make_tuple(nearest, normals);
 }
 

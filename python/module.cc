@@ -25,4 +25,5 @@ PYBIND11_MODULE(_regrasp, module) {
   python::BindHands(module);
   python::BindPlans(module);
   python::BindReports(module);
+  python::BindFigures(module);
 }

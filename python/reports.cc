@@ -52,21 +52,6 @@ struct ValidateArguments {
   double clearance = sim::HandCheckOptions().clearance_m;
 };
 
-void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::string& name) {
-  const bool repaired =
-      plan.repair && !object.file.repair && plan.repair->sha256 == object.file.sha256;
-  if (!repaired &&
-      (plan.object_sha256 != object.file.sha256 || plan.repair != object.file.repair)) {
-    throw InputError(name + ": /object/sha256: the plan was made for " + plan.object_file +
-                     " with digest " + plan.object_sha256 + ", but " + object.file.file + " has " +
-                     object.file.sha256);
-  }
-  if (plan.at_given_points) {
-    throw InputError(name + ": its contacts are at points of " + plan.object_file +
-                     "; the program validate checks that");
-  }
-}
-
 /// On the hand's own model.
 report::Replayer HandReplayer(const kinematics::HandFile& hand, const object::Polyhedron& solid,
                               const plan::Plan& plan, const sim::ReplayOptions& replay,
@@ -190,6 +175,21 @@ py::bytes EncodePng(const py::array_t<std::uint8_t, py::array::c_style>& pixels)
 }
 
 }  // namespace
+
+void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::string& name) {
+  const bool repaired =
+      plan.repair && !object.file.repair && plan.repair->sha256 == object.file.sha256;
+  if (!repaired &&
+      (plan.object_sha256 != object.file.sha256 || plan.repair != object.file.repair)) {
+    throw InputError(name + ": /object/sha256: the plan was made for " + plan.object_file +
+                     " with digest " + plan.object_sha256 + ", but " + object.file.file + " has " +
+                     object.file.sha256);
+  }
+  if (plan.at_given_points) {
+    throw InputError(name + ": its contacts are at points of " + plan.object_file +
+                     "; the program validate checks that");
+  }
+}
 
 void BindReports(py::module_& module) {
   py::class_<ValidateArguments>(module, "ValidateArguments")

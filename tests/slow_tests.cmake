@@ -22,7 +22,7 @@ set(regrasp_slow_tests
   apps.smooth_models
   apps.states
   apps.trials
-  apps.tutorials
+  apps.pages
   apps.validate
   fuzz.assimp
   fuzz.grasp
@@ -37,6 +37,7 @@ set(regrasp_slow_tests
   fuzz.stl
   fuzz.wkt
   package.find_package
+  python.arguments
   schema
   AlignsOfPolyhedra.*
   BadFiles.Truncated*

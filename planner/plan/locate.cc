@@ -43,6 +43,20 @@ grasp::Contact Project(const object::Object& object, const grasp::Contact& conta
   return {object.ClosestPoint(face, contact.p), object.inward_normal(face), face};
 }
 
+/// Most points that are asked for are near the surface; all faces are looked at only for others.
+double DistanceToSurface(const object::Object& object, const Eigen::Vector3d& p) {
+  constexpr double kNear = 0.05;
+  for (double radius = 0.0125; radius <= kNear; radius *= 2) {
+    const std::vector<FaceIndex> near = object.FacesNear(p, radius * object.diameter());
+    if (!near.empty()) return (object.ClosestPoint(near.front(), p) - p).norm();
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (FaceIndex face{0}; face < object.face_count(); ++face) {
+    least = std::min(least, (object.ClosestPoint(face, p) - p).norm());
+  }
+  return least;
+}
+
 }  // namespace
 
 std::string VectorText(const Eigen::Vector3d& v, int dimension) {
@@ -82,10 +96,7 @@ grasp::Contact NearestContact(const object::Object& object, const grasp::Contact
   const double most = kFarthest * object.diameter();
   const double distance = away.stableNorm();
   const Eigen::Vector3d p = distance <= most ? contact.p : centre + away * (most / distance);
-  double least = std::numeric_limits<double>::infinity();
-  for (FaceIndex face{0}; face < object.face_count(); ++face) {
-    least = std::min(least, (object.ClosestPoint(face, p) - p).norm());
-  }
+  const double least = DistanceToSurface(object, p);
   const grasp::Contact near = {p, contact.n.stableNormalized()};
   const double tolerance = object::kPointTolerance * object.diameter();
   return Project(object, near,

@@ -5,35 +5,82 @@ from __future__ import annotations
 import difflib
 import math
 import operator
+import os
 
 import numpy as np
 
 from ._regrasp import InputError
 
 
+def shown(value) -> str:
+    """A value in a message: of one line, and short."""
+    try:
+        text = " ".join(repr(value).split())
+    except Exception:  # of a class that cannot say what it is
+        text = type(value).__name__
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
 def numbers(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
     """Finite float64 values with so many axes; `shapes` says which, for the message."""
-    try:
-        array = np.asarray(value)
-    except ValueError as error:
-        raise InputError(f"{name}: no array of shape {shapes}: {error}") from None
-    if array.dtype.kind not in "fiu":
-        raise InputError(f"{name}: numbers are needed, found an array of {array.dtype}")
-    if array.ndim not in dimensions:
-        raise InputError(f"{name}: the shape is {shapes}, found {array.shape}")
-    array = np.ascontiguousarray(array, dtype=np.float64)
+    return finite(name, numbers_or_nan(name, value, shapes, dimensions))
+
+
+def finite(name: str, array: np.ndarray) -> np.ndarray:
+    """The array, if all its values are finite."""
     if not np.isfinite(array).all():
         place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
         raise InputError(f"{name}{list(place)}: {array[place]} is not finite")
     return array
 
 
-def number(name: str, value, lower: float, upper: float = math.inf) -> float:
-    """A finite number above `lower` and below `upper`."""
+def flags(name: str, value, shape: tuple[int, ...]) -> np.ndarray:
+    """An array of truth values of that shape."""
+    array = _array(name, value, str(shape))
+    if array.dtype != bool:
+        raise InputError(f"{name}: truth values are needed, found an array of {array.dtype}")
+    if array.shape != shape:
+        raise InputError(f"{name}: the shape is {shape}, found {array.shape}")
+    return array
+
+
+def numbers_or_nan(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
+    """The same, whether finite or not."""
+    array = _array(name, value, shapes)
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"{name}: numbers are needed, found an array of {array.dtype}")
+    if array.ndim not in dimensions:
+        raise InputError(f"{name}: the shape is {shapes}, found {array.shape}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def indices(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
+    """The same for int64 values."""
+    array = _array(name, value, shapes)
+    if array.ndim not in dimensions:
+        raise InputError(f"{name}: the shape is {shapes}, found {array.shape}")
+    if array.dtype.kind not in "iu":
+        raise InputError(f"{name}: integers are needed, found an array of {array.dtype}")
+    return np.ascontiguousarray(array, dtype=np.int64)
+
+
+def _array(name: str, value, shapes: str) -> np.ndarray:
     try:
+        return np.asarray(value)
+    except ValueError as error:
+        raise InputError(f"{name}: no array of shape {shapes}: {error}") from None
+
+
+def number(name: str, value, lower: float, upper: float = math.inf, *, zero: bool = False) -> float:
+    """A finite number above `lower` and below `upper`; also 0 where that is said."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
         result = float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"{name}: a number is needed, found {value!r}") from None
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name}: a number is needed, found {shown(value)}") from None
+    if zero and result == 0:
+        return 0
     if not (lower < result < upper):
         limits = f"above {lower:g}" if upper == math.inf else f"between {lower:g} and {upper:g}"
         raise InputError(f"{name}: {limits}, found {result!r}")
@@ -45,7 +92,7 @@ def integer(name: str, value, lower: int, upper: int) -> int:
     try:
         result = operator.index(value)
     except TypeError:
-        raise InputError(f"{name}: an integer is needed, found {value!r}") from None
+        raise InputError(f"{name}: an integer is needed, found {shown(value)}") from None
     if not lower <= result <= upper:
         raise InputError(f"{name}: from {lower} to {upper}, found {result}")
     return result
@@ -54,11 +101,80 @@ def integer(name: str, value, lower: int, upper: int) -> int:
 def choice(name: str, value: str, words) -> str:
     """One of some words."""
     words = list(words)
-    if value in words:
+    if isinstance(value, str) and value in words:
         return value
-    near = difflib.get_close_matches(str(value), words, 1)
+    near = difflib.get_close_matches(value, words, 1) if isinstance(value, str) else []
     hint = f"; did you mean {near[0]!r}?" if near else ""
-    raise InputError(f"{name}: {value!r} is none of {', '.join(map(repr, words))}{hint}")
+    raise InputError(f"{name}: {shown(value)} is none of {', '.join(map(repr, words))}{hint}")
+
+
+def flag(name: str, value) -> bool:
+    """True or False."""
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise InputError(f"{name}: True or False is needed, found {shown(value)}")
+
+
+def text(name: str, value) -> str:
+    """A text."""
+    if isinstance(value, str):
+        return value
+    raise InputError(f"{name}: a text is needed, found {shown(value)}")
+
+
+def path(name: str, value) -> str:
+    """A path of the file system, as a text."""
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise InputError(f"{name}: a path is needed, found {shown(value)}")
+    result = os.fsdecode(value)
+    if not result or "\0" in result:
+        raise InputError(f"{name}: a path is needed, found {shown(result)}")
+    return result
+
+
+def callback(name: str, value):
+    """A function, or None."""
+    if value is None or callable(value):
+        return value
+    raise InputError(f"{name}: a function is needed, found {shown(value)}")
+
+
+def of_type(name: str, value, kind: type, hint: str = ""):
+    """A value of that class."""
+    if isinstance(value, kind):
+        return value
+    article = "an" if kind.__name__[0] in "AEIOU" else "a"
+    raise InputError(f"{name}: {article} {kind.__name__} is needed, found "
+                     f"{type(value).__name__}{hint}")
+
+
+def vector(name: str, value, length: int) -> np.ndarray:
+    """So many finite numbers."""
+    vector = numbers(name, value, f"({length},)", (1,))
+    if len(vector) != length:
+        raise InputError(f"{name}: {length} numbers are needed, found {len(vector)}")
+    return vector
+
+
+def mapping(name: str, value) -> dict:
+    """A dictionary."""
+    if not isinstance(value, dict):
+        raise InputError(f"{name}: a mapping is needed, found {type(value).__name__}")
+    return value
+
+
+def member(name: str, mapping: dict, key: str):
+    """What a dictionary has under a key."""
+    if key not in mapping:
+        raise InputError(f"{name}: no {key}")
+    return mapping[key]
+
+
+def texts(name: str, values) -> list[str]:
+    """A list of texts."""
+    if not isinstance(values, (list, tuple)) or not all(isinstance(v, str) for v in values):
+        raise InputError(f"{name}: a list of texts is needed, found {shown(values)}")
+    return list(values)
 
 
 def half_angle(mu: float | None, friction_angle_deg: float | None) -> float | None:
@@ -66,7 +182,10 @@ def half_angle(mu: float | None, friction_angle_deg: float | None) -> float | No
     if mu is not None and friction_angle_deg is not None:
         raise InputError("mu and friction_angle_deg: give one of them")
     if mu is not None:
-        return math.atan(number("mu", mu, 0))
+        mu = number("mu", mu, 0)
+        if mu > 1e15:  # a right angle to doubles
+            raise InputError(f"mu: at most 1e15, found {mu:g}")
+        return math.atan(mu)
     if friction_angle_deg is not None:
         # As the programs' Radians().
         return number("friction_angle_deg", friction_angle_deg, 0, 90) * (math.pi / 180)

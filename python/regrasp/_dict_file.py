@@ -1,8 +1,10 @@
-"""Reads the NPY files of dictionaries that numpy.save pickles, and executes nothing in them."""
+"""Reads dictionaries that numpy.save pickles, and NPZ files, and executes nothing in them."""
 
 from __future__ import annotations
 
 import pickle
+import pickletools
+import zipfile
 
 import numpy as np
 
@@ -19,6 +21,11 @@ _ARRAY_PARTS = {
 }
 
 
+# Of a pickle: what makes objects of classes, refers to something outside of it, or shares memory.
+_NOT_DATA = {"PERSID", "BINPERSID", "INST", "OBJ", "NEWOBJ", "NEWOBJ_EX", "EXT1", "EXT2", "EXT4",
+             "BYTEARRAY8", "NEXT_BUFFER", "READONLY_BUFFER"}
+
+
 class _ArraysOnly(pickle.Unpickler):
 
     def find_class(self, module, name):
@@ -28,33 +35,67 @@ class _ArraysOnly(pickle.Unpickler):
             raise InputError(f"it holds {module}.{name}; only dictionaries, lists, texts, numbers "
                              "and arrays are read") from None
 
-    def persistent_load(self, pid):
-        raise InputError("it refers to something outside of it")
+
+def _unpickle(file):
+    begin = file.tell()
+    for operation, _, _ in pickletools.genops(file):
+        if operation.name in _NOT_DATA:
+            raise InputError(f"it holds {operation.name}; only dictionaries, lists, texts, numbers "
+                             "and arrays are read")
+    file.seek(begin)
+    return _ArraysOnly(file).load()
+
+
+def _read_array(file):
+    """What an NPY file holds; of objects, what was pickled."""
+    version = np.lib.format.read_magic(file)
+    begin = file.tell()
+    header = (np.lib.format.read_array_header_1_0 if version == (1, 0)
+              else np.lib.format.read_array_header_2_0)
+    _, _, dtype = header(file)
+    if dtype.hasobject:
+        return _unpickle(file)
+    file.seek(begin - np.lib.format.MAGIC_LEN)
+    return np.lib.format.read_array(file, allow_pickle=False)
+
+
+def _content(path):
+    """The dictionary of an NPY file, or the members of an NPZ file as one."""
+    with open(path, "rb") as file:
+        if not zipfile.is_zipfile(file):
+            file.seek(0)
+            return _read_array(file)
+        with zipfile.ZipFile(file) as archive:
+            members = {}
+            for name in archive.namelist():
+                with archive.open(name) as member:
+                    members[name.removesuffix(".npy")] = _plain(_read_array(member))
+            return members
+
+
+def _plain(value):
+    """Not an array, where it is one of a single object."""
+    return value.item() if isinstance(value, np.ndarray) and value.shape == () else value
 
 
 def read_dict(path) -> dict:
-    """The dictionary of a file that numpy.save wrote of it.
+    """The dictionary of an NPY file that numpy.save wrote of it, or the arrays of an NPZ file.
 
     Raises:
         InputError: it is none, or holds something else than dictionaries, lists, texts, numbers
             and arrays of NumPy.
     """
     try:
-        with open(path, "rb") as file:
-            version = np.lib.format.read_magic(file)
-            header = (np.lib.format.read_array_header_1_0 if version == (1, 0)
-                      else np.lib.format.read_array_header_2_0)
-            shape, _, dtype = header(file)
-            if dtype != np.dtype(object) or shape != ():
-                raise InputError(f"a dictionary is needed, found an array of {dtype} {shape}")
-            found = _ArraysOnly(file).load()
+        found = _plain(_content(path))
     except OSError as error:
-        raise InputError(f"{path}: {error.strerror}") from None
+        raise InputError(f"{path}: {error.strerror or error}") from None
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
     except Exception as error:  # what a pickle that is cut off or made up brings about
         raise InputError(f"{path}: not a dictionary of NumPy: {error}".replace("\n", " ")) from None
-    found = found.item() if isinstance(found, np.ndarray) and found.shape == () else found
     if not isinstance(found, dict):
-        raise InputError(f"{path}: a dictionary is needed, found {type(found).__name__}")
+        what = f"an array of {found.dtype}" if isinstance(found, np.ndarray) else type(found).__name__
+        raise InputError(f"{path}: a dictionary is needed, found {what}")
+    if not all(isinstance(key, str) for key in found):
+        raise InputError(f"{path}: keys of the dictionary are to be texts")
     return found

@@ -12,6 +12,13 @@ def picture(png: bytes, title: str) -> str:
     return f'<img src="data:image/png;base64,{data}" alt="{html.escape(title)}" style="max-width:100%">'
 
 
+def drawing(svg: str, title: str) -> str:
+    """An SVG as a picture in the page, by itself: names in one do not meet those in another."""
+    data = base64.b64encode(svg.encode()).decode("ascii")
+    return (f'<img src="data:image/svg+xml;base64,{data}" alt="{html.escape(title)}" '
+            'style="max-width:100%;background:white">')
+
+
 def text(lines: str) -> str:
     """Text with its columns."""
     return f'<pre style="white-space:pre-wrap">{html.escape(lines)}</pre>'

@@ -1,4 +1,4 @@
-"""The program regrasp-convert: grasps of hands from and to the formats of other projects."""
+"""The program regrasp-convert: grasps and plans from and to the formats of other projects."""
 
 from __future__ import annotations
 
@@ -8,35 +8,67 @@ import sys
 
 import numpy as np
 
-from . import _arguments, formats
+from . import _arguments, _dict_file, formats
+from ._help_as import help_as
 from ._regrasp import InputError, version
 from .hands import Hand
 from .objects import Object
 
-_READERS = {".yaml": formats.read_isaac_grasp, ".yml": formats.read_isaac_grasp,
-            ".npy": formats.read_dexgraspbench, ".xml": formats.read_graspit}
+_EPILOG = """Read, by the files' ending: isaac_grasp 1.0 (.yaml), dictionaries of DexGraspBench and BODex
+(.npy, .npz), worlds of GraspIt! (.xml), plans of HiDex (.csv), plans of regrasp for a hand (.json),
+trajectories of validate (.npz, to .mcap). Written: isaac_grasp 1.0 (.yaml), contacts for validate --grasps
+(.npz), plans of regrasp (.json, of .csv), ROS 2 transforms and joint states (.mcap)."""
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="regrasp-convert", description="Converts grasps of hands between formats, and says what "
-        "it could not carry over.", epilog="Read, by the file's ending: isaac_grasp 1.0 (.yaml), "
-        "dictionaries of DexGraspBench (.npy), worlds of GraspIt! (.xml), plans of regrasp for a hand "
-        "(.json). Written: isaac_grasp 1.0 (.yaml), contacts for validate --grasps (.npz).")
-    parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format")
-    parser.add_argument("--output", required=True, metavar="FILE", help=".yaml or .npz")
-    parser.add_argument("--hand", metavar="FILE", help="hand file; for .json and .npz")
+class _Parser(argparse.ArgumentParser):
+
+    def error(self, message):
+        """One line, as of the other programs."""
+        self.exit(2, f"{self.prog}: {message} ({self.prog} --help lists all options)\n")
+
+
+class _HelpAs(argparse.Action):
+    """As of the other programs: prints the text in another format, and exits."""
+
+    def __call__(self, parser, namespace, value, option_string=None):
+        try:
+            print(help_as(parser, value), end="")
+        except InputError as error:
+            parser.error(str(error))
+        parser.exit(0)
+
+
+def parser() -> argparse.ArgumentParser:
+    """Of the program's options."""
+    parser = _Parser(
+        prog="regrasp-convert", description="Converts grasps and plans between formats, and says what "
+        "it could not carry over.", epilog=_EPILOG)
+    parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format; of .csv and "
+                        "for .mcap one")
+    parser.add_argument("--output", required=True, metavar="FILE", help=".yaml, .npz, .json or .mcap")
+    parser.add_argument("--hand", metavar="FILE", help="hand file; for .json and .npz; for .mcap also "
+                        "the fingertips")
     parser.add_argument("--palm", metavar="X,Y,Z[,QW,QX,QY,QZ]", help="the palm's frame in that of the "
-                        "body whose poses the files give, metres and a quaternion, --palm=-1,2,3 where it begins "
-                        "with a minus (default: they are "
-                        "the palm's own)")
-    parser.add_argument("--object", metavar="FILE", help="object file; for .npz")
+                        "body whose poses the files give, metres and a quaternion, --palm=-1,2,3 where "
+                        "it begins with a minus (default: they are the palm's own)")
+    parser.add_argument("--object", metavar="FILE", help="object file; for .npz and of .csv")
+    parser.add_argument("--object-pose", metavar="X,Y,Z,QW,QX,QY,QZ", help="the object's pose in the "
+                        "world of a file of BODex that has none")
     parser.add_argument("--scale", type=float, default=1, metavar="METRES_PER_UNIT",
                         help="of the object file (default 1)")
     parser.add_argument("--tolerance-mm", type=float, default=2, metavar="MM", help="a fingertip "
-                        "touches that is no farther from the surface, or deeper in it (default 2)")
-    parser.add_argument("--fingers", metavar="NAME,...", help="those that must touch (default: all)")
-    parser.add_argument("--version", action="version", version=f"regrasp-convert {version}")
+                        "touches that is no farther from the surface, or deeper in it; so far a contact "
+                        "of .csv may be off it (default 2)")
+    parser.add_argument("--fingers", metavar="NAME,...", help="those whose contacts are "
+                        "written, and which must all touch (default: all fingers, where they touch)")
+    parser.add_argument("--frame", choices=["object", "world"], help="that contacts of .csv are in, "
+                        "where all fingers touch all the time and so the file does not tell")
+    parser.add_argument("--mesh-scale", type=float, default=1, metavar="X", help="by which HiDex scales "
+                        "the object's file, scale in its setup.yaml; of .csv (default 1)")
+    parser.add_argument("--mu", type=float, metavar="X", help="friction coefficient; of .csv to .json")
+    parser.add_argument("--version", action="version", version=f"regrasp-convert {version}",
+                        help="print the version and exit")
+    parser.add_argument("--help-as", action=_HelpAs, metavar="FORMAT", help=argparse.SUPPRESS)
     return parser
 
 
@@ -50,12 +82,31 @@ def _need(value, name: str, what: str):
     return value
 
 
-def _read(path: str, hand: Hand | None) -> formats.HandGrasps:
-    if _ending(path) == ".json":
+def _numbers(option: str, text: str) -> list[float]:
+    try:
+        return [float(number) for number in text.split(",")]
+    except ValueError:
+        raise InputError(f"{option}: numbers are needed, found {text!r}") from None
+
+
+def _read_dictionary(path: str, options) -> formats.HandGrasps:
+    if "robot_pose" not in _dict_file.read_dict(path):
+        return formats.read_dexgraspbench(path)
+    pose = options.object_pose
+    return formats.read_bodex(path, object_pose=_numbers("--object-pose", pose) if pose else None)
+
+
+def _read(path: str, hand: Hand | None, options) -> formats.HandGrasps:
+    ending = _ending(path)
+    if ending == ".json":
         return formats.of_plan(path, _need(hand, "hand", "for the joints' names of a plan"))
-    if _ending(path) not in _READERS:
-        raise InputError(f"{path}: .yaml, .npy, .xml or .json is read")
-    return _READERS[_ending(path)](path)
+    if ending in (".npy", ".npz"):
+        return _read_dictionary(path, options)
+    if ending in (".yaml", ".yml"):
+        return formats.read_isaac_grasp(path)
+    if ending == ".xml":
+        return formats.read_graspit(path)
+    raise InputError(f"{path}: .yaml, .npy, .npz, .xml, .csv or .json is read")
 
 
 def _join(parts: list[formats.HandGrasps]) -> formats.HandGrasps:
@@ -76,40 +127,67 @@ def _chosen(fingers: str | None, hand: Hand) -> list[int]:
             for name in fingers.split(",")]
 
 
-def _palm(text: str) -> list[float]:
-    try:
-        return [float(number) for number in text.split(",")]
-    except ValueError:
-        raise InputError(f"--palm: numbers are needed, found {text!r}") from None
+def _single(inputs: list[str], what: str) -> str:
+    if len(inputs) > 1:
+        raise InputError(f"{inputs[1]}: {what} is converted alone")
+    return inputs[0]
 
 
-def _run(options) -> list[str]:
-    """Converts, and returns what was lost."""
+def _object(options) -> Object:
+    return Object.read(_need(options.object, "object", "to find contacts"), scale=options.scale)
+
+
+def _convert_motion(options, hand: Hand | None) -> list[str]:
+    """To .mcap."""
+    path = _single(options.inputs, "what goes to .mcap")
+    if _ending(path) == ".json":
+        motion = formats.motion_of_plan(path, _need(hand, "hand", "for the joints' names of a plan"))
+    elif _ending(path) == ".npz":
+        motion = formats.read_trajectory(path)
+    else:
+        raise InputError(f"{path}: .mcap is made of a plan (.json) or a trajectory (.npz)")
+    formats.write_mcap(options.output, motion, hand)
+    return motion.lost
+
+
+def _convert_fingers(options) -> list[str]:
+    """Of .csv."""
     ending = _ending(options.output)
-    if ending not in (".yaml", ".yml", ".npz"):
-        raise InputError(f"--output: {options.output}: .yaml or .npz is written")
-    hand = Hand.read(options.hand) if options.hand else None
-    grasps = _join([_read(path, hand) for path in options.inputs])
-    if options.palm:
-        grasps = grasps.with_palm_at(_palm(options.palm))
+    if ending not in (".npz", ".json"):
+        raise InputError(f"--output: {options.output}: .csv goes to .npz or .json")
+    grasps = formats.read_hidex(_single(options.inputs, "a plan"), frame=options.frame,
+                                mesh_scale=options.mesh_scale)
+    body = _object(options)
+    grasps = grasps.on(body, tolerance=options.tolerance_mm / 1000)
     if ending == ".npz":
-        _need(hand, "hand", "to find contacts")
-        body = Object.read(_need(options.object, "object", "to find contacts"), scale=options.scale)
-        points, normals, touching = grasps.touching(hand, body,
-                                                    tolerance=options.tolerance_mm / 1000)
-        chosen = _chosen(options.fingers, hand)
-        held = np.flatnonzero(touching[:, chosen].all(axis=1))
-        np.savez(options.output, points=points[held][:, chosen], normals=normals[held][:, chosen],
-                 grasps=held)
-        lost = grasps.lost + ["palm and joints"]
-        if len(held) < len(grasps):
-            off = (~touching[:, chosen]).sum(axis=0)
-            lost.append(
-                f"{len(grasps) - len(held)} of {len(grasps)} grasps: a fingertip is not within "
-                f"{options.tolerance_mm:g} mm of the surface: "
-                + ", ".join(f"{hand.fingers[f]} in {n}" for f, n in zip(chosen, off) if n)
-                + "; --fingers says which must be")
-        return lost
+        grasps.write_npz(options.output)
+        return [*grasps.lost, "the order of the grasps means nothing to validate --grasps"]
+    grasps.as_plan(body, _need(options.mu, "mu", "for a plan")).write(options.output)
+    return grasps.lost
+
+
+def _write_contacts(options, grasps: formats.HandGrasps, hand: Hand) -> list[str]:
+    points, normals, touching = grasps.touching(hand, _object(options),
+                                                tolerance=options.tolerance_mm / 1000)
+    chosen = _chosen(options.fingers, hand)
+    touching = touching[:, chosen]
+    kept = np.flatnonzero(touching.all(axis=1) if options.fingers else touching.any(axis=1))
+    np.savez(options.output, points=points[kept][:, chosen], normals=normals[kept][:, chosen],
+             holds=touching[kept], grasps=kept)
+    lost = grasps.lost + ["palm and joints"]
+    off = (~touching).sum(axis=0)
+    if off.any():
+        lost.append(f"fingertips that are not within {options.tolerance_mm:g} mm of the surface: "
+                    + ", ".join(f"{hand.fingers[f]} in {n}" for f, n in zip(chosen, off) if n)
+                    + f" of {len(grasps)} grasps")
+    if len(kept) < len(grasps):
+        lost.append(f"{len(grasps) - len(kept)} of {len(grasps)} grasps, in which "
+                    + ("one of --fingers does not touch" if options.fingers
+                       else "no fingertip touches"))
+    return lost
+
+
+def _write_isaac_grasp(options, grasps: formats.HandGrasps, hand: Hand | None) -> list[str]:
     if len(set(grasps.names)) < len(grasps.names):
         grasps.names = [f"grasp_{i}" for i in range(len(grasps))]
     if not grasps.joint_names:
@@ -120,9 +198,29 @@ def _run(options) -> list[str]:
     return grasps.lost
 
 
+def _run(options) -> list[str]:
+    """Converts, and returns what was lost."""
+    ending = _ending(options.output)
+    if ending not in (".yaml", ".yml", ".npz", ".json", ".mcap"):
+        raise InputError(f"--output: {options.output}: .yaml, .npz, .json or .mcap is written")
+    if _ending(options.inputs[0]) == ".csv":
+        return _convert_fingers(options)
+    hand = Hand.read(options.hand) if options.hand else None
+    if ending == ".mcap":
+        return _convert_motion(options, hand)
+    if ending == ".json":
+        raise InputError(f"{options.inputs[0]}: only .csv goes to .json")
+    grasps = _join([_read(path, hand, options) for path in options.inputs])
+    if options.palm:
+        grasps = grasps.with_palm_at(_numbers("--palm", options.palm))
+    if ending == ".npz":
+        return _write_contacts(options, grasps, _need(hand, "hand", "to find contacts"))
+    return _write_isaac_grasp(options, grasps, hand)
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Runs the program; returns its exit code: 0, or 2 for bad input, 3 where the machine fails."""
-    options = _parser().parse_args(arguments)
+    options = parser().parse_args(arguments)
     try:
         lost = _run(options)
     except InputError as error:

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import os
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
+from ._types import ArrayLike, Progress
 from .objects import Object
+
+# Grasps that a core judges in about a tenth of a second: half a microsecond, some 64, or
+# milliseconds each.
+_PART, _PART_WITH_ANGLE, _PART_WITH_QUALITY = 200_000, 1500, 30
 
 
 @dataclass(frozen=True)
@@ -29,14 +35,31 @@ class ForceClosure:
     """The largest ball of wrenches that is resisted with normal forces summing to 1, torques over
     half the object's diameter (Ferrari and Canny's L1 metric, its lower bound); None where it was
     not asked for."""
+    _asked: tuple | None = field(default=None, repr=False, compare=False)
+    """Of one grasp on an object: object, points, normals, half-angle; a notebook draws it."""
 
     def _repr_html_(self) -> str:
+        return self._table() + self._drawing()
+
+    def _drawing(self) -> str:
+        if self._asked is None:
+            return ""
+        object, points, normals, half_angle = self._asked
+        try:
+            return _html.drawing(_regrasp.draw_grasp(object._core, points, normals, half_angle, 85),
+                                 f"a grasp of {object.name}")
+        except InputError:  # a contact is not on the object, which is not asked here
+            return ""
+
+    def _table(self) -> str:
         if np.ndim(self.holds) == 0:
             verdict = ("force closure" if self.holds else
                        "too close to call" if self.too_close else "no force closure")
-            rows = [["verdict", verdict], ["margin", f"{self.margin:.4g}"]]
+            rows = [["verdict", verdict]]
+            if 1e-9 < abs(self.margin) < 1e9:  # beyond it is the bound of what was clear early
+                rows.append(["margin", f"{self.margin:.4g} or more"])
             if self.required_angle_deg is not None:
-                rows.append(["required half-angle", f"{self.required_angle_deg:.4g}°"])
+                rows.append(["required half-angle", f"{self.required_angle_deg:.2f}°"])
             if self.quality is not None:
                 rows.append(["quality", f"{self.quality:.4g}"])
             return _html.table(["", "of one grasp"], rows)
@@ -50,9 +73,10 @@ class ForceClosure:
         return _html.table(["", f"of {len(self.holds)} grasps"], rows)
 
 
-def force_closure(points, normals, object: Object | None = None, mu: float | None = None, *,
-                  friction_angle_deg: float | None = None, required_angle: bool = False,
-                  quality: bool = False, threads: int = 0) -> ForceClosure:
+def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None = None,
+                  mu: float | None = None, *, friction_angle_deg: float | None = None,
+                  touching: ArrayLike | None = None, required_angle: bool = False,
+                  quality: bool = False, threads: int = 0, progress: Progress = None) -> ForceClosure:
     """Decides whether grasps are force closure, with circular friction cones and a certified margin.
 
     Args:
@@ -63,9 +87,13 @@ def force_closure(points, normals, object: Object | None = None, mu: float | Non
             surface is not asked.
         mu: friction coefficient, or
         friction_angle_deg: the half-angle of the cones, atan(mu), in degrees.
+        touching: (k,) or (N, k), which of the contacts there are; None: all. Points and normals of the
+            others are not looked at, and may be NaN.
         required_angle: whether to compute `ForceClosure.required_angle_deg`.
         quality: whether to compute `ForceClosure.quality`.
         threads: how many work; 0: as many as the machine has cores. Verdicts do not depend on it.
+        progress: called with a line of text after each part of many grasps; Ctrl-C ends the work after
+            the part that is under way.
 
     Raises:
         InputError: names the argument, the grasp and the value.
@@ -79,25 +107,18 @@ def force_closure(points, normals, object: Object | None = None, mu: float | Non
     False
     >>> force_closure(points, normals, mu=0.5).holds
     True
+    >>> force_closure(points, normals, mu=0.5, touching=[True, True, False]).holds
+    False
     >>> many = force_closure([points] * 1000, [normals] * 1000, mu=0.5, required_angle=True)
     >>> many.holds.all(), many.required_angle_deg.shape
     (True, (1000,))
     """
-    shapes = "(k, 3) or (N, k, 3), in the plane (k, 2) or (N, k, 2)"
-    points = _arguments.numbers("points", points, shapes, (2, 3))
-    normals = _arguments.numbers("normals", normals, shapes, (2, 3))
-    if points.shape != normals.shape:
-        raise InputError(f"normals: the shape is that of points, {points.shape}, "
-                         f"found {normals.shape}")
+    required_angle = _arguments.flag("required_angle", required_angle)
+    quality = _arguments.flag("quality", quality)
+    points, normals, touching = _contacts(points, normals, touching)
     dimension = points.shape[-1]
-    if dimension not in (2, 3):
-        raise InputError(f"points: the shape is {shapes}, found {points.shape}")
-    if points.shape[-2] == 0:
-        raise InputError(f"points: a grasp has a contact or more, found {points.shape}")
-    _check_unit(normals)
     if object is not None:
-        if not isinstance(object, Object):
-            raise InputError(f"object: an Object is needed, found {type(object).__name__}")
+        _arguments.of_type("object", object, Object)
         if object.dimension != dimension:
             raise InputError(f"points: {object.name} has dimension {object.dimension}, "
                              f"found {points.shape}")
@@ -106,19 +127,88 @@ def force_closure(points, normals, object: Object | None = None, mu: float | Non
     half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
     single = points.ndim == 2
     shape = (1 if single else len(points), points.shape[-2], 3)
-    decisions, lower, _, required, worth = _regrasp.judge_grasps(
-        _in_space(points, shape), _in_space(normals, shape), object._core if object else None,
-        dimension, half_angle, bool(required_angle), bool(quality),
-        _arguments.integer("threads", threads, 0, 4096))
+    points, normals = _in_space(points, shape), _in_space(normals, shape)
+    threads = _arguments.integer("threads", threads, 0, 4096)
+    part = (threads or os.cpu_count() or 1) * (
+        _PART_WITH_QUALITY if quality else _PART_WITH_ANGLE if required_angle else _PART)
+    decisions, lower, required, worth = _judge(
+        lambda p, n: _regrasp.judge_grasps(p, n, object._core if object else None, dimension,
+                                           half_angle, required_angle, quality, threads),
+        points, normals, None if touching is None else touching.reshape(shape[:2]), part,
+        _arguments.callback("progress", progress))
     holds = decisions == 2
     too_close = decisions == 1
     angles = np.degrees(required) if required_angle else None
     worth = worth if quality else None
     if not single:
         return ForceClosure(holds, too_close, lower, angles, worth)
+    held = slice(None) if touching is None else touching
+    asked = None if object is None else (object, points[0][held], normals[0][held], half_angle)
     return ForceClosure(bool(holds[0]), bool(too_close[0]), float(lower[0]),
                         None if angles is None else float(angles[0]),
-                        None if worth is None else float(worth[0]))
+                        None if worth is None else float(worth[0]), asked)
+
+
+def _contacts(points, normals, touching) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
+    """The arrays, checked; where nothing touches points are 0 and normals any unit vector."""
+    shapes = "(k, 3) or (N, k, 3), in the plane (k, 2) or (N, k, 2)"
+    numbers = _arguments.numbers if touching is None else _arguments.numbers_or_nan
+    points = numbers("points", points, shapes, (2, 3))
+    normals = numbers("normals", normals, shapes, (2, 3))
+    if points.shape != normals.shape:
+        raise InputError(f"normals: the shape is that of points, {points.shape}, "
+                         f"found {normals.shape}")
+    if points.shape[-1] not in (2, 3):
+        raise InputError(f"points: the shape is {shapes}, found {points.shape}")
+    if points.shape[-2] == 0:
+        raise InputError(f"points: a grasp has a contact or more, found {points.shape}")
+    if touching is not None:
+        touching = _arguments.flags("touching", touching, points.shape[:-1])
+        nothing = np.eye(points.shape[-1])[0]
+        points = _arguments.finite("points", np.where(touching[..., None], points, 0))
+        normals = _arguments.finite("normals", np.where(touching[..., None], normals, nothing))
+    _check_unit(normals)
+    return points, normals, touching
+
+
+def _judge(judge, points, normals, touching, part: int, progress) -> list[np.ndarray]:
+    """Decisions, margins, required half-angles and qualities of all grasps.
+
+    Args:
+        touching: (N, k), or None where all do.
+    """
+    if touching is None or touching.all():
+        return _in_parts(judge, points, normals, part, progress)
+    counts = touching.sum(axis=1)
+    result: list[np.ndarray] = []
+    for count in np.unique(counts[counts > 0]):
+        chosen = counts == count
+        held = touching[chosen]
+        found = _in_parts(judge, points[chosen][held].reshape(-1, count, 3),
+                          normals[chosen][held].reshape(-1, count, 3), part, progress)
+        if not result:  # what nobody holds is not force closure
+            result = [np.full(len(counts), fill, column.dtype) if len(column) else column
+                      for fill, column in zip((0, np.nan, np.nan, 0), found)]
+        for whole, column in zip(result, found):
+            if len(column):
+                whole[chosen] = column
+    if not result:
+        result = [np.zeros(len(counts), np.int8), np.full(len(counts), np.nan),
+                  np.full(len(counts), np.nan), np.zeros(len(counts))]
+    return result
+
+
+def _in_parts(judge, points, normals, part: int, progress) -> list[np.ndarray]:
+    """The same of grasps all of whose contacts touch, part by part: between them the interpreter
+    sees to signals."""
+    results, count = [], len(points)
+    for begin in range(0, max(count, 1), part):
+        end = min(begin + part, count)
+        decisions, lower, _, required, worth = judge(points[begin:end], normals[begin:end])
+        results.append((decisions, lower, required, worth))
+        if progress is not None and count > part:
+            progress(f"judged {end} of {count} grasps")
+    return [np.concatenate(columns) for columns in zip(*results)]
 
 
 def _check_unit(normals: np.ndarray) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _arguments, _regrasp
 from ._regrasp import InputError
+from ._types import ArrayLike
 
 
 class Hand:
@@ -25,7 +26,7 @@ class Hand:
         >>> Hand.read("models/hands/ring4.json").fingers
         ['finger0', 'finger1', 'finger2', 'finger3']
         """
-        return cls(_regrasp.read_hand(os.fspath(path)))
+        return cls(_regrasp.read_hand(_arguments.path("path", path)))
 
     @property
     def name(self) -> str:
@@ -47,7 +48,7 @@ class Hand:
         """(F,) radii of the fingertips' balls, metres."""
         return np.array(self._core.radii)
 
-    def tips(self, joints) -> np.ndarray:
+    def tips(self, joints: ArrayLike) -> np.ndarray:
         """Centres of the fingertips' balls in the palm's frame, metres.
 
         Args:
@@ -65,6 +66,30 @@ class Hand:
             raise InputError(f"joints: {self.name} has {count} joints, found {joints.shape}")
         tips = self._core.tips(np.atleast_2d(joints))
         return tips[0] if joints.ndim == 1 else tips
+
+    def ordered(self, names: list[str], joints: ArrayLike) -> np.ndarray:
+        """Angles in the order of `joint_names`.
+
+        Args:
+            names: of J or more joints.
+            joints: (N, as many) their angles.
+
+        Returns:
+            (N, J).
+
+        Raises:
+            InputError: a joint of the hand is missing.
+        """
+        names = _arguments.texts("names", names)
+        joints = _arguments.numbers("joints", joints, f"(N, {len(names)})", (2,))
+        if joints.shape[1] != len(names):
+            raise InputError(f"joints: the shape is (N, {len(names)}) for {len(names)} names, "
+                             f"found {joints.shape}")
+        missing = [name for name in self.joint_names if name not in names]
+        if missing:
+            raise InputError(f"names: {self.name} has joints {missing[0]} …, found "
+                             f"{', '.join(names)}")
+        return joints[:, [names.index(name) for name in self.joint_names]]
 
     def __repr__(self) -> str:
         return f"<Hand {self.name}: {len(self.fingers)} fingers, {len(self.joint_names)} joints>"

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _arguments, _regrasp
 from ._regrasp import InputError
+from ._types import ArrayLike, Progress, Sequence
 
 _SHELLS = {None: None, "union": _regrasp.Shells.union, "largest": _regrasp.Shells.largest}
 
@@ -25,7 +26,7 @@ class Object:
 
     @classmethod
     def read(cls, path: str | os.PathLike, *, scale: float = 1, repair: bool = False,
-             shells: str | None = None, progress=None) -> Object:
+             shells: str | None = None, progress: Progress = None) -> Object:
         """Reads a mesh (OBJ, OFF, PLY, STL, GLB, 3MF, …) or a polygon (WKT).
 
         Args:
@@ -43,11 +44,13 @@ class Object:
         """
         shells = None if shells is None else _arguments.choice("shells", shells, ["union", "largest"])
         scale = _arguments.number("scale", scale, 0)
-        return cls(_regrasp.read_object(os.fspath(path), scale, bool(repair), _SHELLS[shells],
-                                        progress))
+        return cls(_regrasp.read_object(
+            _arguments.path("path", path), scale, _arguments.flag("repair", repair), _SHELLS[shells],
+            _arguments.callback("progress", progress)))
 
     @classmethod
-    def from_arrays(cls, vertices, faces, *, scale: float = 1, name: str = "object.obj") -> Object:
+    def from_arrays(cls, vertices: ArrayLike, faces: ArrayLike, *, scale: float = 1,
+                    name: str = "object.obj") -> Object:
         """A solid of a closed triangle mesh.
 
         Args:
@@ -66,22 +69,21 @@ class Object:
         vertices = _arguments.numbers("vertices", vertices, "(V, 3)", (2,))
         if vertices.shape[1] != 3:
             raise InputError(f"vertices: the shape is (V, 3), found {vertices.shape}")
-        faces = np.asarray(faces)
-        if faces.ndim != 2 or faces.shape[1] != 3:
+        faces = _arguments.indices("faces", faces, "(F, 3)", (2,))
+        if faces.shape[1] != 3:
             raise InputError(f"faces: the shape is (F, 3), found {faces.shape}")
-        if faces.dtype.kind not in "iu":
-            raise InputError(f"faces: integers are needed, found an array of {faces.dtype}")
+        if len(vertices) == 0:
+            raise InputError("vertices: there are none, the shape is (0, 3)")
         wrong = np.argwhere((faces < 0) | (faces >= len(vertices)))
         if len(wrong):
             place = tuple(int(i) for i in wrong[0])
             raise InputError(f"faces{list(place)}: there is no vertex {faces[place]}, "
                              f"there are {len(vertices)}")
         return cls(_regrasp.object_from_arrays(
-            vertices, np.ascontiguousarray(faces, dtype=np.int64),
-            _arguments.number("scale", scale, 0), str(name)))
+            vertices, faces, _arguments.number("scale", scale, 0), _arguments.text("name", name)))
 
     @classmethod
-    def from_polygon(cls, outline, holes=(), *, scale: float = 1,
+    def from_polygon(cls, outline: ArrayLike, holes: Sequence[ArrayLike] = (), *, scale: float = 1,
                      name: str = "object.wkt") -> Object:
         """A planar object.
 
@@ -94,6 +96,11 @@ class Object:
         >>> Object.from_polygon([[0, 0], [2, 0], [2, 1], [0, 1]]).measure
         2.0
         """
+        try:
+            holes = list(holes)
+        except TypeError:
+            raise InputError("holes: a list of arrays is needed, found "
+                             f"{_arguments.shown(holes)}") from None
         rings = []
         for label, ring in [("outline", outline)] + [
                 (f"holes[{i}]", hole) for i, hole in enumerate(holes)]:
@@ -104,13 +111,40 @@ class Object:
             closed = [*corners.tolist(), corners[0].tolist()]
             rings.append("(" + ", ".join(f"{x!r} {y!r}" for x, y in closed) + ")")
         return cls(_regrasp.object_from_wkt("POLYGON(" + ",\n".join(rings) + ")\n",
-                                            _arguments.number("scale", scale, 0), str(name)))
+                                            _arguments.number("scale", scale, 0),
+                                            _arguments.text("name", name)))
+
+    def nearest(self, points: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+        """The places on the surface that are nearest to points, on all cores.
+
+        Args:
+            points: (N, 3), or (N, 2) of a polygon, in the object's unit.
+
+        Returns:
+            Places of the same shape, and unit normals into the object there.
+
+        >>> place, normal = Object.read("models/cube.obj").nearest([[0.05, 0.01, 0.02]])
+        >>> place.tolist(), normal.tolist()
+        ([[0.03, 0.01, 0.02]], [[-1.0, 0.0, 0.0]])
+        """
+        shape = f"(N, {self.dimension})"
+        points = _arguments.numbers("points", points, shape, (2,))
+        if points.shape[1] != self.dimension:
+            raise InputError(f"points: the shape is {shape}, found {points.shape}")
+        padded = np.zeros((len(points), 3))
+        padded[:, :self.dimension] = points
+        # In parts, between which the interpreter sees to signals.
+        part = 20_000
+        found = [_regrasp.nearest(self._core, padded[begin:begin + part])
+                 for begin in range(0, max(len(points), 1), part)]
+        places, normals = (np.concatenate(columns)[:, :self.dimension] for columns in zip(*found))
+        return places, normals
 
     def write(self, path: str | os.PathLike) -> None:
         """Writes the file that the programs read as this object; of one made from arrays only."""
         if not self._core.text:
             raise InputError(f"{self.name}: was read from a file, which is still there")
-        with open(path, "w", encoding="utf-8") as file:
+        with open(_arguments.path("path", path), "w", encoding="utf-8") as file:
             file.write(self._core.text)
 
     @property

@@ -10,6 +10,7 @@ import os
 
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
+from ._types import ArrayLike, GivenGrasp, Progress
 from .hands import Hand
 from .objects import Object
 
@@ -37,22 +38,25 @@ class Plan:
         Raises:
             InputError: it is none; names the element.
         """
-        _regrasp.check_plan_text(text, name)
+        _regrasp.check_plan_text(_arguments.text("text", text), _arguments.text("name", name))
         self.text = text
         self.name = name
         self.data: dict = json.loads(text)
+        self.object: Object | None = None
+        """That it is for, where that is known: `plan` sets it, and you may after `Plan.read`. A
+        notebook then shows every step."""
         self.warnings: list[str] = []
         self.notes: list[str] = []
 
     @classmethod
     def read(cls, path: str | os.PathLike) -> Plan:
         """Reads a plan file."""
-        with open(path, encoding="utf-8") as file:
-            return cls(file.read(), os.path.basename(os.fspath(path)))
+        path = _arguments.path("path", path)
+        return cls(_text_of(path), os.path.basename(path))
 
     def write(self, path: str | os.PathLike) -> None:
         """Writes the plan file."""
-        with open(path, "w", encoding="utf-8") as file:
+        with open(_arguments.path("path", path), "w", encoding="utf-8") as file:
             file.write(self.text)
 
     @property
@@ -60,11 +64,42 @@ class Plan:
         """The steps, as in the file."""
         return self.data["steps"]
 
+    def figure(self, object: Object | None = None, *, width_mm: float = 174) -> str:
+        """A drawing of all steps, in lines, as the program `figure` makes it.
+
+        Args:
+            object: that the plan is for; None: `Plan.object`.
+            width_mm: of the drawing, millimetres.
+
+        Returns:
+            SVG.
+
+        Raises:
+            InputError: the object is not known or another one, or a step breaks a rule.
+
+        >>> cube = Object.read("models/cube.obj")
+        >>> plan(cube, "models/cube.start.json", "models/cube.goal.json", mu=0.4).figure()[:5]
+        '<?xml'
+        """
+        object = self.object if object is None else object
+        if object is None:
+            raise InputError(f"object: {self.name} does not hold {self.data['object']['file']}; "
+                             "give it")
+        return _regrasp.draw_plan(_arguments.of_type("object", object, Object)._core, self.text,
+                                  self.name, _arguments.number("width_mm", width_mm, 20, 2000))
+
     def _repr_html_(self) -> str:
         rows = [["0", "hold", _fingers(self.data["initial"]["contacts"])]]
         for i, step in enumerate(self.steps, 1):
             rows.append([str(i), step["kind"], _describe(step)])
-        return f"<p>{html.escape(repr(self)[1:-1])}</p>" + _html.table(["step", "kind", "what happens"], rows)
+        page = f"<p>{html.escape(repr(self)[1:-1])}</p>" + _html.table(
+            ["step", "kind", "what happens"], rows)
+        if self.object is None:
+            return page
+        try:
+            return page + _html.drawing(self.figure(), repr(self))
+        except InputError as error:  # a step that cannot be drawn; the table says what there is
+            return page + _html.text(str(error))
 
     def __len__(self) -> int:
         return len(self.steps)
@@ -75,6 +110,14 @@ class Plan:
         counts = [f"{kinds.count(kind)} {kind if kinds.count(kind) == 1 else several[kind]}"
                   for kind in several if kind in kinds]
         return f"<Plan of {self.data['object']['file']}: {', '.join(counts) or 'no steps'}>"
+
+
+def _text_of(path: str) -> str:
+    try:
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: not UTF-8: {error}") from None
 
 
 def _fingers(contacts: list[dict]) -> str:
@@ -95,11 +138,11 @@ def _describe(step: dict) -> str:
     return "the object moves in the hand"
 
 
-def plan(object: Object, start, goal, mu: float | None = None, *,
+def plan(object: Object, start: GivenGrasp, goal: GivenGrasp, mu: float | None = None, *,
          friction_angle_deg: float | None = None, planner: str = "auto", optimize: str = "steps",
          contacts: int | None = None, clusters: int | None = None, seed: int = 0,
          min_quality: float = 0.01, finger_radius: float = 0, time_limit: float | None = None,
-         progress=None) -> Plan:
+         progress: Progress = None) -> Plan:
     """Finds a sequence from one grasp to another with force closure at every instant.
 
     The same arguments give the same plan, bit for bit, and the same that the program `plan` writes.
@@ -137,8 +180,7 @@ def plan(object: Object, start, goal, mu: float | None = None, *,
     >>> found.steps[0]["kind"]
     'align'
     """
-    if not isinstance(object, Object):
-        raise InputError(f"object: an Object is needed, found {type(object).__name__}")
+    _arguments.of_type("object", object, Object)
     given = _asked(mu, friction_angle_deg, seed, min_quality, time_limit)
     given.start = _grasp_text("start", start, object)
     given.goal = _grasp_text("goal", goal, object)
@@ -151,17 +193,18 @@ def plan(object: Object, start, goal, mu: float | None = None, *,
     if clusters is not None:
         given.clusters = _arguments.integer("clusters", clusters, _regrasp.fewest_clusters,
                                             _regrasp.most_clusters)
-    given.finger_radius = 0 if finger_radius == 0 else _arguments.number(
-        "finger_radius", finger_radius, 0)
-    return _plan_of(*_regrasp.find_plan(object._core, given, progress))
+    given.finger_radius = _arguments.number("finger_radius", finger_radius, 0, zero=True)
+    return _plan_of(object, *_regrasp.find_plan(object._core, given,
+                                                _arguments.callback("progress", progress)))
 
 
 def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
                  friction_angle_deg: float | None = None, turn: tuple[str, float] | None = None,
-                 start=None, goal=None, start_pose=None, goal_pose=None,
+                 start: GivenGrasp | None = None, goal: GivenGrasp | None = None,
+                 start_pose: ArrayLike | None = None, goal_pose: ArrayLike | None = None,
                  reserve: str = "preferred", clearance: float = 0.001, seed: int = 0,
                  min_quality: float = 0.01, time_limit: float | None = None,
-                 progress=None) -> Plan:
+                 progress: Progress = None) -> Plan:
     """Finds how a hand turns an object, moves it, or changes its grasp: with all joints, and without
     collisions.
 
@@ -197,10 +240,8 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     >>> plan_in_hand(cube, ring, mu=0.8, turn=("z", 30))
     <Plan of cube.obj: 1 move>
     """
-    if not isinstance(object, Object):
-        raise InputError(f"object: an Object is needed, found {type(object).__name__}")
-    if not isinstance(hand, Hand):
-        raise InputError(f"hand: a Hand is needed, found {type(hand).__name__}; Hand.read reads one")
+    _arguments.of_type("object", object, Object)
+    _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     if object.dimension != 3:
         raise InputError(f"object: {object.name} is a polygon; hands hold solids")
     if turn is not None and goal_pose is not None:
@@ -219,8 +260,9 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     task.goal_pose = None if goal_pose is None else _pose("goal_pose", goal_pose)
     words = ["preferred", "required", "none"]
     task.reserve = getattr(_regrasp.Reserve, _arguments.choice("reserve", reserve, words))
-    task.clearance = 0 if clearance == 0 else _arguments.number("clearance", clearance, 0, 0.05)
-    return _plan_of(*_regrasp.find_plan_in_hand(object._core, given, hand._core, task, progress))
+    task.clearance = _arguments.number("clearance", clearance, 0, 0.05, zero=True)
+    return _plan_of(object, *_regrasp.find_plan_in_hand(
+        object._core, given, hand._core, task, _arguments.callback("progress", progress)))
 
 
 def _asked(mu, friction_angle_deg, seed, min_quality, time_limit):
@@ -228,7 +270,7 @@ def _asked(mu, friction_angle_deg, seed, min_quality, time_limit):
     given = _regrasp.PlanArguments()
     given.half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
     given.seed = _arguments.integer("seed", seed, 0, 2**64 - 1)
-    given.min_quality = 0 if min_quality == 0 else _arguments.number("min_quality", min_quality, 0)
+    given.min_quality = _arguments.number("min_quality", min_quality, 0, zero=True)
     if time_limit is not None:
         given.time_limit_s = _arguments.number("time_limit", time_limit, 0)
     return given
@@ -238,7 +280,8 @@ def _turn(turn) -> tuple[list[float], float]:
     try:
         axis, degrees = turn
     except (TypeError, ValueError):
-        raise InputError(f'turn: an axis and degrees, as in ("z", 90), found {turn!r}') from None
+        raise InputError('turn: an axis and degrees, as in ("z", 90), found '
+                         f"{_arguments.shown(turn)}") from None
     axis = _arguments.choice("turn[0]", axis, ["x", "y", "z"])
     degrees = _arguments.number("turn[1]", degrees, -3600.1, 3600.1)
     if degrees == 0:
@@ -259,10 +302,11 @@ def _pose(name: str, pose) -> list[float]:
     return pose.tolist()
 
 
-def _plan_of(text, message, warnings, notes) -> Plan:
+def _plan_of(object: Object, text, message, warnings, notes) -> Plan:
     if text is None:
         raise NoPlan(message)
     result = Plan(text)
+    result.object = object
     result.warnings = [warning for warning in warnings if warning]
     result.notes = notes
     return result
@@ -270,12 +314,12 @@ def _plan_of(text, message, warnings, notes) -> Plan:
 
 def _grasp_text(name: str, grasp, object: Object, random: bool = True) -> str:
     """A grasp argument as the text of a grasp file, or one of the words for random ones."""
-    if isinstance(grasp, (str, os.PathLike)):
+    if isinstance(grasp, (str, bytes, os.PathLike)):
         if random and grasp in _RANDOM:
             return grasp
+        grasp = _arguments.path(name, grasp)
         try:
-            with open(grasp, encoding="utf-8") as file:
-                return file.read()
+            return _text_of(grasp)
         except FileNotFoundError:
             words = f", {' or '.join(map(repr, _RANDOM))}" if random else ""
             raise InputError(f"{name}: there is no file {grasp}; give points, a file{words}") from None

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
+from ._types import Progress
 from .hands import Hand
 from .objects import Object
 from .plans import Plan
@@ -63,7 +64,11 @@ class Report:
         return self._draw(size)[1]
 
     def _draw(self, size):
-        width, height = size
+        try:
+            width, height = size
+        except (TypeError, ValueError):
+            raise InputError("size: width and height are needed, found "
+                             f"{_arguments.shown(size)}") from None
         limits = _regrasp.least_frame_side, _regrasp.most_frame_side
         size = (_arguments.integer("size[0]", width, *limits),
                 _arguments.integer("size[1]", height, *limits))
@@ -90,7 +95,7 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
              squeeze: float | None = None, shake: float = 0.01, tolerance: float = 0.001,
              stress: bool = False, hand: Hand | None = None, replay: str | None = None,
              tip: str | None = None, tolerance_mm: float = 2, tolerance_deg: float = 5,
-             feedback: bool = True, progress=None) -> Report:
+             feedback: bool = True, progress: Progress = None) -> Report:
     """Checks a plan analytically, replays it with frictional point fingers or by a hand, and disturbs
     the object.
 
@@ -133,22 +138,19 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     >>> validate(cube, found, mu=0.05).steps[0]["reason"]
     'not-force-closure'
     """
-    if not isinstance(object, Object):
-        raise InputError(f"object: an Object is needed, found {type(object).__name__}")
-    if not isinstance(plan, Plan):
-        raise InputError(f"plan: a Plan is needed, found {type(plan).__name__}; "
-                         "Plan.read reads a file")
+    _arguments.of_type("object", object, Object)
+    _arguments.of_type("plan", plan, Plan, "; Plan.read reads a file")
     given = _regrasp.ValidateArguments()
     given.half_angle = _arguments.half_angle(mu, friction_angle_deg)
     if mass is not None:
         given.mass_kg = _arguments.number("mass", mass, 0)
     if squeeze is not None:
         given.squeeze_N = _arguments.number("squeeze", squeeze, 0)
-    given.shake = _arguments.number("shake", shake, 0)
+    given.shake = _arguments.number("shake", shake, 0, zero=True)
     given.tolerance = _arguments.number("tolerance", tolerance, 0)
-    given.stress = bool(stress)
-    if hand is not None and not isinstance(hand, Hand):
-        raise InputError(f"hand: a Hand is needed, found {type(hand).__name__}; Hand.read reads one")
+    given.stress = _arguments.flag("stress", stress)
+    if hand is not None:
+        _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     if hand is not None and "hand" not in plan.data:
         raise InputError(f"hand: {plan.name} is a plan for fingers without a hand")
     if hand is not None and object.dimension != 3:
@@ -158,14 +160,15 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     given.replay_by_hand = _arguments.choice("replay", replay, ["points", "hand"]) == "hand"
     if given.replay_by_hand and hand is None:
         raise InputError("hand: is needed for a replay by it")
-    if given.replay_by_hand and stress:
+    if given.replay_by_hand and given.stress:
         raise InputError('stress: goes with replay="points"')
     if tip is not None:
         given.own_tips = _arguments.choice("tip", tip, ["ball", "geometry"]) == "geometry"
         if not given.replay_by_hand:
             raise InputError('tip: goes with replay="hand"')
-    given.feedback = bool(feedback)
+    given.feedback = _arguments.flag("feedback", feedback)
     given.set_hand_tolerance(_arguments.number("tolerance_mm", tolerance_mm, 0),
                              _arguments.number("tolerance_deg", tolerance_deg, 0))
     return Report(_regrasp.validate_plan(object._core, plan.text, plan.name, given,
-                                         hand._core if hand else None, progress), object)
+                                         hand._core if hand else None,
+                                         _arguments.callback("progress", progress)), object)

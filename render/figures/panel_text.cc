@@ -17,7 +17,7 @@ constexpr char kClauseEnd = ';';
 
 /// The same font on every page: unhinted, so that an SVG, a PDF and a PNG have the same layout.
 void SetFont(cairo_t* cr, double size, bool bold) {
-  SelectFont(cr, size, bold);
+  SelectFont(cr, size, bold, "sans");
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);

@@ -81,8 +81,8 @@ void DrawHatch(cairo_t* cr, const Vector2d& corner, const Vector2d& size, const 
   Stroke(cr, color, hatch.width);
 }
 
-void SelectFont(cairo_t* cr, double size, bool bold) {
-  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+void SelectFont(cairo_t* cr, double size, bool bold, const char* family) {
+  cairo_select_font_face(cr, family, CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, size);
 }

@@ -47,7 +47,11 @@ void DrawHatch(cairo_t* cr, const Eigen::Vector2d& corner, const Eigen::Vector2d
                const Hatch& hatch, Color color);
 
 /// The font of all pictures.
-void SelectFont(cairo_t* cr, double size, bool bold);
+///
+/// Cairo keeps for each name of a family the hinting that was asked for first, as long as the
+/// process runs: who asks for another hinting than frames have, takes another name of the same
+/// font.
+void SelectFont(cairo_t* cr, double size, bool bold, const char* family = "sans-serif");
 /// How far a text goes in the current font.
 [[nodiscard]] double TextWidth(cairo_t* cr, const std::string& text);
 /// Where a text begins whose ink is centred.

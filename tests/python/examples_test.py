@@ -29,8 +29,8 @@ class ExamplesTest(unittest.TestCase):
         self.assertGreater(result.attempted, 15)
 
     def test_all_that_is_public_is_described(self):
-        for name in regrasp.__all__:
-            item = getattr(regrasp, name)
+        for module, name in [(m, n) for m in (regrasp, formats) for n in m.__all__]:
+            item = getattr(module, name)
             self.assertTrue(inspect.getdoc(item), name)
             if not inspect.isclass(item) or issubclass(item, Exception):
                 continue
@@ -39,9 +39,24 @@ class ExamplesTest(unittest.TestCase):
                     continue
                 self.assertTrue(inspect.getdoc(getattr(item, member)), f"{name}.{member}")
 
-    def test_functions_have_type_hints(self):
-        for function in (regrasp.force_closure, regrasp.Object.read, regrasp.Object.from_arrays):
-            self.assertIn("return", inspect.get_annotations(function))
+    def test_what_is_public_has_type_hints(self):
+        checked = 0
+        for module, name in [(m, n) for m in (regrasp, formats) for n in m.__all__]:
+            item = getattr(module, name)
+            if inspect.isclass(item):
+                functions = [f for key, f in inspect.getmembers(item, inspect.isroutine)
+                             if not key.startswith("_") and key in vars(item)]
+                functions += [p.fget for p in vars(item).values() if isinstance(p, property)]
+            else:
+                functions = [item]
+            for function in functions:
+                function = getattr(function, "__func__", function)
+                hints = inspect.get_annotations(function)
+                arguments = [argument for argument in inspect.signature(function).parameters
+                             if argument not in ("self", "cls")]
+                self.assertEqual(set(hints), {*arguments, "return"}, function.__qualname__)
+                checked += 1
+        self.assertGreater(checked, 40)
 
 
 if __name__ == "__main__":

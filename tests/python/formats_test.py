@@ -11,7 +11,7 @@ import unittest
 import numpy as np
 
 import regrasp
-from regrasp import convert, formats
+from regrasp import _poses, convert, formats
 from regrasp_case import PROGRAMS, RegraspCase
 
 HAND = "models/hands/ring4.json"
@@ -66,8 +66,8 @@ class FormatsTest(RegraspCase):
     def assert_same(self, found, tolerance=1e-12):
         """Up to the rounding of turns there and back."""
         np.testing.assert_allclose(found.positions, self.grasps.positions, atol=tolerance)
-        np.testing.assert_allclose(formats._matrices(found.quaternions),
-                                   formats._matrices(self.grasps.quaternions), atol=tolerance)
+        np.testing.assert_allclose(_poses.matrices(found.quaternions),
+                                   _poses.matrices(self.grasps.quaternions), atol=tolerance)
         np.testing.assert_array_equal(found.in_order_of(self.hand), self.grasps.joints)
 
     def test_fingertips_of_a_plan_touch_where_the_plan_says(self):
@@ -78,6 +78,11 @@ class FormatsTest(RegraspCase):
             np.testing.assert_allclose(points[0, contact["finger"]], contact["point"], atol=1e-6)
             np.testing.assert_allclose(normals[0, contact["finger"]], contact["normal"], atol=1e-9)
         self.assertFalse(self.grasps.touching(self.hand, self.cube, tolerance=1e-15)[2].all())
+
+    def test_a_notebook_shows_grasps_of_hands(self):
+        page = self.grasps._repr_html_()
+        self.assertEqual(page.count("<tr>"), 1 + len(self.grasps))
+        self.assertIn("not carried over: contacts", page)
 
     def test_isaac_grasp_comes_back_bit_for_bit(self):
         path = self.path("grasps.yaml")
@@ -121,10 +126,10 @@ class FormatsTest(RegraspCase):
     def world_poses(self):
         """Object and palms in a world in which neither is at rest."""
         object_pose = np.array([0.3, -0.2, 0.1, 0.5, 0.5, -0.5, 0.5])
-        turn = formats._matrices(object_pose[3:])
+        turn = _poses.matrices(object_pose[3:])
         palms = np.concatenate([
             self.grasps.positions @ turn.T + object_pose[:3],
-            formats._product(np.broadcast_to(object_pose[3:], (len(self.grasps), 4)),
+            _poses.product(np.broadcast_to(object_pose[3:], (len(self.grasps), 4)),
                              self.grasps.quaternions)], axis=1)
         return object_pose, palms
 
@@ -143,6 +148,70 @@ class FormatsTest(RegraspCase):
                        "joint_names": self.hand.joint_names[::-1]})
         one = formats.read_dexgraspbench(path)
         np.testing.assert_array_equal(one.in_order_of(self.hand), self.grasps.joints[:1])
+
+    def bodex(self):
+        """What BODex saves of the plan's grasps: an axis of one, grasps, three stages."""
+        object_pose, palms = self.world_poses()
+        grasps = np.concatenate([palms, self.grasps.joints], axis=1)
+        stages = np.stack([grasps + 0.1, grasps, grasps + 0.2], axis=1)
+        return {"robot_pose": stages[None], "obj_pose": object_pose[None], "obj_scale": [0.06],
+                "joint_names": list(self.hand.joint_names), "contact_force": np.ones((1, 2, 3)),
+                "world_cfg": [{"mesh": {"name": "cube", "scale": [1., 1, 1]}}]}
+
+    def test_files_of_bodex(self):
+        data, path = self.bodex(), self.path("cube_grasp.npy")
+        np.save(path, data)
+        found = formats.read_bodex(path)
+        self.assert_same(found)
+        self.assertEqual(found.lost, ["contact_force", "obj_scale, to be given as --scale 0.06",
+                                      "world_cfg", "all stages of robot_pose but the second"])
+        np.savez(self.path("grasp.npz"), **data)
+        self.assert_same(formats.read_bodex(self.path("grasp.npz")))
+        # The object's pose may stand elsewhere.
+        pose = data.pop("obj_pose")[0]
+        np.save(path, data)
+        self.refuses(["object_pose", path], formats.read_bodex, path)
+        self.assert_same(formats.read_bodex(path, object_pose=pose))
+        self.assertIn("--hand", self.convert(path, "--object-pose=" + ",".join(map(repr, pose.tolist())),
+                                             "--output", self.path("a.npz"), code=2))
+        self.convert(path, "--object-pose=" + ",".join(map(repr, pose.tolist())), "--output",
+                     self.path("a.yaml"))
+        self.assert_same(formats.read_isaac_grasp(self.path("a.yaml")))
+        for change, words in [({"robot_pose": data["robot_pose"][0]}, ["robot_pose", "(1, N, stages"]),
+                              ({"robot_pose": data["robot_pose"][:, :, :1]}, ["two stages"]),
+                              ({"joint_names": 7}, ["joint_names", "7"]),
+                              ({"obj_scale": [1, 1, 2.]}, ["obj_scale", "[1.0, 1.0, 2.0]"])]:
+            np.save(path, {**data, **change})
+            self.refuses([path, *words], formats.read_bodex, path, object_pose=pose)
+
+    def test_members_of_an_archive_are_read_like_a_dictionary(self):
+        object_pose, palms = self.world_poses()
+        np.savez_compressed(self.path("a.npz"), obj_pose=object_pose,
+                            grasp_qpos=np.concatenate([palms, self.grasps.joints], axis=1))
+        self.assert_same(formats.read_dexgraspbench(self.path("a.npz")))
+        np.savez(self.path("b.npz"), grasp_qpos=np.array({"not": Trap()}, dtype=object))
+        self.refuses(["b.npz", "posix.mkdir"], formats.read_dexgraspbench, self.path("b.npz"))
+
+    def test_a_dictionary_with_any_byte_changed_is_read_or_refused(self):
+        object_pose, palms = self.world_poses()
+        path = self.path("0.npy")
+        np.save(path, {"obj_pose": object_pose, "joint_names": self.hand.joint_names,
+                       "grasp_qpos": np.concatenate([palms, self.grasps.joints], axis=1)})
+        with open(path, "rb") as file:
+            whole = bytearray(file.read())
+        rng, refused = np.random.default_rng(5), 0
+        for at in rng.integers(0, len(whole), 600):
+            changed = whole.copy()
+            changed[at] ^= 1 << rng.integers(8)
+            with open(path, "wb") as file:
+                file.write(changed)
+            with self.subTest(at=at):
+                try:
+                    formats.read_dexgraspbench(path)
+                except regrasp.InputError as error:
+                    self.assertNotIn("\n", str(error))
+                    refused += 1
+        self.assertGreater(refused, 100)
 
     def test_nothing_in_a_dictionary_is_executed(self):
         trapped = os.path.join(tempfile.gettempdir(), "regrasp-unpickled")
@@ -165,7 +234,7 @@ class FormatsTest(RegraspCase):
                 ({"grasp_qpos": np.ones(5), "obj_pose": pose}, ["grasp_qpos", "(1, 5)"]),
                 ({"grasp_qpos": np.ones(20), "obj_pose": pose}, ["grasp_qpos", "quaternion"]),
                 ({"grasp_qpos": "x", "obj_pose": pose}, ["grasp_qpos", "<U1"]),
-                ([1, 2], ["int64"]), ("text", ["<U4"])]:
+                ([1, 2], ["int64"]), ("text", ["str"])]:
             np.save(path, data)
             self.refuses([path, *words], formats.read_dexgraspbench, path)
         with open(path, "rb") as file:
@@ -196,6 +265,8 @@ class FormatsTest(RegraspCase):
         np.testing.assert_allclose(found.positions, self.grasps.positions[:1], atol=1e-12)
         np.testing.assert_array_equal(found.in_order_of(self.hand), self.grasps.joints[:1])
         self.assertEqual(found.lost, ["1 obstacle"])
+        contacts = self.path("contacts.xml", "<virtual_contacts><robot_name>a</robot_name></virtual_contacts>")
+        self.refuses([contacts, "save the world"], formats.read_graspit, contacts)
         for change, words in [(("<world>", "<worlds>"), ["no XML"]),
                               (("<robot>", "<robots>"), ["no XML"]),
                               (("graspableBody", "body"), ["0 and 1"]),
@@ -224,21 +295,37 @@ class FormatsTest(RegraspCase):
                                self.path("a.npz"), "--mu", "0.8", "--out", self.path("out")],
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        # Of all fingers those count that touch; the same verdicts.
         said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--output",
                             self.path("b.npz"))
-        self.assertIn(f"{len(self.grasps)} of {len(self.grasps)} grasps", said)
+        idle, = {"0", "1", "2", "3"} - set(held)
+        self.assertIn(f"finger{idle} in {len(self.grasps)} of {len(self.grasps)} grasps", said)
+        margins = []
+        for name in ("a.npz", "b.npz"):
+            subprocess.run([f"{PROGRAMS}/validate", "--object", CUBE, "--grasps", self.path(name),
+                            "--mu", "0.8", "--out", self.path("out"), "--quiet"], check=True)
+            with np.load(self.path("out/verdicts.npz")) as verdicts:
+                margins.append(verdicts["margin"])
+        np.testing.assert_array_equal(*margins)
         with np.load(self.path("b.npz")) as arrays:
-            self.assertEqual(arrays["points"].shape, (0, 4, 3))
+            self.assertEqual(arrays["points"].shape, (len(self.grasps), 4, 3))
+            self.assertFalse(arrays["holds"][:, int(idle)].any())
+        # Of a finger that must touch and does not no grasp is left.
+        said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--fingers",
+                            "finger" + idle, "--output", self.path("c.npz"))
+        self.assertIn("one of --fingers does not touch", said)
+        with np.load(self.path("c.npz")) as arrays:
+            self.assertEqual(arrays["points"].shape, (0, 1, 3))
 
     def test_poses_of_another_body_than_the_palm(self):
         # In a body's frame the palm is at (1, 2, 3), turned by 90° about z.
         palm = np.array([1, 2, 3, 0.5 ** 0.5, 0, 0, 0.5 ** 0.5])
-        back = formats._inverse(palm[:3], palm[3:])
+        back = _poses.inverse(palm[:3], palm[3:])
         other = self.grasps.with_palm_at([*back[0], *back[1]])
         self.assertGreater(np.linalg.norm(other.positions - self.grasps.positions), 1)
         self.assert_same(other.with_palm_at(palm))
         moved = self.grasps.with_palm_at([0, 0, 0.1])
-        turns = formats._matrices(self.grasps.quaternions)
+        turns = _poses.matrices(self.grasps.quaternions)
         np.testing.assert_allclose(moved.positions, self.grasps.positions + 0.1 * turns[:, :, 2])
         formats.write_isaac_grasp(self.path("other.yaml"), other)
         self.convert(self.path("other.yaml"), "--palm", ",".join(map(repr, palm.tolist())),

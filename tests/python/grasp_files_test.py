@@ -63,18 +63,62 @@ class GraspFilesTest(RegraspCase):
         found = self.judge("--mu", "0.5", "--quality", code=1, points=self.points[:12],
                            normals=self.normals[:12])
         for i in range(12):
-            contacts = [{"point": p, "normal": n} for p, n in zip(self.points[i].tolist(),
-                                                                 self.normals[i].tolist())]
-            with open(self.path("grasp.json"), "w", encoding="utf-8") as file:
-                json.dump({"format": "regrasp-grasp", "version": 1, "contacts": contacts}, file)
-            subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--grasp",
-                            self.path("grasp.json"), "--mu", "0.5", "--no-frames", "--quiet",
-                            "--out", self.path("single")], check=False, capture_output=True)
-            with open(self.path("single/report.json"), encoding="utf-8") as file:
-                report = json.load(file)
+            report = self.report_of(self.points[i], self.normals[i], "--mu", "0.5")
             self.assertEqual(report["steps"][0]["force_closure"]["holds"], found["holds"][i])
             if found["holds"][i]:
                 self.assertEqual(report["grasp"]["quality"], found["quality"][i])
+
+    def test_contacts_that_do_not_hold_do_not_count(self):
+        holds = np.random.default_rng(2).uniform(size=(400, 4)) < 0.8
+        holds[5] = False
+        found = self.judge("--mu", "0.9", code=1, points=self.points, normals=self.normals, holds=holds)
+        counts = holds.sum(axis=1)
+        self.assertTrue({0, 2, 3, 4} <= set(counts))
+        for k in (1, 2, 3, 4):
+            chosen = np.flatnonzero(counts == k)
+            kept = holds[chosen]
+            alone = self.judge("--mu", "0.9", code=1, points=self.points[chosen][kept].reshape(-1, k, 3),
+                               normals=self.normals[chosen][kept].reshape(-1, k, 3))
+            for name in ("holds", "margin", "reason"):
+                np.testing.assert_array_equal(found[name][chosen], alone[name])
+        self.assertTrue(found["holds"][counts == 3].any())
+        self.assertFalse(found["holds"][counts == 0].any())
+        words = found["reasons"][found["reason"].astype(int)]
+        self.assertEqual(set(words[counts == 0]), {"not-force-closure"})
+        # What a contact that does not hold has for a point is not looked at, as long as it is a number.
+        points = np.where(holds[..., None], self.points, 7)
+        again = self.judge("--mu", "0.9", code=1, points=points, normals=self.normals, holds=holds)
+        np.testing.assert_array_equal(again["margin"], found["margin"])
+        all_hold = self.judge("--mu", "0.9", code=1, points=self.points, normals=self.normals,
+                              holds=np.ones((400, 4), bool))
+        self.assertFalse(np.array_equal(all_hold["holds"], found["holds"]))
+
+    def test_replays_are_those_of_single_grasps(self):
+        chosen = np.flatnonzero(self.judge("--mu", "0.4", code=1, points=self.points)["holds"])[:12]
+        points, normals = self.points[chosen], self.normals[chosen]
+        points[3, 1] += 1
+        options = ["--mu", "0.4", "--shake", "0.02"]
+        found = self.judge(*options, "--replay", "points", code=1, points=points, normals=normals)
+        words = found["reasons"][found["reason"].astype(int)]
+        self.assertEqual(words[3], "off-surface")
+        np.testing.assert_array_equal(found["replayed"], np.arange(12) != 3)
+        self.assertEqual(set(found["holds"]), {True, False})
+        for i in np.flatnonzero(found["replayed"])[:6]:
+            report = self.report_of(points[i], normals[i], *options)
+            self.assertEqual(report["verdict"] == "pass", found["holds"][i])
+            self.assertEqual(report["steps"][0]["reason"] or "", words[i])
+        # By analysis alone all that are on the object pass.
+        self.assertEqual(self.judge("--mu", "0.4", code=1, points=points)["holds"].sum(), 11)
+
+    def report_of(self, points, normals, *options):
+        contacts = [{"point": p, "normal": n} for p, n in zip(points.tolist(), normals.tolist())]
+        with open(self.path("grasp.json"), "w", encoding="utf-8") as file:
+            json.dump({"format": "regrasp-grasp", "version": 1, "contacts": contacts}, file)
+        subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--grasp",
+                        self.path("grasp.json"), "--no-frames", "--quiet", "--out",
+                        self.path("single"), *options], check=False, capture_output=True)
+        with open(self.path("single/report.json"), encoding="utf-8") as file:
+            return json.load(file)
 
     def test_what_cannot_be_held_is_told_apart(self):
         points, normals = self.points.copy(), self.normals.copy()
@@ -126,6 +170,10 @@ class GraspFilesTest(RegraspCase):
                 (["points[2, 1, 0]", "not finite"], [], {"points": broken}),
                 (["points", "objects"], [], {"points": np.array([None])}),
                 (["points", "U1"], [], {"points": np.array(["x"])}),
+                (["holds", "(400, 4)", "(400, 3)"], [],
+                 {"points": self.points, "holds": np.ones((400, 3), bool)}),
+                (["--replay hand", "plan"], ["--replay", "hand"], {"points": self.points}),
+                (["--shake", "--replay points"], ["--shake", "0.1"], {"points": self.points}),
                 (["--trajectory", "--grasps"], ["--trajectory", self.path("t.csv")],
                  {"points": self.points})]:
             said = self.judge("--mu", "0.5", *options, code=2, **arrays)

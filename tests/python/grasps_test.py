@@ -1,5 +1,7 @@
 """Force closure of one grasp and of many."""
 
+import os
+import signal
 import unittest
 
 import numpy as np
@@ -65,6 +67,59 @@ class GraspsTest(RegraspCase):
             self.assertEqual((alone.holds, alone.margin, alone.quality),
                              (few.holds[i], few.margin[i], few.quality[i]))
 
+    def test_many_are_judged_in_parts_between_which_work_may_end(self):
+        points, normals = random_grasps(4000, 4, 8)
+        told = []
+        parts = regrasp.force_closure(points, normals, mu=0.6, threads=1, required_angle=True,
+                                      progress=told.append)
+        self.assertEqual(told[-1], "judged 4000 of 4000 grasps")
+        self.assertEqual(len(told), 3)
+        whole = regrasp.force_closure(points, normals, mu=0.6, threads=3, required_angle=True)
+        np.testing.assert_array_equal(parts.margin, whole.margin)
+        np.testing.assert_array_equal(parts.required_angle_deg, whole.required_angle_deg)
+
+        def stop(text):
+            told.append(text)
+            os.kill(os.getpid(), signal.SIGINT)
+        told.clear()
+        with self.assertRaises(KeyboardInterrupt):
+            regrasp.force_closure(points, normals, mu=0.6, threads=1, required_angle=True,
+                                  progress=stop)
+        self.assertEqual(len(told), 1)
+
+    def test_contacts_that_do_not_touch_do_not_count(self):
+        points, normals = random_grasps(300, 5, 9)
+        touching = np.random.default_rng(1).uniform(size=(300, 5)) < 0.75
+        touching[7] = False
+        cube = regrasp.Object.read("models/cube.obj")
+        given = np.where(touching[..., None], points, np.nan), np.where(touching[..., None], normals, 9)
+        found = regrasp.force_closure(*given, cube, mu=0.8, touching=touching, required_angle=True)
+        self.assertTrue(found.holds.any() and not found.holds.all())
+        for i in range(0, 300, 7):
+            if not touching[i].any():
+                self.assertEqual((found.holds[i], np.isnan(found.margin[i])), (False, True))
+                continue
+            alone = regrasp.force_closure(points[i][touching[i]], normals[i][touching[i]], cube, mu=0.8,
+                                          required_angle=True)
+            self.assertEqual((alone.holds, alone.margin), (found.holds[i], found.margin[i]))
+            np.testing.assert_array_equal(alone.required_angle_deg, found.required_angle_deg[i])
+        every = regrasp.force_closure(points, normals, mu=0.8)
+        self.assertFalse(np.array_equal(every.holds, found.holds))
+        np.testing.assert_array_equal(every.margin, regrasp.force_closure(
+            points, normals, mu=0.8, touching=np.ones((300, 5), bool)).margin)
+        nobody = regrasp.force_closure(points, normals, cube, mu=0.8, touching=np.zeros((300, 5), bool),
+                                       quality=True)
+        self.assertFalse(nobody.holds.any() or nobody.quality.any())
+        self.assertFalse(regrasp.force_closure(points[0], normals[0], mu=0.8, touching=[False] * 5).holds)
+        self.refuses(["touching", "(300, 5)", "(300, 4)"], regrasp.force_closure, points, normals, mu=1,
+                     touching=touching[:, :4])
+        self.refuses(["touching", "float64"], regrasp.force_closure, points, normals, mu=1,
+                     touching=touching * 1.)
+        broken = points.copy()
+        broken[np.argwhere(touching)[0][0], np.argwhere(touching)[0][1], 2] = np.nan
+        self.refuses(["points[0, ", "nan"], regrasp.force_closure, broken, normals, mu=1,
+                     touching=touching)
+
     def test_monotone_in_friction_and_independent_of_the_frame(self):
         points, normals = random_grasps(500, 5, 3)
         before = np.zeros(500, bool)
@@ -95,6 +150,23 @@ class GraspsTest(RegraspCase):
         self.assertIn(f"<td>{many.holds.sum()}</td>", page)
         one = regrasp.force_closure(TETRAHEDRON, -TETRAHEDRON, mu=0.5)._repr_html_()
         self.assertIn("<td>force closure</td>", one)
+        self.assertNotIn("margin", one)
+        self.assertIn("-0.5 or more", regrasp.force_closure(TETRAHEDRON[:2], -TETRAHEDRON[:2], mu=0.5)._repr_html_())
+
+    def test_a_notebook_draws_a_grasp_of_an_object(self):
+        cube = regrasp.Object.read("models/cube.obj")
+        points = np.array([[.03, 0, 0], [-.03, 0, .01], [0, .03, 0], [0, -.03, 0]])
+        normals = -np.eye(3)[[0, 0, 1, 1]] * np.sign(points.sum(axis=1, where=np.abs(points) > .02)
+                                                     )[:, None]
+        page = regrasp.force_closure(points, normals, cube, mu=0.5)._repr_html_()
+        self.assertEqual(page.count("data:image/svg+xml"), 1)
+        for other in (regrasp.force_closure(points, normals, mu=0.5),
+                      regrasp.force_closure(points + [0, 0, 1], normals, cube, mu=0.5),
+                      regrasp.force_closure([points] * 2, [normals] * 2, cube, mu=0.5)):
+            self.assertNotIn("<img", other._repr_html_())
+        plate = regrasp.Object.from_polygon([[0, 0], [.1, 0], [.1, .04], [0, .04]])
+        planar = regrasp.force_closure([[.05, 0], [.05, .04]], [[0, 1], [0, -1]], plate, mu=0.5)
+        self.assertIn("<img", planar._repr_html_())
 
     def test_arguments_that_are_wrong_are_named(self):
         def refuses(words, *arguments, **named):

@@ -66,9 +66,33 @@ class ObjectsTest(RegraspCase):
         self.refuses(["faces[0, 2]", "vertex 9"], make, CORNERS, [[0, 1, 9]])
         self.refuses(["faces[0, 0]", "vertex -1"], make, CORNERS, [[-1, 1, 2]])
         self.refuses(["object.obj", "closed"], make, CORNERS, FACES[:-1])
-        self.refuses(["object.obj", "empty"], make, np.zeros((0, 3)), np.zeros((0, 3), int))
+        self.refuses(["vertices", "none"], make, np.zeros((0, 3)), np.zeros((0, 3), int))
         self.refuses(["scale", "above 0"], make, CORNERS, FACES, scale=0)
         self.refuses(["scale", "'a'"], make, CORNERS, FACES, scale="a")
+
+    def test_nearest_places_are_on_the_surface_and_nearest(self):
+        duck = regrasp.Object.read("models/duck1000.obj")
+        rng = np.random.default_rng(3)
+        low, high = duck.vertices.min(axis=0), duck.vertices.max(axis=0)
+        points = rng.uniform(low - 1.5 * (high - low), high + 1.5 * (high - low), (400, 3))
+        places, normals = duck.nearest(points)
+        np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1)
+        again, _ = duck.nearest(places)
+        np.testing.assert_allclose(again, places, atol=1e-12 * duck.diameter)
+        # No corner and no middle of a facet is nearer.
+        corners = duck.vertices[duck.triangles]
+        others = np.concatenate([duck.vertices, corners.mean(axis=1)])
+        least = np.linalg.norm(points[:, None] - others[None], axis=2).min(axis=1)
+        distance = np.linalg.norm(points - places, axis=1)
+        self.assertTrue((distance <= least * (1 + 1e-12)).all())
+        self.assertTrue((distance > 0.9 * least).any())
+        # A place that is not the nearest is found by this.
+        self.assertTrue((np.linalg.norm(points - np.roll(places, 1, axis=0), axis=1) > least).any())
+        self.assertEqual(duck.nearest(np.zeros((0, 3)))[0].shape, (0, 3))
+        plate = regrasp.Object.from_polygon([[0, 0], [2, 0], [2, 1], [0, 1]])
+        place, normal = plate.nearest([[0.5, -3]])
+        self.assertEqual((place.tolist(), normal.tolist()), ([[0.5, 0]], [[0, 1]]))
+        self.refuses(["points", "(N, 2)", "(1, 3)"], plate.nearest, np.zeros((1, 3)))
 
     def test_wrong_polygons_are_named(self):
         make = regrasp.Object.from_polygon

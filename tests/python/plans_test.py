@@ -117,6 +117,33 @@ class PlansTest(RegraspCase):
         named["object"]["file"] = "<script>.obj"
         self.assertNotIn("<script>", regrasp.Plan(json.dumps(named))._repr_html_())
 
+    def test_a_notebook_draws_plans_of_known_objects(self):
+        # Frames, whose text is hinted, make no difference to figures, whose text is not.
+        regrasp.validate(self.cube, self.plan).frames((320, 240))
+        self.plan.write(self.path("plan.json"))
+        subprocess.run([f"{PROGRAMS}/figure", "--object", "models/cube.obj", "--plan",
+                        self.path("plan.json"), "--out", self.path("figures"), "--quiet"], check=True)
+        with open(self.path("figures/sheet.svg"), encoding="utf-8") as file:
+            self.assertEqual(self.plan.figure(), file.read())
+        self.assertIn("data:image/svg+xml", self.plan._repr_html_())
+        read = regrasp.Plan.read(self.path("plan.json"))
+        self.assertNotIn("<img", read._repr_html_())
+        self.refuses(["object", "cube.obj", "give it"], read.figure)
+        self.assertEqual(read.figure(self.cube), self.plan.figure())
+        self.refuses(["width_mm", "20"], read.figure, self.cube, width_mm=1)
+        gear = regrasp.Object.read("models/gear128.wkt")
+        self.refuses(["plan.json", "sha256"], read.figure, gear)
+        # A plan that breaks a rule has no drawing, and says which.
+        broken = json.loads(self.plan.text)
+        broken["friction"]["half_angle_deg"] = 1
+        weak = regrasp.Plan(json.dumps(broken), "weak.json")
+        weak.object = self.cube
+        self.refuses(["weak.json: step 0 (hold): not-force-closure"], weak.figure)
+        self.assertIn("not-force-closure", weak._repr_html_())
+        self.assertNotIn("<img", weak._repr_html_())
+        planar = regrasp.plan(gear, "random", "random", mu=0.4, seed=1)
+        self.assertIn("<svg", planar.figure(width_mm=85))
+
     def test_no_plan_says_what_was_searched(self):
         # Two pairs whose torques cancel: hardly any friction holds, and no contact can leave unless
         # another takes its very line of force.

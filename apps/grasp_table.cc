@@ -1,0 +1,137 @@
+#include "apps/grasp_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/base/npz.h"
+#include "planner/base/read_npz.h"
+
+namespace regrasp::apps {
+
+namespace {
+
+constexpr char kPoints[] = "points";
+constexpr char kNormals[] = "normals";
+constexpr char kHolds[] = "holds";
+
+const NpzArray* Find(const std::vector<NpzArray>& arrays, const std::string& name) {
+  const auto found = std::ranges::find(arrays, name, &NpzArray::name);
+  return found == arrays.end() ? nullptr : &*found;
+}
+
+std::string ShapeText(const std::vector<std::size_t>& shape) {
+  std::string text;
+  for (const std::size_t length : shape)
+    text += (text.empty() ? "" : ", ") + std::to_string(length);
+  return "(" + text + ")";
+}
+
+void CheckFinite(const NpzArray& array, const std::string& file) {
+  const auto found = std::ranges::find_if(array.values, [](double x) { return !std::isfinite(x); });
+  if (found == array.values.end()) return;
+  const auto at = static_cast<std::size_t>(found - array.values.begin());
+  const std::size_t width = array.shape[2];
+  throw InputError(file + ": " + array.name + "[" + std::to_string(at / (array.shape[1] * width)) +
+                   ", " + std::to_string(at / width % array.shape[1]) + ", " +
+                   std::to_string(at % width) + "] is not finite");
+}
+
+/// With z = 0 where it has none.
+std::vector<double> InSpace(const NpzArray& array) {
+  if (array.shape[2] == 3) return array.values;
+  std::vector<double> values;
+  values.reserve(array.values.size() / 2 * 3);
+  for (std::size_t i = 0; i < array.values.size(); i += 2) {
+    values.insert(values.end(), {array.values[i], array.values[i + 1], 0});
+  }
+  return values;
+}
+
+using Shape = std::vector<std::size_t>;
+
+/// @throws InputError  it is not that of N grasps of k contacts.
+void CheckShape(const Shape& shape, const std::string& file, int dimension) {
+  constexpr std::size_t kMostContacts = 1000;
+  if (shape.size() != 3 || shape[2] != static_cast<std::size_t>(dimension) || shape[1] < 1 ||
+      shape[1] > kMostContacts) {
+    throw InputError(file + ": points: the shape is (N, k, " + std::to_string(dimension) +
+                     ") for N grasps of k contacts, 1 to " + std::to_string(kMostContacts) +
+                     ", found " + ShapeText(shape));
+  }
+  if (shape[0] == 0)
+    throw InputError(file + ": points: no grasp, the shape is " + ShapeText(shape));
+}
+
+/// Appends the values of the contacts that hold in grasp g of k.
+void AppendHeld(const std::vector<double>& values, const std::vector<double>& holds, std::size_t g,
+                std::size_t k, std::vector<double>& to) {
+  for (std::size_t c = g * k; c < (g + 1) * k; ++c) {
+    if (holds[c] == 0) continue;
+    to.insert(to.end(), &values[3 * c], &values[3 * c] + 3);
+  }
+}
+
+/// @param all    grasps of k contacts.
+/// @param holds  which of them do, of each.
+std::vector<GraspGroup> Split(const GraspGroup& all, const std::vector<double>& holds) {
+  const auto k = static_cast<std::size_t>(all.contacts);
+  std::vector<GraspGroup> groups(k);
+  for (std::size_t g = 0; g < all.places.size(); ++g) {
+    const auto begin = holds.begin() + static_cast<std::ptrdiff_t>(g * k);
+    const auto held = static_cast<std::size_t>(
+        std::count_if(begin, begin + all.contacts, [](double h) { return h != 0; }));
+    if (held == 0) continue;
+    GraspGroup& group = groups[held - 1];
+    group.contacts = static_cast<int>(held);
+    group.places.push_back(g);
+    AppendHeld(all.points, holds, g, k, group.points);
+    if (!all.normals.empty()) AppendHeld(all.normals, holds, g, k, group.normals);
+  }
+  std::erase_if(groups, [](const GraspGroup& group) { return group.places.empty(); });
+  return groups;
+}
+
+}  // namespace
+
+GraspTable ReadGrasps(const std::string& file, int dimension) {
+  const std::vector<NpzArray> arrays = ReadNpz(ReadFile(file), file, {kPoints, kNormals, kHolds});
+  const NpzArray* points = Find(arrays, kPoints);
+  const NpzArray* normals = Find(arrays, kNormals);
+  const NpzArray* holds = Find(arrays, kHolds);
+  if (points == nullptr) {
+    throw InputError(file + ": no array \"points\", of shape (N, k, " + std::to_string(dimension) +
+                     ") for N grasps of k contacts");
+  }
+  const Shape& shape = points->shape;
+  CheckShape(shape, file, dimension);
+  if (normals != nullptr && normals->shape != shape) {
+    throw InputError(file + ": normals: the shape is that of points, " + ShapeText(shape) +
+                     ", found " + ShapeText(normals->shape));
+  }
+  if (holds != nullptr && holds->shape != Shape{shape[0], shape[1]}) {
+    throw InputError(file + ": holds: the shape is " + ShapeText({shape[0], shape[1]}) +
+                     " for points of " + ShapeText(shape) + ", found " + ShapeText(holds->shape));
+  }
+  CheckFinite(*points, file);
+  GraspGroup all;
+  all.contacts = static_cast<int>(shape[1]);
+  all.places.resize(shape[0]);
+  for (std::size_t g = 0; g < shape[0]; ++g) all.places[g] = g;
+  all.points = InSpace(*points);
+  if (normals != nullptr) {
+    CheckFinite(*normals, file);
+    all.normals = InSpace(*normals);
+  }
+  GraspTable table{shape[0], all.contacts, {}};
+  if (holds != nullptr) {
+    table.groups = Split(all, holds->values);
+  } else {
+    table.groups.push_back(std::move(all));
+  }
+  return table;
+}
+
+}  // namespace regrasp::apps

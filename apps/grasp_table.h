@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace regrasp::apps {
+
+/// Grasps of equally many contacts, in the layout of grasp::GraspArrays.
+struct GraspGroup {
+  int contacts = 0;
+  std::vector<std::size_t> places;  ///< of its grasps among all of the file
+  std::vector<double> points;       ///< in the plane with z = 0
+  std::vector<double> normals;      ///< empty where the file has none
+};
+
+/// The grasps of a file.
+struct GraspTable {
+  std::size_t count = 0;
+  int contacts = 0;                ///< of each; some may not hold
+  std::vector<GraspGroup> groups;  ///< by how many contacts hold; those of none are in no group
+};
+
+/// Reads the arrays points, normals and holds (docs/formats.md) of an NPZ file.
+/// @param dimension  of the object: 2 or 3.
+/// @throws InputError  names the file, the array, the place in it and what is wrong.
+[[nodiscard]] GraspTable ReadGrasps(const std::string& file, int dimension);
+
+}  // namespace regrasp::apps

@@ -1,0 +1,75 @@
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <string>
+
+#include "planner/base/error.h"
+#include "planner/plan/check.h"
+#include "planner/plan/locate.h"
+#include "planner/plan/locate_grasps.h"
+#include "planner/plan/plan_io.h"
+#include "planner/plan/reason.h"
+#include "python/binding.h"
+#include "render/figures/make_panels.h"
+#include "report/report.h"
+
+namespace regrasp::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Values = py::array_t<double, py::array::c_style>;
+
+render::FigureStyle StyleOf(double width_mm) {
+  render::FigureStyle style;
+  style.width_mm = style.sheet_width_mm = width_mm;
+  return style;
+}
+
+/// The sheet of all steps, as SVG.
+std::string DrawPlan(const PythonObject& object, const std::string& text, const std::string& name,
+                     double width_mm) {
+  const py::gil_scoped_release unlocked;
+  const plan::Plan plan = plan::ParsePlan(text, name);
+  CheckFits(plan, object, name);
+  const plan::PlanCheck check = plan::CheckPlan(*object.file.object, plan);
+  for (const plan::StepCheck& step : check.steps) {
+    if (step.reason == plan::Reason::kNone) continue;
+    throw InputError(name + ": step " + std::to_string(step.index) + " (" + step.kind +
+                     "): " + std::string(plan::ReasonName(step.reason)) + ": " + step.detail);
+  }
+  return render::DrawSheet(*render::MakePanels(*object.file.object, check.located),
+                           StyleOf(width_mm));
+}
+
+/// One grasp of k x 3 values, in the plane with z = 0.
+/// @throws InputError  a contact is not on the object.
+std::string DrawGrasp(const PythonObject& object, const Values& points, const Values& normals,
+                      double half_angle, double width_mm) {
+  const object::Object& body = *object.file.object;
+  const plan::LocatedGrasps located =
+      plan::LocateGrasps(body, {points.data(), static_cast<std::size_t>(points.size())},
+                         {normals.data(), static_cast<std::size_t>(normals.size())},
+                         static_cast<int>(points.shape(0)));
+  if (located.reasons[0] != plan::Reason::kNone) {
+    throw InputError("points: " + std::string(plan::ReasonName(located.reasons[0])));
+  }
+  grasp::Grasp grasp;
+  for (std::size_t i = 0; i < located.points.size(); i += 3) {
+    grasp.push_back(
+        {Eigen::Vector3d::Map(&located.points[i]), Eigen::Vector3d::Map(&located.normals[i])});
+  }
+  const plan::Plan hold =
+      plan::LocatePlan(body, report::MakeHoldPlan(body, grasp, half_angle, object.scale));
+  return render::DrawStepFigure(*render::MakePanels(body, hold), 0, StyleOf(width_mm));
+}
+
+}  // namespace
+
+void BindFigures(py::module_& module) {
+  module.def("draw_plan", DrawPlan);
+  module.def("draw_grasp", DrawGrasp);
+}
+
+}  // namespace regrasp::python

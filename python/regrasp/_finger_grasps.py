@@ -1,0 +1,149 @@
+"""Grasps of fingers without a hand, one after the other: which finger touches where."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from . import _arguments, _html
+from ._regrasp import InputError
+from .objects import Object
+from .plans import Plan
+
+_ROWS = 10
+"""That a notebook shows."""
+
+
+@dataclass
+class FingerGrasps:
+    """N grasps of a hand of F fingers, some of which may touch nothing."""
+
+    points: np.ndarray
+    """(N, F, 3) in the object's frame and unit; NaN of a finger that does not touch."""
+    normals: np.ndarray
+    """(N, F, 3) into the object, as the file has them; NaN likewise."""
+    names: list[str]
+    """Of the N grasps."""
+    lost: list[str] = field(default_factory=list)
+    """What the file has besides and could not be carried over, in words."""
+
+    def __post_init__(self):
+        """
+        Raises:
+            InputError: the arrays have other shapes than each other.
+        """
+        self.names = _arguments.texts("names", self.names)
+        for name in ("points", "normals"):
+            array = _arguments.numbers_or_nan(name, getattr(self, name), "(N, F, 3)", (3,))
+            if array.shape[0] != len(self.names) or array.shape[2] != 3 or array.shape[1] < 1:
+                raise InputError(f"{name}: the shape is ({len(self.names)}, F, 3) for "
+                                 f"{len(self.names)} names, found {array.shape}")
+            setattr(self, name, array)
+        if self.normals.shape != self.points.shape:
+            raise InputError(f"normals: the shape is that of points, {self.points.shape}, "
+                             f"found {self.normals.shape}")
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def _repr_html_(self) -> str:
+        held = [", ".join(map(str, np.flatnonzero(row))) for row in self.holds[:_ROWS]]
+        more = f"{len(self)} grasps" + (f", the first {_ROWS}" if len(self) > _ROWS else "")
+        lost = f"; not carried over: {', '.join(self.lost)}" if self.lost else ""
+        return _html.text(more + lost) + _html.table(["grasp", "fingers"],
+                                                     [list(row) for row in zip(self.names, held)])
+
+    @property
+    def holds(self) -> np.ndarray:
+        """(N, F), whether a finger touches."""
+        return ~np.isnan(self.points).any(axis=-1)
+
+    def on(self, object: Object, *, tolerance: float = 0.002) -> FingerGrasps:
+        """The same on the object's surface: the nearest points, with the surface's normals.
+
+        Args:
+            object: a solid.
+            tolerance: that a point may be off it, metres.
+
+        Raises:
+            InputError: a finger is farther away, or a normal more than 90 degrees off the surface's.
+        """
+        if _arguments.of_type("object", object, Object).dimension != 3:
+            raise InputError(f"object: {object.name} is a polygon; these are grasps of solids")
+        tolerance = _arguments.number("tolerance", tolerance, 0)
+        holds = self.holds
+        points, normals = self.points.copy(), self.normals.copy()
+        points[holds], normals[holds] = object.nearest(self.points[holds])
+        off = np.linalg.norm(points - self.points, axis=-1) * object.scale
+        self._check("points", off > tolerance, lambda at:
+                    f"{1000 * off[at]:.3g} mm off {object.name}, {1000 * tolerance:g} mm are allowed")
+        self._check("normals", np.einsum("nfi,nfi->nf", normals, self.normals) < 0, lambda at:
+                    f"out of {object.name}, where its surface is nearest")
+        return FingerGrasps(points, normals, self.names, self.lost)
+
+    def _check(self, name: str, wrong: np.ndarray, what) -> None:
+        places = np.argwhere(wrong)
+        if len(places):
+            grasp, finger = (int(i) for i in places[0])
+            raise InputError(f"{name}[{grasp}, {finger}]: of {self.names[grasp]}, finger {finger}: "
+                             f"{what((grasp, finger))}; in all {len(places)}")
+
+    def write_npz(self, path: str | os.PathLike) -> None:
+        """Writes the file that `validate --grasps` judges."""
+        holds = self.holds
+        np.savez(_arguments.path("path", path), holds=holds,
+                 points=np.where(holds[..., None], self.points, 0),
+                 normals=np.where(holds[..., None], self.normals, 0))
+
+    def as_plan(self, object: Object, mu: float | None = None, *,
+                friction_angle_deg: float | None = None) -> Plan:
+        """The sequence of finger switches from each grasp to the next: fingers that are new come, those
+        that touch elsewhere leave and come again, one by one, and the rest leave.
+
+        Args:
+            object: that the fingers touch (`on`).
+            mu: friction coefficient, or
+            friction_angle_deg: the half-angle of the friction cones in degrees.
+
+        Returns:
+            The plan; whether it holds is for `validate` to say.
+        """
+        if _arguments.of_type("object", object, Object).dimension != 3:
+            raise InputError(f"object: {object.name} is a polygon; these are grasps of solids")
+        half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
+        if not len(self):
+            raise InputError("names: there is no grasp")
+        goal = [{"point": c["point"], "normal": c["normal"]} for c in self._contacts(-1)]
+        steps = [step for i in range(1, len(self)) for step in self._steps(i)]
+        result = Plan(json.dumps({
+            "format": "regrasp-plan", "version": 1,
+            "object": {"file": object.name, "sha256": object.sha256, "scale": object.scale,
+                       "dimension": 3},
+            "friction": {"half_angle_deg": math.degrees(half_angle)},
+            "fingers": self.points.shape[1], "planner": "converted",
+            "initial": {"contacts": self._contacts(0)}, "steps": steps, "goal": {"contacts": goal}}))
+        result.object = object
+        return result
+
+    def _contacts(self, grasp: int, fingers=None) -> list[dict]:
+        fingers = np.flatnonzero(self.holds[grasp]) if fingers is None else fingers
+        return [{"finger": int(f), "point": self.points[grasp, f].tolist(),
+                 "normal": self.normals[grasp, f].tolist()} for f in fingers]
+
+    def _steps(self, grasp: int) -> list[dict]:
+        """From the grasp before it."""
+        before, after = self.holds[grasp - 1], self.holds[grasp]
+        elsewhere = before & after & (self.points[grasp] != self.points[grasp - 1]).any(axis=-1)
+        steps = [(np.flatnonzero(after & ~before), [])]
+        for finger in np.flatnonzero(elsewhere):
+            steps += [([], [finger]), ([finger], [])]
+        steps.append(([], np.flatnonzero(before & ~after)))
+        if len(steps) == 2:  # both are one
+            steps = [(steps[0][0], steps[1][1])]
+        return [{"kind": "switch", "place": self._contacts(grasp, place),
+                 "release": [int(f) for f in release]}
+                for place, release in steps if len(place) or len(release)]

@@ -1,0 +1,65 @@
+"""Worlds of GraspIt!, XML."""
+
+from __future__ import annotations
+
+import os
+import re
+import xml.etree.ElementTree
+
+import numpy as np
+
+from . import _arguments, _poses
+from ._arguments import vector
+from ._hand_grasps import HandGrasps
+from ._regrasp import InputError
+
+_TRANSFORM = re.compile(r"\(\s*(\S+)\s+(\S+)\s+(\S+)\s+(\S+?)\s*\)\s*"
+                        r"\[\s*(\S+)\s+(\S+)\s+(\S+?)\s*\]")
+
+
+def _graspit_pose(name: str, element) -> tuple[np.ndarray, np.ndarray]:
+    text = element.findtext("transform/fullTransform", "").strip()
+    match = _TRANSFORM.fullmatch(text)
+    if not match:
+        raise InputError(f"{name}: transform: (w x y z)[x y z] is needed, found {text!r}")
+    try:
+        values = np.array([float(number) for number in match.groups()])
+    except ValueError:
+        raise InputError(f"{name}: transform: seven numbers are needed, found {text!r}") from None
+    values = vector(f"{name}: transform", values, 7)
+    return values[4:] / 1000, _poses.unit(f"{name}: transform", values[:4])
+
+
+def read_graspit(path: str | os.PathLike) -> HandGrasps:
+    """Reads a world of GraspIt! (XML): the last robot, on the first graspable body. Lengths are
+    millimetres. Its degrees of freedom have no names.
+
+    Raises:
+        InputError: names the file, the element and what is wrong.
+    """
+    name = path = _arguments.path("path", path)
+    try:
+        world = xml.etree.ElementTree.parse(path).getroot()
+    except xml.etree.ElementTree.ParseError as error:
+        raise InputError(f"{name}: no XML: {error}") from None
+    if world.tag == "virtual_contacts":
+        raise InputError(f"{name}: contacts on links of GraspIt!'s own model of a hand, whose frames are "
+                         "not known here; save the world instead")
+    bodies, robots = world.findall("graspableBody"), world.findall("robot")
+    if world.tag != "world" or not bodies or not robots:
+        raise InputError(f"{name}: a world with a graspableBody and a robot is needed, found "
+                         f"{world.tag} with {len(bodies)} and {len(robots)}")
+    position, back = _poses.inverse(*_graspit_pose(f"{name}: graspableBody", bodies[0]))
+    palm, turn = _graspit_pose(f"{name}: robot", robots[-1])
+    text = robots[-1].findtext("dofValues", "").split()
+    try:
+        joints = np.array([float(number) for number in text])
+    except ValueError:
+        raise InputError(f"{name}: robot: dofValues: numbers are needed") from None
+    vector(f"{name}: robot: dofValues", joints, len(joints))
+    lost = [f"{len(world.findall(tag))} {tag}" for tag in ("obstacle", "connection", "camera")
+            if world.findall(tag)]
+    lost += [f"{len(items) - 1} other {tag}" for tag, items in
+             (("graspableBody", bodies), ("robot", robots)) if len(items) > 1]
+    return HandGrasps((_poses.matrices(back) @ palm + position)[None],
+                      _poses.product(back, turn)[None], [], joints[None], [os.path.splitext(os.path.basename(name))[0]], np.ones(1), lost)

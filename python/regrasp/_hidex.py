@@ -1,0 +1,110 @@
+"""Plans of HiDex, CSV."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+
+from . import _arguments, _poses
+from ._finger_grasps import FingerGrasps
+from ._regrasp import InputError
+
+_AWAY = -7777
+"""What HiDex writes for the point of a finger that does not touch, where points are of the world."""
+
+
+def read_hidex(path: str | os.PathLike, *, frame: str | None = None,
+               mesh_scale: float = 1) -> FingerGrasps:
+    """Reads a plan of HiDex: which fingers touch where, one grasp after the other.
+
+    Each row is an instant: point and normal of each finger, then the object's pose (position and
+    quaternion x, y, z, w); or, where the first row is the number of fingers alone, the pose first and
+    contacts with the surroundings last. Rows in which only the object moves are one grasp.
+
+    Args:
+        path: of the CSV file.
+        frame: that its contacts are in, "object" or "world"; None: as the file's fingers that do not
+            touch tell: NaN the object's, -7777 the world's. A file that begins with the number of
+            fingers has them in the object's.
+        mesh_scale: by which HiDex scales the object's file, `scale` in its setup.yaml; points are
+            given in the file's unit.
+
+    Raises:
+        InputError: names the file, the row and what is wrong, or `frame` where the file does not tell.
+    """
+    name = path = _arguments.path("path", path)
+    if frame is not None:
+        frame = _arguments.choice("frame", frame, ["object", "world"])
+    mesh_scale = _arguments.number("mesh_scale", mesh_scale, 0)
+    contacts, poses, counted = _table(name, _rows(name))
+    points, normals = contacts[..., :3].copy(), contacts[..., 3:]
+    away = (points == _AWAY).all(axis=-1)
+    holds = ~(np.isnan(points).any(axis=-1) | away)
+    if frame is None:
+        frame = "world" if away.any() else "object" if counted or not holds.all() else None
+    if frame is None:
+        raise InputError(f'frame: {name} does not tell; give "object" or "world"')
+    points[~holds] = np.nan
+    if frame == "world":
+        back = np.swapaxes(_poses.matrices(poses[:, 3:]), 1, 2)
+        points = np.einsum("nij,nfj->nfi", back, points - poses[:, None, :3])
+        normals = np.einsum("nij,nfj->nfi", back, normals)
+    points /= mesh_scale
+    first = _changes(points, holds)
+    names = [f"row_{row + 1 + counted}" for row in first]
+    return FingerGrasps(points[first], np.where(holds[first][..., None], normals[first], np.nan),
+                        names, ["the object's poses"] + (
+                            ["contacts with the surroundings"] if counted else []))
+
+
+def _rows(name: str) -> list[list[float]]:
+    try:
+        with open(name, encoding="utf-8") as file:
+            lines = [line.split(",") for line in file if line.strip()]
+    except UnicodeDecodeError as error:
+        raise InputError(f"{name}: no CSV: {error}") from None
+    rows = []
+    for i, line in enumerate(lines, 1):
+        try:
+            rows.append([float(cell) for cell in line if cell.strip()])
+        except ValueError as error:
+            raise InputError(f"{name}: row {i}: numbers are needed: {error}") from None
+    return rows
+
+
+def _table(name: str, rows: list[list[float]]) -> tuple[np.ndarray, np.ndarray, int]:
+    """(N, F, 6) contacts, (N, 7) poses with w first, how many rows stand before them."""
+    counted = int(bool(rows) and len(rows[0]) == 1)
+    body = rows[counted:]
+    if not body:
+        raise InputError(f"{name}: there is no row with contacts")
+    fingers = rows[0][0] if counted else (len(body[0]) - 7) / 6
+    if fingers != int(fingers) or not 1 <= fingers <= 64:
+        raise InputError(f"{name}: row 1: 6 numbers for each of 1 to 64 fingers and 7 of a pose are "
+                         f"needed, found {len(rows[0])}")
+    fingers = int(fingers)
+    width = 7 + 6 * fingers
+    for i, row in enumerate(body, 1 + counted):
+        if len(row) != width and not (counted and len(row) > width):
+            raise InputError(f"{name}: row {i}: {width} numbers are needed, found {len(row)}")
+    table = np.array([row[:width] for row in body])
+    poses, contacts = (table[:, :7], table[:, 7:]) if counted else (table[:, -7:], table[:, :-7])
+    if not np.isfinite(poses).all():
+        row = int(np.argwhere(~np.isfinite(poses))[0, 0])
+        raise InputError(f"{name}: row {row + 1 + counted}: the pose is not finite")
+    turns = _poses.unit(f"{name}: pose", poses[:, [6, 3, 4, 5]])
+    return contacts.reshape(len(body), fingers, 6), np.hstack([poses[:, :3], turns]), counted
+
+
+def _changes(points: np.ndarray, holds: np.ndarray) -> list[int]:
+    """The rows whose fingers touch elsewhere than in the last such row, beyond rounding."""
+    size = np.nanmax(np.abs(points), initial=0) or 1
+    rows = [0]
+    for row in range(1, len(points)):
+        last = rows[-1]
+        same = (holds[row] == holds[last]).all() and np.allclose(
+            points[row], points[last], rtol=0, atol=1e-6 * size, equal_nan=True)
+        if not same:
+            rows.append(row)
+    return rows

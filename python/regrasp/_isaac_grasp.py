@@ -1,0 +1,76 @@
+"""The format isaac_grasp 1.0: YAML, of Isaac Sim's Grasp Editor."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+
+from . import _arguments, _poses
+from ._arguments import mapping, member, vector
+from ._hand_grasps import HandGrasps
+from ._regrasp import InputError
+
+
+def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
+    """Reads a file of the format isaac_grasp 1.0 (YAML; Isaac Sim's Grasp Editor).
+
+    Raises:
+        InputError: names the file, the grasp and what is wrong.
+    """
+    import yaml
+    name = path = _arguments.path("path", path)
+    try:
+        with open(path, encoding="utf-8") as file:
+            data = mapping(name, yaml.safe_load(file))
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise InputError(f"{name}: no YAML: {error}".replace("\n", " ")) from None
+    if data.get("format") != "isaac_grasp":
+        raise InputError(f"{name}: format: isaac_grasp is needed, found {data.get('format')!r}")
+    if str(data.get("format_version", "1.0")) not in ("1.0", "1"):
+        raise InputError(f"{name}: format_version: 1.0 is needed, found {data['format_version']!r}")
+    grasps = mapping(f"{name}: grasps", member(name, data, "grasps"))
+    positions, quaternions, joints, confidence, lost = [], [], [], [], set()
+    joint_names: list | None = None
+    for key, grasp in grasps.items():
+        where = f"{name}: grasps: {key}"
+        grasp = mapping(where, grasp)
+        positions.append(vector(f"{where}: position", member(where, grasp, "position"), 3))
+        turn = mapping(f"{where}: orientation", member(where, grasp, "orientation"))
+        turn_xyz = member(f"{where}: orientation", turn, "xyz")
+        xyz = vector(f"{where}: orientation: xyz", turn_xyz, 3)
+        w = vector(f"{where}: orientation: w", [member(f"{where}: orientation", turn, "w")], 1)
+        quaternions.append(_poses.unit(f"{where}: orientation", [*w, *xyz]))
+        angles = mapping(f"{where}: cspace_position", grasp.get("cspace_position") or {})
+        joint_names = list(angles) if joint_names is None else joint_names
+        if set(angles) != set(joint_names):
+            raise InputError(f"{where}: cspace_position: other joints than in the first grasp")
+        joints.append(vector(f"{where}: cspace_position", [angles[j] for j in joint_names],
+                              len(joint_names)) if angles else np.zeros(0))
+        confidence.append(vector(f"{where}: confidence", [grasp.get("confidence", 1)], 1)[0])
+        lost |= set(grasp) - {"position", "orientation", "cspace_position", "confidence"}
+    return HandGrasps(np.array(positions).reshape(-1, 3), np.array(quaternions).reshape(-1, 4),
+                      [str(joint) for joint in joint_names or []],
+                      np.array(joints).reshape(len(grasps), -1) if grasps else np.zeros((0, 0)),
+                      [str(key) for key in grasps], np.array(confidence), sorted(map(str, lost)))
+
+
+def write_isaac_grasp(path: str | os.PathLike, grasps: HandGrasps, *, object_frame: str = "object",
+                      gripper_frame: str = "palm") -> None:
+    """Writes a file of the format isaac_grasp 1.0; all numbers read back as the same bits."""
+    import yaml
+    path = _arguments.path("path", path)
+    _arguments.of_type("grasps", grasps, HandGrasps)
+    _arguments.text("object_frame", object_frame)
+    _arguments.text("gripper_frame", gripper_frame)
+    entries = {}
+    for i, name in enumerate(grasps.names):
+        angles = dict(zip(grasps.joint_names, grasps.joints[i].tolist()))
+        w, *xyz = grasps.quaternions[i].tolist()
+        entries[name] = {"confidence": float(grasps.confidence[i]),
+                         "position": grasps.positions[i].tolist(),
+                         "orientation": {"w": w, "xyz": xyz}, "cspace_position": angles}
+    with open(path, "w", encoding="utf-8") as file:
+        yaml.safe_dump({"format": "isaac_grasp", "format_version": "1.0",
+                        "object_frame": object_frame, "gripper_frame": gripper_frame,
+                        "grasps": entries}, file, sort_keys=False, default_flow_style=None)

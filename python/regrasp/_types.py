@@ -1,0 +1,16 @@
+"""What arguments may be, for type checkers."""
+
+from __future__ import annotations
+
+import os
+from typing import Callable, Optional, Sequence, Union
+
+from numpy.typing import ArrayLike
+
+Path = Union[str, bytes, os.PathLike]
+Progress = Optional[Callable[[str], object]]
+"""Is called with a line of text; what it raises ends the work."""
+
+GivenGrasp = Union[ArrayLike, tuple[ArrayLike, ArrayLike], Path]
+"""Points, points and normals, or the path of a grasp file."""
+

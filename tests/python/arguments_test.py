@@ -1,0 +1,162 @@
+"""No value of any argument of any public function does anything but work, or be refused in a line that
+names the argument."""
+
+import inspect
+import os
+import unittest
+import warnings
+
+import numpy as np
+
+import regrasp
+from regrasp import formats
+from regrasp_case import RegraspCase
+
+
+class Nameless:
+    """Good for nothing, and it cannot even be shown."""
+
+    def __repr__(self):
+        raise RuntimeError("cannot be shown")
+
+
+NONSENSE = [
+    None, "", "x", "a\0b", b"x", -1, 0, 2, True, float("nan"), float("inf"), 2**70, 10**400, 1j, [], {},
+    (1, 2, 3), [[1, 2], [3]], [1, [2, 3]], Nameless(), lambda *a: None, np.datetime64("now"),
+    np.array(["a"]), np.array([None]), np.zeros((2, 2)), np.full((4, 3), np.nan), np.zeros((0, 3)),
+    np.zeros((3, 4, 3), complex), np.zeros(3, dtype="f4"), np.zeros((1, 1, 1, 1)), np.ma.masked_all(2),
+    np.zeros(2, dtype=[("a", "f8")])]
+
+
+class ArgumentsTest(RegraspCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.cube = regrasp.Object.read("models/cube.obj")
+        cls.hand = regrasp.Hand.read("models/hands/ring4.json")
+        cls.plan = regrasp.plan(cls.cube, "models/cube.start.json", "models/cube.goal.json", mu=0.4)
+        cls.open = {
+            "positions": np.zeros((1, 3)), "quaternions": np.array([[1., 0, 0, 0]]), "names": ["open"],
+            "joint_names": cls.hand.joint_names, "joints": np.zeros((1, 16)), "confidence": np.ones(1)}
+
+    def outcomes(self, function, **good):
+        """How many values of `NONSENSE` each argument refuses, having tried them all."""
+        refused = dict.fromkeys(good, 0)
+        for name in good:
+            for value in NONSENSE:
+                with self.subTest(function=function.__qualname__, argument=name, value=type(value)):
+                    try:
+                        function(**{**good, name: value})
+                    except (regrasp.NoPlan, TimeoutError, FileNotFoundError):
+                        pass
+                    except regrasp.InputError as error:
+                        said = str(error)
+                        refused[name] += 1
+                        self.assertNotIn("\n", said)
+                        # A file is named by its path; a wrong text of a plan by the plan's name.
+                        self.assertTrue(name in said or said.startswith(("x: ", "plan.json: ")), said)
+        return refused
+
+    def check(self, function, **good):
+        for name, count in self.outcomes(function, **good).items():
+            self.assertGreater(count, len(NONSENSE) // 4, f"{function.__qualname__}: {name}")
+
+    def setUp(self):
+        super().setUp()
+        caught = warnings.catch_warnings()
+        caught.__enter__()
+        self.addCleanup(caught.__exit__, None, None, None)
+        warnings.simplefilter("error")
+        here = os.getcwd()
+        self.addCleanup(os.chdir, here)
+
+    def test_of_grasps(self):
+        points = np.random.default_rng(0).normal(size=(3, 4, 3))
+        normals = points / np.linalg.norm(points, axis=-1, keepdims=True)
+        self.check(regrasp.force_closure, points=points, normals=normals, object=self.cube, mu=0.5,
+                   quality=True, required_angle=False, threads=1, progress=None)
+        self.check(regrasp.force_closure, points=points, normals=normals, friction_angle_deg=20,
+                   touching=np.ones((3, 4), bool))
+
+    def test_of_objects(self):
+        self.check(regrasp.Object.read, path="models/cube.obj", scale=1, repair=False, shells=None,
+                   progress=None)
+        self.check(regrasp.Object.from_arrays, vertices=self.cube.vertices,
+                   faces=self.cube.triangles, scale=1, name="object.obj")
+        self.check(regrasp.Object.from_polygon, outline=[[0, 0], [1, 0], [0, 1]], holes=[], scale=1,
+                   name="object.wkt")
+        self.check(self.cube.nearest, points=np.zeros((2, 3)))
+        self.check(regrasp.Hand.read, path="models/hands/ring4.json")
+        self.check(self.hand.tips, joints=np.zeros(16))
+
+    def test_of_plans(self):
+        self.check(regrasp.plan, object=self.cube, start="models/cube.start.json",
+                   goal="models/cube.goal.json", mu=0.5, planner="auto", optimize="steps",
+                   contacts=None, clusters=None, seed=0, min_quality=0, finger_radius=0,
+                   time_limit=None, progress=None)
+        self.check(regrasp.Plan, text=self.plan.text, name="plan.json")
+        self.check(regrasp.Plan.read, path="plan.json")
+
+    def test_of_plans_in_hands(self):
+        self.check(regrasp.plan_in_hand, object=self.cube, hand=self.hand, mu=0.8, turn=("z", 5),
+                   start=None, goal=None, start_pose=None, reserve="none", clearance=0.001, seed=0,
+                   min_quality=0.01, time_limit=0.2, progress=None)
+
+    def test_of_validation(self):
+        report = regrasp.validate(self.cube, self.plan)
+        self.check(report.frames, size=(320, 240))
+        self.check(report.overview, size=(320, 240))
+        self.check(regrasp.validate, object=self.cube, plan=self.plan, mu=None, mass=None,
+                   squeeze=None, shake=0.01, tolerance=0.001, stress=False, hand=None, replay=None,
+                   tolerance_mm=2, tolerance_deg=5, feedback=True, progress=None)
+
+    def test_of_formats(self):
+        grasps = formats.HandGrasps(**self.open)
+        self.check(formats.HandGrasps, **self.open)
+        self.check(grasps.touching, hand=self.hand, object=self.cube, tolerance=0.002)
+        self.check(grasps.with_palm_at, palm=[0, 0, 0])
+        self.check(grasps.in_order_of, hand=self.hand)
+        os.chdir(self.folder)
+        for reader in (formats.read_isaac_grasp, formats.read_dexgraspbench, formats.read_graspit,
+                       formats.read_bodex, formats.read_hidex, formats.read_trajectory):
+            self.check(reader, path="grasps")
+        self.check(formats.of_plan, path="plan.json", hand=self.hand)
+        self.check(formats.write_isaac_grasp, path="grasps.yaml", grasps=grasps,
+                   object_frame="object", gripper_frame="palm")
+        self.check(formats.motion_of_plan, path="plan.json", hand=self.hand)
+        self.check(self.plan.write, path="plan.json")
+
+    def test_of_fingers_and_motions(self):
+        contacts = {"points": np.zeros((1, 3, 3)), "normals": np.zeros((1, 3, 3)), "names": ["a"]}
+        self.check(formats.FingerGrasps, **contacts)
+        grasps = formats.FingerGrasps(np.array([[[.03, 0, 0]]]), np.array([[[-1., 0, 0]]]), ["a"])
+        self.check(grasps.on, object=self.cube, tolerance=0.001)
+        self.check(grasps.as_plan, object=self.cube, mu=0.5)
+        moves = {"times": [0.], "joint_names": self.hand.joint_names, "joints": np.zeros((1, 16)),
+                 "object_poses": [[0, 0, 0, 1., 0, 0, 0]], "control_names": [], "controls": None}
+        checked = self.outcomes(formats.HandMotion, **moves)
+        self.assertGreater(min(count for name, count in checked.items() if name != "controls"), 8)
+        self.check(self.hand.ordered, names=self.hand.joint_names, joints=np.zeros((1, 16)))
+        moves["controls"] = np.zeros((1, 0))
+        os.chdir(self.folder)
+        self.check(grasps.write_npz, path="grasps.npz")
+        self.check(formats.write_mcap, path="a.mcap", motion=formats.HandMotion(**moves),
+                   hand=self.hand, start_time=0, palm_frame="palm", object_frame="object")
+
+    def test_a_function_that_does_not_look_is_found(self):
+        def sloppy(length, words):
+            return length + 1, [word.strip() for word in words]
+        self.assertEqual(list(inspect.signature(sloppy).parameters), ["length", "words"])
+        with self.assertRaises((TypeError, AttributeError)):
+            sloppy(None, None)
+        result = unittest.TestResult()
+
+        class Inner(ArgumentsTest):
+            def runTest(inner):
+                inner.check(sloppy, length=1, words=[])
+        Inner().run(result)
+        self.assertGreater(len(result.errors), len(NONSENSE) // 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
