@@ -202,7 +202,7 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
     }
     model = kinematics::ReadHandFile(hand.hand);
     planning::InHandTask task{.hand = &model.hand, .scale = common.scale};
-    task.is_carried_out =
+    task.carry_out =
         sim::CarryOutTest(model, dynamic_cast<const object::Polyhedron&>(*object.object));
     hand.AskFor(task);
     gait::AskInHand(task, request);

@@ -138,7 +138,7 @@ Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Hand
     request.solid = &body.solid();
     request.scale = body.scale;
     request.criteria.half_angle = std::atan(contest.plan_mu);
-    if (contest.replay) request.is_carried_out = sim::CarryOutTest(file, body.solid());
+    if (contest.replay) request.carry_out = sim::CarryOutTest(file, body.solid());
     request.criteria.min_quality = contest.min_quality;
     request.turn = contest.turn;
     request.reserve = contest.reserve;

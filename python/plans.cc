@@ -71,7 +71,7 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .turn = {given.turn_axis, given.turn_angle},
           .start_pose = PoseOf(given.start_pose),
           .goal_pose = PoseOf(given.goal_pose),
-          .is_carried_out = sim::CarryOutTest(
+          .carry_out = sim::CarryOutTest(
               hand.file, dynamic_cast<const object::Polyhedron&>(*object.file.object))};
 }
 

@@ -48,7 +48,7 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
                                                 const std::optional<TaskStart>& start,
                                                 const criteria::GraspCriteria& criteria) {
   planning::InHandTask in_hand{.hand = &hand.hand, .scale = body.scale};
-  in_hand.is_carried_out = sim::CarryOutTest(hand, body.solid());
+  in_hand.carry_out = sim::CarryOutTest(hand, body.solid());
   if (start) {
     in_hand.start_pose = start->pose;
     for (const plan::FingerContact& held : start->holding) {
@@ -87,8 +87,11 @@ planning::PlanResult Solve(const kinematics::HandFile& hand, const HandBody& bod
     }
     request.deadline = deadline.After(1.0 / static_cast<double>(ways.size() - i));
     planning::PlanResult result = planning::Solve(gait::GaitPlanner(), request);
-    const bool is_carried_out =
-        ways.size() > 1 && result.plan && ways[i].is_carried_out(*result.plan) == true;
+    bool is_carried_out = false;
+    if (ways.size() > 1 && result.plan) {
+      const auto carried = ways[i].carry_out(*result.plan);
+      is_carried_out = carried && carried->is_whole;
+    }
     if (is_carried_out || !found.plan) found = std::move(result);
     if (is_carried_out || deadline.IsOver()) break;
   }

@@ -19,7 +19,8 @@ constexpr int kExtensionsToMeet = 1000;
 
 BidirectionalSearch::BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid,
                                          Parking parking, const GaitEnds& ends,
-                                         criteria::GraspMemory& memory, RandomStream& random)
+                                         criteria::GraspMemory& memory, RandomStream& random,
+                                         CarryOut carry_out)
     : setup_(setup),
       grid_(grid),
       reversed_(grid.Reversed()),
@@ -27,7 +28,10 @@ BidirectionalSearch::BidirectionalSearch(const HandSetup& setup, const PoseGrid&
       random_(random),
       carrier_(setup, grid_, parking_),
       forward_(setup, grid_, carrier_, ends, memory, random) {
-  if (ends.start.empty() || ends.goal.empty() || !forward_.GoalIsHeld()) return;
+  if (ends.start.empty() || ends.goal.empty() || !forward_.GoalIsHeld()) {
+    forward_.TryWays(std::move(carry_out));
+    return;
+  }
   if (grid.steps() > 0) reversed_carrier_.emplace(setup, reversed_, parking_);
   backward_.emplace(setup, reversed_, reversed_carrier_ ? *reversed_carrier_ : carrier_,
                     GaitEnds{ends.goal, ends.start, ends.goal_fingers, ends.start_fingers}, memory,

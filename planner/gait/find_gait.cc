@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <stdexcept>
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
-#include "planner/gait/bidirectional_search.h"
 #include "planner/gait/fewer_moves.h"
 #include "planner/gait/gait_search.h"
-#include "planner/gait/turn_search.h"
+#include "planner/gait/places_in_hand.h"
+#include "planner/gait/plan_of_gait.h"
 #include "planner/gait/with_reserve.h"
 #include "planner/sampling/surface_sampler.h"
 
@@ -20,12 +21,6 @@ namespace {
 constexpr int kContacts = 400;
 /// Of the diameter: contacts keep off the borders of faces, where the least slip is to another one.
 constexpr double kFromBorder = 0.02;
-/// Grasps expanded from one place in the hand before others have their turn.
-constexpr int kExpandedAtOnce = 6;
-/// From all places together, by their number, before there is another one.
-constexpr int kExpandedForNext = 20;
-/// Times that places are looked for.
-constexpr int kDrawings = 4;
 
 std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
   const sampling::SurfaceSampler sampler(*request.solid, FingersOf(request).fingertip_radius,
@@ -37,127 +32,6 @@ std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
   }
   return contacts;
 }
-
-/// A place in the hand to begin in.
-struct PlaceInHand {
-  RandomStream random;
-  std::unique_ptr<PlaceSearch> search;
-};
-
-/// All places in the hand that are tried, the best first, and more the longer it takes; those where
-/// the object comes farther have more turns.
-class PlacesInHand {
- public:
-  PlacesInHand(const GaitRequest& request, const HandSetup& setup, const GaitEnds& ends,
-               criteria::GraspMemory& memory)
-      : request_(request),
-        setup_(setup),
-        ends_(ends),
-        memory_(memory),
-        random_(request.seed, RandomUse::kHomes),
-        journey_(request.scale * request.solid->mass_properties().centroid, request.turn,
-                 request.goal_pose) {}
-
-  std::optional<Gait> Search() {
-    while (!request_.deadline.IsOver() && expanded_ < request_.most_expanded) {
-      PlaceInHand* place = Next();
-      if (place == nullptr) return std::nullopt;
-      const std::int64_t before = place->search->counts().expanded;
-      std::optional<Gait> gait = place->search->Run(before + kExpandedAtOnce, request_.deadline);
-      if (gait) return gait;
-      expanded_ += place->search->counts().expanded - before;
-      request_.progress("searching a gait, " + std::to_string(expanded_) + " grasps from " +
-                        std::to_string(places_.size()) + " places in the hand");
-    }
-    return std::nullopt;
-  }
-
-  [[nodiscard]] std::vector<GaitCounts> counts() const {
-    std::vector<GaitCounts> counts;
-    for (const auto& place : places_) counts.push_back(place->search->counts());
-    return counts;
-  }
-
- private:
-  /// Null where all places are exhausted.
-  PlaceInHand* Next() {
-    const std::int64_t enough = kExpandedForNext * static_cast<std::int64_t>(places_.size());
-    if (expanded_ >= enough && Open()) return places_.back().get();
-    PlaceInHand* next = nullptr;
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& place : places_) {
-      if (place->search->IsExhausted()) continue;
-      const GaitCounts counts = place->search->counts();
-      const double farther = 1.0 + counts.farthest;
-      const double had = static_cast<double>(counts.expanded) / (farther * farther);
-      if (had >= least) continue;
-      least = had;
-      next = place.get();
-    }
-    return next == nullptr && Open() ? places_.back().get() : next;
-  }
-
-  /// @returns whether there is another place.
-  bool Open() {
-    while (true) {
-      if (homes_.empty()) {
-        if (!DrawHomes()) return false;
-        continue;
-      }
-      const PoseTrack track = journey_.From(homes_.back());
-      homes_.pop_back();
-      auto place = std::make_unique<PlaceInHand>(
-          RandomStream(request_.seed, RandomUse::kGaits, places_.size()));
-      place->search = SearchAlong(track, place->random);
-      if (!place->search || !place->search->GoalIsHeld()) continue;
-      places_.push_back(std::move(place));
-      return true;
-    }
-  }
-
-  /// Null where a finger has no place to wait.
-  std::unique_ptr<PlaceSearch> SearchAlong(const PoseTrack& track, RandomStream& random) {
-    std::optional<Parking> parking = FindParking(setup_, track, random_);
-    if (!parking) return nullptr;
-    const bool is_turn = !request_.goal_pose && track.steps() > 0;
-    // Contacts roll one way, and so are followed from the beginning.
-    const bool may_begin_anywhere = is_turn && !request_.start_pose && ends_.start.empty() &&
-                                    ends_.goal.empty() && setup_.rolled_on == nullptr;
-    if (may_begin_anywhere) {
-      if (auto backwards = FindParking(setup_, track.Backwards(), random_)) {
-        return std::make_unique<TurnSearch>(setup_, track, *std::move(parking),
-                                            *std::move(backwards), memory_, random);
-      }
-    }
-    const PoseGrid grid(track, setup_.scene.hand().up,
-                        is_turn ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
-    return std::make_unique<BidirectionalSearch>(setup_, grid, *std::move(parking), ends_, memory_,
-                                                 random);
-  }
-
-  /// @returns false where there are no more.
-  bool DrawHomes() {
-    if (++drawings_ > (request_.start_pose ? 1 : kDrawings)) return false;
-    if (request_.start_pose) {
-      homes_ = {*request_.start_pose};
-      return true;
-    }
-    homes_ = FindHomes(setup_, journey_, ends_, memory_, random_);
-    std::ranges::reverse(homes_);
-    return true;
-  }
-
-  const GaitRequest& request_;
-  const HandSetup& setup_;
-  GaitEnds ends_;
-  criteria::GraspMemory& memory_;
-  RandomStream random_;
-  Journey journey_;
-  std::vector<Eigen::Isometry3d> homes_;  ///< that were not tried yet, the best last
-  int drawings_ = 0;
-  std::vector<std::unique_ptr<PlaceInHand>> places_;
-  std::int64_t expanded_ = 0;  ///< from all places
-};
 
 std::string HowFar(const GaitRequest& request, const GaitCounts& counts) {
   const double share = counts.steps == 0 ? 1 : static_cast<double>(counts.farthest) / counts.steps;
@@ -191,6 +65,7 @@ std::string WhatStopped(const GaitRequest& request, const std::vector<GaitCounts
   add(best.ways.no_slide, "for which a finger cannot slide");
   add(best.ways.no_move, "with moves that fingers cannot follow");
   add(best.rolled, "that no longer hold where their contacts roll to");
+  add(best.not_carried, "to which the hand's motors do not come");
   if (request.reserve == Reserve::kRequired) {
     text += "; without reserve there may be a plan";
   }
@@ -229,6 +104,50 @@ bool Holds(const std::vector<int>& grasp, criteria::GraspMemory& memory) {
   return memory.Admits(contacts);
 }
 
+criteria::GraspCriteria WithQuality(criteria::GraspCriteria criteria, double quality) {
+  criteria.min_quality = quality;
+  return criteria;
+}
+
+/// Gaits with one spare, or without.
+struct Kind {
+  double quality;
+  HandScene scene;
+  HandSetup setup;
+  criteria::GraspMemory memory;
+  CarryOut carry_out = {};
+
+  Kind(const GaitRequest& request, const Spare* spare, const collision::SurfaceTree& surface,
+       const std::vector<kinematics::InverseKinematics>& inverse,
+       const std::vector<SurfacePoint>& points, const hand::Hand& fingers)
+      : quality(spare == nullptr ? request.criteria.min_quality
+                                 : std::max(request.criteria.min_quality, spare->quality)),
+        scene(*request.hand, surface, request.margin + (spare == nullptr ? 0 : spare->clearance)),
+        setup{scene, inverse, points, request.scale},
+        memory(*request.solid, WithQuality(request.criteria, quality), fingers,
+               criteria::QualityTest::kQuick) {
+    if (spare == nullptr) return;
+    setup.may_slide = false;
+    setup.force_margin = spare->force_margin.value_or(0);
+  }
+};
+
+/// Tries gaits of a setup on the hand's motors, as they would be planned.
+CarryOut TrialOf(const HandSetup& setup, const GaitRequest& request,
+                 const std::vector<grasp::Contact>& contacts) {
+  return [&](const Gait& gait) -> CarriedGait {
+    const Gait fewer = WithFewerMoves(setup, gait);
+    request.progress("trying a plan on the hand's own motors");
+    const plan::Plan plan = PlanOf(fewer, request, contacts);
+    const auto carried = request.carry_out(plan);
+    if (!carried) return {.is_whole = true};  // who asks finds out
+    const bool fails_in_move = carried->is_held && !carried->is_whole &&
+                               std::holds_alternative<plan::Move>(plan.steps[carried->steps]);
+    return {CountChanges(fewer, carried->steps), carried->is_held, fails_in_move,
+            carried->is_whole};
+  };
+}
+
 /// What of a request can't have reserve, whatever the gait; empty: nothing.
 /// @param quality  that a gait with reserve has.
 std::string GivenWithoutReserve(const GaitEnds& ends, criteria::GraspMemory& memory,
@@ -265,32 +184,46 @@ GaitResult FindGait(const GaitRequest& request) {
   const collision::SurfaceTree surface(*request.solid, request.scale);
   const collision::BallContact rolled_on(*request.solid, request.scale);
   const hand::Hand fingers = FingersOf(request);
-  const FindOne find = [&](const GaitRequest& asked, const Spare* spare) -> FoundGait {
-    const HandScene scene(*request.hand, surface, asked.margin);
-    HandSetup setup{scene, inverse, points, request.scale};
-    criteria::GraspMemory memory(*asked.solid, asked.criteria, fingers,
-                                 criteria::QualityTest::kQuick);
-    memory.Append(result.contacts);
-    if (spare != nullptr) {
-      setup.may_slide = false;
-      if (spare->force_margin) setup.rolled_on = &rolled_on;
-      setup.force_margin = spare->force_margin.value_or(0);
-      std::string without = GivenWithoutReserve(ends, memory, asked.criteria.min_quality);
-      if (!without.empty()) return {std::nullopt, std::move(without)};
+  const FindOne find = [&](const GaitRequest& asked, std::span<const Spare> spares) -> FoundGait {
+    std::vector<std::unique_ptr<Kind>> kinds;
+    std::string without;
+    const auto add = [&](const Spare* spare) {
+      auto kind = std::make_unique<Kind>(asked, spare, surface, inverse, points, fingers);
+      kind->memory.Append(result.contacts);
+      if (spare != nullptr) {
+        if (spare->force_margin) kind->setup.rolled_on = &rolled_on;
+        without = GivenWithoutReserve(ends, kind->memory, kind->quality);
+        if (!without.empty()) return;
+        if (asked.carry_out) kind->carry_out = TrialOf(kind->setup, asked, result.contacts);
+      }
+      kinds.push_back(std::move(kind));
+    };
+    if (spares.empty()) add(nullptr);
+    for (const Spare& spare : spares) add(&spare);
+    if (kinds.empty()) return {std::nullopt, std::move(without)};
+    std::vector<SearchTerms> terms;
+    for (const auto& kind : kinds) {
+      terms.push_back({kind->setup, kind->memory, kind->carry_out});
     }
-    PlacesInHand places(asked, setup, ends, memory);
+    PlacesInHand places(asked, std::move(terms), ends);
     std::optional<Gait> gait = places.Search();
-    if (gait) return {WithFewerMoves(setup, *gait), ""};
+    if (gait) return {std::move(gait), ""};
     return {std::nullopt, WhatStopped(asked, places.counts())};
   };
-  const bool is_required = request.reserve == Reserve::kRequired;
-  FoundGait found;
-  if (!is_required) found = find(request, nullptr);
-  if (is_required || (request.reserve == Reserve::kPreferred && found.gait)) {
-    result.is_carried_out = FindWithReserve(request, result.contacts, find, found);
+  TriedGait tried;
+  if (request.reserve == Reserve::kNone) {
+    tried.found = find(request, {});
+  } else if (request.carry_out) {
+    tried = FindCarriedOut(request, result.contacts, find);
+  } else {
+    if (request.reserve == Reserve::kPreferred) tried.found = find(request, {});
+    if (request.reserve == Reserve::kRequired || tried.found.gait) {
+      tried.found = FindWithReserve(request, find, tried.found);
+    }
   }
-  result.gait = std::move(found.gait);
-  result.message = std::move(found.message);
+  result.gait = std::move(tried.found.gait);
+  result.message = std::move(tried.found.message);
+  result.is_carried_out = tried.is_carried_out;
   return result;
 }
 

@@ -98,6 +98,7 @@ void GaitCounts::Add(const GaitCounts& other) {
   ways.no_move += other.ways.no_move;
   colliding += other.colliding;
   rolled += other.rolled;
+  not_carried += other.not_carried;
 }
 
 void GaitSearch::BeginWith(const Hold& hold) {
@@ -321,6 +322,7 @@ std::optional<double> GaitSearch::ScoreAfter(const Rest& from, const Holding& to
 
 bool GaitSearch::SwitchAt(int index, int node) {
   const Holding from = tree_[index].hold.holding;
+  if (grid_.StepOf(node) > tree_[index].farthest) return false;
   const RolledTo rolled = RollTowards(tree_[index], node);
   if (rolled.node != node) return false;
   std::vector<std::pair<double, Holding>> found;
@@ -345,6 +347,7 @@ bool GaitSearch::SwitchAt(int index, int node) {
     if (change.released.valid()) all.holding[change.released] = from[change.released];
     if (change.placed.valid() && !carrier_.IsPassable(all, rest.node)) continue;
     rest.rolled_before = rolled.tips;
+    if (failed_trials_.contains({index, rest.node, rest.hold.holding})) continue;
     if (!Add(std::move(rest))) continue;
     ++taken;
     ++alike;
@@ -393,10 +396,54 @@ std::optional<Gait> GaitSearch::GaitFrom(int index) {
     return std::nullopt;
   }
   const int end = carried.end;
+  if (tree_[index].ends_in_vain || grid_.StepOf(end) > tree_[index].farthest) return std::nullopt;
   std::optional<Gait> gait = tree_.WayTo(index, end);
+  if (gait && carry_out_ && !Try(index, *gait)) return std::nullopt;
   // Else the rest goes on from where it did not fail, or from another place.
   if (!gait && carried.from.contains(end)) carried.end = carried.from.at(end);
   return gait;
+}
+
+bool GaitSearch::IsCarriedOut(int index) {
+  if (!carry_out_) return true;
+  const int last = tree_.LastCarried(index);
+  const int from = last < 0 ? grid_.start() : tree_[last].node;
+  if (grid_.StepOf(tree_[index].node) - grid_.StepOf(from) < tried_at_once_) return true;
+  const std::optional<Gait> gait = tree_.WayTo(index, tree_[index].node);
+  return gait && Try(index, *gait);
+}
+
+/// The object is not carried with a rest to a step, and perhaps not half as far.
+void GaitSearch::KeepBeforeMiddle(int rest, int step) {
+  const int from = grid_.StepOf(tree_[rest].node);
+  if (step > from) tree_.KeepBefore(rest, (from + step) / 2);
+}
+
+bool GaitSearch::Try(int index, const Gait& gait) {
+  const CarriedGait carried = carry_out_(gait);
+  tried_at_once_ =
+      carried.is_whole ? 2 * tried_at_once_ : std::max(kFewestTriedAtOnce, tried_at_once_ / 2);
+  if (carried.is_whole) {
+    tree_.MarkCarried(index);
+    counts_.farthest = std::max(counts_.farthest, grid_.StepOf(tree_[index].node));
+    return true;
+  }
+  ++counts_.not_carried;
+  const int failed = tree_.CutOffAfter(index, carried.is_held ? carried.changes : -1);
+  if (failed < 0) {
+    tree_[index].ends_in_vain = true;
+    KeepBeforeMiddle(index, grid_.steps());
+    tree_.MarkCarried(index);
+    return false;
+  }
+  const Rest& rest = tree_[failed];
+  if (rest.parent >= 0) {
+    if (carried.fails_in_move) KeepBeforeMiddle(rest.parent, grid_.StepOf(rest.node));
+    tree_.MarkCarried(rest.parent);
+    failed_trials_.insert({rest.parent, rest.node, rest.hold.holding});
+    counts_.farthest = std::max(counts_.farthest, grid_.StepOf(tree_[rest.parent].node));
+  }
+  return false;
 }
 
 void GaitSearch::AddTarget(const Holding& holding) {
@@ -450,9 +497,10 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     if (rest.is_cut_off) continue;
     // Whose way can't be gone had better be found out before much grows from it.
     if (grid_.StepOf(rest.carried.end) > counts_.farthest && !ComesToItsEnd(index)) continue;
+    if (!IsCarriedOut(index)) continue;
     if (is_new) expanded_[rest.hold.holding].push_back(index);
     const int last = grid_.StepOf(rest.carried.end);
-    counts_.farthest = std::max(counts_.farthest, last);
+    if (!carry_out_) counts_.farthest = std::max(counts_.farthest, last);
     ++counts_.expanded;
     crowding_.Count(rest.hold.holding, last);
     last_expanded_ = index;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <queue>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "planner/base/deadline.h"
@@ -28,14 +30,26 @@ struct GaitCounts {
   std::int64_t grasps = 0;    ///< rests that were looked at
   std::int64_t expanded = 0;  ///< from which fingers were switched
   WayCounts ways;
-  std::int64_t colliding = 0;  ///< grasps in which fingers hit each other
-  std::int64_t rolled = 0;     ///< that are lost where contacts roll, with reserve
-  int farthest = 0;            ///< step of the track that was reached
-  int steps = 0;               ///< that it has
+  std::int64_t colliding = 0;    ///< grasps in which fingers hit each other
+  std::int64_t rolled = 0;       ///< that are lost where contacts roll, with reserve
+  std::int64_t not_carried = 0;  ///< to which the way was tried in vain
+  /// Steps of the track: the farthest that was reached, or carried out where ways are tried.
+  int farthest = 0;
+  int steps = 0;  ///< that it has
 
   /// Adds those of a search from another end; what was reached stays.
   void Add(const GaitCounts& other);
 };
+
+/// How far something carried a gait out.
+struct CarriedGait {
+  int changes = 0;      ///< stretches that are no moves, of those that came before one failed
+  bool is_held = true;  ///< before the first stretch
+  bool fails_in_move = false;
+  bool is_whole = false;  ///< none failed
+};
+/// Tries a gait, or the beginning of one.
+using CarryOut = std::function<CarriedGait(const Gait&)>;
 
 /// Searches a gait that takes an object from the start of a grid of poses to its goal: rests are
 /// grasps of three or more fingers; from each the object goes as far as these can follow, somewhere
@@ -53,6 +67,10 @@ class GaitSearch {
   ///                 object.
   GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& carrier, const GaitEnds& ends,
              criteria::GraspMemory& memory, RandomStream& random);
+
+  /// From now on ways are tried before much grows from them, and gaits are carried out as a whole.
+  /// Before the first Run.
+  void TryWays(CarryOut carry_out) { carry_out_ = std::move(carry_out); }
 
   /// Whether some fingers can hold the goal grasp, if there is one, at the goal pose.
   [[nodiscard]] bool GoalIsHeld() const { return goal_.IsWithinReach(); }
@@ -92,6 +110,8 @@ class GaitSearch {
   void AddTarget(const Holding& holding);
 
  private:
+  static constexpr int kFewestTriedAtOnce = 12;
+
   /// The last node on a way at which tips that roll hold, and where they are there.
   struct RolledTo {
     int node = 0;
@@ -152,6 +172,12 @@ class GaitSearch {
   [[nodiscard]] int PopNext();
   [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
+  /// Whether the way to a rest is carried out; what was carried out lately is believed.
+  [[nodiscard]] bool IsCarriedOut(int index);
+  /// @param gait  the way to a rest, perhaps on to where it brings the object.
+  /// @returns whether all of it is carried out; else what failed is cut off.
+  [[nodiscard]] bool Try(int index, const Gait& gait);
+  void KeepBeforeMiddle(int rest, int step);
 
   const HandSetup& setup_;
   const PoseGrid& grid_;
@@ -177,6 +203,11 @@ class GaitSearch {
   GaitCounts counts_;
   int last_expanded_ = -1;
   std::set<Holding> targets_;  ///< kinds of them
+  /// Steps of ways that are tried at once: more where what is tried was carried out.
+  int tried_at_once_ = kFewestTriedAtOnce;
+  CarryOut carry_out_;  ///< none: what is planned counts
+  /// Changes that were tried and not carried out: from a rest, at a node, to a grasp.
+  std::set<std::tuple<int, int, Holding>> failed_trials_;
   bool begun_ = false;
 };
 

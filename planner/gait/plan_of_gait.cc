@@ -52,13 +52,11 @@ plan::Align SlideOf(const Stretch& stretch, const plan::FingerGrasp& holding,
   return align;
 }
 
-/// The switch before, if it has only placed another finger so far, or a new one.
-plan::Switch& SwitchThatReleases(FingerIndex finger, std::vector<plan::Step>& steps) {
-  auto* last = steps.empty() ? nullptr : std::get_if<plan::Switch>(&steps.back());
-  if (last != nullptr && last->release.empty() && last->place.front().finger != finger)
-    return *last;
-  return std::get<plan::Switch>(
-      steps.emplace_back(plan::Switch{{}, {}, plan::SwitchMotion{{}, {}}}));
+/// Whether a stretch is one step with the one before: a placed finger, and then another released.
+bool BelongTogether(const std::vector<Stretch>& stretches, std::size_t i) {
+  using enum Stretch::Kind;
+  return i > 0 && stretches[i].kind == kRelease && stretches[i - 1].kind == kPlace &&
+         stretches[i].finger != stretches[i - 1].finger;
 }
 
 }  // namespace
@@ -79,7 +77,8 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
     if (gait.initial[finger] == kNone) continue;
     plan.initial.push_back({finger, contacts[gait.initial[finger]]});
   }
-  for (const Stretch& stretch : gait.stretches) {
+  for (std::size_t i = 0; i < gait.stretches.size(); ++i) {
+    const Stretch& stretch = gait.stretches[i];
     switch (stretch.kind) {
       case Stretch::Kind::kMove:
         plan.steps.emplace_back(plan::Move{PathOf(stretch, hand)});
@@ -94,7 +93,10 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
         plan.steps.emplace_back(SlideOf(stretch, GraspAtEnd(plan), hand));
         break;
       case Stretch::Kind::kRelease: {
-        plan::Switch& last = SwitchThatReleases(stretch.finger, plan.steps);
+        if (!BelongTogether(gait.stretches, i)) {
+          plan.steps.emplace_back(plan::Switch{{}, {}, plan::SwitchMotion{{}, {}}});
+        }
+        auto& last = std::get<plan::Switch>(plan.steps.back());
         last.release.push_back(stretch.finger);
         last.motion->release = PathOf(stretch, hand);
         break;
@@ -103,6 +105,17 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
   }
   plan.goal = plan::ContactsOf(GraspAtEnd(plan));
   return plan;
+}
+
+int CountChanges(const Gait& gait, int steps) {
+  int changes = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < gait.stretches.size(); ++i) {
+    if (!BelongTogether(gait.stretches, i)) ++count;
+    if (count > steps) break;
+    if (gait.stretches[i].kind != Stretch::Kind::kMove) ++changes;
+  }
+  return changes;
 }
 
 }  // namespace regrasp::gait

@@ -10,4 +10,7 @@ namespace regrasp::gait {
 [[nodiscard]] plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
                                 const std::vector<grasp::Contact>& contacts);
 
+/// Of the first steps of a gait's plan how many of its stretches are no moves.
+[[nodiscard]] int CountChanges(const Gait& gait, int steps);
+
 }  // namespace regrasp::gait

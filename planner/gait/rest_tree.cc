@@ -111,6 +111,9 @@ int RestTree::WithWaiting(int index, FingerIndex finger, const Posture& posture)
     Rest rest = rests_[i];
     rest.parent = last;
     rest.way.clear();
+    rest.is_carried = false;
+    rest.ends_in_vain = false;
+    rest.farthest = std::numeric_limits<int>::max();
     rest.moves.clear();
     rest.barred.clear();
     WaitAsBefore(rest);
@@ -138,6 +141,37 @@ int RestTree::AfterWaitingAbove(int index) {
   WaitAsBefore(rest);
   if (!WorkOutWay(rest)) return -1;
   return Add(std::move(rest));
+}
+
+int RestTree::LastCarried(int rest) const {
+  while (rest >= 0 && !rests_[rest].is_carried) rest = rests_[rest].parent;
+  return rest;
+}
+
+void RestTree::MarkCarried(int rest) {
+  for (; rest >= 0; rest = rests_[rest].parent) rests_[rest].is_carried = true;
+}
+
+int RestTree::CutOffAfter(int index, int changes) {
+  std::vector<int> chain;
+  for (int i = index; i >= 0; i = rests_[i].parent) chain.push_back(i);
+  std::ranges::reverse(chain);
+  int come_to = -1;
+  for (const int i : chain) {
+    come_to = rests_[i].parent < 0 ? 0 : come_to + static_cast<int>(rests_[i].way.size());
+    if (come_to <= changes) continue;
+    CutOff(i);
+    return i;
+  }
+  return -1;
+}
+
+void RestTree::KeepBefore(int index, int step) {
+  rests_[index].farthest = std::min(rests_[index].farthest, step);
+  for (int i = index; i < size(); ++i) {
+    const Rest& rest = rests_[i];
+    if (rest.parent == index && grid_.StepOf(rest.node) > step && !rest.is_carried) CutOff(i);
+  }
 }
 
 void RestTree::CutOff(int index) {

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -28,6 +29,10 @@ struct Rest {
   int turns = 0;                   ///< that it had
   double score = 0;
   int parent = -1;
+  bool is_carried = false;    ///< the way to it was tried, and carried out
+  bool ends_in_vain = false;  ///< the way on with it to the goal is not carried out
+  /// Step of the track: moves with it were tried, and are not carried out much farther.
+  int farthest = std::numeric_limits<int>::max();
   int slides = 0;  ///< from the first rest to this one
   /// Worked out when its turn comes: the change, from where the parent brought the object.
   std::vector<Stretch> way = {};
@@ -76,6 +81,16 @@ class RestTree {
   [[nodiscard]] int RootOf(int rest) const;
   /// A rest after a change, which is not in the tree yet.
   [[nodiscard]] Rest After(int from, const Holding& to, int node) const;
+
+  /// The last rest of the way to one that was carried out; −1: none.
+  [[nodiscard]] int LastCarried(int rest) const;
+  /// The way to a rest is carried out.
+  void MarkCarried(int rest);
+  /// Cuts off the rest of the way to `rest` that comes after so many changes; −1: the first one.
+  /// @returns it; −1 where it is none of them.
+  int CutOffAfter(int rest, int changes);
+  /// The object is not carried with a rest beyond a step: cuts off what comes of that.
+  void KeepBefore(int rest, int step);
 
   /// Finds where a rest is carried, but for moves that can't be done.
   void CarryOn(Rest& rest);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,21 +23,31 @@ struct FoundGait {
   std::optional<Gait> gait;
   std::string message;  ///< where there is none
 };
-/// Looks for a gait. @param spare  null: without reserve.
-using FindOne = std::function<FoundGait(const GaitRequest& asked, const Spare* spare)>;
+/// Looks for a gait with one of some spares, from each place in the hand with the next of them;
+/// without reserve where there are none. What is to have a spare is tried on the way where the
+/// hand can try plans.
+using FindOne = std::function<FoundGait(const GaitRequest& asked, std::span<const Spare> spares)>;
 
-/// Looks for gaits with reserve, first with more and then with less to spare, until the hand
-/// carries one out (planning::InHandTask::is_carried_out), or that without reserve; again and
-/// again, as each draws others, and every time for longer. A gait much longer than the one without
-/// does not count.
-///
+/// Looks for gaits with reserve where nothing tells whether the hand carries them out: first with
+/// more and then with less to spare. One much longer than the one without does not count.
+/// @param without  the one without reserve, where the request allows it and there is one.
+/// @returns the first that there is, or the one without; where there is none, why.
+[[nodiscard]] FoundGait FindWithReserve(const GaitRequest& request, const FindOne& find,
+                                        const FoundGait& without);
+
+/// A gait, and whether the hand carries it out; nullopt: nothing tells.
+struct TriedGait {
+  FoundGait found;
+  std::optional<bool> is_carried_out = {};
+};
+
+/// Looks for gaits with reserve until the hand carries one out (planning::InHandTask::carry_out),
+/// with more or less to spare by turns, and again, as each time draws others; where there is none,
+/// for one without. Where the hand can't tell, as if it were not asked.
 /// @param contacts  of gaits, by their numbers.
-/// @param found     the one without, where the request allows it and there is one; then the one
-///                  that the hand carries out, or else the first with reserve; where reserve is
-///                  required and there is none, why.
-/// @returns whether the hand carries it out; nullopt where nothing tells.
-std::optional<bool> FindWithReserve(const GaitRequest& request,
-                                    const std::vector<grasp::Contact>& contacts,
-                                    const FindOne& find, FoundGait& found);
+/// @returns no gait that is not carried out where the request's reserve is required.
+[[nodiscard]] TriedGait FindCarriedOut(const GaitRequest& request,
+                                       const std::vector<grasp::Contact>& contacts,
+                                       const FindOne& find);
 
 }  // namespace regrasp::gait

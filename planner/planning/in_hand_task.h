@@ -32,6 +32,13 @@ enum class Reserve {
   kRequired,
 };
 
+/// How far a hand carries a plan out.
+struct CarriedOut {
+  bool is_held = false;   ///< the start grasp, before the first step
+  int steps = 0;          ///< that pass before one fails, or all
+  bool is_whole = false;  ///< the plan's last rest is come to
+};
+
 /// What is asked of a hand beside start and goal grasps: that the object turns, or goes to a pose.
 /// Poses are of the object's own frame (its file's axes and origin) in the palm's, metres.
 struct InHandTask {
@@ -44,9 +51,9 @@ struct InHandTask {
   std::optional<Eigen::Isometry3d> goal_pose = {};   ///< instead of a turn
   /// That hold the contacts of a given start grasp, in its order; none: whichever can.
   std::vector<FingerIndex> start_fingers = {};
-  /// Where reserve is looked for: whether the hand carries a plan out, nullopt where that can't be
+  /// Where reserve is looked for: how far the hand carries a plan out, nullopt where that can't be
   /// told (sim/actuation/carry_out.h). None: reserve is all that is asked for.
-  std::function<std::optional<bool>(const plan::Plan&)> is_carried_out = {};
+  std::function<std::optional<CarriedOut>(const plan::Plan&)> carry_out = {};
 };
 
 }  // namespace regrasp::planning

@@ -1,5 +1,7 @@
 #include "sim/actuation/carry_out.h"
 
+#include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "planner/base/error.h"
@@ -8,15 +10,38 @@
 #include "sim/actuation/hand_replay.h"
 
 namespace regrasp::sim {
+namespace {
 
-std::function<std::optional<bool>(const plan::Plan&)> CarryOutTest(
+/// Of plans for one scale at a time.
+struct Replays {
+  kinematics::HandFile file;
+  const object::Polyhedron& solid;
+  double scale = 0;
+  std::unique_ptr<HandReplays> replays = nullptr;
+
+  HandReplays& At(double asked) {
+    if (!replays || asked != scale) {
+      HandReplayOptions options;
+      options.mass_kg = object::MeasureBody(solid, asked).mass_kg;
+      scale = asked;
+      replays = std::make_unique<HandReplays>(file, solid, options);
+    }
+    return *replays;
+  }
+};
+
+}  // namespace
+
+std::function<std::optional<planning::CarriedOut>(const plan::Plan&)> CarryOutTest(
     kinematics::HandFile file, const object::Polyhedron& solid) {
-  return [file = std::move(file), &solid](const plan::Plan& plan) -> std::optional<bool> {
-    HandReplayOptions options;
-    options.mass_kg = object::MeasureBody(solid, plan.scale).mass_kg;
+  const auto replays = std::make_shared<Replays>(Replays{std::move(file), solid});
+  return [replays, &solid](const plan::Plan& plan) -> std::optional<planning::CarriedOut> {
     try {
-      const ReplayResult result = ReplayHand(file, solid, plan::LocatePlan(solid, plan), options);
-      return result.steps.back().reason == plan::Reason::kNone;
+      const ReplayResult result = replays->At(plan.scale).Replay(plan::LocatePlan(solid, plan));
+      const bool is_whole = result.steps.back().reason == plan::Reason::kNone;
+      // The first entry is the start grasp.
+      const int passed = static_cast<int>(result.steps.size()) - (is_whole ? 0 : 1);
+      return planning::CarriedOut{passed > 0, std::max(0, passed - 1), is_whole};
     } catch (const InputError&) {
       return std::nullopt;
     }

@@ -6,16 +6,17 @@
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
+#include "planner/planning/in_hand_task.h"
 
 namespace regrasp::sim {
 
-/// Tells whether a hand carries a plan out: replayed on its own model (ReplayHand) with the plan's
+/// Tells how far a hand carries a plan out: replayed on its own model (ReplayHand) with the plan's
 /// friction, for a body of the density of water, shakes included. For planners that look for plans
 /// that it does (planning::InHandTask).
 ///
 /// @param solid  outlives what is returned.
 /// @returns what tells of a plan; nullopt where the hand's model can't be simulated.
-[[nodiscard]] std::function<std::optional<bool>(const plan::Plan&)> CarryOutTest(
+[[nodiscard]] std::function<std::optional<planning::CarriedOut>(const plan::Plan&)> CarryOutTest(
     kinematics::HandFile file, const object::Polyhedron& solid);
 
 }  // namespace regrasp::sim

@@ -27,7 +27,9 @@ constexpr double kAtLimit = 0.999;
 
 HandJudge::HandJudge(const HandWorld& world, const object::Polyhedron& solid, double scale,
                      const HandTolerance& tolerance)
-    : world_(world), surface_(solid, scale), tolerance_(tolerance) {
+    : world_(world),
+      surface_(std::make_shared<const collision::SurfaceTree>(solid, scale)),
+      tolerance_(tolerance) {
   for (const kinematics::Finger& finger : world.hand().fingers) {
     fingers_.push_back({});
     fingers_.back().at_limit.assign(finger.drives, 0);
@@ -226,7 +228,8 @@ void HandJudge::WatchLinks() {
   const Isometry3d to_object = world_.object_pose().inverse();
   const std::vector<PlacedLink> placed = PlaceLinks();
   for (const PlacedLink& link : placed) {
-    if (link.link->is_tip || surface_.IsApart(collision::Moved(to_object, link.shape), 0)) continue;
+    if (link.link->is_tip || surface_->IsApart(collision::Moved(to_object, link.shape), 0))
+      continue;
     Fail(Reason::kHandCollides, LinkText(link) + " touches the object", MarksOf({&link}));
   }
   for (auto a = placed.begin(); a != placed.end(); ++a) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -87,7 +88,7 @@ class HandJudge {
                               const kinematics::HandModel::Part& b) const;
 
   const HandWorld& world_;
-  collision::SurfaceTree surface_;
+  std::shared_ptr<const collision::SurfaceTree> surface_;  ///< which copies share
   HandTolerance tolerance_;
   std::string phase_;
   std::optional<plan::FaultPush> push_;

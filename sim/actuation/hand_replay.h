@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -55,5 +56,24 @@ struct HandReplayObserver {
                                       const object::Polyhedron& solid, const plan::Plan& plan,
                                       const HandReplayOptions& options,
                                       const HandReplayObserver& observer = {}, int steps = -1);
+
+/// Replays plans one after another, and of each only what it has not in common with the beginning
+/// of the one before it.
+class HandReplays {
+ public:
+  /// @param solid  outlives this object.
+  HandReplays(kinematics::HandFile file, const object::Polyhedron& solid,
+              const HandReplayOptions& options);
+  ~HandReplays();
+  HandReplays(const HandReplays&) = delete;
+  HandReplays& operator=(const HandReplays&) = delete;
+
+  /// What ReplayHand gives, to the bit. @throws InputError  as it does.
+  [[nodiscard]] ReplayResult Replay(const plan::Plan& plan);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace regrasp::sim

@@ -207,6 +207,7 @@ struct HandWorld::Impl {
     contact.solref[1] = 1;
     std::ranges::copy(kTipImpedance, contact.solimp);
     contact.dim = 3;
+    contact.efc_address = -1;  // no force until the engine finds one
     contact.efc_address = -1;  // it has no force before a step
     contact.geom1 = object_geom;
     contact.geom2 = fingers[finger].tip_geom;
@@ -449,11 +450,19 @@ void HandWorld::Step() {
   CheckState(*m, *d);
 }
 
-HandWorld::State HandWorld::Save() const { return SaveState(*impl_->model, *impl_->data); }
+HandWorld::State HandWorld::Save() const {
+  return {SaveState(*impl_->model, *impl_->data), controls()};
+}
 
 void HandWorld::Restore(const State& state) {
-  RestoreState(state, *impl_->data);
-  mj_forward(impl_->model.get(), impl_->data.get());
+  const mjModel* m = impl_->model.get();
+  mjData* d = impl_->data.get();
+  mj_resetData(m, d);
+  impl_->surface.Forget();
+  RestoreState(state.engine, *d);
+  SetControls(state.controls);
+  mj_forward(m, d);
+  std::ranges::copy(state.engine.qacc_warmstart, d->qacc_warmstart);
   impl_->AddTipContacts();
 }
 

@@ -50,7 +50,11 @@ struct TipTouch {
 /// seconds; O is the object's frame (its file's axes and origin, in metres).
 class HandWorld {
  public:
-  using State = EngineState;
+  /// All that what comes depends on, but for loads and what is pinned.
+  struct State {
+    EngineState engine;
+    std::vector<double> controls;
+  };
 
   /// @throws InputError  the hand's model does not allow it; as TipShapesOf.
   HandWorld(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
@@ -113,6 +117,7 @@ class HandWorld {
   void Step();
 
   [[nodiscard]] State Save() const;
+  /// Without loads. What comes then is the same to the bit, whatever was before.
   void Restore(const State& state);
 
  private:

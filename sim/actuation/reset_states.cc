@@ -145,7 +145,7 @@ std::optional<Reason> ResetStates::Validate(ResetState& state) {
   world_.PinObject(false);
   world_.Place(StateOf(state));
   world_.SetControls(state.controls);
-  state.qpos = world_.Save().qpos;
+  state.qpos = world_.Save().engine.qpos;
   judge_.CopyState(fresh_);
   for (FingerIndex f{0}; f < std::ssize(state.tips); ++f) judge_.SetHolding(f, state.tips[f].holds);
   try {

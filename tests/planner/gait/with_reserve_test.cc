@@ -93,67 +93,131 @@ TEST(WithReserveTest, WhereNothingIsToSpareARequiredReserveIsToldOf) {
   EXPECT_THAT(found.message, testing::HasSubstr("without reserve there may be a plan"));
 }
 
-/// What a request's test is told of gaits, and what it says.
-struct Tried {
+/// A hand that was made up: what it is asked to carry out, and how far it does.
+struct MadeUpHand {
+  /// Whether it carries out a step of a plan, by number; all before it were.
+  std::function<bool(const plan::Plan&, std::size_t)> carries_out;
+  bool holds = true;
   std::vector<plan::Plan> plans = {};
-  std::function<std::optional<bool>()> answer;
 
-  void AskFor(GaitRequest& request) {
-    request.is_carried_out = [this](const plan::Plan& plan) {
+  void TriesFor(GaitRequest& request) {
+    request.carry_out = [this](const plan::Plan& plan) {
       plans.push_back(plan);
-      return answer();
+      planning::CarriedOut carried{holds, 0, false};
+      if (!holds) return std::optional(carried);
+      while (carried.steps < std::ssize(plan.steps) && carries_out(plan, carried.steps)) {
+        ++carried.steps;
+      }
+      carried.is_whole = carried.steps == std::ssize(plan.steps);
+      return std::optional(carried);
     };
   }
 };
 
-TEST(WithReserveTest, OfSeveralGaitsTheFirstIsTakenThatTheHandCarriesOut) {
-  GaitRequest request = RequestFor("cube", 0.8, 90);
-  Tried tried;
-  tried.AskFor(request);
-  tried.answer = [&] { return std::optional(tried.plans.size() == 4); };
-  const GaitResult found = FindGait(request);
-  ASSERT_TRUE(found.gait);
-  EXPECT_EQ(found.is_carried_out, true);
-  ASSERT_EQ(tried.plans.size(), 4U);
-  const auto text = [](const plan::Plan& plan) { return plan::FormatPlan(plan); };
-  EXPECT_EQ(text(PlanOf(*found.gait, request, found.contacts)), text(tried.plans.back()));
-  std::set<std::string> different;
-  for (const plan::Plan& plan : tried.plans) different.insert(text(plan));
-  EXPECT_GE(different.size(), 3U);
+bool Places(const plan::Step& step, FingerIndex finger) {
+  const auto* change = std::get_if<plan::Switch>(&step);
+  return change != nullptr && std::ranges::any_of(change->place, [&](const auto& placed) {
+           return placed.finger == finger;
+         });
 }
 
-TEST(WithReserveTest, WhereTheHandCarriesNoneOutThereIsAGaitUnlessThatIsRequired) {
+/// By how much the object turns in a move, radians.
+double TurnIn(const plan::Step& step) {
+  const auto* move = std::get_if<plan::Move>(&step);
+  if (move == nullptr) return 0;
+  const Eigen::Matrix3d turn =
+      move->path.front().pose.linear().transpose() * move->path.back().pose.linear();
+  return Eigen::AngleAxisd(turn).angle();
+}
+
+TEST(WithReserveTest, WhatIsFoundIsWhatTheHandCarriesOutAsItWasTried) {
+  constexpr FingerIndex kNeverPlaced{1};
+  GaitRequest request = RequestFor("cube", 0.8, 180);
+  const GaitResult usual = FindGait(request);
+  ASSERT_TRUE(usual.gait);
+  const plan::Plan plan = PlanOf(*usual.gait, request, usual.contacts);
+  const auto places = [](const plan::Step& step) { return Places(step, kNeverPlaced); };
+  ASSERT_TRUE(std::ranges::any_of(plan.steps, places));
+  MadeUpHand hand{.carries_out = [&](const plan::Plan& tried, std::size_t i) {
+    return !places(tried.steps[i]);
+  }};
+  hand.TriesFor(request);
+  const GaitResult found = FindGait(request);
+  ASSERT_TRUE(found.gait) << found.message;
+  EXPECT_EQ(found.is_carried_out, true);
+  const plan::Plan carried = PlanOf(*found.gait, request, found.contacts);
+  EXPECT_FALSE(std::ranges::any_of(carried.steps, places));
+  EXPECT_EQ(plan::FormatPlan(carried), plan::FormatPlan(hand.plans.back()));
+}
+
+TEST(WithReserveTest, WhereMovesFailHalfWayFingersAreSwitchedSooner) {
+  constexpr double kMostTurn = 0.3;
+  GaitRequest request = RequestFor("cube", 0.8, 90);
+  MadeUpHand hand{.carries_out = [&](const plan::Plan& tried, std::size_t i) {
+    return TurnIn(tried.steps[i]) <= kMostTurn;
+  }};
+  hand.TriesFor(request);
+  const GaitResult found = FindGait(request);
+  ASSERT_TRUE(found.gait) << found.message;
+  EXPECT_EQ(found.is_carried_out, true);
+  const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
+  double most = 0;
+  for (const plan::Step& step : plan.steps) most = std::max(most, TurnIn(step));
+  EXPECT_LE(most, kMostTurn);
+  request.carry_out = nullptr;
+  const GaitResult usual = FindGait(request);
+  ASSERT_TRUE(usual.gait);
+  most = 0;
+  for (const plan::Step& step : PlanOf(*usual.gait, request, usual.contacts).steps) {
+    most = std::max(most, TurnIn(step));
+  }
+  EXPECT_GT(most, kMostTurn);
+}
+
+TEST(WithReserveTest, NothingIsTriedTwice) {
   GaitRequest request = RequestFor("cube", 0.8, 60);
-  Tried tried{.answer = [] { return std::optional(false); }};
-  tried.AskFor(request);
+  MadeUpHand hand{.carries_out = [](const plan::Plan&, std::size_t) { return false; }};
+  hand.TriesFor(request);
+  request.reserve = Reserve::kRequired;
+  request.most_expanded = 60;
+  static_cast<void>(FindGait(request));
+  ASSERT_GT(hand.plans.size(), 3U);
+  std::set<std::string> different;
+  for (const plan::Plan& plan : hand.plans) different.insert(plan::FormatPlan(plan));
+  EXPECT_EQ(different.size(), hand.plans.size());
+}
+
+TEST(WithReserveTest, WhereTheHandHoldsNothingThereIsAGaitUnlessThatIsRequired) {
+  GaitRequest request = RequestFor("cube", 0.8, 60);
+  MadeUpHand hand{.carries_out = {}, .holds = false};
+  hand.TriesFor(request);
+  request.most_expanded = 60;
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait);
   EXPECT_EQ(found.is_carried_out, false);
-  EXPECT_GT(tried.plans.size(), 3U);
+  EXPECT_GT(hand.plans.size(), 3U);
   const auto slides = [](const plan::Plan& plan) {
     return std::ranges::count(plan.steps, std::string("align"), plan::StepKind) > 0;
   };
   // The one without reserve.
-  EXPECT_LE(std::ranges::count_if(tried.plans, slides), 1);
+  EXPECT_LE(std::ranges::count_if(hand.plans, slides), 1);
   request.reserve = Reserve::kRequired;
   const GaitResult none = FindGait(request);
   EXPECT_FALSE(none.gait);
-  EXPECT_THAT(none.message, testing::HasSubstr("the hand's motors carry none out"));
+  EXPECT_THAT(none.message, testing::HasSubstr("to which the hand's motors do not come"));
   request.reserve = Reserve::kNone;
-  tried.plans.clear();
+  hand.plans.clear();
   EXPECT_TRUE(FindGait(request).gait);
-  EXPECT_TRUE(tried.plans.empty());
+  EXPECT_TRUE(hand.plans.empty());
 }
 
-TEST(WithReserveTest, WhereItCanNotBeToldTheFirstGaitWithReserveIsTaken) {
+TEST(WithReserveTest, WhereItCanNotBeToldItIsAsIfTheHandWereNotAsked) {
   GaitRequest request = RequestFor("cube", 0.8, 60);
   const GaitResult usual = FindGait(request);
-  Tried tried{.answer = [] { return std::nullopt; }};
-  tried.AskFor(request);
+  request.carry_out = [](const plan::Plan&) { return std::nullopt; };
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(usual.gait && found.gait);
   EXPECT_EQ(found.is_carried_out, std::nullopt);
-  EXPECT_EQ(tried.plans.size(), 1U);
   EXPECT_EQ(plan::FormatPlan(PlanOf(*found.gait, request, found.contacts)),
             plan::FormatPlan(PlanOf(*usual.gait, request, usual.contacts)));
 }

@@ -25,7 +25,7 @@ class CarryOutTestTest : public FolderTest {
     gait::AskInHand({.hand = &hand_.hand,
                      .scale = 0.8333,
                      .turn = {Eigen::Vector3d::UnitZ(), Radians(degrees)},
-                     .is_carried_out = CarryOutTest(hand_, cube_)},
+                     .carry_out = CarryOutTest(hand_, cube_)},
                     request);
     return request;
   }
@@ -42,11 +42,18 @@ TEST_F(CarryOutTestTest, PlansThatThePlannerTriedAreCarriedOutAndWithLittleFrict
   ASSERT_TRUE(found.plan) << found.message;
   ASSERT_FALSE(found.notes.empty());
   EXPECT_NE(found.notes.front().find("motors carry it out"), std::string::npos);
-  const auto is_carried_out = CarryOutTest(hand_, cube_);
-  EXPECT_EQ(is_carried_out(*found.plan), true);
+  const auto carry_out = CarryOutTest(hand_, cube_);
+  const auto carried = carry_out(*found.plan);
+  ASSERT_TRUE(carried);
+  EXPECT_TRUE(carried->is_held);
+  EXPECT_TRUE(carried->is_whole);
+  EXPECT_EQ(carried->steps, std::ssize(found.plan->steps));
   plan::Plan slippery = *found.plan;
   slippery.half_angle = std::atan(0.05);
-  EXPECT_EQ(is_carried_out(slippery), false);
+  const auto slipped = carry_out(slippery);
+  ASSERT_TRUE(slipped);
+  EXPECT_FALSE(slipped->is_whole);
+  EXPECT_LT(slipped->steps, std::ssize(found.plan->steps));
 }
 
 TEST_F(CarryOutTestTest, OfAHandWithoutActuatorsItCanNotTell) {
@@ -62,7 +69,7 @@ TEST_F(CarryOutTestTest, OfAHandWithoutActuatorsItCanNotTell) {
   request.in_hand->reserve = planning::Reserve::kNone;
   const planning::PlanResult found = planning::Solve(planner_, request);
   ASSERT_TRUE(found.plan) << found.message;
-  EXPECT_EQ(CarryOutTest(kinematics::ReadHandFile(path), cube_)(*found.plan), std::nullopt);
+  EXPECT_FALSE(CarryOutTest(kinematics::ReadHandFile(path), cube_)(*found.plan));
 }
 
 }  // namespace

@@ -363,5 +363,57 @@ TEST(HandReplayTest, AFailureTellsWhereHandAndObjectWere) {
   EXPECT_FALSE(last.fault.hand->number.empty());
 }
 
+/// The same to the last bit.
+void ExpectSame(const ReplayResult& a, const ReplayResult& b) {
+  EXPECT_EQ(a.settings.squeeze_N, b.settings.squeeze_N);
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  for (std::size_t i = 0; i < a.steps.size(); ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(a.steps[i].index, b.steps[i].index);
+    EXPECT_EQ(a.steps[i].reason, b.steps[i].reason);
+    EXPECT_EQ(a.steps[i].detail, b.steps[i].detail);
+    EXPECT_EQ(a.steps[i].displacement_m, b.steps[i].displacement_m);
+    EXPECT_EQ(a.steps[i].drift_m, b.steps[i].drift_m);
+    EXPECT_EQ(a.steps[i].slip_m, b.steps[i].slip_m);
+    EXPECT_EQ(a.steps[i].snapshot.time_s, b.steps[i].snapshot.time_s);
+  }
+}
+
+TEST(HandReplaysTest, GiveWhatEachPlanAloneGivesWhateverWasReplayedBefore) {
+  const plan::Plan& good = GoodPlan();
+  ASSERT_GE(good.steps.size(), 2U);
+  plan::Plan begun = good;
+  begun.steps.pop_back();
+  plan::Plan other = begun;
+  other.steps.pop_back();
+  other.steps.push_back(good.steps.back());  // from another pose than it is for
+  plan::Plan slippery = good;
+  slippery.half_angle = std::atan(0.05);
+  HandReplayOptions options = Options();
+  options.half_angle.reset();
+  HandReplays replays(Hand(), Cube(), options);
+  std::vector<Reason> reasons;
+  for (const plan::Plan* plan :
+       std::vector<const plan::Plan*>{&begun, &good, &other, &begun, &slippery, &good}) {
+    SCOPED_TRACE(reasons.size());
+    const ReplayResult alone = ReplayOf(*plan, options);
+    ExpectSame(replays.Replay(*plan), alone);
+    reasons.push_back(ReasonOf(alone));
+  }
+  EXPECT_EQ(reasons[1], Reason::kNone);
+  EXPECT_NE(reasons[2], Reason::kNone);
+  EXPECT_NE(reasons[4], Reason::kNone);
+}
+
+TEST(HandReplaysTest, WithoutAShakeTheyGiveTheSameToo) {
+  HandReplayOptions options = Options();
+  options.shake = 0;
+  HandReplays replays(Hand(), Cube(), options);
+  plan::Plan begun = GoodPlan();
+  begun.steps.pop_back();
+  ExpectSame(replays.Replay(begun), ReplayOf(begun, options));
+  ExpectSame(replays.Replay(GoodPlan()), ReplayOf(GoodPlan(), options));
+}
+
 }  // namespace
 }  // namespace regrasp::sim

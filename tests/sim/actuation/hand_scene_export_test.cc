@@ -51,8 +51,8 @@ TEST_P(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
   options.tip = GetParam();
   HandReplayObserver observer;
   observer.on_rest = [&](const HandWorld& world, plan::EntryIndex entry) {
-    keys.push_back(
-        {"rest " + std::to_string(entry), world.time(), world.Save().qpos, world.controls()});
+    keys.push_back({"rest " + std::to_string(entry), world.time(), world.Save().engine.qpos,
+                    world.controls()});
   };
   const ReplayResult replay = ReplayHand(hand, solid, plan, options, observer);
   ASSERT_EQ(replay.steps.back().reason, plan::Reason::kNone) << replay.steps.back().detail;

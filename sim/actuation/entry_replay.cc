@@ -1,0 +1,392 @@
+#include "sim/actuation/entry_replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/kinematics/finger_kinematics.h"
+#include "planner/plan/hand_path.h"
+#include "sim/actuation/hand_control.h"
+#include "sim/actuation/hand_judge.h"
+#include "sim/actuation/sliding_tips.h"
+#include "sim/actuation/timed_path.h"
+#include "sim/actuation/torque_squeeze.h"
+#include "sim/measure/push.h"
+#include "sim/scene/engine.h"
+#include "sim/scene/scaling.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using plan::HandState;
+
+// Durations, seconds.
+constexpr double kTakeHold = 0.3;
+constexpr double kHandover = 0.25;
+constexpr double kSettle = 0.3;
+constexpr double kPushRamp = 0.05;
+constexpr double kPushHold = 0.1;
+// A finger comes straight down from this height, until it feels this, metres and newtons.
+constexpr double kHeight = 8e-3;
+constexpr double kDescent = 0.02;  // m/s
+constexpr double kDeepest = 4e-3;  // below the planned place
+constexpr double kTouched = 0.05;
+/// Others balance it where no more of the squeeze is missing.
+constexpr double kHeldBySome = -1e-3;
+/// A finger that has left this far does as planned again, metres.
+constexpr double kClear = 2e-3;
+constexpr double kSlowest = 0.05;  ///< rad/s
+
+/// What servos may lag behind where they steer for while they carry the object, radians.
+constexpr double kMostLag = 0.025;
+
+/// So fast that no servo lags more: a damping c makes one of stiffness k lag by c / k times the
+/// speed.
+double CarryingSpeed(const HandWorld& world) {
+  double speed = kHeldJoints;
+  for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
+    for (int drive = 0; drive < world.hand().fingers[f].drives; ++drive) {
+      const DriveServo& servo = world.servo(f, drive);
+      const double damping = servo.damping + servo.joint_damping;
+      speed = std::min(speed, kMostLag * servo.stiffness / std::max(damping, 1e-9));
+    }
+  }
+  return std::max(speed, kSlowest);
+}
+
+/// The step fails; nothing more is to be done.
+struct StepFails {};
+
+}  // namespace
+
+/// A finger on its way down to a contact, in the object's frame.
+struct EntryReplay::Coming {
+  FingerIndex finger;
+  Vector3d touching;  ///< where the ball's centre is to be
+  Vector3d outward;
+  double height = 0;                  ///< from which it goes down
+  Vector3d aside = Vector3d::Zero();  ///< what it is off sideways then
+  bool down = false;
+};
+
+EntryReplay::EntryReplay(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
+                         const HandControlSettings& control, const HandReplayOptions& options,
+                         const HandReplayObserver& observer)
+    : world_(world),
+      plan_(plan),
+      shake_(options.shake * control.squeeze_N),
+      radius_(plan.scale * solid.diameter() / 2),
+      start_off_(options.start_shift_m.norm() + radius_ * options.start_turn_rad.norm()),
+      observer_(observer),
+      judge_(world, solid, plan.scale, options.tolerance),
+      control_(world, solid, plan.scale, control),
+      state_(plan.hand->initial) {}
+
+void EntryReplay::GoOnFrom(const Rested& rest) {
+  rest_ = rest.world;
+  world_.Restore(rest_);
+  control_.CopyState(rest.control);
+  judge_.CopyState(rest.judge);
+  state_ = rest.state;
+  holding_ = rest.holding;
+}
+
+StepReplay EntryReplay::Carry(plan::EntryIndex index) {
+  StepReplay step;
+  step.index = index;
+  judge_.Start();
+  try {
+    Perform(index);
+    Rest();
+    step.snapshot = SnapshotNow();
+    if (observer_.on_rest) observer_.on_rest(world_, index);
+    Shake();
+  } catch (const StepFails&) {
+    step.snapshot = SnapshotNow();
+  } catch (const UnstableError& error) {
+    step.reason = plan::Reason::kSimulationUnstable;
+    step.detail = std::string("the simulation became unstable: ") + error.what();
+  }
+  Describe(step);
+  step.fixed = static_cast<const StepMotion&>(step);  // the shake is met by servos alone
+  return step;
+}
+
+void EntryReplay::Perform(plan::EntryIndex index) {
+  if (index == 0) {
+    TakeHold();
+    return;
+  }
+  const plan::Step& step = plan::StepOf(plan_, index);
+  if (const auto* move = std::get_if<plan::Move>(&step)) Move(move->path);
+  if (const auto* change = std::get_if<plan::Switch>(&step)) Switch(*change);
+  if (const auto* align = std::get_if<plan::Align>(&step)) Align(*align);
+}
+
+void EntryReplay::Describe(StepReplay& step) const {
+  const HandMeasures& measures = judge_.measures();
+  step.hand = measures;
+  step.displacement_m = measures.off_m;
+  step.rotation_deg = Degrees(measures.off_rad);
+  step.moved_m = measures.off_m + radius_ * measures.off_rad;
+  step.drift_m = measures.rest_off_m + radius_ * measures.rest_off_rad;
+  step.slip_m = measures.slip_m;
+  const auto& breach = judge_.breach();
+  if (!breach || step.reason != plan::Reason::kNone) return;
+  step.reason = breach->reason;
+  step.detail = breach->detail;
+  step.fault = breach->fault;
+  step.contact_lost = breach->reason == plan::Reason::kContactLost;
+}
+
+plan::Snapshot EntryReplay::SnapshotNow() const {
+  plan::Snapshot snapshot;
+  snapshot.time_s = world_.time();
+  const Isometry3d to_object = world_.object_pose().inverse();
+  for (const FingerIndex f : holding_) {
+    const TipTouch touch = world_.touch(f);
+    plan::FingerState& finger = snapshot.fingers.emplace_back();
+    finger.finger = f;
+    finger.role = plan::FingerRole::kHolding;
+    finger.tip_W = to_object * world_.tip(f);
+    finger.contact_W = touch.point_O;
+    finger.normal_W = touch.inward_O;
+    finger.force_W = to_object.linear() * touch.force;
+    snapshot.fingertip_radius_m = world_.hand().fingers[f].tip.radius;
+  }
+  return snapshot;
+}
+
+void EntryReplay::Tick() {
+  control_.Steer(state_);
+  control_.Step();
+  judge_.Watch(state_.pose);
+  if (judge_.breach()) throw StepFails();
+}
+
+template <typename OnTick>
+void EntryReplay::Run(double seconds, const OnTick& on_tick) {
+  const int steps = std::max(1, static_cast<int>(std::lround(seconds / world_.timestep())));
+  for (int i = 1; i <= steps; ++i) {
+    on_tick(static_cast<double>(i) / steps);
+    Tick();
+    if (observer_.on_step && !shaking_) observer_.on_step(world_);
+  }
+}
+
+void EntryReplay::TakeHold() {
+  judge_.SetPhase("while the hand takes hold");
+  for (const plan::FingerContact& held : plan_.initial) {
+    control_.Attach(held.finger);
+    holding_.push_back(held.finger);
+  }
+  judge_.WatchContacts(plan_.initial, plan_.scale, start_off_);
+  if (judge_.breach()) throw StepFails();
+  // Something holds the object until the fingers do.
+  world_.PinObject(true);
+  control_.SetFeedback(false);
+  const Hold all = {holding_};
+  Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
+  world_.PinObject(false);
+  control_.SetFeedback(true);
+  for (const FingerIndex f : holding_) judge_.SetHolding(f, true);
+}
+
+void EntryReplay::Move(const plan::HandPath& path) {
+  judge_.SetPhase("during the move");
+  const TimedPath timed(path, CarryingSpeed(world_));
+  const double duration = timed.duration();
+  Run(duration, [&](double share) { state_ = timed.At(share * duration); });
+}
+
+void EntryReplay::Switch(const plan::Switch& change) {
+  std::vector<FingerIndex> after = holding_;
+  for (const plan::FingerContact& placed : change.place) after.push_back(placed.finger);
+  std::erase_if(after, [&](FingerIndex f) {
+    return std::ranges::find(change.release, f) != change.release.end();
+  });
+  if (!change.place.empty()) PlaceFingers(change);
+  judge_.SetPhase("while forces are handed over");
+  for (const FingerIndex f : change.release) judge_.SetHolding(f, false);
+  HandOver({holding_}, {after});
+  for (const FingerIndex f : after) {
+    if (std::ranges::find(holding_, f) == holding_.end()) judge_.SetHolding(f, true);
+  }
+  holding_ = after;
+  if (!change.release.empty()) ReleaseFingers(change);
+}
+
+void EntryReplay::HandOver(const Hold& from, const Hold& to) {
+  Run(kHandover, [&](double share) { control_.SetHolding({from, to, share, 1}); });
+  control_.SetHolding({to, to, 1, 1});
+}
+
+void EntryReplay::Align(const plan::Align& align) {
+  Hold hold = {holding_};
+  for (std::size_t i = 0; i + 1 < align.waypoints.size(); ++i) {
+    Slide(align.waypoints[i], align.waypoints[i + 1], (*align.motion)[i], hold);
+  }
+  judge_.SetPhase("while forces are handed over");
+  ChangeSliding(align.waypoints.back(), hold, {holding_});
+}
+
+void EntryReplay::ChangeSliding(const plan::FingerGrasp& at, Hold& hold, const Hold& to) {
+  for (const SlidingFinger& one : hold.sliding) {
+    if (std::ranges::find(to.sliding, one.finger, &SlidingFinger::finger) != to.sliding.end()) {
+      continue;
+    }
+    judge_.WatchContacts({*plan::FindFinger(at, one.finger)}, plan_.scale);
+    control_.Attach(one.finger);
+    judge_.SetHolding(one.finger, true);
+  }
+  HandOver(hold, to);
+  hold = to;
+}
+
+void EntryReplay::Slide(const plan::FingerGrasp& from, const plan::FingerGrasp& to,
+                        const plan::HandPath& path, Hold& hold) {
+  const TimedPath timed(path, CarryingSpeed(world_));
+  const SlidingTips tips(world_, timed, from, to);
+  if (tips.empty()) return;
+  const Hold sliding = {holding_, tips.At(0)};
+  const bool is_held = control_.SlidingMargin(sliding, to) > kHeldBySome;
+  const std::string unheld = "while a finger slides that the others cannot balance";
+  const auto lead = [&](double share) {
+    state_ = tips.StateAt(share);
+    for (const SlidingFinger& tip : tips.At(share)) {
+      const Vector3d centre_O = tips.CentreAt(tip.finger, share);
+      control_.LeadAlongSurface(tip.finger, centre_O);
+      judge_.SetSliding(tip.finger, centre_O);
+    }
+  };
+  judge_.SetPhase(is_held ? "while forces are handed over" : unheld);
+  lead(0);
+  ChangeSliding(from, hold, sliding);
+  judge_.SetPhase(is_held ? "while a finger slides" : unheld);
+  Run(tips.duration(), [&](double share) {
+    lead(share);
+    hold.sliding = tips.At(share);
+    control_.SetHolding({hold, hold, 1, 1});
+  });
+}
+
+void EntryReplay::PlaceFingers(const plan::Switch& change) {
+  judge_.SetPhase("while a finger comes");
+  const plan::HandPath& path = change.motion->place;
+  std::vector<Coming> coming;
+  for (const plan::FingerContact& placed : change.place) {
+    const double radius = world_.hand().fingers[placed.finger].tip.radius;
+    const Vector3d outward = -placed.contact.n;
+    coming.push_back({placed.finger, plan_.scale * placed.contact.p + radius * outward, outward});
+  }
+  const TimedPath timed(path, kFreeJoints);
+  const double duration = timed.duration();
+  const double begin = world_.time();
+  // Freely until the first of them is straight above its contact …
+  bool above = false;
+  while (!above && world_.time() - begin < duration) {
+    Run(world_.timestep(), [&](double) { state_ = timed.At(world_.time() - begin); });
+    above = std::ranges::any_of(coming, [this](const Coming& finger) {
+      return (PlannedTip(world_.hand(), state_, finger.finger) - finger.touching).norm() < kHeight;
+    });
+  }
+  // … then down along the normal to where the object really is.
+  Descend(path.back(), coming);
+  state_ = path.back();
+}
+
+void EntryReplay::Descend(const HandState& end, std::vector<Coming>& coming) {
+  double way = 0;
+  for (Coming& finger : coming) {
+    const Vector3d off =
+        world_.object_pose().inverse() * world_.tip(finger.finger) - finger.touching;
+    finger.height = std::max(0.0, finger.outward.dot(off));
+    finger.aside = off - finger.height * finger.outward;
+    way = std::max(way, finger.height);
+  }
+  const HandState begin = state_;
+  const double seconds = (way + kDeepest) / kDescent;
+  const auto steps = static_cast<int>(std::lround(seconds / world_.timestep()));
+  for (int i = 1; i <= steps && !std::ranges::all_of(coming, &Coming::down); ++i) {
+    const double gone = kDescent * world_.timestep() * i;
+    Run(world_.timestep(), [&](double) {
+      state_ = plan::StateBetween(begin, end, way > 0 ? std::min(1.0, gone / way) : 1);
+      for (const Coming& finger : coming) {
+        if (finger.down) continue;
+        // What it is off sideways goes in the first half of the way.
+        const double aside = way > 0 ? std::max(0.0, 1 - 2 * gone / way) : 0;
+        control_.LeadTip(finger.finger, finger.touching + (finger.height - gone) * finger.outward +
+                                            aside * finger.aside);
+      }
+    });
+    for (Coming& finger : coming) {
+      if (finger.down || world_.touch(finger.finger).force.norm() < kTouched) continue;
+      finger.down = true;
+      control_.Attach(finger.finger);
+    }
+  }
+  for (const Coming& finger : coming) {
+    if (!finger.down) control_.Attach(finger.finger);
+  }
+}
+
+void EntryReplay::ReleaseFingers(const plan::Switch& change) {
+  judge_.SetPhase("while a finger leaves");
+  for (const FingerIndex f : change.release) control_.Detach(f);
+  const TimedPath timed(change.motion->release, kFreeJoints);
+  const double duration = timed.duration();
+  std::vector<FingerIndex> near = change.release;
+  Run(duration, [&](double share) {
+    state_ = timed.At(share * duration);
+    std::erase_if(near, [this](FingerIndex f) {
+      if (world_.touch(f).gap < kClear) return false;
+      control_.LetOffsetGo(f);
+      return true;
+    });
+  });
+  for (const FingerIndex f : near) control_.LetOffsetGo(f);
+}
+
+void EntryReplay::Rest() {
+  judge_.SetPhase("coming to rest");
+  Run(kSettle, [](double) {});
+  judge_.SetPhase("at rest");
+  judge_.WatchRest(state_.pose);
+  if (judge_.breach()) throw StepFails();
+}
+
+void EntryReplay::Shake() {
+  rest_ = world_.Save();
+  // So that what comes depends on nothing else.
+  world_.Restore(rest_);
+  if (shake_ == 0) return;
+  shaking_ = true;
+  const HandControl control = control_;
+  const HandJudge judge = judge_;
+  for (const Push& push : PushDirections(3)) {
+    const std::string name = PushText(push, shake_, radius_);
+    judge_.SetPhase("under " + name);
+    const grasp::Wrench wrench = PushWrench(push, shake_);
+    const Vector3d torque = radius_ * wrench.torque_over_radius;
+    judge_.SetPush({wrench.force, torque, name});
+    Run(kPushRamp, [&](double share) { world_.SetLoad(share * wrench.force, share * torque); });
+    Run(kPushHold, [](double) {});
+    judge_.WatchRest(state_.pose);
+    if (judge_.breach()) throw StepFails();
+    world_.SetLoad(Vector3d::Zero(), Vector3d::Zero());
+    world_.Restore(rest_);
+    control_.CopyState(control);
+    judge_.CopyState(judge);
+  }
+  shaking_ = false;
+}
+
+}  // namespace regrasp::sim
