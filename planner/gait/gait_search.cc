@@ -421,8 +421,8 @@ void GaitSearch::KeepBeforeMiddle(int rest, int step) {
 
 bool GaitSearch::Try(int index, const Gait& gait) {
   const CarriedGait carried = carry_out_(gait);
-  tried_at_once_ =
-      carried.is_whole ? 2 * tried_at_once_ : std::max(kFewestTriedAtOnce, tried_at_once_ / 2);
+  tried_at_once_ = carried.is_whole ? std::min(2 * tried_at_once_, kMostTriedAtOnce)
+                                    : std::max(tried_at_once_ / 2, kFewestTriedAtOnce);
   if (carried.is_whole) {
     tree_.MarkCarried(index);
     counts_.farthest = std::max(counts_.farthest, grid_.StepOf(tree_[index].node));

@@ -111,6 +111,7 @@ class GaitSearch {
 
  private:
   static constexpr int kFewestTriedAtOnce = 12;
+  static constexpr int kMostTriedAtOnce = 96;
 
   /// The last node on a way at which tips that roll hold, and where they are there.
   struct RolledTo {

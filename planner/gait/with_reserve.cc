@@ -21,9 +21,10 @@ constexpr double kTimeToFollow = 0.4;
 constexpr std::size_t kTimesAsLong = 3;
 constexpr std::size_t kLonger = 12;
 
-/// Of what is tried on the way. Those whose contacts are not followed are found sooner; of the
-/// others more is carried out.
-constexpr std::array kTried = {Spare{0.05, 0.5e-3}, Spare{0.05, 0.5e-3}, Spare{0.05, 1.5e-3, 0.2}};
+/// Of what is tried on the way, place by place: two of three times contacts are not followed, which
+/// is found sooner; where they are, more is carried out.
+constexpr Spare kNotFollowed = {0.05, 0.5e-3};
+constexpr std::array kTried = {kNotFollowed, kNotFollowed, kFollowed.front()};
 /// Grasps that are expanded each time for each quarter turn.
 constexpr std::int64_t kExpandedInRound = 300;
 constexpr int kRounds = 2;
