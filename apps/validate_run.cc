@@ -138,8 +138,8 @@ report::Replayer HandReplayer(const ValidateOptions& options, const ValidateTask
   if (!options.mjcf.empty()) {
     watch.on_rest = [&samples, &task](const sim::HandWorld& world, plan::EntryIndex entry) {
       const std::string kind = entry == 0 ? "hold" : plan::StepKind(plan::StepOf(task.plan, entry));
-      samples.rests.push_back(
-          {std::to_string(entry) + " " + kind, world.time(), world.Save().qpos, world.controls()});
+      samples.rests.push_back({std::to_string(entry) + " " + kind, world.time(),
+                               world.Save().engine.qpos, world.controls()});
     };
   }
   return
