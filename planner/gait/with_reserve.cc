@@ -29,6 +29,12 @@ constexpr std::array kTried = {kNotFollowed, kNotFollowed, kFollowed.front()};
 constexpr std::int64_t kExpandedInRound = 300;
 constexpr int kRounds = 2;
 constexpr int kRoundShift = 32;  ///< of seeds
+/// Whole gaits that may begin at any angle, whose contacts are not followed, are soon found where a
+/// turn is short, and tried when they are found: with these, and no more grasps and time each.
+constexpr std::array kTriedWhole = {kNotFollowed, Spare{0.02, 0}};
+constexpr double kShortTurn = 1.75;  ///< radians
+constexpr std::int64_t kExpandedWhole = 40;
+constexpr double kTimeForWhole = 0.1;
 /// Share of all the time before a gait without reserve is looked for.
 constexpr double kTimeBeforeWithout = 0.85;
 
@@ -43,6 +49,29 @@ std::optional<planning::CarriedOut> Try(const Gait& gait, const GaitRequest& req
                                         const std::vector<grasp::Contact>& contacts) {
   request.progress("trying a plan on the hand's own motors");
   return request.carry_out(PlanOf(gait, request, contacts));
+}
+
+/// One look for a gait.
+struct Look {
+  std::span<const Spare> spares;
+  int round;
+  std::int64_t expanded;
+  double time;
+  bool is_whole;  ///< tried when it is found, and not on the way
+};
+
+/// In their order.
+std::vector<Look> LooksFor(const GaitRequest& request) {
+  const bool is_short_turn = !request.goal_pose && std::abs(request.turn.angle) <= kShortTurn;
+  std::vector<Look> looks;
+  for (int round = 0; round < kRounds; ++round) {
+    for (const Spare& spare : kTriedWhole) {
+      if (!is_short_turn) continue;
+      looks.push_back({{&spare, 1}, round, kExpandedWhole, kTimeForWhole, true});
+    }
+    looks.push_back({kTried, round, kExpandedInRound, 1, false});
+  }
+  return looks;
 }
 
 TriedGait FindAsIfNotAsked(GaitRequest request, const FindOne& find) {
@@ -80,18 +109,21 @@ TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Co
   const Deadline before_without =
       is_required ? request.deadline : request.deadline.After(kTimeBeforeWithout);
   FoundGait best;
-  for (int round = 0; round < kRounds; ++round) {
+  for (const Look& look : LooksFor(request)) {
     GaitRequest asked = request;
-    asked.seed += static_cast<std::uint64_t>(round) << kRoundShift;
+    asked.seed += static_cast<std::uint64_t>(look.round) << kRoundShift;
     asked.deadline = before_without;
-    Bound(asked, kExpandedInRound, 1);
-    FoundGait found = find(asked, kTried);
+    if (look.is_whole) asked.carry_out = nullptr;
+    Bound(asked, look.expanded, look.time);
+    FoundGait found = find(asked, look.spares);
     if (found.gait) {
       const auto carried = Try(*found.gait, request, contacts);
       if (!carried) return FindAsIfNotAsked(request, find);
       if (carried->is_whole) return {std::move(found), true};
     }
-    if (!best.gait && (found.gait || best.message.empty())) best = std::move(found);
+    if (!best.gait && (found.gait || best.message.empty() || !look.is_whole)) {
+      best = std::move(found);
+    }
     if (before_without.IsOver()) break;
   }
   if (is_required) {

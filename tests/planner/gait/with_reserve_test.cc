@@ -175,7 +175,7 @@ TEST(WithReserveTest, WhereMovesFailHalfWayFingersAreSwitchedSooner) {
 }
 
 TEST(WithReserveTest, NothingIsTriedTwice) {
-  GaitRequest request = RequestFor("cube", 0.8, 60);
+  GaitRequest request = RequestFor("cube", 0.8, 120);
   MadeUpHand hand{.carries_out = [](const plan::Plan&, std::size_t) { return false; }};
   hand.TriesFor(request);
   request.reserve = Reserve::kRequired;
@@ -188,7 +188,7 @@ TEST(WithReserveTest, NothingIsTriedTwice) {
 }
 
 TEST(WithReserveTest, WhereTheHandHoldsNothingThereIsAGaitUnlessThatIsRequired) {
-  GaitRequest request = RequestFor("cube", 0.8, 60);
+  GaitRequest request = RequestFor("cube", 0.8, 120);
   MadeUpHand hand{.carries_out = {}, .holds = false};
   hand.TriesFor(request);
   request.most_expanded = 60;
