@@ -29,12 +29,13 @@ constexpr std::array kTried = {kNotFollowed, kNotFollowed, kFollowed.front()};
 constexpr std::int64_t kExpandedInRound = 300;
 constexpr int kRounds = 2;
 constexpr int kRoundShift = 32;  ///< of seeds
-/// Whole gaits that may begin at any angle, whose contacts are not followed, are soon found where a
-/// turn is short, and tried when they are found: with these, and no more grasps and time each.
+/// Whole gaits are tried first, when they are found: of short turns those whose contacts are not
+/// followed, which may begin at any angle; of others those where they are, which ring hands mostly
+/// carry out. With no more grasps, for each quarter turn, and time each than this.
 constexpr std::array kTriedWhole = {kNotFollowed, Spare{0.02, 0}};
 constexpr double kShortTurn = 1.75;  ///< radians
 constexpr std::int64_t kExpandedWhole = 40;
-constexpr double kTimeForWhole = 0.1;
+constexpr double kTimeForWhole = 0.15;
 /// Share of all the time before a gait without reserve is looked for.
 constexpr double kTimeBeforeWithout = 0.85;
 
@@ -65,8 +66,9 @@ std::vector<Look> LooksFor(const GaitRequest& request) {
   const bool is_short_turn = !request.goal_pose && std::abs(request.turn.angle) <= kShortTurn;
   std::vector<Look> looks;
   for (int round = 0; round < kRounds; ++round) {
-    for (const Spare& spare : kTriedWhole) {
-      if (!is_short_turn) continue;
+    const std::span<const Spare> whole =
+        is_short_turn ? std::span<const Spare>(kTriedWhole) : std::span(&kFollowed.front(), 1);
+    for (const Spare& spare : whole) {
       looks.push_back({{&spare, 1}, round, kExpandedWhole, kTimeForWhole, true});
     }
     looks.push_back({kTried, round, kExpandedInRound, 1, false});
