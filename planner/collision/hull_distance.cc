@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/collision/farthest.h"
 #include "planner/collision/nearest_on_simplex.h"
 
 namespace regrasp::collision {
@@ -15,19 +16,6 @@ constexpr double kConverged = 1e-9;  // of the distance
 constexpr int kMostIterations = 100;
 /// Of the size of the points: what rounding of differences and products may be off.
 constexpr double kRounding = 1e-14;
-
-const Vector3d& Farthest(Points points, const Vector3d& direction) {
-  const Vector3d* best = points.data();
-  double most = best->dot(direction);
-  for (const Vector3d& point : points) {
-    const double reached = point.dot(direction);
-    if (reached > most) {
-      most = reached;
-      best = &point;
-    }
-  }
-  return *best;
-}
 
 double SizeOf(Points points) {
   double size = 0;

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <array>
 
+#include "planner/collision/farthest.h"
 #include "planner/collision/nearest_on_simplex.h"
 
 namespace regrasp::collision {
@@ -15,19 +16,6 @@ constexpr double kConverged = 1e-9;  // of the distance
 constexpr int kMostIterations = 100;
 /// Nearer than this is no distance, metres.
 constexpr double kMeet = 1e-12;
-
-const Vector3d& Farthest(Points points, const Vector3d& direction) {
-  const Vector3d* best = points.data();
-  double most = best->dot(direction);
-  for (const Vector3d& point : points) {
-    const double reached = point.dot(direction);
-    if (reached > most) {
-      most = reached;
-      best = &point;
-    }
-  }
-  return *best;
-}
 
 /// Corners of the difference a − b, each with the points that it is of.
 struct PairSimplex {

@@ -13,7 +13,7 @@ namespace regrasp::collision {
 struct SurfaceContact {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of the surface
   Eigen::Vector3d outward = Eigen::Vector3d::UnitZ();
-  double gap = 0;  ///< negative: so deep
+  double gap = 0;  ///< metres; negative: so deep
 };
 
 /// Where a convex shape touches a solid's true surface: what BallContact is for balls.

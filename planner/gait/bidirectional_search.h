@@ -15,8 +15,8 @@ namespace regrasp::gait {
 /// are given, from its goal as well, until the two meet in one grasp at one pose.
 class BidirectionalSearch : public PlaceSearch {
  public:
+  /// @param memory     as in GaitSearch. setup, memory and random outlive this object.
   /// @param carry_out  as GaitSearch::TryWays, where there is but one end.
-  /// @param memory  as in GaitSearch. setup, memory and random outlive this object.
   BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid, Parking parking,
                       const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random,
                       CarryOut carry_out);

@@ -73,7 +73,8 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
           [this](int node, const Holding& holding) {
             return grid_.IsGoal(node) && goal_.IsHeldBy(holding);
           },
-          !ends.start.empty()) {
+          !ends.start.empty()),
+      tried_(grid, tree_) {
   counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
   ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
@@ -87,6 +88,8 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
 GaitCounts GaitSearch::counts() const {
   GaitCounts counts = counts_;
   counts.ways = tree_.counts();
+  counts.not_carried = tried_.in_vain();
+  counts.farthest = farthest();
   return counts;
 }
 
@@ -347,7 +350,7 @@ bool GaitSearch::SwitchAt(int index, int node) {
     if (change.released.valid()) all.holding[change.released] = from[change.released];
     if (change.placed.valid() && !carrier_.IsPassable(all, rest.node)) continue;
     rest.rolled_before = rolled.tips;
-    if (failed_trials_.contains({index, rest.node, rest.hold.holding})) continue;
+    if (tried_.HasFailed(index, rest.node, rest.hold.holding)) continue;
     if (!Add(std::move(rest))) continue;
     ++taken;
     ++alike;
@@ -398,52 +401,10 @@ std::optional<Gait> GaitSearch::GaitFrom(int index) {
   const int end = carried.end;
   if (tree_[index].ends_in_vain || grid_.StepOf(end) > tree_[index].farthest) return std::nullopt;
   std::optional<Gait> gait = tree_.WayTo(index, end);
-  if (gait && carry_out_ && !Try(index, *gait)) return std::nullopt;
+  if (gait && tried_.are_tried() && !tried_.Try(index, *gait)) return std::nullopt;
   // Else the rest goes on from where it did not fail, or from another place.
   if (!gait && carried.from.contains(end)) carried.end = carried.from.at(end);
   return gait;
-}
-
-bool GaitSearch::IsCarriedOut(int index) {
-  if (!carry_out_) return true;
-  const int last = tree_.LastCarried(index);
-  const int from = last < 0 ? grid_.start() : tree_[last].node;
-  if (grid_.StepOf(tree_[index].node) - grid_.StepOf(from) < tried_at_once_) return true;
-  const std::optional<Gait> gait = tree_.WayTo(index, tree_[index].node);
-  return gait && Try(index, *gait);
-}
-
-/// The object is not carried with a rest to a step, and perhaps not half as far.
-void GaitSearch::KeepBeforeMiddle(int rest, int step) {
-  const int from = grid_.StepOf(tree_[rest].node);
-  if (step > from) tree_.KeepBefore(rest, (from + step) / 2);
-}
-
-bool GaitSearch::Try(int index, const Gait& gait) {
-  const CarriedGait carried = carry_out_(gait);
-  tried_at_once_ = carried.is_whole ? std::min(2 * tried_at_once_, kMostTriedAtOnce)
-                                    : std::max(tried_at_once_ / 2, kFewestTriedAtOnce);
-  if (carried.is_whole) {
-    tree_.MarkCarried(index);
-    counts_.farthest = std::max(counts_.farthest, grid_.StepOf(tree_[index].node));
-    return true;
-  }
-  ++counts_.not_carried;
-  const int failed = tree_.CutOffAfter(index, carried.is_held ? carried.changes : -1);
-  if (failed < 0) {
-    tree_[index].ends_in_vain = true;
-    KeepBeforeMiddle(index, grid_.steps());
-    tree_.MarkCarried(index);
-    return false;
-  }
-  const Rest& rest = tree_[failed];
-  if (rest.parent >= 0) {
-    if (carried.fails_in_move) KeepBeforeMiddle(rest.parent, grid_.StepOf(rest.node));
-    tree_.MarkCarried(rest.parent);
-    failed_trials_.insert({rest.parent, rest.node, rest.hold.holding});
-    counts_.farthest = std::max(counts_.farthest, grid_.StepOf(tree_[rest.parent].node));
-  }
-  return false;
 }
 
 void GaitSearch::AddTarget(const Holding& holding) {
@@ -496,11 +457,11 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     if (std::optional<Gait> gait = GaitFrom(index)) return gait;
     if (rest.is_cut_off) continue;
     // Whose way can't be gone had better be found out before much grows from it.
-    if (grid_.StepOf(rest.carried.end) > counts_.farthest && !ComesToItsEnd(index)) continue;
-    if (!IsCarriedOut(index)) continue;
+    if (grid_.StepOf(rest.carried.end) > farthest() && !ComesToItsEnd(index)) continue;
+    if (!tried_.IsCarriedOut(index)) continue;
     if (is_new) expanded_[rest.hold.holding].push_back(index);
     const int last = grid_.StepOf(rest.carried.end);
-    if (!carry_out_) counts_.farthest = std::max(counts_.farthest, last);
+    reached_ = std::max(reached_, last);
     ++counts_.expanded;
     crowding_.Count(rest.hold.holding, last);
     last_expanded_ = index;

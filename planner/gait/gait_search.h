@@ -1,11 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <queue>
 #include <set>
-#include <tuple>
 #include <vector>
 
 #include "planner/base/deadline.h"
@@ -22,6 +20,7 @@
 #include "planner/gait/rest_tree.h"
 #include "planner/gait/rolling.h"
 #include "planner/gait/slide_path.h"
+#include "planner/gait/tried_ways.h"
 
 namespace regrasp::gait {
 
@@ -40,16 +39,6 @@ struct GaitCounts {
   /// Adds those of a search from another end; what was reached stays.
   void Add(const GaitCounts& other);
 };
-
-/// How far something carried a gait out.
-struct CarriedGait {
-  int changes = 0;      ///< stretches that are no moves, of those that came before one failed
-  bool is_held = true;  ///< before the first stretch
-  bool fails_in_move = false;
-  bool is_whole = false;  ///< none failed
-};
-/// Tries a gait, or the beginning of one.
-using CarryOut = std::function<CarriedGait(const Gait&)>;
 
 /// Searches a gait that takes an object from the start of a grid of poses to its goal: rests are
 /// grasps of three or more fingers; from each the object goes as far as these can follow, somewhere
@@ -70,7 +59,7 @@ class GaitSearch {
 
   /// From now on ways are tried before much grows from them, and gaits are carried out as a whole.
   /// Before the first Run.
-  void TryWays(CarryOut carry_out) { carry_out_ = std::move(carry_out); }
+  void TryWays(CarryOut carry_out) { tried_.TryWith(std::move(carry_out)); }
 
   /// Whether some fingers can hold the goal grasp, if there is one, at the goal pose.
   [[nodiscard]] bool GoalIsHeld() const { return goal_.IsWithinReach(); }
@@ -110,9 +99,6 @@ class GaitSearch {
   void AddTarget(const Holding& holding);
 
  private:
-  static constexpr int kFewestTriedAtOnce = 12;
-  static constexpr int kMostTriedAtOnce = 96;
-
   /// The last node on a way at which tips that roll hold, and where they are there.
   struct RolledTo {
     int node = 0;
@@ -137,6 +123,8 @@ class GaitSearch {
     int last;
   };
 
+  /// The step that counts as reached: what is tried only where it is carried out.
+  [[nodiscard]] int farthest() const { return tried_.are_tried() ? tried_.farthest() : reached_; }
   void AddFirstRests();
   void AddGivenStart();
   void Expand(int index);
@@ -173,12 +161,6 @@ class GaitSearch {
   [[nodiscard]] int PopNext();
   [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
-  /// Whether the way to a rest is carried out; what was carried out lately is believed.
-  [[nodiscard]] bool IsCarriedOut(int index);
-  /// @param gait  the way to a rest, perhaps on to where it brings the object.
-  /// @returns whether all of it is carried out; else what failed is cut off.
-  [[nodiscard]] bool Try(int index, const Gait& gait);
-  void KeepBeforeMiddle(int rest, int step);
 
   const HandSetup& setup_;
   const PoseGrid& grid_;
@@ -194,6 +176,7 @@ class GaitSearch {
   Crowding crowding_;
   RollingTips rolling_;
   RestTree tree_;
+  TriedWays tried_;
   std::priority_queue<Waiting> queue_;
   /// Where each grasp was taken up, or could not be.
   std::map<Holding, std::vector<Taken>> taken_;
@@ -202,13 +185,9 @@ class GaitSearch {
   std::map<Holding, std::vector<int>> expanded_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
   GaitCounts counts_;
+  int reached_ = 0;  ///< the farthest step
   int last_expanded_ = -1;
   std::set<Holding> targets_;  ///< kinds of them
-  /// Steps of ways that are tried at once: more where what is tried was carried out.
-  int tried_at_once_ = kFewestTriedAtOnce;
-  CarryOut carry_out_;  ///< none: what is planned counts
-  /// Changes that were tried and not carried out: from a rest, at a node, to a grasp.
-  std::set<std::tuple<int, int, Holding>> failed_trials_;
   bool begun_ = false;
 };
 

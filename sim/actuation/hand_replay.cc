@@ -170,21 +170,23 @@ struct HandReplays::Impl {
   std::map<double, Next> begun = {};  ///< by the squeeze
   int known = 0;                      ///< rests in all
 
+  void Forget() {
+    begun.clear();
+    known = 0;
+  }
+
   void MakeWorldFor(const plan::Plan& plan) {
     if (world && half_angle == plan.half_angle && scale == plan.scale) return;
     half_angle = plan.half_angle;
     scale = plan.scale;
-    begun.clear();
+    Forget();
     world.emplace(file, solid, scale,
                   WorldOptions(options, options.half_angle.value_or(half_angle)));
   }
 
   ReplayResult Run(const plan::Plan& plan) {
     MakeWorldFor(plan);
-    if (known > kMostKnown) {
-      begun.clear();
-      known = 0;
-    }
+    if (known > kMostKnown) Forget();
     const int entries = static_cast<int>(plan.steps.size()) + 1;
     world->PinObject(false);
     const HandControlSettings control = ControlSettings(*world, solid, plan, options, entries);
