@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from . import _arguments, _html, _poses
-from ._hand_motion import hand_plan, paths_of
+from ._hand_motion import hand_plan, joints_of, paths_of
 from ._regrasp import InputError
 from ._types import ArrayLike
 from .hands import Hand
@@ -138,15 +138,12 @@ def of_plan(path: str | os.PathLike, hand: Hand) -> HandGrasps:
     Raises:
         InputError: the plan is for fingers without a hand, or for another one.
     """
-    name = path = _arguments.path("path", path)
-    _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
-    data = hand_plan(name, hand)
+    name, data = hand_plan(path, hand)
     states, names = [data["hand"]["initial"]], ["000_hold"]
     for i, step in enumerate(data["steps"], 1):
         states.append(next((path[-1] for path in reversed(paths_of(step)) if path), states[-1]))
         names.append(f"{i:03}_{step['kind']}")
-    joints = np.array([[angle for finger in state["joints"] for angle in finger]
-                       for state in states])
+    joints = joints_of(states)
     poses = [(np.array(s["pose"]["position"]), _poses.unit(name, s["pose"]["quaternion"]))
              for s in states]
     inverses = [_poses.inverse(*pose) for pose in poses]

@@ -101,27 +101,26 @@ def motion_of_plan(path: str | os.PathLike, hand: Hand) -> HandMotion:
     Raises:
         InputError: the plan is for fingers without a hand, or for another one.
     """
-    name = path = _arguments.path("path", path)
-    _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
-    data = hand_plan(name, hand)
+    _, data = hand_plan(path, hand)
     states = [data["hand"]["initial"]]
     # A path begins where the one before it ended.
     for step in data["steps"]:
         states += [state for path in paths_of(step) for state in path[1:]]
-    joints = np.array([[angle for finger in state["joints"] for angle in finger]
-                       for state in states])
+    joints = joints_of(states)
     poses = np.array([[*s["pose"]["position"], *s["pose"]["quaternion"]] for s in states])
     return HandMotion(PLAN_INTERVAL * np.arange(len(states)), hand.joint_names, joints, poses,
                       lost=["contacts", "which fingers hold",
                             f"a plan has no times: its states are {PLAN_INTERVAL:g} s apart"])
 
 
-def hand_plan(name: str, hand: Hand) -> dict:
-    """A plan file as a dictionary, if it is for this hand.
+def hand_plan(path: str | os.PathLike, hand: Hand) -> tuple[str, dict]:
+    """The name of a plan file, and the plan as a dictionary, if it is for this hand.
 
     Raises:
         InputError: it is not.
     """
+    name = _arguments.path("path", path)
+    _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     data = Plan.read(name).data
     if "hand" not in data:
         raise InputError(f"{name}: a plan for fingers without a hand has no joints")
@@ -130,7 +129,13 @@ def hand_plan(name: str, hand: Hand) -> dict:
     count = sum(len(finger) for finger in data["hand"]["initial"]["joints"])
     if count != len(hand.joint_names):
         raise InputError(f"{name}: {count} joints, and {hand.name} has {len(hand.joint_names)}")
-    return data
+    return name, data
+
+
+def joints_of(states: list[dict]) -> np.ndarray:
+    """The joint angles of a plan's states, radians, in the order of Hand.joint_names: (N, J)."""
+    return np.array([[angle for finger in state["joints"] for angle in finger]
+                     for state in states])
 
 
 def paths_of(step: dict) -> list[list[dict]]:

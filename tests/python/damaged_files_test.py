@@ -7,25 +7,13 @@ import numpy as np
 
 import regrasp
 from regrasp import formats
+from isaac_text import ISAAC
 from regrasp_case import RegraspCase
 
 POSE = "<transform><fullTransform>(+1 +0 +0 +0)[+1 +2 +3]</fullTransform></transform>"
 
 FILES = {
-    "yaml": (formats.read_isaac_grasp, b"""\
-format: isaac_grasp
-format_version: 1.0
-grasps:
-  first:
-    confidence: 0.5
-    position: [-0.04, 0.06, 0.2]
-    orientation: {w: 0.0, xyz: [0.6, 0.8, 0.0]}
-    cspace_position: {b: 0.25, a: -1}
-  second:
-    position: [1, 2, 3]
-    orientation: {w: 1.0, xyz: [0, 0, 0]}
-    cspace_position: {a: 4, b: 5}
-"""),
+    "yaml": (formats.read_isaac_grasp, ISAAC.encode()),
     "xml": (formats.read_graspit, (
         f"<?xml version='1.0' ?><world><graspableBody>{POSE}</graspableBody><robot><dofValues>+0.1 +0.2 "
         f"</dofValues>{POSE}</robot></world>").encode()),

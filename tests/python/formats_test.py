@@ -12,28 +12,11 @@ import numpy as np
 
 import regrasp
 from regrasp import _poses, convert, formats
+from isaac_text import ISAAC
 from regrasp_case import PROGRAMS, RegraspCase
 
 HAND = "models/hands/ring4.json"
 CUBE = "models/cube.obj"
-
-ISAAC = """\
-format: isaac_grasp
-format_version: 1.0
-object_frame: /World/mug
-gripper_frame: /World/hand
-grasps:
-  first:
-    confidence: 0.5
-    position: [-0.04, 0.06, 0.2]
-    orientation: {w: 0.0, xyz: [0.6, 0.8, 0.0]}
-    cspace_position: {b: 0.25, a: -1}
-    pregrasp_cspace_position: {a: 0.0, b: 0.0}
-  second:
-    position: [1, 2, 3]
-    orientation: {w: 1.0, xyz: [0, 0, 0]}
-    cspace_position: {a: 4, b: 5}
-"""
 
 
 class Trap:
