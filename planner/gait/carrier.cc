@@ -49,6 +49,14 @@ bool Carrier::KeepApart(const Hold& hold, FingerIndex a, FingerIndex b, int node
   return found->second;
 }
 
+bool Carrier::KeepsApart(const Hold& hold, FingerIndex finger, int node) {
+  for (FingerIndex other{0}; other < setup_.scene.finger_count(); ++other) {
+    if (other == finger || hold.holding[other] == kNone) continue;
+    if (!KeepApart(hold, std::min(finger, other), std::max(finger, other), node)) return false;
+  }
+  return true;
+}
+
 bool Carrier::IsPassable(const Hold& hold, int node) {
   if (!KeepsOffPalm(node)) return false;
   std::vector<FingerIndex> holding;

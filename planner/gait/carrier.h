@@ -48,6 +48,8 @@ class Carrier {
 
   /// @param node  where all fingers that hold reach their contacts.
   [[nodiscard]] Keyframe FrameAt(const Hold& hold, int node);
+  /// Whether a finger that holds keeps off all others that hold at a node, where all reach theirs.
+  [[nodiscard]] bool KeepsApart(const Hold& hold, FingerIndex finger, int node);
   /// Whether the fingers may stand as they do at a node, those left out that have no posture.
   /// @param node  as in FrameAt.
   [[nodiscard]] bool IsPassable(const Hold& hold, int node);

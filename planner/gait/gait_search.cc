@@ -12,8 +12,8 @@ namespace {
 constexpr int kFewestHolding = 3;
 /// Of first rests: sets of contacts drawn for each set of fingers.
 constexpr int kDrawnGrasps = 120;
-/// Contacts tried for a finger at a place, those that it keeps longest first.
-constexpr int kTriedContacts = 24;
+/// Contacts tried for a finger that is placed, those that it keeps longest first.
+constexpr std::size_t kTriedContacts = 24;
 /// Of all contacts one in so many is looked at from one place, if that is enough.
 constexpr int kShares = 4;
 /// Rests taken up from one place.
@@ -109,27 +109,46 @@ void GaitSearch::BeginWith(const Hold& hold) {
   begun_ = true;
 }
 
-const std::vector<GaitSearch::Candidate>& GaitSearch::CandidatesAt(FingerIndex finger, int node) {
-  const auto [found, is_new] = candidates_.try_emplace({finger, node});
-  std::vector<Candidate>& candidates = found->second;
-  if (!is_new) return candidates;
-  const auto look_at = [&](int point, bool is_goal) {
-    if (carrier_.reach().Find(finger, point, node) == nullptr) return;
-    candidates.push_back({point, is_goal, carrier_.reach().RunEnd(finger, point, node)});
-  };
-  const std::set<int> goals = goal_.ContactsOf(finger);
-  for (const int point : goals) look_at(point, true);
-  // At each node some of the contacts, at others others; more where few are within reach.
+const std::vector<int>& GaitSearch::ReachedAt(FingerIndex finger, int node, int share) {
+  const auto [found, is_new] = within_reach_.try_emplace({finger, node, share});
+  if (!is_new) return found->second;
   const int count = static_cast<int>(setup_.points.size());
-  for (int share = 0; share < kShares && candidates.size() < kTriedContacts; ++share) {
-    for (int point = (node + share) % kShares; point < count; point += kShares) {
+  for (int point = (node + share) % kShares; point < count; point += kShares) {
+    if (carrier_.reach().Find(finger, point, node) != nullptr) found->second.push_back(point);
+  }
+  return found->second;
+}
+
+std::vector<int> GaitSearch::PlacesFor(FingerIndex finger, const Holding& from, int node) {
+  struct Place {
+    int point;
+    bool is_goal;
+    int last;  ///< step to which the finger can keep it
+  };
+  std::vector<Place> places;
+  Hold with{from};
+  const std::set<int> goals = goal_.ContactsOf(finger);
+  const auto look_at = [&](int point, bool is_goal) {
+    if (Holds(from, point)) return;
+    with.holding[finger] = point;
+    if (!carrier_.KeepsApart(with, finger, node)) return;
+    places.push_back({point, is_goal, carrier_.reach().RunEnd(finger, point, node)});
+  };
+  for (const int point : goals) {
+    if (carrier_.reach().Find(finger, point, node) != nullptr) look_at(point, true);
+  }
+  // At each node some of the contacts, at others others; more where few do.
+  for (int share = 0; share < kShares && places.size() < kTriedContacts; ++share) {
+    for (const int point : ReachedAt(finger, node, share)) {
       if (!goals.contains(point)) look_at(point, false);
     }
   }
-  std::ranges::stable_sort(candidates, std::greater<>(), [](const Candidate& candidate) {
-    return std::pair(candidate.is_goal, candidate.last);
-  });
-  return candidates;
+  std::ranges::stable_sort(places, std::greater<>(),
+                           [](const Place& place) { return std::pair(place.is_goal, place.last); });
+  if (places.size() > kTriedContacts) places.resize(kTriedContacts);
+  std::vector<int> points;
+  for (const Place& place : places) points.push_back(place.point);
+  return points;
 }
 
 bool GaitSearch::IsGrasp(const Holding& holding) {
@@ -225,6 +244,10 @@ void GaitSearch::AddGivenStart() {
 
 void GaitSearch::AddFirstRests() {
   const int fingers = setup_.scene.finger_count();
+  std::vector<std::vector<int>> places;
+  for (FingerIndex finger{0}; finger < fingers; ++finger) {
+    places.push_back(PlacesFor(finger, Holding(fingers, kNone), grid_.start()));
+  }
   std::vector<int> chosen(fingers, 0);
   std::fill(chosen.begin(), chosen.begin() + kFewestHolding, 1);
   do {
@@ -232,11 +255,11 @@ void GaitSearch::AddFirstRests() {
       Holding holding(fingers, kNone);
       for (FingerIndex finger{0}; finger < fingers; ++finger) {
         if (chosen[finger] == 0) continue;
-        const std::vector<Candidate>& candidates = CandidatesAt(finger, grid_.start());
-        if (candidates.empty()) break;
+        const std::vector<int>& points = places[finger];
+        if (points.empty()) break;
         // Those that it keeps longest stand first.
         const double place = random_.Uniform() * random_.Uniform();
-        holding[finger] = candidates[static_cast<std::size_t>(place * candidates.size())].point;
+        holding[finger] = points[static_cast<std::size_t>(place * points.size())];
       }
       if (CountHolding(holding) == kFewestHolding) {
         Add({.hold = {std::move(holding)}, .node = grid_.start()});
@@ -274,26 +297,33 @@ void GaitSearch::AddSlidesTogether(const Holding& from, int node, std::vector<Ho
   }
 }
 
-std::vector<Holding> GaitSearch::HoldingsAfter(const Holding& from, int node) {
-  std::vector<Holding> holdings;
-  const auto add_slide = [&](FingerIndex finger, int point) {
+void GaitSearch::AddSlides(const Holding& from, FingerIndex finger, int node,
+                           std::vector<Holding>& holdings) {
+  if (!setup_.may_slide) return;
+  const int at = from[finger];
+  const std::set<int> goals = goal_.ContactsOf(finger);
+  const int count = static_cast<int>(setup_.points.size());
+  for (int point = 0; point < count; ++point) {
+    const bool is_goal = goals.contains(point);
+    if (!is_goal && point % kShares != node % kShares) continue;
+    const double way = (setup_.points[at].p - setup_.points[point].p).norm();
+    if (way > (is_goal ? kLongestSlideToGoal : kLongestSlide) || Holds(from, point)) continue;
+    if (carrier_.reach().Find(finger, point, node) == nullptr || !MaySlide(at, point)) continue;
     holdings.push_back(from);
     holdings.back()[finger] = point;
-  };
+  }
+}
+
+std::vector<Holding> GaitSearch::HoldingsAfter(const Holding& from, int node) {
+  std::vector<Holding> holdings;
   if (most_holding_ > kFewestHolding) AddSwitches(from, {}, kNone, holdings);
   for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
-    const int at = from[finger];
-    int tried = 0;
-    for (const auto& [point, is_goal, last] : CandidatesAt(finger, node)) {
-      if (Holds(from, point)) continue;
-      if (at == kNone) {
-        if (++tried > kTriedContacts) break;
-        AddSwitches(from, finger, point, holdings);
-        continue;
-      }
-      const double way = (setup_.points[at].p - setup_.points[point].p).norm();
-      if (way > (is_goal ? kLongestSlideToGoal : kLongestSlide)) continue;
-      if (MaySlide(at, point)) add_slide(finger, point);
+    if (from[finger] != kNone) {
+      AddSlides(from, finger, node, holdings);
+      continue;
+    }
+    for (const int point : PlacesFor(finger, from, node)) {
+      AddSwitches(from, finger, point, holdings);
     }
   }
   const Holding* target = goal_.NearestTo(from);
@@ -304,7 +334,8 @@ std::vector<Holding> GaitSearch::HoldingsAfter(const Holding& from, int node) {
     if (from[finger] == kNone) {
       AddSwitches(from, finger, point, holdings);
     } else if (MaySlide(from[finger], point)) {
-      add_slide(finger, point);
+      holdings.push_back(from);
+      holdings.back()[finger] = point;
     }
   }
   AddSlidesTogether(from, node, holdings);
@@ -457,7 +488,7 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     if (std::optional<Gait> gait = GaitFrom(index)) return gait;
     if (rest.is_cut_off) continue;
     // Whose way can't be gone had better be found out before much grows from it.
-    if (grid_.StepOf(rest.carried.end) > farthest() && !ComesToItsEnd(index)) continue;
+    if (grid_.StepOf(rest.carried.end) > reached_ && !ComesToItsEnd(index)) continue;
     if (!tried_.IsCarriedOut(index)) continue;
     if (is_new) expanded_[rest.hold.holding].push_back(index);
     const int last = grid_.StepOf(rest.carried.end);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <queue>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "planner/base/deadline.h"
@@ -116,15 +117,9 @@ class GaitSearch {
     int node;
     int rest = -1;
   };
-  /// A contact that a finger reaches at a node, and the step to which it can keep it.
-  struct Candidate {
-    int point;
-    bool is_goal;
-    int last;
-  };
 
   /// The step that counts as reached: what is tried only where it is carried out.
-  [[nodiscard]] int farthest() const { return tried_.are_tried() ? tried_.farthest() : reached_; }
+  [[nodiscard]] int farthest() const { return std::min(reached_, tried_.MayReach()); }
   void AddFirstRests();
   void AddGivenStart();
   void Expand(int index);
@@ -132,6 +127,8 @@ class GaitSearch {
   bool SwitchAt(int index, int node);
   /// What fingers may hold after one change at a node, whether it is a grasp or not.
   [[nodiscard]] std::vector<Holding> HoldingsAfter(const Holding& from, int node);
+  /// What is held after a finger that holds has slid.
+  void AddSlides(const Holding& from, FingerIndex finger, int node, std::vector<Holding>& holdings);
   /// Those of goals and targets that the same fingers slide to, all at once.
   void AddSlidesTogether(const Holding& from, int node, std::vector<Holding>& holdings);
   /// Whether there is a way along the surface between two points.
@@ -159,7 +156,11 @@ class GaitSearch {
   [[nodiscard]] int ComeTo(int index);
   /// The next rest in turn.
   [[nodiscard]] int PopNext();
-  [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
+  /// Of a share of the contacts, which is another one at each node: those that a finger reaches.
+  [[nodiscard]] const std::vector<int>& ReachedAt(FingerIndex finger, int node, int share);
+  /// Contacts for a finger that holds nothing, where it keeps off the fingers that hold: goals
+  /// first, then those that it can keep longest.
+  [[nodiscard]] std::vector<int> PlacesFor(FingerIndex finger, const Holding& from, int node);
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
 
   const HandSetup& setup_;
@@ -183,7 +184,7 @@ class GaitSearch {
   std::map<Holding, int> failed_;  ///< times that a grasp was not come to
   /// Of each grasp the rests that were expanded.
   std::map<Holding, std::vector<int>> expanded_;
-  std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
+  std::map<std::tuple<int, int, int>, std::vector<int>> within_reach_;  ///< by finger, node, share
   GaitCounts counts_;
   int reached_ = 0;  ///< the farthest step
   int last_expanded_ = -1;

@@ -1,6 +1,8 @@
 #include "planner/gait/places_in_hand.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -15,8 +17,11 @@ namespace {
 
 /// Grasps expanded from one place in the hand before others have their turn.
 constexpr int kExpandedAtOnce = 6;
-/// From all places together, by their number, before there is another one.
-constexpr int kExpandedForNext = 20;
+/// From all places together, by their number, before there is another one: so many, and so many
+/// for each step of the way where that is more. Of whole turns more come to their end so than with
+/// many places from which little grows: in an Allegro hand 19 of 20 instead of 16 within 8 s.
+constexpr std::int64_t kExpandedForNext = 20;
+constexpr double kExpandedForStep = 0.75;
 /// Times that places are looked for.
 constexpr int kDrawings = 4;
 
@@ -52,9 +57,15 @@ std::vector<GaitCounts> PlacesInHand::counts() const {
   return counts;
 }
 
+std::int64_t PlacesInHand::EnoughForNext() const {
+  if (places_.empty()) return 0;
+  const int steps = places_.front()->search->counts().steps;
+  return static_cast<std::int64_t>(places_.size()) *
+         std::max<std::int64_t>(kExpandedForNext, std::llround(kExpandedForStep * steps));
+}
+
 PlacesInHand::Place* PlacesInHand::Next() {
-  const std::int64_t enough = kExpandedForNext * static_cast<std::int64_t>(places_.size());
-  if (expanded_ >= enough && Open()) return places_.back().get();
+  if (expanded_ >= EnoughForNext() && Open()) return places_.back().get();
   Place* next = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& place : places_) {

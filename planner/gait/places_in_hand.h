@@ -43,6 +43,8 @@ class PlacesInHand {
     RandomStream random;
     std::unique_ptr<PlaceSearch> search = nullptr;
   };
+  /// Grasps from all places together, before there is another one.
+  [[nodiscard]] std::int64_t EnoughForNext() const;
   /// Null where all places are exhausted.
   Place* Next();
   /// @returns whether there is another place.

@@ -44,9 +44,10 @@ class PoseGrid {
 
   /// Of the object in the palm's frame.
   [[nodiscard]] Eigen::Isometry3d PoseAt(int node) const;
-  /// The next one along the track, with the same offset; kNoNode at the end.
-  [[nodiscard]] int Onward(int node) const {
-    return node + offsets() < size() ? node + offsets() : kNoNode;
+  /// So many steps farther along the track, with the same offset; kNoNode beyond the end.
+  [[nodiscard]] int Onward(int node, int steps = 1) const {
+    const int onward = node + steps * offsets();
+    return onward < size() ? onward : kNoNode;
   }
   static constexpr int kNoNode = -1;
   /// In the order of their numbers.

@@ -6,6 +6,12 @@ namespace {
 /// Between two neighbours no drive of a finger that keeps its contact turns by more, radians: it
 /// would have gone over to another branch of postures.
 constexpr double kJump = 0.35;
+/// How far ends of runs are looked for at once, steps; a power of two.
+constexpr int kStride = 4;
+
+bool IsNoJump(const Posture& from, const Posture& to, int steps) {
+  return (to - from).cwiseAbs().maxCoeff() <= steps * kJump;
+}
 
 }  // namespace
 
@@ -25,25 +31,42 @@ std::optional<Posture> ReachMap::WorkOut(FingerIndex finger, int point, int node
   return posture;
 }
 
-const Posture* ReachMap::Find(FingerIndex finger, int point, int node) {
+ReachMap::Known& ReachMap::KnownAt(FingerIndex finger, int point, int node) {
   const std::size_t row = static_cast<std::size_t>(finger) * points_.size() + point;
   const auto [found, is_new] = known_.try_emplace(row * grid_.size() + node);
-  if (is_new) found->second = WorkOut(finger, point, node);
-  return found->second ? &*found->second : nullptr;
+  if (is_new) found->second.posture = WorkOut(finger, point, node);
+  return found->second;
+}
+
+const Posture* ReachMap::Find(FingerIndex finger, int point, int node) {
+  const Known& known = KnownAt(finger, point, node);
+  return known.posture ? &*known.posture : nullptr;
 }
 
 bool ReachMap::CanFollow(FingerIndex finger, int point, int node, int neighbour) {
   const Posture* from = Find(finger, point, node);
   const Posture* to = Find(finger, point, neighbour);
-  return from != nullptr && to != nullptr && (*to - *from).cwiseAbs().maxCoeff() <= kJump;
+  return from != nullptr && to != nullptr && IsNoJump(*from, *to, 1);
+}
+
+int ReachMap::WorkOutRunEnd(FingerIndex finger, int point, int node) {
+  const Posture* at = Find(finger, point, node);
+  for (int stride = kStride; stride > 0; stride /= 2) {
+    while (true) {
+      const int next = grid_.Onward(node, stride);
+      const Posture* then = next == PoseGrid::kNoNode ? nullptr : Find(finger, point, next);
+      if (then == nullptr || !IsNoJump(*at, *then, stride)) break;
+      node = next;
+      at = then;
+    }
+  }
+  return grid_.StepOf(node);
 }
 
 int ReachMap::RunEnd(FingerIndex finger, int point, int node) {
-  for (int next = grid_.Onward(node); next != PoseGrid::kNoNode; next = grid_.Onward(next)) {
-    if (!CanFollow(finger, point, node, next)) break;
-    node = next;
-  }
-  return grid_.StepOf(node);
+  Known& known = KnownAt(finger, point, node);
+  if (known.run_end < 0) known.run_end = WorkOutRunEnd(finger, point, node);
+  return known.run_end;
 }
 
 }  // namespace regrasp::gait

@@ -40,18 +40,25 @@ class ReachMap {
   /// posture. @param node  where it reaches the contact.
   [[nodiscard]] bool CanFollow(FingerIndex finger, int point, int node, int neighbour);
 
-  /// The last step to which the finger can keep the contact from a node on, with the node's offset.
+  /// The last step to which the finger can keep the contact from a node on, with the node's offset:
+  /// an estimate, as not every pose on the way is looked at.
   /// @param node  where it reaches the contact.
   [[nodiscard]] int RunEnd(FingerIndex finger, int point, int node);
 
  private:
+  struct Known {
+    std::optional<Posture> posture;
+    int run_end = -1;  ///< a step; -1: not asked for yet
+  };
+  [[nodiscard]] Known& KnownAt(FingerIndex finger, int point, int node);
   [[nodiscard]] std::optional<Posture> WorkOut(FingerIndex finger, int point, int node) const;
+  [[nodiscard]] int WorkOutRunEnd(FingerIndex finger, int point, int node);
 
   const HandScene& scene_;
   const std::vector<kinematics::InverseKinematics>& inverse_;
   const std::vector<SurfacePoint>& points_;
   const PoseGrid& grid_;
-  std::unordered_map<std::size_t, std::optional<Posture>> known_;
+  std::unordered_map<std::size_t, Known> known_;
 };
 
 }  // namespace regrasp::gait

@@ -32,9 +32,14 @@ bool TriedWays::Try(int rest, const Gait& gait) {
   }
   const Rest& failed = tree_[cut];
   if (failed.parent >= 0) {
-    if (carried.fails_in_move) KeepBeforeMiddle(failed.parent, grid_.StepOf(failed.node));
     TakeAsCarried(failed.parent);
     failed_.insert({failed.parent, failed.node, failed.hold.holding});
+    const int step = grid_.StepOf(failed.node);
+    if (carried.fails_in_move) {
+      KeepBeforeMiddle(failed.parent, step);
+    } else {
+      CountFailedChange(failed.parent, step);
+    }
   }
   return false;
 }
@@ -42,6 +47,13 @@ bool TriedWays::Try(int rest, const Gait& gait) {
 void TriedWays::KeepBeforeMiddle(int rest, int step) {
   const int from = grid_.StepOf(tree_[rest].node);
   if (step > from) tree_.KeepBefore(rest, (from + step) / 2);
+}
+
+void TriedWays::CountFailedChange(int rest, int step) {
+  FailedChanges& failed = failed_changes_[rest];
+  ++failed.count;
+  failed.first_step = std::min(failed.first_step, step);
+  if (failed.count >= kMostFailedChanges) tree_.KeepBefore(rest, failed.first_step - 1);
 }
 
 void TriedWays::TakeAsCarried(int rest) {

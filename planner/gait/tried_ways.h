@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -43,15 +45,25 @@ class TriedWays {
     return failed_.contains({rest, node, to});
   }
 
-  [[nodiscard]] int farthest() const { return farthest_; }  ///< step to which a way was carried out
+  /// A step: a way was carried out so far, and what is believed goes no farther.
+  [[nodiscard]] int MayReach() const {
+    return are_tried() ? farthest_ + at_once_ : std::numeric_limits<int>::max();
+  }
   [[nodiscard]] std::int64_t in_vain() const { return in_vain_; }  ///< ways
 
  private:
   static constexpr int kFewestAtOnce = 12;  ///< steps of the track, some 40 degrees
   static constexpr int kMostAtOnce = 96;
+  /// A grasp from which so many changes failed is no good one to change from.
+  static constexpr int kMostFailedChanges = 3;
+  struct FailedChanges {
+    int count = 0;
+    int first_step = std::numeric_limits<int>::max();
+  };
 
   /// The object is not carried with a rest to a step, and perhaps not half as far.
   void KeepBeforeMiddle(int rest, int step);
+  void CountFailedChange(int rest, int step);
   void TakeAsCarried(int rest);
 
   const PoseGrid& grid_;
@@ -61,6 +73,7 @@ class TriedWays {
   int farthest_ = 0;
   std::int64_t in_vain_ = 0;
   std::set<std::tuple<int, int, Holding>> failed_;  ///< rest, node and grasp
+  std::map<int, FailedChanges> failed_changes_;     ///< by rest
 };
 
 }  // namespace regrasp::gait

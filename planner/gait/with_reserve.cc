@@ -25,9 +25,11 @@ constexpr std::size_t kLonger = 12;
 /// is found sooner; where they are, more is carried out.
 constexpr Spare kNotFollowed = {0.05, 0.5e-3};
 constexpr std::array kTried = {kNotFollowed, kNotFollowed, kFollowed.front()};
-/// Grasps that are expanded each time for each quarter turn.
+/// Grasps that are expanded for each quarter turn the first time, twice as many the next time.
 constexpr std::int64_t kExpandedInRound = 300;
+/// Times that all is looked for; more where a time limit ends it.
 constexpr int kRounds = 2;
+constexpr int kMostRounds = 6;
 constexpr int kRoundShift = 32;  ///< of seeds
 /// Whole gaits are tried first, when they are found: of short turns those whose contacts are not
 /// followed, which may begin at any angle; of others those where they are, which ring hands mostly
@@ -64,14 +66,15 @@ struct Look {
 /// In their order.
 std::vector<Look> LooksFor(const GaitRequest& request) {
   const bool is_short_turn = !request.goal_pose && std::abs(request.turn.angle) <= kShortTurn;
+  const std::span<const Spare> whole =
+      is_short_turn ? std::span<const Spare>(kTriedWhole) : std::span(&kFollowed.front(), 1);
   std::vector<Look> looks;
-  for (int round = 0; round < kRounds; ++round) {
-    const std::span<const Spare> whole =
-        is_short_turn ? std::span<const Spare>(kTriedWhole) : std::span(&kFollowed.front(), 1);
+  const int rounds = request.deadline.left() ? kMostRounds : kRounds;
+  for (int round = 0; round < rounds; ++round) {
     for (const Spare& spare : whole) {
       looks.push_back({{&spare, 1}, round, kExpandedWhole, kTimeForWhole, true});
     }
-    looks.push_back({kTried, round, kExpandedInRound, 1, false});
+    looks.push_back({kTried, round, kExpandedInRound << round, 1, false});
   }
   return looks;
 }

@@ -13,11 +13,8 @@ double AngleOf(const Joint& joint, const Posture& posture) {
   return joint.ratio * posture[joint.drive];
 }
 
-/// From the frame of a joint to that of the next one.
-void GoOn(const Joint& joint, const Posture& posture, Eigen::Isometry3d& frame) {
-  frame.translation() += frame.linear() * joint.offset;
-  const Eigen::AngleAxisd turn(AngleOf(joint, posture) - joint.rest, joint.axis);
-  frame.linear() *= turn.toRotationMatrix();
+Eigen::Matrix3d TurnOf(const Joint& joint, const Posture& posture) {
+  return Eigen::AngleAxisd(AngleOf(joint, posture) - joint.rest, joint.axis).toRotationMatrix();
 }
 
 }  // namespace
@@ -34,7 +31,8 @@ JointFrames FramesOf(const Finger& finger, const Posture& posture) {
   frames.reserve(finger.joints.size());
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   for (const Joint& joint : finger.joints) {
-    GoOn(joint, posture, frame);
+    frame.translation() += frame.linear() * joint.offset;
+    frame.linear() *= TurnOf(joint, posture);
     frames.push_back(frame);
   }
   return frames;
@@ -43,17 +41,20 @@ JointFrames FramesOf(const Finger& finger, const Posture& posture) {
 TipState TipAt(const Finger& finger, const Posture& posture) {
   std::array<Vector3d, kMostJoints> origins;
   std::array<Vector3d, kMostJoints> axes;
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  // Apart from each other they are multiplied in a third of the time.
+  Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
+  Vector3d origin = Vector3d::Zero();
   const int count = static_cast<int>(finger.joints.size());
   for (int i = 0; i < count; ++i) {
     const Joint& joint = finger.joints[i];
-    GoOn(joint, posture, frame);
-    origins[i] = frame.translation();
-    axes[i] = frame.linear() * joint.axis;
+    origin += turned * joint.offset;
+    turned = turned * TurnOf(joint, posture);
+    origins[i] = origin;
+    axes[i].noalias() = turned * joint.axis;
   }
   TipState state;
-  state.centre = frame * finger.tip.centre;
-  state.axis = frame.linear() * finger.tip.axis;
+  state.centre = origin + turned * finger.tip.centre;
+  state.axis = turned * finger.tip.axis;
   state.jacobian.setZero(3, finger.drives);
   for (int i = 0; i < count; ++i) {
     const Joint& joint = finger.joints[i];
