@@ -63,4 +63,5 @@ def read_graspit(path: str | os.PathLike) -> HandGrasps:
     lost += [f"{len(items) - 1} other {tag}" for tag, items in
              (("graspableBody", bodies), ("robot", robots)) if len(items) > 1]
     return HandGrasps((_poses.matrices(back) @ palm + position)[None],
-                      _poses.product(back, turn)[None], [], joints[None], [os.path.splitext(os.path.basename(name))[0]], np.ones(1), lost)
+                      _poses.product(back, turn)[None], [], joints[None],
+                      [os.path.splitext(os.path.basename(name))[0]], np.ones(1), lost)
