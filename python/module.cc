@@ -1,9 +1,14 @@
 // The extension module _regrasp: what the Python package regrasp is made of.
 
+#include <pybind11/stl/filesystem.h>
+
 #include <exception>
+#include <filesystem>
+#include <string_view>
 
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"
+#include "planner/base/write_file.h"
 #include "python/binding.h"
 
 PYBIND11_MODULE(_regrasp, module) {
@@ -19,6 +24,9 @@ PYBIND11_MODULE(_regrasp, module) {
     } catch (const TimeUp& error) {
       PyErr_SetString(PyExc_TimeoutError, error.what());
     }
+  });
+  module.def("write_file", [](const std::filesystem::path& path, const py::bytes& content) {
+    WriteFile(path, std::string_view(content));
   });
   python::BindObjects(module);
   python::BindGrasps(module);

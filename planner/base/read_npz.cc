@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -84,6 +85,20 @@ double FromInteger(std::uint64_t bits) {
   return static_cast<double>(static_cast<Integer>(bits));
 }
 
+/// Of a half-precision number (IEEE 754-2008, binary16): a sign, 5 bits of exponent, 10 of
+/// fraction.
+double FromHalf(std::uint64_t bits) {
+  const int exponent = static_cast<int>(bits >> 10 & 31);
+  const auto fraction = static_cast<double>(bits & 1023);
+  double size = std::ldexp(1024 + fraction, exponent - 25);
+  if (exponent == 0) size = std::ldexp(fraction, -24);
+  if (exponent == 31) {
+    size = fraction == 0 ? std::numeric_limits<double>::infinity()
+                         : std::numeric_limits<double>::quiet_NaN();
+  }
+  return (bits >> 15 & 1) != 0 ? -size : size;
+}
+
 Number NumberOf(const std::string& type) {
   if (type == "f8") return [](std::uint64_t bits) { return std::bit_cast<double>(bits); };
   if (type == "f4") {
@@ -91,6 +106,7 @@ Number NumberOf(const std::string& type) {
       return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
     };
   }
+  if (type == "f2") return FromHalf;
   if (type == "i8") return FromInteger<std::int64_t>;
   if (type == "i4") return FromInteger<std::int32_t>;
   if (type == "i2") return FromInteger<std::int16_t>;

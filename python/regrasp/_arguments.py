@@ -170,6 +170,37 @@ def member(name: str, mapping: dict, key: str):
     return mapping[key]
 
 
+_MOST_VALUES = 10**7
+_DEEPEST = 64
+
+
+def bounded(name: str, value):
+    """The same value, if it holds no more than ten million others and nests no deeper than 64 levels;
+    what it holds in several places (aliases of YAML, memos of pickles) counts in each, as all that
+    looks at it or shows it takes it so."""
+    known: dict[int, int] = {}
+
+    def count(part, depth: int) -> int:
+        if isinstance(part, np.ndarray) and part.dtype.hasobject:
+            parts = part.flat
+        elif isinstance(part, dict):
+            parts = [*part.keys(), *part.values()]
+        elif isinstance(part, (list, tuple, set)):
+            parts = part
+        else:
+            return 1
+        if depth > _DEEPEST:
+            raise InputError(f"{name}: nested deeper than {_DEEPEST} levels")
+        if id(part) not in known:
+            known[id(part)] = 1 + sum(count(inner, depth + 1) for inner in parts)
+        return known[id(part)]
+
+    if count(value, 0) > _MOST_VALUES:
+        raise InputError(f"{name}: more than {_MOST_VALUES} values, what is referred to counted in "
+                         "each place")
+    return value
+
+
 def texts(name: str, values) -> list[str]:
     """A list of texts."""
     if not isinstance(values, (list, tuple)) or not all(isinstance(v, str) for v in values):

@@ -8,14 +8,27 @@ import zipfile
 
 import numpy as np
 
+from . import _arguments
 from ._regrasp import InputError
+
+
+class _Array:
+    """Stands for numpy.ndarray, which as a function would take memory of any size."""
+
+
+def _reconstruct(kind, shape, dtype):
+    """An array before its content, as NumPy pickles one."""
+    if kind is not _Array or shape != (0,):
+        raise InputError("it holds an array that NumPy did not write")
+    return np.core.multiarray._reconstruct(np.ndarray, shape, dtype)
+
 
 # What arrays and numbers of NumPy are made of when they are unpickled; nothing else is looked up.
 _ARRAY_PARTS = {
-    ("numpy", "ndarray"): np.ndarray,
+    ("numpy", "ndarray"): _Array,
     ("numpy", "dtype"): np.dtype,
-    ("numpy.core.multiarray", "_reconstruct"): np.core.multiarray._reconstruct,
-    ("numpy._core.multiarray", "_reconstruct"): np.core.multiarray._reconstruct,
+    ("numpy.core.multiarray", "_reconstruct"): _reconstruct,
+    ("numpy._core.multiarray", "_reconstruct"): _reconstruct,
     ("numpy.core.multiarray", "scalar"): np.core.multiarray.scalar,
     ("numpy._core.multiarray", "scalar"): np.core.multiarray.scalar,
 }
@@ -98,4 +111,4 @@ def read_dict(path) -> dict:
         raise InputError(f"{path}: a dictionary is needed, found {what}")
     if not all(isinstance(key, str) for key in found):
         raise InputError(f"{path}: keys of the dictionary are to be texts")
-    return found
+    return _arguments.bounded(path, found)

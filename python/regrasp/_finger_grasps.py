@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import _arguments, _html
+from . import _arguments, _html, _npz
 from ._regrasp import InputError
 from .objects import Object
 from .plans import Plan
@@ -95,9 +95,9 @@ class FingerGrasps:
     def write_npz(self, path: str | os.PathLike) -> None:
         """Writes the file that `validate --grasps` judges."""
         holds = self.holds
-        np.savez(_arguments.path("path", path), holds=holds,
-                 points=np.where(holds[..., None], self.points, 0),
-                 normals=np.where(holds[..., None], self.normals, 0))
+        _npz.write(_arguments.path("path", path), holds=holds,
+                   points=np.where(holds[..., None], self.points, 0),
+                   normals=np.where(holds[..., None], self.normals, 0))
 
     def as_plan(self, object: Object, mu: float | None = None, *,
                 friction_angle_deg: float | None = None) -> Plan:

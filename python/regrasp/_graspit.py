@@ -9,7 +9,7 @@ import xml.etree.ElementTree
 import numpy as np
 
 from . import _arguments, _poses
-from ._arguments import vector
+from ._arguments import shown, vector
 from ._hand_grasps import HandGrasps
 from ._regrasp import InputError
 
@@ -21,11 +21,11 @@ def _graspit_pose(name: str, element) -> tuple[np.ndarray, np.ndarray]:
     text = element.findtext("transform/fullTransform", "").strip()
     match = _TRANSFORM.fullmatch(text)
     if not match:
-        raise InputError(f"{name}: transform: (w x y z)[x y z] is needed, found {text!r}")
+        raise InputError(f"{name}: transform: (w x y z)[x y z] is needed, found {shown(text)}")
     try:
         values = np.array([float(number) for number in match.groups()])
     except ValueError:
-        raise InputError(f"{name}: transform: seven numbers are needed, found {text!r}") from None
+        raise InputError(f"{name}: transform: seven numbers are needed, found {shown(text)}") from None
     values = vector(f"{name}: transform", values, 7)
     return values[4:] / 1000, _poses.unit(f"{name}: transform", values[:4])
 
@@ -40,7 +40,8 @@ def read_graspit(path: str | os.PathLike) -> HandGrasps:
     name = path = _arguments.path("path", path)
     try:
         world = xml.etree.ElementTree.parse(path).getroot()
-    except xml.etree.ElementTree.ParseError as error:
+    # Of encodings that the parser does not know: LookupError, ValueError.
+    except (xml.etree.ElementTree.ParseError, LookupError, ValueError) as error:
         raise InputError(f"{name}: no XML: {error}") from None
     if world.tag == "virtual_contacts":
         raise InputError(f"{name}: contacts on links of GraspIt!'s own model of a hand, whose frames are "
@@ -62,4 +63,5 @@ def read_graspit(path: str | os.PathLike) -> HandGrasps:
     lost += [f"{len(items) - 1} other {tag}" for tag, items in
              (("graspableBody", bodies), ("robot", robots)) if len(items) > 1]
     return HandGrasps((_poses.matrices(back) @ palm + position)[None],
-                      _poses.product(back, turn)[None], [], joints[None], [os.path.splitext(os.path.basename(name))[0]], np.ones(1), lost)
+                      _poses.product(back, turn)[None], [], joints[None],
+                      [os.path.splitext(os.path.basename(name))[0]], np.ones(1), lost)

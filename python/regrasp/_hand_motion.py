@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import zipfile
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -73,11 +74,16 @@ def read_trajectory(path: str | os.PathLike) -> HandMotion:
     name = path = _arguments.path("path", path)
     keys = ("time_s", "joint_names", "joints", "object", "control_names", "controls")
     try:
-        arrays = np.load(path, allow_pickle=False)
-        if not isinstance(arrays, np.lib.npyio.NpzFile):
-            raise ValueError("a single array")
-        with arrays:
-            found = {key: arrays[key] for key in keys if key in arrays}
+        with open(path, "rb") as file:
+            if not zipfile.is_zipfile(file):
+                raise ValueError("it is no ZIP archive")
+            file.seek(0)
+            with np.load(file, allow_pickle=False) as arrays:
+                found = {key: arrays[key] for key in keys if key in arrays}
+        # NumPy gives a member that is no array as its bytes.
+        for key, array in found.items():
+            if not isinstance(array, np.ndarray):
+                raise ValueError(f"{key} is no array")
     except (FileNotFoundError, IsADirectoryError, PermissionError):
         raise
     except Exception as error:  # what an archive that is damaged or made up brings about

@@ -58,6 +58,13 @@ def read_hidex(path: str | os.PathLike, *, frame: str | None = None,
                             ["contacts with the surroundings"] if counted else []))
 
 
+def _is_number(cell: str) -> bool:
+    try:
+        return not cell.strip() or float(cell) is not None
+    except ValueError:
+        return False
+
+
 def _rows(name: str) -> list[list[float]]:
     try:
         with open(name, encoding="utf-8") as file:
@@ -68,8 +75,10 @@ def _rows(name: str) -> list[list[float]]:
     for i, line in enumerate(lines, 1):
         try:
             rows.append([float(cell) for cell in line if cell.strip()])
-        except ValueError as error:
-            raise InputError(f"{name}: row {i}: numbers are needed: {error}") from None
+        except ValueError:
+            wrong = next(cell.strip() for cell in line if not _is_number(cell))
+            raise InputError(f"{name}: row {i}: numbers are needed, found "
+                             f"{_arguments.shown(wrong)}") from None
     return rows
 
 
@@ -80,9 +89,10 @@ def _table(name: str, rows: list[list[float]]) -> tuple[np.ndarray, np.ndarray, 
     if not body:
         raise InputError(f"{name}: there is no row with contacts")
     fingers = rows[0][0] if counted else (len(body[0]) - 7) / 6
-    if fingers != int(fingers) or not 1 <= fingers <= 64:
+    if fingers not in range(1, 65):
+        found = f"{fingers:g} fingers" if counted else str(len(rows[0]))
         raise InputError(f"{name}: row 1: 6 numbers for each of 1 to 64 fingers and 7 of a pose are "
-                         f"needed, found {len(rows[0])}")
+                         f"needed, found {found}")
     fingers = int(fingers)
     width = 7 + 6 * fingers
     for i, row in enumerate(body, 1 + counted):
@@ -93,6 +103,9 @@ def _table(name: str, rows: list[list[float]]) -> tuple[np.ndarray, np.ndarray, 
     if not np.isfinite(poses).all():
         row = int(np.argwhere(~np.isfinite(poses))[0, 0])
         raise InputError(f"{name}: row {row + 1 + counted}: the pose is not finite")
+    if np.isinf(contacts).any():
+        row = int(np.argwhere(np.isinf(contacts))[0, 0])
+        raise InputError(f"{name}: row {row + 1 + counted}: a contact is infinite")
     turns = _poses.unit(f"{name}: pose", poses[:, [6, 3, 4, 5]])
     return contacts.reshape(len(body), fingers, 6), np.hstack([poses[:, :3], turns]), counted
 

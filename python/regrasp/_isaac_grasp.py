@@ -6,8 +6,8 @@ import os
 
 import numpy as np
 
-from . import _arguments, _poses
-from ._arguments import mapping, member, vector
+from . import _arguments, _poses, _regrasp
+from ._arguments import mapping, member, shown, vector
 from ._hand_grasps import HandGrasps
 from ._regrasp import InputError
 
@@ -18,22 +18,19 @@ def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
     Raises:
         InputError: names the file, the grasp and what is wrong.
     """
-    import yaml
+    from . import _yaml
     name = path = _arguments.path("path", path)
-    try:
-        with open(path, encoding="utf-8") as file:
-            data = mapping(name, yaml.safe_load(file))
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise InputError(f"{name}: no YAML: {error}".replace("\n", " ")) from None
+    data = mapping(name, _yaml.read(path))
     if data.get("format") != "isaac_grasp":
-        raise InputError(f"{name}: format: isaac_grasp is needed, found {data.get('format')!r}")
-    if str(data.get("format_version", "1.0")) not in ("1.0", "1"):
-        raise InputError(f"{name}: format_version: 1.0 is needed, found {data['format_version']!r}")
+        raise InputError(f"{name}: format: isaac_grasp is needed, found {shown(data.get('format'))}")
+    if data.get("format_version", "1.0") not in ("1.0", "1", 1):
+        raise InputError(f"{name}: format_version: 1.0 is needed, found "
+                         f"{shown(data['format_version'])}")
     grasps = mapping(f"{name}: grasps", member(name, data, "grasps"))
     positions, quaternions, joints, confidence, lost = [], [], [], [], set()
     joint_names: list | None = None
     for key, grasp in grasps.items():
-        where = f"{name}: grasps: {key}"
+        where = f"{name}: grasps: {key if str(key).isprintable() else shown(key)}"
         grasp = mapping(where, grasp)
         positions.append(vector(f"{where}: position", member(where, grasp, "position"), 3))
         turn = mapping(f"{where}: orientation", member(where, grasp, "orientation"))
@@ -70,7 +67,7 @@ def write_isaac_grasp(path: str | os.PathLike, grasps: HandGrasps, *, object_fra
         entries[name] = {"confidence": float(grasps.confidence[i]),
                          "position": grasps.positions[i].tolist(),
                          "orientation": {"w": w, "xyz": xyz}, "cspace_position": angles}
-    with open(path, "w", encoding="utf-8") as file:
-        yaml.safe_dump({"format": "isaac_grasp", "format_version": "1.0",
-                        "object_frame": object_frame, "gripper_frame": gripper_frame,
-                        "grasps": entries}, file, sort_keys=False, default_flow_style=None)
+    text = yaml.safe_dump({"format": "isaac_grasp", "format_version": "1.0",
+                           "object_frame": object_frame, "gripper_frame": gripper_frame,
+                           "grasps": entries}, sort_keys=False, default_flow_style=None)
+    _regrasp.write_file(path, text.encode())

@@ -100,6 +100,8 @@ class Writer:
         """The whole file."""
         self._end_chunk()
         data = bytes(self._data)
+        if not self._chunks:  # what the summary repeats stands in the data, too
+            data += b"".join(self._definitions)
         data += _record(_DATA_END, struct.pack("<I", zlib.crc32(data)))
         counts = b"".join(struct.pack("<HQ", i, n) for i, n in enumerate(self._channels, 1))
         statistics = _record(_STATISTICS, struct.pack(

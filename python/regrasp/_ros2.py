@@ -7,7 +7,7 @@ import struct
 
 import numpy as np
 
-from . import _arguments, _mcap
+from . import _arguments, _mcap, _regrasp
 from ._hand_motion import HandMotion
 from ._regrasp import InputError, version
 from .hands import Hand
@@ -98,6 +98,10 @@ def write_mcap(path: str | os.PathLike, motion: HandMotion, hand: Hand | None = 
     path = _arguments.path("path", path)
     _arguments.of_type("motion", motion, HandMotion)
     start = round(_arguments.number("start_time", start_time, 0, 2**31, zero=True) * 10**9)
+    # Seconds of ROS 2 are an int32.
+    if len(motion) and start / 10**9 + motion.times[-1] >= 2**31 - 1:
+        raise InputError(f"times: the last one is {motion.times[-1]:g} s, and ROS 2 counts seconds since "
+                         "1970 up to 2^31")
     frames = _arguments.text("palm_frame", palm_frame), _arguments.text("object_frame", object_frame)
     tips, names = np.zeros((len(motion), 0, 3)), []
     if hand is not None:
@@ -107,6 +111,11 @@ def write_mcap(path: str | os.PathLike, motion: HandMotion, hand: Hand | None = 
     if len({*frames, *names}) < 2 + len(names):
         raise InputError("palm_frame: frames need different names, found "
                          + ", ".join([*frames, *names]))
+    for what, words in [("palm_frame", frames[:1]), ("object_frame", frames[1:]),
+                        ("joint_names", motion.joint_names), ("control_names", motion.control_names)]:
+        for word in words:
+            if not word or not word.isprintable():
+                raise InputError(f"{what}: a printable name is needed, found {_arguments.shown(word)}")
     writer = _mcap.Writer("ros2", f"regrasp {version}")
     # Of rosbag2; empty: its defaults.
     metadata = {"offered_qos_profiles": ""}
@@ -123,5 +132,4 @@ def write_mcap(path: str | os.PathLike, motion: HandMotion, hand: Hand | None = 
         if motion.control_names:
             writer.message(commands, time,
                            _joint_state(time, motion.control_names, motion.controls[i]))
-    with open(path, "wb") as file:
-        file.write(writer.bytes())
+    _regrasp.write_file(path, writer.bytes())

@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 
-from . import _arguments, _dict_file, formats
+from . import _arguments, _dict_file, _npz, formats
 from ._help_as import help_as
 from ._regrasp import InputError, version
 from .hands import Hand
@@ -109,6 +109,16 @@ def _read(path: str, hand: Hand | None, options) -> formats.HandGrasps:
     raise InputError(f"{path}: .yaml, .npy, .npz, .xml, .csv or .json is read")
 
 
+def _fitting(path: str, grasps: formats.HandGrasps, hand: Hand | None) -> formats.HandGrasps:
+    """The same grasps, if a hand that is given has their joints."""
+    try:
+        if hand is not None:
+            grasps.in_order_of(hand)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    return grasps
+
+
 def _join(parts: list[formats.HandGrasps]) -> formats.HandGrasps:
     names = [part.joint_names for part in parts]
     if any(n != names[0] for n in names) or len({p.joints.shape[1] for p in parts}) > 1:
@@ -125,6 +135,13 @@ def _chosen(fingers: str | None, hand: Hand) -> list[int]:
         return list(range(len(hand.fingers)))
     return [hand.fingers.index(_arguments.choice("--fingers", name, hand.fingers))
             for name in fingers.split(",")]
+
+
+def _check_output(options) -> None:
+    for path in [*options.inputs, options.hand, options.object]:
+        if path and os.path.exists(path) and os.path.exists(options.output) and \
+                os.path.samefile(path, options.output):
+            raise InputError(f"--output: {options.output}: is an input")
 
 
 def _single(inputs: list[str], what: str) -> str:
@@ -172,8 +189,8 @@ def _write_contacts(options, grasps: formats.HandGrasps, hand: Hand) -> list[str
     chosen = _chosen(options.fingers, hand)
     touching = touching[:, chosen]
     kept = np.flatnonzero(touching.all(axis=1) if options.fingers else touching.any(axis=1))
-    np.savez(options.output, points=points[kept][:, chosen], normals=normals[kept][:, chosen],
-             holds=touching[kept], grasps=kept)
+    _npz.write(options.output, points=points[kept][:, chosen], normals=normals[kept][:, chosen],
+               holds=touching[kept], grasps=kept)
     lost = grasps.lost + ["palm and joints"]
     off = (~touching).sum(axis=0)
     if off.any():
@@ -203,6 +220,7 @@ def _run(options) -> list[str]:
     ending = _ending(options.output)
     if ending not in (".yaml", ".yml", ".npz", ".json", ".mcap"):
         raise InputError(f"--output: {options.output}: .yaml, .npz, .json or .mcap is written")
+    _check_output(options)
     if _ending(options.inputs[0]) == ".csv":
         return _convert_fingers(options)
     hand = Hand.read(options.hand) if options.hand else None
@@ -210,11 +228,15 @@ def _run(options) -> list[str]:
         return _convert_motion(options, hand)
     if ending == ".json":
         raise InputError(f"{options.inputs[0]}: only .csv goes to .json")
-    grasps = _join([_read(path, hand, options) for path in options.inputs])
+    if ending == ".npz":
+        _need(hand, "hand", "to find contacts")
+        _need(options.object, "object", "to find contacts")
+    grasps = _join([_fitting(path, _read(path, hand, options), hand if ending == ".npz" else None)
+                    for path in options.inputs])
     if options.palm:
         grasps = grasps.with_palm_at(_numbers("--palm", options.palm))
     if ending == ".npz":
-        return _write_contacts(options, grasps, _need(hand, "hand", "to find contacts"))
+        return _write_contacts(options, grasps, hand)
     return _write_isaac_grasp(options, grasps, hand)
 
 

@@ -88,7 +88,7 @@ class Hand:
         missing = [name for name in self.joint_names if name not in names]
         if missing:
             raise InputError(f"names: {self.name} has joints {missing[0]} …, found "
-                             f"{', '.join(names)}")
+                             f"{_arguments.shown(names)}")
         return joints[:, [names.index(name) for name in self.joint_names]]
 
     def __repr__(self) -> str:

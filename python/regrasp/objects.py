@@ -144,8 +144,7 @@ class Object:
         """Writes the file that the programs read as this object; of one made from arrays only."""
         if not self._core.text:
             raise InputError(f"{self.name}: was read from a file, which is still there")
-        with open(_arguments.path("path", path), "w", encoding="utf-8") as file:
-            file.write(self._core.text)
+        _regrasp.write_file(_arguments.path("path", path), self._core.text.encode())
 
     @property
     def name(self) -> str:

@@ -56,8 +56,7 @@ class Plan:
 
     def write(self, path: str | os.PathLike) -> None:
         """Writes the plan file."""
-        with open(_arguments.path("path", path), "w", encoding="utf-8") as file:
-            file.write(self.text)
+        _regrasp.write_file(_arguments.path("path", path), self.text.encode())
 
     @property
     def steps(self) -> list[dict]:

@@ -1,5 +1,7 @@
 """regrasp-convert as a program: help, manual page, completions, and the line that says what is wrong."""
 
+import contextlib
+import io
 import os
 import re
 import subprocess
@@ -8,6 +10,7 @@ import unittest
 
 import regrasp
 from regrasp import convert
+from isaac_text import ISAAC
 from regrasp_case import RegraspCase
 
 PROGRAM = os.path.join(os.path.dirname(os.path.dirname(regrasp.__file__)), "regrasp-convert")
@@ -73,6 +76,27 @@ class ConvertProgramTest(RegraspCase):
             self.assertTrue(said.startswith("regrasp-convert: "))
             for word in words:
                 self.assertIn(word, said)
+
+    def test_files_are_written_as_a_whole_and_never_over_an_input(self):
+        path, linked = self.path("a.yaml"), self.path("link.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(ISAAC)
+        os.symlink(path, linked)
+
+        def said(output, code):
+            with contextlib.redirect_stderr(io.StringIO()) as stderr:
+                self.assertEqual(convert.main([path, "--output", output]), code)
+            return stderr.getvalue()
+        for output in (path, linked):
+            self.assertIn("is an input", said(output, 2))
+        with open(path, encoding="utf-8") as file:
+            self.assertEqual(file.read(), ISAAC)
+        self.assertIn("none", said(self.path("none/b.yaml"), 3))
+        said(self.path("b.yaml"), 0)
+        os.chmod(self.path("b.yaml"), 0o600)
+        said(self.path("b.yaml"), 0)
+        self.assertEqual(os.stat(self.path("b.yaml")).st_mode & 0o777, 0o600)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.yaml", "b.yaml", "link.yaml"])
 
 
 if __name__ == "__main__":

@@ -65,8 +65,10 @@ def read(data):
     end = next(record for record in found if record[0] == 0x0F)
     assert Reader(end[3]).number("I") == zlib.crc32(data[:end[1]]) and end[2] == summary
     schemas, channels, messages, places = {}, {}, [], {}
+    defined, restated = [], []
 
     def define(kind, content):
+        defined.append((kind, content))
         reader = Reader(content)
         number = reader.number("H")
         if kind == 3:
@@ -96,7 +98,9 @@ def read(data):
                 else:
                     define(k, c)
             assert (first, last) == (min(times), max(times))
-            chunks[begin] = stop - begin
+            chunks[begin] = (stop - begin, first, last, size)
+        elif kind in (3, 4):
+            restated.append((kind, content)) if begin >= summary else define(kind, content)
         elif kind == 7:
             reader = Reader(content)
             channel, entries = reader.number("H"), Reader(reader.bytes())
@@ -106,10 +110,11 @@ def read(data):
             assert pairs == places[max(chunks), channel]
         elif kind == 8:
             reader = Reader(content)
-            reader.number("Q"), reader.number("Q")
-            start, length = reader.number("Q"), reader.number("Q")
-            assert chunks.pop(start) == length
+            first, last, start, length = (reader.number("Q") for _ in range(4))
             indices = Reader(reader.bytes())
+            reader.number("Q")
+            assert reader.text() == "" and reader.number("Q") == reader.number("Q") == chunks[start][3]
+            assert chunks.pop(start)[:3] == (length, first, last)
             while indices.more():
                 channel, at = indices.number("H"), indices.number("Q")
                 assert data[at] == 7 and struct.unpack("<H", data[at + 9:at + 11])[0] == channel
@@ -117,11 +122,21 @@ def read(data):
             reader = Reader(content)
             assert reader.number("Q") == len(messages)
             assert reader.number("H") == len(schemas) and reader.number("I") == len(channels)
+            assert (reader.number("I"), reader.number("I"), reader.number("I")) == (0, 0, kinds.count(6))
+            times = [time for _, _, time, _ in messages] or [0]
+            assert (reader.number("Q"), reader.number("Q")) == (min(times), max(times))
+            counts = Reader(reader.bytes())
+            while counts.more():
+                number, count = counts.number("H"), counts.number("Q")
+                assert count == sum(message[0] == number for message in messages)
         elif kind == 0x0E:
             reader = Reader(content)
             kind, start, length = reader.number("B"), reader.number("Q"), reader.number("Q")
             assert {k for k, *_ in records(data, start, start + length)} == {kind}
     assert not chunks, "a chunk without an index"
+    assert sorted(restated) == sorted(defined), "the summary has other schemas or channels"
+    times = [time for _, _, time, _ in messages]
+    assert times == sorted(times)
     assert offsets == next(begin for kind, begin, *_ in found if kind == 0x0E)
     return channels, messages
 
@@ -204,6 +219,28 @@ class McapTest(RegraspCase):
                 self.assertEqual((header, found), ((time, ""), names))
                 self.assertEqual(arrays, [values[i].tolist(), [], []])
 
+    def test_definitions_have_all_that_they_refer_to_and_topics_a_quality_of_service(self):
+        channels, _ = self.messages(self.motion, self.hand)
+        fields = 0
+        for name, definition in channels.values():
+            first, *others = definition.split("=" * 80 + "\n")
+            parts = {name.replace("/msg", ""): first}
+            for other in others:
+                line, _, text = other.partition("\n")
+                self.assertTrue(line.startswith("MSG: "))
+                parts[line.removeprefix("MSG: ")] = text
+            for package, text in [(part.split("/")[0], text) for part, text in parts.items()]:
+                for line in text.splitlines():
+                    kind = line.split()[0].removesuffix("[]")
+                    if kind not in ("string", "int32", "uint32", "float64"):
+                        self.assertIn(kind if "/" in kind else f"{package}/{kind}", parts)
+                    fields += 1
+        self.assertGreater(fields, 30)
+        with open(self.path("a.mcap"), "rb") as file:
+            data = file.read()
+        # Once in the data, once in the summary, of each topic.
+        self.assertEqual(data.count(b"offered_qos_profiles"), 2 * 3)
+
     def test_without_controls_and_without_a_hand(self):
         bare = formats.HandMotion(self.motion.times, self.motion.joint_names, self.motion.joints,
                                   self.motion.object_poses)
@@ -242,6 +279,10 @@ class McapTest(RegraspCase):
     def test_no_messages_are_a_file_too(self):
         channels, messages = read(_mcap.Writer("ros2", "test").bytes())
         self.assertEqual((channels, messages), ({}, []))
+        none = formats.HandMotion(np.zeros(0), ["a"], np.zeros((0, 1)), np.zeros((0, 7)))
+        channels, messages = self.messages(none)
+        self.assertEqual(messages, {"/tf": [], "/joint_states": []})
+        self.assertIn("float64[] position", channels["/joint_states"][1])
 
     def test_wrong_motions_are_named(self):
         motion = self.motion

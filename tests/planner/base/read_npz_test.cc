@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 
 #include "planner/base/error.h"
@@ -83,6 +84,38 @@ TEST(ReadNpzTest, ReadsWhatNumpyWritesStoredPackedOfEveryTypeAndOrder) {
     }
   }
   EXPECT_EQ(checked, 72);
+}
+
+/// An NPY file of half-precision numbers.
+std::string Halves(const std::vector<std::uint16_t>& bits) {
+  const std::string npz = FormatNpz({{"a", {bits.size()}, std::vector<double>(bits.size())}});
+  std::string bytes = ZipArchive(npz).Read("a.npy", 1000).value();
+  bytes.resize(bytes.size() - 8 * bits.size());
+  bytes.replace(bytes.find("<f8"), 3, "<f2");
+  for (const std::uint16_t half : bits) {
+    bytes += static_cast<char>(half & 255);
+    bytes += static_cast<char>(half >> 8);
+  }
+  return bytes;
+}
+
+TEST(ReadNpzTest, ReadsHalfPrecision) {
+  const auto values =
+      ReadNpy(
+          Halves({0x3C00, 0xC000, 0x7BFF, 0x0001, 0x03FF, 0x0400, 0x3555, 0x7C00, 0xFC00, 0x7E00}),
+          "a")
+          .values;
+  ASSERT_EQ(values.size(), 10U);
+  EXPECT_EQ(values[0], 1);
+  EXPECT_EQ(values[1], -2);
+  EXPECT_EQ(values[2], 65504);
+  EXPECT_EQ(values[3], std::ldexp(1, -24));
+  EXPECT_EQ(values[4], std::ldexp(1023, -24));
+  EXPECT_EQ(values[5], std::ldexp(1, -14));
+  EXPECT_EQ(values[6], 0.333251953125);
+  EXPECT_EQ(values[7], INFINITY);
+  EXPECT_EQ(values[8], -INFINITY);
+  EXPECT_TRUE(std::isnan(values[9]));
 }
 
 TEST(ReadNpzTest, WhatIsNoArrayIsNamed) {

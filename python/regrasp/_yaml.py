@@ -1,0 +1,47 @@
+"""YAML, read strictly: data only, no key twice, and no more of it than the file is long for."""
+
+from __future__ import annotations
+
+import re
+
+import yaml
+
+from . import _arguments
+from ._regrasp import InputError
+
+
+class _Loader(yaml.SafeLoader):
+
+    def construct_mapping(self, node, deep=False):
+        seen = set()
+        for key, _ in node.value if isinstance(node, yaml.MappingNode) else ():
+            if isinstance(key, yaml.ScalarNode):
+                if key.value in seen:
+                    raise yaml.constructor.ConstructorError(
+                        problem=f"key {_arguments.shown(key.value)} is repeated",
+                        problem_mark=key.start_mark)
+                seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+# Numbers as JSON and others write them are texts to YAML 1.1: 1e-05, without a point or a sign.
+_Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(
+    r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$"), list("-+.0123456789"))
+
+
+def read(path: str) -> object:
+    """What the file holds: dictionaries, lists, texts and numbers.
+
+    Raises:
+        InputError: it is no YAML, has a key twice, or aliases that stand for too much.
+    """
+    try:
+        with open(path, encoding="utf-8") as file:
+            data = yaml.load(file, _Loader)
+    except OSError:
+        raise
+    except RecursionError:
+        raise InputError(f"{path}: no YAML: nested too deep") from None
+    except Exception as error:  # of the parser, and of numbers and dates that are none
+        raise InputError(f"{path}: no YAML: {' '.join(str(error).split())}") from None
+    return _arguments.bounded(path, data)
