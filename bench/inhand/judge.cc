@@ -13,7 +13,7 @@ namespace {
 constexpr double kMostOff_m = 1e-3;
 constexpr double kMostOff_rad = Radians(1);
 /// Of the centroid, where a task is a turn.
-constexpr double kMostWandered_m = 0.04;
+constexpr double kMostWandered_m = 0.05;
 /// Of scales and half-angles, which are written as decimals.
 constexpr double kRounding = 1e-9;
 

@@ -17,7 +17,7 @@ struct PoseError {
 
 /// Checks that a plan is one for a task: for this hand, this body in its size and no more friction,
 /// and that it brings the body from where it starts to the task's goal, within 1 mm and 1°. Where a
-/// task is a turn, the centroid may end 40 mm away, and whole turns count.
+/// task is a turn, the centroid may end 50 mm away, and whole turns count.
 /// @param name  how messages call the plan.
 /// @throws InputError  it is for something else; says what and by how much.
 void CheckIsFor(const Task& task, const HandBody& body, const kinematics::HandFile& hand,

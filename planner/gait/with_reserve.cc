@@ -30,13 +30,16 @@ constexpr std::int64_t kExpandedInRound = 300;
 /// Times that all is looked for; more where a time limit ends it.
 constexpr int kRounds = 2;
 constexpr int kMostRounds = 6;
-constexpr int kRoundShift = 32;  ///< of seeds
+constexpr int kStreamShift = 32;  ///< of seeds
 /// Whole gaits are tried first, when they are found: of short turns those whose contacts are not
 /// followed, which may begin at any angle; of others those where they are, which ring hands mostly
 /// carry out. With no more grasps, for each quarter turn, and time each than this.
 constexpr std::array kTriedWhole = {kNotFollowed, Spare{0.02, 0}};
 constexpr double kShortTurn = 1.75;  ///< radians
 constexpr std::int64_t kExpandedWhole = 40;
+/// So often from other places in the hand, as long as there are any: mostly a single move, which is
+/// found at once and either carried out or not.
+constexpr int kTimesWhole = 4;
 constexpr double kTimeForWhole = 0.15;
 /// Share of all the time before a gait without reserve is looked for.
 constexpr double kTimeBeforeWithout = 0.85;
@@ -57,10 +60,11 @@ std::optional<planning::CarriedOut> Try(const Gait& gait, const GaitRequest& req
 /// One look for a gait.
 struct Look {
   std::span<const Spare> spares;
-  int round;
+  std::uint64_t stream;  ///< of random numbers
   std::int64_t expanded;
   double time;
-  bool is_whole;  ///< tried when it is found, and not on the way
+  bool is_whole;          ///< tried when it is found, and not on the way
+  bool is_again = false;  ///< left out where the look before it found nothing
 };
 
 /// In their order.
@@ -71,10 +75,14 @@ std::vector<Look> LooksFor(const GaitRequest& request) {
   std::vector<Look> looks;
   const int rounds = request.deadline.left() ? kMostRounds : kRounds;
   for (int round = 0; round < rounds; ++round) {
+    const std::uint64_t stream = static_cast<std::uint64_t>(round) * kTimesWhole;
     for (const Spare& spare : whole) {
-      looks.push_back({{&spare, 1}, round, kExpandedWhole, kTimeForWhole, true});
+      for (int again = 0; again < kTimesWhole; ++again) {
+        looks.push_back(
+            {{&spare, 1}, stream + again, kExpandedWhole, kTimeForWhole, true, again > 0});
+      }
     }
-    looks.push_back({kTried, round, kExpandedInRound << round, 1, false});
+    looks.push_back({kTried, stream, kExpandedInRound << round, 1, false});
   }
   return looks;
 }
@@ -114,14 +122,17 @@ TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Co
   const Deadline before_without =
       is_required ? request.deadline : request.deadline.After(kTimeBeforeWithout);
   FoundGait best;
+  bool has_found = false;
   for (const Look& look : LooksFor(request)) {
+    if (look.is_again && !has_found) continue;
     GaitRequest asked = request;
-    asked.seed += static_cast<std::uint64_t>(look.round) << kRoundShift;
+    asked.seed += look.stream << kStreamShift;
     asked.deadline = before_without;
     if (look.is_whole) asked.carry_out = nullptr;
     Bound(asked, look.expanded, look.time);
     FoundGait found = find(asked, look.spares);
-    if (found.gait) {
+    has_found = found.gait.has_value();
+    if (has_found) {
       const auto carried = Try(*found.gait, request, contacts);
       if (!carried) return FindAsIfNotAsked(request, find);
       if (carried->is_whole) return {std::move(found), true};
