@@ -59,7 +59,7 @@ sim::FrictionBox TurnedSquare(const Eigen::Vector3d& normal, const Eigen::Vector
 }
 
 std::vector<Contestant> Contestants() {
-  constexpr int kMostSolutions = 12;
+  constexpr int kMostSolutions = 20;
   return {{"MuJoCo, elliptic cones, settings of the replay",
            [](const Plate& plate) { return MoveInMujoco(plate, "elliptic", true); }},
           {"MuJoCo, elliptic cones, defaults",

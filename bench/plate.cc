@@ -96,7 +96,8 @@ class OdePlate {
     const dReal* q = dBodyGetQuaternion(body_);
     const dReal* v = dBodyGetLinearVel(body_);
     const dReal* w = dBodyGetAngularVel(body_);
-    const std::array<dReal, 3> at{p[0], p[1], p[2]}, speed{v[0], v[1], v[2]}, spin{w[0], w[1], w[2]};
+    const std::array<dReal, 3> at{p[0], p[1], p[2]}, speed{v[0], v[1], v[2]},
+        spin{w[0], w[1], w[2]};
     const std::array<dReal, 4> turn{q[0], q[1], q[2], q[3]};
     const Vector3d load = plate_.gravity(share), torque = plate_.torque(share);
     for (int i = 0; i < solutions; ++i) {

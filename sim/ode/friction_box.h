@@ -37,9 +37,9 @@ struct FrictionBox {
 [[nodiscard]] bool KeepsCone(const Eigen::Vector3d& normal, const FrictionBox& box,
                              const Eigen::Vector3d& force, double mu, double slack);
 
-/// Of μ N, the largest `along`: a thousandth of the friction is given away, and the force can turn
-/// by 2.6° in a solution.
-inline constexpr double kLongest = 0.999;
-inline constexpr double kConeTolerance = 2e-3;
+/// Of μ N, the largest `along`: what friction is given away is a thousandth of the default shake,
+/// and the force can turn by 0.26° in a solution.
+inline constexpr double kLongest = 0.99999;
+inline constexpr double kConeTolerance = 3e-5;
 
 }  // namespace regrasp::sim

@@ -23,9 +23,12 @@ namespace {
 /// more contacts than it needs is determined: the object creeps by 1e-9 of its size in a natural
 /// time.
 constexpr double kCompliance = 1e-7;
-/// Where the solver meets a pivot that is not positive, the step is made again this much softer.
-constexpr double kSofter = 30;
-constexpr int kMostSofter = 3;
+/// ODE's solver goes from contact to contact, and where a force comes to two of its bounds at once,
+/// as it does in a slide, it may find no way on. The step is then made again with the contacts in
+/// another order, bounds that are this share narrower, and contacts this much softer.
+constexpr double kNarrower = 1e-6;
+constexpr double kSofter = 3;
+constexpr int kMostTries = 8;
 
 /// The share of a contact's depth that a step takes back, ODE's own default.
 constexpr double kDepthRecovery = 0.2;
@@ -34,7 +37,7 @@ constexpr double kRestDepth = 1e-7;
 
 /// A step is solved until all contacts keep their cones, this often at most. Where an object slides
 /// or a finger touches at high speed forces may alternate; the last ones then stand.
-constexpr int kMostSolutions = 12;
+constexpr int kMostSolutions = 20;
 /// Of the squeeze: a contact that carries less than this is not looked at for its cone.
 constexpr double kSlack = 1e-6;
 
@@ -105,10 +108,11 @@ struct OdeEngine::Impl {
   Impl(const Scene& metres, const object::Object& body);
   [[nodiscard]] std::vector<Touch> FindTouches() const;
   void LoadBodies();
-  void AddJoints(std::vector<Touch>& touches, std::vector<FrictionBox>& boxes,
+  void AddJoint(const Touch& touch, const FrictionBox& box, dJointFeedback& feedback);
+  void AddJoints(const std::vector<Touch>& touches, int tried, std::vector<FrictionBox>& boxes,
                  std::vector<dJointFeedback>& feedback);
-  [[nodiscard]] bool Solve(std::vector<Touch>& touches);
-  void SolveSoftly(std::vector<Touch>& touches);
+  [[nodiscard]] bool Solve(int tried, std::vector<Touch>& touches);
+  void SolveByTries(std::vector<Touch>& touches);
   void TakeBodies(const std::vector<Touch>& touches);
 };
 
@@ -182,39 +186,47 @@ void OdeEngine::Impl::LoadBodies() {
   }
 }
 
-void OdeEngine::Impl::AddJoints(std::vector<Touch>& touches, std::vector<FrictionBox>& boxes,
+void OdeEngine::Impl::AddJoint(const Touch& touch, const FrictionBox& box,
+                               dJointFeedback& feedback) {
+  dContact contact{};
+  contact.surface.mode = dContactMu2 | dContactFDir1;
+  contact.surface.mu = box.along;
+  contact.surface.mu2 = box.across;
+  contact.geom.depth = touch.place.depth;
+  for (int k = 0; k < 3; ++k) {
+    contact.geom.pos[k] = touch.place.point[k];
+    contact.geom.normal[k] = touch.place.normal[k];
+    contact.fdir1[k] = box.direction[k];
+  }
+  const dJointID joint = dJointCreateContact(world.get(), joints.get(), &contact);
+  // ODE's normals point into the first body.
+  dJointAttach(joint, object, fingers[touch.where.finger]);
+  dJointSetFeedback(joint, &feedback);
+}
+
+void OdeEngine::Impl::AddJoints(const std::vector<Touch>& touches, int tried,
+                                std::vector<FrictionBox>& boxes,
                                 std::vector<dJointFeedback>& feedback) {
   dJointGroupEmpty(joints.get());
-  for (std::size_t i = 0; i < touches.size(); ++i) {
-    const PatchTouch& place = touches[i].place;
-    boxes[i] = scene.dimension == 3 ? BoxInCircle(place.normal, touches[i].force, mu)
-                                    : BoxInPlane(place.normal, touches[i].force, mu);
-    dContact contact{};
-    contact.surface.mode = dContactMu2 | dContactFDir1;
-    contact.surface.mu = boxes[i].along;
-    contact.surface.mu2 = boxes[i].across;
-    contact.geom.depth = place.depth;
-    for (int k = 0; k < 3; ++k) {
-      contact.geom.pos[k] = place.point[k];
-      contact.geom.normal[k] = place.normal[k];
-      contact.fdir1[k] = boxes[i].direction[k];
-    }
-    const dJointID joint = dJointCreateContact(world.get(), joints.get(), &contact);
-    // ODE's normals point into the first body.
-    dJointAttach(joint, object, fingers[touches[i].where.finger]);
-    dJointSetFeedback(joint, &feedback[i]);
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    const std::size_t i = (k + static_cast<std::size_t>(tried)) % touches.size();
+    const Touch& touch = touches[i];
+    boxes[i] = scene.dimension == 3 ? BoxInCircle(touch.place.normal, touch.force, mu)
+                                    : BoxInPlane(touch.place.normal, touch.force, mu);
+    boxes[i].along *= 1 - kNarrower * tried * static_cast<double>(k + 1);
+    AddJoint(touch, boxes[i], feedback[i]);
   }
 }
 
 /// Solves the step again with the forces that it led to until they keep their cones.
 /// @return whether ODE's solver came to its end.
-bool OdeEngine::Impl::Solve(std::vector<Touch>& touches) {
+bool OdeEngine::Impl::Solve(int tried, std::vector<Touch>& touches) {
   const ReplaySettings& s = scene.settings;
   std::vector<FrictionBox> boxes(touches.size());
   std::vector<dJointFeedback> feedback(touches.size());
   for (int solution = 0; solution < kMostSolutions; ++solution) {
     LoadBodies();
-    AddJoints(touches, boxes, feedback);
+    AddJoints(touches, tried, boxes, feedback);
     if (!StepOde(world.get(), s.timestep_s)) return false;
     bool kept = true;
     for (std::size_t i = 0; i < touches.size(); ++i) {
@@ -227,13 +239,13 @@ bool OdeEngine::Impl::Solve(std::vector<Touch>& touches) {
   return true;
 }
 
-void OdeEngine::Impl::SolveSoftly(std::vector<Touch>& touches) {
+void OdeEngine::Impl::SolveByTries(std::vector<Touch>& touches) {
   const ReplaySettings& s = scene.settings;
   const double mobility = 1 / (s.mass_factor * s.mass_kg) + 1 / s.finger_mass_kg;
   double compliance = kCompliance;
-  for (int i = 0; i <= kMostSofter; ++i, compliance *= kSofter) {
+  for (int tried = 0; tried < kMostTries; ++tried, compliance *= kSofter) {
     dWorldSetCFM(world.get(), compliance * mobility * s.timestep_s);
-    if (Solve(touches)) return;
+    if (Solve(tried, touches)) return;
   }
   throw UnstableError("ODE's solver came to no end");
 }
@@ -316,7 +328,7 @@ void OdeEngine::SetLoad(const Vector3d& force, const Vector3d& torque) {
 
 void OdeEngine::Step() {
   std::vector<Touch> touches = impl_->FindTouches();
-  impl_->SolveSoftly(touches);
+  impl_->SolveByTries(touches);
   impl_->TakeBodies(touches);
   impl_->time += impl_->scene.settings.timestep_s;
 }
