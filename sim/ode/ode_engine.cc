@@ -1,7 +1,6 @@
 #include "sim/ode/ode_engine.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <vector>
@@ -24,9 +23,11 @@ namespace {
 /// time.
 constexpr double kCompliance = 1e-7;
 /// ODE's solver goes from contact to contact, and where a force comes to two of its bounds at once,
-/// as it does in a slide, it may find no way on. The step is then made again with the contacts in
-/// another order, bounds that are this share narrower, and contacts this much softer.
+/// as it does in a slide or where a finger hardly touches, it may find no way on. The step is then
+/// made again with the contacts in another order, a little deeper than at rest, bounds that are
+/// this share narrower, and contacts this much softer.
 constexpr double kNarrower = 1e-6;
+constexpr double kDeeper = 0.01;  ///< over kRestDepth
 constexpr double kSofter = 3;
 constexpr int kMostTries = 8;
 
@@ -106,9 +107,11 @@ struct OdeEngine::Impl {
   Vector3d load = Vector3d::Zero(), torque = Vector3d::Zero();
 
   Impl(const Scene& metres, const object::Object& body);
+  [[nodiscard]] Vector3d ServoPush(FingerIndex finger) const;
   [[nodiscard]] std::vector<Touch> FindTouches() const;
   void LoadBodies();
-  void AddJoint(const Touch& touch, const FrictionBox& box, dJointFeedback& feedback);
+  void AddJoint(const Touch& touch, const FrictionBox& box, double deeper,
+                dJointFeedback& feedback);
   void AddJoints(const std::vector<Touch>& touches, int tried, std::vector<FrictionBox>& boxes,
                  std::vector<dJointFeedback>& feedback);
   [[nodiscard]] bool Solve(int tried, std::vector<Touch>& touches);
@@ -140,6 +143,13 @@ OdeEngine::Impl::Impl(const Scene& metres, const object::Object& body)
   sites_of_finger.resize(fingers.size());
 }
 
+Vector3d OdeEngine::Impl::ServoPush(FingerIndex finger) const {
+  const ReplaySettings& s = scene.settings;
+  const auto& [position, velocity] = tips[finger];
+  return s.finger_stiffness_N_m * (targets[finger] - position) - s.finger_damping_Ns_m * velocity;
+}
+
+/// With the forces of the last step; of a new contact with what its finger pushes.
 std::vector<Touch> OdeEngine::Impl::FindTouches() const {
   const Isometry3d X_SB = Eigen::Translation3d(centre.position) * turn;
   const Isometry3d X_BS = X_SB.inverse();
@@ -154,7 +164,7 @@ std::vector<Touch> OdeEngine::Impl::FindTouches() const {
         touch.place.point = X_SB * found->point;
         touch.place.normal = turn * found->normal;
         const auto last = forces.find(touch.where);
-        if (last != forces.end()) touch.force = last->second;
+        touch.force = last != forces.end() ? last->second : ServoPush(f);
         touches.push_back(touch);
       }
     }
@@ -164,7 +174,6 @@ std::vector<Touch> OdeEngine::Impl::FindTouches() const {
 
 /// The state as ODE's, with everything that acts on the bodies.
 void OdeEngine::Impl::LoadBodies() {
-  const ReplaySettings& s = scene.settings;
   dWorldSetGravity(world.get(), 0, 0, -gravity);
   dBodySetPosition(object, centre.position.x(), centre.position.y(), centre.position.z());
   const dQuaternion q = {turn.w(), turn.x(), turn.y(), turn.z()};
@@ -174,9 +183,9 @@ void OdeEngine::Impl::LoadBodies() {
   dBodySetForce(object, load.x(), load.y(), load.z());
   dBodySetTorque(object, torque.x(), torque.y(), torque.z());
   const dQuaternion none = {1, 0, 0, 0};
-  for (std::size_t f = 0; f < fingers.size(); ++f) {
+  for (FingerIndex f{0}; f < std::ssize(fingers); ++f) {
     const auto& [p, v] = tips[f];
-    const Vector3d push = s.finger_stiffness_N_m * (targets[f] - p) - s.finger_damping_Ns_m * v;
+    const Vector3d push = ServoPush(f);
     dBodySetPosition(fingers[f], p.x(), p.y(), p.z());
     dBodySetQuaternion(fingers[f], none);
     dBodySetLinearVel(fingers[f], v.x(), v.y(), v.z());
@@ -186,13 +195,16 @@ void OdeEngine::Impl::LoadBodies() {
   }
 }
 
-void OdeEngine::Impl::AddJoint(const Touch& touch, const FrictionBox& box,
+/// @param deeper  than at rest at least, over kRestDepth; nothing where 0.
+void OdeEngine::Impl::AddJoint(const Touch& touch, const FrictionBox& box, double deeper,
                                dJointFeedback& feedback) {
   dContact contact{};
   contact.surface.mode = dContactMu2 | dContactFDir1;
   contact.surface.mu = box.along;
   contact.surface.mu2 = box.across;
-  contact.geom.depth = touch.place.depth;
+  const double rest = kRestDepth * scene.settings.diameter_m;
+  contact.geom.depth =
+      deeper > 0 ? std::max(touch.place.depth, rest) + deeper * rest : touch.place.depth;
   for (int k = 0; k < 3; ++k) {
     contact.geom.pos[k] = touch.place.point[k];
     contact.geom.normal[k] = touch.place.normal[k];
@@ -213,8 +225,9 @@ void OdeEngine::Impl::AddJoints(const std::vector<Touch>& touches, int tried,
     const Touch& touch = touches[i];
     boxes[i] = scene.dimension == 3 ? BoxInCircle(touch.place.normal, touch.force, mu)
                                     : BoxInPlane(touch.place.normal, touch.force, mu);
-    boxes[i].along *= 1 - kNarrower * tried * static_cast<double>(k + 1);
-    AddJoint(touch, boxes[i], feedback[i]);
+    const double nudge = tried * static_cast<double>(k + 1);
+    boxes[i].along *= 1 - kNarrower * nudge;
+    AddJoint(touch, boxes[i], kDeeper * nudge, feedback[i]);
   }
 }
 
