@@ -24,10 +24,11 @@ namespace {
 constexpr double kCompliance = 1e-7;
 /// ODE's solver goes from contact to contact, and where a force comes to two of its bounds at once,
 /// as it does in a slide or where a finger hardly touches, it may find no way on. The step is then
-/// made again with the contacts in another order, a little deeper than at rest, bounds that are
-/// this share narrower, and contacts this much softer.
+/// made again with the contacts in another order, bounds that are this share narrower, and contacts
+/// this much softer; where that does not help, a little deeper than at rest too, which pushes.
 constexpr double kNarrower = 1e-6;
 constexpr double kDeeper = 0.01;  ///< over kRestDepth
+constexpr int kFirstDeeper = 5;
 constexpr double kSofter = 3;
 constexpr int kMostTries = 8;
 
@@ -227,7 +228,8 @@ void OdeEngine::Impl::AddJoints(const std::vector<Touch>& touches, int tried,
                                     : BoxInPlane(touch.place.normal, touch.force, mu);
     const double nudge = tried * static_cast<double>(k + 1);
     boxes[i].along *= 1 - kNarrower * nudge;
-    AddJoint(touch, boxes[i], kDeeper * nudge, feedback[i]);
+    const double deeper = tried < kFirstDeeper ? 0 : kDeeper * static_cast<double>(k + 1);
+    AddJoint(touch, boxes[i], deeper, feedback[i]);
   }
 }
 
