@@ -89,6 +89,14 @@ TEST(OdeReplay, RollsFingersOfAHandThatNeedsThemAll) {
   ExpectGood(ReplayPlan(triangle, plan, kOde), 2);
 }
 
+TEST(OdeReplay, RollsFingersRoundACorner) {
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::Align align = AroundTheCorner(square);
+  plan::Plan plan = MakePlanarPlan(align.waypoints.front(), 10, 4);
+  plan.steps = {align};
+  ExpectGood(ReplayPlan(square, plan, kOde), 2);
+}
+
 TEST(OdeReplay, LosesTheObjectWhereAnAlignNeedsMoreFriction) {
   const object::Polygon square = MakeSquare(0.03);
   const plan::FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
