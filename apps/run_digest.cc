@@ -9,7 +9,8 @@
 #include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "report/json_values.h"
-#include "sim/scene/engine.h"
+#include "sim/ode/ode_engine.h"
+#include "sim/scene/mujoco_engine.h"
 
 namespace regrasp::apps {
 
@@ -54,6 +55,7 @@ std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs) {
   const Json json = {{"version", ProgramVersion()},
                      {"build", BuildId()},
                      {"engine", sim::EngineVersion()},
+                     {"second_engine", sim::OdeVersion()},
                      {"input", FileJson(inputs.input)},
                      {"object", FileJson(inputs.object)},
                      {"start", report::TextOrNull(inputs.start_sha256)},

@@ -37,9 +37,9 @@ void AddStates(CLI::App& app, ValidateOptions& options) {
 }
 
 void CheckForGrasps(ValidateOptions& options, const CLI::App& app) {
-  const std::set<std::string> of_replay = {"--mass",          "--density",  "--thickness",
-                                           "--finger-radius", "--squeeze",  "--shake",
-                                           "--protocol",      "--tolerance"};
+  const std::set<std::string> of_replay = {"--mass",          "--density",   "--thickness",
+                                           "--finger-radius", "--squeeze",   "--shake",
+                                           "--protocol",      "--tolerance", "--engine"};
   std::set<std::string> served = {
       "--object",         "--grasps",   "--required-angle", "--quality", "--out",
       "--friction-angle", "--mu",       "--max-deviation",  "--faces",   "--part",

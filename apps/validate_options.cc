@@ -166,6 +166,15 @@ void AddReplay(CLI::App& app, ValidateOptions& options) {
             "Size of the shake: force over squeeze, and torque over squeeze times half the "
             "diameter (default 0.01)",
             "RHO");
+  AddChoice<sim::EngineChoice>(
+      app, "--engine", options.replay.engine,
+      {{"mujoco", sim::EngineChoice::kMujoco},
+       {"ode", sim::EngineChoice::kOde},
+       {"both", sim::EngineChoice::kBoth}},
+      "Physics engine of the replay: mujoco, or ode, the Open Dynamics Engine, with the same "
+      "scene, "
+      "motions and shakes, judged alike; both replays in both, MuJoCo decides, and every step on "
+      "which they differ is named (default mujoco)");
   AddChoice<sim::Protocol>(
       app, "--protocol", options.replay.protocol,
       {{"adapted", sim::Protocol::kAdapted},
@@ -401,7 +410,7 @@ void ValidateOptions::Finish(const CLI::App& app) {
   if (app.count("--replay") == 0) replay_by_hand = !hand.empty();
   if (replay_by_hand) {
     if (hand.empty()) throw InputError("--replay hand: needs the hand (--hand)");
-    refuse({"--protocol", "--stress", "--tolerance", "--align", "--finger-radius"},
+    refuse({"--engine", "--protocol", "--stress", "--tolerance", "--align", "--finger-radius"},
            "goes with --replay points");
   } else {
     refuse({"--tolerance-mm", "--tolerance-deg", "--feedback", "--tip", "--joint-noise"},

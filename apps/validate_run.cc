@@ -199,6 +199,8 @@ void AddTrials(const ValidateOptions& options, const ValidateTask& task, report:
   }
   sim::ReplayOptions replay = options.replay;
   replay.half_angle = report.half_angle;
+  // The trials' verdict is MuJoCo's where both decide.
+  if (replay.engine == sim::EngineChoice::kBoth) replay.engine = sim::EngineChoice::kMujoco;
   // A hand does not know of the noise.
   if (replay.hand_squeeze) replay.squeeze_N = report.settings->squeeze_N;
   report.trials = sim::RunTrials(object, plan::LocatePlan(object, task.plan), replay,

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/random_grasps.h"
 #include "bench/sample_table.h"
 #include "bench/scatter_plot.h"
 #include "bench/table_file.h"
@@ -22,84 +23,23 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/base/random.h"
-#include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
-#include "planner/grasp/required_half_angle.h"
-#include "planner/sampling/surface_sampler.h"
 #include "sim/replay/replay.h"
 
 namespace {
 
 using namespace regrasp;
 
-constexpr std::array kBodies = {"cube.obj",   "l_block.obj",   "hole_block.obj",  "stone.obj",
-                                "mug500.obj", "polygon15.wkt", "polygon_hole.wkt"};
-constexpr double kLeastRatio = 0.7;
-constexpr double kMostRatio = 1.5;
-/// Grasps that need more friction than this are not what anyone plans with.
-constexpr double kMostCritical = Radians(50);
-constexpr double kLeastCritical = Radians(0.5);
-/// The first grasp of a switch resists this much more than the shake, so that a fail is the
-/// second's.
-constexpr double kFirstQuality = 0.03;
-
-/// Where grasps are drawn, and how.
-class Body {
- public:
-  explicit Body(const std::filesystem::path& path)
-      : name_(path.stem().string()), file_(object::ReadObject(path)), source_(*file_.object) {}
-
-  [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] const object::Object& object() const { return *file_.object; }
-  /// Contacts drawn evenly over the surface where a fingertip has room.
-  [[nodiscard]] const sampling::SurfaceSampler& source() const { return source_; }
-  [[nodiscard]] bool planar() const { return object().dimension() == 2; }
-  [[nodiscard]] int hold() const { return planar() ? 3 : 4; }
-
-  [[nodiscard]] grasp::Grasp DrawGrasp(RandomStream& random) const {
-    grasp::Grasp grasp;
-    for (int i = 0; i < hold(); ++i) grasp.push_back(source_.Draw(random));
-    return grasp;
-  }
-
- private:
-  std::string name_;
-  object::ObjectFile file_;
-  sampling::SurfaceSampler source_;
-};
-
-/// The smallest μ at which a grasp is force closure, where it is one that is worth a replay.
-std::optional<double> CriticalFriction(const Body& body, const grasp::Grasp& grasp) {
-  if (!grasp::IsForceClosure(grasp, body.object().wrench_frame(), kMostCritical))
-    return std::nullopt;
-  const auto required = grasp::ComputeRequiredHalfAngle(grasp, body.object().wrench_frame());
-  if (!required || required->upper > kMostCritical || required->upper < kLeastCritical) {
-    return std::nullopt;
-  }
-  return std::tan(required->upper);
-}
-
-/// A plan that holds the grasp.
-plan::Plan PlanOf(const Body& body, const grasp::Grasp& initial, double half_angle) {
-  plan::Plan plan;
-  plan.dimension = body.object().dimension();
-  plan.half_angle = half_angle;
-  plan.fingers = body.hold() + 1;
-  plan.initial = plan::FingersInOrder(initial);
-  plan.goal = initial;
-  return plan;
-}
-
-Sample ExamineGrasp(const Body& body, const plan::Plan& plan, const grasp::Grasp& examined,
-                    double ratio, const sim::ReplayOptions& options) {
+Sample Examine(const GraspedBody& body, const RandomCase& drawn,
+               const sim::ReplayOptions& options) {
+  const plan::Plan& plan = drawn.plan;
   const sim::ReplayResult result = sim::ReplayPlan(body.object(), plan, options);
   const sim::StepReplay& last = result.steps.back();
   Sample sample;
   sample.body = body.name();
-  sample.ratio = ratio;
+  sample.ratio = drawn.ratio;
   sample.quality =
-      grasp::ComputeQuality(examined, body.object().wrench_frame(), plan.half_angle).lower;
+      grasp::ComputeQuality(drawn.examined, body.object().wrench_frame(), plan.half_angle).lower;
   const bool complete = result.steps.size() == plan.steps.size() + 1;
   sample.passed = complete && last.reason == plan::Reason::kNone;
   sample.reason = plan::ReasonName(last.reason);
@@ -113,47 +53,10 @@ Sample ExamineGrasp(const Body& body, const plan::Plan& plan, const grasp::Grasp
   return sample;
 }
 
-double DrawRatio(RandomStream& random) {
-  return kLeastRatio + (kMostRatio - kLeastRatio) * random.Uniform();
-}
-
-std::vector<Sample> ExamineHolds(const Body& body, int count, std::uint64_t seed,
-                                 const sim::ReplayOptions& options) {
-  RandomStream random(seed, RandomUse::kStart);
+std::vector<Sample> ExamineAll(const GraspedBody& body, const std::vector<RandomCase>& cases,
+                               const sim::ReplayOptions& options) {
   std::vector<Sample> samples;
-  while (static_cast<int>(samples.size()) < count) {
-    const grasp::Grasp grasp = body.DrawGrasp(random);
-    const auto critical = CriticalFriction(body, grasp);
-    if (!critical) continue;
-    const double ratio = DrawRatio(random);
-    const plan::Plan plan = PlanOf(body, grasp, std::atan(ratio * *critical));
-    samples.push_back(ExamineGrasp(body, plan, grasp, ratio, options));
-  }
-  return samples;
-}
-
-/// Switches of one finger from a good grasp.
-std::vector<Sample> ExamineSwitches(const Body& body, int count, std::uint64_t seed,
-                                    const sim::ReplayOptions& options) {
-  RandomStream random(seed, RandomUse::kGoal);
-  std::vector<Sample> samples;
-  while (static_cast<int>(samples.size()) < count) {
-    const grasp::Grasp first = body.DrawGrasp(random);
-    grasp::Grasp second = first;
-    second.erase(second.begin());
-    second.push_back(body.source().Draw(random));
-    const auto critical = CriticalFriction(body, second);
-    if (!critical) continue;
-    const double ratio = DrawRatio(random);
-    const double half_angle = std::atan(ratio * *critical);
-    if (!grasp::QualityAtLeast(first, body.object().wrench_frame(), half_angle, kFirstQuality))
-      continue;
-    plan::Plan plan = PlanOf(body, first, half_angle);
-    plan.steps.push_back(
-        plan::Switch{{{FingerIndex(body.hold()), second.back()}}, {FingerIndex(0)}});
-    plan.goal = second;
-    samples.push_back(ExamineGrasp(body, plan, second, ratio, options));
-  }
+  for (const RandomCase& drawn : cases) samples.push_back(Examine(body, drawn, options));
   return samples;
 }
 
@@ -190,7 +93,7 @@ sim::ReplayOptions OptionsFor(const Variant& variant) {
   return options;
 }
 
-TableFile SettingsTable(const std::vector<Body>& bodies, int count, std::uint64_t seed) {
+TableFile SettingsTable(const std::vector<GraspedBody>& bodies, int count, std::uint64_t seed) {
   TableFile table{"settings",
                   "What the settings change: grasps that pass",
                   {"setting", "at most 0.98 of the critical friction", "0.98 to 1",
@@ -198,8 +101,8 @@ TableFile SettingsTable(const std::vector<Body>& bodies, int count, std::uint64_
                   {}};
   for (const Variant& variant : kVariants) {
     std::vector<Sample> samples;
-    for (const Body& body : bodies) {
-      const auto more = ExamineHolds(body, count, seed, OptionsFor(variant));
+    for (const GraspedBody& body : bodies) {
+      const auto more = ExamineAll(body, DrawHolds(body, count, seed), OptionsFor(variant));
       samples.insert(samples.end(), more.begin(), more.end());
     }
     const auto between = [](double x, double from, double to) { return x >= from && x < to; };
@@ -239,15 +142,15 @@ ScatterPlot PlotOf(const std::vector<Sample>& samples) {
 int Run(const std::filesystem::path& models, const std::filesystem::path& folder, int count) {
   constexpr std::uint64_t kSeed = 2026;
   std::filesystem::create_directories(folder);
-  std::vector<Body> bodies;
-  for (const char* name : kBodies) bodies.emplace_back(models / name);
+  std::vector<GraspedBody> bodies;
+  for (const char* name : kGraspedBodies) bodies.emplace_back(models / name);
   std::vector<Sample> holds;
   std::vector<Sample> switches;
-  for (const Body& body : bodies) {
+  for (const GraspedBody& body : bodies) {
     sim::ReplayOptions both;
     both.protocol = sim::Protocol::kBoth;
-    const auto held = ExamineHolds(body, count, kSeed, both);
-    const auto switched = ExamineSwitches(body, count, kSeed, both);
+    const auto held = ExamineAll(body, DrawHolds(body, count, kSeed), both);
+    const auto switched = ExamineAll(body, DrawSwitches(body, count, kSeed), both);
     holds.insert(holds.end(), held.begin(), held.end());
     switches.insert(switches.end(), switched.begin(), switched.end());
     std::fprintf(stderr, "%s: %d holds and %d switches\n", body.name().c_str(), count, count);

@@ -23,7 +23,7 @@ configure_package_config_file(cmake/regraspConfig.cmake.in regraspConfig.cmake
 write_basic_package_version_file(regraspConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/regraspConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/regraspConfigVersion.cmake
-              cmake/FindGlpk.cmake
+              cmake/FindGlpk.cmake cmake/FindOde.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/regrasp COMPONENT dev)
 
 # The libraries for pkg-config: a linker takes them from above to below.

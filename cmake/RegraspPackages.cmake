@@ -35,7 +35,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
     "Programs that find sequences of finger placements and releases from one grasp of an object
 to another, with force closure held at every instant, and validate them: analytically, by a
-replay in MuJoCo, and with pictures.")
+replay in MuJoCo or the Open Dynamics Engine, and with pictures.")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
 # plotutils has a program `graph`, too.
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONFLICTS plotutils)
@@ -46,7 +46,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # What regraspConfig.cmake and regrasp.pc ask for; MuJoCo's CMake files ask for OpenGL, and its
 # package does not.
 set(used libassimp-dev libcgal-dev libeigen3-dev libexpat1-dev libgl-dev libglpk-dev libgmp-dev libminizip-dev
-    libmpfr-dev libmujoco-dev libopengl-dev libqhull-dev libssl-dev nlohmann-json3-dev)
+    libmpfr-dev libmujoco-dev libode-dev libopengl-dev libqhull-dev libssl-dev nlohmann-json3-dev)
 list(JOIN used ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION

@@ -66,6 +66,8 @@ void ExamineSteps(const object::Object& object, const plan::Plan& located, int c
     if (!step.replay || report.settings->hand) continue;
     step.disagreement =
         sim::ExplainDisagreement({object, located, step.check, *step.replay, *report.settings});
+    step.engines =
+        sim::ExplainEngines({object, located, step.check, *step.replay, *report.settings});
   }
 }
 

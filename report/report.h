@@ -40,6 +40,7 @@ struct ReportStep {
   bool skipped = false;                  ///< a step before it failed, in the analysis or the replay
   std::vector<sim::NeedOfFinger> needs;  ///< of a step that passes the analytic check
   std::optional<sim::Disagreement> disagreement;  ///< between the examinations of a step
+  std::optional<sim::Disagreement> engines;       ///< between the two engines, where both ran
   std::optional<certificate::EntryProof> proof;   ///< where AddProofs was asked
   std::string frame;  ///< file name of the picture, empty where there is none
 

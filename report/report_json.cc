@@ -30,6 +30,7 @@ Json MakeSettings(const Report& report) {
   settings["gravity_m_s2"] = replay.gravity_m_s2;
   if (report.dimension == 2) settings["thickness_m"] = replay.thickness_m;
   settings["shake"] = replay.shake;
+  settings["engine"] = EngineName(replay.engine);
   settings["protocol"] = ProtocolName(replay.protocol);
   settings["stress"] = replay.stress;
   settings["tolerance"] = replay.tolerance;
@@ -112,6 +113,7 @@ Json MakeCertificate(const std::optional<motion::ProofVerdict>& certificate) {
 void AddReplay(const ReportStep& step, Json& json) {
   if (!step.replay || step.skipped) return;
   json["protocols"] = ProtocolsJson(*step.replay);
+  if (step.replay->ode) json["engines"] = EnginesJson(*step.replay, step.engines);
   if (!step.replay->stress.empty()) json["stress"] = StressJson(step.replay->stress);
 }
 

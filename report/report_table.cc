@@ -97,6 +97,26 @@ std::string FormatCauses(const Report& report) {
   return text;
 }
 
+/// Every step on which two engines differ, or that they agree.
+std::string FormatEngines(const Report& report) {
+  if (!report.settings || report.settings->engine != sim::EngineChoice::kBoth) return "";
+  std::string text;
+  int agreed = 0;
+  for (const ReportStep& step : report.steps) {
+    if (step.engines) {
+      const bool fails = step.engines->between == sim::Between::kOdeFails;
+      text += "step " + std::to_string(step.check.index) + ": " +
+              (fails ? "MuJoCo passes, ODE fails (" : "ODE passes, MuJoCo fails (") +
+              (fails ? step.replay->ode->detail : step.replay->detail) + "); " +
+              sim::LikelyCauseText(*step.engines) + "\n";
+    } else if (step.replay && step.replay->ode && !step.skipped) {
+      ++agreed;
+    }
+  }
+  return text + "engines: MuJoCo and ODE agree on " + std::to_string(agreed) +
+         (agreed == 1 ? " step\n" : " steps\n");
+}
+
 /// The weakest finger of the whole plan.
 std::string FormatWeakestFinger(const Report& report) {
   const plan::EntryIndex index = report.weakest_finger_step();
@@ -153,7 +173,7 @@ std::string FormatReportTable(const Report& report) {
   rows.front().push_back("verdict");
   for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, columns));
   return FormatFailure(report) + FormatRows(rows) + FormatBody(report) + FormatCauses(report) +
-         FormatUndecided(report) +
+         FormatEngines(report) + FormatUndecided(report) +
          (report.grasp ? FormatGraspLines(report) : FormatWeakestOfPlan(report)) +
          FormatStressTable(report) + FormatTrials(report) + FormatVerdict(report);
 }

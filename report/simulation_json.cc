@@ -65,6 +65,18 @@ const char* ProtocolName(sim::Protocol protocol) {
   return "";
 }
 
+const char* EngineName(sim::EngineChoice engine) {
+  switch (engine) {
+    case sim::EngineChoice::kMujoco:
+      return "mujoco";
+    case sim::EngineChoice::kOde:
+      return "ode";
+    case sim::EngineChoice::kBoth:
+      return "both";
+  }
+  return "";
+}
+
 const char* SqueezeSourceName(sim::SqueezeSource source) {
   switch (source) {
     case sim::SqueezeSource::kShake:
@@ -132,6 +144,12 @@ Json CauseJson(const std::optional<sim::Disagreement>& disagreement) {
           {"cause", std::string(sim::CauseName(disagreement->cause))},
           {"text", disagreement->text},
           {"values", values}};
+}
+
+Json EnginesJson(const sim::StepReplay& replay, const std::optional<sim::Disagreement>& between) {
+  return {{"mujoco", MotionJson(replay)},
+          {"ode", MotionJson(*replay.ode)},
+          {"cause", CauseJson(between)}};
 }
 
 Json FingerNeedJson(FingerIndex finger, const grasp::FingerFriction& friction, double half_angle) {

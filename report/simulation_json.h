@@ -10,6 +10,9 @@ namespace regrasp::report {
 /// "adapted", "fixed" or "both".
 [[nodiscard]] const char* ProtocolName(sim::Protocol protocol);
 
+/// "mujoco", "ode" or "both".
+[[nodiscard]] const char* EngineName(sim::EngineChoice engine);
+
 /// "shake", "hand" or "option".
 [[nodiscard]] const char* SqueezeSourceName(sim::SqueezeSource source);
 
@@ -21,6 +24,11 @@ namespace regrasp::report {
 
 /// The member `protocols`: what each protocol that ran says.
 [[nodiscard]] Json ProtocolsJson(const sim::StepReplay& replay);
+
+/// The member `engines`: what each engine says, and the likely cause where they differ.
+/// @pre both replayed the step.
+[[nodiscard]] Json EnginesJson(const sim::StepReplay& replay,
+                               const std::optional<sim::Disagreement>& between);
 
 /// The member `stress`: an array with an element for each direction.
 [[nodiscard]] Json StressJson(const std::vector<sim::DirectionStress>& stress);

@@ -38,6 +38,10 @@ std::string_view BetweenText(sim::Between between) {
       return "the replay passes, the analysis fails";
     case sim::Between::kFixedFails:
       return "adapted forces resist the shake, a fixed squeeze does not";
+    case sim::Between::kOdeFails:
+      return "MuJoCo passes, ODE fails";
+    case sim::Between::kOdePasses:
+      return "ODE passes, MuJoCo fails";
   }
   return "";
 }
@@ -45,11 +49,13 @@ std::string_view BetweenText(sim::Between between) {
 std::vector<Element> Disagreements(const Report& report) {
   std::vector<Element> items;
   for (const ReportStep& step : report.steps) {
-    if (!step.disagreement) continue;
-    items.emplace_back("li", Attributes(),
-                       "Step " + std::to_string(step.check.index) + ": " +
-                           std::string(BetweenText(step.disagreement->between)) + ". " +
-                           Capitalized(sim::LikelyCauseText(*step.disagreement)) + ".");
+    for (const auto& found : {step.disagreement, step.engines}) {
+      if (!found) continue;
+      items.emplace_back("li", Attributes(),
+                         "Step " + std::to_string(step.check.index) + ": " +
+                             std::string(BetweenText(found->between)) + ". " +
+                             Capitalized(sim::LikelyCauseText(*found)) + ".");
+    }
   }
   if (items.empty()) return {};
   return {Element("h2", {}, "Disagreements"), Element("ul", {}, items)};

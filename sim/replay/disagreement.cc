@@ -232,6 +232,18 @@ Disagreement ExplainAnalysis(const ExaminedStep& step) {
                      {"required_half_angle_deg", Degrees(required)}}};
 }
 
+/// Of the two engines.
+Finding LookAtCriticalFriction(const ExaminedStep& step) {
+  if (!step.check.required) return std::nullopt;
+  const double critical = std::tan(step.check.required->upper);
+  const double ratio = step.settings.mu / critical;
+  if (std::abs(ratio - 1) > kNearCriticalOfTwo) return std::nullopt;
+  return Disagreement{.cause = Cause::kCriticalFriction,
+                      .text = "the friction is " + FormatShort(ratio) + " times the critical one",
+                      .values = {{"half_angle_deg", Degrees(std::atan(step.settings.mu))},
+                                 {"required_half_angle_deg", Degrees(step.check.required->upper)}}};
+}
+
 Disagreement Named(Between between, Disagreement found) {
   found.between = between;
   return found;
@@ -252,6 +264,28 @@ std::optional<Disagreement> ExplainDisagreement(const ExaminedStep& step) {
   return std::nullopt;
 }
 
+std::optional<Disagreement> ExplainEngines(const ExaminedStep& step) {
+  if (step.check.skipped || !step.replay.ode) return std::nullopt;
+  const bool mujoco = step.replay.reason == plan::Reason::kNone;
+  const bool ode = step.replay.ode->reason == plan::Reason::kNone;
+  if (mujoco == ode) return std::nullopt;
+  const Between between = mujoco ? Between::kOdeFails : Between::kOdePasses;
+  if (Finding critical = LookAtCriticalFriction(step)) return Named(between, *critical);
+  const plan::Reason reason = mujoco ? step.replay.ode->reason : step.replay.reason;
+  if (reason == plan::Reason::kSimulationUnstable) {
+    return Named(between,
+                 {.cause = Cause::kUnstable,
+                  .text = std::string(mujoco ? "ODE" : "MuJoCo") + " did not come through: " +
+                          (mujoco ? step.replay.ode->detail : step.replay.detail)});
+  }
+  if (!mujoco) return Named(between, ReplayFault(step).Explain());
+  StepReplay failed = step.replay;
+  static_cast<StepMotion&>(failed) = *step.replay.ode;
+  return Named(
+      between,
+      ReplayFault({step.object, step.located, step.check, failed, step.settings}).Explain());
+}
+
 std::string LikelyCauseText(const Disagreement& found) {
   return (found.cause == Cause::kUnknown ? "" : "likely cause: ") + found.text;
 }
@@ -264,6 +298,10 @@ std::string_view BetweenName(Between between) {
       return "analysis-fails";
     case Between::kFixedFails:
       return "fixed-fails";
+    case Between::kOdeFails:
+      return "ode-fails";
+    case Between::kOdePasses:
+      return "ode-passes";
   }
   return "";
 }
@@ -288,6 +326,8 @@ std::string_view CauseName(Cause cause) {
       return "no-shake";
     case Cause::kCriticalFriction:
       return "critical-friction";
+    case Cause::kUnstable:
+      return "unstable";
     case Cause::kUnknown:
       return "unknown";
   }

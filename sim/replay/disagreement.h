@@ -17,6 +17,8 @@ enum class Between {
   kReplayFails,    ///< the analysis passes the step, the replay fails it
   kAnalysisFails,  ///< the other way round, where someone replays what the analysis fails
   kFixedFails,     ///< adapted forces resist the shake, a fixed squeeze does not
+  kOdeFails,       ///< MuJoCo passes the step, ODE fails it
+  kOdePasses,      ///< the other way round
 };
 
 /// What is likely behind it, in the order in which it is looked for.
@@ -30,6 +32,7 @@ enum class Cause {
   kNotSimulated,      ///< the analytic fault is none that a replay looks at
   kNoShake,           ///< a replay without shake: the weight alone does not test the grasp
   kCriticalFriction,  ///< friction within 2 % of the critical one
+  kUnstable,          ///< one of two engines did not come through
   kUnknown,           ///< none of these
 };
 
@@ -56,6 +59,11 @@ struct ExaminedStep {
 /// clearance slips too, and a grasp that is too weak reaches its cones.
 [[nodiscard]] std::optional<Disagreement> ExplainDisagreement(const ExaminedStep& step);
 
+/// Compares what the two engines say of a step that both replayed; nullopt where they agree, or
+/// where both have not replayed it. Friction within kNearCriticalOfTwo of the critical one comes
+/// first: there it is rounding that decides; then what makes a replay fail.
+[[nodiscard]] std::optional<Disagreement> ExplainEngines(const ExaminedStep& step);
+
 /// "likely cause: the quality is below the shake: …", or that none was found.
 [[nodiscard]] std::string LikelyCauseText(const Disagreement& found);
 
@@ -67,5 +75,7 @@ struct ExaminedStep {
 /// Friction over the critical one (of μ) up to which a grasp that is not force closure can stand a
 /// replay: none at or below 0.98 did in 2000.
 inline constexpr double kNearCritical = 0.98;
+/// Two engines may differ about a grasp whose friction is as near to the critical one, relatively.
+inline constexpr double kNearCriticalOfTwo = 0.02;
 
 }  // namespace regrasp::sim

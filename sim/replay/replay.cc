@@ -212,7 +212,10 @@ std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const object::Obje
 
 }  // namespace
 
-ReplayResult ReplayPlan(const object::Object& object, const plan::Plan& plan,
+namespace {
+
+/// In one engine.
+ReplayResult ReplayOnce(const object::Object& object, const plan::Plan& plan,
                         const ReplayOptions& options, const ReplayObserver& observer, int steps) {
   const int all = static_cast<int>(plan.steps.size()) + 1;
   const int total = steps < 0 ? all : std::min(steps, all);
@@ -226,6 +229,31 @@ ReplayResult ReplayPlan(const object::Object& object, const plan::Plan& plan,
     if (observer.on_progress) observer.on_progress(index + 1, total);
     if (result.steps.back().reason != plan::Reason::kNone) break;
   }
+  return result;
+}
+
+ReplayOptions In(EngineChoice engine, ReplayOptions options) {
+  options.engine = engine;
+  return options;
+}
+
+}  // namespace
+
+ReplayResult ReplayPlan(const object::Object& object, const plan::Plan& plan,
+                        const ReplayOptions& options, const ReplayObserver& observer, int steps) {
+  if (options.engine != EngineChoice::kBoth) {
+    return ReplayOnce(object, plan, options, observer, steps);
+  }
+  ReplayResult result =
+      ReplayOnce(object, plan, In(EngineChoice::kMujoco, options), observer, steps);
+  const int replayed = static_cast<int>(result.steps.size());
+  ReplayOptions by_ode = In(EngineChoice::kOde, options);
+  by_ode.stress = false;  // no verdict depends on it
+  ReplayResult second = ReplayOnce(object, plan, by_ode, {}, replayed);
+  for (StepReplay& step : second.steps) {
+    result.steps[step.index].ode = std::move(static_cast<StepMotion&>(step));
+  }
+  result.settings.engine = EngineChoice::kBoth;
   return result;
 }
 

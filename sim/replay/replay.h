@@ -42,6 +42,7 @@ struct StepReplay : StepMotion {
   FingerMargins motion_margins;  ///< of fingers that hold and do not slide on purpose
   FingerMargins rest_margins;    ///< at rest after the step
   std::optional<StepMotion> adapted, fixed;  ///< of each protocol that ran
+  std::optional<StepMotion> ode;             ///< by the second engine, where both were asked for
   std::vector<DirectionStress> stress;       ///< where it was asked for, in each direction
   /// Of a replay by a hand: displacement, rotation and motion are then from the planned pose.
   std::optional<HandMeasures> hand = std::nullopt;
@@ -52,12 +53,16 @@ struct ReplayResult {
   std::vector<StepReplay> steps;  ///< ends with the first step that fails
 };
 
-/// Replays a plan with frictional point fingers in MuJoCo: holds, switches and aligns as the plan
-/// says, shakes the object at every rest state along all axes, and gives a verdict.
+/// Replays a plan with frictional point fingers in a physics engine: holds, switches and aligns as
+/// the plan says, shakes the object at every rest state along all axes, and gives a verdict.
 ///
 /// What a pass means: with this friction, squeeze and finger model the object resisted ± shake ·
 /// squeeze along every axis in every rest state of the sequence. It believes nothing of the
 /// analytic check; a plan that fails the check can be replayed too.
+///
+/// Both engines have the same scene, script, shakes and monitor (sim/scene/engine.h is all that
+/// they know of it). With EngineChoice::kBoth the result is MuJoCo's, and each entry has what ODE
+/// says of it, up to the first that fails there; the observer watches MuJoCo.
 ///
 /// Deterministic: the same plan gives the same bits.
 /// @param plan   located on the object (PlanCheck::located).

@@ -1,10 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <memory>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "planner/base/index.h"
 #include "sim/scene/engine_state.h"
@@ -16,9 +13,6 @@ class UnstableError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-
-/// The version of MuJoCo that is linked, "2.2.2".
-[[nodiscard]] std::string EngineVersion();
 
 /// What the engine's units are. It has absolute limits and tolerances, so that every body should
 /// look alike to it.
@@ -33,55 +27,48 @@ struct EngineUnits {
 /// One of the places where fingers touch, Scene::sites (sim/scene/scene.h).
 using SiteIndex = Index<struct SiteTag>;
 
-/// MuJoCo's model and data of one scene (sim/scene/scene.h): a body "object" whose centre of mass
-/// is its origin, free or on the joints x, y and turn about z, and fingers "finger0" … on a slide
-/// along each axis of space or of the plane.
+/// The physics of one scene (sim/scene/scene.h): an object, free or in the plane, and fingers on
+/// servos that stop at the patches of sites. It knows no plan and judges nothing: targets of the
+/// servos and loads go in; poses, tips and forces of contacts come out.
 ///
-/// Warnings and errors of the engine neither reach the terminal nor leave a log file: they become
-/// exceptions. Lengths in metres, forces in newtons, seconds, all in the world frame of the scene,
-/// whatever the units of the scene are.
+/// Lengths in metres, forces in newtons, seconds, all in the world frame of the scene, whatever the
+/// units of the engine are.
 class Engine {
  public:
   using State = EngineState;
 
-  /// @param units  of the numbers in `mjcf`.
-  /// @throws EnvironmentError  the engine does not take the scene.
-  Engine(const std::string& mjcf, int fingers, const EngineUnits& units = {});
-  ~Engine();
+  Engine() = default;
+  virtual ~Engine() = default;
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  [[nodiscard]] double time() const;
-  [[nodiscard]] Eigen::Isometry3d object_pose() const;
-  [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
+  [[nodiscard]] virtual double time() const = 0;
+  [[nodiscard]] virtual Eigen::Isometry3d object_pose() const = 0;
+  [[nodiscard]] virtual Eigen::Vector3d tip(FingerIndex finger) const = 0;
   /// Force of a finger on the object in the last step; zero where they do not touch.
-  [[nodiscard]] Eigen::Vector3d contact_force(FingerIndex finger) const;
+  [[nodiscard]] virtual Eigen::Vector3d contact_force(FingerIndex finger) const = 0;
 
   /// Moves a finger there at once, at rest.
-  void PlaceTip(FingerIndex finger, const Eigen::Vector3d& tip);
+  virtual void PlaceTip(FingerIndex finger, const Eigen::Vector3d& tip) = 0;
   /// Moves a finger by an offset at once; its velocity stays.
-  void ShiftTip(FingerIndex finger, const Eigen::Vector3d& offset);
+  virtual void ShiftTip(FingerIndex finger, const Eigen::Vector3d& offset) = 0;
   /// What the finger's servo steers for: its tip position at rest under no force.
-  void SetTarget(FingerIndex finger, const Eigen::Vector3d& target);
+  virtual void SetTarget(FingerIndex finger, const Eigen::Vector3d& target) = 0;
   /// The patches of this site, and no others, stop the finger; none where it is not valid.
-  void SetSite(FingerIndex finger, SiteIndex site);
-  void AddSite(FingerIndex finger, SiteIndex site);
+  virtual void SetSite(FingerIndex finger, SiteIndex site) = 0;
+  virtual void AddSite(FingerIndex finger, SiteIndex site) = 0;
   /// Acceleration along −z, m/s².
-  void SetGravity(double gravity);
+  virtual void SetGravity(double gravity) = 0;
   /// Force and torque on the object about its centre of mass, besides gravity and fingers.
-  void SetLoad(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+  virtual void SetLoad(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) = 0;
 
   /// One time step.
   /// @throws UnstableError
-  void Step();
+  virtual void Step() = 0;
 
-  [[nodiscard]] State Save() const;
+  [[nodiscard]] virtual State Save() const = 0;
   /// Also after UnstableError.
-  void Restore(const State& state);
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  virtual void Restore(const State& state) = 0;
 };
 
 }  // namespace regrasp::sim

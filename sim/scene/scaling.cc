@@ -82,6 +82,7 @@ ReplaySettings DeriveSettings(const object::Object& object, double scale, double
   s.thickness_m = body.thickness_m;
   s.mass_kg = body.mass_kg;
   s.shake = options.shake;
+  s.engine = options.engine;
   s.protocol = options.protocol;
   s.stress = options.stress;
   s.tolerance = options.tolerance;

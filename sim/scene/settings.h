@@ -11,6 +11,13 @@ enum class Protocol {
   kBoth,     ///< both, from the same rest; the adapted one decides
 };
 
+/// The physics engine that a replay by points runs in (sim/scene/engine.h).
+enum class EngineChoice {
+  kMujoco,  ///< soft contacts and elliptic cones (sim/scene/mujoco_engine.h)
+  kOde,     ///< hard contacts and circular cones (sim/ode/ode_engine.h)
+  kBoth,    ///< both, one after the other; MuJoCo decides
+};
+
 /// How the replay moves fingers along the surface where it can choose (sim/scene/align_script.h).
 enum class AlignChoice {
   kImitate,  ///< spare fingers take over
@@ -46,8 +53,9 @@ struct ReplayOptions {
   double timestep_factor = 1;   ///< times what is derived
   double friction_factor = 1;   ///< the world's friction over the one that the hand believes
   double mass_factor = 1;       ///< the object's true mass over the one that the hand believes
-  bool gravity = true;          ///< 9.81 m/s² along −z of the object's own frame; none of
-                                ///< it in the plane, which carries a planar object's weight
+  EngineChoice engine = EngineChoice::kMujoco;
+  bool gravity = true;  ///< 9.81 m/s² along −z of the object's own frame; none of
+                        ///< it in the plane, which carries a planar object's weight
 };
 
 /// What of a fingertip touches the object in a replay by a hand.
@@ -83,6 +91,7 @@ struct ReplaySettings {
   double squeeze_N = 0;
   SqueezeSource squeeze_source = SqueezeSource::kShake;
   double shake = 0;
+  EngineChoice engine = EngineChoice::kMujoco;
   Protocol protocol = Protocol::kAdapted;
   bool stress = false;
   double tolerance = 0;

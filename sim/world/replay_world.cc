@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/ode/ode_engine.h"
+#include "sim/scene/mujoco_engine.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::sim {
@@ -20,6 +22,14 @@ grasp::Contact FirstContact(const object::Object& body, const Scene& scene, Fing
   return {place.from, body.inward_normal(place.face), place.face};
 }
 
+std::unique_ptr<Engine> MakeEngine(const Scene& scene, const object::Object& body) {
+  if (scene.settings.engine == EngineChoice::kOde) return std::make_unique<OdeEngine>(scene, body);
+  const EngineUnits units = UnitsOf(scene.settings);
+  return std::make_unique<MujocoEngine>(
+      FormatScene(InUnits(scene, units), body, {}, /*surface=*/false),
+      static_cast<int>(scene.fingers.size()), units);
+}
+
 }  // namespace
 
 ReplayWorld::ReplayWorld(const object::Object& body, const plan::Plan& plan, Scene scene,
@@ -27,12 +37,11 @@ ReplayWorld::ReplayWorld(const object::Object& body, const plan::Plan& plan, Sce
     : p_WS_(body.mass_properties().centroid * plan.scale),
       scene_(std::move(scene)),
       observer_(observer),
-      engine_(FormatScene(InUnits(scene_, UnitsOf(scene_.settings)), body, {}, /*surface=*/false),
-              static_cast<int>(scene_.fingers.size()), UnitsOf(scene_.settings)),
+      engine_(MakeEngine(scene_, body)),
       fingers_(scene_.fingers.size()),
       monitor_(scene_.settings) {
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
-    engine_.SetSite(f, SiteIndex());
+    engine_->SetSite(f, SiteIndex());
     fingers_[f].anchor_S = scene_.fingers[f].start_S;
     fingers_[f].contact = FirstContact(body, scene_, f);
   }
@@ -59,7 +68,7 @@ Vector3d ReplayWorld::ContactPoint_B(FingerIndex finger) const {
 }
 
 Vector3d ReplayWorld::ContactPoint_B(FingerIndex finger, const Isometry3d& X_BS) const {
-  return X_BS * engine_.tip(finger) + settings().fingertip_radius_m * fingers_[finger].contact.n;
+  return X_BS * engine_->tip(finger) + settings().fingertip_radius_m * fingers_[finger].contact.n;
 }
 
 Vector3d ReplayWorld::TipAt_S(const grasp::Contact& contact_B, double gap) const {
@@ -70,17 +79,17 @@ Vector3d ReplayWorld::weight_S() const { return {0, 0, -settings().mass_kg * gra
 
 void ReplayWorld::SetGravity(double gravity) {
   gravity_ = gravity;
-  engine_.SetGravity(gravity);
+  engine_->SetGravity(gravity);
 }
 
 void ReplayWorld::Step() {
   const Vector3d own_weight(0, 0, settings().finger_mass_kg * gravity_);
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     const WorldFinger& finger = fingers_[f];
-    engine_.SetTarget(
+    engine_->SetTarget(
         f, finger.anchor_S + (finger.force_S + own_weight) / settings().finger_stiffness_N_m);
   }
-  engine_.Step();
+  engine_->Step();
   MonitorMotion();
   if (sampling_) Sample();
 }
@@ -110,7 +119,7 @@ void ReplayWorld::MonitorMotion() {
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     const WorldFinger& finger = fingers_[f];
     if (!finger.holding || finger.sliding) continue;
-    monitor_.AddForce(f, engine_.contact_force(f), X_SB.linear() * finger.contact.n);
+    monitor_.AddForce(f, engine_->contact_force(f), X_SB.linear() * finger.contact.n);
     const Vector3d slide = ContactPoint_B(f, X_BS) - finger.touch_B;
     monitor_.AddSlip(f, (slide - slide.dot(finger.contact.n) * finger.contact.n).norm());
   }
@@ -124,14 +133,14 @@ void ReplayWorld::MonitorRest() {
 }
 
 void ReplayWorld::Sample() {
-  if (!observer_.on_sample || engine_.time() < next_sample_) return;
+  if (!observer_.on_sample || engine_->time() < next_sample_) return;
   observer_.on_sample(TakeSnapshot());
-  next_sample_ = engine_.time() + observer_.sample_interval_s;
+  next_sample_ = engine_->time() + observer_.sample_interval_s;
 }
 
 plan::Snapshot ReplayWorld::TakeSnapshot() const {
   plan::Snapshot snapshot;
-  snapshot.time_s = engine_.time();
+  snapshot.time_s = engine_->time();
   const Isometry3d X_SB = this->X_SB();
   snapshot.X_WO = Eigen::Translation3d(p_WS_) * X_SB * Eigen::Translation3d(-p_WS_);
   snapshot.fingertip_radius_m = settings().fingertip_radius_m;
@@ -141,11 +150,11 @@ plan::Snapshot ReplayWorld::TakeSnapshot() const {
     plan::FingerState state;
     state.finger = f;
     state.role = finger.role;
-    state.tip_W = p_WS_ + engine_.tip(state.finger);
+    state.tip_W = p_WS_ + engine_->tip(state.finger);
     state.normal_W = X_SB.linear() * finger.contact.n;
     state.contact_W =
         p_WS_ + X_SB * (finger.holding ? ContactPoint_B(state.finger) : finger.contact.p);
-    state.force_W = engine_.contact_force(state.finger);
+    state.force_W = engine_->contact_force(state.finger);
     if (finger.role == plan::FingerRole::kMoved) {
       for (const Vector3d& point_B : finger.path_B) state.path_W.push_back(p_WS_ + X_SB * point_B);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -42,10 +43,10 @@ class ReplayWorld {
   [[nodiscard]] const std::vector<WorldFinger>& fingers() const { return fingers_; }
   /// The fingers that hold, in ascending order.
   [[nodiscard]] std::vector<FingerIndex> HoldingFingers() const;
-  [[nodiscard]] Engine& engine() { return engine_; }
-  [[nodiscard]] const Engine& engine() const { return engine_; }
+  [[nodiscard]] Engine& engine() { return *engine_; }
+  [[nodiscard]] const Engine& engine() const { return *engine_; }
 
-  [[nodiscard]] Eigen::Isometry3d X_SB() const { return engine_.object_pose(); }
+  [[nodiscard]] Eigen::Isometry3d X_SB() const { return engine_->object_pose(); }
   /// Where the fingertip meets the surface, from the measured tip and the planned normal.
   [[nodiscard]] Eigen::Vector3d ContactPoint_B(FingerIndex finger) const;
   /// The tip of a finger that would touch the object as it lies now at `contact_B`, `gap` away.
@@ -81,7 +82,7 @@ class ReplayWorld {
   Eigen::Vector3d p_WS_;  ///< the centroid in W
   Scene scene_;
   const ReplayObserver& observer_;
-  Engine engine_;
+  std::unique_ptr<Engine> engine_;
   std::vector<WorldFinger> fingers_;
   MotionMonitor monitor_;
   double gravity_ = 0;

@@ -102,6 +102,8 @@ class Gait(ProgramCase):
                             (("--hand", ring5, "--tip"), "--tip"),
                             ((*points, "--trials", "2", "--joint-noise", "1"),
                              "goes with --replay hand"),
+                            (("--hand", ring5, "--engine", "ode"),
+                             "--engine goes with --replay points"),
                             (("--hand", ring5, "--stress"), "goes with --replay points")):
             done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
                                     *more, program="validate")

@@ -145,6 +145,29 @@ class Validate(ProgramCase):
         self.refuse('--protocol: expected one of adapted, fixed, both, found "loose"',
                     protocol="loose")
 
+    def test_a_second_engine_judges_the_same_plan(self):
+        done, report = self.assert_passes("--no-frames", engine="ode")
+        self.assertEqual(report["settings"]["engine"], "ode")
+        mujoco = self.assert_passes("--no-frames")[1]
+        self.assertEqual(mujoco["settings"]["engine"], "mujoco")
+        for one, other in zip(report["steps"], mujoco["steps"], strict=True):
+            self.assertNotEqual(one["simulation"]["motion_m"], other["simulation"]["motion_m"])
+        done, both = self.assert_passes("--no-frames", engine="both")
+        self.assertIn(f"engines: MuJoCo and ODE agree on {len(both['steps'])} steps", done.stdout)
+        for step, by_mujoco, by_ode in zip(both["steps"], mujoco["steps"], report["steps"],
+                                           strict=True):
+            engines = step["engines"]
+            self.assertIsNone(engines["cause"])
+            self.assertEqual(engines["mujoco"]["motion_m"], by_mujoco["simulation"]["motion_m"])
+            self.assertEqual(engines["ode"]["motion_m"], by_ode["simulation"]["motion_m"])
+        # What one of them fails for the other one fails for, too.
+        failed = self.assert_fails(0, "contact-lost", engine="both", shake="0.6")
+        self.assertEqual(failed["steps"][0]["engines"]["ode"]["verdict"], "fail")
+        self.assert_fails(0, failed["steps"][0]["engines"]["ode"]["reason"], engine="ode",
+                          shake="0.6")
+        self.refuse('--engine: expected one of mujoco, ode, both, found "bullet"', engine="bullet")
+        self.refuse("--engine", "--engine")
+
     def test_stress_finds_the_largest_push_by_two_routes(self):
         done, report = self.assert_passes("--no-frames", "--stress")
         self.assertIn("largest push", done.stdout)

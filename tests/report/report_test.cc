@@ -228,6 +228,31 @@ TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
   EXPECT_THAT(FormatReportJson(weak), HasSubstr("\"quality-below-shake\""));
 }
 
+TEST(ReportTest, TheReportOfAPlanNamesEveryStepOnWhichTwoEnginesDiffer) {
+  const sim::CubeCase cube;
+  plan::Plan plan = sim::MakePlan(cube.Start(), 25);
+  plan.goal = plan::ContactsOf(plan.initial);
+  sim::ReplayOptions options;
+  EXPECT_THAT(FormatReportTable(Validate(cube.object, plan, {}, options)),
+              Not(HasSubstr("engines")));
+  options.engine = sim::EngineChoice::kBoth;
+  Report report = Validate(cube.object, plan, {}, options);
+  EXPECT_TRUE(report.passed());
+  EXPECT_FALSE(report.steps.at(0).engines);
+  EXPECT_THAT(FormatReportTable(report), HasSubstr("engines: MuJoCo and ODE agree on 1 step\n"));
+
+  report.steps[0].replay->ode->reason = plan::Reason::kSlipped;
+  report.steps[0].replay->ode->detail = "finger 2 slipped";
+  report.steps[0].engines =
+      sim::Disagreement{sim::Between::kOdeFails, sim::Cause::kQuality, "a weak grasp"};
+  EXPECT_TRUE(report.passed()) << "MuJoCo decides";
+  const std::string table = FormatReportTable(report);
+  EXPECT_THAT(table, HasSubstr("step 0: MuJoCo passes, ODE fails (finger 2 slipped); likely cause: "
+                               "a weak grasp\n"));
+  EXPECT_THAT(table, HasSubstr("engines: MuJoCo and ODE agree on 0 steps\n"));
+  EXPECT_THAT(FormatReportJson(report), HasSubstr("\"ode-fails\""));
+}
+
 TEST(VerdictText, OfAFailedStepSaysWhy) {
   ReportStep step;
   EXPECT_EQ(VerdictText(step), "pass");

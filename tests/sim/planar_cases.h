@@ -52,4 +52,18 @@ inline object::Polygon MakeFrame() {
       "frame");
 }
 
+/// Four fingers around a square, one of which goes round a corner at a share of the path.
+inline plan::Align AroundTheCorner(const object::Polygon& square) {
+  const auto grasp = [&](double right, double above, double left, const grasp::Contact& moving) {
+    return plan::FingerGrasp{OnEdge(square, 0, 1, right),
+                             OnEdge(square, 1, 2, above),
+                             OnEdge(square, 2, 3, left),
+                             {FingerIndex(3), moving}};
+  };
+  return {{grasp(0.963, 0.307, 0.433, OnEdge(square, 0, 0.303)),
+           grasp(0.441, 0.798, 0.554, OnEdge(square, 0, 0)),
+           grasp(0.441, 0.798, 0.554, OnEdge(square, 3, 1)),
+           grasp(0.356, 0.878, 0.574, OnEdge(square, 3, 0.951))}};
+}
+
 }  // namespace regrasp::sim

@@ -45,20 +45,6 @@ TEST(RollFingers, CarriesOutAnAlignOfAHandThatNeedsAllFingers) {
   ExpectRolled(triangle, step, align);
 }
 
-/// Four fingers around a square, one of which goes round a corner at a share of the path.
-plan::Align AroundTheCorner(const object::Polygon& square) {
-  const auto grasp = [&](double right, double above, double left, const grasp::Contact& moving) {
-    return plan::FingerGrasp{OnEdge(square, 0, 1, right),
-                             OnEdge(square, 1, 2, above),
-                             OnEdge(square, 2, 3, left),
-                             {FingerIndex(3), moving}};
-  };
-  return {{grasp(0.963, 0.307, 0.433, OnEdge(square, 0, 0.303)),
-           grasp(0.441, 0.798, 0.554, OnEdge(square, 0, 0)),
-           grasp(0.441, 0.798, 0.554, OnEdge(square, 3, 1)),
-           grasp(0.356, 0.878, 0.574, OnEdge(square, 3, 0.951))}};
-}
-
 TEST(RollFingers, GoesRoundACornerOfASquareWithAllFourFingers) {
   const object::Polygon square = MakeSquare(0.03);
   const plan::Align align = AroundTheCorner(square);

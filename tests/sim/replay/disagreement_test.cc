@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/grasp/largest_load.h"
+#include "planner/grasp/required_half_angle.h"
 #include "planner/plan/check.h"
 #include "sim/scene/scaling.h"
 #include "tests/sim/planar_cases.h"
@@ -187,6 +189,74 @@ TEST(DisagreementTest, AReplayThatPassesAGraspThatTheAnalysisRefusesSaysWhy) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->between, Between::kAnalysisFails);
   EXPECT_EQ(found->cause, Cause::kNoShake);
+}
+
+/// A hold that both engines replayed.
+struct HoldOfTwo : Hold {
+  using Hold::Hold;
+
+  [[nodiscard]] std::optional<Disagreement> Compare(plan::Reason mujoco, plan::Reason ode,
+                                                    const FingerMargins& ode_margins = {}) {
+    replay.reason = mujoco;
+    replay.ode = StepMotion();
+    replay.ode->shake_margins = ode_margins;
+    replay.ode->reason = ode;
+    replay.ode->detail = "what ODE says";
+    return ExplainEngines({object, plan, check, replay, settings});
+  }
+};
+
+constexpr plan::Reason kPasses = plan::Reason::kNone;
+
+TEST(EnginesTest, WhereTheyAgreeOrOneHasNotRunThereIsNothingToExplain) {
+  const CubeCase cube;
+  HoldOfTwo hold(cube.object, MakePlan(cube.Start(), 25));
+  EXPECT_FALSE(ExplainEngines({hold.object, hold.plan, hold.check, hold.replay, hold.settings}));
+  EXPECT_FALSE(hold.Compare(kPasses, kPasses));
+  EXPECT_FALSE(hold.Compare(plan::Reason::kSlipped, plan::Reason::kContactLost)) << "both fail";
+  hold.check.skipped = true;
+  EXPECT_FALSE(hold.Compare(kPasses, plan::Reason::kSlipped));
+}
+
+TEST(EnginesTest, SayWhichOfThemFails) {
+  const CubeCase cube;
+  HoldOfTwo hold(cube.object, MakePlan(cube.Start(), 25));
+  EXPECT_EQ(hold.Compare(kPasses, plan::Reason::kSlipped).value().between, Between::kOdeFails);
+  EXPECT_EQ(hold.Compare(plan::Reason::kSlipped, kPasses).value().between, Between::kOdePasses);
+}
+
+TEST(EnginesTest, FrictionNearTheCriticalOneComesFirstAndAWeakGraspNext) {
+  const CubeCase cube;
+  // The grasp requires 5.3°.
+  HoldOfTwo hold(cube.object, MakePlan(cube.Start(), 5.4));
+  const auto required =
+      grasp::ComputeRequiredHalfAngle(plan::ContactsOf(cube.Start()), cube.object.wrench_frame());
+  hold.check.required = required;
+  hold.settings.mu = 1.01 * std::tan(required->upper);
+  const Disagreement near = hold.Compare(kPasses, plan::Reason::kSlipped).value();
+  EXPECT_EQ(near.cause, Cause::kCriticalFriction);
+  EXPECT_THAT(near.text, HasSubstr("1.01 times the critical one"));
+  hold.settings.mu = 1.04 * std::tan(required->upper);
+  EXPECT_EQ(hold.Compare(kPasses, plan::Reason::kSlipped).value().cause, Cause::kQuality);
+}
+
+TEST(EnginesTest, AnEngineThatDoesNotComeThroughIsNamed) {
+  const CubeCase cube;
+  HoldOfTwo hold(cube.object, MakePlan(cube.Start(), 25));
+  const auto found = hold.Compare(kPasses, plan::Reason::kSimulationUnstable);
+  EXPECT_EQ(found.value().cause, Cause::kUnstable);
+  EXPECT_THAT(found->text, HasSubstr("ODE did not come through: what ODE says"));
+}
+
+TEST(EnginesTest, TheForcesOfTheEngineThatFailsAreLookedAt) {
+  const CubeCase cube;
+  HoldOfTwo hold(cube.object, MakePlan(cube.Start(), 25));
+  EXPECT_EQ(hold.Compare(kPasses, plan::Reason::kSlipped).value().cause, Cause::kUnknown);
+  hold.replay.shake_margins = {{FingerIndex(1), 0.0}};
+  EXPECT_EQ(hold.Compare(kPasses, plan::Reason::kSlipped).value().cause, Cause::kUnknown)
+      << "MuJoCo's";
+  const auto reached = hold.Compare(kPasses, plan::Reason::kSlipped, {{FingerIndex(1), 0.0}});
+  EXPECT_EQ(reached.value().cause, Cause::kConeReached);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "planner/base/error.h"
-#include "sim/scene/engine.h"
+#include "sim/scene/mujoco_engine.h"
 #include "sim/scene/scaling.h"
 #include "tests/sim/mujoco_file.h"
 #include "tests/sim/replay_cases.h"
@@ -118,7 +118,7 @@ TEST(SceneMjcfTest, LeavesOutWhatLaterVersionsOfMujocoRenamed) {
 
 TEST(EngineTest, AnErrorOfTheEngineBecomesAnException) {
   const CubeCase cube;
-  const Engine engine(
+  const MujocoEngine engine(
       FormatScene(CubeScene(cube), dynamic_cast<const object::Polyhedron&>(cube.object), {}, false),
       5);
   EXPECT_THROW(mju_error("made up"), UnstableError);
@@ -128,7 +128,7 @@ TEST(EngineTest, AnErrorOfTheEngineBecomesAnException) {
 
 TEST(EngineTest, AStateThatIsNotFiniteIsUnstable) {
   const CubeCase cube;
-  Engine engine(
+  MujocoEngine engine(
       FormatScene(CubeScene(cube), dynamic_cast<const object::Polyhedron&>(cube.object), {}, false),
       5);
   engine.Step();
@@ -138,7 +138,7 @@ TEST(EngineTest, AStateThatIsNotFiniteIsUnstable) {
 
 TEST(EngineTest, AnAccelerationBeyondTheEnginesLimitIsUnstable) {
   const CubeCase cube;
-  Engine engine(
+  MujocoEngine engine(
       FormatScene(CubeScene(cube), dynamic_cast<const object::Polyhedron&>(cube.object), {}, false),
       5);
   engine.SetLoad({1e30, 0, 0}, Eigen::Vector3d::Zero());
@@ -146,12 +146,13 @@ TEST(EngineTest, AnAccelerationBeyondTheEnginesLimitIsUnstable) {
 }
 
 TEST(EngineTest, ASceneThatIsNoSceneIsRefused) {
-  EXPECT_THROW(Engine("<mujoco><worldbody><geom/></worldbody></mujoco>", 0), EnvironmentError);
+  EXPECT_THROW(MujocoEngine("<mujoco><worldbody><geom/></worldbody></mujoco>", 0),
+               EnvironmentError);
 }
 
 TEST(EngineTest, StepsFromASavedStateRepeatTheSameBits) {
   const CubeCase cube;
-  Engine engine(
+  MujocoEngine engine(
       FormatScene(CubeScene(cube), dynamic_cast<const object::Polyhedron&>(cube.object), {}, false),
       5);
   engine.SetGravity(kGravity);

@@ -1,4 +1,4 @@
-#include "sim/scene/engine.h"
+#include "sim/scene/mujoco_engine.h"
 
 #include <mujoco/mujoco.h>
 
@@ -34,7 +34,7 @@ ModelPtr LoadModel(const std::string& mjcf) {
 
 std::string EngineVersion() { return mj_versionString(); }
 
-struct Engine::Impl {
+struct MujocoEngine::Impl {
   EngineHooks hooks;
   EngineUnits units;
   ModelPtr model;
@@ -53,7 +53,7 @@ struct Engine::Impl {
   }
 };
 
-Engine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits& given)
+MujocoEngine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits& given)
     : units(given), model(LoadModel(mjcf)) {
   data.reset(mj_makeData(model.get()));
   if (!data) throw EnvironmentError("MuJoCo has no memory for the scene");
@@ -80,17 +80,17 @@ Engine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits& give
   mj_forward(model.get(), data.get());
 }
 
-int Engine::Impl::First(FingerIndex finger) const {
+int MujocoEngine::Impl::First(FingerIndex finger) const {
   return model->body_jntadr[body_of_finger[finger]];
 }
 
-Engine::Engine(const std::string& mjcf, int fingers, const EngineUnits& units)
+MujocoEngine::MujocoEngine(const std::string& mjcf, int fingers, const EngineUnits& units)
     : impl_(std::make_unique<Impl>(mjcf, fingers, units)) {}
-Engine::~Engine() = default;
+MujocoEngine::~MujocoEngine() = default;
 
-double Engine::time() const { return impl_->data->time * impl_->units.time_s; }
+double MujocoEngine::time() const { return impl_->data->time * impl_->units.time_s; }
 
-Eigen::Isometry3d Engine::object_pose() const {
+Eigen::Isometry3d MujocoEngine::object_pose() const {
   const mjtNum* q = impl_->data->qpos;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   if (impl_->model->jnt_type[0] != mjJNT_FREE) {
@@ -103,7 +103,7 @@ Eigen::Isometry3d Engine::object_pose() const {
   return pose;
 }
 
-Vector3d Engine::tip(FingerIndex finger) const {
+Vector3d MujocoEngine::tip(FingerIndex finger) const {
   const mjModel& m = *impl_->model;
   const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
   const mjtNum* q = impl_->data->qpos + m.jnt_qposadr[impl_->First(finger)];
@@ -112,7 +112,7 @@ Vector3d Engine::tip(FingerIndex finger) const {
   return impl_->units.length_m * tip;
 }
 
-Vector3d Engine::contact_force(FingerIndex finger) const {
+Vector3d MujocoEngine::contact_force(FingerIndex finger) const {
   const mjData& d = *impl_->data;
   Vector3d total = Vector3d::Zero();
   for (int i = 0; i < d.ncon; ++i) {
@@ -129,7 +129,7 @@ Vector3d Engine::contact_force(FingerIndex finger) const {
   return impl_->units.force_N() * total;
 }
 
-void Engine::PlaceTip(FingerIndex finger, const Vector3d& tip) {
+void MujocoEngine::PlaceTip(FingerIndex finger, const Vector3d& tip) {
   const mjModel& m = *impl_->model;
   const int joint = impl_->First(finger);
   const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
@@ -139,14 +139,14 @@ void Engine::PlaceTip(FingerIndex finger, const Vector3d& tip) {
   }
 }
 
-void Engine::ShiftTip(FingerIndex finger, const Vector3d& offset) {
+void MujocoEngine::ShiftTip(FingerIndex finger, const Vector3d& offset) {
   const int joint = impl_->First(finger);
   for (int k = 0; k < impl_->slides; ++k) {
     impl_->data->qpos[impl_->model->jnt_qposadr[joint] + k] += offset[k] / impl_->units.length_m;
   }
 }
 
-void Engine::SetTarget(FingerIndex finger, const Vector3d& target) {
+void MujocoEngine::SetTarget(FingerIndex finger, const Vector3d& target) {
   const mjtNum* start = impl_->model->body_pos + 3 * impl_->body_of_finger[finger];
   const int slides = impl_->slides;
   for (int k = 0; k < slides; ++k) {
@@ -154,24 +154,24 @@ void Engine::SetTarget(FingerIndex finger, const Vector3d& target) {
   }
 }
 
-void Engine::SetSite(FingerIndex finger, SiteIndex site) {
+void MujocoEngine::SetSite(FingerIndex finger, SiteIndex site) {
   mjModel& m = *impl_->model;
   for (int g = 0; g < m.ngeom; ++g) m.geom_conaffinity[g] &= ~impl_->BitOf(finger);
   if (site.valid()) AddSite(finger, site);
 }
 
-void Engine::AddSite(FingerIndex finger, SiteIndex site) {
+void MujocoEngine::AddSite(FingerIndex finger, SiteIndex site) {
   for (const int g : impl_->geoms_of_site[site]) {
     impl_->model->geom_conaffinity[g] |= impl_->BitOf(finger);
   }
 }
 
-void Engine::SetGravity(double gravity) {
+void MujocoEngine::SetGravity(double gravity) {
   const EngineUnits& units = impl_->units;
   impl_->model->opt.gravity[2] = -gravity * units.time_s * units.time_s / units.length_m;
 }
 
-void Engine::SetLoad(const Vector3d& force, const Vector3d& torque) {
+void MujocoEngine::SetLoad(const Vector3d& force, const Vector3d& torque) {
   mjtNum* load = impl_->data->xfrc_applied + 6 * impl_->object;
   const double newton = 1 / impl_->units.force_N();
   for (int k = 0; k < 3; ++k) {
@@ -180,14 +180,14 @@ void Engine::SetLoad(const Vector3d& force, const Vector3d& torque) {
   }
 }
 
-void Engine::Step() {
+void MujocoEngine::Step() {
   mjData& d = *impl_->data;
   mj_step(impl_->model.get(), &d);
   CheckState(*impl_->model, d);
 }
 
-Engine::State Engine::Save() const { return SaveState(*impl_->model, *impl_->data); }
+MujocoEngine::State MujocoEngine::Save() const { return SaveState(*impl_->model, *impl_->data); }
 
-void Engine::Restore(const State& state) { RestoreState(state, *impl_->data); }
+void MujocoEngine::Restore(const State& state) { RestoreState(state, *impl_->data); }
 
 }  // namespace regrasp::sim
