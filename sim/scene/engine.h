@@ -56,6 +56,8 @@ class Engine {
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
   /// Force of a finger on the object in the last step; zero where they do not touch.
   [[nodiscard]] Eigen::Vector3d contact_force(FingerIndex finger) const;
+  /// Its torque on the object about the normal; zero of hard points.
+  [[nodiscard]] Eigen::Vector3d contact_torque(FingerIndex finger) const;
 
   /// Moves a finger there at once, at rest.
   void PlaceTip(FingerIndex finger, const Eigen::Vector3d& tip);
@@ -81,6 +83,9 @@ class Engine {
 
  private:
   struct Impl;
+  /// Of all contacts of a finger three numbers of what the engine has in their frames, from `begin`
+  /// on, in the world's axes, on the object.
+  [[nodiscard]] Eigen::Vector3d SumOfContacts(FingerIndex finger, int begin) const;
   std::unique_ptr<Impl> impl_;
 };
 

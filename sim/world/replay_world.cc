@@ -62,6 +62,11 @@ Vector3d ReplayWorld::ContactPoint_B(FingerIndex finger, const Isometry3d& X_BS)
   return X_BS * engine_.tip(finger) + settings().fingertip_radius_m * fingers_[finger].contact.n;
 }
 
+double ReplayWorld::Twist(FingerIndex finger) const {
+  if (settings().torsion_m == 0) return 0;
+  return engine_.contact_torque(finger).norm() / settings().torsion_m;
+}
+
 Vector3d ReplayWorld::TipAt_S(const grasp::Contact& contact_B, double gap) const {
   return X_SB() * (contact_B.p - (settings().fingertip_radius_m + gap) * contact_B.n);
 }
@@ -110,7 +115,7 @@ void ReplayWorld::MonitorMotion() {
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     const WorldFinger& finger = fingers_[f];
     if (!finger.holding || finger.sliding) continue;
-    monitor_.AddForce(f, engine_.contact_force(f), X_SB.linear() * finger.contact.n);
+    monitor_.AddForce(f, engine_.contact_force(f), X_SB.linear() * finger.contact.n, Twist(f));
     const Vector3d slide = ContactPoint_B(f, X_BS) - finger.touch_B;
     monitor_.AddSlip(f, (slide - slide.dot(finger.contact.n) * finger.contact.n).norm());
   }
