@@ -87,8 +87,11 @@ TEST(SoftProofTest, EveryClearAnswerHasAProofThatHolds) {
     const double half_angle = Radians(random.Uniform(10, 50));
     const auto decision = grasp::TestForceClosure(grasp, UnitFrame(3), half_angle).decision;
     const Kind kind = Check(grasp, FindGraspProof(grasp, 3, half_angle), half_angle);
-    if (kind == Kind::kForceClosure) EXPECT_EQ(decision, grasp::Decision::kYes) << trial;
-    if (kind == Kind::kNotForceClosure) EXPECT_EQ(decision, grasp::Decision::kNo) << trial;
+    if (kind == Kind::kForceClosure) {
+      EXPECT_EQ(decision, grasp::Decision::kYes) << trial;
+    } else if (kind == Kind::kNotForceClosure) {
+      EXPECT_EQ(decision, grasp::Decision::kNo) << trial;
+    }
     proved += kind == Kind::kForceClosure;
     refuted += kind == Kind::kNotForceClosure;
     without += kind == Kind::kNothing;
