@@ -55,9 +55,9 @@ TEST(SoftFingersReplay, WhatTheyResistAboutTheirLineIsTheTorsionThatTheyHave) {
     const double torsion = TorsionFor(cube, times);
     const plan::Plan plan = PairOnCube(cube, torsion);
     const double quality = grasp::ComputeQuality(plan::ContactsOf(plan.initial),
-                                                 cube.object.wrench_frame(), plan.half_angle)
-                               .lower;
-    EXPECT_NEAR(quality, times * ReplayOptions().shake, 0.02 * quality);
+                                                 cube.object.wrench_frame(), plan.half_angle, 0.2)
+                               .upper;
+    EXPECT_NEAR(quality, times * ReplayOptions().shake, 1e-6);
     const plan::Reason reason = ReasonOf(cube, plan);
     if (times < 1) {
       EXPECT_TRUE(LosesObject(reason)) << times;
