@@ -78,6 +78,7 @@ void Judge(const object::Object& object, const PlacedGrasps& placed, int contact
   grasp::JudgeOptions judge;
   judge.half_angle = options.friction.required_half_angle();
   judge.frame = object.wrench_frame();
+  judge.torsion = options.contact.torsion().value_or(0);
   judge.required_half_angle = options.required_angle;
   judge.quality = options.quality;
   const grasp::GraspVerdicts found =
@@ -123,6 +124,7 @@ void Replay(const object::Object& object, const PlacedGrasps& placed, int contac
           report::MakeHoldPlan(object, GraspAt(placed, contacts, held[k]),
                                options.friction.required_half_angle(), options.scale.value_or(1));
       hold.finger_radius = options.replay.finger_radius;
+      hold.torsion = options.contact.torsion().value_or(0);
       const report::Report report = report::Validate(object, hold, {}, options.replay);
       verdicts.reason[g] = static_cast<double>(report.steps.front().reason());
       verdicts.holds[g] = report.passed() ? 1 : 0;
@@ -205,6 +207,7 @@ int RunGrasps(const ValidateOptions& options) {
   CheckOutputs(options);
   ProgressLine progress(options.quiet);
   const object::ObjectFile object = ReadGraspObject(options, progress);
+  CheckTorsionFits(options, *object.object);
   progress.Report("reading " + options.grasps_path);
   const GraspTable table = ReadGrasps(options.grasps_path, object.object->dimension());
   progress.Report("judging " + std::to_string(table.count) + " grasps");

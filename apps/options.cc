@@ -124,4 +124,25 @@ double FrictionOptions::required_half_angle() const {
   return *angle;
 }
 
+void ContactOptions::AddTo(CLI::App& app, const std::string& usual) {
+  AddChoice<std::optional<bool>>(
+      app, "--contact", soft_, {{"hard", false}, {"soft", true}},
+      "What a contact resists. hard: forces inside its friction cone; soft: also a torque about "
+      "its normal, as much as --torsion says (default " +
+          usual + ")");
+  AddNumber(app, "--torsion", torsion_, NumberRange::Positive(),
+            "Torsion of soft fingers, in the object file's own unit of length; the largest torque "
+            "about a contact's normal over its largest tangential force, as two thirds of the "
+            "radius of a round patch that presses evenly. Both together keep to an ellipse",
+            "R");
+}
+
+std::optional<double> ContactOptions::torsion() const {
+  if (torsion_ && soft_ != true) throw InputError("--torsion: goes with --contact soft");
+  if (!soft_) return std::nullopt;
+  if (!*soft_) return 0;
+  if (!torsion_) throw InputError("--contact soft: needs --torsion, a length");
+  return torsion_;
+}
+
 }  // namespace regrasp::apps

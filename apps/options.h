@@ -113,4 +113,21 @@ class FrictionOptions {
   std::optional<double> mu_;
 };
 
+/// What contacts are, as the command line gives it: hard points or soft fingers.
+class ContactOptions {
+ public:
+  /// Adds `--contact hard|soft` and `--torsion R`.
+  /// @param usual  what holds where neither is given: "hard", "that of the plan".
+  void AddTo(CLI::App& app, const std::string& usual);
+
+  /// grasp::Contact::torsion, the object's unit of length, 0 of hard points; nullopt where nothing
+  /// is given.
+  /// @throws InputError  --torsion without --contact soft, or that without --torsion.
+  [[nodiscard]] std::optional<double> torsion() const;
+
+ private:
+  std::optional<bool> soft_;
+  std::optional<double> torsion_;
+};
+
 }  // namespace regrasp::apps

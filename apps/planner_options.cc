@@ -67,6 +67,7 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
                "Fingers may stand on surface that a repair invented; otherwise planners keep off "
                "it, as nobody knows what is there");
   friction.AddTo(app);
+  contact.AddTo(app, "hard");
   BeginGroup(app, "Planner");
   std::string type;
   for (const std::string& name : NamesForUsers()) type += (type.empty() ? "" : "|") + name;
@@ -129,6 +130,7 @@ planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const
   request.object = &of;
   request.object_name = object;
   request.criteria.half_angle = PlannedHalfAngle();
+  request.hand.torsion = contact.torsion().value_or(0);
   request.seed = seed;
   request.deadline = deadline();
   request.spanning = spanning;

@@ -24,6 +24,7 @@ struct PlannerOptions {
   double roughness_deg = 5;
   bool allow_invented = false;  ///< fingers on surface that a repair invented
   FrictionOptions friction;
+  ContactOptions contact;
   std::string planner = "auto";
   planning::Spanning spanning = planning::Spanning::kAdaptive;
   std::uint64_t seed = 0;

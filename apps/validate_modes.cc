@@ -44,7 +44,7 @@ void CheckForGrasps(ValidateOptions& options, const CLI::App& app) {
       "--object",         "--grasps",   "--required-angle", "--quality", "--out",
       "--friction-angle", "--mu",       "--max-deviation",  "--faces",   "--part",
       "--repair",         "--solidify", "--shells",         "--quiet",   "--scale",
-      "--replay"};
+      "--replay",         "--contact",  "--torsion"};
   options.replay_grasps = app.count("--replay") > 0;
   if (options.replay_by_hand) {
     throw InputError("--replay hand: goes with a plan; grasps are replayed by points");

@@ -124,6 +124,7 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
 /// The object and the fingers, beside what the plan says of them.
 void AddBodies(CLI::App& app, ValidateOptions& options) {
   options.friction.AddTo(app);
+  options.contact.AddTo(app, "that of the plan; of grasps hard");
   AddScale(app, options.scale,
            "Metres per unit of length of the object file; must be the plan's, 1 for a grasp where "
            "left out");

@@ -53,6 +53,7 @@ struct ValidateOptions {
   sim::HandTolerance tolerance;  ///< after Finish
   std::string verify;            ///< a report whose proofs are checked; nothing else is done
   FrictionOptions friction;
+  ContactOptions contact;
   RepairOptions repair;  ///< of a grasp's object; a plan holds its own
   std::optional<double> scale;
   sim::ReplayOptions replay;

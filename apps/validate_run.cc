@@ -84,6 +84,7 @@ struct CheckTask {
   CheckTask(const ValidateOptions& options, const ValidateTask& task) {
     const object::Object& object = *task.object.object;
     check.half_angle = options.friction.half_angle();
+    check.torsion = options.contact.torsion();
     check.finger_radius = options.replay.finger_radius;
     check.allow_undecided = options.allow_undecided;
     if (task.plan.at_given_points) check.given_points = &task.given_points;
@@ -175,6 +176,14 @@ std::string UncheckedHandWarning(const ValidateOptions& options, const plan::Pla
          " checks its joints and paths, too";
 }
 
+/// The plan as the report judges it.
+plan::Plan Located(const object::Object& object, const plan::Plan& plan,
+                   const report::Report& report) {
+  plan::Plan located = plan::LocatePlan(object, plan);
+  plan::SetTorsion(report.torsion, located);
+  return located;
+}
+
 /// Of a plan whose replay passes.
 void AddTrials(const ValidateOptions& options, const ValidateTask& task, report::Report& report) {
   if (options.trials.count == 0) return;
@@ -203,8 +212,8 @@ void AddTrials(const ValidateOptions& options, const ValidateTask& task, report:
   if (replay.engine == sim::EngineChoice::kBoth) replay.engine = sim::EngineChoice::kMujoco;
   // A hand does not know of the noise.
   if (replay.hand_squeeze) replay.squeeze_N = report.settings->squeeze_N;
-  report.trials = sim::RunTrials(object, plan::LocatePlan(object, task.plan), replay,
-                                 options.trials, report.settings->fingertip_radius_m, tell);
+  report.trials = sim::RunTrials(object, Located(object, task.plan, report), replay, options.trials,
+                                 report.settings->fingertip_radius_m, tell);
 }
 
 render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const ValidateTask& task) {
@@ -414,7 +423,7 @@ ValidationRun RunValidation(const ValidateOptions& options) {
                                  CommandText(options, inputs),
                                  date};
   AddTrials(options, task, report);
-  if (options.certificates) report::AddProofs(plan::LocatePlan(object, task.plan), report);
+  if (options.certificates) report::AddProofs(Located(object, task.plan, report), report);
   WriteResults(options, frame, task, samples, folder, report);
   const object::BodyMeasures body = sim::BodyOf(object, task.plan.scale, options.replay);
   for (const std::string& warning :

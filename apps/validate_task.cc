@@ -104,7 +104,20 @@ void ReadPlanTask(const ValidateOptions& options, object::Reading reading, Valid
   ReadGivenPoints(object_path, reading, task);
 }
 
+/// What is known of hard points alone is refused before any work is done.
+void CheckSoftFingers(const ValidateOptions& options, const plan::Plan& plan) {
+  if (options.contact.torsion().value_or(plan.torsion) == 0 || !options.replay_by_hand) return;
+  throw InputError(
+      "--replay hand: a hand's fingertips are hard points, and these contacts are soft fingers");
+}
+
 }  // namespace
+
+void CheckTorsionFits(const ValidateOptions& options, const object::Object& object) {
+  if (options.contact.torsion().value_or(0) == 0 || object.dimension() == 3) return;
+  throw InputError("--contact soft: " + options.object_path +
+                   " is planar, and no contact has a torque about its normal there");
+}
 
 void CheckOutputs(const ValidateOptions& options) {
   const OutputFiles outputs = OutputsOf(options);
@@ -140,12 +153,16 @@ ValidateTask ReadTask(const ValidateOptions& options) {
     task.object = ReadGraspObject(options, progress);
     task.file_text = ReadFile(options.grasp_path);
     task.grasp = plan::ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
+    const double torsion = options.contact.torsion().value_or(0);
+    for (grasp::Contact& contact : task.grasp) contact.torsion = torsion;
     task.plan =
         report::MakeHoldPlan(*task.object.object, task.grasp,
                              options.friction.required_half_angle(), options.scale.value_or(1));
   } else {
     ReadPlanTask(options, reading, task);
   }
+  CheckTorsionFits(options, *task.object.object);
+  CheckSoftFingers(options, task.plan);
   if (!options.start.empty()) task.start_text = ReadFile(options.start);
   if (!options.goal.empty()) task.goal_text = ReadFile(options.goal);
   if (!options.hand.empty()) task.hand = kinematics::ReadHandFile(options.hand);

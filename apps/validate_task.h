@@ -28,6 +28,9 @@ struct ValidateTask {
 /// @throws InputError  an output is another file of the command line, or can't be written.
 void CheckOutputs(const ValidateOptions& options);
 
+/// @throws InputError  --contact soft, and the object is planar.
+void CheckTorsionFits(const ValidateOptions& options, const object::Object& object);
+
 /// The object of --grasp, --grasps or --export-states, repaired where that is asked.
 /// @throws InputError  it is none.
 [[nodiscard]] object::ObjectFile ReadGraspObject(const ValidateOptions& options,

@@ -68,6 +68,15 @@ void ExpectFriction(const plan::JsonReader& json, double half_angle) {
             "°; give --friction-angle where the report was made with it");
 }
 
+/// The same of another torsion.
+void ExpectTorsion(const plan::JsonReader& settings, double torsion) {
+  const double found = settings.Has("torsion") ? settings.Member("torsion").Number() : 0;
+  if (found == torsion) return;
+  settings.Fail("the report is about a torsion of " + FormatShort(found) +
+                ", which is not that of the plan or of --torsion, " + FormatShort(torsion) +
+                "; give --contact and --torsion where the report was made with them");
+}
+
 std::string Summary(const std::vector<plan::StepCheck>& checks, std::size_t proved,
                     double half_angle) {
   const std::string entries = std::to_string(checks.size());
@@ -98,6 +107,7 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
   ExpectDigest(root.Member("plan"), subject.plan_sha256, "plan");
   const double half_angle = subject.check.half_angle.value_or(plan.half_angle);
   ExpectFriction(root.Member("settings").Member("friction_half_angle_deg"), half_angle);
+  ExpectTorsion(root.Member("settings"), subject.check.torsion.value_or(plan.torsion));
   const plan::JsonReader steps = root.Member("steps");
   const std::vector<certificate::EntryProof> proofs = ReadProofs(steps, plan.dimension);
   const std::size_t entries = plan.steps.size() + 1;

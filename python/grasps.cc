@@ -22,12 +22,14 @@ py::array_t<double> ArrayOf(const std::vector<double>& values, bool asked) {
 
 /// Decisions (0 no, 1 too close, 2 yes), bounds on the margin, required half-angle, quality.
 py::tuple JudgeGrasps(const Values& points, const Values& normals, const PythonObject* object,
-                      int dimension, double half_angle, bool required, bool quality, int threads) {
+                      int dimension, double half_angle, double torsion, bool required, bool quality,
+                      int threads) {
   const grasp::GraspArrays arrays = {{points.data(), static_cast<std::size_t>(points.size())},
                                      {normals.data(), static_cast<std::size_t>(normals.size())},
                                      static_cast<int>(points.shape(1))};
   grasp::JudgeOptions options;
   options.half_angle = half_angle;
+  options.torsion = torsion;
   options.frame.dimension = dimension;
   if (object != nullptr) options.frame = object->file.object->wrench_frame();
   options.required_half_angle = required;

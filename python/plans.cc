@@ -40,6 +40,7 @@ struct PlanArguments {
   std::uint64_t seed = 0;
   double min_quality = 0;
   double finger_radius = 0;
+  double torsion = 0;  ///< of soft fingers, the object's unit of length
   std::optional<int> contacts, clusters;
   std::optional<double> time_limit_s;
 };
@@ -96,6 +97,7 @@ planning::PlanResult Find(const PythonObject& object, const PlanArguments& given
   request.criteria.half_angle = given.half_angle;
   request.criteria.min_quality = given.min_quality;
   request.hand.fingertip_radius = given.finger_radius;
+  request.hand.torsion = given.torsion;
   request.objective = given.objective;
   request.seed = given.seed;
   request.contact_points = given.contacts;
@@ -159,6 +161,7 @@ void BindPlans(py::module_& module) {
       .def_readwrite("seed", &PlanArguments::seed)
       .def_readwrite("min_quality", &PlanArguments::min_quality)
       .def_readwrite("finger_radius", &PlanArguments::finger_radius)
+      .def_readwrite("torsion", &PlanArguments::torsion)
       .def_readwrite("contacts", &PlanArguments::contacts)
       .def_readwrite("clusters", &PlanArguments::clusters)
       .def_readwrite("time_limit_s", &PlanArguments::time_limit_s);

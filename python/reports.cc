@@ -41,7 +41,7 @@ struct PythonReport {
 };
 
 struct ValidateArguments {
-  std::optional<double> half_angle, mass_kg, squeeze_N;
+  std::optional<double> half_angle, torsion, mass_kg, squeeze_N;
   double shake = sim::ReplayOptions().shake;
   double tolerance = sim::ReplayOptions().tolerance;
   bool stress = false;
@@ -80,6 +80,7 @@ PythonReport Validate(const PythonObject& object, const std::string& text, const
   CheckFits(plan, object, name);
   plan::CheckOptions check;
   check.half_angle = given.half_angle;
+  check.torsion = given.torsion;
   sim::ReplayOptions replay;
   replay.half_angle = given.half_angle;
   replay.mass_kg = given.mass_kg;
@@ -195,6 +196,7 @@ void BindReports(py::module_& module) {
   py::class_<ValidateArguments>(module, "ValidateArguments")
       .def(py::init<>())
       .def_readwrite("half_angle", &ValidateArguments::half_angle)
+      .def_readwrite("torsion", &ValidateArguments::torsion)
       .def_readwrite("mass_kg", &ValidateArguments::mass_kg)
       .def_readwrite("squeeze_N", &ValidateArguments::squeeze_N)
       .def_readwrite("shake", &ValidateArguments::shake)

@@ -178,6 +178,7 @@ Report Validate(const object::Object& object, const plan::Plan& plan,
   report.measures = object::MeasuresText(sim::BodyOf(object, plan.scale, replay));
   report.planner = plan.planner;
   report.half_angle = check.half_angle.value_or(plan.half_angle);
+  report.torsion = check.torsion.value_or(plan.torsion);
   report.finger_radius = check.finger_radius ? check.finger_radius : plan.finger_radius;
   if (plan.at_given_points && check.given_points != nullptr) {
     report.farthest_from_points = plan::FarthestFromPoints(checked.located, *check.given_points);
@@ -223,6 +224,7 @@ plan::Plan MakeHoldPlan(const object::Object& object, const grasp::Grasp& grasp,
   plan.fingers = static_cast<int>(grasp.size());
   plan.initial = plan::FingersInOrder(grasp);
   plan.goal = grasp;
+  if (!grasp.empty()) plan.torsion = grasp.front().torsion;
   return plan;
 }
 

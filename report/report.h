@@ -87,6 +87,7 @@ struct Report {
   int dimension = 3;
   std::string measures;   ///< how large and heavy the object is: "10.4 cm across, 216 g"
   double half_angle = 0;  ///< checked against, radians
+  double torsion = 0;     ///< checked with, the object's unit of length (plan::Plan::torsion)
   /// Of the fingers, the object's unit of length; points where none.
   std::optional<double> finger_radius = std::nullopt;
   /// Of a plan whose contacts are at points of the object's file: the largest distance from one.
@@ -148,7 +149,8 @@ using Replayer =
 /// @param located  the plan that the report is about (LocatePlan).
 void AddProofs(const plan::Plan& located, Report& report);
 
-/// The plan without steps that a grasp makes: fingers are numbered in its order.
+/// The plan without steps that a grasp makes: fingers are numbered in its order, the torsion is
+/// that of its first contact.
 [[nodiscard]] plan::Plan MakeHoldPlan(const object::Object& object, const grasp::Grasp& grasp,
                                       double half_angle, double scale);
 

@@ -20,6 +20,7 @@ namespace {
 Json MakeSettings(const Report& report) {
   Json settings = {{"friction_half_angle_deg", Degrees(report.half_angle)},
                    {"mu", std::tan(report.half_angle)}};
+  if (report.torsion > 0) settings["torsion"] = report.torsion;
   if (report.finger_radius) settings["finger_radius"] = *report.finger_radius;
   if (!report.settings) return settings;
   const sim::ReplaySettings& replay = *report.settings;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "planner/motion/exact_balance.h"
 
@@ -12,8 +13,21 @@ namespace {
 using namespace motion::exact;
 using Kind = motion::ProofVerdict::Kind;
 
-/// Whether contacts span: three not on one line, in the plane two not at one point.
+/// Whether the torque of a soft finger resists a turn about the line to another contact.
+bool Twists(const std::vector<ExactContact>& contacts) {
+  for (const ExactContact& soft : contacts) {
+    if (soft.torsion == 0) continue;
+    for (const ExactContact& other : contacts) {
+      if (Dot(soft.n, other.p - soft.p) != 0) return true;
+    }
+  }
+  return false;
+}
+
+/// Whether contacts span: three not on one line, in the plane two not at one point; or two of which
+/// one twists.
 bool Span(const std::vector<ExactContact>& contacts, int dimension) {
+  if (dimension == 3 && Twists(contacts)) return true;
   for (std::size_t i = 1; i < contacts.size(); ++i) {
     const Vector first = contacts[i].p - contacts[0].p;
     if (IsZero(first)) continue;
@@ -27,24 +41,54 @@ bool Span(const std::vector<ExactContact>& contacts, int dimension) {
 
 motion::ProofVerdict Nothing(std::string why) { return {Kind::kNothing, std::move(why)}; }
 
+/// Why the torques of a proof are none.
+std::string TorqueFault(const std::vector<ExactContact>& contacts, const GraspProof& proof) {
+  if (proof.torques.empty()) return "";
+  if (proof.torques.size() != contacts.size()) return "not one torque a contact";
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (!std::isfinite(proof.torques[i])) return "a torque is not finite";
+    if (contacts[i].torsion == 0 && proof.torques[i] != 0) {
+      return "contact " + std::to_string(i) + " has a torque, and is a hard point";
+    }
+  }
+  return "";
+}
+
+/// (torque / torsion)² of a torque times the normal.
+Rational TwistSquared(const ExactContact& contact, const Rational& torque) {
+  if (contact.torsion == 0) return 0;
+  return torque * torque * SquaredNorm(contact.n) / (contact.torsion * contact.torsion);
+}
+
 motion::ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int dimension,
                                  const Rational& mu, const GraspProof& proof) {
   if (proof.forces.size() != contacts.size()) return Nothing("not one force a contact");
   if (!AllFinite(proof.forces)) return Nothing("a force is not finite");
+  if (const std::string fault = TorqueFault(contacts, proof); !fault.empty()) return Nothing(fault);
   if (!Span(contacts, dimension)) return Nothing("the contacts are on one line");
   const Layout layout(dimension);
   const int count = static_cast<int>(contacts.size());
-  Balance balance(dimension + layout.torques, dimension * count);
+  const int first_torque = dimension * count;
+  const bool twist = !proof.torques.empty();
+  Balance balance(dimension + layout.torques, first_torque + (twist ? count : 0));
   std::vector<Rational> x;
   layout.Append(proof.forces, x);
   for (int i = 0; i < count; ++i) {
     layout.AddForces(0, i * dimension, balance);
     layout.AddTorques(contacts[i].p, dimension, i * dimension, balance);
+    if (!twist) continue;
+    x.emplace_back(proof.torques[i]);
+    if (contacts[i].torsion == 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      balance.At(dimension + axis, first_torque + i) = contacts[i].n[axis];
+    }
   }
   const auto balanced = balance.Corrected(x);
   if (!balanced) return Nothing("the forces cannot be balanced exactly");
   for (int i = 0; i < count; ++i) {
-    if (!IsInsideCone(layout.Force(*balanced, i * dimension), contacts[i].n, mu)) {
+    const Rational torque = twist ? (*balanced)[first_torque + i] : Rational(0);
+    if (!IsInsideCone(layout.Force(*balanced, i * dimension), contacts[i].n, mu, 0,
+                      TwistSquared(contacts[i], torque))) {
       return Nothing("the force at contact " + std::to_string(i) +
                      ", balanced exactly, is not inside its cone");
     }
@@ -52,15 +96,18 @@ motion::ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int 
   return {Kind::kForceClosure, ""};
 }
 
-/// Whether velocities refute: all are in the polar cones.
+/// Whether velocities refute: all are in the polar cones, of soft fingers with the spins n·ω.
 motion::ProofVerdict CheckVelocities(const std::vector<ExactContact>& contacts,
-                                     const std::vector<Vector>& velocities, const Rational& mu) {
+                                     const std::vector<Vector>& velocities, const Vector& omega,
+                                     const Rational& mu) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Vector& u = velocities[i];
-    if (IsZero(u)) continue;
     const Vector& n = contacts[i].n;
+    const Rational turning = contacts[i].torsion * Dot(n, omega);
+    if (IsZero(u) && turning == 0) continue;
     const Rational approach = Dot(n, u);
-    if (approach >= 0 || approach * approach * (1 + mu * mu) < mu * mu * Dot(u, u) * Dot(n, n)) {
+    if (approach >= 0 || approach * approach * (1 + mu * mu) <
+                             mu * mu * (Dot(u, u) * Dot(n, n) + turning * turning)) {
       return Nothing("some force in the cone of contact " + std::to_string(i) +
                      " works with the twist");
     }
@@ -73,7 +120,7 @@ motion::ProofVerdict CheckTwist(const std::vector<ExactContact>& contacts, const
   if (IsZero(v) && IsZero(omega)) return Nothing("the twist is zero");
   std::vector<Vector> velocities;
   for (const ExactContact& contact : contacts) velocities.push_back(v + Cross(omega, contact.p));
-  return CheckVelocities(contacts, velocities, mu);
+  return CheckVelocities(contacts, velocities, omega, mu);
 }
 
 /// The turn about the line through two contacts, with one sign or the other.

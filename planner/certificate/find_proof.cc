@@ -19,10 +19,12 @@ using Eigen::Vector3d;
 /// correction of their rounding does not bring them out.
 constexpr double kSlack = 1e-9;
 
-bool IsInside(const Vector3d& force, const Vector3d& n, double half_angle) {
-  const double normal = force.dot(n);
-  const double inside =
-      normal * std::sin(half_angle) - (force - normal * n).norm() * std::cos(half_angle);
+bool IsInside(const Vector3d& force, double torque, const grasp::Contact& contact,
+              double half_angle) {
+  const double normal = force.dot(contact.n);
+  double tangential = (force - normal * contact.n).norm();
+  if (torque != 0) tangential = std::hypot(tangential, torque / contact.torsion);
+  const double inside = normal * std::sin(half_angle) - tangential * std::cos(half_angle);
   return inside > kSlack * (1 + force.norm());
 }
 
@@ -77,7 +79,8 @@ GraspProof FindRefutation(std::span<const grasp::Contact> contacts,
   grasp::UnitContacts units = grasp::MakeUnitContacts(contacts, frame);
   grasp::SetUnitForces(units, half_angle);
   if constexpr (kDim == 6) {
-    const GraspProof line = FindLine(units);
+    // Soft fingers on the line may resist a turn about it.
+    const GraspProof line = grasp::HasTorsion(units) ? GraspProof() : FindLine(units);
     if (line.kind != GraspProof::Kind::kNone) return line;
   }
   grasp::ForceClosureProof<kDim> found;
@@ -86,6 +89,10 @@ GraspProof FindRefutation(std::span<const grasp::Contact> contacts,
       std::any_of(found.twist.begin(), found.twist.end(), [](double x) { return x != 0; });
   if (answer.decision != grasp::Decision::kNo || !has_twist) return {};
   return TwistProof<kDim>(found.twist, frame);
+}
+
+bool HaveTorsion(std::span<const grasp::Contact> contacts) {
+  return std::ranges::any_of(contacts, [](const grasp::Contact& c) { return c.torsion > 0; });
 }
 
 /// No forces resist a turn about the line that all contacts are on.
@@ -108,15 +115,17 @@ GraspProof FindGraspProof(std::span<const grasp::Contact> contacts, int dimensio
   if (!(frame.radius > 0)) return {};
   const grasp::GraspForces internal =
       grasp::ComputeGraspForces(contacts, frame, half_angle, grasp::Wrench(), 1);
+  const bool soft = HaveTorsion(contacts);
   bool inside = internal.balanced && internal.margin > 0 &&
-                !(dimension == 3 && AreOnOneLine(contacts, frame));
+                !(dimension == 3 && !soft && AreOnOneLine(contacts, frame));
   for (std::size_t i = 0; inside && i < contacts.size(); ++i) {
-    inside = IsInside(internal.forces[i], contacts[i].n, half_angle);
+    inside = IsInside(internal.forces[i], internal.torques[i], contacts[i], half_angle);
   }
   if (inside) {
     GraspProof proof;
     proof.kind = GraspProof::Kind::kForces;
     proof.forces = internal.forces;
+    if (soft) proof.torques = internal.torques;
     return proof;
   }
   return dimension == 3 ? FindRefutation<6>(contacts, frame, half_angle)

@@ -13,12 +13,15 @@ namespace regrasp::certificate {
 struct GraspProof {
   enum class Kind {
     kNone,    ///< none was found
-    kForces,  ///< balanced forces strictly inside the cones, and contacts that are not on one line
+    kForces,  ///< balanced forces strictly inside the cones, and contacts that are not on one line,
+              ///< or a soft finger that resists a turn about it
     kTwist,   ///< a motion of the object that all forces in the cones work against
     kLine,  ///< about the line through two contacts all others turn the object the same way, or not
   };
   Kind kind = Kind::kNone;
   std::vector<Eigen::Vector3d> forces;  ///< kForces: one a contact, balanced up to rounding
+  /// kForces, of soft fingers: with the forces, about the normals; empty where there are none.
+  std::vector<double> torques = {};
   /// kTwist: velocities v + ω × p of points of the object; (v, ω).
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   Eigen::Vector3d omega = Eigen::Vector3d::Zero();

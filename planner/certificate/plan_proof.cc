@@ -64,8 +64,11 @@ motion::MotionSegments ProvePath(const Entry& entry, std::size_t index, int dime
 
 Json GraspProofJson(const GraspProof& proof, int dimension) {
   switch (proof.kind) {
-    case Kind::kForces:
-      return {{"forces", plan::ForcesJson(proof.forces, dimension)}};
+    case Kind::kForces: {
+      Json json = {{"forces", plan::ForcesJson(proof.forces, dimension)}};
+      if (!proof.torques.empty()) json["torques"] = proof.torques;
+      return json;
+    }
     case Kind::kTwist:
       return {{"twist",
                {{"v", plan::VectorJson(proof.v, 3)}, {"omega", plan::VectorJson(proof.omega, 3)}}}};
@@ -83,6 +86,7 @@ GraspProof ReadGraspProof(const plan::JsonReader& json, int dimension) {
   if (json.Has("forces")) {
     proof.kind = Kind::kForces;
     proof.forces = plan::ReadForces(json.Member("forces"), dimension);
+    proof.torques = plan::ReadTorques(json, "torques");
   } else if (json.Has("twist")) {
     proof.kind = Kind::kTwist;
     proof.v = json.Member("twist").Member("v").Vector(3);

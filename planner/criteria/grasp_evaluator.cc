@@ -8,6 +8,7 @@
 #include "planner/criteria/reach.h"
 #include "planner/grasp/force_closure_core.h"
 #include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/soft_contacts.h"
 
 namespace regrasp::criteria {
 
@@ -18,7 +19,7 @@ std::vector<double> NumbersOf(const grasp::Grasp& grasp) {
   using Numbers = std::array<double, 7>;
   std::vector<Numbers> contacts;
   contacts.reserve(grasp.size());
-  for (const auto& [p, n, face] : grasp) {
+  for (const auto& [p, n, face, torsion] : grasp) {
     contacts.push_back({p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), static_cast<double>(face)});
   }
   std::ranges::sort(contacts);
@@ -72,7 +73,8 @@ bool GraspEvaluator::IsReachable(const grasp::Grasp& grasp) const {
 
 bool GraspEvaluator::HoldsAt(Contacts grasp, double half_angle) const {
   ++counts_.force_closure;
-  grasp::UnitContacts contacts = grasp::MakeUnitContacts(grasp, frame_);
+  const grasp::SoftContacts felt(grasp, torsion());
+  grasp::UnitContacts contacts = grasp::MakeUnitContacts(felt.view(), frame_);
   grasp::SetUnitForces(contacts, half_angle);
   grasp::Recentre(contacts);
   const grasp::ForceClosure answer = dimension() == 3 ? grasp::DecideForceClosure<6>(contacts)
@@ -83,7 +85,8 @@ bool GraspEvaluator::HoldsAt(Contacts grasp, double half_angle) const {
 bool GraspEvaluator::MeetsCriteria(Contacts grasp) const {
   if (!asks_more_) return true;
   ++counts_.criteria;
-  return criteria::MeetsCriteria(grasp, frame_, criteria_,
+  const grasp::SoftContacts felt(grasp, torsion());
+  return criteria::MeetsCriteria(felt.view(), frame_, criteria_,
                                  quality_ == QualityTest::kQuick ? &filter_ : nullptr);
 }
 
@@ -109,7 +112,8 @@ bool GraspEvaluator::WorkOut(Contacts grasp, KnownGrasp& known) const {
 }
 
 double GraspEvaluator::ComputeRequired(Contacts grasp, double accuracy) const {
-  const auto required = grasp::ComputeRequiredHalfAngle(grasp, frame_, accuracy);
+  const grasp::SoftContacts felt(grasp, torsion());
+  const auto required = grasp::ComputeRequiredHalfAngle(felt.view(), frame_, accuracy);
   return required ? required->upper : std::numbers::pi / 2;
 }
 
@@ -130,7 +134,8 @@ double GraspEvaluator::Score(const grasp::Grasp& grasp) const {
   if (const auto margin = Margin(grasp)) return *margin;
   KnownGrasp& known = Know(grasp);
   if (share_ < known.poor_at) return -1;
-  if (known.shortfall == 0) known.shortfall = Shortfall(grasp, frame_, asked_);
+  const grasp::SoftContacts felt(grasp, torsion());
+  if (known.shortfall == 0) known.shortfall = Shortfall(felt.view(), frame_, asked_);
   return known.shortfall;
 }
 

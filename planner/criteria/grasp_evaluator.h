@@ -71,7 +71,12 @@ class GraspEvaluator {
   [[nodiscard]] double half_angle() const { return half_angle_; }
   [[nodiscard]] double finger_radius() const { return hand_.fingertip_radius; }
   /// Contacts that a force-closure grasp has at least.
-  [[nodiscard]] int fewest_contacts() const { return dimension() == 3 ? 3 : 2; }
+  [[nodiscard]] int fewest_contacts() const {
+    return dimension() == 3 && hand_.torsion == 0 ? 3 : 2;
+  }
+  /// Of the hand's contacts (grasp::Contact::torsion): whatever torsion the contacts have that come
+  /// here, they are taken to have this one.
+  [[nodiscard]] double torsion() const { return hand_.torsion; }
 
   /// Whether two fingers can be at two contacts at once.
   [[nodiscard]] bool CanMeet(const grasp::Contact& a, const grasp::Contact& b) const {

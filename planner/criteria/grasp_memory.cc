@@ -14,6 +14,7 @@ int GraspMemory::Add(const grasp::Contact& contact) {
   if (known != contacts_.end()) return static_cast<int>(known - contacts_.begin());
   assert(count() < ContactSet::kMostNumbers);
   contacts_.push_back(contact);
+  contacts_.back().torsion = torsion();
   return count() - 1;
 }
 
@@ -27,7 +28,10 @@ void GraspMemory::Append(std::span<const grasp::Contact> contacts) {
   if (contacts_.size() + contacts.size() > ContactSet::kMostNumbers) {
     throw std::invalid_argument("too many contact points");
   }
-  contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());
+  for (const grasp::Contact& contact : contacts) {
+    contacts_.push_back(contact);
+    contacts_.back().torsion = torsion();
+  }
 }
 
 GraspMemory::HeldContacts GraspMemory::ContactsOf(const ContactSet& set) const {

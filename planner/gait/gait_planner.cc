@@ -94,7 +94,10 @@ void AskInHand(const planning::InHandTask& task, PlanRequest& request) {
   request.in_hand = std::make_shared<planning::InHandTask>(task);
   // A grasp for another one, and no word of the pose: the object stays where it is.
   if (task.turn.angle == 0 && !task.goal_pose) request.in_hand->goal_pose = task.start_pose;
+  // What contacts are is not the hand file's to say: soft fingers that are asked for are refused.
+  const double torsion = request.hand.torsion;
   request.hand = FingersOf(task);
+  request.hand.torsion = torsion;
   for (GraspChoice* choice : {&request.start, &request.goal}) {
     *choice = {GraspChoice::Kind::kAny, {}, {}};
   }

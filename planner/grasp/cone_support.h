@@ -9,13 +9,22 @@ namespace regrasp::grasp {
 
 // Wrenches and twists of contacts in kDim numbers: (force, torque) and (v, omega) in space, kDim 6;
 // (force x, force y, torque z) and (v x, v y, omega z) in the plane, kDim 3. The power of a force g
-// at a contact is twist · wrench = u · g, u the velocity of the contact's point.
+// and a torque τ about the normal at a contact is twist · wrench = u · g + s τ, u the velocity of
+// the contact's point and s = n · omega the spin about its normal.
 
-/// Writes the wrench (g, q × g) of a force at a contact.
+/// What a contact applies: a force, and of a soft finger a torque about the normal.
+struct ContactWrench {
+  Eigen::Vector3d force;
+  double torque = 0;
+};
+
+/// Writes the wrench (g, q × g + τ n) of what a contact applies.
 template <int kDim>
-inline void WriteWrench(const UnitContact& contact, const Eigen::Vector3d& force, double* out) {
+inline void WriteWrench(const UnitContact& contact, const ContactWrench& applied, double* out) {
+  const Eigen::Vector3d& force = applied.force;
   if constexpr (kDim == 6) {
-    const Eigen::Vector3d torque = contact.q.cross(force);
+    Eigen::Vector3d torque = contact.q.cross(force);
+    if (applied.torque != 0) torque += applied.torque * contact.n;
     std::copy_n(force.data(), 3, out);
     std::copy_n(torque.data(), 3, out + 3);
   } else {
@@ -37,10 +46,30 @@ template <int kDim>
   }
 }
 
-/// The cone's support: the largest u · g over its rim, axial n·u + tangential |u − (n·u) n|.
-[[nodiscard]] inline double ConeSupport(const UnitContact& contact, const Eigen::Vector3d& u) {
+/// The spin n · omega of the object about a contact's normal under a twist; 0 in the plane, where
+/// no contact resists it.
+template <int kDim>
+[[nodiscard]] inline double Spin(const UnitContact& contact, const double* twist) {
+  if constexpr (kDim == 6) return contact.n.dot(Eigen::Map<const Eigen::Vector3d>(twist + 3));
+  return 0;
+}
+
+/// The cone's support, the largest u · g + s τ over its rim,
+///
+///     axial n·u + tangential √(|u − (n·u) n|² + (torsion s)²).
+[[nodiscard]] inline double ConeSupport(const UnitContact& contact, const Eigen::Vector3d& u,
+                                        double spin = 0) {
   const double approach = contact.n.dot(u);
-  return contact.axial * approach + contact.tangential * (u - approach * contact.n).norm();
+  const double turning = contact.torsion * spin;
+  return contact.axial * approach +
+         contact.tangential *
+             std::sqrt((u - approach * contact.n).squaredNorm() + turning * turning);
+}
+
+/// The same for a twist.
+template <int kDim>
+[[nodiscard]] inline double ConeSupportOf(const UnitContact& contact, const double* twist) {
+  return ConeSupport(contact, Velocity<kDim>(contact, twist), Spin<kDim>(contact, twist));
 }
 
 /// A unit vector perpendicular to n, in the plane where kDim is 3.
@@ -72,11 +101,24 @@ template <int kDim>
   return (tangent - n.dot(tangent) * n).normalized();
 }
 
-/// The rim force that attains ConeSupport.
+/// The rim force of a hard point that attains ConeSupport.
 template <int kDim>
 [[nodiscard]] inline Eigen::Vector3d SupportForce(const UnitContact& contact,
                                                   const Eigen::Vector3d& u) {
   return contact.axial * contact.n + contact.tangential * SlidingDirection<kDim>(contact.n, u);
+}
+
+/// What of the rim attains ConeSupport, of any contact: friction works against sliding and turning
+/// as both are large, as the ellipsoid's normal has it.
+template <int kDim>
+[[nodiscard]] inline ContactWrench SupportWrench(const UnitContact& contact,
+                                                 const Eigen::Vector3d& u, double spin) {
+  const double turning = contact.torsion * spin;
+  if (turning == 0) return {SupportForce<kDim>(contact, u)};
+  const double sliding = (u - contact.n.dot(u) * contact.n).norm();
+  const double share = contact.tangential / std::hypot(sliding, turning);
+  return {contact.axial * contact.n + (share * sliding) * SlidingDirection<kDim>(contact.n, u),
+          share * turning * contact.torsion};
 }
 
 }  // namespace regrasp::grasp

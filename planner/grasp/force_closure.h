@@ -26,22 +26,25 @@ struct ForceClosure {
 inline constexpr double kForceClosureEpsilon = 1e-12;
 
 /// Decides force closure with circular friction cones (cone edges in the plane), in space and in
-/// the plane, for any number of contacts.
+/// the plane, for any number of contacts, hard points and soft fingers (Contact::torsion).
 ///
 /// Force closure holds iff the grasp matrix G (wrenches as in WrenchFrame) has full rank and forces
 /// f_i in the interior of C(n_i, half_angle) with Σ G_i f_i = 0 exist (Murray, Li and Sastry 1994,
-/// Prop. 5.3). The margin is ε* = max ε over forces g_i ∈ C(n_i) with Σ n_i·g_i = 1 and
-/// Σ G_i (g_i + ε n_i) = 0; it is positive iff such interior forces exist, and infinite where unit
-/// normal forces balance by themselves. It depends on neither the frame's origin nor its radius.
+/// Prop. 5.3); of soft fingers G_i is of four columns, and what is inside is the force with the
+/// torque about the normal. The margin is ε* = max ε over forces g_i ∈ C(n_i) with Σ n_i·g_i = 1
+/// and Σ G_i (g_i + ε n_i) = 0; it is positive iff such interior forces exist, and infinite where
+/// unit normal forces balance by themselves. It depends on neither the frame's origin nor its
+/// radius.
 ///
 /// kNo is certain by a separating twist, by a line through two contacts about which all others turn
 /// the object the same way, or by rank; kYes by a ball of wrenches about the origin.
 ///
 /// Laws: independent of the order of the contacts, of rigid motion and of the unit of length;
-/// enlarging half_angle or adding a contact never turns yes into no.
+/// enlarging half_angle or a torsion or adding a contact never turns yes into no.
 ///
 /// @param contacts    any number; fewer than 3 in space or 2 in the plane, or collinear ones in
-///                    space, are never force closure.
+///                    space, are never force closure where all are hard points. Soft fingers take
+///                    two, at different points.
 /// @param half_angle  θ in radians, in (0, π/2).
 /// @throws std::invalid_argument  a value is not finite, a normal is not unit, θ out of range.
 [[nodiscard]] ForceClosure TestForceClosure(std::span<const Contact> contacts,

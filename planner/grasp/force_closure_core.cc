@@ -18,7 +18,7 @@ constexpr std::size_t kPairLinesFirst = 4;
 /// Looking farther than this beyond the origin would not make an answer more certain.
 constexpr double kClearReach = 1e-6;
 
-/// Contacts this far from one line span space by far more than rounding.
+/// Contacts with this arm about any line span space by far more than rounding.
 constexpr double kClearSpread = 1e-6;
 
 /// Σ w(n_i), the wrench of unit normal forces.
@@ -85,17 +85,19 @@ double LowerBound(const UnitContacts& contacts, const WrenchSimplex<kDim>& simpl
   return std::min(simplex.Reach(direction) / contacts[0].axial, std::numeric_limits<double>::max());
 }
 
-/// The largest distance of a contact from the line through the centre and the contact farthest from
-/// it: 0 where all are on one line, and no force resists a turn about that.
-double DistanceFromLine(const UnitContacts& contacts) {
+/// The largest arm at which a contact resists a turn about the line through the centre and the
+/// contact farthest from it, its distance from that or its torsion as the normal has it: 0 where
+/// all are on one line, and nothing resists a turn about that.
+double ArmAboutLine(const UnitContacts& contacts) {
   const auto farthest = std::max_element(
       contacts.begin(), contacts.end(),
       [](const auto& a, const auto& b) { return a.q.squaredNorm() < b.q.squaredNorm(); });
-  double distance = 0;
+  double arm = 0;
   for (const UnitContact& contact : contacts) {
-    distance = std::max(distance, farthest->q.cross(contact.q).norm());
+    arm = std::max({arm, farthest->q.cross(contact.q).norm(),
+                    contact.torsion * std::abs(farthest->q.dot(contact.n))});
   }
-  return distance;
+  return arm;
 }
 
 /// Where the origin lies on the border of the basic columns' simplex, as it does when two contacts
@@ -106,7 +108,8 @@ double DistanceFromLine(const UnitContacts& contacts) {
 ///
 /// which bounds the margin.
 ///
-/// The start is inside the hull, and not in a flat one, only if the contacts are not collinear.
+/// The start is inside the hull, and not in a flat one, only if something resists a turn about
+/// every line: the contacts are not collinear, or a soft finger turns with it (ArmAboutLine).
 template <int kDim>
 double LowerBoundBeyondStart(const UnitContacts& contacts, WrenchSimplex<kDim>& simplex) {
   const double reach =
@@ -136,7 +139,7 @@ ForceClosure DecideOpenForceClosure(const UnitContacts& contacts, ForceClosurePr
   if (feasible && simplex.BallRadius() > kForceClosureEpsilon) {
     return Yes<kDim>(contacts, LowerBound<kDim>(contacts, simplex));
   }
-  const double spread = kDim == 6 ? DistanceFromLine(contacts) : 1;
+  const double spread = kDim == 6 ? ArmAboutLine(contacts) : 1;
   if (spread <= kForceClosureEpsilon) return No(contacts.size(), 0);
   if (feasible && spread > kClearSpread) {
     const double lower = LowerBoundBeyondStart<kDim>(contacts, simplex);
@@ -165,17 +168,19 @@ template <int kDim>
 ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
   const bool space = kDim == 6;
   const bool few = contacts.size() <= kPairLinesFirst;
-  if (contacts.size() < (space ? 3 : 2)) return No(contacts.size(), 0);
+  // What a pair line refutes the torque of a soft finger may still hold.
+  const bool soft = space && HasTorsion(contacts);
+  if (contacts.size() < (space && !soft ? 3 : 2)) return No(contacts.size(), 0);
   if (space && few) {
     const PairLineVerdict verdict = TestPairLines(contacts);
-    if (verdict == PairLineVerdict::kNo) return No(contacts.size(), 0);
+    if (verdict == PairLineVerdict::kNo && !soft) return No(contacts.size(), 0);
     // This Yes has no forces to show.
     if (verdict == PairLineVerdict::kYes && proof == nullptr) {
       return Yes<kDim>(contacts, std::numeric_limits<double>::min());
     }
   }
   const ForceClosure answer = DecideOpenForceClosure<kDim>(contacts, proof);
-  const bool unsettled = space && !few && answer.decision == Decision::kTooClose;
+  const bool unsettled = space && !few && !soft && answer.decision == Decision::kTooClose;
   return unsettled && TestPairLines(contacts) == PairLineVerdict::kNo ? No(contacts.size(), 0)
                                                                       : answer;
 }

@@ -51,6 +51,7 @@ GraspForces Solve(const UnitContacts& contacts, const Wrench& load) {
   const double inset = std::max(result.margin, 0.0) * share;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     result.forces.push_back(simplex.ForceOf(static_cast<int>(i)) + inset * contacts[i].n);
+    result.torques.push_back(simplex.TorqueOf(static_cast<int>(i)));
   }
   return result;
 }
@@ -73,6 +74,7 @@ GraspForces ComputeGraspForces(std::span<const Contact> contacts, const object::
   GraspForces result =
       frame.dimension == 3 ? Solve<6>(units, unit_load) : Solve<3>(units, unit_load);
   for (Eigen::Vector3d& force : result.forces) force *= total_normal;
+  for (double& torque : result.torques) torque *= total_normal * frame.radius;
   return result;
 }
 

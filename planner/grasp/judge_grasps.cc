@@ -30,11 +30,12 @@ std::size_t CountGrasps(const GraspArrays& grasps) {
   return grasps.points.size() / values;
 }
 
-void Load(const GraspArrays& grasps, std::size_t index, Grasp& grasp) {
+void Load(const GraspArrays& grasps, std::size_t index, double torsion, Grasp& grasp) {
   for (std::size_t c = 0; c < grasp.size(); ++c) {
     const std::size_t start = 3 * (index * grasp.size() + c);
     grasp[c].p = Eigen::Map<const Eigen::Vector3d>(&grasps.points[start]);
     grasp[c].n = Eigen::Map<const Eigen::Vector3d>(&grasps.normals[start]);
+    grasp[c].torsion = torsion;
   }
 }
 
@@ -64,7 +65,7 @@ GraspVerdicts JudgeGrasps(const GraspArrays& grasps, const JudgeOptions& options
   InBlocks(count, kBlock, options.threads, [&](std::size_t begin, std::size_t end) {
     Grasp grasp(static_cast<std::size_t>(grasps.contacts));
     for (std::size_t index = begin; index < end; ++index) {
-      Load(grasps, index, grasp);
+      Load(grasps, index, options.torsion, grasp);
       try {
         Judge(grasp, options, index, verdicts);
       } catch (const std::invalid_argument& error) {

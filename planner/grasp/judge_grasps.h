@@ -20,6 +20,7 @@ struct GraspArrays {
 struct JudgeOptions {
   double half_angle = 0;  ///< of the friction cones, atan μ, radians in (0, π/2)
   object::WrenchFrame frame;
+  double torsion = 0;  ///< of all contacts (Contact::torsion), the points' unit of length
   bool required_half_angle = false;
   bool quality = false;
   int threads = 0;  ///< 0: as many as the machine has cores

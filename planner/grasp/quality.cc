@@ -36,6 +36,9 @@ class BallSearch {
         const double angle = 2 * std::numbers::pi * (s + 0.1 * contact) / kRimSamples;
         AddPoint(set.RimWrench(contact, angle));
       }
+      for (const double sign : {-1.0, 1.0}) {
+        if (set.has_torsion(contact)) AddPoint(set.TorsionWrench(contact, sign));
+      }
     }
   }
 

@@ -48,7 +48,7 @@ template <int kDim>
 bool QualityFilter::IsRefuted(const UnitContacts& contacts, double threshold) {
   for (std::size_t i = 0; i < twists_.size(); ++i) {
     const bool refutes = std::all_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
-      return ConeSupport(contact, Velocity<kDim>(contact, twists_[i].data())) < threshold;
+      return ConeSupportOf<kDim>(contact, twists_[i].data()) < threshold;
     });
     if (!refutes) continue;
     std::swap(twists_[i], twists_[i / 2]);

@@ -45,6 +45,13 @@ GraspForces ComputeSlidingForces(const Grasp& grasp, std::span<const SlidingCont
     if (!slides[i]) pushed[i] = *next++;
   }
   result.forces = std::move(pushed);
+  // Friction that drags has nothing left to twist with.
+  std::vector<double> torques(grasp.size(), 0.0);
+  auto next_torque = result.torques.begin();
+  for (std::size_t i = 0; i < grasp.size(); ++i) {
+    if (!slides[i]) torques[i] = *next_torque++;
+  }
+  result.torques = std::move(torques);
   return result;
 }
 

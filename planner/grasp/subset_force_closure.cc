@@ -16,6 +16,9 @@ using Word = TurnTable::Word;
 UnitContacts MakeRimmedContacts(std::span<const Contact> points, const object::WrenchFrame& frame,
                                 double half_angle) {
   UnitContacts units = MakeUnitContacts(points, frame);
+  if (HasTorsion(units)) {
+    throw std::invalid_argument("force-closure subsets: pair lines decide hard points only");
+  }
   SetUnitForces(units, half_angle);
   return units;
 }

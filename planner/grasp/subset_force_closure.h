@@ -32,7 +32,8 @@ struct SubsetCounts {
 ///
 /// @param counts  filled where not null.
 /// @param tell    told how much of the work is done.
-/// @throws std::invalid_argument  as TestForceClosure; also for a frame in the plane.
+/// @throws std::invalid_argument  as TestForceClosure; also for a frame in the plane and for soft
+///                                fingers.
 /// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<std::array<int, 4>> ForceClosureSubsets(
     std::span<const Contact> points, const object::WrenchFrame& frame, double half_angle,

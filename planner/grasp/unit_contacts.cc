@@ -19,6 +19,10 @@ void CheckContact(const Contact& contact, int dimension) {
   if (dimension == 2 && (contact.p.z() != 0 || contact.n.z() != 0)) {
     Reject("a planar contact has z other than 0");
   }
+  if (!(contact.torsion >= 0) || !std::isfinite(contact.torsion)) {
+    Reject("a torsion is negative or not finite");
+  }
+  if (dimension == 2 && contact.torsion != 0) Reject("a planar contact has torsion");
 }
 
 }  // namespace
@@ -43,7 +47,8 @@ UnitContacts MakeUnitContacts(std::span<const Contact> contacts, const object::W
   result.reserve(contacts.size());
   const double scale = 1 / frame.radius;
   for (const Contact& contact : contacts) {
-    result.push_back({(contact.p - frame.origin) * scale, contact.n / contact.n.norm(), 0, 0});
+    result.push_back({(contact.p - frame.origin) * scale, contact.n / contact.n.norm(), 0, 0,
+                      contact.torsion * scale});
   }
   return result;
 }
@@ -69,8 +74,15 @@ Recentring Recentre(UnitContacts& contacts) {
   }
   if (!(squared > 0)) return {centre, 1};
   const double scale = 1 / std::sqrt(squared);
-  for (UnitContact& contact : contacts) contact.q *= scale;
+  for (UnitContact& contact : contacts) {
+    contact.q *= scale;
+    contact.torsion *= scale;
+  }
   return {centre, scale};
+}
+
+bool HasTorsion(std::span<const UnitContact> contacts) {
+  return std::ranges::any_of(contacts, [](const UnitContact& c) { return c.torsion > 0; });
 }
 
 void SetUnitForces(UnitContacts& contacts, double half_angle) {

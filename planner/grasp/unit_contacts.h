@@ -14,11 +14,14 @@ namespace regrasp::grasp {
 ///
 /// The forces of the rim are axial · n + tangential · t for unit t ⟂ n, so the cone's half-angle is
 /// atan(tangential / axial). (cos θ, sin θ) makes them unit forces, (1, tan θ) unit normal forces.
+/// Of a soft finger (Contact::torsion) the rim has a torque about n too: for all φ the force
+/// axial · n + tangential cos φ · t goes with the torque tangential sin φ · torsion.
 struct UnitContact {
   Eigen::Vector3d q;
   Eigen::Vector3d n;
   double axial;
   double tangential;
+  double torsion = 0;  ///< over the frame's radius, as q
 };
 
 /// So many contacts are kept without asking for memory.
@@ -34,8 +37,9 @@ inline constexpr double kUnitTolerance = 1e-6;
 
 /// Checks a grasp and its friction.
 ///
-/// @throws std::invalid_argument  no contact, a value not finite, a normal not unit, z ≠ 0 in the
-///                                plane, a dimension other than 2 and 3, or a radius not positive.
+/// @throws std::invalid_argument  no contact, a value not finite, a normal not unit, a negative
+///                                torsion, z or torsion ≠ 0 in the plane, a dimension other than 2
+///                                and 3, or a radius not positive.
 void CheckGrasp(std::span<const Contact> contacts, const object::WrenchFrame& frame);
 
 /// @throws std::invalid_argument  θ is outside (0, π/2).
@@ -59,7 +63,11 @@ struct Recentring {
 /// 0.
 Recentring Recentre(UnitContacts& contacts);
 
-/// Sets the rims of all contacts to half-angle θ with forces of unit length.
+/// Whether some contact is a soft finger.
+[[nodiscard]] bool HasTorsion(std::span<const UnitContact> contacts);
+
+/// Sets the rims of all contacts to half-angle θ with forces of unit length; of a soft finger,
+/// those without a torque.
 void SetUnitForces(UnitContacts& contacts, double half_angle);
 
 /// Sets the rims of all contacts to half-angle θ with normal forces of 1.

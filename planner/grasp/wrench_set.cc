@@ -17,10 +17,11 @@ typename WrenchSet<kDim>::SupportPoint WrenchSet<kDim>::Support(const Vector& tw
   SupportPoint support{0, Vector::Zero()};
   for (const UnitContact& contact : contacts_) {
     const Eigen::Vector3d u = Velocity<kDim>(contact, twist.data());
-    const double value = ConeSupport(contact, u);
+    const double spin = Spin<kDim>(contact, twist.data());
+    const double value = ConeSupport(contact, u, spin);
     if (value > support.value) {
       support.value = value;
-      WriteWrench<kDim>(contact, SupportForce<kDim>(contact, u), support.point.data());
+      WriteWrench<kDim>(contact, SupportWrench<kDim>(contact, u, spin), support.point.data());
     }
   }
   return support;
@@ -50,7 +51,16 @@ typename WrenchSet<kDim>::Vector WrenchSet<kDim>::RimWrench(int contact, double 
     tangent = std::cos(angle) * first + std::sin(angle) * unit.n.cross(first);
   }
   Vector wrench;
-  WriteWrench<kDim>(unit, unit.axial * unit.n + unit.tangential * tangent, wrench.data());
+  WriteWrench<kDim>(unit, {unit.axial * unit.n + unit.tangential * tangent}, wrench.data());
+  return wrench;
+}
+
+template <int kDim>
+typename WrenchSet<kDim>::Vector WrenchSet<kDim>::TorsionWrench(int contact, double sign) const {
+  const UnitContact& unit = contacts_[contact];
+  Vector wrench;
+  WriteWrench<kDim>(unit, {unit.axial * unit.n, sign * unit.tangential * unit.torsion},
+                    wrench.data());
   return wrench;
 }
 

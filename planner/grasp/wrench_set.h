@@ -36,6 +36,10 @@ class WrenchSet {
   /// sign).
   [[nodiscard]] Vector RimWrench(int contact, double angle) const;
 
+  /// The wrench of a normal force with the largest torque about it, of that sign.
+  [[nodiscard]] Vector TorsionWrench(int contact, double sign) const;
+  [[nodiscard]] bool has_torsion(int contact) const { return contacts_[contact].torsion > 0; }
+
   [[nodiscard]] int contact_count() const { return static_cast<int>(contacts_.size()); }
   [[nodiscard]] static Vector Origin() { return Vector::Zero(); }
 

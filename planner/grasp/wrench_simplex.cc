@@ -56,9 +56,10 @@ WrenchSimplex<kDim>::WrenchSimplex(std::span<const UnitContact> contacts, const 
   for (int i = 0; i < count; ++i) {
     const UnitContact& contact = contacts[i];
     column_size_ = std::max(
-        column_size_, (contact.axial + contact.tangential) * (1 + contact.q.template lpNorm<1>()));
+        column_size_, (contact.axial + contact.tangential) * (1 + contact.q.template lpNorm<1>()) +
+                          contact.tangential * contact.torsion * contact.n.template lpNorm<1>());
     Vector wrench;
-    WriteWrench<kDim>(contact, (StartWeight(i) * contact.axial) * contact.n, wrench.data());
+    WriteWrench<kDim>(contact, {(StartWeight(i) * contact.axial) * contact.n}, wrench.data());
     for (int r = 0; r < kDim; ++r) start_[r] += wrench[r];
   }
   const std::array<double, kRows> right = WithShare(target, 1);
@@ -74,17 +75,21 @@ template <int kDim>
 double WrenchSimplex<kDim>::FindBest(const Dual& dual, Column& column) const {
   double best = -kInfinity;
   Eigen::Vector3d best_velocity = Eigen::Vector3d::Zero();
+  double best_spin = 0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Eigen::Vector3d u = Velocity<kDim>(contacts_[i], dual.data());
-    const double value = ConeSupport(contacts_[i], u);
+    const double spin = Spin<kDim>(contacts_[i], dual.data());
+    const double value = ConeSupport(contacts_[i], u, spin);
     if (value > best) {
       best = value;
       best_velocity = u;
+      best_spin = spin;
       column.contact = static_cast<int>(i);
     }
   }
   const UnitContact& contact = contacts_[column.contact];
-  WriteWrench<kDim>(contact, SupportForce<kDim>(contact, best_velocity), column.entries.data());
+  WriteWrench<kDim>(contact, SupportWrench<kDim>(contact, best_velocity, best_spin),
+                    column.entries.data());
   column.entries[kDim] = 1;
   double reduced_cost = 0;
   for (int r = 0; r < kRows; ++r) reduced_cost += dual[r] * column.entries[r];
@@ -95,7 +100,7 @@ template <int kDim>
 double WrenchSimplex<kDim>::Support(std::span<const UnitContact> contacts, const Vector& twist) {
   double best = -kInfinity;
   for (const UnitContact& contact : contacts) {
-    best = std::max(best, ConeSupport(contact, Velocity<kDim>(contact, twist.data())));
+    best = std::max(best, ConeSupportOf<kDim>(contact, twist.data()));
   }
   return best;
 }
@@ -186,6 +191,23 @@ Eigen::Vector3d WrenchSimplex<kDim>::ForceOf(int contact) const {
     }
   }
   return force;
+}
+
+template <int kDim>
+double WrenchSimplex<kDim>::TorqueOf(int contact) const {
+  double torque = 0;
+  if constexpr (kDim == 6) {
+    const UnitContact& unit = contacts_[contact];
+    if (unit.torsion == 0) return 0;
+    for (int r = 0; r < kRows; ++r) {
+      const Column* column = program_.column(r);
+      if (column == nullptr || column->contact != contact) continue;
+      const Eigen::Map<const Eigen::Vector3d> force(column->entries.data());
+      const Eigen::Map<const Eigen::Vector3d> about_centre(column->entries.data() + 3);
+      torque += program_.weights()[r] * unit.n.dot(about_centre - unit.q.cross(force));
+    }
+  }
+  return torque;
 }
 
 template <int kDim>

@@ -21,6 +21,9 @@ namespace regrasp::grasp {
 ///
 ///     max over t of y · w = axial n·u + tangential |u − (n·u) n|        (the cone's support).
 ///
+/// So it is for soft fingers, whose rim has torques about n too (planner/grasp/cone_support.h): the
+/// rest of the method knows nothing of the kind of contact.
+///
 /// Column generation: Dantzig and Wolfe 1960; that extreme wrenches are all a method needs: Zheng
 /// and Chew 2009. The program starts from a point inside the hull with uneven weights, so that
 /// symmetric grasps cause no degenerate pivots; a limit on pivots ends what would still stall.
@@ -74,6 +77,9 @@ class WrenchSimplex {
 
   /// The force of contact i in the solution, without that of Maximise's column.
   [[nodiscard]] Eigen::Vector3d ForceOf(int contact) const;
+
+  /// Its torque about the normal of contact i; 0 of a hard point.
+  [[nodiscard]] double TorqueOf(int contact) const;
 
   /// The dual solution: the twist that the last column was chosen for. After kInfeasible it
   /// separates: twist · w < twist · target for all columns.

@@ -15,6 +15,8 @@ struct Hand {
   /// Of the balls that the fingers end in, the object's unit of length (criteria/reach.h). 0: the
   /// fingers are points.
   double fingertip_radius = 0;
+  /// Of its contacts (grasp::Contact::torsion), the object's unit of length. 0: hard points.
+  double torsion = 0;
 
   /// Fingers for objects of a dimension, 2 or 3: the default where the number is 0.
   [[nodiscard]] constexpr int FingersIn(int dimension) const {

@@ -23,6 +23,7 @@ struct MovingContacts {
   std::vector<ExactContact> start;
   std::vector<ExactContact> end;
   std::vector<bool> turns;
+  std::vector<Rational> torsion;  ///< 0 of hard points, and of soft fingers whose normal turns
 
   [[nodiscard]] std::size_t size() const { return start.size(); }
 };
@@ -57,10 +58,14 @@ Rational LeastSquaredLength(const std::array<Vector, kCount>& coefficients) {
 /// Contacts that can apply any wrench all along a piece, three or in the plane two of them: to
 /// apply a force r and a torque τ about their middle takes forces no larger than per_force · |r| +
 /// per_torque · |τ|.
+///
+/// Two soft fingers can too: one of them twists, by a torque of per_twist · |τ| about its normal.
 struct Support {
   std::vector<std::size_t> contacts;
   Rational per_force;
   Rational per_torque_squared;
+  std::size_t twisting = 0;  ///< contact
+  Rational per_twist = 0;    ///< times its normal, of any length
 };
 
 /// Two opposite forces at a distance d apply the torque d · force.
@@ -89,6 +94,28 @@ std::optional<Rational> TripleTorqueFactor(const MovingContacts& moving, std::si
     end += SquaredNorm(side.end);
   }
   return Rational(std::max(start, end) / area);
+}
+
+/// A torque s n about the normal of `twisting` takes up the part of τ along the arm d to the other
+/// contact, s = τ·d / n·d, and two opposite forces at the distance |d| the rest, at most |τ| + |s
+/// n|.
+std::optional<Support> TwistSupport(const MovingContacts& moving, std::size_t twisting,
+                                    std::size_t other) {
+  const Linear arm = Difference(moving, other, twisting);
+  const Vector& n = moving.start[twisting].n;
+  Rational start = Dot(n, arm.start);
+  Rational end = Dot(n, arm.end);
+  if (start < 0) {
+    start = -start;
+    end = -end;
+  }
+  const Rational along = std::min(start, end);
+  const Rational least = LeastSquaredLength(std::array{arm.start, arm.end});
+  if (along <= 0 || least == 0) return std::nullopt;
+  const Rational longest = std::max(SquaredNorm(arm.start), SquaredNorm(arm.end));
+  const Rational rest = 1 + RootAbove(longest * SquaredNorm(n)) / along;
+  return Support{
+      {twisting, other}, Rational(1, 2), rest * rest / least, twisting, RootAbove(longest) / along};
 }
 
 /// A point at both ends of a piece, in floating point.
@@ -145,13 +172,27 @@ std::vector<std::size_t> BestSupport(const MovingContacts& moving, int dimension
   return best;
 }
 
-/// @returns nullopt where the contacts are on one line somewhere, or not surely off it.
+/// The two contacts of which one twists best; nullopt where none surely does.
+std::optional<Support> FindTwistSupport(const MovingContacts& moving) {
+  std::optional<Support> best;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    for (std::size_t j = 0; moving.torsion[i] > 0 && j < moving.size(); ++j) {
+      if (i == j) continue;
+      const std::optional<Support> found = TwistSupport(moving, i, j);
+      if (found && (!best || found->per_torque_squared < best->per_torque_squared)) best = found;
+    }
+  }
+  return best;
+}
+
+/// @returns nullopt where the contacts are on one line somewhere, or not surely off it, and no soft
+///          finger twists.
 std::optional<Support> FindSupport(const MovingContacts& moving, int dimension) {
   const std::vector<std::size_t> best = BestSupport(moving, dimension);
-  if (best.empty()) return std::nullopt;
+  if (best.empty()) return FindTwistSupport(moving);
   const auto factor = dimension == 2 ? PairTorqueFactor(moving, best[0], best[1])
                                      : TripleTorqueFactor(moving, best[0], best[1], best[2]);
-  if (!factor) return std::nullopt;
+  if (!factor) return FindTwistSupport(moving);
   return Support{best, Rational(1, static_cast<long>(best.size())), *factor};
 }
 
@@ -165,6 +206,20 @@ std::vector<Linear> ForcesOf(const MotionSegment& piece, int dimension) {
   return forces;
 }
 
+/// A torque about a normal at both ends of a piece.
+struct Twist {
+  Rational start = 0;
+  Rational end = 0;
+};
+
+std::vector<Twist> TorquesOf(const MotionSegment& piece) {
+  std::vector<Twist> torques(piece.start.size());
+  for (std::size_t i = 0; i < piece.start_torques.size(); ++i) {
+    torques[i] = {Rational(piece.start_torques[i]), Rational(piece.end_torques[i])};
+  }
+  return torques;
+}
+
 /// The middle of the supporting contacts.
 Linear MiddleOf(const MovingContacts& moving, const Support& support) {
   Linear middle{};
@@ -176,10 +231,15 @@ Linear MiddleOf(const MovingContacts& moving, const Support& support) {
   return {share * middle.start, share * middle.end};
 }
 
-/// The length of the largest force that the supporting contacts need to take up what the forces
-/// leave unbalanced anywhere on a piece, from above.
-Rational LargestCorrection(const MovingContacts& moving, const std::vector<Linear>& forces,
-                           const Support& support) {
+/// What supporting contacts need at most to take up what forces and torques leave unbalanced.
+struct Correction {
+  Rational force;  ///< of each of them
+  Rational twist;  ///< of the one that twists, about its normal, times that
+};
+
+/// Anywhere on a piece, from above.
+Correction LargestCorrection(const MovingContacts& moving, const std::vector<Linear>& forces,
+                             const std::vector<Twist>& torques, const Support& support) {
   const Linear middle = MiddleOf(moving, support);
   Linear force{};
   std::array<Vector, 3> torque{};
@@ -187,6 +247,11 @@ Rational LargestCorrection(const MovingContacts& moving, const std::vector<Linea
     const Linear arm = {moving.start[i].p - middle.start, moving.end[i].p - middle.end};
     const auto of_contact = CrossCoefficients(arm, forces[i]);
     for (std::size_t k = 0; k < torque.size(); ++k) torque[k] = torque[k] + of_contact[k];
+    const Vector& n = moving.start[i].n;  // those that twist do not turn
+    const auto& [first, last] = torques[i];
+    torque[0] = torque[0] + first * n;
+    torque[1] = torque[1] + Rational((first + last) / 2) * n;
+    torque[2] = torque[2] + last * n;
     force.start = force.start + forces[i].start;
     force.end = force.end + forces[i].end;
   }
@@ -194,19 +259,40 @@ Rational LargestCorrection(const MovingContacts& moving, const std::vector<Linea
   Rational torque_squared = 0;
   for (const Vector& c : torque)
     torque_squared = std::max<Rational>(torque_squared, SquaredNorm(c));
-  return support.per_force * RootAbove(force_squared) +
-         RootAbove(support.per_torque_squared * torque_squared);
+  return {support.per_force * RootAbove(force_squared) +
+              RootAbove(support.per_torque_squared * torque_squared),
+          support.per_twist * RootAbove(torque_squared)};
 }
 
 /// A force at one end of a piece, and all within `margin` of it, are inside the cones of the
 /// normals at both ends.
-bool StaysInsideCone(const Vector& force, const Rational& margin, const ExactContact& start,
-                     const ExactContact& end, bool turns, const Rational& mu) {
-  if (!turns) return IsInsideCone(force, start.n, mu, margin);
+/// @param twist  of a contact that does not turn: its torque over its torsion, times the normal.
+bool StaysInsideCone(const Vector& force, const Rational& twist, const Rational& margin,
+                     const ExactContact& start, const ExactContact& end, bool turns,
+                     const Rational& mu) {
+  if (!turns) {
+    return IsInsideCone(force, start.n, mu, margin, twist * twist * SquaredNorm(start.n));
+  }
   // tan(θ − δ) ≥ tan θ − δ (1 + tan² θ), as the tangent is convex.
   const Rational narrower = mu - Rational(kTurnedNormalBound) * (1 + mu * mu);
   return narrower > 0 && IsInsideCone(force, start.n, narrower, margin) &&
          IsInsideCone(force, end.n, narrower, margin);
+}
+
+/// Why the torques of a piece are none.
+std::string TorqueFault(const MovingContacts& moving, const MotionSegment& piece) {
+  const std::vector<double>& start = piece.start_torques;
+  const std::vector<double>& end = piece.end_torques;
+  if (start.empty() && end.empty()) return "";
+  if (start.size() != moving.size() || end.size() != moving.size())
+    return "not one torque a contact";
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (!std::isfinite(start[i]) || !std::isfinite(end[i])) return "a torque is not finite";
+    if (moving.torsion[i] == 0 && (start[i] != 0 || end[i] != 0)) {
+      return "contact " + std::to_string(i) + " has a torque, and is a hard point or turns";
+    }
+  }
+  return "";
 }
 
 ProofVerdict CheckPiece(const MovingContacts& moving, int dimension, const Rational& mu,
@@ -215,15 +301,25 @@ ProofVerdict CheckPiece(const MovingContacts& moving, int dimension, const Ratio
     return Nothing("not one force a contact");
   }
   if (!AllFinite(piece.start) || !AllFinite(piece.end)) return Nothing("a force is not finite");
+  if (const std::string fault = TorqueFault(moving, piece); !fault.empty()) return Nothing(fault);
   const std::optional<Support> support = FindSupport(moving, dimension);
   if (!support) return Nothing("the contacts may come to be on one line");
   const std::vector<Linear> forces = ForcesOf(piece, dimension);
-  const Rational correction = LargestCorrection(moving, forces, *support);
+  const std::vector<Twist> torques = TorquesOf(piece);
+  const Correction correction = LargestCorrection(moving, forces, torques, *support);
   for (std::size_t i = 0; i < forces.size(); ++i) {
     const bool supports = std::ranges::find(support->contacts, i) != support->contacts.end();
-    const Rational margin = supports ? correction : Rational(0);
-    for (const Vector& force : {forces[i].start, forces[i].end}) {
-      if (!StaysInsideCone(force, margin, moving.start[i], moving.end[i], moving.turns[i], mu)) {
+    Rational margin = supports ? correction.force : Rational(0);
+    const Rational& torsion = moving.torsion[i];
+    if (supports && support->per_twist > 0 && i == support->twisting) {
+      margin += correction.twist / torsion * RootAbove(SquaredNorm(moving.start[i].n));
+    }
+    for (const bool at_end : {false, true}) {
+      const Vector& force = at_end ? forces[i].end : forces[i].start;
+      Rational twist = 0;
+      if (torsion > 0) twist = (at_end ? torques[i].end : torques[i].start) / torsion;
+      if (!StaysInsideCone(force, twist, margin, moving.start[i], moving.end[i], moving.turns[i],
+                           mu)) {
         return Nothing("the force at contact " + std::to_string(i) +
                        ", balanced exactly, may leave its cone");
       }
@@ -268,14 +364,16 @@ ProofVerdict CheckSegmentProof(std::span<const grasp::Contact> from,
     return Nothing("a piece is not a part of the way");
   }
   std::vector<bool> turns;
+  std::vector<Rational> torsion;
   for (std::size_t i = 0; i < from.size(); ++i) {
     turns.push_back(from[i].n != to[i].n);
+    torsion.emplace_back(turns.back() ? 0 : from[i].torsion);
     if (turns.back() && TurnsTooFar(from[i], to[i])) {
       return Nothing("the normal of contact " + std::to_string(i) + " turns by a half-turn");
     }
   }
-  return CheckPiece({At(from, to, piece.from), At(from, to, piece.to), turns}, dimension, mu,
-                    piece);
+  return CheckPiece({At(from, to, piece.from), At(from, to, piece.to), turns, torsion}, dimension,
+                    mu, piece);
 }
 
 ProofVerdict CheckMotionProof(std::span<const grasp::Contact> from,

@@ -19,6 +19,10 @@ namespace regrasp::motion {
 /// that to spare inside the cones. So the equations for the coefficients of balanced forces, which
 /// are dependent where all contacts are in one plane, need not be solved.
 ///
+/// Soft fingers have torques about their normals, linear in t as well, inside the cones with the
+/// forces (grasp::Contact). Two of them can take the place of the three, as the torque of one
+/// resists a turn about their line; one whose normal turns counts as a hard point.
+///
 /// Where a normal turns, f₀ and f₁ must both lie inside the cones of the normals at both ends of
 /// the piece. The directions within θ of a force are a convex part of the sphere for θ < π/2, so
 /// every normal between is within θ of it too. Normals between two faces are irrational: they are

@@ -14,7 +14,8 @@ ContactMotion::ContactMotion(const grasp::Contact& from, const grasp::Contact& t
 grasp::Contact ContactMotion::At(double t) const {
   const Eigen::Vector3d normal =
       std::cos(t * turn_) * from_.n + std::sin(t * turn_) * turn_direction_;
-  return {(1 - t) * from_.p + t * to_.p, normal.normalized(), t < 1 ? from_.face : to_.face};
+  return {(1 - t) * from_.p + t * to_.p, normal.normalized(), t < 1 ? from_.face : to_.face,
+          from_.torsion};
 }
 
 grasp::Grasp GraspAt(const GraspMotion& motion, double t) {

@@ -141,7 +141,7 @@ Rational RootAbove(const Rational& x) {
 std::vector<ExactContact> Exact(std::span<const grasp::Contact> contacts) {
   std::vector<ExactContact> exact;
   for (const grasp::Contact& contact : contacts)
-    exact.push_back({Exact(contact.p), Exact(contact.n)});
+    exact.push_back({Exact(contact.p), Exact(contact.n), Rational(contact.torsion)});
   return exact;
 }
 
@@ -152,12 +152,13 @@ bool AllFinite(std::span<const Eigen::Vector3d> vectors) {
   return true;
 }
 
-bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu,
-                  const Rational& margin) {
+bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu, const Rational& margin,
+                  const Rational& twist_squared) {
   const Rational normal = Dot(force, n);
   // Of unit n the distance from the border is (μ f·n − |f × n|) / √(1 + μ²).
   const Rational reach = mu * normal - margin * RootAbove((1 + mu * mu) * Dot(n, n));
-  return reach > 0 && reach * reach > Dot(force, force) * Dot(n, n) - normal * normal;
+  return reach > 0 &&
+         reach * reach > (Dot(force, force) + twist_squared) * Dot(n, n) - normal * normal;
 }
 
 std::optional<std::vector<Rational>> Balance::Corrected(const std::vector<Rational>& x) const {

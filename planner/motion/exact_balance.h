@@ -33,6 +33,7 @@ using Vector = std::array<Rational, 3>;
 struct ExactContact {
   Vector p;
   Vector n;
+  Rational torsion = 0;
 };
 [[nodiscard]] std::vector<ExactContact> Exact(std::span<const grasp::Contact> contacts);
 
@@ -41,8 +42,10 @@ struct ExactContact {
 /// A force, and all that differ from it by no more than `margin`, are strictly inside the cone of
 /// friction μ about n, which need not be unit. Where `margin` is 0 the answer is exact; otherwise
 /// it may be no where less than a millionth of `margin` is missing.
+/// @param twist_squared  of a soft finger (torque / torsion)², which takes of the friction as the
+///     square of a tangential force does; `margin` is then of both together.
 [[nodiscard]] bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu,
-                                const Rational& margin = 0);
+                                const Rational& margin = 0, const Rational& twist_squared = 0);
 
 /// Homogeneous linear equations A x = 0 with a solution that is exact up to rounding.
 class Balance {

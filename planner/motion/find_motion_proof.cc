@@ -67,7 +67,8 @@ class MotionProofSearch {
     const MovingContacts contacts = ContactsOn(piece);
     if (contacts.empty() || !Span(contacts)) return std::nullopt;
     MovingForces<1> forces;
-    if (!FindForces(contacts, forces)) return std::nullopt;
+    MovingTorques<1> torques;
+    if (!FindForces(contacts, forces, torques)) return std::nullopt;
     MotionSegment proved{piece.from, piece.to, {}, {}};
     proved.start.reserve(forces.size());
     proved.end.reserve(forces.size());
@@ -75,11 +76,25 @@ class MotionProofSearch {
       proved.start.push_back(coefficients[0]);
       proved.end.push_back(coefficients[1]);
     }
+    if (std::ranges::any_of(contacts, [](const auto& c) { return c.torsion > 0; })) {
+      AddTorques(contacts, torques, proved);
+    }
     return proved;
   }
 
  private:
   static constexpr int kDim = kSpace == 3 ? 6 : 3;
+
+  /// From the unit of length of the piece's frame to that of the motion.
+  void AddTorques(const MovingContacts& contacts, const MovingTorques<1>& torques,
+                  MotionSegment& proved) const {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const double torsion = contacts[i].torsion;
+      const double unit = torsion > 0 ? motion_[i].from().torsion / torsion : 0;
+      proved.start_torques.push_back(unit * torques[i][0]);
+      proved.end_torques.push_back(unit * torques[i][1]);
+    }
+  }
 
   bool Cover(const Piece& piece, double shortest, std::vector<MotionSegment>& pieces) const {
     if (auto proved = Prove(piece)) {
@@ -110,7 +125,7 @@ class MotionProofSearch {
   [[nodiscard]] bool IsForceClosureAt(double t) const {
     grasp::UnitContacts contacts;
     for (const ContactMotion& contact : motion_) {
-      contacts.push_back({PointAt(contact, t), NormalAt(contact, t), 0, 0});
+      contacts.push_back({PointAt(contact, t), NormalAt(contact, t), 0, 0, contact.from().torsion});
     }
     grasp::Recentre(contacts);
     grasp::SetUnitForces(contacts, half_angle_);
@@ -129,7 +144,7 @@ class MotionProofSearch {
       if (!(angle > 0)) return {};
       contacts.push_back({PointAt(contact, piece.from), PointAt(contact, piece.to),
                           contact.velocity(), NormalAt(contact, piece.middle()), std::cos(angle),
-                          std::sin(angle)});
+                          std::sin(angle), Turns(contact) ? 0 : contact.from().torsion});
       start_centre += contacts.back().start;
       end_centre += contacts.back().end;
       velocity += contacts.back().velocity;
@@ -147,38 +162,59 @@ class MotionProofSearch {
     for (MovingContact& contact : contacts) {
       contact.start /= radius;
       contact.end /= radius;
+      contact.torsion /= radius;
     }
     return contacts;
   }
 
-  bool FindForces(const MovingContacts& contacts, MovingForces<1>& forces) const {
+  bool FindForces(const MovingContacts& contacts, MovingForces<1>& forces,
+                  MovingTorques<1>& torques) const {
     const double most = nearness_.largest_weight;
-    if (FindMovingForces<kSpace, 1>(contacts, forces, most) && AreInside(forces, contacts)) {
+    if (FindMovingForces<kSpace, 1>(contacts, forces, most, &torques) &&
+        AreInside(forces, torques, contacts)) {
       return true;
     }
     return nearness_.without_redundancy &&
-           FindMovingForcesWithoutRedundancy<kSpace>(contacts, forces, most) &&
-           AreInside(forces, contacts);
+           FindMovingForcesWithoutRedundancy<kSpace>(contacts, forces, most, &torques) &&
+           AreInside(forces, torques, contacts);
   }
 
-  [[nodiscard]] bool AreInside(const MovingForces<1>& forces,
+  [[nodiscard]] bool AreInside(const MovingForces<1>& forces, const MovingTorques<1>& torques,
                                const MovingContacts& contacts) const {
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (!IsInside(forces[i][0], contacts[i]) || !IsInside(forces[i][1], contacts[i])) {
-        return false;
+      for (const int end : {0, 1}) {
+        if (!IsInside(forces[i][end], torques[i][end], contacts[i])) return false;
       }
     }
     return true;
   }
 
-  [[nodiscard]] bool IsInside(const Vector3d& force, const MovingContact& contact) const {
+  [[nodiscard]] bool IsInside(const Vector3d& force, double torque,
+                              const MovingContact& contact) const {
     const double normal = force.dot(contact.n);
-    return normal * contact.tangential - (force - normal * contact.n).norm() * contact.axial >
-           nearness_.slack;
+    double tangential = (force - normal * contact.n).norm();
+    if (torque != 0) tangential = std::hypot(tangential, torque / contact.torsion);
+    return normal * contact.tangential - tangential * contact.axial > nearness_.slack;
   }
 
-  /// Whether some three contacts (two in the plane) keep apart all along.
+  /// Whether the torque of a soft finger resists a turn about the line of some two contacts all
+  /// along.
+  [[nodiscard]] static bool TwistSpans(const MovingContacts& contacts) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (contacts[i].torsion == 0) continue;
+      for (std::size_t j = 0; j < contacts.size(); ++j) {
+        const double start = contacts[i].n.dot(contacts[j].start - contacts[i].start);
+        const double end = contacts[i].n.dot(contacts[j].end - contacts[i].end);
+        if (std::min(start, end) > kSpread || std::max(start, end) < -kSpread) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Whether some three contacts (two in the plane) keep apart all along, or a soft finger takes
+  /// the place of the third.
   [[nodiscard]] static bool Span(const MovingContacts& contacts) {
+    if (TwistSpans(contacts)) return true;
     const std::size_t count = contacts.size();
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = i + 1; j < count; ++j) {

@@ -17,7 +17,8 @@ inline constexpr double kShortestProofPiece = 1.0 / 4096;
 /// While a normal turns, forces must be inside the cones of all its directions. They are looked for
 /// in the largest circular cone inside those of both ends of the piece: about the direction between
 /// them, narrower by half of the turn. (A force inside both is inside all cones between, as the
-/// directions within θ of a force are a convex part of the sphere.)
+/// directions within θ of a force are a convex part of the sphere.) A soft finger is taken to be a
+/// hard point while its normal turns.
 ///
 /// @param dimension   3, or 2 for planar contacts. @param half_angle  radians, in (0, π/2).
 /// Looks closer to the limit than FindMotionProof does (kLargestWeightNearLimit).

@@ -14,6 +14,9 @@ struct MotionSegment {
   double to = 1;
   std::vector<Eigen::Vector3d> start;
   std::vector<Eigen::Vector3d> end;
+  /// Of soft fingers the torques about the normals, which go linearly too; empty where none twists.
+  std::vector<double> start_torques = {};
+  std::vector<double> end_torques = {};
 };
 
 /// The segments of one motion between two waypoints, from 0 to 1.

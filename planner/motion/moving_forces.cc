@@ -69,7 +69,8 @@ class ForceProgram {
     for (const MovingContact& contact : contacts) {
       for (int k = 0; k <= kDegree; ++k) {
         Source& source = sources_.emplace_back();
-        source.contact = {contact.start, contact.n, contact.axial, contact.tangential};
+        source.contact = {contact.start, contact.n, contact.axial, contact.tangential,
+                          contact.torsion};
         source.coefficient = k;
         for (int a = 0; a < kArms; ++a) {
           source.arms[a] = Arms<kDegree>::kOf[k][a].factor *
@@ -82,9 +83,14 @@ class ForceProgram {
   /// Leaves out equations that the others imply. @returns false where there are none.
   bool LeaveOutRedundant() {
     const int unit_forces = static_cast<int>(sources_.size()) * kSpace;
-    Eigen::MatrixXd columns(unit_forces, kRows);
+    Eigen::MatrixXd columns(unit_forces + static_cast<int>(sources_.size()), kRows);
     for (int c = 0; c < unit_forces; ++c) {
-      columns.row(c) = Column{&sources_[c / kSpace], Vector3d::Unit(c % kSpace)}.Dense();
+      columns.row(c) = Column{&sources_[c / kSpace], {Vector3d::Unit(c % kSpace)}}.Dense();
+    }
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+      const double torque = sources_[s].contact.torsion > 0 ? 1 : 0;
+      columns.row(unit_forces + static_cast<int>(s)) =
+          Column{&sources_[s], {Vector3d::Zero(), torque}}.Dense();
     }
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rows(columns);
     rows.setThreshold(kRedundant);
@@ -94,15 +100,15 @@ class ForceProgram {
     return rows.rank() < kRows;
   }
 
-  bool Solve(MovingForces<kDegree>& forces) {
+  bool Solve(MovingForces<kDegree>& forces, MovingTorques<kDegree>* torques) {
     Row right = Row::Zero();
     for (int s = 0; s < static_cast<int>(sources_.size()); ++s) {
-      right -= Column{&sources_[s], lp::UnevenWeight(s) * sources_[s].contact.n}.Dense();
+      right -= Column{&sources_[s], {lp::UnevenWeight(s) * sources_[s].contact.n}}.Dense();
     }
     program_.StartFeasibility(right, kept_);
     program_.Run([&](const Row& dual, Column& column) { return FindBest(dual, column); }, kLimits);
     if (program_.unbalanced() > kUnbalanced) return false;
-    ReadForces(right, forces);
+    ReadForces(right, forces, torques);
     return true;
   }
 
@@ -122,15 +128,19 @@ class ForceProgram {
   };
   struct Column {
     const Source* source;
-    Vector3d force;
+    grasp::ContactWrench applied;
 
     template <class Visit>
     void ForEachEntry(const Visit& visit) const {
       const int coefficient = source->coefficient;
+      const Vector3d& force = applied.force;
       for (int axis = 0; axis < kSpace; ++axis) visit(kSpace * coefficient + axis, force[axis]);
       for (int a = 0; a < kArms; ++a) {
         const int at = TorqueRow(Arms<kDegree>::kOf[coefficient][a].block);
-        const Vector3d torque = source->arms[a].cross(force);
+        Vector3d torque = source->arms[a].cross(force);
+        if (applied.torque != 0) {
+          torque += (TwistShare(coefficient, a) * applied.torque) * source->contact.n;
+        }
         for (int k = 0; k < kTorques; ++k) visit(at + k, torque[kSpace == 3 ? k : 2]);
       }
     }
@@ -156,6 +166,13 @@ class ForceProgram {
     return per_speed * contact.velocity;
   }
 
+  /// What a torque about the normal adds to a block: to values as the force's arm is weighted, to
+  /// the leading coefficient nothing.
+  static double TwistShare(int coefficient, int arm) {
+    const Arm& of = Arms<kDegree>::kOf[coefficient][arm];
+    return of.kind == Arm::Kind::kVelocity ? 0 : of.factor;
+  }
+
   static int TorqueRow(int block) { return kForceRows + kTorques * block; }
 
   [[nodiscard]] Vector3d VelocityOf(const Source& source, const Row& dual) const {
@@ -172,12 +189,24 @@ class ForceProgram {
     return u;
   }
 
+  [[nodiscard]] double SpinOf(const Source& source, const Row& dual) const {
+    if (kSpace == 2 || source.contact.torsion == 0) return 0;
+    double spin = 0;
+    for (int a = 0; a < kArms; ++a) {
+      const int at = TorqueRow(Arms<kDegree>::kOf[source.coefficient][a].block);
+      spin += TwistShare(source.coefficient, a) *
+              source.contact.n.dot(dual.template segment<3>(kSpace == 3 ? at : 0));
+    }
+    return spin;
+  }
+
   /// The column with the largest reduced cost; false where balance is reached or cannot be.
   bool FindBest(const Row& dual, Column& column) const {
     if (program_.unbalanced() <= kUnbalanced) return false;
     boost::container::small_vector<double, grasp::kInlineContacts*(kDegree + 1)> supports;
     for (const Source& source : sources_) {
-      supports.push_back(grasp::ConeSupport(source.contact, VelocityOf(source, dual)));
+      supports.push_back(
+          grasp::ConeSupport(source.contact, VelocityOf(source, dual), SpinOf(source, dual)));
     }
     const auto best = std::max_element(supports.begin(), supports.end());
     if (!(*best > kImprovement * dual.template lpNorm<1>())) return false;
@@ -185,13 +214,14 @@ class ForceProgram {
     if (*best * largest_weight_ < program_.objective()) return false;
     constexpr int kDim = kSpace == 3 ? 6 : 3;
     column.source = &sources_[best - supports.begin()];
-    column.force =
-        grasp::SupportForce<kDim>(column.source->contact, VelocityOf(*column.source, dual));
+    column.applied = grasp::SupportWrench<kDim>(
+        column.source->contact, VelocityOf(*column.source, dual), SpinOf(*column.source, dual));
     return true;
   }
 
   /// The forces a n + g of the basic solution, refined by the inverse basis.
-  void ReadForces(const Row& right, MovingForces<kDegree>& forces) const {
+  void ReadForces(const Row& right, MovingForces<kDegree>& forces,
+                  MovingTorques<kDegree>* torques) const {
     Row weights = program_.weights();
     Row left = right;
     for (int r = 0; r < kRows; ++r) {
@@ -199,6 +229,7 @@ class ForceProgram {
     }
     weights += program_.inverse() * left;
     forces.resize(contacts_.size());
+    MovingTorques<kDegree> twists(contacts_.size());
     double largest = 0;
     for (std::size_t s = 0; s < sources_.size(); ++s) {
       const grasp::UnitContact& contact = sources_[s].contact;
@@ -209,7 +240,9 @@ class ForceProgram {
       const Column* column = program_.column(r);
       if (column == nullptr) continue;
       const auto source = column->source - sources_.data();
-      forces[source / (kDegree + 1)][column->source->coefficient] += weights[r] * column->force;
+      const int coefficient = column->source->coefficient;
+      forces[source / (kDegree + 1)][coefficient] += weights[r] * column->applied.force;
+      twists[source / (kDegree + 1)][coefficient] += weights[r] * column->applied.torque;
     }
     for (auto& of_contact : forces) {
       for (const Vector3d& force : of_contact) largest = std::max(largest, force.norm());
@@ -217,6 +250,11 @@ class ForceProgram {
     for (auto& of_contact : forces) {
       for (Vector3d& force : of_contact) force /= largest;
     }
+    if (torques == nullptr) return;
+    for (auto& of_contact : twists) {
+      for (double& torque : of_contact) torque /= largest;
+    }
+    *torques = std::move(twists);
   }
 
   std::span<const MovingContact> contacts_;
@@ -230,24 +268,29 @@ class ForceProgram {
 
 template <int kSpace, int kDegree>
 bool FindMovingForces(std::span<const MovingContact> contacts, MovingForces<kDegree>& forces,
-                      double largest_weight) {
-  return ForceProgram<kSpace, kDegree>(contacts, largest_weight).Solve(forces);
+                      double largest_weight, MovingTorques<kDegree>* torques) {
+  return ForceProgram<kSpace, kDegree>(contacts, largest_weight).Solve(forces, torques);
 }
 
 template <int kSpace>
 bool FindMovingForcesWithoutRedundancy(std::span<const MovingContact> contacts,
-                                       MovingForces<1>& forces, double largest_weight) {
+                                       MovingForces<1>& forces, double largest_weight,
+                                       MovingTorques<1>* torques) {
   ForceProgram<kSpace, 1> program(contacts, largest_weight);
-  return program.LeaveOutRedundant() && program.Solve(forces);
+  return program.LeaveOutRedundant() && program.Solve(forces, torques);
 }
 
-template bool FindMovingForces<2, 1>(std::span<const MovingContact>, MovingForces<1>&, double);
-template bool FindMovingForces<3, 1>(std::span<const MovingContact>, MovingForces<1>&, double);
-template bool FindMovingForces<2, 2>(std::span<const MovingContact>, MovingForces<2>&, double);
-template bool FindMovingForces<3, 2>(std::span<const MovingContact>, MovingForces<2>&, double);
+template bool FindMovingForces<2, 1>(std::span<const MovingContact>, MovingForces<1>&, double,
+                                     MovingTorques<1>*);
+template bool FindMovingForces<3, 1>(std::span<const MovingContact>, MovingForces<1>&, double,
+                                     MovingTorques<1>*);
+template bool FindMovingForces<2, 2>(std::span<const MovingContact>, MovingForces<2>&, double,
+                                     MovingTorques<2>*);
+template bool FindMovingForces<3, 2>(std::span<const MovingContact>, MovingForces<2>&, double,
+                                     MovingTorques<2>*);
 template bool FindMovingForcesWithoutRedundancy<2>(std::span<const MovingContact>, MovingForces<1>&,
-                                                   double);
+                                                   double, MovingTorques<1>*);
 template bool FindMovingForcesWithoutRedundancy<3>(std::span<const MovingContact>, MovingForces<1>&,
-                                                   double);
+                                                   double, MovingTorques<1>*);
 
 }  // namespace regrasp::motion

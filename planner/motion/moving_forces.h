@@ -21,6 +21,7 @@ struct MovingContact {
   /// The rim of the cone, axial · n + tangential · t, of unit length.
   double axial;
   double tangential;
+  double torsion = 0;  ///< grasp::Contact::torsion in the frame's unit
 };
 
 struct MovingContacts : boost::container::small_vector<MovingContact, grasp::kInlineContacts> {
@@ -35,6 +36,11 @@ using ForceCoefficients = std::array<Eigen::Vector3d, kDegree + 1>;
 template <int kDegree>
 using MovingForces =
     boost::container::small_vector<ForceCoefficients<kDegree>, grasp::kInlineContacts>;
+
+/// Those of the torques of soft fingers about their normals, in the frame's unit of length.
+template <int kDegree>
+using MovingTorques =
+    boost::container::small_vector<std::array<double, kDegree + 1>, grasp::kInlineContacts>;
 
 /// Forces with more weight in all than this beside the fixed part of 1 to 1.5 along each normal are
 /// not looked for: hardly any motion needs them that is not close to the limit, and to rule them
@@ -57,17 +63,20 @@ inline constexpr double kLargestWeightNearLimit = 1e10;
 ///
 /// The torques are written as values at the ends (and in the middle for degree 2) and as their
 /// leading coefficient, Σ v × Δ^d f over the largest |v| of the velocities, so that short pieces
-/// are as well conditioned as long ones.
+/// are as well conditioned as long ones. A soft finger has a torque of degree d about its normal
+/// with each force, which is a part of the values alone.
 ///
 /// Source of the idea: force closure by balanced forces inside the cones, Murray, Li and Sastry
 /// 1994, Prop. 5.3; column generation, Dantzig and Wolfe 1960.
 /// @tparam kSpace  3, or 2 for planar contacts. @tparam kDegree  1 or 2.
 /// @param forces  set where true is returned: of largest length 1.
+/// @param torques  the same; may be null where all contacts are hard points.
 /// @returns false where there are none, or none was found within the limit on pivots.
 template <int kSpace, int kDegree>
 [[nodiscard]] bool FindMovingForces(std::span<const MovingContact> contacts,
                                     MovingForces<kDegree>& forces,
-                                    double largest_weight = kLargestWeight);
+                                    double largest_weight = kLargestWeight,
+                                    MovingTorques<kDegree>* torques = nullptr);
 
 /// The same of degree 1 for contacts whose equations are not independent, as where all of them are
 /// in one plane: rounding makes equations of what the others imply that nothing can satisfy. Those
@@ -76,6 +85,7 @@ template <int kSpace, int kDegree>
 template <int kSpace>
 [[nodiscard]] bool FindMovingForcesWithoutRedundancy(std::span<const MovingContact> contacts,
                                                      MovingForces<1>& forces,
-                                                     double largest_weight = kLargestWeight);
+                                                     double largest_weight = kLargestWeight,
+                                                     MovingTorques<1>* torques = nullptr);
 
 }  // namespace regrasp::motion

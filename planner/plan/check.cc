@@ -190,8 +190,13 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
     throw InputError("plan: /object/dimension: is " + std::to_string(plan.dimension) +
                      ", but the object has dimension " + std::to_string(object.dimension()));
   }
+  const double torsion = options.torsion.value_or(plan.torsion);
+  if (torsion != 0 && plan.dimension == 2) {
+    throw InputError("plan: /torsion: contacts of a planar object have none about their normals");
+  }
   PlanCheck result;
   result.located = LocatePlan(object, plan);
+  SetTorsion(torsion, result.located);
   // Of their own, so that searches for bounds leave enough to decide with.
   motion::ProofBudget decisions = BudgetOf(plan);
   motion::ProofBudget bounds = BudgetOf(plan);

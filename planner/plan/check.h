@@ -44,6 +44,8 @@ struct HandFault {
 
 struct CheckOptions {
   std::optional<double> half_angle = std::nullopt;  ///< instead of the plan's friction, radians
+  /// Of the contacts, the object's unit of length, instead of the plan's; 0: hard points.
+  std::optional<double> torsion = std::nullopt;
   /// Fingers have this radius (reach.h), the object's unit of length, instead of the plan's; points
   /// where neither says.
   std::optional<double> finger_radius = std::nullopt;
@@ -88,7 +90,10 @@ struct PlanCheck {
 ///
 /// Laws: independent of the fingers' numbering and of the order of contacts, of rigid motion and of
 /// the unit of length; enlarging the friction never turns pass into fail.
-/// @throws InputError             the plan's dimension is not the object's.
+/// A soft finger (Plan::torsion) counts as a hard point in the proofs of a motion on which its
+/// normal turns: an align that needs its torque there fails as kNotProved.
+/// @throws InputError             the plan's dimension is not the object's, or it is planar and has
+///                                torsion.
 /// @throws std::invalid_argument  the friction half-angle is not in (0, π/2).
 [[nodiscard]] PlanCheck CheckPlan(const object::Object& object, const Plan& plan,
                                   const CheckOptions& options = {});

@@ -287,6 +287,12 @@ motion::GraspMotion MotionBetween(const FingerGrasp& from, const FingerGrasp& to
   return motion;
 }
 
+/// Why proofs may be missing of what holds at every instant.
+std::string SoftNote(const CheckContext& context) {
+  if (context.plan.torsion == 0) return "";
+  return "; a soft finger counts as a hard point where its normal turns";
+}
+
 std::string UnprovedText(const motion::PathForceClosure& path, const std::string& way,
                          const std::optional<grasp::RequiredHalfAngle>& required) {
   const std::string at = FormatShort(path.at) + " of the way " + way;
@@ -330,11 +336,13 @@ void IncludeMotion(const CheckContext& context, const Align& step, int waypoint,
                   AngleNeeded(context, there),
               loss);
   } else if (path.decision == grasp::Decision::kTooClose && !allowed) {
-    LeaveUnproved(UnprovedText(path, way, required), lost_at(required), check, fault);
+    LeaveUnproved(UnprovedText(path, way, required) + SoftNote(context), lost_at(required), check,
+                  fault);
   } else if (!required && !allowed) {
-    LeaveUnproved(
-        "on the way " + way + " no bound on the friction half-angle that it needs is proved",
-        lost_at(required), check, fault);
+    LeaveUnproved("on the way " + way +
+                      " no bound on the friction half-angle that it needs is proved" +
+                      SoftNote(context),
+                  lost_at(required), check, fault);
   }
 }
 

@@ -126,6 +126,7 @@ Plan LocatePlan(const object::Object& object, const Plan& plan) {
     }
   }
   for (grasp::Contact& contact : located.goal) contact = LocateContact(object, contact).contact;
+  SetTorsion(plan.torsion, located);
   return located;
 }
 

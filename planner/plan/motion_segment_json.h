@@ -12,6 +12,8 @@ namespace regrasp::plan {
 [[nodiscard]] Json MotionSegmentsJson(const motion::MotionSegments& pieces, int dimension);
 /// @throws InputError
 [[nodiscard]] std::vector<Eigen::Vector3d> ReadForces(const JsonReader& json, int dimension);
+/// A list of numbers where there is one of that name; otherwise empty. @throws InputError
+[[nodiscard]] std::vector<double> ReadTorques(const JsonReader& json, const char* name);
 [[nodiscard]] motion::MotionSegments ReadMotionSegments(const JsonReader& json, int dimension);
 
 }  // namespace regrasp::plan

@@ -6,6 +6,27 @@
 
 namespace regrasp::plan {
 
+namespace {
+
+void SetTorsion(double torsion, FingerGrasp& grasp) {
+  for (FingerContact& held : grasp) held.contact.torsion = torsion;
+}
+
+}  // namespace
+
+void SetTorsion(double torsion, Plan& plan) {
+  plan.torsion = torsion;
+  SetTorsion(torsion, plan.initial);
+  for (Step& step : plan.steps) {
+    if (auto* finger_switch = std::get_if<Switch>(&step)) {
+      SetTorsion(torsion, finger_switch->place);
+    } else if (auto* align = std::get_if<Align>(&step)) {
+      for (FingerGrasp& waypoint : align->waypoints) SetTorsion(torsion, waypoint);
+    }
+  }
+  for (grasp::Contact& contact : plan.goal) contact.torsion = torsion;
+}
+
 const char* StepKind(const Step& step) {
   if (std::holds_alternative<Switch>(step)) return "switch";
   return std::holds_alternative<Align>(step) ? "align" : "move";

@@ -114,6 +114,9 @@ struct Plan {
   std::string planner;
   /// Radius that the fingers were planned with, the object's unit of length; points where none.
   std::optional<double> finger_radius = std::nullopt;
+  /// Of all contacts (grasp::Contact::torsion), the object's unit of length; 0: hard points. What
+  /// contacts have themselves is set by LocatePlan.
+  double torsion = 0;
   /// Radius of the patches that fingertips touch (object/patch_normal.h), the object's unit of
   /// length: grasps at rest are force closure with the patches' normals too. None where they need
   /// not be.
@@ -136,6 +139,9 @@ using EntryIndex = Index<struct EntryTag>;
 [[nodiscard]] inline const Step& StepOf(const Plan& plan, EntryIndex entry) {
   return plan.steps[entry - 1];
 }
+
+/// Gives all contacts of a plan, and the plan itself, this torsion.
+void SetTorsion(double torsion, Plan& plan);
 
 /// "hold" for entry 0 of a report, "switch", "align" or "move" for a step.
 [[nodiscard]] const char* StepKind(const Step& step);

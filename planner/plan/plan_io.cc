@@ -28,10 +28,20 @@ Switch ReadSwitch(const JsonReader& json, int dimension) {
   return step;
 }
 
-void ExpectForces(const JsonReader& json, std::size_t found, std::size_t fingers) {
+/// @param what  "forces", "torques".
+void ExpectOneAFinger(const JsonReader& json, const char* what, std::size_t found,
+                      std::size_t fingers) {
   if (found == fingers) return;
-  json.Fail("expected " + std::to_string(fingers) + " forces, one a finger, found " +
+  json.Fail("expected " + std::to_string(fingers) + " " + what + ", one a finger, found " +
             std::to_string(found));
+}
+
+/// The torques of soft fingers, where a piece has any.
+void ExpectTorques(const JsonReader& piece, const motion::MotionSegment& read,
+                   std::size_t fingers) {
+  if (read.start_torques.empty() && read.end_torques.empty()) return;
+  ExpectOneAFinger(piece.Member("start_torques"), "torques", read.start_torques.size(), fingers);
+  ExpectOneAFinger(piece.Member("end_torques"), "torques", read.end_torques.size(), fingers);
 }
 
 /// The elements of a list with one for each waypoint of an align but the last.
@@ -55,8 +65,9 @@ AlignCertificate ReadCertificate(const JsonReader& json, const Align& step, int 
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const motion::MotionSegment& piece = certificate.back()[k];
       const std::size_t fingers = step.waypoints[w].size();
-      ExpectForces(pieces[k].Member("start"), piece.start.size(), fingers);
-      ExpectForces(pieces[k].Member("end"), piece.end.size(), fingers);
+      ExpectOneAFinger(pieces[k].Member("start"), "forces", piece.start.size(), fingers);
+      ExpectOneAFinger(pieces[k].Member("end"), "forces", piece.end.size(), fingers);
+      ExpectTorques(pieces[k], piece, fingers);
     }
   }
   return certificate;
@@ -170,6 +181,11 @@ double ReadPatchRadius(const JsonReader& json, const Plan& plan) {
   return ReadRadius(json);
 }
 
+double ReadTorsion(const JsonReader& json, const Plan& plan) {
+  if (plan.dimension == 2) json.Fail("only contacts of solids have torsion");
+  return ReadRadius(json);
+}
+
 bool ReadContactPlaces(const JsonReader& json, const Plan& plan) {
   if (plan.dimension == 2) json.Fail("only surfaces give points");
   return json.OneOf({"given"}) == "given";
@@ -254,6 +270,7 @@ Plan ParsePlan(std::string_view text, const std::string& name) {
   plan.fingers = root.Member("fingers").Integer(1, kMostFingers);
   plan.planner = root.Member("planner").String();
   if (root.Has("finger_radius")) plan.finger_radius = ReadRadius(root.Member("finger_radius"));
+  if (root.Has("torsion")) plan.torsion = ReadTorsion(root.Member("torsion"), plan);
   if (root.Has("patch_radius"))
     plan.patch_radius = ReadPatchRadius(root.Member("patch_radius"), plan);
   if (root.Has("contacts")) plan.at_given_points = ReadContactPlaces(root.Member("contacts"), plan);
@@ -289,6 +306,7 @@ std::string FormatPlan(const Plan& plan) {
   json["fingers"] = plan.fingers;
   json["planner"] = plan.planner;
   if (plan.finger_radius) json["finger_radius"] = *plan.finger_radius;
+  if (plan.torsion > 0) json["torsion"] = plan.torsion;
   if (plan.patch_radius) json["patch_radius"] = *plan.patch_radius;
   if (plan.at_given_points) json["contacts"] = "given";
   if (plan.roadmap) json["roadmap"] = RoadmapNoteJson(*plan.roadmap);

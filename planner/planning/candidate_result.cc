@@ -28,6 +28,7 @@ PlanResult ResultOf(const CandidateSequence& candidate, const criteria::GraspEva
   plan.dimension = request.object->dimension();
   plan.half_angle = request.criteria.half_angle;
   plan.fingers = request.hand.fingers;
+  plan.torsion = request.hand.torsion;
   plan.planner = planner;
   if (request.hand.fingertip_radius > 0) plan.finger_radius = request.hand.fingertip_radius;
   plan.initial = candidate.initial;

@@ -40,6 +40,8 @@ std::string OptionName(PlanOption option) {
       return "--explain";
     case PlanOption::kHand:
       return "--hand";
+    case PlanOption::kSoftFingers:
+      return "--contact soft";
     case PlanOption::kFocusPoints:
       return "--sampling";
     case PlanOption::kQueries:
@@ -64,6 +66,7 @@ std::vector<PlanOption> OptionsOf(const PlanRequest& request) {
   add(request.effort.has_value(), PlanOption::kEffort);
   add(request.explain, PlanOption::kExplain);
   add(request.in_hand != nullptr, PlanOption::kHand);
+  add(request.hand.torsion > 0, PlanOption::kSoftFingers);
   const GraphTasks tasks = request.graph.value_or(GraphTasks());
   add(tasks.focus_points > 0, PlanOption::kFocusPoints);
   add(tasks.queries > 0, PlanOption::kQueries);
@@ -83,6 +86,9 @@ std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
   }
   if (request.graph && !planner.traits().has_graph) {
     return "the planner " + planner.name() + " has no graph";
+  }
+  if (planar && request.hand.torsion > 0) {
+    return "--contact soft: contacts of a planar object have no torque about their normals";
   }
   const std::vector<PlanOption>& has = planner.traits().options;
   for (const PlanOption option : OptionsOf(request)) {

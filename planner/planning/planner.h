@@ -29,6 +29,7 @@ enum class PlanOption {
   kEffort,
   kExplain,
   kHand,
+  kSoftFingers,  ///< Hand::torsion above 0
   kFocusPoints,  ///< of GraphTasks
   kQueries,
 };

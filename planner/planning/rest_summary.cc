@@ -5,6 +5,7 @@
 
 #include "planner/base/number.h"
 #include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/soft_contacts.h"
 
 namespace regrasp::planning {
 
@@ -17,7 +18,8 @@ double SmallestMargin(const std::vector<Rest>& rests, const criteria::GraspEvalu
   double smallest = evaluator.half_angle();
   for (const auto& [margin, rest] : by_margin) {
     if (margin >= std::max(smallest, 0.0)) break;
-    const auto required = grasp::ComputeRequiredHalfAngle(rest->grasp, evaluator.frame());
+    const grasp::SoftContacts felt(rest->grasp, evaluator.torsion());
+    const auto required = grasp::ComputeRequiredHalfAngle(felt.view(), evaluator.frame());
     smallest = std::min(smallest, required ? evaluator.half_angle() - required->upper : 0);
   }
   return smallest;
@@ -39,7 +41,8 @@ std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
       warnings.push_back("a fingertip has no clearance in " + name(i) +
                          ": a contact is in a concave corner");
     }
-    for (const auto& unmet : FindUnmet(grasp, evaluator.frame(), evaluator.criteria())) {
+    const grasp::SoftContacts felt(grasp, evaluator.torsion());
+    for (const auto& unmet : FindUnmet(felt.view(), evaluator.frame(), evaluator.criteria())) {
       const auto known = std::ranges::find_if(
           weakest, [&](const auto& other) { return other.first.name == unmet.name; });
       if (known == weakest.end()) {

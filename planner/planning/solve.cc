@@ -13,6 +13,7 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/soft_contacts.h"
 #include "planner/object/given_points.h"
 #include "planner/plan/plan_reach.h"
 #include "planner/sampling/draw_grasp.h"
@@ -82,7 +83,8 @@ class GraspResolver {
     };
     const grasp::Grasp& grasp = choice.grasp;
     const int found = static_cast<int>(grasp.size());
-    const grasp::ContactLimits taken{scope_.contacts.least,
+    const bool soft = request_.hand.torsion > 0;
+    const grasp::ContactLimits taken{soft ? evaluator_.fewest_contacts() : scope_.contacts.least,
                                      std::min(scope_.contacts.most, request_.hand.fingers)};
     if (found < taken.least || found > taken.most) {
       refuse("the planner " + planner_.name() + " needs " + RangeText(taken) + " contacts, found " +
@@ -110,8 +112,9 @@ class GraspResolver {
   template <typename Refuse>
   void CheckForceClosure(const grasp::Grasp& grasp, const Refuse& refuse) const {
     const double half_angle = request_.criteria.half_angle;
-    if (grasp::IsForceClosure(grasp, evaluator_.frame(), half_angle)) return;
-    const auto required = grasp::ComputeRequiredHalfAngle(grasp, evaluator_.frame());
+    const grasp::SoftContacts felt(grasp, evaluator_.torsion());
+    if (grasp::IsForceClosure(felt.view(), evaluator_.frame(), half_angle)) return;
+    const auto required = grasp::ComputeRequiredHalfAngle(felt.view(), evaluator_.frame());
     refuse("not force closure: " +
            (required ? "needs a friction half-angle of " + NeededDegrees(*required)
                      : std::string("no friction half-angle below 90° is enough")) +
@@ -135,6 +138,9 @@ PlanResult Negative(Status status, std::string message) {
 
 PlanResult Solve(const Planner& planner, const PlanRequest& request) {
   if (!(request.criteria.min_quality >= 0)) throw std::invalid_argument("min_quality is negative");
+  if (!(request.hand.torsion >= 0) || !std::isfinite(request.hand.torsion)) {
+    throw std::invalid_argument("torsion is negative or not finite");
+  }
   if (const std::string why = WhyNotServed(planner, request); !why.empty()) throw InputError(why);
   PlanRequest resolved = request;
   if (resolved.hand.fingers == 0) {

@@ -111,8 +111,9 @@ class RouteSearch {
     SurfaceRoute route = {from_};
     for (std::size_t i = 0; i < crossings.size(); ++i) {
       const FaceIndex beyond = crossings[i]->face;
-      route.push_back({points[i + 1], route.back().n, route.back().face});
-      route.push_back({points[i + 1], object_.inward_normal(beyond), beyond});
+      const double torsion = route.back().torsion;
+      route.push_back({points[i + 1], route.back().n, route.back().face, torsion});
+      route.push_back({points[i + 1], object_.inward_normal(beyond), beyond, torsion});
     }
     route.push_back(to_);
     return route;

@@ -187,6 +187,7 @@ class TreeSearch {
     plan.dimension = object_.dimension();
     plan.half_angle = half_angle_;
     plan.fingers = request_.hand.fingers;
+    plan.torsion = request_.hand.torsion;
     plan.goal = candidate.rests.back().grasp;
     plan.initial = std::move(candidate.initial);
     plan.steps = std::move(candidate.steps);
@@ -250,7 +251,8 @@ TreePlanner::TreePlanner()
            .in_space =
                planning::PlannerScope{hand::kFingersInSpace, {3, hand::kFingersInSpace}, {4, 4}},
            .options = {planning::PlanOption::kMargin, planning::PlanOption::kTravel,
-                       planning::PlanOption::kEffort, planning::PlanOption::kExplain},
+                       planning::PlanOption::kEffort, planning::PlanOption::kExplain,
+                       planning::PlanOption::kSoftFingers},
            .has_graph = false}) {}
 
 planning::PlanResult TreePlanner::Plan(const planning::PlanRequest& request) const {

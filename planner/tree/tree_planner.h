@@ -5,8 +5,8 @@
 namespace regrasp::tree {
 
 /// The planner `general`: joins any two force-closure grasps that the hand can hold, on any body,
-/// in space (three to five contacts, a hand of five fingers) and in the plane (two to four
-/// contacts, four fingers), with switches and aligns.
+/// in space (three to five contacts, of soft fingers from two on, a hand of five fingers) and in
+/// the plane (two to four contacts, four fingers), with switches and aligns.
 ///
 /// First the grasps of the two grasps' own contacts; then a tree from each, grown by switches with
 /// contacts of the whole surface and by aligns, until they meet (BidirectionalTree). The sequence

@@ -75,8 +75,9 @@ class ForceClosure:
 
 def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None = None,
                   mu: float | None = None, *, friction_angle_deg: float | None = None,
-                  touching: ArrayLike | None = None, required_angle: bool = False,
-                  quality: bool = False, threads: int = 0, progress: Progress = None) -> ForceClosure:
+                  torsion: float = 0, touching: ArrayLike | None = None,
+                  required_angle: bool = False, quality: bool = False, threads: int = 0,
+                  progress: Progress = None) -> ForceClosure:
     """Decides whether grasps are force closure, with circular friction cones and a certified margin.
 
     Args:
@@ -87,6 +88,8 @@ def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None =
             surface is not asked.
         mu: friction coefficient, or
         friction_angle_deg: the half-angle of the cones, atan(mu), in degrees.
+        torsion: of soft fingers the largest torque about a normal over the largest tangential force,
+            in the unit of `points`; 0: hard points, which have no torque.
         touching: (k,) or (N, k), which of the contacts there are; None: all. Points and normals of the
             others are not looked at, and may be NaN.
         required_angle: whether to compute `ForceClosure.required_angle_deg`.
@@ -99,13 +102,15 @@ def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None =
         InputError: names the argument, the grasp and the value.
 
     Two fingers on opposite faces of a cube can turn it about the line between them; a third one
-    holds it:
+    holds it, and so do soft fingers:
 
     >>> points = [[0, .5, .5], [1, .3, .5], [1, .7, .5]]
     >>> normals = [[1, 0, 0], [-1, 0, 0], [-1, 0, 0]]
     >>> bool(force_closure(points[:2], normals[:2], mu=0.5).holds)
     False
     >>> force_closure(points, normals, mu=0.5).holds
+    True
+    >>> force_closure(points[:2], normals[:2], mu=0.5, torsion=0.01).holds
     True
     >>> force_closure(points, normals, mu=0.5, touching=[True, True, False]).holds
     False
@@ -125,6 +130,9 @@ def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None =
     elif quality:
         raise InputError("object: quality needs it, as torques are over half its diameter")
     half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
+    torsion = _arguments.number("torsion", torsion, 0, zero=True)
+    if torsion > 0 and dimension == 2:
+        raise InputError(f"torsion: {torsion}, and contacts in the plane have none")
     single = points.ndim == 2
     shape = (1 if single else len(points), points.shape[-2], 3)
     points, normals = _in_space(points, shape), _in_space(normals, shape)
@@ -133,7 +141,7 @@ def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None =
         _PART_WITH_QUALITY if quality else _PART_WITH_ANGLE if required_angle else _PART)
     decisions, lower, required, worth = _judge(
         lambda p, n: _regrasp.judge_grasps(p, n, object._core if object else None, dimension,
-                                           half_angle, required_angle, quality, threads),
+                                           half_angle, torsion, required_angle, quality, threads),
         points, normals, None if touching is None else touching.reshape(shape[:2]), part,
         _arguments.callback("progress", progress))
     holds = decisions == 2

@@ -140,8 +140,8 @@ def _describe(step: dict) -> str:
 def plan(object: Object, start: GivenGrasp, goal: GivenGrasp, mu: float | None = None, *,
          friction_angle_deg: float | None = None, planner: str = "auto", optimize: str = "steps",
          contacts: int | None = None, clusters: int | None = None, seed: int = 0,
-         min_quality: float = 0.01, finger_radius: float = 0, time_limit: float | None = None,
-         progress: Progress = None) -> Plan:
+         min_quality: float = 0.01, finger_radius: float = 0, torsion: float = 0,
+         time_limit: float | None = None, progress: Progress = None) -> Plan:
     """Finds a sequence from one grasp to another with force closure at every instant.
 
     The same arguments give the same plan, bit for bit, and the same that the program `plan` writes.
@@ -161,6 +161,8 @@ def plan(object: Object, start: GivenGrasp, goal: GivenGrasp, mu: float | None =
         seed: of all that is drawn at random.
         min_quality: that random grasps have at least and the sequence prefers.
         finger_radius: of the fingers, in the object's unit; 0: points.
+        torsion: of soft fingers the largest torque about a normal over the largest tangential force,
+            in the object's unit; 0: hard points.
         time_limit: seconds after which planning gives up; the plan then depends on the machine.
         progress: called with a line of text for each stage.
 
@@ -193,6 +195,7 @@ def plan(object: Object, start: GivenGrasp, goal: GivenGrasp, mu: float | None =
         given.clusters = _arguments.integer("clusters", clusters, _regrasp.fewest_clusters,
                                             _regrasp.most_clusters)
     given.finger_radius = _arguments.number("finger_radius", finger_radius, 0, zero=True)
+    given.torsion = _arguments.number("torsion", torsion, 0, zero=True)
     return _plan_of(object, *_regrasp.find_plan(object._core, given,
                                                 _arguments.callback("progress", progress)))
 

@@ -91,11 +91,11 @@ class Report:
 
 
 def validate(object: Object, plan: Plan, mu: float | None = None, *,
-             friction_angle_deg: float | None = None, mass: float | None = None,
-             squeeze: float | None = None, shake: float = 0.01, tolerance: float = 0.001,
-             stress: bool = False, hand: Hand | None = None, replay: str | None = None,
-             tip: str | None = None, tolerance_mm: float = 2, tolerance_deg: float = 5,
-             feedback: bool = True, progress: Progress = None) -> Report:
+             friction_angle_deg: float | None = None, torsion: float | None = None,
+             mass: float | None = None, squeeze: float | None = None, shake: float = 0.01,
+             tolerance: float = 0.001, stress: bool = False, hand: Hand | None = None,
+             replay: str | None = None, tip: str | None = None, tolerance_mm: float = 2,
+             tolerance_deg: float = 5, feedback: bool = True, progress: Progress = None) -> Report:
     """Checks a plan analytically, replays it with frictional point fingers or by a hand, and disturbs
     the object.
 
@@ -104,6 +104,7 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         plan: from `regrasp.plan` or `Plan.read`.
         mu: friction coefficient instead of the plan's, or
         friction_angle_deg: the half-angle of the cones in degrees.
+        torsion: of soft fingers instead of the plan's, in the object's unit; 0: hard points.
         mass: of the object, kg; None: of water.
         squeeze: total normal force of a grasp, N; None: ten times what the shake needs.
         shake: force of the disturbance over the squeeze.
@@ -142,6 +143,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     _arguments.of_type("plan", plan, Plan, "; Plan.read reads a file")
     given = _regrasp.ValidateArguments()
     given.half_angle = _arguments.half_angle(mu, friction_angle_deg)
+    if torsion is not None:
+        given.torsion = _arguments.number("torsion", torsion, 0, zero=True)
     if mass is not None:
         given.mass_kg = _arguments.number("mass", mass, 0)
     if squeeze is not None:

@@ -70,6 +70,9 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
   }
   facts.Add("Friction", FormatDegrees(Degrees(report.half_angle)) +
                             " (μ = " + NumberText(std::tan(report.half_angle)) + ")");
+  if (report.torsion > 0) {
+    facts.Add("Soft fingers", "torsion " + LengthText(report.torsion * report.scale));
+  }
   if (report.grasp) AddGrasp(report, facts);
   const plan::EntryIndex weakest = report.weakest_step();
   if (weakest.valid() && !report.grasp && report.passed()) {

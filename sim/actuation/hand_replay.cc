@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "planner/base/error.h"
 #include "planner/plan/hand_path.h"
 #include "sim/actuation/entry_replay.h"
 #include "sim/actuation/torque_squeeze.h"
@@ -136,6 +137,11 @@ std::vector<double> NumbersOf(const plan::Plan& plan, plan::EntryIndex entry) {
 ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedron& solid,
                         const plan::Plan& plan, const HandReplayOptions& options,
                         const HandReplayObserver& observer, int steps) {
+  if (plan.torsion != 0) {
+    throw InputError(
+        "replay by a hand: its fingertips are hard points, and the plan is for soft "
+        "fingers; --replay points has them");
+  }
   const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
   HandWorld world(file, solid, plan.scale,
                   WorldOptions(options, options.half_angle.value_or(plan.half_angle)));

@@ -12,7 +12,8 @@ HandForces PlanHandForces(const ReplayWorld& world, const std::vector<FingerInde
   grasp::Grasp contacts;
   for (const FingerIndex f : fingers) {
     const grasp::Contact& planned = world.fingers()[f].contact;
-    contacts.push_back({world.ContactPoint_B(f), planned.n, planned.face});
+    contacts.push_back(
+        {world.ContactPoint_B(f), planned.n, planned.face, world.settings().torsion_m});
   }
   const grasp::Wrench load_B{R_SB.transpose() * (world.weight_S() + load_S.force),
                              R_SB.transpose() * load_S.torque_over_radius};

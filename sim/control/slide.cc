@@ -42,7 +42,8 @@ SlideForces PlanSlide(const ReplayWorld& world, FingerIndex finger, const grasp:
       sliding.push_back({static_cast<int>(contacts.size()), direction_B});
       contacts.push_back(at_B);
     } else {
-      contacts.push_back({world.ContactPoint_B(f), world.fingers()[f].contact.n, {}});
+      contacts.push_back(
+          {world.ContactPoint_B(f), world.fingers()[f].contact.n, {}, world.settings().torsion_m});
     }
   }
   const Eigen::Matrix3d R_SB = world.X_SB().linear();

@@ -308,6 +308,9 @@ Vector3d OdeEngine::contact_force(FingerIndex finger) const {
   return impl_->units.force_N() * total;
 }
 
+/// Contacts are hard points here.
+Vector3d OdeEngine::contact_torque(FingerIndex /*finger*/) const { return Vector3d::Zero(); }
+
 void OdeEngine::PlaceTip(FingerIndex finger, const Vector3d& tip) {
   impl_->tips[finger] = {tip / impl_->units.length_m, Vector3d::Zero()};
 }

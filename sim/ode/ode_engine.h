@@ -30,6 +30,7 @@ class OdeEngine final : public Engine {
   [[nodiscard]] Eigen::Isometry3d object_pose() const override;
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const override;
   [[nodiscard]] Eigen::Vector3d contact_force(FingerIndex finger) const override;
+  [[nodiscard]] Eigen::Vector3d contact_torque(FingerIndex finger) const override;
   void PlaceTip(FingerIndex finger, const Eigen::Vector3d& tip) override;
   void ShiftTip(FingerIndex finger, const Eigen::Vector3d& offset) override;
   void SetTarget(FingerIndex finger, const Eigen::Vector3d& target) override;

@@ -67,7 +67,7 @@ class NoisyHand {
     const auto legs = object::WalkStraight(object_, meant.face, meant.p, off);
     if (!legs) return std::nullopt;
     const SurfaceLeg& last = legs->back();
-    const grasp::Contact drawn{last.to, object_.inward_normal(last.face), last.face};
+    const grasp::Contact drawn{last.to, object_.inward_normal(last.face), last.face, meant.torsion};
     return CanTouch(drawn) ? std::optional(drawn) : std::nullopt;
   }
 

@@ -39,7 +39,7 @@ void FingerWays::AppendTo(const object::Object& object,
       grasp.push_back(ways_[i].held);
       grasp.back().contact = {
           share >= 1 ? leg.to : Vector3d(leg.from + share * (leg.to - leg.from)),
-          object.inward_normal(leg.face), leg.face};
+          object.inward_normal(leg.face), leg.face, ways_[i].held.contact.torsion};
     }
     if (waypoints.empty() || !AreSame(waypoints.back(), grasp)) waypoints.push_back(grasp);
   };

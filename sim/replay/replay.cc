@@ -89,7 +89,8 @@ plan::Fault DescribeFault(const ReplayWorld& world, const object::Object& object
   if (!f.valid()) return fault;
   const WorldFinger& finger = world.fingers()[f];
   const auto contact_at = [&](const Eigen::Vector3d& p_B) {
-    return grasp::Contact{centroid + p_B / scale, finger.contact.n, finger.contact.face};
+    return grasp::Contact{centroid + p_B / scale, finger.contact.n, finger.contact.face,
+                          world.settings().torsion_m / scale};
   };
   const Eigen::Vector3d found = world.ContactPoint_B(f);
   const Eigen::Vector3d& n = finger.contact.n;
@@ -142,7 +143,7 @@ FingerMargins MarginsNow(const ReplayWorld& world) {
     const Eigen::Vector3d force = world.engine().contact_force(f);
     const Eigen::Vector3d normal = world.X_SB().linear() * world.fingers()[f].contact.n;
     if (force.dot(normal) < kPressing * world.settings().squeeze_N) continue;
-    AddMargin(f, ConeMargin(force, normal, world.half_angle()), margins);
+    AddMargin(f, ConeMargin(force, normal, world.half_angle(), world.Twist(f)), margins);
   }
   return margins;
 }

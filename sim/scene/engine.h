@@ -47,6 +47,8 @@ class Engine {
   [[nodiscard]] virtual Eigen::Vector3d tip(FingerIndex finger) const = 0;
   /// Force of a finger on the object in the last step; zero where they do not touch.
   [[nodiscard]] virtual Eigen::Vector3d contact_force(FingerIndex finger) const = 0;
+  /// Its torque on the object about the normal; zero of hard points.
+  [[nodiscard]] virtual Eigen::Vector3d contact_torque(FingerIndex finger) const = 0;
 
   /// Moves a finger there at once, at rest.
   virtual void PlaceTip(FingerIndex finger, const Eigen::Vector3d& tip) = 0;

@@ -113,6 +113,14 @@ Vector3d MujocoEngine::tip(FingerIndex finger) const {
 }
 
 Vector3d MujocoEngine::contact_force(FingerIndex finger) const {
+  return impl_->units.force_N() * SumOfContacts(finger, 0);
+}
+
+Vector3d MujocoEngine::contact_torque(FingerIndex finger) const {
+  return impl_->units.force_N() * impl_->units.length_m * SumOfContacts(finger, 3);
+}
+
+Vector3d MujocoEngine::SumOfContacts(FingerIndex finger, int begin) const {
   const mjData& d = *impl_->data;
   Vector3d total = Vector3d::Zero();
   for (int i = 0; i < d.ncon; ++i) {
@@ -122,11 +130,11 @@ Vector3d MujocoEngine::contact_force(FingerIndex finger) const {
     std::array<mjtNum, 6> local;
     mj_contactForce(impl_->model.get(), &d, i, local.data());
     std::array<mjtNum, 3> world;
-    mju_rotVecMatT(world.data(), local.data(), contact.frame);
+    mju_rotVecMatT(world.data(), local.data() + begin, contact.frame);
     // The engine gives the force on the second geom.
     total += (first ? 1 : -1) * Vector3d(world[0], world[1], world[2]);
   }
-  return impl_->units.force_N() * total;
+  return total;
 }
 
 void MujocoEngine::PlaceTip(FingerIndex finger, const Vector3d& tip) {

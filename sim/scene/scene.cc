@@ -331,7 +331,8 @@ void LayOut(const Sequence& sequence, const ReplayOptions& options, Scene& scene
 }  // namespace
 
 grasp::Contact ToScene(const object::Object& object, double scale, const grasp::Contact& contact) {
-  return {(contact.p - object.mass_properties().centroid) * scale, contact.n, contact.face};
+  return {(contact.p - object.mass_properties().centroid) * scale, contact.n, contact.face,
+          contact.torsion * scale};
 }
 
 plan::FingerGrasp ToScene(const object::Object& object, double scale, plan::FingerGrasp grasp) {
@@ -358,6 +359,7 @@ Scene MakeScene(const object::Object& body, const plan::Plan& plan, int steps,
   scene.settings = DeriveSettings(
       body, plan.scale, plan.half_angle,
       SmallestClearance(body, plan.scale, scene, WantedClearance(body, options)), options);
+  scene.settings.torsion_m = plan.torsion * plan.scale;
   for (SceneSite& site : scene.sites) {
     site.patches = MakeScenePatches(body, plan.scale, site.place, scene.settings);
   }
@@ -371,8 +373,8 @@ Scene InUnits(Scene scene, const EngineUnits& units) {
   const double kilogram = 1 / units.mass_kg;
   const double second = 1 / units.time_s;
   ReplaySettings& s = scene.settings;
-  for (double* length : {&s.diameter_m, &s.thickness_m, &s.fingertip_radius_m, &s.patch_size_m,
-                         &s.patch_thickness_m}) {
+  for (double* length : {&s.torsion_m, &s.diameter_m, &s.thickness_m, &s.fingertip_radius_m,
+                         &s.patch_size_m, &s.patch_thickness_m}) {
     *length *= metre;
   }
   s.mass_kg *= kilogram;

@@ -23,6 +23,12 @@ constexpr double kBallInertia = 0.4;
 /// prism's rims.
 constexpr double kCapsuleLength = 0.25;
 
+/// How much stiffer than normal forces friction is. The engine lets torsional friction give way the
+/// more the smaller the torsion is: as stiff as for hard points, objects held by soft fingers of a
+/// torsion of a hundredth of their size creep too fast to count as at rest.
+constexpr double kHardImpratio = 100;
+constexpr double kSoftImpratio = 1000;
+
 /// Impacts are softened over two time steps, the least that the engine's integration bears.
 constexpr double kContactSteps = 2;
 
@@ -144,6 +150,15 @@ std::string FormatTip(int dimension, const ReplaySettings& s) {
          "\"";
 }
 
+/// The attributes of what two geoms touch with. The engine's elliptic cone of four dimensions is
+/// the ellipsoid of soft fingers (grasp::Contact), its torsional friction the largest torque over
+/// the normal force.
+std::string FormatFriction(const ReplaySettings& s) {
+  const double mu = s.friction_factor * s.mu;
+  if (s.torsion_m == 0) return "condim=\"3\" friction=\"" + FormatDouble(mu) + " 1e-5 1e-5\"";
+  return "condim=\"4\" friction=\"" + Join({mu, mu * s.torsion_m}) + " 1e-5\"";
+}
+
 std::string FormatKeyframe(int dimension, const std::vector<Vector3d>& hold) {
   if (hold.empty()) return {};
   std::string controls;
@@ -201,7 +216,8 @@ std::string FormatScene(const Scene& scene, const object::Object& body,
                {"size", surface ? "" : kEngineSize},
                {"diameter", FormatDouble(s.diameter_m)},
                {"light", FormatDouble(s.diameter_m)},
-               {"mu", FormatDouble(s.friction_factor * s.mu)},
+               {"friction", FormatFriction(s)},
+               {"impratio", FormatDouble(s.torsion_m == 0 ? kHardImpratio : kSoftImpratio)},
                {"contact_time", FormatDouble(kContactSteps * s.timestep_s)},
                {"object_joints", FormatObjectJoints(scene.dimension)},
                {"tip", FormatTip(scene.dimension, s)},

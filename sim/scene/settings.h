@@ -87,6 +87,7 @@ struct HandReplaySettings {
 /// The values that the replay ran with.
 struct ReplaySettings {
   double mu = 0;
+  double torsion_m = 0;  ///< of all contacts (grasp::Contact::torsion); 0: hard points
   double mass_kg = 0;
   double squeeze_N = 0;
   SqueezeSource squeeze_source = SqueezeSource::kShake;

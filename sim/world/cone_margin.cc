@@ -6,8 +6,11 @@
 
 namespace regrasp::sim {
 
-double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal, double half_angle) {
-  return half_angle - std::atan2(normal.cross(force).norm(), normal.dot(force));
+double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal, double half_angle,
+                  double twist) {
+  double tangential = normal.cross(force).norm();
+  if (twist != 0) tangential = std::hypot(tangential, twist);
+  return half_angle - std::atan2(tangential, normal.dot(force));
 }
 
 void AddMargin(FingerIndex finger, double margin, FingerMargins& margins) {

@@ -12,9 +12,11 @@ namespace regrasp::sim {
 /// force on the object and the inward normal, radians. 0 where the force lies on its cone, negative
 /// outside.
 /// @param normal  unit.
+/// @param twist   of a soft finger its torque about the normal over its torsion: it takes of the
+///     same friction as a tangential force of this size at right angles to the one that there is.
 /// @pre the force is not zero.
 [[nodiscard]] double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal,
-                                double half_angle);
+                                double half_angle, double twist = 0);
 
 /// Of several margins of a finger the smallest stays.
 void AddMargin(FingerIndex finger, double margin, FingerMargins& margins);

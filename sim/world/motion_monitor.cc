@@ -79,9 +79,9 @@ void MotionMonitor::AddGap(FingerIndex finger, double gap_m) {
 }
 
 void MotionMonitor::AddForce(FingerIndex finger, const Eigen::Vector3d& force,
-                             const Eigen::Vector3d& normal) {
+                             const Eigen::Vector3d& normal, double twist) {
   if (force.dot(normal) < kPressing * settings_.squeeze_N) return;
-  AddMargin(finger, ConeMargin(force, normal, std::atan(settings_.mu)), margins_);
+  AddMargin(finger, ConeMargin(force, normal, std::atan(settings_.mu), twist), margins_);
 }
 
 plan::Reason MotionMonitor::reason() const {

@@ -37,8 +37,9 @@ class MotionMonitor {
   /// @param gap_m  from the surface to the fingertip of a finger at rest.
   void AddGap(FingerIndex finger, double gap_m);
   /// @param force   of a finger on the object; left out where it hardly presses (kPressing).
-  /// @param normal  inward, unit.
-  void AddForce(FingerIndex finger, const Eigen::Vector3d& force, const Eigen::Vector3d& normal);
+  /// @param normal  inward, unit. @param twist  as in ConeMargin.
+  void AddForce(FingerIndex finger, const Eigen::Vector3d& force, const Eigen::Vector3d& normal,
+                double twist = 0);
   /// Cone margins are smallest from here on.
   void ForgetForces() { margins_.clear(); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/base/error.h"
 #include "sim/ode/ode_engine.h"
 #include "sim/scene/mujoco_engine.h"
 #include "sim/scene/scaling.h"
@@ -23,7 +24,14 @@ grasp::Contact FirstContact(const object::Object& body, const Scene& scene, Fing
 }
 
 std::unique_ptr<Engine> MakeEngine(const Scene& scene, const object::Object& body) {
-  if (scene.settings.engine == EngineChoice::kOde) return std::make_unique<OdeEngine>(scene, body);
+  if (scene.settings.engine == EngineChoice::kOde) {
+    if (scene.settings.torsion_m != 0) {
+      throw InputError(
+          "replay in ODE: its contacts are hard points, and the plan is for soft fingers; --engine "
+          "mujoco has them");
+    }
+    return std::make_unique<OdeEngine>(scene, body);
+  }
   const EngineUnits units = UnitsOf(scene.settings);
   return std::make_unique<MujocoEngine>(
       FormatScene(InUnits(scene, units), body, {}, /*surface=*/false),
@@ -69,6 +77,11 @@ Vector3d ReplayWorld::ContactPoint_B(FingerIndex finger) const {
 
 Vector3d ReplayWorld::ContactPoint_B(FingerIndex finger, const Isometry3d& X_BS) const {
   return X_BS * engine_->tip(finger) + settings().fingertip_radius_m * fingers_[finger].contact.n;
+}
+
+double ReplayWorld::Twist(FingerIndex finger) const {
+  if (settings().torsion_m == 0) return 0;
+  return engine_->contact_torque(finger).norm() / settings().torsion_m;
 }
 
 Vector3d ReplayWorld::TipAt_S(const grasp::Contact& contact_B, double gap) const {
@@ -119,7 +132,7 @@ void ReplayWorld::MonitorMotion() {
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     const WorldFinger& finger = fingers_[f];
     if (!finger.holding || finger.sliding) continue;
-    monitor_.AddForce(f, engine_->contact_force(f), X_SB.linear() * finger.contact.n);
+    monitor_.AddForce(f, engine_->contact_force(f), X_SB.linear() * finger.contact.n, Twist(f));
     const Vector3d slide = ContactPoint_B(f, X_BS) - finger.touch_B;
     monitor_.AddSlip(f, (slide - slide.dot(finger.contact.n) * finger.contact.n).norm());
   }

@@ -49,6 +49,8 @@ class ReplayWorld {
   [[nodiscard]] Eigen::Isometry3d X_SB() const { return engine_->object_pose(); }
   /// Where the fingertip meets the surface, from the measured tip and the planned normal.
   [[nodiscard]] Eigen::Vector3d ContactPoint_B(FingerIndex finger) const;
+  /// The torque of a finger about its normal over its torsion (ConeMargin); 0 of hard points.
+  [[nodiscard]] double Twist(FingerIndex finger) const;
   /// The tip of a finger that would touch the object as it lies now at `contact_B`, `gap` away.
   [[nodiscard]] Eigen::Vector3d TipAt_S(const grasp::Contact& contact_B, double gap) const;
   /// The object's weight now, newtons along −z of S.

@@ -38,6 +38,18 @@ class GraspsTest(RegraspCase):
         self.assertFalse(border.holds)
         self.assertTrue(border.too_close)
 
+    def test_soft_fingers_resist_a_turn_about_the_line_between_them(self):
+        points, normals = np.array([[-1., 0, 0], [1, .5, 0]]), np.array([[1., 0, 0], [-1, 0, 0]])
+        self.assertFalse(regrasp.force_closure(points, normals, mu=0.5).holds)
+        soft = regrasp.force_closure(points, normals, mu=0.5, torsion=0.1, required_angle=True)
+        self.assertTrue(soft.holds)
+        self.assertAlmostEqual(soft.required_angle_deg, np.degrees(np.arctan(0.25)), places=5)
+        for torsion in (-1, float("nan"), "soft"):
+            self.refuses(["torsion"], regrasp.force_closure, points, normals, mu=0.5,
+                         torsion=torsion)
+        self.refuses(["torsion", "plane"], regrasp.force_closure, points[:, :2], normals[:, :2],
+                     mu=0.5, torsion=0.1)
+
     def test_required_angle_is_the_border(self):
         points, normals = random_grasps(200, 4, 1)
         needed = regrasp.force_closure(points, normals, mu=0.5, required_angle=True)

@@ -57,6 +57,18 @@ class PlansTest(RegraspCase):
             plan = regrasp.plan(self.cube, *given, friction_angle_deg=20)
             self.assertEqual(plan.text, self.plan.text)
 
+    def test_two_soft_fingers_take_over_from_two(self):
+        def pair(axis):
+            points = np.zeros((2, 3))
+            points[:, axis] = -0.03, 0.03
+            return points
+        plan = regrasp.plan(self.cube, pair(0), pair(1), mu=0.5, torsion=0.01)
+        self.assertEqual(plan.data["torsion"], 0.01)
+        self.assertTrue(regrasp.validate(self.cube, plan).passed)
+        self.assertFalse(regrasp.validate(self.cube, plan, torsion=0).passed)
+        self.refuses(["found 2"], regrasp.plan, self.cube, pair(0), pair(1), mu=0.5)
+        self.refuses(["torsion"], regrasp.plan, self.cube, pair(0), pair(1), mu=0.5, torsion=-1)
+
     def test_a_plan_goes_through_its_file(self):
         self.plan.write(self.path("mine.json"))
         read = regrasp.Plan.read(self.path("mine.json"))

@@ -17,10 +17,17 @@ constexpr int kRows = 7;  // balance, and the sum of the normal forces
 /// Lower bound of the margin: any number below what a test compares with.
 constexpr double kLeastMargin = -1e3;
 
-Vector6 WrenchOf(const Contact& contact, const object::WrenchFrame& frame,
-                 const Eigen::Vector3d& force) {
+/// A force and the torque about the contact's normal that goes with it.
+struct Edge {
+  Eigen::Vector3d force;
+  double torque = 0;
+};
+
+Vector6 WrenchOf(const Contact& contact, const object::WrenchFrame& frame, const Edge& edge) {
+  const Eigen::Vector3d torque =
+      (contact.p - frame.origin).cross(edge.force) + edge.torque * contact.n;
   Vector6 wrench;
-  wrench << force, (contact.p - frame.origin).cross(force) / frame.radius;
+  wrench << edge.force, torque / frame.radius;
   return wrench;
 }
 
@@ -63,22 +70,53 @@ class Program {
   std::unique_ptr<glp_prob, void (*)(glp_prob*)> problem_;
 };
 
+/// Points on the unit sphere, the poles and bands of them between. Some point is within an angle δ
+/// of every direction, δ half a band and half of what lies between two meridians, so that their
+/// hull contains the ball of radius cos δ.
+std::vector<Eigen::Vector3d> SpherePoints(const Pyramid& pyramid) {
+  const int bands = pyramid.sides / 2;
+  const double apart = std::numbers::pi / bands;
+  const double within = apart / 2 + std::numbers::pi / pyramid.sides;
+  const double radius = pyramid.circumscribed ? 1 / std::cos(within) : 1;
+  std::vector<Eigen::Vector3d> points = {{0, 0, radius}, {0, 0, -radius}};
+  for (int band = 1; band < bands; ++band) {
+    const double polar = band * apart;
+    for (int side = 0; side < pyramid.sides; ++side) {
+      const double angle = 2 * std::numbers::pi * side / pyramid.sides;
+      points.push_back(radius * Eigen::Vector3d(std::sin(polar) * std::cos(angle),
+                                                std::sin(polar) * std::sin(angle),
+                                                std::cos(polar)));
+    }
+  }
+  return points;
+}
+
+/// Points on the unit circle, or farther out so that their polygon contains it.
+std::vector<Eigen::Vector3d> CirclePoints(const Pyramid& pyramid) {
+  const double radius = pyramid.circumscribed ? 1 / std::cos(std::numbers::pi / pyramid.sides) : 1;
+  std::vector<Eigen::Vector3d> points;
+  for (int side = 0; side < pyramid.sides; ++side) {
+    const double angle = 2 * std::numbers::pi * side / pyramid.sides;
+    points.push_back(radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0));
+  }
+  return points;
+}
+
 /// The edges of a contact's pyramid, of unit normal force; in the plane those of the cone itself.
-std::vector<Eigen::Vector3d> Edges(const Contact& contact, int dimension, double half_angle,
-                                   const Pyramid& pyramid) {
+std::vector<Edge> Edges(const Contact& contact, int dimension, double half_angle,
+                        const Pyramid& pyramid) {
   const double tangential = std::tan(half_angle);
   if (dimension == 2) {
     const Eigen::Vector3d tangent(-contact.n.y(), contact.n.x(), 0);
-    return {contact.n + tangential * tangent, contact.n - tangential * tangent};
+    return {{contact.n + tangential * tangent}, {contact.n - tangential * tangent}};
   }
-  const double radius =
-      pyramid.circumscribed ? tangential / std::cos(std::numbers::pi / pyramid.sides) : tangential;
   const Eigen::Vector3d first = contact.n.unitOrthogonal();
   const Eigen::Vector3d second = contact.n.cross(first);
-  std::vector<Eigen::Vector3d> edges;
-  for (int side = 0; side < pyramid.sides; ++side) {
-    const double angle = 2 * std::numbers::pi * side / pyramid.sides;
-    edges.push_back(contact.n + radius * (std::cos(angle) * first + std::sin(angle) * second));
+  std::vector<Edge> edges;
+  for (const Eigen::Vector3d& point :
+       contact.torsion > 0 ? SpherePoints(pyramid) : CirclePoints(pyramid)) {
+    edges.push_back({contact.n + tangential * (point.x() * first + point.y() * second),
+                     tangential * contact.torsion * point.z()});
   }
   return edges;
 }
@@ -96,8 +134,8 @@ std::optional<double> PyramidMargin(std::span<const Contact> contacts,
   program.SetRow(kRows, 1);
   Vector6 inset = Vector6::Zero();
   for (const Contact& contact : contacts) {
-    inset += WrenchOf(contact, frame, contact.n) / static_cast<double>(contacts.size());
-    for (const Eigen::Vector3d& edge : Edges(contact, frame.dimension, half_angle, pyramid)) {
+    inset += WrenchOf(contact, frame, {contact.n}) / static_cast<double>(contacts.size());
+    for (const Edge& edge : Edges(contact, frame.dimension, half_angle, pyramid)) {
       program.AddColumn(WrenchOf(contact, frame, edge), 1, 0);
     }
   }

@@ -10,7 +10,8 @@
 namespace regrasp::grasp {
 
 /// Friction cones replaced by pyramids, solved by GLPK: a second route to what the library computes
-/// with true cones.
+/// with true cones. Of a soft finger the pyramid is over a polyhedron of as many meridians and half
+/// as many bands instead of the ball of tangential forces and torques.
 struct Pyramid {
   int sides;
   bool circumscribed;  ///< contains the cone; otherwise inside it

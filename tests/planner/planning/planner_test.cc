@@ -41,6 +41,7 @@ std::vector<std::pair<PlanOption, PlanRequest>> OneOptionEach() {
   add(PlanOption::kNoLastResort, [](PlanRequest& r) { r.last_resort = false; });
   add(PlanOption::kEffort, [](PlanRequest& r) { r.effort = 0; });
   add(PlanOption::kExplain, [](PlanRequest& r) { r.explain = true; });
+  add(PlanOption::kSoftFingers, [](PlanRequest& r) { r.hand.torsion = 0.1; });
   add(PlanOption::kHand, [](PlanRequest& r) { r.in_hand = std::make_shared<InHandTask>(); });
   return requests;
 }

@@ -288,7 +288,8 @@ std::string EndsAtItsDeadline(const Planner& planner, const object::Object& obje
   return "";
 }
 
-PlanRequest Asking(PlanOption option, PlanRequest request) {
+/// @param object  that is planned for.
+PlanRequest Asking(PlanOption option, const object::Object& object, PlanRequest request) {
   switch (option) {
     case PlanOption::kMargin:
       request.objective = planning::Objective::kMargin;
@@ -320,6 +321,10 @@ PlanRequest Asking(PlanOption option, PlanRequest request) {
     case PlanOption::kExplain:
       request.explain = true;
       break;
+    case PlanOption::kSoftFingers:
+      // Contacts in the plane have none.
+      if (object.dimension() == 3) request.hand.torsion = 0.05 * object.diameter();
+      break;
     case PlanOption::kHand:         // gait/gait_planner_test.cc
     case PlanOption::kGivenPoints:  // are the object's
     case PlanOption::kFocusPoints:
@@ -334,7 +339,7 @@ std::string PlansOfEveryOptionPassTheChecker(const Planner& planner, const objec
     int plans = 0;
     const std::string breach = ForSeeds([&](std::uint64_t seed) -> std::string {
       const PlanResult result =
-          PlanWith(planner, object, Random(), Random(), Asking(option, Ask(planner, seed)));
+          PlanWith(planner, object, Random(), Random(), Asking(option, object, Ask(planner, seed)));
       if (!result.plan) return "";
       ++plans;
       return CheckersReason(object, *result.plan);

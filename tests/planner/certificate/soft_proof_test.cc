@@ -1,0 +1,108 @@
+// Proofs of grasps of soft fingers: torques beside the forces, and twists that spin.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "planner/base/angle.h"
+#include "planner/certificate/check_proof.h"
+#include "planner/certificate/find_proof.h"
+#include "planner/grasp/force_closure.h"
+#include "tests/fixtures/random_grasps.h"
+
+namespace regrasp::certificate {
+namespace {
+
+using Eigen::Vector3d;
+using Kind = motion::ProofVerdict::Kind;
+
+constexpr double kHalfAngle = Radians(25);
+
+grasp::Grasp Soft(grasp::Grasp grasp, double torsion) {
+  for (grasp::Contact& contact : grasp) contact.torsion = torsion;
+  return grasp;
+}
+
+grasp::Grasp Pair(double torsion) {
+  return Soft({{{-1, 0, 0}, {1, 0, 0}}, {{1, 0.3, 0}, {-1, 0, 0}}}, torsion);
+}
+
+Kind Check(const grasp::Grasp& grasp, const GraspProof& proof, double half_angle = kHalfAngle) {
+  return CheckGraspProof(grasp, 3, std::tan(half_angle), proof).kind;
+}
+
+TEST(SoftProofTest, APairIsProvedAndTheSameForcesOfHardPointsAreNoProof) {
+  const GraspProof proof = FindGraspProof(Pair(0.2), 3, kHalfAngle);
+  ASSERT_EQ(proof.kind, GraspProof::Kind::kForces);
+  EXPECT_EQ(proof.torques.size(), 2U);
+  EXPECT_EQ(Check(Pair(0.2), proof), Kind::kForceClosure);
+  EXPECT_EQ(Check(Pair(0.2), proof, Radians(8)), Kind::kNothing);
+  EXPECT_EQ(Check(Pair(0), proof), Kind::kNothing);
+  GraspProof without = proof;
+  without.torques.clear();
+  EXPECT_EQ(Check(Pair(0), without), Kind::kNothing);
+  // Hard points are refuted by a turn about their line, which proves nothing of soft fingers.
+  const GraspProof refuted = FindGraspProof(Pair(0), 3, kHalfAngle);
+  EXPECT_EQ(Check(Pair(0), refuted), Kind::kNotForceClosure);
+  EXPECT_EQ(Check(Pair(0.2), refuted), Kind::kNothing);
+}
+
+TEST(SoftProofTest, TorquesOnTheBorderOfTheConesAreNoProof) {
+  const grasp::Grasp grasp = Soft({{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}}, 0.2);
+  const auto with_torque = [&](double share) {
+    GraspProof proof;
+    proof.kind = GraspProof::Kind::kForces;
+    proof.forces = {{1, 0, 0}, {-1, 0, 0}};
+    // About opposite normals they balance.
+    proof.torques = {share * 0.2 * 0.5, share * 0.2 * 0.5};
+    return CheckGraspProof(grasp, 3, 0.5, proof).kind;
+  };
+  EXPECT_EQ(with_torque(0.999), Kind::kForceClosure);
+  EXPECT_EQ(with_torque(1), Kind::kNothing);
+  EXPECT_EQ(with_torque(-1.001), Kind::kNothing);
+}
+
+TEST(SoftProofTest, ProofsThatAreChangedProveNothing) {
+  const GraspProof proof = FindGraspProof(Pair(0.2), 3, kHalfAngle);
+  const auto expect_nothing = [&](auto change) {
+    GraspProof changed = proof;
+    change(changed);
+    EXPECT_EQ(Check(Pair(0.2), changed), Kind::kNothing);
+  };
+  expect_nothing([](GraspProof& p) { p.torques.pop_back(); });
+  expect_nothing([](GraspProof& p) { p.torques[0] = std::nan(""); });
+  expect_nothing([](GraspProof& p) { p.torques = {1, 1}; });
+  // One force alone is what the exact correction takes up.
+  expect_nothing([](GraspProof& p) {
+    for (Vector3d& force : p.forces) force = -force;
+  });
+}
+
+TEST(SoftProofTest, EveryClearAnswerHasAProofThatHolds) {
+  RandomGrasps random(91);
+  int proved = 0, refuted = 0, without = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int count = 2 + trial % 4;
+    const grasp::Grasp grasp =
+        Soft(trial % 2 == 0 ? random.OnBall(count, 3) : random.OnBox(count, 3),
+             std::pow(10, random.Uniform(-2, 0)));
+    const double half_angle = Radians(random.Uniform(10, 50));
+    const auto decision = grasp::TestForceClosure(grasp, UnitFrame(3), half_angle).decision;
+    const Kind kind = Check(grasp, FindGraspProof(grasp, 3, half_angle), half_angle);
+    if (kind == Kind::kForceClosure) {
+      EXPECT_EQ(decision, grasp::Decision::kYes) << trial;
+    } else if (kind == Kind::kNotForceClosure) {
+      EXPECT_EQ(decision, grasp::Decision::kNo) << trial;
+    }
+    proved += kind == Kind::kForceClosure;
+    refuted += kind == Kind::kNotForceClosure;
+    without += kind == Kind::kNothing;
+  }
+  EXPECT_GT(proved, 60);
+  EXPECT_GT(refuted, 60);
+  EXPECT_LT(without, 6);
+}
+
+}  // namespace
+}  // namespace regrasp::certificate

@@ -1,0 +1,199 @@
+// Replays of soft fingers: contacts with torsion.
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <cmath>
+#include <string>
+
+#include "planner/grasp/quality.h"
+#include "planner/grasp/required_half_angle.h"
+#include "sim/measure/push.h"
+#include "sim/scene/scaling.h"
+#include "sim/world/cone_margin.h"
+#include "tests/fixtures/solids.h"
+#include "tests/sim/mujoco_file.h"
+#include "tests/sim/replay/replay_expectations.h"
+#include "tests/sim/replay_cases.h"
+
+namespace regrasp::sim {
+namespace {
+
+constexpr double kDegrees = 25;
+
+/// Two fingers on opposite faces of the cube, the second one off the first one's line.
+plan::Plan PairOnCube(const CubeCase& cube, double torsion, double offset = 0,
+                      double degrees = kDegrees) {
+  plan::Plan plan = MakePlan({cube.At(0, -0.03, 0, 0), cube.At(1, 0.03, offset, 0)}, degrees, 3);
+  plan::SetTorsion(torsion, plan);
+  return plan;
+}
+
+plan::Reason ReasonOf(const CubeCase& cube, const plan::Plan& plan,
+                      const ReplayOptions& options = {}) {
+  return ReplayPlan(cube.object, plan, options).steps.at(0).reason;
+}
+
+/// A torsion at which the pair's quality is that many times the shake: it resists μ torsion / R
+/// about its line.
+double TorsionFor(const CubeCase& cube, double times_shake) {
+  const double radius = cube.object.diameter() / 2;
+  return times_shake * ReplayOptions().shake * radius / std::tan(Radians(kDegrees));
+}
+
+TEST(SoftFingersReplay, TwoHoldACubeAndHardPointsLoseIt) {
+  const CubeCase cube;
+  ExpectGood(ReplayPlan(cube.object, PairOnCube(cube, 0.01), {}), 1);
+  EXPECT_TRUE(LosesObject(ReasonOf(cube, PairOnCube(cube, 0))));
+}
+
+TEST(SoftFingersReplay, WhatTheyResistAboutTheirLineIsTheTorsionThatTheyHave) {
+  // The analytic quality is this torque, so that the shake is more or less than it.
+  const CubeCase cube;
+  int held = 0, lost = 0;
+  for (const double times : {0.8, 0.95, 1.05, 1.25}) {
+    const double torsion = TorsionFor(cube, times);
+    const plan::Plan plan = PairOnCube(cube, torsion);
+    const grasp::QualityBounds quality = grasp::ComputeQuality(
+        plan::ContactsOf(plan.initial), cube.object.wrench_frame(), plan.half_angle, 0.2);
+    EXPECT_LE(quality.lower, times * ReplayOptions().shake * (1 + 1e-9));
+    EXPECT_GE(quality.upper, times * ReplayOptions().shake * (1 - 1e-9));
+    const plan::Reason reason = ReasonOf(cube, plan);
+    if (times < 1) {
+      EXPECT_TRUE(LosesObject(reason)) << times;
+      ++lost;
+    } else {
+      EXPECT_EQ(reason, plan::Reason::kNone) << times;
+      ++held;
+    }
+  }
+  EXPECT_EQ(held, 2);
+  EXPECT_EQ(lost, 2);
+}
+
+TEST(SoftFingersReplay, TheLargestPushInEveryDirectionIsThatOfTheAnalysis) {
+  const CubeCase cube;
+  ReplayOptions options;
+  options.stress = true;
+  options.gravity = false;
+  const ReplayResult result = ReplayPlan(cube.object, PairOnCube(cube, 0.02), options);
+  ASSERT_EQ(result.steps.at(0).reason, plan::Reason::kNone);
+  ASSERT_EQ(result.steps[0].stress.size(), 12U);
+  for (const DirectionStress& direction : result.steps[0].stress) {
+    EXPECT_NEAR(direction.replay, direction.analysis, 0.05 * direction.analysis);
+  }
+}
+
+TEST(SoftFingersReplay, AWeightTakesOfTheTorqueAboutTheLineWhatTheEllipseSays) {
+  // The weight takes a share s of the friction, which leaves √(1 − s²) of it to twist with.
+  const CubeCase cube;
+  const double torsion = 0.02, mu = std::tan(Radians(kDegrees));
+  ReplayOptions options;
+  options.stress = true;
+  options.mass_kg = 0.2;
+  for (const double share : {0.4, 0.8}) {
+    options.squeeze_N = *options.mass_kg * kGravity / (share * mu);
+    const ReplayResult result = ReplayPlan(cube.object, PairOnCube(cube, torsion), options);
+    ASSERT_EQ(result.steps.at(0).reason, plan::Reason::kNone);
+    const double radius = cube.object.diameter() / 2;
+    const double expected = mu * torsion / radius * std::sqrt(1 - share * share);
+    int about_line = 0;
+    for (const DirectionStress& direction : result.steps[0].stress) {
+      const grasp::Wrench push = PushWrench(direction.push, 1);
+      if (std::abs(push.torque_over_radius.x()) != 1) continue;
+      ++about_line;
+      EXPECT_NEAR(direction.analysis, expected, 1e-6);
+      EXPECT_NEAR(direction.replay, expected, 0.05 * expected);
+    }
+    EXPECT_EQ(about_line, 2);
+  }
+}
+
+TEST(SoftFingersReplay, FailsBelowTheFrictionThatTheOffsetNeeds) {
+  const CubeCase cube;
+  const double offset = 0.012;
+  const auto required = grasp::ComputeRequiredHalfAngle(
+      plan::ContactsOf(PairOnCube(cube, 0.02, offset).initial), cube.object.wrench_frame());
+  ASSERT_TRUE(required);
+  EXPECT_NEAR(required->upper, std::atan(offset / 0.06), 1e-6);
+  const auto at = [&](double share) {
+    return PairOnCube(cube, 0.02, offset, Degrees(std::atan(share * std::tan(required->upper))));
+  };
+  EXPECT_TRUE(LosesObject(ReasonOf(cube, at(0.9))));
+  EXPECT_EQ(ReasonOf(cube, at(1.5)), plan::Reason::kNone);
+}
+
+TEST(SoftFingersReplay, TheSceneHasTheEnginesTorsionalFrictionAndHardPointsNone) {
+  const CubeCase cube;
+  const double torsion = 0.004;
+  const plan::Plan plan = PairOnCube(cube, torsion);
+  const auto soft = LoadFromFile(SceneMjcf(cube.object, plan, {}));
+  const auto hard = LoadFromFile(SceneMjcf(cube.object, PairOnCube(cube, 0), {}));
+  ASSERT_NE(soft, nullptr);
+  ASSERT_NE(hard, nullptr);
+  const double mu = std::tan(plan.half_angle);
+  EXPECT_EQ(soft->opt.cone, mjCONE_ELLIPTIC);
+  for (int geom = 0; geom < soft->ngeom; ++geom) {
+    EXPECT_EQ(soft->geom_condim[geom], 4);
+    EXPECT_DOUBLE_EQ(soft->geom_friction[3 * geom], mu);
+    EXPECT_DOUBLE_EQ(soft->geom_friction[3 * geom + 1], mu * torsion);
+    EXPECT_EQ(hard->geom_condim[geom], 3);
+  }
+  EXPECT_EQ(ReplayPlan(cube.object, plan, {}).settings.torsion_m, torsion);
+}
+
+TEST(SoftFingersReplay, TheUnitOfLengthDoesNotMatter) {
+  // The same cube in millimetres.
+  const object::Polyhedron large = MakeCube(30);
+  plan::Plan plan = MakePlan({{FingerIndex(0), ContactAt(large, {-30, 0, 0}, {1, 0, 0})},
+                              {FingerIndex(1), ContactAt(large, {30, 4, 0}, {-1, 0, 0})}},
+                             kDegrees, 3);
+  plan.scale = 1e-3;
+  plan::SetTorsion(5, plan);
+  const ReplayResult result = ReplayPlan(large, plan, {});
+  ExpectGood(result, 1);
+  EXPECT_NEAR(result.settings.torsion_m, 0.005, 1e-15);
+}
+
+TEST(SoftFingersReplay, ATwoFingerSequencePasses) {
+  const CubeCase cube;
+  plan::Plan plan = PairOnCube(cube, 0.01);
+  plan.steps = {plan::Switch{{cube.At(2, 0.002, 0.03, 0.001)}, {}},
+                plan::Switch{{}, {FingerIndex(0)}}};
+  // Fingers 1 and 2 alone, on faces at a right angle, do not hold it.
+  plan::SetTorsion(0.01, plan);
+  EXPECT_TRUE(LosesObject(ReplayPlan(cube.object, plan, {}).steps.back().reason));
+  plan.fingers = 4;
+  plan.steps = {plan::Switch{{cube.At(2, 0, -0.03, 0.001), cube.At(3, 0.001, 0.03, 0)},
+                             {FingerIndex(0), FingerIndex(1)}}};
+  plan::SetTorsion(0.01, plan);
+  ExpectGood(ReplayPlan(cube.object, plan, {}), 2);
+}
+
+TEST(SoftFingersReplay, TheMarginCountsTheTorqueAsATangentialForce) {
+  const Eigen::Vector3d n = Eigen::Vector3d::UnitX();
+  const double half_angle = Radians(30);
+  EXPECT_EQ(ConeMargin({1, 0.3, 0}, n, half_angle, 0), ConeMargin({1, 0.3, 0}, n, half_angle));
+  EXPECT_NEAR(ConeMargin({1, 0.3, 0}, n, half_angle, 0.4), half_angle - std::atan(0.5), 1e-15);
+  const CubeCase cube;
+  const StepReplay step =
+      ReplayPlan(cube.object, PairOnCube(cube, TorsionFor(cube, 1.1)), {}).steps.at(0);
+  ASSERT_EQ(step.reason, plan::Reason::kNone);
+  ASSERT_TRUE(step.adapted);
+  const auto least = SmallestMargin(step.adapted->shake_margins);
+  ASSERT_TRUE(least);
+  // The shake about the line takes nearly all of the friction.
+  EXPECT_GT(*least, 0);
+  EXPECT_LT(*least, Radians(5));
+}
+
+TEST(SoftFingersReplay, TwiceGivesTheSameBits) {
+  const CubeCase cube;
+  plan::Plan plan = PairOnCube(cube, 0.01, 0.004);
+  plan.steps = {plan::Switch{{cube.At(2, 0.002, 0.03, 0.001)}, {}}};
+  plan::SetTorsion(0.01, plan);
+  ExpectSameBitsTwice(cube.object, plan);
+}
+
+}  // namespace
+}  // namespace regrasp::sim
