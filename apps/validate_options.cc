@@ -319,12 +319,12 @@ void AddBatch(CLI::App& app, ValidateOptions& options) {
 
 /// Options that say where things come from, where they go and how fast; --start and --goal count
 /// by what their files hold.
-bool ChangesResults(const std::string& name) {
-  static const std::set<std::string> kOthers = {
+const std::set<std::string>& ChangeNothing() {
+  static const std::set<std::string> kNames = {
       "--help", "--version",     "--object",     "--plan",  "--grasp", "--out",  "--junit",
       "--json", "--export-mjcf", "--trajectory", "--start", "--goal",  "--hand", "--verify",
-      "--jobs", "--fresh",       "--time-limit", "--quiet", "--video"};
-  return !kOthers.contains(name);
+      "--jobs", "--fresh",       "--time-limit", "--quiet", "--video", "--shard"};
+  return kNames;
 }
 
 }  // namespace
@@ -418,11 +418,7 @@ void ValidateOptions::Finish(const CLI::App& app) {
     animation_width = std::max(render::kMinFrameSide, frame.width / 2);
     animation_height = std::max(render::kMinFrameSide, frame.height / 2);
   }
-  given.clear();
-  for (const CLI::Option* option : app.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() > 0 && ChangesResults(name)) given.emplace_back(name, option->results());
-  }
+  given = GivenOptions(app, ChangeNothing());
 }
 
 bool ValidateOptions::trajectory_is_npz() const { return trajectory.ends_with(".npz"); }
