@@ -71,10 +71,9 @@ void PrintSummary(const PlannerOptions& common, const FinishedPlan& finished) {
     planner += " of " + std::to_string(note->clusters) + " clusters (start: " + note->start +
                ", goal: " + note->goal + ")";
   }
-  PrintMessage(kPlanName,
-               planner + ": " + StepCounts(result.plan->steps) + "; weakest: " +
-                   plan::WeakestStepText(finished.check.steps, result.plan->half_angle) + "; " +
-                   FormatShort(time.count(), 2) + " s");
+  PrintMessage(kPlanName, planner + ": " + StepCounts(result.plan->steps) + "; weakest: " +
+                              plan::WeakestStepText(finished.check.steps, result.plan->half_angle) +
+                              "; " + FormatShort(time.count(), 2) + " s");
   for (const std::string& note : result.notes) PrintMessage(kPlanName, note);
 }
 
@@ -103,8 +102,8 @@ int RunOne(PlanProgram program) {
   } else {
     WriteFile(program.output, text);
   }
-  result.warnings.insert(result.warnings.begin(), {object::SizeWarning(body, common.scale),
-                                                   common.friction.warning()});
+  result.warnings.insert(result.warnings.begin(),
+                         {object::SizeWarning(body, common.scale), common.friction.warning()});
   for (const std::string& warning : result.warnings) {
     if (!warning.empty()) PrintMessage(kPlanName, "warning: " + warning);
   }

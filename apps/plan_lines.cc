@@ -86,7 +86,8 @@ std::string ObjectText(const Line& line) {
 
 class PlanLines {
  public:
-  explicit PlanLines(const PlanProgram& program) : program_(program), finder_(program.common.object) {
+  explicit PlanLines(const PlanProgram& program)
+      : program_(program), finder_(program.common.object) {
     program_.common.quiet = true;  // one line for each would be too many
   }
 

@@ -78,7 +78,8 @@ void PlanProgram::AddEnds(CLI::App& app) {
       "the planner's own "
       "graph; under auto like random-any) "
       "or random-any (evenly over the surface)";
-  app.add_option("--start", start.value, "Start grasp" + kinds)->type_name("FILE|random|random-any");
+  app.add_option("--start", start.value, "Start grasp" + kinds)
+      ->type_name("FILE|random|random-any");
   app.add_option("--goal", goal.value, "Goal grasp" + kinds)->type_name("FILE|random|random-any");
   app.add_option("--output", output, "Where the plan goes; - is standard output")
       ->type_name("FILE")
@@ -209,17 +210,15 @@ FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoin
   planning::PlanResult& result = finished.result;
   if (!result.plan) return finished;
   if (result.plan->roadmap) common.NotePlaces(*result.plan->roadmap);
-  finished.check =
-      certificate::FinishPlan(object,
-                              {.half_angle = common.friction.required_half_angle(),
-                               .scale = common.scale,
-                               .shells = common.repair.shells(),
-                               .patch_radius = common.PatchRadius(*object.object),
-                               .given_points = given ? &*given : nullptr},
-                              *result.plan);
+  finished.check = certificate::FinishPlan(object,
+                                           {.half_angle = common.friction.required_half_angle(),
+                                            .scale = common.scale,
+                                            .shells = common.repair.shells(),
+                                            .patch_radius = common.PatchRadius(*object.object),
+                                            .given_points = given ? &*given : nullptr},
+                                           *result.plan);
   if (!finished.check.passed()) result.warnings.push_back(CheckerComplaint(finished.check));
-  result.warnings.push_back(
-      plan::InventedContactsWarning(*object.object, finished.check.located));
+  result.warnings.push_back(plan::InventedContactsWarning(*object.object, finished.check.located));
   return finished;
 }
 

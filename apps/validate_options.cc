@@ -55,7 +55,8 @@ void AddInputs(CLI::App& app, ValidateOptions& options) {
   CLI::Option* plan = add("--plan", options.plans,
                           "Plan file, - for standard input; or several, or a folder of plans "
                           "(every *.json), each of which is "
-                          "validated in a process of its own; or --grasp");
+                          "validated in a process of its own; or a file of lines (*.jsonl), as "
+                          "plan --batch writes it; or --grasp");
   CLI::Option* grasp =
       add("--grasp", options.grasp_path,
           "Grasp file: asks for a single grasp, at the friction given here, whether it is force "
@@ -102,7 +103,8 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
   add("--out", options.out,
       "Folder for report and frames, verdicts or states (default out/<plan, grasp or object "
       "name>); of several plans a folder "
-      "for each in it, index.html and summary.json (default out/<folder name> or out/batch)")
+      "for each in it, index.html and summary.json (default out/<folder name> or out/batch); of a "
+      "file of lines reports.jsonl")
       ->type_name("DIR");
   app.add_flag("--certificates", options.certificates,
                "Also write proofs of force closure into the report: for every grasp and all along "
@@ -263,7 +265,14 @@ void AddVideo(CLI::App& app, std::string& video) {
 constexpr char kAnimateSize[] = "--animate-size";
 
 void AddPictures(CLI::App& app, ValidateOptions& options) {
-  CLI::Option* none = app.add_flag("--no-frames", options.no_frames, "Draw no frames");
+  CLI::Option* none = app.add_flag_callback(
+      "--no-frames", [&options] { options.frames = Frames::kNone; }, "Draw no frames");
+  AddChoice<Frames>(
+      app, "--frames", options.frames,
+      {{"all", Frames::kAll}, {"failed", Frames::kFailed}, {"none", Frames::kNone}},
+      "Of which plans and grasps frames are drawn: all, or failed: those that fail (default all; "
+      "of plans in a file of lines none, and those that are drawn get a folder each)")
+      ->excludes(none);
   app.add_flag(
       "--show-focus", options.frame.show_focus,
       "Also show the focus point of four concurrent contacts: in frames of a solid, with the "
@@ -298,10 +307,14 @@ constexpr int kMostJobs = 1024;
 /// Each keeps two pictures of four samples a pixel in memory.
 constexpr int kMostWorkers = 16;
 
-constexpr char kSeveralPlans[] = "goes with several plans or a folder of them";
+constexpr char kSeveralPlans[] = "goes with several plans, a folder or a file of lines";
 constexpr char kSinglePlan[] = "goes with a single plan or grasp";
 
 void AddBatch(CLI::App& app, ValidateOptions& options) {
+  app.add_option("--shard", options.shard,
+                 "Part I of N of the plans in a file of lines alone; the program merge joins the "
+                 "results")
+      ->type_name("I/N");
   AddInteger(app, "--jobs", options.jobs, 1, kMostJobs,
              "How many of several plans are validated at a time; of --export-states, threads "
              "(default: one a processor)");
@@ -312,7 +325,8 @@ void AddBatch(CLI::App& app, ValidateOptions& options) {
             "S");
   app.add_flag(
       "--fresh", options.fresh,
-      "Validate all of several plans anew; otherwise a plan keeps the results of an earlier "
+      "Validate all of several plans anew; of a file of lines throw away what an earlier run left; "
+      "otherwise a plan keeps the results of an earlier "
       "run where plan, object, options and the program's build are the same and no result was "
       "edited");
 }
@@ -364,7 +378,8 @@ void ValidateOptions::AddTo(CLI::App& app) {
   AddQuiet(app, quiet);
   app.footer(
       "  validate --object cube.obj --plan plan.json\n"
-      "  validate --object models --plan plans --out out/plans --no-frames --junit junit.xml\n");
+      "  validate --object models --plan plans --out out/plans --no-frames --junit junit.xml\n"
+      "  validate --object models --plan plans.jsonl --out out/plans --frames failed\n");
 }
 
 void ValidateOptions::Finish(const CLI::App& app) {
@@ -389,7 +404,14 @@ void ValidateOptions::Finish(const CLI::App& app) {
       if (app.count(name) > 0) throw InputError(std::string(name) + " " + why);
     }
   };
-  if (for_batch()) {
+  if (!for_lines()) refuse({"--shard"}, "goes with a file of lines");
+  if (for_lines()) {
+    refuse(
+        {"--trajectory", "--export-mjcf", "--verify", "--json", "--video", "--animate", "--junit"},
+        "does not go with a file of lines");
+    if (app.count("--frames") == 0) frames = Frames::kNone;
+    plan_path = plans.front();
+  } else if (for_batch()) {
     refuse({"--trajectory", "--export-mjcf", "--verify", "--json", "--video"}, kSinglePlan);
     if (std::ranges::find(plans, kStandardStream) != plans.end()) {
       throw InputError("--plan - " + std::string(kSinglePlan));
@@ -422,6 +444,10 @@ void ValidateOptions::Finish(const CLI::App& app) {
 }
 
 bool ValidateOptions::trajectory_is_npz() const { return trajectory.ends_with(".npz"); }
+
+bool ValidateOptions::for_lines() const {
+  return plans.size() == 1 && plans.front().ends_with(".jsonl");
+}
 
 bool ValidateOptions::for_batch() const {
   std::error_code error;

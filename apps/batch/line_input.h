@@ -21,17 +21,18 @@ struct Line {
   std::string text;        ///< without its end
 };
 
-/// A file of JSON Lines that is read as a stream: an entry a line, numbered from 1. It may have been
-/// written by a program of ours, or be one of the shards of such a file; its header then says which
-/// entries stand in it, and they are numbered as in the whole. A last line may lack its end where no
-/// header counts them.
+/// A file of JSON Lines that is read as a stream: an entry a line, numbered from 1. It may have
+/// been written by a program of ours, or be one of the shards of such a file; its header then says
+/// which entries stand in it, and they are numbered as in the whole. A last line may lack its end
+/// where no header counts them.
 ///
 /// Memory does not grow with the file.
 class LinesInput {
  public:
   /// Goes through the file once, to count and digest it, and then to the first entry of the shard.
   /// @param shard  of the file's entries; of a file that is itself a shard, 1 of 1.
-  /// @throws InputError  names the file: it is no regular file, a line is too long, it does not hold
+  /// @throws InputError  names the file: it is no regular file, a line is too long, it does not
+  /// hold
   ///                     the entries that its header says, or is a shard and shall be cut again.
   explicit LinesInput(std::filesystem::path path, const Shard& shard = {});
 
@@ -41,8 +42,8 @@ class LinesInput {
   /// Which shard of the whole Next goes through: of the file, or the file itself.
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] EntryRange range() const { return shard_.Of(entries_); }
-  /// What the entries are, whichever shard they stand in: the run of the header, or else the SHA-256
-  /// of the file.
+  /// What the entries are, whichever shard they stand in: the run of the header, or else the
+  /// SHA-256 of the file.
   [[nodiscard]] const std::string& source() const { return source_; }
 
   /// Goes on with this entry. @param entry  not before the next one.

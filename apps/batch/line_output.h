@@ -16,7 +16,8 @@ inline constexpr char kPartEnding[] = ".part";
 /// A file of lines as it is written, entry by entry in order. It grows beside its place, as
 /// NAME.part, and takes its place when all entries stand in it. A process that is killed leaves the
 /// part; the next one with the same header goes on behind the last whole entry of it, so that the
-/// file has the same bytes however often that happened. What was appended survives the machine, too.
+/// file has the same bytes however often that happened. What was appended survives the machine,
+/// too.
 ///
 /// One process at a time holds the part: by a lock, which goes with the process.
 class LinesOutput {

@@ -93,8 +93,8 @@ class LineRun {
     return 0;
   }
 
-  /// What a child has written, as far as lines are whole; where it ended early the entry that it was
-  /// at is an error, and others go on with the rest.
+  /// What a child has written, as far as lines are whole; where it ended early the entry that it
+  /// was at is an error, and others go on with the rest.
   void Take(int task, const ChildExit& exit) {
     Chunk chunk = std::move(running_.extract(task).mapped());
     Say(exit.errors);
@@ -119,7 +119,8 @@ class LineRun {
   void AppendFinished() {
     std::string lines;
     std::int64_t next = output_.next();
-    for (auto found = finished_.find(next); found != finished_.end(); found = finished_.find(next)) {
+    for (auto found = finished_.find(next); found != finished_.end();
+         found = finished_.find(next)) {
       next += std::ranges::count(found->second, '\n');
       lines += found->second;
       finished_.erase(found);

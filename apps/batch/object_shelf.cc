@@ -69,8 +69,8 @@ std::string ObjectFinder::FindByDigest(const std::string& sha256) {
   }
   // Of two with the same bytes always the same one.
   std::ranges::sort(files);
-  const auto found =
-      std::ranges::find_if(files, [&](const std::string& file) { return DigestOf(file) == sha256; });
+  const auto found = std::ranges::find_if(
+      files, [&](const std::string& file) { return DigestOf(file) == sha256; });
   return found == files.end() ? "" : *found;
 }
 

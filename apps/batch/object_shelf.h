@@ -40,9 +40,9 @@ class ObjectFinder {
   /// @param path  of a folder, or of the one file that all objects are.
   explicit ObjectFinder(std::string path);
 
-  /// The file of that name, where its digest is the right one or none is given; otherwise one of the
-  /// folder that has the digest, or else the file of that name all the same, for the reader to say
-  /// what is wrong.
+  /// The file of that name, where its digest is the right one or none is given; otherwise one of
+  /// the folder that has the digest, or else the file of that name all the same, for the reader to
+  /// say what is wrong.
   /// @param name    of which only the last part counts; in a folder not empty.
   /// @param sha256  empty: any.
   /// @param where   says it: "queries.jsonl: line 3".
