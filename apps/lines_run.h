@@ -25,7 +25,7 @@ struct LinesRun {
 };
 
 /// Runs it, or goes on where an earlier run was stopped, and says how many entries came to what. Of
-/// entries that are bad input or errors the first messages are printed; all stand in the output.
+/// what is said of single entries the first messages are printed; all stand in the output.
 ///
 /// @returns the exit code of the worst entry: 0 a plan, a pass, or one that had no plan to
 /// validate; 1 no plan or a fail, 2 bad input, 3 an error; 128 and its number where a signal

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@
 #include "planner/base/file.h"
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan_io.h"
+#include "report/failure.h"
 #include "report/report.h"
 
 namespace regrasp::apps {
@@ -134,6 +136,9 @@ class ValidateLines {
     report::Report report = JudgeTask(options, task, samples);
     report.plan_file = "query " + std::to_string(line.entry);
     report.plan_sha256 = Sha256(line.text);
+    if (const auto failure = report::DescribeFailure(report)) {
+      std::cerr << line.name + ": " + failure->headline() + "\n";
+    }
     if (options.draws_frames(report.passed())) DrawFrames(line, task);
     Json json = ParseJson(report::FormatReportJson(report), line.name);
     for (const std::string& warning : report.warnings()) json["warnings"].push_back(warning);
@@ -161,6 +166,7 @@ class ValidateLines {
     options.object_path =
         objects_.finder.Find(task.plan.object_file, task.plan.object_sha256, line.name);
     options.workers = std::max(1, options.workers / options.jobs);
+    options.silent = true;
     fs::create_directories(options.out);
     WriteFile(options.plan_path, plan::FormatPlan(task.plan));
     static_cast<void>(RunValidation(options));

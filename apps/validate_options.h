@@ -75,7 +75,8 @@ struct ValidateOptions {
   bool allow_object_change = false;
   bool allow_undecided = false;
   bool quiet = false;
-  int jobs;  ///< plans at a time, or threads that make states
+  bool silent = false;  ///< says not even why something failed: the caller does
+  int jobs;             ///< plans at a time, or threads that make states
   std::optional<double> time_limit_s;
   bool fresh = false;  ///< validates again what an earlier run did
   std::string shard;   ///< of a file of lines; empty: all

@@ -230,6 +230,28 @@ std::string FilesText(const std::filesystem::path& folder, const report::Report&
          (others > 0 ? " and " + std::to_string(others) + " more" : "");
 }
 
+/// What the report says to people, and how the plan fails where it does.
+void Print(const ValidateOptions& options, const ValidateTask& task,
+           const std::filesystem::path& folder, const report::Report& report) {
+  const object::Object& object = *task.object->object;
+  const object::BodyMeasures body = sim::BodyOf(object, task.plan.scale, options.replay);
+  for (const std::string& warning :
+       {object::SizeWarning(body, task.plan.scale), options.friction.warning(),
+        plan::InventedContactsWarning(object, plan::LocatePlan(object, task.plan)),
+        UncheckedHandWarning(options, task.plan)}) {
+    if (!warning.empty()) PrintMessage(kValidateName, "warning: " + warning);
+  }
+  for (const std::string& warning : report.warnings()) {
+    PrintMessage(kValidateName, "warning: " + warning);
+  }
+  if (!options.quiet && options.json != kStandardStream) {
+    PrintTable(report::FormatReportTable(report), FilesText(folder, report));
+  } else if (const auto failure = report::DescribeFailure(report)) {
+    PrintError(kValidateName, failure->headline() + "; why: " + failure->why +
+                                  "; what would mend it: " + failure->mend);
+  }
+}
+
 }  // namespace
 
 ValidationRun RunValidation(const ValidateOptions& options) {
@@ -241,7 +263,6 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   const render::FrameOptions frame = FrameOptionsFor(options, task);
   HeldFolder folder(options.Folder());
   ExpectFree(folder, OwnResults(folder), NamesOfResults(options, task));
-  const object::Object& object = *task.object->object;
   report::Report report = JudgeTask(options, task, samples);
   report.plan_file = std::filesystem::path(options.InputPath()).filename().string();
   report.plan_sha256 = Sha256(task.file_text);
@@ -256,22 +277,7 @@ ValidationRun RunValidation(const ValidateOptions& options) {
                                  CommandText(options, inputs),
                                  date};
   WriteResults(options, frame, task, samples, folder, report);
-  const object::BodyMeasures body = sim::BodyOf(object, task.plan.scale, options.replay);
-  for (const std::string& warning :
-       {object::SizeWarning(body, task.plan.scale), options.friction.warning(),
-        plan::InventedContactsWarning(object, plan::LocatePlan(object, task.plan)),
-        UncheckedHandWarning(options, task.plan)}) {
-    if (!warning.empty()) PrintMessage(kValidateName, "warning: " + warning);
-  }
-  for (const std::string& warning : report.warnings()) {
-    PrintMessage(kValidateName, "warning: " + warning);
-  }
-  if (!options.quiet && options.json != kStandardStream) {
-    PrintTable(report::FormatReportTable(report), FilesText(folder.path(), report));
-  } else if (const auto failure = report::DescribeFailure(report)) {
-    PrintError(kValidateName, failure->headline() + "; why: " + failure->why +
-                                  "; what would mend it: " + failure->mend);
-  }
+  if (!options.silent) Print(options, task, folder.path(), report);
   return {report.passed() ? kExitDone : kExitNegative, samples.entry_seconds};
 }
 

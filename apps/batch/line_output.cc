@@ -163,6 +163,10 @@ void LinesOutput::Finish() {
   }
 }
 
+void LinesOutput::Discard() {
+  if (file_.get() >= 0) unlink(part_.c_str());
+}
+
 void LinesOutput::FailWith(const std::string& what) const {
   throw EnvironmentError(part_.string() + ": cannot be written: " + what);
 }

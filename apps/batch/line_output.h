@@ -44,6 +44,9 @@ class LinesOutput {
   /// @throws EnvironmentError  it cannot be.
   void Finish();
 
+  /// Removes what was written, where the file is not in its place.
+  void Discard();
+
  private:
   [[nodiscard]] bool TakeWhole();
   /// @returns false where the part has gone meanwhile.

@@ -20,10 +20,10 @@ namespace {
 
 /// Entries that a child works on: so many that a process more does not matter, and few enough that
 /// little is lost with a run that is killed.
-constexpr int kChunk = 32;
+constexpr int kChunk = 8;
 
 /// How far ahead of the output children may be, in chunks a job: their results wait in memory.
-constexpr int kMostAhead = 64;
+constexpr int kMostAhead = 256;
 
 /// Groups that are remembered; to forget one costs time alone.
 constexpr std::size_t kMostGroups = 4096;
