@@ -32,8 +32,8 @@ struct MergeProgram {
 void MergeProgram::AddTo(CLI::App& app) {
   BeginGroup(app, "Shards and result");
   app.add_option("--shards", shards,
-                 "The files of all shards of a run, in any order: of plan --batch --shard I/N, or "
-                 "the reports.jsonl of validate")
+                 "Files of all shards of a run, in any order: of plan --batch --shard I/N, or the "
+                 "reports.jsonl of validate")
       ->type_name("FILE")
       ->required();
   app.add_option("--output", output, "Where the whole goes, as one run without --shard writes it")
@@ -41,7 +41,9 @@ void MergeProgram::AddTo(CLI::App& app) {
       ->required();
   app.add_flag("--fresh", fresh, "Throw away what an earlier merge with the same --output left");
   AddQuiet(app, quiet);
-  app.footer("  merge --shards shards/plans.*.jsonl --output plans.jsonl\n");
+  app.footer(
+      "  merge --shards shards/plans.*.jsonl --output plans.jsonl\n"
+      "  merge --shards shards/*/reports.jsonl --output reports.jsonl\n");
 }
 
 int MergeProgram::Run() const {

@@ -68,8 +68,7 @@ void PlanProgram::AddTo(CLI::App& app) {
       "  plan --object cube.obj --friction-angle 20 --start start.json --goal goal.json \\\n"
       "       --output plan.json\n"
       "  plan --object part.stl --scale 0.001 --mu 0.5 --start random --goal random --seed 7 \\\n"
-      "       --output - | validate --object part.stl --plan -\n"
-      "  plan --object models --mu 0.5 --batch queries.jsonl --output plans.jsonl --shard 2/10\n");
+      "       --output - | validate --object part.stl --plan -\n");
 }
 
 void PlanProgram::AddEnds(CLI::App& app) {
@@ -118,19 +117,19 @@ void PlanProgram::AddSearch(CLI::App& app) {
 }
 
 void PlanProgram::AddBatch(CLI::App& app) {
-  app.add_option("--batch", batch,
-                 "A file of queries, JSON Lines, one a line; what a query does not say the other "
-                 "options do, and --object is a folder or the object of all. --output gets a line "
-                 "for each, in their order: a plan, or why there is none. A run that was stopped "
-                 "goes on where it was")
+  app.add_option(
+         "--batch", batch,
+         "File of queries, JSON Lines, each of which gets a plan; what a query does not say the "
+         "other options do, and --object is a folder or the object of all. --output gets a "
+         "line for each, in their order: a plan, or why there is none. A run that was "
+         "stopped goes on where it was")
       ->type_name("FILE");
-  app.add_option("--shard", shard,
-                 "Part I of N of the queries alone; the program merge joins the results")
+  app.add_option("--shard", shard, "Part I of N of the queries alone; merge joins the results")
       ->type_name("I/N");
   AddInteger(app, "--jobs", jobs, 1, kMostJobs,
              "How many queries of --batch are planned at a time (default: one a processor)");
   app.add_flag("--fresh", fresh,
-               "Throw away what an earlier run with the same --output left, finished or not");
+               "Throw away what an earlier run with --batch and the same --output left");
 }
 
 planning::GraspChoice PlanProgram::Choose(const PlanEnd& end, const object::Object& object) const {

@@ -270,8 +270,8 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
   AddChoice<Frames>(
       app, "--frames", options.frames,
       {{"all", Frames::kAll}, {"failed", Frames::kFailed}, {"none", Frames::kNone}},
-      "Of which plans and grasps frames are drawn: all, or failed: those that fail (default all; "
-      "of plans in a file of lines none, and those that are drawn get a folder each)")
+      "Which plans and grasps get frames; all, those that failed, or none (default all; of a file "
+      "of lines none, and those that get frames have a folder each)")
       ->excludes(none);
   app.add_flag(
       "--show-focus", options.frame.show_focus,
@@ -312,8 +312,7 @@ constexpr char kSinglePlan[] = "goes with a single plan or grasp";
 
 void AddBatch(CLI::App& app, ValidateOptions& options) {
   app.add_option("--shard", options.shard,
-                 "Part I of N of the plans in a file of lines alone; the program merge joins the "
-                 "results")
+                 "Part I of N of the plans in a file of lines alone; merge joins the results")
       ->type_name("I/N");
   AddInteger(app, "--jobs", options.jobs, 1, kMostJobs,
              "How many of several plans are validated at a time; of --export-states, threads "
@@ -378,8 +377,7 @@ void ValidateOptions::AddTo(CLI::App& app) {
   AddQuiet(app, quiet);
   app.footer(
       "  validate --object cube.obj --plan plan.json\n"
-      "  validate --object models --plan plans --out out/plans --no-frames --junit junit.xml\n"
-      "  validate --object models --plan plans.jsonl --out out/plans --frames failed\n");
+      "  validate --object models --plan plans --out out/plans --no-frames --junit junit.xml\n");
 }
 
 void ValidateOptions::Finish(const CLI::App& app) {

@@ -87,7 +87,9 @@ void LinesInput::Survey() {
 
 std::string LinesInput::Get() {
   std::string text;
-  if (!std::getline(stream_, text) || text.size() > kMostLineBytes) {
+  const bool got = static_cast<bool>(std::getline(stream_, text));
+  const bool may_lack_end = !ends_ && next_line_ == lines_;
+  if (!got || (stream_.eof() && !may_lack_end) || text.size() > kMostLineBytes) {
     throw InputError(path_.string() + ": line " + std::to_string(next_line_) +
                      ": the file was changed while it was read");
   }
