@@ -8,6 +8,7 @@
 
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "planner/base/deadline.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/base/stopwatch.h"
@@ -119,6 +120,8 @@ std::string GuardLine(const Line& line, const std::function<std::string()>& work
     return work();
   } catch (const InputError& error) {
     return result(Outcome::kBadInput, error.what());
+  } catch (const TimeUp& time_up) {
+    return FormatNoResult(line.entry, Outcome::kNoPlan, time_up.what());
   } catch (const std::bad_alloc&) {
     return result(Outcome::kError, "not enough memory");
   } catch (const std::exception& error) {

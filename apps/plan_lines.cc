@@ -12,6 +12,7 @@
 #include "apps/lines_run.h"
 #include "apps/output_files.h"
 #include "apps/program.h"
+#include "planner/base/deadline.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/criteria/reach.h"
@@ -152,6 +153,8 @@ class PlanLines {
   /// The object of a query, whose program then names its file.
   SharedObject ObjectOf(const Line& line, Query& query) {
     PlannerOptions& common = query.program.common;
+    // Each query has all of --time-limit.
+    common.begin = std::chrono::steady_clock::now();
     common.object = finder_.Find(query.object_name, query.object_sha256, line.name);
     SharedObject object =
         shelf_.Get(common.object, [&] { return common.ReadObjectFile(kPlanName); });
@@ -169,6 +172,8 @@ class PlanLines {
       static_cast<void>(ObjectOf(line, query));
     } catch (const InputError&) {
       // The child says so of each line.
+    } catch (const TimeUp&) {
+      // Likewise.
     }
   }
 
@@ -177,7 +182,6 @@ class PlanLines {
     PlanProgram& asked = query.program;
     asked.CheckEnds();
     const SharedObject object = ObjectOf(line, query);
-    asked.common.begin = std::chrono::steady_clock::now();
     criteria::CheckFingerRadius(*object->object, asked.finger_radius, "--finger-radius");
     const FinishedPlan finished = asked.Plan(*object, asked.common.ReadGivenPoints());
     const planning::PlanResult& result = finished.result;

@@ -78,7 +78,11 @@ std::optional<LinesHeader> ParseHeader(std::string_view line, const std::string&
   root.ExpectFormat(kHeaderFormat);
   LinesHeader header;
   header.content = root.Member("content").OneOf({"plans", "reports"});
-  header.entries = static_cast<std::int64_t>(root.Member("entries").Number());
+  const plan::JsonReader entries = root.Member("entries");
+  if (entries.Unsigned() > kMostEntries) {
+    entries.Fail("more than " + std::to_string(kMostEntries) + " entries");
+  }
+  header.entries = static_cast<std::int64_t>(entries.Unsigned());
   header.shard.count = root.Member("shards").Integer(1, kMostShards);
   header.shard.number = root.Member("shard").Integer(1, header.shard.count);
   header.run = root.Member("run").String();

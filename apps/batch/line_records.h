@@ -26,12 +26,13 @@ struct Shard {
 
   /// The entries of the shard, neighbours all. Shards in order cover every entry once, and differ
   /// by at most one entry in size.
-  /// @param entries  of the whole.
+  /// @param entries  of the whole, at most kMostEntries.
   [[nodiscard]] EntryRange Of(std::int64_t entries) const;
   bool operator==(const Shard&) const = default;
 };
 
 inline constexpr int kMostShards = 1'000'000;
+inline constexpr std::int64_t kMostEntries = 1'000'000'000'000;
 
 /// "2/4".
 /// @throws InputError  names the option and what was found.

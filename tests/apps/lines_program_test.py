@@ -180,6 +180,16 @@ class Lines(ProgramCase):
         self.assertEqual((none["format"], none["verdict"]), ("regrasp-none", "no-plan"))
         self.assertEqual(plan["format"], "regrasp-plan")
 
+    def test_a_time_limit_is_that_of_each_query(self):
+        self.write_lines("queries.jsonl", self.queries(3))
+        done = self.plan("plans.jsonl", "--time-limit", "0.000001", code=1)
+        self.assertIn("3 entries: 3 no-plan", done.stderr)
+        for none in self.lines("plans.jsonl")[1:]:
+            self.assertIn("the time was up", none["message"])
+        # Longer than a query takes, and shorter than all of many take.
+        self.write_lines("queries.jsonl", self.queries(3) * 30)
+        self.plan("more.jsonl", "--time-limit", "60")
+
     def test_queries_say_start_and_goal_themselves(self):
         ends = {}
         for end in ("start", "goal"):

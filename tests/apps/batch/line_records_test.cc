@@ -41,8 +41,7 @@ TEST(ShardTest, ShardsInOrderCoverEveryEntryOnceAndDifferByOneAtMost) {
     }
   }
   EXPECT_EQ(checked, 5 * (1 + 2 + 3 + 7 + 101));
-  // The largest of both that there may be.
-  EXPECT_EQ((Shard{kMostShards, kMostShards}.Of(1'000'000'000'000).last), 1'000'000'000'000);
+  EXPECT_EQ((Shard{kMostShards, kMostShards}.Of(kMostEntries).last), kMostEntries);
 }
 
 TEST(ShardTest, IsWrittenAsPartOfCount) {
@@ -66,8 +65,12 @@ TEST(LinesHeaderTest, ReadsBackAsItWasWrittenAndNothingElseIsOne) {
   EXPECT_EQ(ParseHeader(R"({"format":"regrasp-plan","version":1})", "a.jsonl"), std::nullopt);
   EXPECT_EQ(ParseHeader("", "a.jsonl"), std::nullopt);
   // One that was cut or edited.
-  const std::vector<std::string> bads = {line.substr(0, line.size() - 3), line + " ",
-                                         R"({"format":"regrasp-lines","version":2})"};
+  const std::vector<std::string> bads = {line.substr(0, line.size() - 3),
+                                         line + " ",
+                                         R"({"format":"regrasp-lines","version":2})",
+                                         FormatHeader({"plans", -1, {}, "abc"}),
+                                         FormatHeader({"plans", kMostEntries + 1, {}, "abc"}),
+                                         FormatHeader({"plans", 1, {2, 1}, "abc"})};
   for (const std::string& bad : bads) {
     EXPECT_THAT(Refusal([&] { return ParseHeader(bad, "a.jsonl"); }), HasSubstr("a.jsonl")) << bad;
   }
