@@ -11,7 +11,7 @@ struct Command {
   const char* text;  ///< what it does, a sentence
 };
 
-inline constexpr std::array<Command, 6> kCommands = {{
+inline constexpr std::array<Command, 7> kCommands = {{
     {"plan", "Finds a regrasp sequence from a start grasp to a goal grasp and writes a plan."},
     {"validate",
      "Checks a regrasp plan, a library of plans or a single grasp analytically, replays it in "
@@ -21,6 +21,7 @@ inline constexpr std::array<Command, 6> kCommands = {{
     {"figure", "Draws every step of a regrasp plan as a figure for a paper, and a sheet of all."},
     {"repair",
      "Makes a solid of a scan, a broken mesh or several shells, and says what it changed."},
+    {"merge", "Joins the shards of a run over many plans into the file that one run writes."},
     {"hand",
      "Finds palm, fingers and fingertips in a model of a hand, and prints what they can do."},
 }};

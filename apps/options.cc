@@ -86,6 +86,28 @@ CLI::Option* AddQuiet(CLI::App& app, bool& value) {
       ->group(kGeneralGroup);
 }
 
+std::vector<std::pair<std::string, std::vector<std::string>>> GivenOptions(
+    const CLI::App& app, const std::set<std::string>& change_nothing) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> given;
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && !change_nothing.contains(name)) {
+      given.emplace_back(name, option->results());
+    }
+  }
+  return given;
+}
+
+void FrictionOptions::SetDegrees(double degrees) {
+  degrees_ = degrees;
+  mu_.reset();
+}
+
+void FrictionOptions::SetMu(double mu) {
+  mu_ = mu;
+  degrees_.reset();
+}
+
 void FrictionOptions::AddTo(CLI::App& app) {
   const NumberRange angle = {
       .lower = 0, .upper = 90, .lower_included = false, .upper_included = false};

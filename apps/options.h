@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,11 +93,19 @@ CLI::Option* AddScale(
 /// Adds `--quiet`.
 CLI::Option* AddQuiet(CLI::App& app, bool& value);
 
+/// The options that are given, each with its values, but for those that change no result.
+[[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> GivenOptions(
+    const CLI::App& app, const std::set<std::string>& change_nothing);
+
 /// Friction as the command line gives it: the cone's half-angle or its tangent.
 class FrictionOptions {
  public:
   /// Adds `--friction-angle DEG` and `--mu X`.
   void AddTo(CLI::App& app);
+
+  /// As if --friction-angle had been given, and no --mu; or the other way round.
+  void SetDegrees(double degrees);
+  void SetMu(double mu);
 
   /// The half-angle in radians; nullopt where neither option is given.
   /// @throws InputError  both are given, or the half-angle is not inside (0°, 90°) as a double.

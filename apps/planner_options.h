@@ -35,7 +35,8 @@ struct PlannerOptions {
   std::optional<double> time_limit_s;
   bool force = false;
   bool quiet = false;
-  const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+  /// What a time limit counts from.
+  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
 
   /// @param automatic  what `--planner auto` takes, for the help.
   void AddTo(CLI::App& app, const std::string& automatic);

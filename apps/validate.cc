@@ -7,6 +7,7 @@
 #include "apps/program.h"
 #include "apps/states_run.h"
 #include "apps/validate_batch.h"
+#include "apps/validate_lines.h"
 #include "apps/validate_options.h"
 #include "apps/validate_run.h"
 
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
     options.Finish(app);
     if (options.for_states()) return RunStates(options);
     if (options.for_grasps()) return RunGrasps(options);
+    if (options.for_lines()) return RunValidateLines(options);
     return options.for_batch() ? RunBatch(options) : RunValidation(options).exit_code;
   });
 }

@@ -17,7 +17,30 @@ void RefuseOthers(const CLI::App& app, const std::set<std::string>& served,
   }
 }
 
+/// Longer than any plan takes, and still a number of seconds that clocks can add.
+constexpr double kLongestTime_s = 1e6;
+
 }  // namespace
+
+void AddBatch(CLI::App& app, ValidateOptions& options) {
+  app.add_option("--shard", options.shard,
+                 "Part I of N of the plans in a file of lines alone; merge joins the results")
+      ->type_name("I/N");
+  AddInteger(app, "--jobs", options.jobs, 1, kMostJobs,
+             "How many of several plans are validated at a time; of --export-states, threads "
+             "(default: one a processor)");
+  AddNumber(app, "--time-limit", options.time_limit_s,
+            {.lower = 0, .upper = kLongestTime_s, .lower_included = false},
+            "Longest time that one of several plans may take, seconds; it is then stopped and "
+            "counts as an error (default: none)",
+            "S");
+  app.add_flag(
+      "--fresh", options.fresh,
+      "Validate all of several plans anew; of a file of lines throw away what an earlier run left; "
+      "otherwise a plan keeps the results of an earlier "
+      "run where plan, object, options and the program's build are the same and no result was "
+      "edited");
+}
 
 void AddStates(CLI::App& app, ValidateOptions& options) {
   // Of a million the file has some 700 MB.

@@ -6,6 +6,12 @@
 
 namespace regrasp::apps {
 
+/// Most of several plans that are validated at a time.
+inline constexpr int kMostJobs = 1024;
+
+/// Adds what is about several plans.
+void AddBatch(CLI::App& app, ValidateOptions& options);
+
 // What `validate` does beside plans and single grasps takes few of its options.
 
 /// Adds the options of --export-states.

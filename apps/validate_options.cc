@@ -55,7 +55,8 @@ void AddInputs(CLI::App& app, ValidateOptions& options) {
   CLI::Option* plan = add("--plan", options.plans,
                           "Plan file, - for standard input; or several, or a folder of plans "
                           "(every *.json), each of which is "
-                          "validated in a process of its own; or --grasp");
+                          "validated in a process of its own; or a file of lines (*.jsonl), as "
+                          "plan --batch writes it; or --grasp");
   CLI::Option* grasp =
       add("--grasp", options.grasp_path,
           "Grasp file: asks for a single grasp, at the friction given here, whether it is force "
@@ -102,7 +103,8 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
   add("--out", options.out,
       "Folder for report and frames, verdicts or states (default out/<plan, grasp or object "
       "name>); of several plans a folder "
-      "for each in it, index.html and summary.json (default out/<folder name> or out/batch)")
+      "for each in it, index.html and summary.json (default out/<folder name> or out/batch); of a "
+      "file of lines reports.jsonl")
       ->type_name("DIR");
   app.add_flag("--certificates", options.certificates,
                "Also write proofs of force closure into the report: for every grasp and all along "
@@ -273,7 +275,14 @@ void AddVideo(CLI::App& app, std::string& video) {
 constexpr char kAnimateSize[] = "--animate-size";
 
 void AddPictures(CLI::App& app, ValidateOptions& options) {
-  CLI::Option* none = app.add_flag("--no-frames", options.no_frames, "Draw no frames");
+  CLI::Option* none = app.add_flag_callback(
+      "--no-frames", [&options] { options.frames = Frames::kNone; }, "Draw no frames");
+  AddChoice<Frames>(
+      app, "--frames", options.frames,
+      {{"all", Frames::kAll}, {"failed", Frames::kFailed}, {"none", Frames::kNone}},
+      "Which plans and grasps get frames; all, those that failed, or none (default all; of a file "
+      "of lines none, and those that get frames have a folder each)")
+      ->excludes(none);
   app.add_flag(
       "--show-focus", options.frame.show_focus,
       "Also show the focus point of four concurrent contacts: in frames of a solid, with the "
@@ -302,39 +311,20 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
           "Size of moving pictures", "half of --size");
 }
 
-/// Longer than any plan takes, and still a number of seconds that clocks can add.
-constexpr double kLongestTime_s = 1e6;
-constexpr int kMostJobs = 1024;
 /// Each keeps two pictures of four samples a pixel in memory.
 constexpr int kMostWorkers = 16;
 
-constexpr char kSeveralPlans[] = "goes with several plans or a folder of them";
+constexpr char kSeveralPlans[] = "goes with several plans, a folder or a file of lines";
 constexpr char kSinglePlan[] = "goes with a single plan or grasp";
-
-void AddBatch(CLI::App& app, ValidateOptions& options) {
-  AddInteger(app, "--jobs", options.jobs, 1, kMostJobs,
-             "How many of several plans are validated at a time; of --export-states, threads "
-             "(default: one a processor)");
-  AddNumber(app, "--time-limit", options.time_limit_s,
-            {.lower = 0, .upper = kLongestTime_s, .lower_included = false},
-            "Longest time that one of several plans may take, seconds; it is then stopped and "
-            "counts as an error (default: none)",
-            "S");
-  app.add_flag(
-      "--fresh", options.fresh,
-      "Validate all of several plans anew; otherwise a plan keeps the results of an earlier "
-      "run where plan, object, options and the program's build are the same and no result was "
-      "edited");
-}
 
 /// Options that say where things come from, where they go and how fast; --start and --goal count
 /// by what their files hold.
-bool ChangesResults(const std::string& name) {
-  static const std::set<std::string> kOthers = {
+const std::set<std::string>& ChangeNothing() {
+  static const std::set<std::string> kNames = {
       "--help", "--version",     "--object",     "--plan",  "--grasp", "--out",  "--junit",
       "--json", "--export-mjcf", "--trajectory", "--start", "--goal",  "--hand", "--verify",
-      "--jobs", "--fresh",       "--time-limit", "--quiet", "--video"};
-  return !kOthers.contains(name);
+      "--jobs", "--fresh",       "--time-limit", "--quiet", "--video", "--shard"};
+  return kNames;
 }
 
 }  // namespace
@@ -399,7 +389,14 @@ void ValidateOptions::Finish(const CLI::App& app) {
       if (app.count(name) > 0) throw InputError(std::string(name) + " " + why);
     }
   };
-  if (for_batch()) {
+  if (!for_lines()) refuse({"--shard"}, "goes with a file of lines");
+  if (for_lines()) {
+    refuse(
+        {"--trajectory", "--export-mjcf", "--verify", "--json", "--video", "--animate", "--junit"},
+        "does not go with a file of lines");
+    if (app.count("--frames") == 0) frames = Frames::kNone;
+    plan_path = plans.front();
+  } else if (for_batch()) {
     refuse({"--trajectory", "--export-mjcf", "--verify", "--json", "--video"}, kSinglePlan);
     if (std::ranges::find(plans, kStandardStream) != plans.end()) {
       throw InputError("--plan - " + std::string(kSinglePlan));
@@ -428,14 +425,14 @@ void ValidateOptions::Finish(const CLI::App& app) {
     animation_width = std::max(render::kMinFrameSide, frame.width / 2);
     animation_height = std::max(render::kMinFrameSide, frame.height / 2);
   }
-  given.clear();
-  for (const CLI::Option* option : app.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() > 0 && ChangesResults(name)) given.emplace_back(name, option->results());
-  }
+  given = GivenOptions(app, ChangeNothing());
 }
 
 bool ValidateOptions::trajectory_is_npz() const { return trajectory.ends_with(".npz"); }
+
+bool ValidateOptions::for_lines() const {
+  return plans.size() == 1 && plans.front().ends_with(".jsonl");
+}
 
 bool ValidateOptions::for_batch() const {
   std::error_code error;

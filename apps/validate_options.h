@@ -24,6 +24,9 @@ inline constexpr char kValidateName[] = "validate";
 /// Of --plan and --json: standard input and output.
 inline constexpr char kStandardStream[] = "-";
 
+/// Of which plans and grasps frames are drawn.
+enum class Frames { kAll, kFailed, kNone };
+
 /// What the command line of `validate` asks for.
 struct ValidateOptions {
   std::string object_path;         ///< for plans also a folder, where each finds the file it names
@@ -66,16 +69,18 @@ struct ValidateOptions {
   std::string video;
   int workers;  ///< threads that draw pictures
   int sheet_width = render::kSheetWidth;
-  bool no_frames = false;
+  Frames frames = Frames::kAll;
   bool animate = false;
   bool show_clusters = false;
   bool certificates = false;
   bool allow_object_change = false;
   bool allow_undecided = false;
   bool quiet = false;
-  int jobs;  ///< plans at a time, or threads that make states
+  bool silent = false;  ///< says not even why something failed: the caller does
+  int jobs;             ///< plans at a time, or threads that make states
   std::optional<double> time_limit_s;
   bool fresh = false;  ///< validates again what an earlier run did
+  std::string shard;   ///< of a file of lines; empty: all
   /// Given options that change results, each with its values: what a run's digest is over.
   std::vector<std::pair<std::string, std::vector<std::string>>> given;
 
@@ -88,11 +93,16 @@ struct ValidateOptions {
 
   /// Several plans, or a folder of them.
   [[nodiscard]] bool for_batch() const;
+  /// A file of lines with a plan in each.
+  [[nodiscard]] bool for_lines() const;
   [[nodiscard]] bool trajectory_is_npz() const;
   [[nodiscard]] bool for_grasp() const { return !grasp_path.empty(); }
   [[nodiscard]] bool for_grasps() const { return !grasps_path.empty(); }
   [[nodiscard]] bool for_states() const { return states > 0; }
   [[nodiscard]] bool animates() const { return animate || !video.empty(); }
+  [[nodiscard]] bool draws_frames(bool passed) const {
+    return frames == Frames::kAll || (frames == Frames::kFailed && !passed);
+  }
   /// The plan, the grasp or the grasps; of states the object.
   [[nodiscard]] const std::string& InputPath() const;
   /// Where results go: `out`, or out/<plan, grasp, object or folder name>, or out/batch.

@@ -1,6 +1,7 @@
 #include "apps/validate_task.h"
 
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
 #include "apps/frame_files.h"
@@ -19,6 +20,7 @@
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "planner/repair/repair.h"
+#include "report/json_values.h"
 #include "report/report.h"
 #include "sim/actuation/hand_scene_export.h"
 
@@ -75,7 +77,7 @@ void CheckRepair(const ValidateOptions& options, const plan::Plan& plan) {
 void ReadGivenPoints(const std::string& object_path, const object::Reading& reading,
                      ValidateTask& task) {
   if (!task.plan.at_given_points) return;
-  if (task.plan.repair && !task.object.repair) {
+  if (task.plan.repair && !task.object->repair) {
     throw InputError(object_path + ": the contacts of the plan are at points of " +
                      task.plan.object_file +
                      "; give that file (--object), not what a repair made "
@@ -84,24 +86,61 @@ void ReadGivenPoints(const std::string& object_path, const object::Reading& read
   task.given_points = object::ReadGivenPoints(object_path, reading);
 }
 
-void ReadPlanTask(const ValidateOptions& options, object::Reading reading, ValidateTask& task) {
+/// The plan that a text is, as options and task go together.
+plan::Plan ParsePlanOf(const ValidateOptions& options, const std::string& text) {
+  plan::Plan plan = plan::ParsePlan(text, options.plan_path);
+  CheckRepair(options, plan);
+  return plan;
+}
+
+/// How the object of a plan is read.
+object::Reading ReadingOf(const plan::Plan& plan, object::Reading reading) {
+  // Nothing is judged by these, but the clusters that are shown are made on places without them.
+  if (plan.roadmap && plan.roadmap->roughness) {
+    reading.patch = {plan.patch_radius, *plan.roadmap->roughness};
+  }
+  reading.allow_invented = plan.roadmap && plan.roadmap->allow_invented;
+  return reading;
+}
+
+/// The same in a text: plans with the same text have the same object, if they have the same file.
+std::string ReadingKey(const plan::Plan& plan) {
+  Json key = Json::array();
+  if (plan.repair) {
+    const object::RepairOptions& repair = plan.repair->options;
+    key = {plan.repair->sha256, repair.max_deviation, report::OrNull(repair.facets),
+           report::OrNull(repair.part), report::OrNull(repair.thickness)};
+  }
+  key.push_back(plan.shells ? static_cast<int>(*plan.shells) : -1);
+  if (plan.roadmap && plan.roadmap->roughness) {
+    key.push_back(*plan.roadmap->roughness);
+    key.push_back(report::OrNull(plan.patch_radius));
+  }
+  key.push_back(plan.roadmap && plan.roadmap->allow_invented);
+  return key.dump();
+}
+
+/// @param path  of the object that the task has.
+void FinishPlanTask(const ValidateOptions& options, const std::string& path,
+                    const object::Reading& reading, ValidateTask& task) {
+  CheckPlanFits(task.plan, *task.object,
+                {options.plan_path, path, options.allow_object_change, options.scale});
+  ReadGivenPoints(path, reading, task);
+}
+
+void ReadPlanTask(const ValidateOptions& options, const object::Reading& plain,
+                  ValidateTask& task) {
   std::error_code error;
   const bool named_by_plan = std::filesystem::is_directory(options.object_path, error);
   task.file_text =
       options.plan_path == kStandardStream ? ReadFile("/dev/stdin") : ReadFile(options.plan_path);
-  task.plan = plan::ParsePlan(task.file_text, options.plan_path);
-  CheckRepair(options, task.plan);
-  // Nothing is judged by these, but the clusters that are shown are made on places without them.
-  if (task.plan.roadmap && task.plan.roadmap->roughness) {
-    reading.patch = {task.plan.patch_radius, *task.plan.roadmap->roughness};
-  }
-  reading.allow_invented = task.plan.roadmap && task.plan.roadmap->allow_invented;
+  task.plan = ParsePlanOf(options, task.file_text);
+  const object::Reading reading = ReadingOf(task.plan, plain);
   const std::string object_path = ObjectPathOf(options, task.plan.object_file);
   if (named_by_plan) CheckOutputsDiffer({{"--object", object_path}}, OutputsOf(options));
-  task.object = ReadObjectOf(task.plan, object_path, reading);
-  CheckPlanFits(task.plan, task.object,
-                {options.plan_path, object_path, options.allow_object_change, options.scale});
-  ReadGivenPoints(object_path, reading, task);
+  task.object =
+      std::make_shared<const object::ObjectFile>(ReadObjectOf(task.plan, object_path, reading));
+  FinishPlanTask(options, object_path, reading, task);
 }
 
 /// What is known of hard points alone is refused before any work is done.
@@ -109,6 +148,21 @@ void CheckSoftFingers(const ValidateOptions& options, const plan::Plan& plan) {
   if (options.contact.torsion().value_or(plan.torsion) == 0 || !options.replay_by_hand) return;
   throw InputError(
       "--replay hand: a hand's fingertips are hard points, and these contacts are soft fingers");
+}
+
+void CheckBody(const ValidateOptions& options, const ValidateTask& task) {
+  CheckTorsionFits(options, *task.object->object);
+  CheckSoftFingers(options, task.plan);
+  if (options.replay.thickness && task.plan.dimension == 3) {
+    throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
+  }
+  const object::Object& object = *task.object->object;
+  if (options.replay.finger_radius) {
+    criteria::CheckFingerRadius(object, *options.replay.finger_radius, "--finger-radius");
+  } else if (task.plan.finger_radius) {
+    criteria::CheckFingerRadius(object, *task.plan.finger_radius,
+                                options.plan_path + ": /finger_radius");
+  }
 }
 
 }  // namespace
@@ -150,32 +204,37 @@ ValidateTask ReadTask(const ValidateOptions& options) {
   const object::Reading reading = {progress.reporter(), {}};
   ValidateTask task;
   if (options.for_grasp()) {
-    task.object = ReadGraspObject(options, progress);
+    task.object = std::make_shared<const object::ObjectFile>(ReadGraspObject(options, progress));
     task.file_text = ReadFile(options.grasp_path);
-    task.grasp = plan::ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
+    task.grasp = plan::ParseGrasp(task.file_text, options.grasp_path, *task.object->object);
     const double torsion = options.contact.torsion().value_or(0);
     for (grasp::Contact& contact : task.grasp) contact.torsion = torsion;
     task.plan =
-        report::MakeHoldPlan(*task.object.object, task.grasp,
+        report::MakeHoldPlan(*task.object->object, task.grasp,
                              options.friction.required_half_angle(), options.scale.value_or(1));
   } else {
     ReadPlanTask(options, reading, task);
   }
-  CheckTorsionFits(options, *task.object.object);
-  CheckSoftFingers(options, task.plan);
   if (!options.start.empty()) task.start_text = ReadFile(options.start);
   if (!options.goal.empty()) task.goal_text = ReadFile(options.goal);
   if (!options.hand.empty()) task.hand = kinematics::ReadHandFile(options.hand);
-  if (options.replay.thickness && task.plan.dimension == 3) {
-    throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
-  }
-  if (options.replay.finger_radius) {
-    criteria::CheckFingerRadius(*task.object.object, *options.replay.finger_radius,
-                                "--finger-radius");
-  } else if (task.plan.finger_radius) {
-    criteria::CheckFingerRadius(*task.object.object, *task.plan.finger_radius,
-                                options.plan_path + ": /finger_radius");
-  }
+  CheckBody(options, task);
+  return task;
+}
+
+ValidateTask MakePlanTask(const ValidateOptions& options, const std::string& text,
+                          PlanObjects& objects) {
+  ValidateTask task;
+  task.file_text = text;
+  task.plan = ParsePlanOf(options, text);
+  const plan::Plan& plan = task.plan;
+  const object::Reading reading = ReadingOf(plan, {});
+  const std::string path =
+      objects.finder.Find(plan.object_file, plan.object_sha256, options.plan_path);
+  task.object = objects.shelf.Get(path + " " + ReadingKey(plan),
+                                  [&] { return ReadObjectOf(plan, path, reading); });
+  FinishPlanTask(options, path, reading, task);
+  CheckBody(options, task);
   return task;
 }
 

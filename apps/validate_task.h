@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/batch/object_shelf.h"
 #include "apps/progress.h"
 #include "apps/validate_options.h"
 #include "planner/kinematics/hand_file.h"
@@ -15,7 +17,7 @@ namespace regrasp::apps {
 
 /// What the files on the command line ask for.
 struct ValidateTask {
-  object::ObjectFile object;
+  SharedObject object;
   std::string file_text;  ///< of the plan or of the grasp
   plan::Plan plan;        ///< of a grasp: without steps
   grasp::Grasp grasp;     ///< empty for a plan
@@ -39,5 +41,18 @@ void CheckTorsionFits(const ValidateOptions& options, const object::Object& obje
 /// Reads the object, the plan or the grasp, and what else is named.
 /// @throws InputError  a file is no good, or does not go with another one or with an option.
 [[nodiscard]] ValidateTask ReadTask(const ValidateOptions& options);
+
+/// Where the objects of many plans come from.
+struct PlanObjects {
+  ObjectFinder finder;
+  ObjectShelf shelf;
+};
+
+/// The task of one of many plans, which has no file of its own. Start, goal and hand are left to
+/// the caller.
+/// @param options  `plan_path` is how messages call the plan.
+/// @throws InputError  as ReadTask.
+[[nodiscard]] ValidateTask MakePlanTask(const ValidateOptions& options, const std::string& text,
+                                        PlanObjects& objects);
 
 }  // namespace regrasp::apps

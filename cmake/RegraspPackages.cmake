@@ -37,8 +37,8 @@ set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
 to another, with force closure held at every instant, and validate them: analytically, by a
 replay in MuJoCo or the Open Dynamics Engine, and with pictures.")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-# plotutils has a program `graph`, too.
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONFLICTS plotutils)
+# plotutils has a program `graph`, too, and rcs a program `merge`.
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONFLICTS "plotutils, rcs")
 
 set(CPACK_COMPONENT_DEV_DESCRIPTION
     "Static libraries, headers, and files for CMake and pkg-config.")

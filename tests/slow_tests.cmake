@@ -11,6 +11,7 @@ set(regrasp_slow_tests
   apps.gait
   apps.general
   apps.hand
+  apps.lines
   apps.meshes
   apps.models
   apps.plan

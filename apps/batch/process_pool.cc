@@ -99,8 +99,8 @@ class Stream {
   void Replace(int standard) const { dup2(out_.get(), standard); }
   /// In the parent, after the fork.
   void CloseOut() { out_ = Descriptor(-1); }
-  /// Takes what is there now.
-  void Drain();
+  /// Takes what is there now; keeps at most so many bytes of all.
+  void Drain(std::size_t most);
 
  private:
   Descriptor in_, out_;
@@ -126,22 +126,26 @@ class Pool {
   Pool& operator=(const Pool&) = delete;
 
   /// @returns the signal that stopped it, 0 where all were run.
-  int Run(int count) {
-    int next = 0;
-    while (next < count || !children_.empty()) {
-      while (next < count && static_cast<int>(children_.size()) < options_.jobs) Start(next++);
+  int Run(const std::function<std::optional<int>()>& next) {
+    while (true) {
+      while (static_cast<int>(children_.size()) < options_.jobs) {
+        const std::optional<int> task = next();
+        if (!task) break;
+        Start(*task);
+      }
+      if (children_.empty()) return 0;
       Wait();
       if (const int stop = signals_.TakeStop(); stop != 0) return stop;
       CountTime();
       KillLate();
       Reap();
     }
-    return 0;
   }
 
  private:
   void Start(int index);
   [[noreturn]] void RunChild(int index, pid_t parent, const Stream& output, const Stream& errors);
+  void DrainAll(Child& child) const;
   void Wait();
   void CountTime();
   void KillLate();
@@ -164,7 +168,7 @@ Stream::Stream() : in_(-1), out_(-1) {
   fcntl(in(), F_SETFL, O_NONBLOCK);
 }
 
-void Stream::Drain() {
+void Stream::Drain(std::size_t most) {
   std::array<char, 1 << 12> piece;
   while (in() >= 0) {
     const ssize_t count = read(in(), piece.data(), piece.size());
@@ -174,14 +178,14 @@ void Stream::Drain() {
       in_ = Descriptor(-1);
       return;
     }
-    const std::size_t left = kLongestText - text_.size();
+    const std::size_t left = most - text_.size();
     text_.append(piece.data(), std::min(left, static_cast<std::size_t>(count)));
   }
 }
 
-void DrainAll(Child& child) {
-  child.output.Drain();
-  child.errors.Drain();
+void Pool::DrainAll(Child& child) const {
+  child.output.Drain(options_.most_output);
+  child.errors.Drain(kLongestText);
 }
 
 void Pool::Start(int index) {
@@ -291,7 +295,18 @@ void Pool::KillAll() {
 
 int RunInChildren(int count, const PoolOptions& options, const std::function<int(int)>& work,
                   const std::function<void(int, ChildExit)>& on_exit) {
-  return Pool(options, work, on_exit).Run(count);
+  int index = 0;
+  const auto next = [&]() -> std::optional<int> {
+    if (index == count) return std::nullopt;
+    return index++;
+  };
+  return RunInChildren(next, options, work, on_exit);
+}
+
+int RunInChildren(const std::function<std::optional<int>()>& next, const PoolOptions& options,
+                  const std::function<int(int)>& work,
+                  const std::function<void(int, ChildExit)>& on_exit) {
+  return Pool(options, work, on_exit).Run(next);
 }
 
 }  // namespace regrasp::apps

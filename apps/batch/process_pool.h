@@ -16,12 +16,13 @@ struct ChildExit {
   };
   Kind kind = Kind::kExited;
   int code = 0;        ///< exit code, or the signal that ended it
-  std::string output;  ///< what it wrote on standard output, at most kLongestText bytes
-  std::string errors;  ///< on standard error, likewise
+  std::string output;  ///< what it wrote on standard output, at most `most_output` bytes
+  std::string errors;  ///< on standard error, at most kLongestText bytes
   double seconds = 0;  ///< that it took, by the clock
 };
 
-/// More is read, so that the child can go on, and thrown away.
+/// Of a stream where the options ask for no other limit. More is read, so that the child can go on,
+/// and thrown away.
 inline constexpr std::size_t kLongestText = std::size_t{1} << 16;
 
 struct PoolOptions {
@@ -30,6 +31,7 @@ struct PoolOptions {
   /// Of each child, by the clock; time in which this process was stopped does not count.
   std::optional<std::chrono::duration<double>> time_limit;
   std::function<Clock::time_point()> now = Clock::now;
+  std::size_t most_output = kLongestText;  ///< bytes of a child's standard output that are kept
 };
 
 /// Calls `work(0)` … `work(count − 1)`, each in a forked child of its own, in this order and at
@@ -45,6 +47,13 @@ struct PoolOptions {
 /// @throws EnvironmentError  no process or pipe can be made; no child is left then.
 [[nodiscard]] int RunInChildren(int count, const PoolOptions& options,
                                 const std::function<int(int)>& work,
+                                const std::function<void(int, ChildExit)>& on_exit);
+
+/// The same for tasks that become known as time goes on: `next` is asked, in this process, whenever
+/// a child may start, and again after each `on_exit` where it had none.
+/// @param next  the number of a task; nullopt: none now, and none at all if no child is left.
+[[nodiscard]] int RunInChildren(const std::function<std::optional<int>()>& next,
+                                const PoolOptions& options, const std::function<int(int)>& work,
                                 const std::function<void(int, ChildExit)>& on_exit);
 
 }  // namespace regrasp::apps

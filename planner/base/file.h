@@ -1,10 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "planner/base/write_file.h"  // IWYU pragma: export
+
+/// OpenSSL's.
+struct evp_md_ctx_st;
 
 namespace regrasp {
 
@@ -18,6 +22,20 @@ namespace regrasp {
 inline constexpr std::size_t kMaxInputBytes = std::size_t{1} << 30;
 
 /// The SHA-256 digest of `bytes`, 64 lower-case hexadecimal digits.
+/// @throws EnvironmentError  OpenSSL has none.
 [[nodiscard]] std::string Sha256(std::string_view bytes);
+
+/// The same of bytes that come piece by piece, however they are cut.
+class Sha256Sum {
+ public:
+  /// @throws EnvironmentError  OpenSSL has none.
+  Sha256Sum();
+  void Add(std::string_view bytes);
+  /// Of all that was added. To be called once, at the end.
+  [[nodiscard]] std::string Finish();
+
+ private:
+  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
+};
 
 }  // namespace regrasp

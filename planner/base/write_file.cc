@@ -114,20 +114,6 @@ void Close(Descriptor& file) {
   if (close(file.Release()) != 0) FailWith(errno);
 }
 
-void WriteAll(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = write(descriptor, bytes.data(), bytes.size());
-    if (count >= 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno == EAGAIN) {
-      pollfd ready = {descriptor, POLLOUT, 0};
-      poll(&ready, 1, -1);
-    } else if (errno != EINTR) {
-      FailWith(errno);
-    }
-  }
-}
-
 /// Signals that ask the process to stop wait while this lives.
 class StopsHeld {
  public:
@@ -254,6 +240,20 @@ void NamingPath(const fs::path& path, const Action& action) {
 }
 
 }  // namespace
+
+void WriteAll(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = write(descriptor, bytes.data(), bytes.size());
+    if (count >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN) {
+      pollfd ready = {descriptor, POLLOUT, 0};
+      poll(&ready, 1, -1);
+    } else if (errno != EINTR) {
+      FailWith(errno);
+    }
+  }
+}
 
 void WriteFile(const fs::path& path, std::string_view bytes, Durability durability) {
   NamingPath(path, [&] { WriteTo(Resolve(path), bytes, durability); });

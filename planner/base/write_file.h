@@ -27,6 +27,10 @@ enum class Durability { kSynced, kCached };
 void WriteFile(const std::filesystem::path& path, std::string_view bytes,
                Durability durability = Durability::kSynced);
 
+/// Writes all of the bytes to an open file, whatever interrupts.
+/// @throws std::system_error  it takes no more.
+void WriteAll(int descriptor, std::string_view bytes);
+
 /// Finds out whether WriteFile could write there now, and leaves everything as it is.
 /// @throws EnvironmentError  as WriteFile.
 void CheckWritable(const std::filesystem::path& path);

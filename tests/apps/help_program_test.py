@@ -9,7 +9,7 @@ import subprocess
 import program_case
 from program_case import ProgramCase
 
-PROGRAMS = ("plan", "validate", "graph", "figure", "repair", "hand")
+PROGRAMS = ("plan", "validate", "graph", "figure", "repair", "merge", "hand")
 
 # Of what shells show beside an option, on a terminal of 100 columns.
 SUMMARY_LENGTH = 72
@@ -69,7 +69,7 @@ class Help(ProgramCase):
 
     def test_a_mistyped_option_is_told_before_a_missing_one(self):
         for self.program in PROGRAMS:
-            right = "--model" if self.program == "hand" else "--object"
+            right = {"hand": "--model", "merge": "--shards"}.get(self.program, "--object")
             wrong = right[:-2] + right[-1]
             for typed, words in ((wrong, [wrong, "x"]), (wrong, [wrong + "=x"]),
                                  (right[1:], [right[1:], "x"])):

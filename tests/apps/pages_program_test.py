@@ -26,7 +26,12 @@ GIVEN = {
     "make_a_figure": CUBE,
     "options": "cp models/*.obj models/*.wkt .; cp models/cube.start.json start.json; "
                "cp models/cube.goal.json goal.json; cp models/cube.obj part.obj; mkdir plans\n"
-               + CUBE + "cp plan.json plans; cp plan.json cube.json; cp models/hands/ring4.xml "
+               + CUBE + "cp plan.json plans; cp plan.json cube.json; mkdir -p shards/1\n"
+               "echo '{\"object\": {\"file\": \"cube.obj\"}}' > queries.jsonl\n"
+               "plan --quiet --object . --batch queries.jsonl --mu 0.5 --start random --goal random "
+               "--output shards/plans.1.jsonl\n"
+               "validate --quiet --object . --plan shards/plans.1.jsonl --out shards/1\n"
+               "cp models/hands/ring4.xml "
                "right_hand.xml\nplan --quiet --object models/polygon15.wkt --friction-angle 20 --planner "
                "polygon --start models/polygon15.start.json --goal models/polygon15.goal.json "
                "--output polygon15.json\n",
@@ -38,12 +43,13 @@ LEFT = {
     "first_picture": ["out/plan/report.html", "out/plan/overview.png", "out/turn/replay.webp"],
     "trust_a_plan": ["out/plan/report.html", "out/weak/report.json", "out/proof/report.json"],
     "guard_a_library": ["out/junit.xml", "out/plans/summary.json", "out/plans/index.html"],
+    "many_plans": ["plans.jsonl", "out/plans/reports.jsonl", "merged.jsonl", "reports.jsonl"],
     "make_a_figure": ["figures/sheet.pdf", "out/large/000_hold.png"],
     "hands": ["hand.png", "scene/scene.xml", "turn.mcap", "turn.yaml", "states/states.npz"],
     "formats": ["grasps.npz", "turn.mcap", "hidex.json"],
     "figures": ["figures/sheet.pdf", "figures/contact_space.png"],
     "objects": ["solid.obj", "repair.json"],
-    "options": ["solid.obj", "graph.json", "hand.json", "junit.xml"],
+    "options": ["solid.obj", "graph.json", "hand.json", "junit.xml", "reports.jsonl"],
     "validation": ["states/states.npz", "scene/scene.xml"],
 }
 

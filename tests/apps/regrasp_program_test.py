@@ -9,7 +9,7 @@ import time
 import program_case
 from program_case import ProgramCase
 
-COMMANDS = ("plan", "validate", "graph", "figure", "repair", "hand")
+COMMANDS = ("plan", "validate", "graph", "figure", "repair", "merge", "hand")
 
 
 class Regrasp(ProgramCase):

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <iterator>
 #include <map>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -50,6 +52,44 @@ TEST(ProcessPoolTest, EveryTaskRunsInAProcessOfItsOwnAndItsExitCodeComesBack) {
   }
   EXPECT_EQ(changed_by_children, 0);
   EXPECT_TRUE(RunAll(0, 2, [](int) { return 0; }).empty());
+}
+
+TEST(ProcessPoolTest, TasksThatBecomeKnownWhenOthersEndAreRunToo) {
+  // Each task makes the next one known when it ends, but for the last.
+  constexpr int kLast = 5;
+  int known = 0, begun = -1;
+  std::vector<int> ended;
+  const auto next = [&]() -> std::optional<int> {
+    if (begun == known) return std::nullopt;
+    return ++begun;
+  };
+  const int stop = RunInChildren(
+      next, {3, kHang}, [](int task) { return task; },
+      [&](int task, const ChildExit& exit) {
+        EXPECT_EQ(exit.code, task);
+        ended.push_back(task);
+        if (known < kLast) ++known;
+      });
+  EXPECT_EQ(stop, 0);
+  EXPECT_EQ(ended, (std::vector{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(ProcessPoolTest, AsMuchOutputIsKeptAsTheOptionsSay) {
+  const std::size_t length = 3 * kLongestText;
+  for (const std::size_t most : {kLongestText, 2 * length}) {
+    PoolOptions options;
+    options.most_output = most;
+    std::string output;
+    const int stop = RunInChildren(
+        1, options,
+        [&](int) {
+          std::cout << std::string(length, 'x');
+          return 0;
+        },
+        [&](int, const ChildExit& exit) { output = exit.output; });
+    EXPECT_EQ(stop, 0);
+    EXPECT_EQ(output.size(), std::min(most, length));
+  }
 }
 
 TEST(ProcessPoolTest, NoMoreThanTheJobsRunAtATime) {

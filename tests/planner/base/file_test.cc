@@ -71,5 +71,19 @@ TEST(Sha256, IsThatOfThePublishedVectors) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST(Sha256, IsTheSameOfBytesThatComeInPieces) {
+  const std::string bytes(1'000'000, 'a');
+  for (const std::size_t length : {std::size_t{1} << 20, std::size_t{4097}, std::size_t{64}}) {
+    Sha256Sum sum;
+    for (std::size_t begin = 0; begin < bytes.size(); begin += length) {
+      sum.Add(std::string_view(bytes).substr(begin, length));
+    }
+    EXPECT_EQ(sum.Finish(), Sha256(bytes));
+  }
+  Sha256Sum other;
+  other.Add("ab");
+  EXPECT_NE(other.Finish(), Sha256("a"));
+}
+
 }  // namespace
 }  // namespace regrasp

@@ -1,0 +1,145 @@
+#include "apps/batch/line_records.h"
+
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include "planner/base/error.h"
+#include "planner/plan/json_reader.h"
+
+namespace regrasp::apps {
+
+namespace {
+
+constexpr char kHeaderFormat[] = "regrasp-lines";
+constexpr char kNoResultFormat[] = "regrasp-none";
+
+/// How lines begin behind the entry's number.
+constexpr std::array<std::pair<std::string_view, Outcome>, 6> kBeginnings = {{
+    {R"("format":"regrasp-plan",)", Outcome::kPlan},
+    {R"("format":"regrasp-report","version":1,"verdict":"pass",)", Outcome::kPass},
+    {R"("format":"regrasp-report","version":1,"verdict":"fail",)", Outcome::kFail},
+    {R"("format":"regrasp-none","version":1,"verdict":"no-plan",)", Outcome::kNoPlan},
+    {R"("format":"regrasp-none","version":1,"verdict":"bad-input",)", Outcome::kBadInput},
+    {R"("format":"regrasp-none","version":1,"verdict":"error",)", Outcome::kError},
+}};
+
+/// JSON on one line; bytes that are not UTF-8, which a file's name may have, become U+FFFD.
+std::string OnOneLine(const Json& json) {
+  return json.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
+}
+
+std::string RecordBeginning(std::int64_t entry) {
+  return R"({"query":)" + std::to_string(entry) + ",";
+}
+
+std::optional<int> ShardNumber(std::string_view text) {
+  int number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end || number < 1 || number > kMostShards) {
+    return std::nullopt;
+  }
+  return number;
+}
+
+}  // namespace
+
+EntryRange Shard::Of(std::int64_t entries) const {
+  return {entries * (number - 1) / count + 1, entries * number / count};
+}
+
+Shard ParseShard(const std::string& option, const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash != std::string::npos) {
+    const auto number = ShardNumber(std::string_view(text).substr(0, slash));
+    const auto count = ShardNumber(std::string_view(text).substr(slash + 1));
+    if (number && count && *number <= *count) return {*number, *count};
+  }
+  throw InputError(option + ": expected I/N, part I of N, with I from 1 to N and N at most " +
+                   std::to_string(kMostShards) + ", found \"" + text + "\"");
+}
+
+std::string FormatHeader(const LinesHeader& header) {
+  return OnOneLine({{"format", kHeaderFormat},
+                    {"version", 1},
+                    {"content", header.content},
+                    {"entries", header.entries},
+                    {"shard", header.shard.number},
+                    {"shards", header.shard.count},
+                    {"run", header.run}}) +
+         "\n";
+}
+
+std::optional<LinesHeader> ParseHeader(std::string_view line, const std::string& name) {
+  if (!line.starts_with(R"({"format":"regrasp-lines",)")) return std::nullopt;
+  const Json json = ParseJson(line, name);
+  const plan::JsonReader root(json, name);
+  root.ExpectFormat(kHeaderFormat);
+  LinesHeader header;
+  header.content = root.Member("content").OneOf({"plans", "reports"});
+  const plan::JsonReader entries = root.Member("entries");
+  if (entries.Unsigned() > kMostEntries) {
+    entries.Fail("more than " + std::to_string(kMostEntries) + " entries");
+  }
+  header.entries = static_cast<std::int64_t>(entries.Unsigned());
+  header.shard.count = root.Member("shards").Integer(1, kMostShards);
+  header.shard.number = root.Member("shard").Integer(1, header.shard.count);
+  header.run = root.Member("run").String();
+  if (FormatHeader(header) != std::string(line) + "\n") {
+    throw InputError(name + ": is no header as it is written");
+  }
+  return header;
+}
+
+std::string_view OutcomeName(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kPlan:
+      return "plan";
+    case Outcome::kPass:
+      return "pass";
+    case Outcome::kFail:
+      return "fail";
+    case Outcome::kNoPlan:
+      return "no-plan";
+    case Outcome::kBadInput:
+      return "bad-input";
+    case Outcome::kError:
+      return "error";
+  }
+  return "";
+}
+
+std::string FormatRecord(std::int64_t entry, const Json& json) {
+  return RecordBeginning(entry) + OnOneLine(json).substr(1);
+}
+
+std::string FormatNoResult(std::int64_t entry, Outcome outcome, const std::string& message) {
+  return FormatRecord(entry, {{"format", kNoResultFormat},
+                              {"version", 1},
+                              {"verdict", std::string(OutcomeName(outcome))},
+                              {"message", message}});
+}
+
+std::optional<Outcome> OutcomeOf(std::string_view line, std::int64_t entry) {
+  const std::string beginning = RecordBeginning(entry);
+  if (!line.starts_with(beginning) || !line.ends_with('}')) return std::nullopt;
+  line.remove_prefix(beginning.size());
+  for (const auto& [begins, outcome] : kBeginnings) {
+    if (line.starts_with(begins)) return outcome;
+  }
+  return std::nullopt;
+}
+
+std::string TallyText(const Tally& tally) {
+  std::int64_t all = 0;
+  std::string counts;
+  for (const auto& [outcome, count] : tally) {
+    all += count;
+    counts += (counts.empty() ? ": " : ", ") + std::to_string(count) + " " +
+              std::string(OutcomeName(outcome));
+  }
+  return std::to_string(all) + (all == 1 ? " entry" : " entries") + counts;
+}
+
+}  // namespace regrasp::apps

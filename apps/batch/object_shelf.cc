@@ -1,0 +1,77 @@
+#include "apps/batch/object_shelf.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+
+namespace regrasp::apps {
+
+namespace fs = std::filesystem;
+
+SharedObject ObjectShelf::Get(const std::string& key,
+                              const std::function<object::ObjectFile()>& read) {
+  auto place = std::ranges::find(places_, key, &Place::key);
+  if (place == places_.end()) {
+    Place taken{key, nullptr, ""};
+    try {
+      taken.object = std::make_shared<const object::ObjectFile>(read());
+    } catch (const InputError& error) {
+      taken.why = error.what();
+    }
+    if (places_.size() >= kMost) places_.pop_back();
+    places_.push_front(std::move(taken));
+  } else {
+    places_.splice(places_.begin(), places_, place);
+  }
+  const Place& found = places_.front();
+  if (!found.object) throw InputError(found.why);
+  return found.object;
+}
+
+ObjectFinder::ObjectFinder(std::string path) : path_(std::move(path)) {
+  std::error_code error;
+  is_folder_ = fs::is_directory(path_, error);
+}
+
+std::string ObjectFinder::Find(const std::string& name, const std::string& sha256,
+                               const std::string& where) {
+  if (!is_folder_) return path_;
+  // Only the name counts: a line must not lead out of the folder.
+  const fs::path file = fs::path(name).filename();
+  const std::string path = (path_ / file).string();
+  std::error_code error;
+  const bool there = !file.empty() && fs::is_regular_file(path, error);
+  if (there && (sha256.empty() || DigestOf(path) == sha256)) return path;
+  const std::string other = sha256.empty() ? "" : FindByDigest(sha256);
+  if (!other.empty()) return other;
+  if (there) return path;
+  throw InputError(where + ": /object/file: there is no file \"" + file.string() + "\" in " +
+                   path_ + (sha256.empty() ? "" : ", and none with the digest " + sha256));
+}
+
+const std::string& ObjectFinder::DigestOf(const std::string& file) {
+  const auto [place, is_new] = digests_.try_emplace(file);
+  if (is_new) place->second = Sha256(ReadFile(file));
+  return place->second;
+}
+
+std::string ObjectFinder::FindByDigest(const std::string& sha256) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(path_, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->is_regular_file(error)) files.push_back(entry->path().string());
+  }
+  // Of two with the same bytes always the same one.
+  std::ranges::sort(files);
+  const auto found = std::ranges::find_if(
+      files, [&](const std::string& file) { return DigestOf(file) == sha256; });
+  return found == files.end() ? "" : *found;
+}
+
+}  // namespace regrasp::apps

@@ -1,0 +1,132 @@
+#include "apps/lines_run.h"
+
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "apps/program.h"
+#include "apps/progress.h"
+#include "planner/base/deadline.h"
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/base/stopwatch.h"
+
+namespace regrasp::apps {
+
+namespace {
+
+/// Before the number of the signal that stopped a run, as shells count it.
+constexpr int kSignalled = 128;
+
+/// A million lines that are all bad say the same.
+constexpr int kMostMessages = 20;
+
+/// Of lines that are plans already, what holds none is no fault.
+int ExitCodeOf(Outcome outcome, const std::string& content) {
+  switch (outcome) {
+    case Outcome::kPlan:
+    case Outcome::kPass:
+      return kExitDone;
+    case Outcome::kNoPlan:
+      return content == "plans" ? kExitNegative : kExitDone;
+    case Outcome::kFail:
+      return kExitNegative;
+    case Outcome::kBadInput:
+      return kExitBadInput;
+    case Outcome::kError:
+      return kExitEnvironment;
+  }
+  return kExitEnvironment;
+}
+
+int ExitCodeOf(const Tally& tally, const std::string& content) {
+  int worst = kExitDone;
+  for (const auto& [outcome, count] : tally) worst = std::max(worst, ExitCodeOf(outcome, content));
+  return worst;
+}
+
+class Messages {
+ public:
+  Messages(const LinesRun& run, ProgressLine& progress) : run_(run), progress_(progress) {}
+  void Print(const std::string& message) {
+    if (++count_ > kMostMessages) return;
+    progress_.Clear();
+    PrintMessage(run_.program, message);
+  }
+  void PrintRest() const {
+    if (count_ <= kMostMessages) return;
+    PrintMessage(run_.program, run_.output.string() + ": says the same of " +
+                                   std::to_string(count_ - kMostMessages) + " more");
+  }
+
+ private:
+  const LinesRun& run_;
+  ProgressLine& progress_;
+  std::int64_t count_ = 0;
+};
+
+}  // namespace
+
+int RunLinesFile(const LinesRun& run) {
+  Stopwatch watch;
+  LinesInput input(run.input, run.shard.empty() ? Shard() : ParseShard("--shard", run.shard));
+  const LinesHeader header{run.content, input.entries(), input.shard(), run.digest(input.source())};
+  ProgressLine progress(run.quiet);
+  ProgressLog log(run.program, run.quiet);
+  Messages messages(run, progress);
+  int stop = 0;
+  Tally tally;
+  std::int64_t kept = 0;
+  {
+    LinesOutput output(run.output, header, run.fresh);
+    const auto tell = [&] {
+      const EntryRange range = header.range();
+      const std::string text = std::to_string(output.next() - range.first) + " of " +
+                               std::to_string(range.count()) + " entries";
+      progress.Report(text);
+      log.Report(text);
+    };
+    tell();
+    stop = RunLines(input, output, run.work,
+                    {run.jobs, run.time_limit_s,
+                     [&](const std::string& message) { messages.Print(message); }, tell});
+    if (stop == 0) output.Finish();
+    tally = output.tally();
+    kept = output.kept();
+  }
+  progress.Clear();
+  messages.PrintRest();
+  // As the first process of a container this one goes on: the kernel spares it.
+  if (stop != 0) raise(stop);
+  if (stop != 0) return kSignalled + stop;
+  if (!run.quiet) {
+    PrintMessage(run.program,
+                 run.output.string() + ": " + TallyText(tally) +
+                     (kept > 0 ? "; " + std::to_string(kept) + " kept from an earlier run" : "") +
+                     "; " + FormatShort(watch.Lap(), 2) + " s");
+  }
+  return ExitCodeOf(tally, run.content);
+}
+
+std::string GuardLine(const Line& line, const std::function<std::string()>& work) {
+  const auto result = [&line](Outcome outcome, const std::string& message) {
+    const bool named = message.starts_with(line.name);
+    std::cerr << (named ? "" : line.name + ": ") + message + "\n";
+    return FormatNoResult(line.entry, outcome, named ? message : line.name + ": " + message);
+  };
+  try {
+    return work();
+  } catch (const InputError& error) {
+    return result(Outcome::kBadInput, error.what());
+  } catch (const TimeUp& time_up) {
+    return FormatNoResult(line.entry, Outcome::kNoPlan, time_up.what());
+  } catch (const std::bad_alloc&) {
+    return result(Outcome::kError, "not enough memory");
+  } catch (const std::exception& error) {
+    return result(Outcome::kError, error.what());
+  }
+}
+
+}  // namespace regrasp::apps

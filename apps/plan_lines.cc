@@ -1,0 +1,207 @@
+#include "apps/plan_lines.h"
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "apps/batch/object_shelf.h"
+#include "apps/build_id.h"
+#include "apps/lines_run.h"
+#include "apps/output_files.h"
+#include "apps/program.h"
+#include "planner/base/deadline.h"
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/criteria/reach.h"
+#include "planner/plan/json_reader.h"
+#include "planner/plan/plan_io.h"
+#include "sim/scene/engine.h"
+
+namespace regrasp::apps {
+
+namespace {
+
+/// What a query asks for, in the words of the command line.
+struct Query {
+  std::string object_name, object_sha256;  ///< empty: not said
+  PlanProgram program;                     ///< all but the object's path
+};
+
+PlanEnd ReadEnd(const plan::JsonReader& root, const std::string& name, const char* key,
+                const Json& json, PlanEnd end) {
+  if (!root.Has(key)) return end;
+  end.name = name + ": /" + key;
+  end.value = json.at(key).is_object() ? "" : root.Member(key).OneOf({"random", "random-any"});
+  end.text = json.at(key).is_object() ? json.at(key).dump() : "";
+  return end;
+}
+
+void ReadFriction(const plan::JsonReader& friction, FrictionOptions& options) {
+  const bool degrees = friction.Has("half_angle_deg");
+  if (degrees == friction.Has("mu")) friction.Fail("expected half_angle_deg or mu");
+  const plan::JsonReader value = friction.Member(degrees ? "half_angle_deg" : "mu");
+  if (!(value.Number() > 0)) value.Fail("must be positive, found " + value.Quoted());
+  if (degrees && !(value.Number() < 90)) {
+    value.Fail("must lie between 0 and 90, found " + value.Quoted());
+  }
+  degrees ? options.SetDegrees(value.Number()) : options.SetMu(value.Number());
+}
+
+double ReadPositive(const plan::JsonReader& value, bool or_zero) {
+  if (or_zero ? value.Number() >= 0 : value.Number() > 0) return value.Number();
+  value.Fail(std::string(or_zero ? "must not be negative" : "must be positive") + ", found " +
+             value.Quoted());
+}
+
+Query ReadQuery(const Line& line, const PlanProgram& program) {
+  const Json json = ParseJson(line.text, line.name);
+  const plan::JsonReader root(json, line.name);
+  if (!json.is_object()) root.Fail("expected an object, found " + root.Quoted());
+  Query query{"", "", program};
+  if (root.Has("object")) {
+    const plan::JsonReader object = root.Member("object");
+    query.object_name = object.Member("file").String();
+    if (object.Has("sha256")) query.object_sha256 = object.Member("sha256").String();
+  }
+  PlanProgram& asked = query.program;
+  if (root.Has("friction")) ReadFriction(root.Member("friction"), asked.common.friction);
+  if (root.Has("scale")) asked.common.scale = ReadPositive(root.Member("scale"), false);
+  if (root.Has("seed")) asked.common.seed = root.Member("seed").Unsigned();
+  if (root.Has("min_quality")) asked.min_quality = ReadPositive(root.Member("min_quality"), true);
+  asked.start = ReadEnd(root, line.name, "start", json, asked.start);
+  asked.goal = ReadEnd(root, line.name, "goal", json, asked.goal);
+  return query;
+}
+
+/// What stands in the braces behind "object", without parsing: lines with the same text have the
+/// same object.
+std::string ObjectText(const Line& line) {
+  const std::string_view text = line.text;
+  const std::size_t begin = text.find(R"("object")");
+  if (begin == std::string_view::npos) return "";
+  return std::string(text.substr(begin, text.find('}', begin) - begin));
+}
+
+class PlanLines {
+ public:
+  explicit PlanLines(const PlanProgram& program)
+      : program_(program), finder_(program.common.object) {
+    program_.common.quiet = true;  // one line for each would be too many
+  }
+
+  int Run(bool quiet) {
+    CheckOutput();
+    program_.ReadHand();
+    LinesRun run;
+    run.program = kPlanName;
+    run.content = "plans";
+    run.input = program_.batch;
+    run.output = program_.output;
+    run.shard = program_.shard;
+    run.digest = [this](const std::string& source) { return Digest(source); };
+    run.jobs = program_.jobs;
+    run.fresh = program_.fresh;
+    run.quiet = quiet;
+    run.work.group = ObjectText;
+    run.work.prepare = [this](const Line& line) { Prepare(line); };
+    run.work.work = [this](const Line& line) {
+      return GuardLine(line, [&] { return PlanLine(line); });
+    };
+    return RunLinesFile(run);
+  }
+
+ private:
+  void CheckOutput() const {
+    OutputFiles outputs;
+    outputs.Add("--output", program_.output);
+    outputs.Add("--output", program_.output + kPartEnding);
+    CheckOutputsDiffer({{"--object", program_.common.object},
+                        {"--batch", program_.batch},
+                        {"--start", program_.start.value},
+                        {"--goal", program_.goal.value},
+                        {"--hand", program_.hand.hand}},
+                       outputs);
+    std::error_code error;
+    const bool other = std::filesystem::exists(program_.output, error) &&
+                       !std::filesystem::is_regular_file(program_.output, error);
+    if (program_.output == "-" || other) {
+      throw InputError("--output: with --batch a file, which a run that was stopped goes on with");
+    }
+    CheckOutputsWritable(outputs);
+  }
+
+  [[nodiscard]] std::string Digest(const std::string& source) const {
+    const auto digest_of = [](const PlanEnd& end) {
+      return end.is_random() || !end.given() ? "" : Sha256(ReadFile(end.value));
+    };
+    const Json json = {
+        {"version", ProgramVersion()},
+        {"build", BuildId()},
+        {"engine", sim::EngineVersion()},
+        {"source", source},
+        {"object", finder_.is_folder() ? "" : Sha256(ReadFile(program_.common.object))},
+        {"start", digest_of(program_.start)},
+        {"goal", digest_of(program_.goal)},
+        {"hand", program_.hand.given() ? Sha256(ReadFile(program_.hand.hand)) : ""},
+        {"options", program_.given}};
+    return Sha256(json.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace));
+  }
+
+  /// The object of a query, whose program then names its file.
+  SharedObject ObjectOf(const Line& line, Query& query) {
+    PlannerOptions& common = query.program.common;
+    // Each query has all of --time-limit.
+    common.begin = std::chrono::steady_clock::now();
+    common.object = finder_.Find(query.object_name, query.object_sha256, line.name);
+    SharedObject object =
+        shelf_.Get(common.object, [&] { return common.ReadObjectFile(kPlanName); });
+    if (!query.object_sha256.empty() && object->sha256 != query.object_sha256 &&
+        !(object->repair && object->repair->sha256 == query.object_sha256)) {
+      throw InputError(line.name + ": /object/sha256: the query is for an object with digest " +
+                       query.object_sha256 + ", but " + common.object + " has " + object->sha256);
+    }
+    return object;
+  }
+
+  void Prepare(const Line& line) {
+    try {
+      Query query = ReadQuery(line, program_);
+      static_cast<void>(ObjectOf(line, query));
+    } catch (const InputError&) {
+      // The child says so of each line.
+    } catch (const TimeUp&) {
+      // Likewise.
+    }
+  }
+
+  std::string PlanLine(const Line& line) {
+    Query query = ReadQuery(line, program_);
+    PlanProgram& asked = query.program;
+    asked.CheckEnds();
+    const SharedObject object = ObjectOf(line, query);
+    criteria::CheckFingerRadius(*object->object, asked.finger_radius, "--finger-radius");
+    const FinishedPlan finished = asked.Plan(*object, asked.common.ReadGivenPoints());
+    const planning::PlanResult& result = finished.result;
+    if (!result.plan) return FormatNoResult(line.entry, Outcome::kNoPlan, result.message);
+    Json json = ParseJson(plan::FormatPlan(*result.plan), line.name);
+    for (const std::string& warning : result.warnings) {
+      if (!warning.empty()) json["warnings"].push_back(warning);
+    }
+    return FormatRecord(line.entry, json);
+  }
+
+  PlanProgram program_;
+  ObjectFinder finder_;
+  ObjectShelf shelf_;
+};
+
+}  // namespace
+
+int RunPlanLines(const PlanProgram& program) {
+  return PlanLines(program).Run(program.common.quiet);
+}
+
+}  // namespace regrasp::apps

@@ -1,0 +1,187 @@
+#include "apps/validate_lines.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "apps/batch/object_shelf.h"
+#include "apps/lines_run.h"
+#include "apps/output_files.h"
+#include "apps/run_digest.h"
+#include "apps/validate_judge.h"
+#include "apps/validate_run.h"
+#include "apps/validate_task.h"
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/plan/json_reader.h"
+#include "planner/plan/plan_io.h"
+#include "report/failure.h"
+#include "report/report.h"
+
+namespace regrasp::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of the folder of a plan with frames: as many digits as a million has.
+constexpr std::size_t kDigits = 7;
+
+/// What stands before the initial grasp, without parsing: lines with the same text have the same
+/// object, read in the same way.
+std::string ObjectText(const Line& line) {
+  const std::string_view text = line.text;
+  const std::size_t begin = text.find(R"("object":)");
+  if (begin == std::string_view::npos) return "";
+  return std::string(text.substr(begin, text.find(R"("initial":)", begin) - begin));
+}
+
+class ValidateLines {
+ public:
+  explicit ValidateLines(const ValidateOptions& options)
+      : options_(options),
+        objects_{ObjectFinder(options.object_path), {}},
+        folder_(options.Folder()) {
+    options_.quiet = true;
+  }
+
+  int Run(bool quiet) {
+    LinesRun run;
+    run.program = kValidateName;
+    run.content = "reports";
+    run.input = options_.plan_path;
+    run.output = folder_ / kReportsName;
+    CheckOutput(run.output.string());
+    if (!options_.start.empty()) shared_.start_text = ReadFile(options_.start);
+    if (!options_.goal.empty()) shared_.goal_text = ReadFile(options_.goal);
+    if (!options_.hand.empty()) shared_.hand = kinematics::ReadHandFile(options_.hand);
+    run.shard = options_.shard;
+    run.digest = [this](const std::string& source) { return Digest(source); };
+    run.jobs = options_.jobs;
+    run.time_limit_s = options_.time_limit_s;
+    run.fresh = options_.fresh;
+    run.quiet = quiet;
+    run.work.group = ObjectText;
+    run.work.prepare = [this](const Line& line) { Prepare(line); };
+    run.work.work = [this](const Line& line) {
+      return GuardLine(line, [&] { return ValidateLine(line); });
+    };
+    return RunLinesFile(run);
+  }
+
+ private:
+  void CheckOutput(const std::string& reports) const {
+    OutputFiles outputs;
+    outputs.Add("--out", reports);
+    outputs.Add("--out", reports + kPartEnding);
+    CheckOutputsDiffer({{"--object", options_.object_path},
+                        {"--plan", options_.plan_path},
+                        {"--start", options_.start},
+                        {"--goal", options_.goal},
+                        {"--hand", options_.hand}},
+                       outputs);
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) throw EnvironmentError(folder_.string() + ": " + error.message());
+    CheckOutputsWritable(outputs);
+  }
+
+  [[nodiscard]] std::string Digest(const std::string& source) const {
+    const auto digest_of = [](const std::string& path) {
+      return path.empty() ? "" : Sha256(ReadFile(path));
+    };
+    ValidateOptions options = options_;
+    if (options.time_limit_s) {
+      options.given.emplace_back("--time-limit",
+                                 std::vector{std::to_string(*options.time_limit_s)});
+    }
+    const bool one = !objects_.finder.is_folder();
+    return RunDigest(options, {{"", source},
+                               {"", one ? Sha256(ReadFile(options.object_path)) : ""},
+                               digest_of(options.start),
+                               digest_of(options.goal),
+                               digest_of(options.hand)});
+  }
+
+  /// The options by which messages call the plan of a line.
+  [[nodiscard]] ValidateOptions OptionsFor(const Line& line) const {
+    ValidateOptions options = options_;
+    options.plan_path = line.name;
+    return options;
+  }
+
+  void Prepare(const Line& line) {
+    try {
+      static_cast<void>(MakePlanTask(OptionsFor(line), line.text, objects_));
+    } catch (const InputError&) {
+      // The child says so of each line.
+    }
+  }
+
+  std::string ValidateLine(const Line& line) {
+    if (const auto why = WhyNoPlan(line)) {
+      return FormatNoResult(line.entry, Outcome::kNoPlan, *why);
+    }
+    const ValidateOptions options = OptionsFor(line);
+    ValidateTask task = MakePlanTask(options, line.text, objects_);
+    task.start_text = shared_.start_text;
+    task.goal_text = shared_.goal_text;
+    task.hand = shared_.hand;
+    Samples samples;
+    report::Report report = JudgeTask(options, task, samples);
+    report.plan_file = "query " + std::to_string(line.entry);
+    report.plan_sha256 = Sha256(line.text);
+    if (const auto failure = report::DescribeFailure(report)) {
+      std::cerr << line.name + ": " + failure->headline() + "\n";
+    }
+    if (options.draws_frames(report.passed())) DrawFrames(line, task);
+    Json json = ParseJson(report::FormatReportJson(report), line.name);
+    for (const std::string& warning : report.warnings()) json["warnings"].push_back(warning);
+    return FormatRecord(line.entry, json);
+  }
+
+  /// What a planner says of a query instead of a plan.
+  static std::optional<std::string> WhyNoPlan(const Line& line) {
+    for (const Outcome outcome : {Outcome::kNoPlan, Outcome::kBadInput, Outcome::kError}) {
+      if (OutcomeOf(line.text, line.entry) != outcome) continue;
+      const Json json = ParseJson(line.text, line.name);
+      return plan::JsonReader(json, line.name).Member("message").String();
+    }
+    return std::nullopt;
+  }
+
+  /// A validation of its own, which is the same once more.
+  void DrawFrames(const Line& line, const ValidateTask& task) {
+    const std::string number = std::to_string(line.entry);
+    ValidateOptions options = options_;
+    options.out =
+        (folder_ / (std::string(kDigits - std::min(kDigits, number.size()), '0') + number))
+            .string();
+    options.plan_path = (fs::path(options.out) / "plan.json").string();
+    options.object_path =
+        objects_.finder.Find(task.plan.object_file, task.plan.object_sha256, line.name);
+    options.workers = std::max(1, options.workers / options.jobs);
+    options.silent = true;
+    fs::create_directories(options.out);
+    WriteFile(options.plan_path, plan::FormatPlan(task.plan));
+    static_cast<void>(RunValidation(options));
+  }
+
+  ValidateOptions options_;
+  PlanObjects objects_;
+  fs::path folder_;
+  ValidateTask shared_;  ///< what all plans have in common
+};
+
+}  // namespace
+
+int RunValidateLines(const ValidateOptions& options) {
+  return ValidateLines(options).Run(options.quiet);
+}
+
+}  // namespace regrasp::apps

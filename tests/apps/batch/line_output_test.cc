@@ -1,0 +1,155 @@
+#include "apps/batch/line_output.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "tests/fixtures/folder_test.h"
+
+namespace regrasp::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string LineOf(std::int64_t entry) {
+  return FormatNoResult(entry, Outcome::kNoPlan, "none") + "\n";
+}
+
+class LineOutputTest : public FolderTest {
+ protected:
+  LineOutputTest() : path_(folder_ / "plans.jsonl"), part_(folder_ / "plans.jsonl.part") {}
+
+  [[nodiscard]] std::string Whole() const {
+    return FormatHeader(header_) + LineOf(1) + LineOf(2) + LineOf(3);
+  }
+
+  template <class Error>
+  std::string Refusal(const LinesHeader& header) const {
+    try {
+      LinesOutput output(path_, header, false);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "nothing was refused";
+  }
+
+  LinesHeader header_{"plans", 3, {}, "run"};
+  fs::path path_, part_;
+};
+
+TEST_F(LineOutputTest, AppearsAsAWholeWhenAllEntriesAreThere) {
+  LinesOutput output(path_, header_, false);
+  output.Append(LineOf(1));
+  EXPECT_FALSE(fs::exists(path_));
+  EXPECT_EQ(ReadFile(part_), FormatHeader(header_) + LineOf(1));
+  output.Append(LineOf(2) + LineOf(3));
+  EXPECT_EQ(output.next(), 4);
+  output.Finish();
+  EXPECT_EQ(ReadFile(path_), Whole());
+  EXPECT_FALSE(fs::exists(part_));
+  EXPECT_EQ(output.tally(), (Tally{{Outcome::kNoPlan, 3}}));
+}
+
+TEST_F(LineOutputTest, GoesOnBehindTheLastWholeEntryWhereverAPartWasCut) {
+  const std::string whole = Whole();
+  const std::size_t header = FormatHeader(header_).size();
+  const std::size_t entry = LineOf(1).size();
+  for (std::size_t length = 0; length <= whole.size(); ++length) {
+    WriteFile(part_, whole.substr(0, length));
+    {
+      LinesOutput output(path_, header_, false);
+      const std::size_t left = length < header ? 0 : (length - header) / entry;
+      ASSERT_EQ(output.kept(), left) << length;
+      for (std::int64_t next = output.next(); next <= 3; ++next) output.Append(LineOf(next));
+      output.Finish();
+    }
+    ASSERT_EQ(ReadFile(path_), whole) << length;
+    fs::remove(path_);
+  }
+}
+
+TEST_F(LineOutputTest, WhatIsBehindALineThatIsNoneIsThrownAway) {
+  WriteFile(part_, FormatHeader(header_) + LineOf(1) + "rubbish\n" + LineOf(3));
+  LinesOutput output(path_, header_, false);
+  EXPECT_EQ(output.next(), 2);
+  EXPECT_EQ(ReadFile(part_), FormatHeader(header_) + LineOf(1));
+}
+
+TEST_F(LineOutputTest, AWholeFileOfTheSameRunIsKeptAndAnyOtherIsMadeAgain) {
+  WriteFile(path_, Whole());
+  {
+    LinesOutput output(path_, header_, false);
+    EXPECT_EQ(output.next(), 4);
+    output.Finish();
+    EXPECT_FALSE(fs::exists(part_));
+  }
+  const std::string whole = Whole();
+  LinesHeader other = header_;
+  other.run = "other";
+  for (const std::string& bytes :
+       {whole.substr(0, whole.size() - 1), whole + LineOf(4), FormatHeader(other)}) {
+    WriteFile(path_, bytes);
+    LinesOutput output(path_, header_, false);
+    EXPECT_EQ(output.next(), 1);
+    EXPECT_EQ(ReadFile(path_), bytes) << "the old file stays until the new one is there";
+  }
+  WriteFile(path_, whole);
+  LinesOutput fresh(path_, header_, true);
+  EXPECT_EQ(fresh.next(), 1);
+}
+
+TEST_F(LineOutputTest, APartOfAnotherRunOrOfSomebodyElseIsNotTouched) {
+  LinesHeader other = header_;
+  other.run = "other";
+  const std::string bytes = FormatHeader(other) + LineOf(1);
+  WriteFile(part_, bytes);
+  EXPECT_THAT(Refusal<InputError>(header_),
+              HasSubstr("plans.jsonl.part: line 1: is the part of a run"));
+  EXPECT_EQ(ReadFile(part_), bytes);
+  {
+    LinesOutput fresh(path_, header_, true);
+    EXPECT_EQ(fresh.next(), 1);
+  }
+  WriteFile(part_, "my own notes\n");
+  EXPECT_THAT(Refusal<InputError>(header_), HasSubstr("no run of this program has left it"));
+  EXPECT_THROW(LinesOutput(path_, header_, true), InputError);
+  EXPECT_EQ(ReadFile(part_), "my own notes\n");
+}
+
+TEST_F(LineOutputTest, OneProcessAtATimeWritesIt) {
+  LinesOutput output(path_, header_, false);
+  output.Append(LineOf(1));
+  EXPECT_THAT(Refusal<EnvironmentError>(header_), HasSubstr("another process writes it"));
+  EXPECT_EQ(ReadFile(part_), FormatHeader(header_) + LineOf(1));
+}
+
+TEST_F(LineOutputTest, AProcessThatIsKilledLeavesItToTheNext) {
+  const pid_t child = fork();
+  if (child == 0) {
+    LinesOutput output(path_, header_, false);
+    output.Append(LineOf(1));
+    raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  LinesOutput output(path_, header_, false);
+  EXPECT_EQ(output.next(), 2);
+}
+
+TEST_F(LineOutputTest, EntriesComeInOrder) {
+  LinesOutput output(path_, header_, false);
+  EXPECT_THROW(output.Append(LineOf(2)), std::logic_error);
+}
+
+TEST_F(LineOutputTest, AFolderThatIsMissingIsTheMachinesFault) {
+  path_ = folder_ / "gone" / "plans.jsonl";
+  EXPECT_THAT(Refusal<EnvironmentError>(header_), HasSubstr("plans.jsonl.part: cannot be written"));
+}
+
+}  // namespace
+}  // namespace regrasp::apps

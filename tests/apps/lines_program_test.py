@@ -1,0 +1,307 @@
+"""Many plans in files of lines: plan --batch, validate of what it writes, and merge."""
+
+import hashlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+import jsonschema
+
+import program_case
+from program_case import ProgramCase
+
+ENDS = ("--mu", "0.5", "--start", "random", "--goal", "random")
+
+
+class Lines(ProgramCase):
+    program = "plan"
+
+    def write_lines(self, name, values):
+        return self.write(name, "".join(
+            (value if isinstance(value, str) else json.dumps(value)) + "\n" for value in values))
+
+    def queries(self, count=30):
+        """Of three objects, one of them planar."""
+        objects = ["cube.obj", "square.wkt", "stone.obj"]
+        return [{"object": {"file": objects[len(objects) * i // count]}, "seed": i}
+                for i in range(count)]
+
+    def lines(self, name):
+        return [json.loads(line) for line in self.read(name).decode().splitlines()]
+
+    def plan(self, output, *options, queries="queries.jsonl", code=0):
+        done = self.run_program("--object", self.model(""), "--batch", queries, *ENDS, "--output",
+                                output, *options, program="plan")
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def validate(self, plans, out, *options, code=0):
+        done = self.run_program("--object", self.model(""), "--plan", plans, "--out", out, *options,
+                                program="validate")
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def merge(self, output, *shards):
+        return self.assert_done("--shards", *shards, "--output", output, program="merge")
+
+    def check_schema(self, name, value):
+        path = os.path.join(program_case.ARGUMENTS.source, "docs", name + ".schema.json")
+        with open(path, encoding="utf-8") as file:
+            jsonschema.validate(value, json.load(file))
+
+    def test_a_line_is_what_a_run_of_its_own_gives(self):
+        self.write_lines("queries.jsonl", self.queries(6))
+        done = self.plan("plans.jsonl")
+        self.assertIn("plan: plans.jsonl: 6 entries: 6 plan", done.stderr)
+        self.validate("plans.jsonl", "all")
+        self.assertEqual(os.listdir(self.path("all")), ["reports.jsonl"])
+        header, *plans = self.lines("plans.jsonl")
+        report_header, *reports = self.lines("all/reports.jsonl")
+        for head, content in ((header, "plans"), (report_header, "reports")):
+            self.check_schema("lines", head)
+            self.assertEqual((head["content"], head["entries"]), (content, 6))
+        for i, query in enumerate(self.queries(6)):
+            self.check_schema("query", query)
+            self.check_schema("plan", plans[i])
+            self.check_schema("report", reports[i])
+            self.assert_done("--object", self.model(query["object"]["file"]), *ENDS, "--seed", str(i),
+                             "--output", "one.json", program="plan")
+            self.assertEqual(plans[i].pop("query"), i + 1)
+            plans[i].pop("warnings", None)
+            self.assertEqual(plans[i], json.loads(self.read("one.json")))
+            self.assert_done("--object", self.model(""), "--plan", "one.json", "--no-frames", "--out",
+                             "one", program="validate")
+            one = json.loads(self.read("one/report.json"))
+            self.assertEqual(reports[i].pop("query"), i + 1)
+            self.assertEqual(reports[i]["steps"], one["steps"])
+            self.assertEqual({**reports[i], "plan": None},
+                             {**{k: v for k, v in one.items() if k != "run"}, "plan": None})
+
+    def test_jobs_and_shards_change_no_byte(self):
+        self.write_lines("queries.jsonl", self.queries())
+        self.plan("plans.jsonl", "--jobs", "1")
+        self.validate("plans.jsonl", "whole", "--jobs", "3")
+        for i in (1, 2, 3):
+            self.plan(f"p{i}.jsonl", "--shard", f"{i}/3", "--jobs", str(i))
+            self.validate(f"p{i}.jsonl", f"shard{i}", "--jobs", str(i))
+            self.validate("plans.jsonl", f"again{i}", "--shard", f"{i}/3")
+        self.merge("merged.jsonl", "p3.jsonl", "p1.jsonl", "p2.jsonl")
+        self.assertEqual(self.read("merged.jsonl"), self.read("plans.jsonl"))
+        for kind in ("shard", "again"):
+            self.merge(f"{kind}.jsonl", *(f"{kind}{i}/reports.jsonl" for i in (1, 2, 3)))
+            self.assertEqual(self.read(f"{kind}.jsonl"), self.read("whole/reports.jsonl"))
+        # Negative control: another option gives other bytes.
+        self.plan("other.jsonl", "--min-quality", "0.02")
+        self.assertNotEqual(self.read("other.jsonl"), self.read("plans.jsonl"))
+
+    def test_a_run_that_is_killed_goes_on_where_it_was(self):
+        self.write_lines("queries.jsonl", self.queries(60))
+        self.plan("plans.jsonl")
+        self.validate("plans.jsonl", "whole")
+        command = [os.path.join(program_case.ARGUMENTS.programs, "validate"), "--object",
+                   self.model(""), "--plan", "plans.jsonl", "--out", "killed", "--jobs", "1"]
+        part = self.path("killed/reports.jsonl.part")
+        for end in (signal.SIGKILL, signal.SIGTERM):
+            before = os.path.getsize(part) if os.path.exists(part) else 0
+            with subprocess.Popen(command, cwd=self.folder, stderr=subprocess.DEVNULL) as run:
+                while not (os.path.exists(part) and os.path.getsize(part) > max(before, 500)):
+                    self.assertIsNone(run.poll())
+                    time.sleep(0.01)
+                run.send_signal(end)
+                self.assertEqual(run.wait(), -end)
+            self.assertEqual(os.listdir(self.path("killed")), ["reports.jsonl.part"])
+        done = self.validate("plans.jsonl", "killed")
+        self.assertRegex(done.stderr, r"60 entries: 60 pass; [0-9]+ kept from an earlier run")
+        self.assertEqual(self.read("killed/reports.jsonl"), self.read("whole/reports.jsonl"))
+        # All of it is there now; and what was edited is made again.
+        self.assertIn("60 kept", self.validate("plans.jsonl", "killed").stderr)
+        self.write("killed/reports.jsonl", self.read("whole/reports.jsonl")[:-1])
+        self.assertNotIn("kept", self.validate("plans.jsonl", "killed").stderr)
+        self.assertEqual(self.read("killed/reports.jsonl"), self.read("whole/reports.jsonl"))
+
+    def test_a_part_of_another_run_is_not_touched(self):
+        self.write_lines("queries.jsonl", self.queries(3))
+        self.plan("plans.jsonl")
+        self.write("other.jsonl.part", self.read("plans.jsonl"))
+        done = self.plan("other.jsonl", "--min-quality", "0.02", code=2)
+        self.assertIn("other.jsonl.part: line 1: is the part of a run with other input", done.stderr)
+        self.assertEqual(self.read("other.jsonl.part"), self.read("plans.jsonl"))
+        self.plan("other.jsonl", "--min-quality", "0.02", "--fresh")
+        self.assertEqual(sorted(os.listdir(self.folder)),
+                         ["other.jsonl", "plans.jsonl", "queries.jsonl"])
+
+    def test_a_bad_line_is_named_and_stops_no_other(self):
+        good = {"object": {"file": "cube.obj"}, "seed": 1}
+        bad = [("{", "not JSON"), ("", "not JSON"), ("[1]", "expected an object"),
+               ({"seed": 1}, "/object/file: there is no file"),
+               ({"object": {"file": "gone.obj"}}, '/object/file: there is no file "gone.obj"'),
+               ({**good, "seed": -1}, "/seed"),
+               ({**good, "friction": {}}, "/friction: expected half_angle_deg or mu"),
+               ({**good, "friction": {"mu": 0}}, "/friction/mu: must be positive, found 0"),
+               ({**good, "friction": {"half_angle_deg": 90}}, "must lie between 0 and 90, found 90"),
+               ({**good, "scale": 0}, "/scale: must be positive, found 0"),
+               ({**good, "min_quality": -1}, "/min_quality: must not be negative, found -1"),
+               ({**good, "start": "anywhere"}, "/start"),
+               ({**good, "start": {"format": "regrasp-grasp"}}, '/start: "version" is missing'),
+               ({"object": {"file": "cube.obj", "sha256": "0" * 64}},
+                f"/object/sha256: the query is for an object with digest {'0' * 64}")]
+        self.write_lines("queries.jsonl", [good, *(query for query, _ in bad), good])
+        done = self.plan("plans.jsonl", code=2)
+        said = done.stderr.splitlines()
+        self.assertEqual(len(said), len(bad) + 1)
+        _, first, *nothing, last = self.lines("plans.jsonl")
+        self.assertEqual(first["format"], last["format"], "regrasp-plan")
+        self.assertEqual(len(nothing), len(bad))
+        for i, (_, words) in enumerate(bad):
+            self.check_schema("lines", nothing[i])
+            self.assertEqual((nothing[i]["query"], nothing[i]["verdict"]), (i + 2, "bad-input"))
+            self.assertIn(f"queries.jsonl: line {i + 2}: ", nothing[i]["message"])
+            self.assertIn(words, nothing[i]["message"])
+            self.assertIn("plan: " + nothing[i]["message"], said)
+        self.assertIn("2 plan, 14 bad-input", said[-1])
+        # What has no plan is passed on, and is no fault of the plans.
+        self.assertIn("2 pass, 14 no-plan", self.validate("plans.jsonl", "out").stderr)
+
+    def test_messages_of_many_bad_lines_are_few(self):
+        self.write_lines("queries.jsonl", ["{"] * 100)
+        said = self.plan("plans.jsonl", code=2).stderr.splitlines()
+        self.assertEqual(len(said), 22)
+        self.assertIn("says the same of 80 more", said[20])
+
+    def test_where_there_is_no_sequence_the_line_says_so(self):
+        self.write_lines("queries.jsonl", [
+            {"object": {"file": "stone.obj"}, "friction": {"half_angle_deg": 0.01}},
+            {"object": {"file": "cube.obj"}, "friction": {"mu": 0.5}}])
+        self.plan("plans.jsonl", code=1)
+        _, none, plan = self.lines("plans.jsonl")
+        self.assertEqual((none["format"], none["verdict"]), ("regrasp-none", "no-plan"))
+        self.assertEqual(plan["format"], "regrasp-plan")
+
+    def test_a_time_limit_is_that_of_each_query(self):
+        self.write_lines("queries.jsonl", self.queries(3))
+        done = self.plan("plans.jsonl", "--time-limit", "0.000001", code=1)
+        self.assertIn("3 entries: 3 no-plan", done.stderr)
+        for none in self.lines("plans.jsonl")[1:]:
+            self.assertIn("the time was up", none["message"])
+        # Longer than a query takes, and shorter than all of many take.
+        self.write_lines("queries.jsonl", self.queries(3) * 30)
+        self.plan("more.jsonl", "--time-limit", "60")
+
+    def test_queries_say_start_and_goal_themselves(self):
+        ends = {}
+        for end in ("start", "goal"):
+            with open(self.model(f"cube.{end}.json"), encoding="utf-8") as file:
+                ends[end] = json.load(file)
+        query = {"object": {"file": "cube.obj"}, "friction": {"half_angle_deg": 20}, **ends}
+        self.write_lines("queries.jsonl", [query])
+        self.assert_done("--object", self.model(""), "--batch", "queries.jsonl", "--output",
+                         "plans.jsonl")
+        self.assert_done("--object", self.model("cube.obj"), "--friction-angle", "20", "--start",
+                         self.model("cube.start.json"), "--goal", self.model("cube.goal.json"),
+                         "--output", "one.json")
+        plan = self.lines("plans.jsonl")[1]
+        plan.pop("query")
+        self.assertEqual(plan, json.loads(self.read("one.json")))
+
+    def test_objects_are_found_by_their_digests(self):
+        os.mkdir(self.path("objects"))
+        shutil.copy(self.model("cube.obj"), self.path("objects/renamed.obj"))
+        with open(self.model("cube.obj"), "rb") as file:
+            sha256 = hashlib.sha256(file.read()).hexdigest()
+        query = {"object": {"file": "cube.obj", "sha256": sha256}}
+        self.write_lines("queries.jsonl", [query])
+        self.assert_done("--object", "objects", "--batch", "queries.jsonl", *ENDS, "--output",
+                         "plans.jsonl")
+        plan = self.lines("plans.jsonl")[1]
+        self.assertEqual(plan["object"]["sha256"], sha256)
+        os.rename(self.path("objects/renamed.obj"), self.path("objects/again.obj"))
+        self.assert_done("--object", "objects", "--plan", "plans.jsonl", "--out", "out",
+                         program="validate")
+        # A plan whose digest no file has is a bad line.
+        plan["object"]["sha256"] = "0" * 64
+        plan["object"]["file"] = "again.obj"
+        self.write_lines("bad.jsonl", [plan])
+        done = self.run_program("--object", "objects", "--plan", "bad.jsonl", "--out", "bad",
+                                program="validate")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("validate: bad.jsonl: line 1: /object/sha256: the plan was made for an object "
+                      "with digest 000", done.stderr)
+
+    def test_failing_plans_have_frames_where_that_is_asked(self):
+        self.write_lines("queries.jsonl", self.queries(3))
+        self.plan("plans.jsonl")
+        header, *plans = self.lines("plans.jsonl")
+        self.assertEqual(header["entries"], 3)
+        plans[1]["friction"]["half_angle_deg"] = 0.5
+        self.write_lines("plans.jsonl", plans)
+        for frames, folders in (([], []), (["--frames", "failed"], ["0000002"])):
+            done = self.validate("plans.jsonl", "out", *frames, "--fresh", code=1)
+            self.assertIn("plans.jsonl: line 2: step 0 (hold) fails", done.stderr)
+            self.assertIn("2 pass, 1 fail", done.stderr)
+            self.assertEqual(sorted(os.listdir(self.path("out"))), [*folders, "reports.jsonl"])
+        left = os.listdir(self.path("out/0000002"))
+        self.assertLessEqual({"plan.json", "report.json", "report.html", "000_hold.png"}, set(left))
+        # The same of a plan in a file of its own.
+        for plan, pictures in ((plans[0], False), (plans[1], True)):
+            self.write_json("one.json", plan)
+            self.run_program("--object", self.model(""), "--plan", "one.json", "--out", "one",
+                             "--frames", "failed", program="validate")
+            self.assertEqual(os.path.exists(self.path("one/000_hold.png")), pictures)
+
+    def test_a_file_that_was_cut_is_refused(self):
+        self.write_lines("queries.jsonl", self.queries(3))
+        self.plan("plans.jsonl")
+        whole = self.read("plans.jsonl")
+        for cut, words in ((whole[:-1], "line 4: the file ends in the middle of it"),
+                           (whole[:whole.rfind(b"\n", 0, -1) + 1], "line 3: the file ends behind it"),
+                           (whole[:50], "line 1")):
+            self.write("cut.jsonl", cut)
+            done = self.validate("cut.jsonl", "out", code=2)
+            self.assertEqual(done.stderr.count("\n"), 1)
+            self.assertIn(f"validate: cut.jsonl: {words}", done.stderr)
+
+    def test_shards_that_do_not_fit_are_not_merged(self):
+        self.write_lines("queries.jsonl", self.queries(6))
+        for shard in ("1/2", "2/2", "2/3"):
+            self.plan(shard.replace("/", "of"), "--shard", shard)
+        self.write("cut", self.read("2of2")[:-1])
+        for words, shards in (("of 2 shards 1 is missing: 2", ["1of2"]),
+                              ("2of2: line 1: is shard 2 of 2, and so is 2of2",
+                               ["1of2", "2of2", "2of2"]),
+                              ("2of3: line 1: is shard 2 of 3, and of 2 is 1of2", ["1of2", "2of3"]),
+                              ("cut: line 4: ends in the middle", ["1of2", "cut"]),
+                              ("queries.jsonl: line 1: is no header", ["queries.jsonl"]),
+                              ("gone: no such file", ["gone"]),
+                              ("--output: 1of2", ["2of2"])):
+            output = "1of2" if words.startswith("--output") else "merged"
+            words = words if output == "merged" else "1of2"
+            inputs = shards if output == "merged" else ["1of2", "2of2"]
+            self.assert_refused(2, words, "--shards", *inputs, "--output", output, program="merge")
+        self.merge("merged", "1of2", "2of2")
+
+    def test_options_that_do_not_go_together_are_refused(self):
+        self.write_lines("queries.jsonl", self.queries(3))
+        one = ("--object", self.model("cube.obj"), *ENDS)
+        for option in (["--jobs", "2"], ["--shard", "1/2"], ["--fresh"]):
+            self.assert_refused(2, f"{option[0]} goes with --batch", *one, "--output", "o", *option)
+        many = (*one, "--batch", "queries.jsonl")
+        for words, rest in (("--shard: expected I/N", ["--output", "o", "--shard", "3/2"]),
+                            ("--output: with --batch a file", ["--output", "-"]),
+                            ("queries.jsonl", ["--output", "queries.jsonl"])):
+            self.assert_refused(2, words, *many, *rest)
+        self.assert_refused(2, "gone.jsonl: no such file", *one, "--batch", "gone.jsonl", "--output", "o")
+        self.plan("plans.jsonl")
+        plans = ("--object", self.model(""), "--plan", "plans.jsonl")
+        for option in (["--junit", "j"], ["--json", "-"], ["--animate"], ["--trajectory", "t"]):
+            self.assert_refused(2, f"{option[0]} does not go with a file of lines", *plans, *option,
+                                program="validate")
+        self.write_json("plan.json", self.lines("plans.jsonl")[1])
+        self.assert_refused(2, "--shard goes with a file of lines", "--object", self.model(""),
+                            "--plan", "plan.json", "--shard", "1/2", program="validate")
+
+
+if __name__ == "__main__":
+    program_case.main()
