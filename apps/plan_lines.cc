@@ -18,7 +18,7 @@
 #include "planner/criteria/reach.h"
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan_io.h"
-#include "sim/scene/engine.h"
+#include "sim/scene/mujoco_engine.h"
 
 namespace regrasp::apps {
 
