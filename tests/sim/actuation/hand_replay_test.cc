@@ -384,9 +384,14 @@ TEST(HandReplaysTest, GiveWhatEachPlanAloneGivesWhateverWasReplayedBefore) {
   ASSERT_GE(good.steps.size(), 2U);
   plan::Plan begun = good;
   begun.steps.pop_back();
-  plan::Plan other = begun;
-  other.steps.pop_back();
-  other.steps.push_back(good.steps.back());  // from another pose than it is for
+  // Begins alike; its last move leads the object where its fingers do not go.
+  plan::Plan other = good;
+  plan::Move* last_move = nullptr;
+  for (plan::Step& step : other.steps) {
+    if (auto* move = std::get_if<plan::Move>(&step)) last_move = move;
+  }
+  ASSERT_NE(last_move, nullptr);
+  for (plan::HandState& state : last_move->path) state.pose.translation().x() += 5e-3;
   plan::Plan slippery = good;
   slippery.half_angle = std::atan(0.05);
   HandReplayOptions options = Options();
