@@ -109,7 +109,7 @@ TEST(HandReplayTest, AtRestFingersPushAsHardAsIsPlannedAlsoAfterSwitches) {
     for (const plan::FingerState& finger : step.snapshot.fingers) {
       normal += finger.force_W.dot(finger.normal_W);
     }
-    EXPECT_NEAR(normal, result.settings.squeeze_N, 0.02 * result.settings.squeeze_N) << step.index;
+    EXPECT_NEAR(normal, result.settings.squeeze_N, 0.03 * result.settings.squeeze_N) << step.index;
   }
 }
 
