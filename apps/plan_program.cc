@@ -98,10 +98,8 @@ void PlanProgram::AddSearch(CLI::App& app) {
       "What makes a sequence good: with the planner general steps (the fewest found, then margin; "
       "the default), margin (the weakest grasp's margin, with two steps more at most), travel (the "
       "fewest found, then the least travel of the fingers); with the planner contour regions "
-      "(every "
-      "switch where the smaller of its two grasps' contact regions is largest; default: well "
-      "inside "
-      "both sets)");
+      "(every switch where the smaller of its two grasps' contact regions is largest; default: "
+      "well inside both sets)");
   AddInteger(
       app, "--effort", effort, std::int64_t{1}, kMostEffort,
       "When to give up; the planner general after so many force-closure tests, each of some "

@@ -21,13 +21,13 @@ struct RunInputs {
   std::string hand_sha256;   ///< of the file of --hand, likewise
 };
 
-/// SHA-256 over all that the results of a validation depend on: the program's build and the engine,
-/// the bytes and names of plan (or grasp) and object, the bytes of --start and --goal, and every
-/// other option that is given. Two runs with the same digest write the same bytes.
 /// The command as one could type it, but for where results go: "validate --object cube.obj --plan
 /// plan.json --mu 0.4". Of files only the names.
 [[nodiscard]] std::string CommandText(const ValidateOptions& options, const RunInputs& inputs);
 
+/// SHA-256 over all that the results of a validation depend on: the program's build and the
+/// engines, the bytes and names of plan (or grasp) and object, the bytes of --start and --goal, and
+/// every other option that is given. Two runs with the same digest write the same bytes.
 [[nodiscard]] std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs);
 
 }  // namespace regrasp::apps

@@ -32,8 +32,8 @@ class LinesInput {
   /// Goes through the file once, to count and digest it, and then to the first entry of the shard.
   /// @param shard  of the file's entries; of a file that is itself a shard, 1 of 1.
   /// @throws InputError  names the file: it is no regular file, a line is too long, it does not
-  /// hold
-  ///                     the entries that its header says, or is a shard and shall be cut again.
+  ///                     hold the entries that its header says, or is a shard and shall be cut
+  ///                     again.
   explicit LinesInput(std::filesystem::path path, const Shard& shard = {});
 
   [[nodiscard]] const std::optional<LinesHeader>& header() const { return header_; }

@@ -118,7 +118,8 @@ class GaitSearch {
     int rest = -1;
   };
 
-  /// The step that counts as reached: what is tried only where it is carried out.
+  /// The step that counts as reached: of ways that are tried none beyond what is carried out and
+  /// believed.
   [[nodiscard]] int farthest() const { return std::min(reached_, tried_.MayReach()); }
   void AddFirstRests();
   void AddGivenStart();

@@ -41,7 +41,6 @@ JointFrames FramesOf(const Finger& finger, const Posture& posture) {
 TipState TipAt(const Finger& finger, const Posture& posture) {
   std::array<Vector3d, kMostJoints> origins;
   std::array<Vector3d, kMostJoints> axes;
-  // Apart from each other they are multiplied in a third of the time.
   Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
   Vector3d origin = Vector3d::Zero();
   const int count = static_cast<int>(finger.joints.size());
