@@ -12,23 +12,14 @@ namespace {
 constexpr int kFewestHolding = 3;
 /// Of first rests: sets of contacts drawn for each set of fingers.
 constexpr int kDrawnGrasps = 120;
-/// Contacts tried for a finger that is placed, those that it keeps longest first.
-constexpr std::size_t kTriedContacts = 24;
-/// Of all contacts one in so many is looked at from one place, if that is enough.
-constexpr int kShares = 4;
 /// Rests taken up from one place.
 constexpr int kTakenUp = 8;
-/// Goals and targets that all fingers of a grasp may slide to at once, the nearest ones.
-constexpr int kSlidesTogether = 3;
 /// Times that a grasp is come to by ways that turn out not to be free.
 constexpr int kMostFailures = 3;
 /// With the same fingers placed, released or sliding.
 constexpr int kTakenUpOfAKind = 2;
 /// Times as many from a given start: with it all that comes after is lost.
 constexpr int kMoreAtStart = 6;
-/// How far a finger slides at once, metres.
-constexpr double kLongestSlide = 0.015;
-constexpr double kLongestSlideToGoal = 0.06;
 /// What the steps that single fingers could go on are worth, beside those that all go together.
 constexpr double kSingleFinger = 0.3;
 /// What a unit beside the track costs, in steps.
@@ -65,6 +56,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
       random_(random),
       carrier_(carrier),
       routes_(memory),
+      next_(setup, carrier, goal_, routes_, most_holding_ > kFewestHolding),
       kinds_(setup.points),
       crowding_(kinds_, grid.steps()),
       rolling_(setup, memory),
@@ -107,48 +99,6 @@ void GaitCounts::Add(const GaitCounts& other) {
 void GaitSearch::BeginWith(const Hold& hold) {
   Add({.hold = hold, .node = grid_.start()});
   begun_ = true;
-}
-
-const std::vector<int>& GaitSearch::ReachedAt(FingerIndex finger, int node, int share) {
-  const auto [found, is_new] = within_reach_.try_emplace({finger, node, share});
-  if (!is_new) return found->second;
-  const int count = static_cast<int>(setup_.points.size());
-  for (int point = (node + share) % kShares; point < count; point += kShares) {
-    if (carrier_.reach().Find(finger, point, node) != nullptr) found->second.push_back(point);
-  }
-  return found->second;
-}
-
-std::vector<int> GaitSearch::PlacesFor(FingerIndex finger, const Holding& from, int node) {
-  struct Place {
-    int point;
-    bool is_goal;
-    int last;  ///< step to which the finger can keep it
-  };
-  std::vector<Place> places;
-  Hold with{from};
-  const std::set<int> goals = goal_.ContactsOf(finger);
-  const auto look_at = [&](int point, bool is_goal) {
-    if (Holds(from, point)) return;
-    with.holding[finger] = point;
-    if (!carrier_.KeepsApart(with, finger, node)) return;
-    places.push_back({point, is_goal, carrier_.reach().RunEnd(finger, point, node)});
-  };
-  for (const int point : goals) {
-    if (carrier_.reach().Find(finger, point, node) != nullptr) look_at(point, true);
-  }
-  // At each node some of the contacts, at others others; more where few do.
-  for (int share = 0; share < kShares && places.size() < kTriedContacts; ++share) {
-    for (const int point : ReachedAt(finger, node, share)) {
-      if (!goals.contains(point)) look_at(point, false);
-    }
-  }
-  std::ranges::stable_sort(places, std::greater<>(),
-                           [](const Place& place) { return std::pair(place.is_goal, place.last); });
-  if (places.size() > kTriedContacts) places.resize(kTriedContacts);
-  std::vector<int> points;
-  for (const Place& place : places) points.push_back(place.point);
-  return points;
 }
 
 bool GaitSearch::IsGrasp(const Holding& holding) {
@@ -246,7 +196,7 @@ void GaitSearch::AddFirstRests() {
   const int fingers = setup_.scene.finger_count();
   std::vector<std::vector<int>> places;
   for (FingerIndex finger{0}; finger < fingers; ++finger) {
-    places.push_back(PlacesFor(finger, Holding(fingers, kNone), grid_.start()));
+    places.push_back(next_.PlacesFor(finger, Holding(fingers, kNone), grid_.start()));
   }
   std::vector<int> chosen(fingers, 0);
   std::fill(chosen.begin(), chosen.begin() + kFewestHolding, 1);
@@ -268,80 +218,6 @@ void GaitSearch::AddFirstRests() {
   } while (std::ranges::prev_permutation(chosen).found);
 }
 
-void GaitSearch::AddSwitches(const Holding& from, FingerIndex placed, int point,
-                             std::vector<Holding>& holdings) const {
-  Holding with = from;
-  if (placed.valid()) {
-    with[placed] = point;
-    holdings.push_back(with);
-  }
-  for (FingerIndex released{0}; released < std::ssize(from); ++released) {
-    if (from[released] == kNone) continue;
-    holdings.push_back(with);
-    holdings.back()[released] = kNone;
-  }
-}
-
-bool GaitSearch::MaySlide(int from, int to) {
-  return setup_.may_slide && routes_.Between(from, to) != nullptr;
-}
-
-void GaitSearch::AddSlidesTogether(const Holding& from, int node, std::vector<Holding>& holdings) {
-  for (Holding& to : goal_.NearestOfSameFingers(from, kSlidesTogether)) {
-    const Change change = ChangeBetween(from, to);
-    const bool may = std::ranges::all_of(change.slid, [&](FingerIndex finger) {
-      return carrier_.reach().Find(finger, to[finger], node) != nullptr &&
-             MaySlide(from[finger], to[finger]);
-    });
-    if (may) holdings.push_back(std::move(to));
-  }
-}
-
-void GaitSearch::AddSlides(const Holding& from, FingerIndex finger, int node,
-                           std::vector<Holding>& holdings) {
-  if (!setup_.may_slide) return;
-  const int at = from[finger];
-  const std::set<int> goals = goal_.ContactsOf(finger);
-  const int count = static_cast<int>(setup_.points.size());
-  for (int point = 0; point < count; ++point) {
-    const bool is_goal = goals.contains(point);
-    if (!is_goal && point % kShares != node % kShares) continue;
-    const double way = (setup_.points[at].p - setup_.points[point].p).norm();
-    if (way > (is_goal ? kLongestSlideToGoal : kLongestSlide) || Holds(from, point)) continue;
-    if (carrier_.reach().Find(finger, point, node) == nullptr || !MaySlide(at, point)) continue;
-    holdings.push_back(from);
-    holdings.back()[finger] = point;
-  }
-}
-
-std::vector<Holding> GaitSearch::HoldingsAfter(const Holding& from, int node) {
-  std::vector<Holding> holdings;
-  if (most_holding_ > kFewestHolding) AddSwitches(from, {}, kNone, holdings);
-  for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
-    if (from[finger] != kNone) {
-      AddSlides(from, finger, node, holdings);
-      continue;
-    }
-    for (const int point : PlacesFor(finger, from, node)) {
-      AddSwitches(from, finger, point, holdings);
-    }
-  }
-  const Holding* target = goal_.NearestTo(from);
-  for (FingerIndex finger{0}; target != nullptr && finger < std::ssize(from); ++finger) {
-    const int point = (*target)[finger];
-    if (point == kNone || Holds(from, point)) continue;
-    if (carrier_.reach().Find(finger, point, node) == nullptr) continue;
-    if (from[finger] == kNone) {
-      AddSwitches(from, finger, point, holdings);
-    } else if (MaySlide(from[finger], point)) {
-      holdings.push_back(from);
-      holdings.back()[finger] = point;
-    }
-  }
-  AddSlidesTogether(from, node, holdings);
-  return holdings;
-}
-
 std::optional<double> GaitSearch::ScoreAfter(const Rest& from, const Holding& to, int node) {
   const int count = CountHolding(to);
   if (count < kFewestHolding || count > most_holding_ || !IsGrasp(to)) return std::nullopt;
@@ -360,7 +236,7 @@ bool GaitSearch::SwitchAt(int index, int node) {
   const RolledTo rolled = RollTowards(tree_[index], node);
   if (rolled.node != node) return false;
   std::vector<std::pair<double, Holding>> found;
-  for (Holding& to : HoldingsAfter(from, node)) {
+  for (Holding& to : next_.After(from, node)) {
     if (const auto score = ScoreAfter(tree_[index], to, node)) {
       found.emplace_back(*score, std::move(to));
     }

@@ -4,7 +4,6 @@
 #include <optional>
 #include <queue>
 #include <set>
-#include <tuple>
 #include <vector>
 
 #include "planner/base/deadline.h"
@@ -17,6 +16,7 @@
 #include "planner/gait/gait.h"
 #include "planner/gait/goal_grasp.h"
 #include "planner/gait/hand_setup.h"
+#include "planner/gait/next_holdings.h"
 #include "planner/gait/pose_grid.h"
 #include "planner/gait/rest_tree.h"
 #include "planner/gait/rolling.h"
@@ -126,17 +126,6 @@ class GaitSearch {
   void Expand(int index);
   /// @returns whether rests are taken up.
   bool SwitchAt(int index, int node);
-  /// What fingers may hold after one change at a node, whether it is a grasp or not.
-  [[nodiscard]] std::vector<Holding> HoldingsAfter(const Holding& from, int node);
-  /// What is held after a finger that holds has slid.
-  void AddSlides(const Holding& from, FingerIndex finger, int node, std::vector<Holding>& holdings);
-  /// Those of goals and targets that the same fingers slide to, all at once.
-  void AddSlidesTogether(const Holding& from, int node, std::vector<Holding>& holdings);
-  /// Whether there is a way along the surface between two points.
-  [[nodiscard]] bool MaySlide(int from, int to);
-  /// A finger is placed, if it is valid, and each of the others released or none.
-  void AddSwitches(const Holding& from, FingerIndex placed, int point,
-                   std::vector<Holding>& holdings) const;
   /// How good a grasp is that a change leads to; nullopt where it is none.
   [[nodiscard]] std::optional<double> ScoreAfter(const Rest& from, const Holding& to, int node);
   /// Whether a grasp was taken up at a node, and is not cut off.
@@ -157,11 +146,6 @@ class GaitSearch {
   [[nodiscard]] int ComeTo(int index);
   /// The next rest in turn.
   [[nodiscard]] int PopNext();
-  /// Of a share of the contacts, which is another one at each node: those that a finger reaches.
-  [[nodiscard]] const std::vector<int>& ReachedAt(FingerIndex finger, int node, int share);
-  /// Contacts for a finger that holds nothing, where it keeps off the fingers that hold: goals
-  /// first, then those that it can keep longest.
-  [[nodiscard]] std::vector<int> PlacesFor(FingerIndex finger, const Holding& from, int node);
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
 
   const HandSetup& setup_;
@@ -174,6 +158,7 @@ class GaitSearch {
   RandomStream& random_;
   Carrier& carrier_;
   SlideRoutes routes_;
+  NextHoldings next_;
   ContactKinds kinds_;
   Crowding crowding_;
   RollingTips rolling_;
@@ -185,7 +170,6 @@ class GaitSearch {
   std::map<Holding, int> failed_;  ///< times that a grasp was not come to
   /// Of each grasp the rests that were expanded.
   std::map<Holding, std::vector<int>> expanded_;
-  std::map<std::tuple<int, int, int>, std::vector<int>> within_reach_;  ///< by finger, node, share
   GaitCounts counts_;
   int reached_ = 0;  ///< the farthest step
   int last_expanded_ = -1;

@@ -1,0 +1,142 @@
+#include "planner/gait/next_holdings.h"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <utility>
+
+#include "planner/gait/change_paths.h"
+
+namespace regrasp::gait {
+namespace {
+
+/// Contacts tried for a finger that is placed, those that it keeps longest first.
+constexpr std::size_t kTriedContacts = 24;
+/// Of all contacts one in so many is looked at from one place, if that is enough.
+constexpr int kShares = 4;
+/// Goals and targets that all fingers of a grasp may slide to at once, the nearest ones.
+constexpr int kSlidesTogether = 3;
+/// How far a finger slides at once, metres.
+constexpr double kLongestSlide = 0.015;
+constexpr double kLongestSlideToGoal = 0.06;
+
+}  // namespace
+
+const std::vector<int>& NextHoldings::ReachedAt(FingerIndex finger, int node, int share) {
+  const auto [found, is_new] = within_reach_.try_emplace({finger, node, share});
+  if (!is_new) return found->second;
+  const int count = static_cast<int>(setup_.points.size());
+  for (int point = (node + share) % kShares; point < count; point += kShares) {
+    if (carrier_.reach().Find(finger, point, node) != nullptr) found->second.push_back(point);
+  }
+  return found->second;
+}
+
+std::vector<int> NextHoldings::PlacesFor(FingerIndex finger, const Holding& from, int node) {
+  struct Place {
+    int point;
+    bool is_goal;
+    int last;  ///< step to which the finger can keep it
+  };
+  std::vector<Place> places;
+  Hold with{from};
+  const std::set<int> goals = goal_.ContactsOf(finger);
+  const auto look_at = [&](int point, bool is_goal) {
+    if (Holds(from, point)) return;
+    with.holding[finger] = point;
+    if (!carrier_.KeepsApart(with, finger, node)) return;
+    places.push_back({point, is_goal, carrier_.reach().RunEnd(finger, point, node)});
+  };
+  for (const int point : goals) {
+    if (carrier_.reach().Find(finger, point, node) != nullptr) look_at(point, true);
+  }
+  // At each node some of the contacts, at others others; more where few do.
+  for (int share = 0; share < kShares && places.size() < kTriedContacts; ++share) {
+    for (const int point : ReachedAt(finger, node, share)) {
+      if (!goals.contains(point)) look_at(point, false);
+    }
+  }
+  std::ranges::stable_sort(places, std::greater<>(),
+                           [](const Place& place) { return std::pair(place.is_goal, place.last); });
+  if (places.size() > kTriedContacts) places.resize(kTriedContacts);
+  std::vector<int> points;
+  for (const Place& place : places) points.push_back(place.point);
+  return points;
+}
+
+void NextHoldings::AddSwitches(const Holding& from, FingerIndex placed, int point,
+                               std::vector<Holding>& holdings) const {
+  Holding with = from;
+  if (placed.valid()) {
+    with[placed] = point;
+    holdings.push_back(with);
+  }
+  for (FingerIndex released{0}; released < std::ssize(from); ++released) {
+    if (from[released] == kNone) continue;
+    holdings.push_back(with);
+    holdings.back()[released] = kNone;
+  }
+}
+
+bool NextHoldings::MaySlide(int from, int to) {
+  return setup_.may_slide && routes_.Between(from, to) != nullptr;
+}
+
+void NextHoldings::AddSlidesTogether(const Holding& from, int node,
+                                     std::vector<Holding>& holdings) {
+  for (Holding& to : goal_.NearestOfSameFingers(from, kSlidesTogether)) {
+    const Change change = ChangeBetween(from, to);
+    const bool may = std::ranges::all_of(change.slid, [&](FingerIndex finger) {
+      return carrier_.reach().Find(finger, to[finger], node) != nullptr &&
+             MaySlide(from[finger], to[finger]);
+    });
+    if (may) holdings.push_back(std::move(to));
+  }
+}
+
+void NextHoldings::AddSlides(const Holding& from, FingerIndex finger, int node,
+                             std::vector<Holding>& holdings) {
+  if (!setup_.may_slide) return;
+  const int at = from[finger];
+  const std::set<int> goals = goal_.ContactsOf(finger);
+  const int count = static_cast<int>(setup_.points.size());
+  for (int point = 0; point < count; ++point) {
+    const bool is_goal = goals.contains(point);
+    if (!is_goal && point % kShares != node % kShares) continue;
+    const double way = (setup_.points[at].p - setup_.points[point].p).norm();
+    if (way > (is_goal ? kLongestSlideToGoal : kLongestSlide) || Holds(from, point)) continue;
+    if (carrier_.reach().Find(finger, point, node) == nullptr || !MaySlide(at, point)) continue;
+    holdings.push_back(from);
+    holdings.back()[finger] = point;
+  }
+}
+
+std::vector<Holding> NextHoldings::After(const Holding& from, int node) {
+  std::vector<Holding> holdings;
+  if (may_hold_more_) AddSwitches(from, {}, kNone, holdings);
+  for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
+    if (from[finger] != kNone) {
+      AddSlides(from, finger, node, holdings);
+      continue;
+    }
+    for (const int point : PlacesFor(finger, from, node)) {
+      AddSwitches(from, finger, point, holdings);
+    }
+  }
+  const Holding* target = goal_.NearestTo(from);
+  for (FingerIndex finger{0}; target != nullptr && finger < std::ssize(from); ++finger) {
+    const int point = (*target)[finger];
+    if (point == kNone || Holds(from, point)) continue;
+    if (carrier_.reach().Find(finger, point, node) == nullptr) continue;
+    if (from[finger] == kNone) {
+      AddSwitches(from, finger, point, holdings);
+    } else if (MaySlide(from[finger], point)) {
+      holdings.push_back(from);
+      holdings.back()[finger] = point;
+    }
+  }
+  AddSlidesTogether(from, node, holdings);
+  return holdings;
+}
+
+}  // namespace regrasp::gait
