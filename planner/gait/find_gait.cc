@@ -109,6 +109,10 @@ criteria::GraspCriteria WithQuality(criteria::GraspCriteria criteria, double qua
   return criteria;
 }
 
+/// Two fingertips balance a third one that slides, with its force on the edge of its cone, only
+/// where that force's line meets the one through both: motors carry out no such slide.
+constexpr int kBesideSliding = 3;
+
 /// Gaits with one spare, or without.
 struct Kind {
   double quality;
@@ -126,6 +130,7 @@ struct Kind {
         setup{scene, inverse, points, request.scale},
         memory(*request.solid, WithQuality(request.criteria, quality), fingers,
                criteria::QualityTest::kQuick) {
+    if (request.carry_out) setup.fewest_beside_sliding = kBesideSliding;
     if (spare == nullptr) return;
     setup.may_slide = false;
     setup.force_margin = spare->force_margin.value_or(0);

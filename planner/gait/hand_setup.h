@@ -20,7 +20,8 @@ struct HandSetup {
   const collision::BallContact* rolled_on = nullptr;
   /// Where contacts roll: what forces that hold the object's weight have to spare (RollingTips).
   double force_margin = 0;
-  bool may_slide = true;  ///< fingers that hold
+  bool may_slide = true;          ///< fingers that hold
+  int fewest_beside_sliding = 0;  ///< that hold and stay, while others slide
 };
 
 /// By finger: postures in which it may wait while it holds nothing, the best first.

@@ -78,25 +78,26 @@ void NextHoldings::AddSwitches(const Holding& from, FingerIndex placed, int poin
   }
 }
 
-bool NextHoldings::MaySlide(int from, int to) {
-  return setup_.may_slide && routes_.Between(from, to) != nullptr;
+bool NextHoldings::MaySlide(const Holding& from, std::size_t fingers) const {
+  return setup_.may_slide &&
+         CountHolding(from) - static_cast<int>(fingers) >= setup_.fewest_beside_sliding;
 }
 
 void NextHoldings::AddSlidesTogether(const Holding& from, int node,
                                      std::vector<Holding>& holdings) {
   for (Holding& to : goal_.NearestOfSameFingers(from, kSlidesTogether)) {
     const Change change = ChangeBetween(from, to);
-    const bool may = std::ranges::all_of(change.slid, [&](FingerIndex finger) {
+    const bool may_come = std::ranges::all_of(change.slid, [&](FingerIndex finger) {
       return carrier_.reach().Find(finger, to[finger], node) != nullptr &&
-             MaySlide(from[finger], to[finger]);
+             IsWay(from[finger], to[finger]);
     });
-    if (may) holdings.push_back(std::move(to));
+    if (may_come && MaySlide(from, change.slid.size())) holdings.push_back(std::move(to));
   }
 }
 
 void NextHoldings::AddSlides(const Holding& from, FingerIndex finger, int node,
                              std::vector<Holding>& holdings) {
-  if (!setup_.may_slide) return;
+  if (!MaySlide(from, 1)) return;
   const int at = from[finger];
   const std::set<int> goals = goal_.ContactsOf(finger);
   const int count = static_cast<int>(setup_.points.size());
@@ -105,7 +106,7 @@ void NextHoldings::AddSlides(const Holding& from, FingerIndex finger, int node,
     if (!is_goal && point % kShares != node % kShares) continue;
     const double way = (setup_.points[at].p - setup_.points[point].p).norm();
     if (way > (is_goal ? kLongestSlideToGoal : kLongestSlide) || Holds(from, point)) continue;
-    if (carrier_.reach().Find(finger, point, node) == nullptr || !MaySlide(at, point)) continue;
+    if (carrier_.reach().Find(finger, point, node) == nullptr || !IsWay(at, point)) continue;
     holdings.push_back(from);
     holdings.back()[finger] = point;
   }
@@ -130,7 +131,7 @@ std::vector<Holding> NextHoldings::After(const Holding& from, int node) {
     if (carrier_.reach().Find(finger, point, node) == nullptr) continue;
     if (from[finger] == kNone) {
       AddSwitches(from, finger, point, holdings);
-    } else if (MaySlide(from[finger], point)) {
+    } else if (MaySlide(from, 1) && IsWay(from[finger], point)) {
       holdings.push_back(from);
       holdings.back()[finger] = point;
     }

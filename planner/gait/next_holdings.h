@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -41,8 +42,10 @@ class NextHoldings {
   void AddSlides(const Holding& from, FingerIndex finger, int node, std::vector<Holding>& holdings);
   /// Those of goals and targets that the same fingers slide to, all at once.
   void AddSlidesTogether(const Holding& from, int node, std::vector<Holding>& holdings);
+  /// Whether so many fingers of a grasp may slide at once.
+  [[nodiscard]] bool MaySlide(const Holding& from, std::size_t fingers) const;
   /// Whether there is a way along the surface between two points.
-  [[nodiscard]] bool MaySlide(int from, int to);
+  [[nodiscard]] bool IsWay(int from, int to) { return routes_.Between(from, to) != nullptr; }
 
   const HandSetup& setup_;
   Carrier& carrier_;

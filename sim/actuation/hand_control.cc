@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 using kinematics::Posture;
 
 /// Of the integral of the object's offset, 1/s.
-constexpr double kIntegralGain = 8;
+constexpr double kIntegralGain = 20;
 /// Of damped least squares, metres; and the pull towards the planned joints in its null space, of a
 /// step.
 constexpr double kDamping = 5e-3;
@@ -243,7 +243,7 @@ Eigen::VectorXd HandControl::TorquesOf(FingerIndex f) const {
   const Finger& finger = fingers_[f];
   Eigen::VectorXd torques = world_.BalancingTorques(f, finger.contact, finger.force);
   // One that holds has to give way as it rolls: without damping it would slip the easier.
-  if (finger.mode != Mode::kSliding) return torques;
+  if (finger.mode == Mode::kAttached) return torques;
   for (int drive = 0; drive < torques.size(); ++drive) {
     const DriveServo& servo = world_.servo(f, drive);
     torques[drive] += (servo.damping + servo.joint_damping) * finger.rate[drive];
