@@ -3,6 +3,7 @@
 usage: script_test.py SOURCE_FOLDER [unittest's own arguments]
 """
 
+import fcntl
 import os
 import pathlib
 import subprocess
@@ -127,6 +128,13 @@ class Mutate(unittest.TestCase):
             self.write("sum.cc", FILES["sum.cc"])
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertIn("without a defect sum Sum.* fails: Sum.OfLess", done.stderr)
+
+    def test_a_second_run_is_refused_while_one_is_at_work(self):
+        folder = self.folder / "build" / "mutate"
+        folder.mkdir(parents=True, exist_ok=True)
+        with open(folder / "lock", "w", encoding="ascii") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.assert_ends(1, "another run is at work", "difference")
 
     def test_an_unknown_name_is_refused_in_one_line(self):
         self.assert_ends(2, "no mutant is called other", "other")
