@@ -121,16 +121,18 @@ def read_table(text):
 
 def format_table(lists, became):
     """The table of all mutants, a section for each list; `became` says it of each by its name."""
-    text = "Small defects of our own code, by `scripts/mutate`: each is made by itself in a copy of the\n"
-    text += "sources, and a test has to fail. The lists with the exact changes are `tests/mutants/*.toml`.\n\n"
+    text = ("Small defects of our own code, by `scripts/mutate`: each is made by itself in a copy of the\n"
+            "sources, and a test has to fail. The lists with the exact changes are `tests/mutants/*.toml`.\n\n")
     said = [became.get(mutant.name, "not run") for mutants in lists.values() for mutant in mutants]
     survivors = sum(one.startswith(SURVIVES) for one in said)
     not_run = said.count("not run")
-    text += f"{len(said)} mutants: {len(said) - survivors - not_run} caught, {survivors} survive with a reason"
+    caught = len(said) - survivors - not_run
+    text += f"{len(said)} mutants: {caught} caught, {survivors} survive with a reason"
     text += f", {not_run} not run.\n" if not_run else ".\n"
     for title, mutants in lists.items():
         text += f"\n## {title.capitalize()}\n\n{HEAD}\n| --- | --- | --- | --- |\n"
         for mutant in mutants:
-            cells = [mutant.name, f"`{mutant.file}`", mutant.what, became.get(mutant.name, "not run")]
+            outcome = became.get(mutant.name, "not run")
+            cells = [mutant.name, f"`{mutant.file}`", mutant.what, outcome]
             text += "| " + " | ".join(cells) + " |\n"
     return text
