@@ -43,17 +43,20 @@ TEST(TakeHoldTest, PlannedForcesBalanceTheWeight) {
 
 TEST(RetractFingersTest, AFingerThatLeftStopsNothing) {
   HeldCube held;
+  ReplayWorld& world = held.world;
   const FingerIndex finger = held.plan.initial.back().finger;
-  const grasp::Contact contact = held.world.fingers()[finger].contact;
-  const auto push_in = [&] {
-    const double depth = 1e-6 * held.world.settings().diameter_m;
-    held.world.engine().PlaceTip(finger, held.world.TipAt_S(contact, -depth));
-    held.world.Step();
-    return held.world.engine().contact_force(finger).norm();
+  const grasp::Contact contact = world.fingers()[finger].contact;
+  const auto press = [&] {
+    WorldFinger& pressing = world.fingers()[finger];
+    pressing.anchor_S = world.TipAt_S(contact, -1e-6 * world.settings().diameter_m);
+    pressing.force_S = 0.1 * world.settings().squeeze_N * (world.X_SB().linear() * contact.n);
+    world.engine().PlaceTip(finger, pressing.anchor_S);
+    world.Step();
+    return world.engine().contact_force(finger).norm();
   };
-  EXPECT_GT(push_in(), 0);
-  RetractFingers(held.world, {finger});
-  EXPECT_EQ(push_in(), 0);
+  EXPECT_GT(press(), 0);
+  RetractFingers(world, {finger});
+  EXPECT_EQ(press(), 0);
 }
 
 }  // namespace
