@@ -37,6 +37,7 @@ set(regrasp_slow_tests
   fuzz.soup
   fuzz.stl
   fuzz.wkt
+  mutants.script
   package.find_package
   python.arguments
   schema

@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "planner/base/angle.h"
 #include "planner/base/json.h"
+#include "planner/certificate/align_certificate.h"
+#include "planner/plan/locate.h"
 #include "report/junit.h"
 #include "tests/sim/replay_cases.h"
 
@@ -197,6 +200,46 @@ TEST(ReportTest, TheTableSaysHowLargeAndHeavyTheObjectIsAndWhyTheSqueezeIsWhatIt
   EXPECT_THAT(usual, HasSubstr("--squeeze realistic"));
   report.settings->squeeze_source = sim::SqueezeSource::kHand;
   EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("--squeeze realistic")));
+}
+
+TEST(ReportTest, TheReplayHasTheFrictionThatIsAskedFor) {
+  const sim::CubeCase cube;
+  plan::Plan plan = sim::MakePlan(cube.Start(), 25);
+  plan.goal = plan::ContactsOf(plan.initial);
+  for (const double degrees : {25, 30}) {
+    plan::CheckOptions check;
+    if (degrees != 25) check.half_angle = Radians(degrees);
+    const Report report = Validate(cube.object, plan, check, {});
+    ASSERT_TRUE(report.settings);
+    EXPECT_NEAR(report.settings->mu, std::tan(Radians(degrees)), 1e-12);
+  }
+}
+
+TEST(ReportTest, CertificatesAreCheckedAtTheFrictionThatIsAskedFor) {
+  const sim::CubeCase cube;
+  plan::Plan plan = sim::MakePlan(cube.Start(), 25);
+  plan::Align align{{cube.Start(), cube.Start()}};
+  align.waypoints[1][0] = cube.At(0, 0.03, 0.006, 0.002);
+  plan.goal = plan::ContactsOf(align.waypoints[1]);
+  plan.steps = {align};
+  certificate::AddCertificates(cube.object, plan);
+  const plan::Plan located = plan::LocatePlan(cube.object, plan);
+  const auto& proved = std::get<plan::Align>(located.steps[0]);
+  ASSERT_TRUE(proved.certificate);
+  double refused = 0, holds = std::tan(Radians(25));
+  while (holds - refused > 1e-6) {
+    const double mu = (refused + holds) / 2;
+    const bool proves =
+        certificate::CheckAlignCertificate(proved, 3, mu, *proved.certificate).proves();
+    (proves ? holds : refused) = mu;
+  }
+  for (const double share : {0.99, 1.01}) {
+    plan::CheckOptions check;
+    check.half_angle = std::atan(share * holds);
+    const Report report = Validate(cube.object, plan, check, {});
+    ASSERT_TRUE(report.steps[1].certificate) << report.steps[0].detail();
+    EXPECT_EQ(report.steps[1].certificate->proves(), share > 1) << share;
+  }
 }
 
 TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {

@@ -98,6 +98,33 @@ TEST(Scoreboard, RefusesAPlanForAnotherHandOrMoreFriction) {
   plan = *given.planned.plan;
   plan.half_angle = std::atan(0.9);
   EXPECT_THAT(Refusal(given.task, given.cube, plan), HasSubstr("friction is 0.9, more than 0.8"));
+  plan.half_angle = std::atan(0.801);
+  EXPECT_THAT(Refusal(given.task, given.cube, plan), HasSubstr("more than 0.8"));
+  plan.half_angle = std::atan(0.8);
+  EXPECT_EQ(Refusal(given.task, given.cube, plan), "");
+}
+
+/// Where a task is to go somewhere, a plan ends there.
+TEST(Scoreboard, TakesAPlanThatEndsWithinAMillimetreOfItsPlace) {
+  const Planned& given = ThePlan();
+  const plan::Plan& plan = *given.planned.plan;
+  const Eigen::Vector3d centre = given.cube.centre();
+  const auto goal = [&](const Eigen::Vector3d& move) {
+    Task task = given.task;
+    task.move_m = move;
+    return Eigen::Vector3d(GoalPose(task, centre, plan.hand->initial.pose) * centre);
+  };
+  // The move that ends where the plan does.
+  const Eigen::Vector3d off = EndOf(plan).pose * centre - goal(Eigen::Vector3d::Zero());
+  Task task = given.task;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d along = goal(Eigen::Vector3d::Unit(axis)) - goal(Eigen::Vector3d::Zero());
+    task.move_m[axis] = along.dot(off);
+  }
+  task.move_m.x() += 0.0009;
+  EXPECT_EQ(Refusal(task, given.cube, plan), "");
+  task.move_m.x() += 0.0002;
+  EXPECT_THAT(Refusal(task, given.cube, plan), HasSubstr("1.1 mm from its goal"));
 }
 
 TEST(Scoreboard, FailsAPlanThatTheHandCannotFollow) {

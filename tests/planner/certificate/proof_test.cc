@@ -113,6 +113,20 @@ TEST(ProofTest, ContactsOnOneLineProveNothing) {
   EXPECT_EQ(CheckGraspProof(grasp, 3, kMu, proof).kind, Kind::kNothing);
 }
 
+TEST(ProofTest, ATwistRefutesUpToTheBorderOfThePolarConeAndNotBeyond) {
+  // Under v = (-1, t, 0) forces (1, y, z) in the cone, |(y, z)| <= mu, work -1 + t y <= -1 + mu t.
+  const grasp::Grasp grasp = {{{0, 0, 0}, {1, 0, 0}}};
+  const auto sideways = [&](double t) {
+    GraspProof proof;
+    proof.kind = GraspProof::Kind::kTwist;
+    proof.v = Vector3d(-1, t, 0);
+    return CheckGraspProof(grasp, 3, 0.5, proof).kind;
+  };
+  EXPECT_EQ(sideways(1.99), Kind::kNotForceClosure);
+  EXPECT_EQ(sideways(2), Kind::kNotForceClosure);
+  EXPECT_EQ(sideways(2.001), Kind::kNothing);
+}
+
 TEST(ProofTest, TwistsThatDoNotSeparateAreRefused) {
   const grasp::Grasp grasp = motion::CrossedGrasp();
   GraspProof proof;

@@ -63,6 +63,23 @@ TEST(SoftProofTest, TorquesOnTheBorderOfTheConesAreNoProof) {
   EXPECT_EQ(with_torque(-1.001), Kind::kNothing);
 }
 
+TEST(SoftProofTest, ATwistThatSpinsRefutesUpToTheBorderOfThePolarConeAndNotBeyond) {
+  // Under v = (-1, 0, 0) and a spin s a unit normal force and its largest torque, mu times the
+  // torsion, work -1 + mu 0.25 s.
+  const auto spinning = [](double s) {
+    GraspProof proof;
+    proof.kind = GraspProof::Kind::kTwist;
+    proof.v = Vector3d(-1, 0, 0);
+    proof.omega = Vector3d(s, 0, 0);
+    return CheckGraspProof(Soft({{{0, 0, 0}, {1, 0, 0}}}, 0.25), 3, 0.5, proof).kind;
+  };
+  for (const double sign : {1, -1}) {
+    EXPECT_EQ(spinning(sign * 7.99), Kind::kNotForceClosure);
+    EXPECT_EQ(spinning(sign * 8), Kind::kNotForceClosure);
+    EXPECT_EQ(spinning(sign * 8.001), Kind::kNothing);
+  }
+}
+
 TEST(SoftProofTest, ProofsThatAreChangedProveNothing) {
   const GraspProof proof = FindGraspProof(Pair(0.2), 3, kHalfAngle);
   const auto expect_nothing = [&](auto change) {

@@ -258,6 +258,20 @@ TEST(ForceClosureTest, NoFamilyOfGridGraspsIsLeftUndecidedWhereItHolds) {
   EXPECT_GT(yes, 150);
 }
 
+TEST(ForceClosureTest, WhatIsTooCloseToCallIsNotForceClosure) {
+  // Two opposite fingers, the line through them on the border of both cones.
+  int too_close = 0;
+  for (int i = 1; i <= 50; ++i) {
+    const double slope = 0.02 * i;
+    const double border = std::atan(slope);
+    const Grasp grasp = {{{-1, -slope, 0}, {1, 0, 0}}, {{1, slope, 0}, {-1, 0, 0}}};
+    too_close += Decide(grasp, 2, border) == Decision::kTooClose ? 1 : 0;
+    EXPECT_FALSE(IsForceClosure(grasp, UnitFrame(2), border)) << slope;
+    EXPECT_TRUE(IsForceClosure(grasp, UnitFrame(2), border + 1e-6)) << slope;
+  }
+  EXPECT_GT(too_close, 0);
+}
+
 TEST(ForceClosureTest, BadArgumentsThrow) {
   const Grasp good = Tetrahedron();
   const object::WrenchFrame frame = UnitFrame(3);

@@ -96,6 +96,22 @@ TEST(QualityTest, AtLeastAgreesWithTheBounds) {
   EXPECT_GT(below, 50);
 }
 
+TEST(QualityTest, AtLeastIsNeverMoreThanThereIs) {
+  RandomGrasps random(49);
+  int checked = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const int dimension = 2 + trial % 2;
+    const Grasp grasp = random.OnBall(4, dimension);
+    const object::WrenchFrame frame = UnitFrame(dimension);
+    const double half_angle = Radians(random.Uniform(10, 40));
+    const double upper = ComputeQuality(grasp, frame, half_angle, 0.02).upper;
+    if (upper <= 0) continue;
+    EXPECT_FALSE(QualityAtLeast(grasp, frame, half_angle, 1.002 * upper)) << trial;
+    ++checked;
+  }
+  EXPECT_GT(checked, 15);
+}
+
 TEST(QualityTest, OrderRigidMotionAndUnitDoNotMatterAndMoreIsNeverWorse) {
   RandomGrasps random(43);
   int checked = 0;

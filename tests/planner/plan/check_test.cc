@@ -402,6 +402,23 @@ TEST(CheckPlan, ReportsTheFirstOfSeveralFaults) {
   ExpectFails(CheckPlan(MakeCube(), plan), 0, Reason::kOffSurface, "surface before normal");
 }
 
+TEST(CheckPlan, AFaultOfTheHandFailsAnyEntryThatHasNoOther) {
+  const Plan plan = CubePlan();
+  CheckOptions options;
+  for (EntryIndex entry{0}; entry <= std::ssize(plan.steps); ++entry) {
+    options.hand_faults = {{entry, Reason::kHandCollides, "two links touch"}};
+    ExpectFails(CheckPlan(MakeCube(), plan, options), entry, Reason::kHandCollides,
+                "entry " + std::to_string(entry));
+  }
+  Plan broken = plan;
+  broken.initial[0].contact.p *= 1.1;
+  options.hand_faults.front().entry = EntryIndex(0);
+  ExpectFails(CheckPlan(MakeCube(), broken, options), 0, Reason::kOffSurface,
+              "surface before hand");
+}
+
+TEST(CheckPlan, ACheckOfNothingDoesNotPass) { EXPECT_FALSE(PlanCheck().passed()); }
+
 TEST(CheckPlan, RefusesAPlanOfAnotherDimension) {
   EXPECT_THROW(static_cast<void>(CheckPlan(MakeSquare(), CubePlan())), InputError);
 }

@@ -35,6 +35,18 @@ TEST(SceneMjcfTest, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
   EXPECT_GT(mju_norm3(data->qpos), 1e-2 * cube.object.diameter());
 }
 
+TEST(SceneTest, TheInertiaIsThatOfABodyOfItsScale) {
+  const CubeCase cube;
+  plan::Plan plan = MakePlan(cube.Start(), 25);
+  for (const double scale : {0.1, 1.0, 3.0}) {
+    plan.scale = scale;
+    const Scene scene = MakeScene(cube.object, plan, 0, {});
+    const double edge = 0.06 * scale;  // moments of a cube: m a² / 6
+    const double moment = scene.settings.mass_kg * edge * edge / 6;
+    EXPECT_LT((scene.inertia - moment * Eigen::Matrix3d::Identity()).norm(), 1e-9 * moment);
+  }
+}
+
 TEST(SceneMjcfTest, CarriesTheMassOfTheSolidAndAllDigits) {
   const object::ObjectFile file = ReadModel("l_block.obj");
   const object::Object& l = *file.object;

@@ -37,6 +37,30 @@ TEST(MotionMonitorTest, TheObjectMovesBeyondTheToleranceOnly) {
   EXPECT_NEAR(monitor.displacement_m(), 0.0011, 1e-12);
 }
 
+TEST(MotionMonitorTest, TolerancesAreThoseOfTheSettingsWithinAHundredth) {
+  const ReplaySettings settings = UnitSettings();
+  const auto reason_at = [&](const auto& add, double limit) {
+    MotionMonitor monitor(settings);
+    monitor.Start(Pose(0, 0));
+    add(monitor, limit * settings.diameter_m);
+    return monitor.reason();
+  };
+  const auto move = [](MotionMonitor& monitor, double x) { monitor.AddPose(Pose(x, 0)); };
+  const auto turn = [](MotionMonitor& monitor, double x) { monitor.AddPose(Pose(0, x)); };
+  const auto slip = [](MotionMonitor& monitor, double x) { monitor.AddSlip(FingerIndex(0), x); };
+  const auto gap = [](MotionMonitor& monitor, double x) { monitor.AddGap(FingerIndex(0), x); };
+  for (const double share : {0.99, 1.01}) {
+    const auto expected = [&](plan::Reason reason) {
+      return share > 1 ? reason : plan::Reason::kNone;
+    };
+    const double limit = share * settings.tolerance;
+    EXPECT_EQ(reason_at(move, limit), expected(plan::Reason::kObjectMoved));
+    EXPECT_EQ(reason_at(turn, limit), expected(plan::Reason::kObjectMoved));  // at a radius of 1
+    EXPECT_EQ(reason_at(slip, limit), expected(plan::Reason::kSlipped));
+    EXPECT_EQ(reason_at(gap, share * kLostGap), expected(plan::Reason::kContactLost));
+  }
+}
+
 TEST(MotionMonitorTest, ALostContactComesBeforeASlipBeforeAMotion) {
   MotionMonitor monitor(UnitSettings());
   monitor.AddPose(Pose(1, 0));

@@ -184,6 +184,23 @@ TEST(Stillness, AHeldBodyIsStillAndStaysSo) {
   EXPECT_EQ(held.world.monitor().reason(), plan::Reason::kNone);
 }
 
+TEST(Stillness, AFingerThatMovesIsWaitedForThoughTheBodyIsStill) {
+  HeldCube held;
+  ReplayWorld& world = held.world;
+  // One more that counts as holding, far from the cube.
+  const FingerIndex apart{4};
+  world.fingers()[apart].holding = true;
+  world.StartMonitoring();
+  const auto wait = [&] {
+    const double before = world.engine().time();
+    EXPECT_TRUE(WaitUntilStill(world));
+    return (world.engine().time() - before) / world.settings().natural_time_s;
+  };
+  EXPECT_NEAR(wait(), kStillTime, 1e-6);
+  world.engine().ShiftTip(apart, 1e-3 * world.settings().diameter_m * Eigen::Vector3d::UnitX());
+  EXPECT_GT(wait(), 1.1 * kStillTime);
+}
+
 TEST(Stillness, ABodyThatIsLetGoNeverComesToRest) {
   HeldCube held;
   for (WorldFinger& finger : held.world.fingers()) finger.force_S.setZero();

@@ -1,0 +1,28 @@
+#include "sim/actuation/torque_squeeze.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/actuation/hand_world.h"
+#include "tests/sim/actuation/held_in_hand.h"
+
+namespace regrasp::sim {
+namespace {
+
+TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTheForce) {
+  constexpr double kMost = 100;
+  const auto squeeze = [&](double force_factor) {
+    // Nothing weighs: torques grow with the squeeze alone.
+    HandWorld world(hand_, solid(), kScale,
+                    {.mu = kMu, .mass_kg = kMass, .gravity_m_s2 = 0, .force_factor = force_factor});
+    return RestSqueeze(world, solid(), kScale, plan_.hand->initial, plan_.initial, std::atan(kMu),
+                       0, kMost);
+  };
+  const double usual = squeeze(1);
+  EXPECT_GT(usual, 0);
+  EXPECT_LT(2 * usual, kMost);
+  EXPECT_NEAR(squeeze(2), 2 * usual, 3e-3 * kMost);
+  EXPECT_EQ(squeeze(1e6), kMost);
+}
+
+}  // namespace
+}  // namespace regrasp::sim

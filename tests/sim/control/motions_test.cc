@@ -1,0 +1,63 @@
+#include "sim/control/motions.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/scene/scaling.h"
+#include "tests/sim/held_cube.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d SumOfForces(const ReplayWorld& world) {
+  Vector3d sum = Vector3d::Zero();
+  for (const FingerIndex f : world.HoldingFingers()) sum += world.engine().contact_force(f);
+  return sum;
+}
+
+TEST(TakeHoldTest, AtRestTheFingersCarryTheWeightAndNothingElse) {
+  for (const EngineChoice engine : {EngineChoice::kMujoco, EngineChoice::kOde}) {
+    for (const bool gravity : {true, false}) {
+      ReplayOptions options;
+      options.engine = engine;
+      options.gravity = gravity;
+      const HeldCube held(options);
+      const ReplaySettings& s = held.world.settings();
+      const double cube_weight = s.mass_kg * kGravity;
+      const Vector3d carried = SumOfForces(held.world);
+      const Vector3d expected(0, 0, gravity ? cube_weight : 0);
+      EXPECT_LT((carried - expected).norm(), 0.01 * cube_weight) << carried.transpose();
+    }
+  }
+}
+
+TEST(TakeHoldTest, PlannedForcesBalanceTheWeight) {
+  const HeldCube held;
+  const ReplaySettings& s = held.world.settings();
+  Vector3d sum = Vector3d::Zero();
+  for (const FingerIndex f : held.world.HoldingFingers()) sum += held.world.fingers()[f].force_S;
+  const Vector3d up(0, 0, s.mass_kg * s.gravity_m_s2);
+  EXPECT_LT((sum - up).norm(), 1e-3 * up.norm()) << sum.transpose();
+}
+
+TEST(RetractFingersTest, AFingerThatLeftStopsNothing) {
+  HeldCube held;
+  ReplayWorld& world = held.world;
+  const FingerIndex finger = held.plan.initial.back().finger;
+  const grasp::Contact contact = world.fingers()[finger].contact;
+  const auto press = [&] {
+    WorldFinger& pressing = world.fingers()[finger];
+    pressing.anchor_S = world.TipAt_S(contact, -1e-6 * world.settings().diameter_m);
+    pressing.force_S = 0.1 * world.settings().squeeze_N * (world.X_SB().linear() * contact.n);
+    world.engine().PlaceTip(finger, pressing.anchor_S);
+    world.Step();
+    return world.engine().contact_force(finger).norm();
+  };
+  EXPECT_GT(press(), 0);
+  RetractFingers(world, {finger});
+  EXPECT_EQ(press(), 0);
+}
+
+}  // namespace
+}  // namespace regrasp::sim
