@@ -19,6 +19,12 @@ constexpr double kTolerance = 1e-9;
 /// Fingers whose half-angles differ by less count as equally weak.
 constexpr double kEqual = 1e-7;
 
+/// Bounds on required half-angles are closer together than this (required_half_angle.h).
+constexpr double kBoundsApart = 1e-6;
+
+/// In place of a half-angle where none is enough.
+constexpr double kNone = std::numbers::pi / 2;
+
 Grasp Without(std::span<const Contact> contacts, std::size_t finger) {
   Grasp rest(contacts.begin(), contacts.end());
   rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(finger));
@@ -31,16 +37,11 @@ std::optional<double> RequiredWithout(std::span<const Contact> contacts, std::si
   return required ? std::optional<double>(required->upper) : std::nullopt;
 }
 
-/// Whether the others need more without finger `a` than without `b`: then `a` is the weaker one.
-bool NeedMoreWithout(const std::optional<double>& a, const std::optional<double>& b) {
-  const double none = std::numbers::pi / 2;
-  return a.value_or(none) - b.value_or(none) > kEqual;
-}
-
 /// Whether `a` is weaker than `b`.
 bool IsWeaker(const FingerFriction& a, const FingerFriction& b) {
   const double more = a.required - b.required;
-  return std::abs(more) > kEqual ? more > 0 : NeedMoreWithout(a.without, b.without);
+  if (std::abs(more) > kEqual) return more > 0;
+  return a.without.value_or(kNone) - b.without.value_or(kNone) > kEqual;
 }
 
 /// One finger's friction, all others keeping theirs.
@@ -112,19 +113,26 @@ class WeakestSearch {
   void Include(std::size_t i) {
     const bool needed = !IsForceClosure(Without(contacts_, i), frame_, half_angle_);
     OwnFriction<kDim> own(units_, i, half_angle_);
-    std::optional<double> without;
     if (i > 0) {
       const double most = weakest_.friction.required + kEqual;
       const double least = weakest_.friction.required - kEqual;
       const bool needs_more = needed && most < half_angle_ && !own.Holds(most);
       if (!needs_more) {
         if (least > 0 && (!needed || own.Holds(least))) return;
-        without = RequiredWithout(contacts_, i, frame_);
-        if (!NeedMoreWithout(without, WithoutWeakest())) return;
+        if (!NeedMoreWithout(i)) return;
       }
     }
-    weakest_ = {static_cast<int>(i), {needed ? own.FindRequired() : 0, needed, without}};
-    without_known_ = without.has_value();
+    weakest_ = {static_cast<int>(i), {needed ? own.FindRequired() : 0, needed, std::nullopt}};
+    without_known_ = false;
+  }
+
+  /// Whether the others need more without this finger than without the weakest so far.
+  bool NeedMoreWithout(std::size_t i) {
+    const std::optional<double> known = WithoutWeakest();
+    if (!known) return false;
+    const double surely_less = *known - kBoundsApart;
+    if (surely_less > 0 && IsForceClosure(Without(contacts_, i), frame_, surely_less)) return false;
+    return RequiredWithout(contacts_, i, frame_).value_or(kNone) - *known > kEqual;
   }
 
   std::optional<double> WithoutWeakest() {

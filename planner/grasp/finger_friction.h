@@ -41,8 +41,8 @@ struct WeakFinger {
   FingerFriction friction;
 };
 
-/// The weakest finger alone, as WeakestFinger finds it of MeasureFingerFriction, in a fifth of the
-/// time: of the others only as much is found out as it takes to compare them.
+/// The weakest finger alone, as WeakestFinger finds it of MeasureFingerFriction: of the others only
+/// as much is found out as it takes to compare them.
 /// @returns nullopt where the grasp is not force closure.
 /// @throws std::invalid_argument  as TestForceClosure.
 [[nodiscard]] std::optional<WeakFinger> FindWeakestFinger(std::span<const Contact> contacts,
