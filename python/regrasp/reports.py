@@ -142,8 +142,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     >>> validate(cube, found, mu=0.05).steps[0]["reason"]
     'not-force-closure'
     >>> both = validate(cube, found, engine="both")
-    >>> both.data["settings"]["engine"], both.steps[1]["engines"]["ode"]["reason"]
-    ('both', 'none')
+    >>> both.data["settings"]["engine"], both.steps[1]["engines"]["cause"]
+    ('both', None)
     """
     _arguments.of_type("object", object, Object)
     _arguments.of_type("plan", plan, Plan, "; Plan.read reads a file")
