@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "apps/batch/line_input.h"
@@ -27,12 +28,18 @@ constexpr std::int64_t kMostFinished = 64;
 
 constexpr int kShards = 3;
 
+/// In memory where there is such a place: a run waits for the disk after each line.
+std::filesystem::path Temporary() {
+  const std::filesystem::path memory = "/dev/shm";
+  std::error_code error;
+  return std::filesystem::is_directory(memory, error) ? memory
+                                                      : std::filesystem::temp_directory_path();
+}
+
 /// A folder of this process, gone with it.
 class Folder {
  public:
-  Folder()
-      : path_(std::filesystem::temp_directory_path() /
-              ("regrasp_lines_fuzz." + std::to_string(getpid()))) {
+  Folder() : path_(Temporary() / ("regrasp_lines_fuzz." + std::to_string(getpid()))) {
     std::filesystem::create_directories(path_);
   }
   ~Folder() { std::filesystem::remove_all(path_); }
