@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -22,6 +23,7 @@
 #include "report/failure.h"
 #include "report/pictures/report_pictures.h"
 #include "report/report.h"
+#include "report/simulation_json.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/tip_geometry.h"
 #include "sim/hand/check_hand.h"
@@ -40,10 +42,14 @@ struct PythonReport {
   std::shared_ptr<const kinematics::HandFile> hand;  ///< null where none was checked
 };
 
+constexpr std::array kEngines = {sim::EngineChoice::kMujoco, sim::EngineChoice::kOde,
+                                 sim::EngineChoice::kBoth};
+
 struct ValidateArguments {
   std::optional<double> half_angle, torsion, mass_kg, squeeze_N;
   double shake = sim::ReplayOptions().shake;
   double tolerance = sim::ReplayOptions().tolerance;
+  sim::EngineChoice engine = sim::ReplayOptions().engine;
   bool stress = false;
   bool replay_by_hand = false;
   bool feedback = true;
@@ -87,6 +93,7 @@ PythonReport Validate(const PythonObject& object, const std::string& text, const
   replay.squeeze_N = given.squeeze_N;
   replay.shake = given.shake;
   replay.tolerance = given.tolerance;
+  replay.engine = given.engine;
   replay.stress = given.stress;
   sim::ReplayObserver observer;
   const auto progress = interrupt.progress();
@@ -201,6 +208,12 @@ void BindReports(py::module_& module) {
       .def_readwrite("squeeze_N", &ValidateArguments::squeeze_N)
       .def_readwrite("shake", &ValidateArguments::shake)
       .def_readwrite("tolerance", &ValidateArguments::tolerance)
+      .def("set_engine",
+           [](ValidateArguments& of, const std::string& name) {
+             for (const sim::EngineChoice engine : kEngines) {
+               if (name == report::EngineName(engine)) of.engine = engine;
+             }
+           })
       .def_readwrite("stress", &ValidateArguments::stress)
       .def_readwrite("replay_by_hand", &ValidateArguments::replay_by_hand)
       .def_readwrite("feedback", &ValidateArguments::feedback)
@@ -218,6 +231,9 @@ void BindReports(py::module_& module) {
           "table", [](const PythonReport& of) { return report::FormatReportTable(of.report); })
       .def_property_readonly("failure", FailureOf)
       .def("draw", Draw);
+  py::list engines;
+  for (const sim::EngineChoice engine : kEngines) engines.append(report::EngineName(engine));
+  module.attr("engines") = engines;
   module.attr("least_frame_side") = render::kMinFrameSide;
   module.attr("most_frame_side") = render::kMaxFrameSide;
   module.def("validate_plan", ValidatePlan);

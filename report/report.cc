@@ -56,12 +56,13 @@ void CheckCertificates(const plan::Plan& located, int count, Report& report) {
   }
 }
 
-/// What each finger needs, and why examinations disagree, of the steps that pass the analysis.
+/// Which finger is the weakest, and why examinations disagree, of the steps that pass the analysis.
 void ExamineSteps(const object::Object& object, const plan::Plan& located, int count,
                   Report& report) {
+  sim::WeakestFingers fingers(located, object.wrench_frame(), report.half_angle);
   for (plan::EntryIndex index{0}; index < count; ++index) {
     ReportStep& step = report.steps[index];
-    step.needs = sim::NeedsOfEntry(located, index, object.wrench_frame(), report.half_angle);
+    step.weakest_finger = fingers.OfEntry(index);
     // What is known of likely causes is known of ideal fingers.
     if (!step.replay || report.settings->hand) continue;
     step.disagreement =
@@ -143,9 +144,8 @@ plan::EntryIndex Report::weakest_finger_step() const {
   std::vector<grasp::FingerFriction> weakest;
   std::vector<plan::EntryIndex> index;
   for (const ReportStep& step : steps) {
-    const int need = step.skipped ? -1 : sim::WeakestOf(step.needs);
-    if (need < 0) continue;
-    weakest.push_back(step.needs[need].friction);
+    if (step.skipped || !step.weakest_finger) continue;
+    weakest.push_back(step.weakest_finger->friction);
     index.push_back(step.check.index);
   }
   const int found = grasp::WeakestFinger(weakest);

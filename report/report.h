@@ -37,11 +37,11 @@ struct ReportStep {
   /// the align passes the analytic check.
   std::optional<motion::ProofVerdict> certificate;
   std::optional<sim::StepReplay> replay;  ///< none where the analytic check failed, or when skipped
-  bool skipped = false;                  ///< a step before it failed, in the analysis or the replay
-  std::vector<sim::NeedOfFinger> needs;  ///< of a step that passes the analytic check
-  std::optional<sim::Disagreement> disagreement;  ///< between the examinations of a step
-  std::optional<sim::Disagreement> engines;       ///< between the two engines, where both ran
-  std::optional<certificate::EntryProof> proof;   ///< where AddProofs was asked
+  bool skipped = false;  ///< a step before it failed, in the analysis or the replay
+  std::optional<sim::NeedOfFinger> weakest_finger;  ///< of a step that passes the analytic check
+  std::optional<sim::Disagreement> disagreement;    ///< between the examinations of a step
+  std::optional<sim::Disagreement> engines;         ///< between the two engines, where both ran
+  std::optional<certificate::EntryProof> proof;     ///< where AddProofs was asked
   std::string frame;  ///< file name of the picture, empty where there is none
 
   /// The analytic reason, or else that of the replay; kNone for a skipped step.

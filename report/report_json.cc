@@ -52,9 +52,8 @@ Json MakeForceClosure(const ReportStep& step) {
 }
 
 Json MakeWeakestFinger(const ReportStep& step, double half_angle) {
-  const int weakest = step.skipped ? -1 : sim::WeakestOf(step.needs);
-  if (weakest < 0) return nullptr;
-  return FingerNeedJson(step.needs[weakest].finger, step.needs[weakest].friction, half_angle);
+  if (step.skipped || !step.weakest_finger) return nullptr;
+  return FingerNeedJson(step.weakest_finger->finger, step.weakest_finger->friction, half_angle);
 }
 
 /// What the plan takes as a whole: the least of every margin, and where.

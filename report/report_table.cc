@@ -122,7 +122,7 @@ std::string FormatWeakestFinger(const Report& report) {
   const plan::EntryIndex index = report.weakest_finger_step();
   if (!index.valid() || report.grasp) return "";
   const ReportStep& step = report.steps[index];
-  const sim::NeedOfFinger& need = step.needs[sim::WeakestOf(step.needs)];
+  const sim::NeedOfFinger& need = *step.weakest_finger;
   return "weakest finger: " + std::to_string(need.finger) + " in step " + std::to_string(index) +
          NeedText(need.friction, report.half_angle, "");
 }

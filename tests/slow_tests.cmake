@@ -27,6 +27,7 @@ set(regrasp_slow_tests
   apps.validate
   fuzz.assimp
   fuzz.grasp
+  fuzz.lines
   fuzz.npz
   fuzz.obj
   fuzz.off

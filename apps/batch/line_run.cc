@@ -1,5 +1,7 @@
 #include "apps/batch/line_run.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cstring>
 #include <deque>
@@ -27,6 +29,9 @@ constexpr int kMostAhead = 256;
 
 /// Groups that are remembered; to forget one costs time alone.
 constexpr std::size_t kMostGroups = 4096;
+
+/// Memory that a child keeps while it has entries to do; the most that malloc takes for it.
+constexpr int kKeptBytes = 1 << 25;
 
 using Chunk = std::vector<Line>;
 
@@ -87,6 +92,10 @@ class LineRun {
 
   /// In a child.
   int Work(int task) {
+    // What an engine took for one plan it asks for again for the next: to return it to the system
+    // and to be given fresh pages took as long as to compile the scene.
+    mallopt(M_MMAP_THRESHOLD, kKeptBytes);
+    mallopt(M_TRIM_THRESHOLD, kKeptBytes);
     for (const Line& line : running_.at(task)) {
       std::cout << work_.work(line) << '\n' << std::flush;
     }

@@ -72,6 +72,22 @@ template <int kDim>
   return ConeSupport(contact, Velocity<kDim>(contact, twist), Spin<kDim>(contact, twist));
 }
 
+/// So far below the half-angle up to which a twist separates, radians, it does so by far more than
+/// rounding.
+inline constexpr double kClearlyRefuted = 1e-10;
+
+/// The largest friction half-angle up to which a contact's whole cone works against a twist, where
+/// its support is 0: tan θ = −n·u / √(|u − (n·u) n|² + (torsion s)²). Not positive where not even
+/// the normal force does.
+template <int kDim>
+[[nodiscard]] inline double HeldOffHalfAngle(const UnitContact& contact, const double* twist) {
+  const Eigen::Vector3d u = Velocity<kDim>(contact, twist);
+  const double approach = contact.n.dot(u);
+  const double turning = contact.torsion * Spin<kDim>(contact, twist);
+  return std::atan2(-approach,
+                    std::sqrt((u - approach * contact.n).squaredNorm() + turning * turning));
+}
+
 /// A unit vector perpendicular to n, in the plane where kDim is 3.
 template <int kDim>
 [[nodiscard]] inline Eigen::Vector3d AnyTangent(const Eigen::Vector3d& n) {

@@ -1,8 +1,10 @@
 #include "planner/grasp/finger_friction.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "planner/grasp/cone_support.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/force_closure_core.h"
 #include "planner/grasp/required_half_angle.h"
@@ -17,40 +19,143 @@ constexpr double kTolerance = 1e-9;
 /// Fingers whose half-angles differ by less count as equally weak.
 constexpr double kEqual = 1e-7;
 
-bool Decide(const UnitContacts& contacts, int dimension) {
-  const ForceClosure answer =
-      dimension == 3 ? DecideForceClosure<6>(contacts) : DecideForceClosure<3>(contacts);
-  return answer.decision == Decision::kYes;
+/// Bounds on required half-angles are closer together than this (required_half_angle.h).
+constexpr double kBoundsApart = 1e-6;
+
+/// In place of a half-angle where none is enough.
+constexpr double kNone = std::numbers::pi / 2;
+
+Grasp Without(std::span<const Contact> contacts, std::size_t finger) {
+  Grasp rest(contacts.begin(), contacts.end());
+  rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(finger));
+  return rest;
 }
 
 std::optional<double> RequiredWithout(std::span<const Contact> contacts, std::size_t finger,
                                       const object::WrenchFrame& frame) {
-  Grasp rest(contacts.begin(), contacts.end());
-  rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(finger));
-  const auto required = ComputeRequiredHalfAngle(rest, frame, kTolerance);
+  const auto required = ComputeRequiredHalfAngle(Without(contacts, finger), frame, kTolerance);
   return required ? std::optional<double>(required->upper) : std::nullopt;
 }
 
-/// Negative where `a` is weaker than `b`, positive where it is stronger, 0 where they are equal.
-int Compare(const FingerFriction& a, const FingerFriction& b) {
-  const double none = std::numbers::pi / 2;
-  for (const double more :
-       {a.required - b.required, a.without.value_or(none) - b.without.value_or(none)}) {
-    if (std::abs(more) > kEqual) return more > 0 ? -1 : 1;
-  }
-  return 0;
+/// Whether `a` is weaker than `b`.
+bool IsWeaker(const FingerFriction& a, const FingerFriction& b) {
+  const double more = a.required - b.required;
+  if (std::abs(more) > kEqual) return more > 0;
+  return a.without.value_or(kNone) - b.without.value_or(kNone) > kEqual;
 }
 
-/// Halves the interval between no friction and all of it.
-double FindRequired(UnitContacts contacts, std::size_t finger, int dimension, double half_angle) {
-  double lower = 0, upper = half_angle;
-  while (upper - lower > kTolerance) {
-    const double middle = lower + (upper - lower) / 2;
-    contacts[finger].axial = std::cos(middle);
-    contacts[finger].tangential = std::sin(middle);
-    (Decide(contacts, dimension) ? upper : lower) = middle;
+/// One finger's friction, all others keeping theirs.
+template <int kDim>
+class OwnFriction {
+ public:
+  OwnFriction(const UnitContacts& contacts, std::size_t finger, double half_angle)
+      : contacts_(contacts), finger_(contacts_[finger]), half_angle_(half_angle) {}
+
+  /// Whether the grasp is force closure at this half-angle of the finger.
+  bool Holds(double half_angle) {
+    if (half_angle <= refuted_) return false;
+    finger_.axial = std::cos(half_angle);
+    finger_.tangential = std::sin(half_angle);
+    typename WrenchSimplex<kDim>::Vector twist;
+    const Decision decision = DecideForceClosure<kDim>(contacts_, nullptr, &twist).decision;
+    if (decision == Decision::kNo) {
+      const double held_off = HeldOffHalfAngle<kDim>(finger_, twist.data());
+      refuted_ = std::max(refuted_, held_off - kClearlyRefuted);
+    }
+    return decision == Decision::kYes;
   }
-  return upper;
+
+  /// Halves the interval between no friction and all of it.
+  double FindRequired() {
+    double lower = 0, upper = half_angle_;
+    while (upper - lower > kTolerance) {
+      const double middle = lower + (upper - lower) / 2;
+      (Holds(middle) ? upper : lower) = middle;
+    }
+    return upper;
+  }
+
+ private:
+  UnitContacts contacts_;
+  UnitContact& finger_;
+  double half_angle_;
+  double refuted_ = 0;  ///< up to this half-angle some twist separates
+};
+
+template <int kDim>
+std::vector<FingerFriction> MeasureAll(std::span<const Contact> contacts, const UnitContacts& units,
+                                       const object::WrenchFrame& frame, double half_angle) {
+  std::vector<FingerFriction> fingers;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const std::optional<double> without = RequiredWithout(contacts, i, frame);
+    const bool needed = !without || *without > half_angle;
+    const double required = needed ? OwnFriction<kDim>(units, i, half_angle).FindRequired() : 0;
+    fingers.push_back({required, needed, without});
+  }
+  return fingers;
+}
+
+/// Goes through the fingers with the weakest one so far.
+template <int kDim>
+class WeakestSearch {
+ public:
+  WeakestSearch(std::span<const Contact> contacts, const UnitContacts& units,
+                const object::WrenchFrame& frame, double half_angle)
+      : contacts_(contacts), units_(units), frame_(frame), half_angle_(half_angle) {}
+
+  WeakFinger Find() {
+    for (std::size_t i = 0; i < contacts_.size(); ++i) Include(i);
+    weakest_.friction.without = WithoutWeakest();
+    return weakest_;
+  }
+
+ private:
+  void Include(std::size_t i) {
+    const bool needed = !IsForceClosure(Without(contacts_, i), frame_, half_angle_);
+    OwnFriction<kDim> own(units_, i, half_angle_);
+    if (i > 0) {
+      const double most = weakest_.friction.required + kEqual;
+      const double least = weakest_.friction.required - kEqual;
+      const bool needs_more = needed && most < half_angle_ && !own.Holds(most);
+      if (!needs_more) {
+        if (least > 0 && (!needed || own.Holds(least))) return;
+        if (!NeedMoreWithout(i)) return;
+      }
+    }
+    weakest_ = {static_cast<int>(i), {needed ? own.FindRequired() : 0, needed, std::nullopt}};
+    without_known_ = false;
+  }
+
+  /// Whether the others need more without this finger than without the weakest so far.
+  bool NeedMoreWithout(std::size_t i) {
+    const std::optional<double> known = WithoutWeakest();
+    if (!known) return false;
+    const double surely_less = *known - kBoundsApart;
+    if (surely_less > 0 && IsForceClosure(Without(contacts_, i), frame_, surely_less)) return false;
+    return RequiredWithout(contacts_, i, frame_).value_or(kNone) - *known > kEqual;
+  }
+
+  std::optional<double> WithoutWeakest() {
+    if (!without_known_) {
+      weakest_.friction.without = RequiredWithout(contacts_, weakest_.finger, frame_);
+      without_known_ = true;
+    }
+    return weakest_.friction.without;
+  }
+
+  std::span<const Contact> contacts_;
+  const UnitContacts& units_;
+  const object::WrenchFrame& frame_;
+  double half_angle_;
+  WeakFinger weakest_;
+  bool without_known_ = false;
+};
+
+UnitContacts UnitContactsAt(std::span<const Contact> contacts, const object::WrenchFrame& frame,
+                            double half_angle) {
+  UnitContacts units = MakeUnitContacts(contacts, ContactFrame(contacts, frame.dimension));
+  SetUnitForces(units, half_angle);
+  return units;
 }
 
 }  // namespace
@@ -59,26 +164,25 @@ std::vector<FingerFriction> MeasureFingerFriction(std::span<const Contact> conta
                                                   const object::WrenchFrame& frame,
                                                   double half_angle) {
   if (!IsForceClosure(contacts, frame, half_angle)) return {};
-  UnitContacts units = MakeUnitContacts(contacts, ContactFrame(contacts, frame.dimension));
-  SetUnitForces(units, half_angle);
-  std::vector<FingerFriction> fingers;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const std::optional<double> without = RequiredWithout(contacts, i, frame);
-    const bool needed = !without || *without > half_angle;
-    const double required = needed ? FindRequired(units, i, frame.dimension, half_angle) : 0;
-    fingers.push_back({required, needed, without});
-  }
-  return fingers;
+  const UnitContacts units = UnitContactsAt(contacts, frame, half_angle);
+  return frame.dimension == 3 ? MeasureAll<6>(contacts, units, frame, half_angle)
+                              : MeasureAll<3>(contacts, units, frame, half_angle);
 }
 
 int WeakestFinger(const std::vector<FingerFriction>& fingers) {
   int weakest = -1;
   for (std::size_t i = 0; i < fingers.size(); ++i) {
-    if (weakest < 0 || Compare(fingers[i], fingers[weakest]) < 0) {
-      weakest = static_cast<int>(i);
-    }
+    if (weakest < 0 || IsWeaker(fingers[i], fingers[weakest])) weakest = static_cast<int>(i);
   }
   return weakest;
+}
+
+std::optional<WeakFinger> FindWeakestFinger(std::span<const Contact> contacts,
+                                            const object::WrenchFrame& frame, double half_angle) {
+  if (!IsForceClosure(contacts, frame, half_angle)) return std::nullopt;
+  const UnitContacts units = UnitContactsAt(contacts, frame, half_angle);
+  return frame.dimension == 3 ? WeakestSearch<6>(contacts, units, frame, half_angle).Find()
+                              : WeakestSearch<3>(contacts, units, frame, half_angle).Find();
 }
 
 }  // namespace regrasp::grasp

@@ -35,4 +35,18 @@ struct FingerFriction {
 /// none.
 [[nodiscard]] int WeakestFinger(const std::vector<FingerFriction>& fingers);
 
+/// A finger of a grasp by its place in it, and what it needs.
+struct WeakFinger {
+  int finger = 0;
+  FingerFriction friction;
+};
+
+/// The weakest finger alone, as WeakestFinger finds it of MeasureFingerFriction: of the others only
+/// as much is found out as it takes to compare them.
+/// @returns nullopt where the grasp is not force closure.
+/// @throws std::invalid_argument  as TestForceClosure.
+[[nodiscard]] std::optional<WeakFinger> FindWeakestFinger(std::span<const Contact> contacts,
+                                                          const object::WrenchFrame& frame,
+                                                          double half_angle);
+
 }  // namespace regrasp::grasp

@@ -126,12 +126,14 @@ double LowerBoundBeyondStart(const UnitContacts& contacts, WrenchSimplex<kDim>& 
 }  // namespace
 
 template <int kDim>
-ForceClosure DecideOpenForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
+ForceClosure DecideOpenForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof,
+                                    typename WrenchSimplex<kDim>::Vector* twist) {
   using Simplex = WrenchSimplex<kDim>;
   Simplex simplex(contacts, typename Simplex::Vector{});
   const typename Simplex::Status status = simplex.FindWeights(/*stop_early=*/true);
   if (status == Simplex::Status::kInfeasible) {
     if (proof != nullptr) proof->twist = simplex.twist();
+    if (twist != nullptr) *twist = simplex.twist();
     return No(contacts.size(), UpperBound<kDim>(contacts, simplex.twist()));
   }
   const bool feasible = status == Simplex::Status::kFeasible;
@@ -165,7 +167,9 @@ Decision DecideOnly(const UnitContacts& contacts, typename WrenchSimplex<kDim>::
 }
 
 template <int kDim>
-ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
+ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof,
+                                typename WrenchSimplex<kDim>::Vector* twist) {
+  if (twist != nullptr) *twist = {};
   const bool space = kDim == 6;
   const bool few = contacts.size() <= kPairLinesFirst;
   // What a pair line refutes the torque of a soft finger may still hold.
@@ -179,15 +183,18 @@ ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<
       return Yes<kDim>(contacts, std::numeric_limits<double>::min());
     }
   }
-  const ForceClosure answer = DecideOpenForceClosure<kDim>(contacts, proof);
+  const ForceClosure answer = DecideOpenForceClosure<kDim>(contacts, proof, twist);
   const bool unsettled = space && !few && !soft && answer.decision == Decision::kTooClose;
   return unsettled && TestPairLines(contacts) == PairLineVerdict::kNo ? No(contacts.size(), 0)
                                                                       : answer;
 }
 
-template ForceClosure DecideForceClosure<3>(const UnitContacts&, ForceClosureProof<3>*);
-template ForceClosure DecideForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*);
-template ForceClosure DecideOpenForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*);
+template ForceClosure DecideForceClosure<3>(const UnitContacts&, ForceClosureProof<3>*,
+                                            WrenchSimplex<3>::Vector*);
+template ForceClosure DecideForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*,
+                                            WrenchSimplex<6>::Vector*);
+template ForceClosure DecideOpenForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*,
+                                                WrenchSimplex<6>::Vector*);
 template Decision DecideOnly<6>(const UnitContacts&, WrenchSimplex<6>::Vector&);
 
 }  // namespace regrasp::grasp

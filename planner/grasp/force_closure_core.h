@@ -17,14 +17,17 @@ struct ForceClosureProof {
 /// TestForceClosure behind its checks, in the contacts' own frame (ContactFrame), rims of unit
 /// force set.
 /// @param proof  filled where not null.
+/// @param twist  where not null: after kNo the twist that separates, or zero where none was needed.
 template <int kDim>
-[[nodiscard]] ForceClosure DecideForceClosure(const UnitContacts& contacts,
-                                              ForceClosureProof<kDim>* proof = nullptr);
+[[nodiscard]] ForceClosure DecideForceClosure(
+    const UnitContacts& contacts, ForceClosureProof<kDim>* proof = nullptr,
+    typename WrenchSimplex<kDim>::Vector* twist = nullptr);
 
 /// The same for a grasp that the lines through pairs of contacts have been seen not to settle.
 template <int kDim>
-[[nodiscard]] ForceClosure DecideOpenForceClosure(const UnitContacts& contacts,
-                                                  ForceClosureProof<kDim>* proof = nullptr);
+[[nodiscard]] ForceClosure DecideOpenForceClosure(
+    const UnitContacts& contacts, ForceClosureProof<kDim>* proof = nullptr,
+    typename WrenchSimplex<kDim>::Vector* twist = nullptr);
 
 /// Its decision alone, without bounds or forces.
 /// @param twist  after kNo the one that separates; zero where the rank decides.

@@ -1,8 +1,10 @@
 #include "planner/grasp/required_half_angle.h"
 
+#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 
+#include "planner/grasp/cone_support.h"
 #include "planner/grasp/force_closure_core.h"
 
 namespace regrasp::grasp {
@@ -44,8 +46,21 @@ class Bracket {
 
  private:
   Decision Decide(double half_angle) {
+    if (half_angle <= refuted_) return Decision::kNo;
     SetUnitForces(contacts_, half_angle);
-    return DecideForceClosure<kDim>(contacts_).decision;
+    typename WrenchSimplex<kDim>::Vector twist;
+    const Decision decision = DecideForceClosure<kDim>(contacts_, nullptr, &twist).decision;
+    if (decision == Decision::kNo) RefuteUpTo(twist);
+    return decision;
+  }
+
+  /// A twist that separates at one angle often does so at larger ones, too.
+  void RefuteUpTo(const typename WrenchSimplex<kDim>::Vector& twist) {
+    double angle = kLargestHalfAngle;
+    for (const UnitContact& contact : contacts_) {
+      angle = std::min(angle, HeldOffHalfAngle<kDim>(contact, twist.data()));
+    }
+    refuted_ = std::max(refuted_, angle - kClearlyRefuted);
   }
 
   void CloseIn(double half_angle) {
@@ -59,6 +74,7 @@ class Bracket {
 
   UnitContacts& contacts_;
   double tolerance_;
+  double refuted_ = 0;  ///< up to this half-angle some twist separates
   RequiredHalfAngle bounds_{0, kLargestHalfAngle};
 };
 

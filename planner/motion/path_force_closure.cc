@@ -135,7 +135,8 @@ class PathAngle {
   /// @returns false where an instant is force closure at no angle.
   bool Search() {
     // The ends first: the largest angle of all is often one of theirs.
-    if (!Include(0) || !Include(1) || !Add(0, 1)) return false;
+    if (!Include(0) || !IncludeEnd(1) || !IncludeEnd(0.5)) return false;
+    open_.push({0, 1, 0});
     while (!open_.empty() && complete_) {
       if (!budget_.SpendPiece(motion_.size())) complete_ = false;
       const Interval interval = open_.top();
@@ -159,6 +160,14 @@ class PathAngle {
       return std::pair(required, from) < std::pair(other.required, other.from);
     }
   };
+
+  /// The same without its angle, where that is no larger than what is known.
+  bool IncludeEnd(double t) {
+    if (bounds_.lower > 0 && grasp::IsForceClosure(GraspAt(motion_, t), frame_, bounds_.lower)) {
+      return true;
+    }
+    return Include(t).has_value();
+  }
 
   /// The required half-angle of an instant; nullopt where it is force closure at none.
   std::optional<double> Include(double t) {

@@ -200,10 +200,13 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
   // Of their own, so that searches for bounds leave enough to decide with.
   motion::ProofBudget decisions = BudgetOf(plan);
   motion::ProofBudget bounds = BudgetOf(plan);
+  const double half_angle = options.half_angle.value_or(plan.half_angle);
+  RestClosure rests(object.wrench_frame(), half_angle);
   const CheckContext context{
       object,
       result.located,
-      options.half_angle.value_or(plan.half_angle),
+      half_angle,
+      rests,
       decisions,
       bounds,
       options.finger_radius ? *options.finger_radius : plan.finger_radius.value_or(0),

@@ -135,14 +135,6 @@ void LeaveUnproved(const std::string& why, const Fault& where, StepCheck& check,
   fault.Add(Reason::kNotProved, why, where);
 }
 
-/// Where force closure holds at the friction, the smallest half-angle is no larger than that.
-std::optional<grasp::RequiredHalfAngle> Within(std::optional<grasp::RequiredHalfAngle> required,
-                                               double half_angle) {
-  if (!required) return std::nullopt;
-  return grasp::RequiredHalfAngle{std::min(required->lower, half_angle),
-                                  std::min(required->upper, half_angle)};
-}
-
 /// A grasp at rest holds with the normals that fingertips feel too, where the plan says so.
 void IncludePatches(const CheckContext& context, const FingerGrasp& grasp, const std::string& name,
                     StepCheck& check, StepFault& fault) {
@@ -167,15 +159,7 @@ void IncludePatches(const CheckContext& context, const FingerGrasp& grasp, const
 void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
                  StepCheck& check, StepFault& fault) {
   if (!context.judge_force_closure) return;
-  const grasp::Grasp contacts = ContactsOf(grasp);
-  const object::WrenchFrame frame = context.object.wrench_frame();
-  std::optional<grasp::RequiredHalfAngle> required;
-  bool holds = false;
-  if (!contacts.empty()) {
-    required = grasp::ComputeRequiredHalfAngle(contacts, frame);
-    holds = grasp::IsForceClosure(contacts, frame, context.half_angle);
-    if (holds) required = Within(required, context.half_angle);
-  }
+  const auto& [holds, required] = context.rests.Of(grasp);
   check.required = Larger(check.required, required);
   check.force_closure = check.force_closure && holds;
   if (!holds) {

@@ -6,6 +6,7 @@
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan.h"
+#include "planner/plan/rest_closure.h"
 
 namespace regrasp::plan {
 
@@ -33,7 +34,8 @@ class StepFault {
 struct CheckContext {
   const object::Object& object;
   const Plan& plan;
-  double half_angle;                ///< friction, radians
+  double half_angle;  ///< friction, radians
+  RestClosure& rests;
   motion::ProofBudget& decisions;   ///< for deciding force closure along all aligns
   motion::ProofBudget& bounds;      ///< for the required half-angles of all aligns
   double finger_radius = 0;         ///< the object's unit of length; 0: points

@@ -1,5 +1,6 @@
 #include "planner/plan/same_grasp.h"
 
+#include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/max_cardinality_matching.hpp>
 #include <vector>
@@ -25,6 +26,13 @@ bool AreSameGrasp(const grasp::Grasp& a, const grasp::Grasp& b, double tolerance
   std::vector<Graph::vertex_descriptor> mate(a.size() + b.size());
   boost::edmonds_maximum_cardinality_matching(graph, mate.data());
   return boost::matching_size(graph, mate.data()) == a.size();
+}
+
+bool AreIdentical(const FingerGrasp& a, const FingerGrasp& b) {
+  return std::ranges::equal(a, b, [](const FingerContact& x, const FingerContact& y) {
+    return x.finger == y.finger && x.contact.p == y.contact.p && x.contact.n == y.contact.n &&
+           x.contact.torsion == y.contact.torsion;
+  });
 }
 
 }  // namespace regrasp::plan

@@ -93,9 +93,10 @@ class Report:
 def validate(object: Object, plan: Plan, mu: float | None = None, *,
              friction_angle_deg: float | None = None, torsion: float | None = None,
              mass: float | None = None, squeeze: float | None = None, shake: float = 0.01,
-             tolerance: float = 0.001, stress: bool = False, hand: Hand | None = None,
-             replay: str | None = None, tip: str | None = None, tolerance_mm: float = 2,
-             tolerance_deg: float = 5, feedback: bool = True, progress: Progress = None) -> Report:
+             tolerance: float = 0.001, engine: str | None = None, stress: bool = False,
+             hand: Hand | None = None, replay: str | None = None, tip: str | None = None,
+             tolerance_mm: float = 2, tolerance_deg: float = 5, feedback: bool = True,
+             progress: Progress = None) -> Report:
     """Checks a plan analytically, replays it with frictional point fingers or by a hand, and disturbs
     the object.
 
@@ -109,6 +110,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         squeeze: total normal force of a grasp, N; None: ten times what the shake needs.
         shake: force of the disturbance over the squeeze.
         tolerance: allowed motion and slip over the object's diameter.
+        engine: of the replay by points, "mujoco", "ode" (the Open Dynamics Engine), or "both": MuJoCo
+            decides, and every step on which they differ is named; None: "mujoco".
         stress: also finds the largest push that each grasp bears in each direction.
         hand: of a plan for a hand: also checks its joints, limits, fingertips and collisions; frames
             show it.
@@ -138,6 +141,9 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     [(240, 320, 3), (240, 320, 3), (240, 320, 3)]
     >>> validate(cube, found, mu=0.05).steps[0]["reason"]
     'not-force-closure'
+    >>> both = validate(cube, found, engine="both")
+    >>> both.data["settings"]["engine"], both.steps[1]["engines"]["cause"]
+    ('both', None)
     """
     _arguments.of_type("object", object, Object)
     _arguments.of_type("plan", plan, Plan, "; Plan.read reads a file")
@@ -151,6 +157,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         given.squeeze_N = _arguments.number("squeeze", squeeze, 0)
     given.shake = _arguments.number("shake", shake, 0, zero=True)
     given.tolerance = _arguments.number("tolerance", tolerance, 0)
+    if engine is not None:
+        given.set_engine(_arguments.choice("engine", engine, list(_regrasp.engines)))
     given.stress = _arguments.flag("stress", stress)
     if hand is not None:
         _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
@@ -163,6 +171,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     given.replay_by_hand = _arguments.choice("replay", replay, ["points", "hand"]) == "hand"
     if given.replay_by_hand and hand is None:
         raise InputError("hand: is needed for a replay by it")
+    if given.replay_by_hand and engine is not None:
+        raise InputError('engine: goes with replay="points"')
     if given.replay_by_hand and given.stress:
         raise InputError('stress: goes with replay="points"')
     if tip is not None:

@@ -69,8 +69,7 @@ std::string Margin(const sim::FingerMargins& margins) {
 }
 
 Element RequirementsRow(const ReportStep& step, bool both) {
-  const int weakest = sim::WeakestOf(step.needs);
-  const sim::NeedOfFinger* need = weakest < 0 ? nullptr : &step.needs[weakest];
+  const std::optional<sim::NeedOfFinger>& need = step.weakest_finger;
   Element row("tr");
   row.Add(NumberCell(std::to_string(step.check.index)));
   row.Add(NumberCell(need ? std::to_string(need->finger) : kNothing));

@@ -1,5 +1,7 @@
 #include "sim/measure/weakest_finger.h"
 
+#include "planner/plan/same_grasp.h"
+
 namespace regrasp::sim {
 
 std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located, plan::EntryIndex index) {
@@ -13,23 +15,24 @@ std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located, plan::En
   return {before, plan::GraspAfter(before, step)};
 }
 
-std::vector<NeedOfFinger> NeedsOfEntry(const plan::Plan& located, plan::EntryIndex index,
-                                       const object::WrenchFrame& frame, double half_angle) {
-  std::vector<NeedOfFinger> needs;
-  for (const plan::FingerGrasp& grasp : GraspsOfEntry(located, index)) {
-    if (grasp.empty()) continue;
-    const auto friction = grasp::MeasureFingerFriction(plan::ContactsOf(grasp), frame, half_angle);
-    for (std::size_t i = 0; i < friction.size(); ++i) {
-      needs.push_back({grasp[i].finger, friction[i]});
-    }
+std::optional<NeedOfFinger> WeakestFingers::OfEntry(plan::EntryIndex index) {
+  std::optional<NeedOfFinger> weakest;
+  for (const plan::FingerGrasp& grasp : GraspsOfEntry(located_, index)) {
+    const std::optional<NeedOfFinger> need = OfGrasp(grasp);
+    if (!need) continue;
+    if (!weakest || grasp::WeakestFinger({weakest->friction, need->friction}) == 1) weakest = need;
   }
-  return needs;
+  return weakest;
 }
 
-int WeakestOf(const std::vector<NeedOfFinger>& needs) {
-  std::vector<grasp::FingerFriction> friction;
-  for (const NeedOfFinger& need : needs) friction.push_back(need.friction);
-  return grasp::WeakestFinger(friction);
+std::optional<NeedOfFinger> WeakestFingers::OfGrasp(const plan::FingerGrasp& grasp) {
+  if (plan::AreIdentical(grasp, last_)) return last_weakest_;
+  last_ = grasp;
+  last_weakest_.reset();
+  if (grasp.empty()) return last_weakest_;
+  const auto found = grasp::FindWeakestFinger(plan::ContactsOf(grasp), frame_, half_angle_);
+  if (found) last_weakest_ = {grasp[found->finger].finger, found->friction};
+  return last_weakest_;
 }
 
 }  // namespace regrasp::sim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/object/wrench_frame.h"
@@ -8,20 +9,30 @@
 
 namespace regrasp::sim {
 
-/// What every finger of the grasps of an entry needs, at rest: of the hold the initial grasp, of a
-/// switch the grasps before and after it, of an align the grasps at its waypoints. A finger that
-/// holds in several of them has an element for each. Empty for an entry without contacts.
-/// @param located  contacts on the surface, in the unit of `frame`.
-[[nodiscard]] std::vector<NeedOfFinger> NeedsOfEntry(const plan::Plan& located,
-                                                     plan::EntryIndex index,
-                                                     const object::WrenchFrame& frame,
-                                                     double half_angle);
+/// The finger that has the least of its own friction to spare in the grasps of an entry, at rest:
+/// of the hold the initial grasp, of a switch the grasps before and after it, of an align the
+/// grasps at its waypoints. As planner/grasp/finger_friction.h has it; of equal ones the first.
+class WeakestFingers {
+ public:
+  /// @param located  contacts on the surface, in the unit of `frame`; must outlive this object.
+  WeakestFingers(const plan::Plan& located, const object::WrenchFrame& frame, double half_angle)
+      : located_(located), frame_(frame), half_angle_(half_angle) {}
 
-/// Index of the finger with the least of its own friction to spare, as planner/grasp/
-/// finger_friction.h has it; −1 for none.
-[[nodiscard]] int WeakestOf(const std::vector<NeedOfFinger>& needs);
+  /// @returns nullopt where an entry has no contacts, or no grasp of it is force closure.
+  [[nodiscard]] std::optional<NeedOfFinger> OfEntry(plan::EntryIndex index);
 
-/// The grasps of an entry, in the order of time (see NeedsOfEntry).
+ private:
+  std::optional<NeedOfFinger> OfGrasp(const plan::FingerGrasp& grasp);
+
+  const plan::Plan& located_;
+  object::WrenchFrame frame_;
+  double half_angle_;
+  // What one entry ends with the next one begins with.
+  plan::FingerGrasp last_;
+  std::optional<NeedOfFinger> last_weakest_;
+};
+
+/// The grasps of an entry, in the order of time (see WeakestFingers).
 [[nodiscard]] std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located,
                                                            plan::EntryIndex index);
 

@@ -6,15 +6,18 @@
 
 namespace regrasp::sim {
 
+double TangentialForce(const Eigen::Vector3d& force, const Eigen::Vector3d& normal, double twist) {
+  const double tangential = normal.cross(force).norm();
+  return twist == 0 ? tangential : std::hypot(tangential, twist);
+}
+
 double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal, double half_angle,
                   double twist) {
-  double tangential = normal.cross(force).norm();
-  if (twist != 0) tangential = std::hypot(tangential, twist);
-  return half_angle - std::atan2(tangential, normal.dot(force));
+  return half_angle - std::atan2(TangentialForce(force, normal, twist), normal.dot(force));
 }
 
 void AddMargin(FingerIndex finger, double margin, FingerMargins& margins) {
-  const auto [place, is_new] = margins.emplace(finger, margin);
+  const auto [place, is_new] = margins.try_emplace(finger, margin);
   if (!is_new) place->second = std::min(place->second, margin);
 }
 

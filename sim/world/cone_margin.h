@@ -8,6 +8,11 @@
 
 namespace regrasp::sim {
 
+/// What of a force is friction.
+/// @param normal, twist  as in ConeMargin.
+[[nodiscard]] double TangentialForce(const Eigen::Vector3d& force, const Eigen::Vector3d& normal,
+                                     double twist = 0);
+
 /// What is left of the friction of a contact: the friction half-angle minus the angle between the
 /// force on the object and the inward normal, radians. 0 where the force lies on its cone, negative
 /// outside.

@@ -11,10 +11,13 @@
 namespace regrasp::sim {
 namespace {
 
-double RotationAngle(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  const Eigen::Quaterniond a(from.linear()), b(to.linear());
-  return a.angularDistance(b);
+double RotationAngle(const Eigen::Quaterniond& from, const Eigen::Isometry3d& to) {
+  return from.angularDistance(Eigen::Quaterniond(to.linear()));
 }
+
+/// A force less steep than this part of the steepest one has the larger margin, whatever rounding
+/// does to either.
+constexpr double kSurelyLessSteep = 1 - 1e-12;
 
 /// A turn may be a thousandth of a degree.
 constexpr int kAngleDigits = 3;
@@ -24,19 +27,21 @@ std::string Name(FingerIndex finger) { return "finger " + std::to_string(finger)
 }  // namespace
 
 double MeasureMotion(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, double radius) {
-  return (to.translation() - from.translation()).norm() + radius * RotationAngle(from, to);
+  return (to.translation() - from.translation()).norm() +
+         radius * RotationAngle(Eigen::Quaterniond(from.linear()), to);
 }
 
 void MotionMonitor::Start(const Eigen::Isometry3d& X_SB) {
   const ReplaySettings settings = settings_;
   *this = MotionMonitor(settings);
   start_ = X_SB;
+  start_turn_ = X_SB.linear();
 }
 
 void MotionMonitor::AddPose(const Eigen::Isometry3d& X_SB) {
   // As MeasureMotion; both parts are wanted after every step.
   const double displacement = (X_SB.translation() - start_.translation()).norm();
-  const double rotation = RotationAngle(start_, X_SB);
+  const double rotation = RotationAngle(start_turn_, X_SB);
   const double moved = displacement + settings_.diameter_m / 2 * rotation;
   moved_now_ = moved;
   if (giving_) {
@@ -80,8 +85,19 @@ void MotionMonitor::AddGap(FingerIndex finger, double gap_m) {
 
 void MotionMonitor::AddForce(FingerIndex finger, const Eigen::Vector3d& force,
                              const Eigen::Vector3d& normal, double twist) {
-  if (force.dot(normal) < kPressing * settings_.squeeze_N) return;
+  const double pressing = force.dot(normal);
+  if (pressing < kPressing * settings_.squeeze_N) return;
+  // It is asked of every finger in every time step: the angle only where it may be the largest.
+  const auto [steepest, is_first] = slopes_.try_emplace(finger, 0);
+  const double tangential = TangentialForce(force, normal, twist);
+  if (!is_first && tangential < kSurelyLessSteep * steepest->second * pressing) return;
+  steepest->second = std::max(steepest->second, tangential / pressing);
   AddMargin(finger, ConeMargin(force, normal, std::atan(settings_.mu), twist), margins_);
+}
+
+void MotionMonitor::ForgetForces() {
+  slopes_.clear();
+  margins_.clear();
 }
 
 plan::Reason MotionMonitor::reason() const {

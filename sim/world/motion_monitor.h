@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -41,7 +42,7 @@ class MotionMonitor {
   void AddForce(FingerIndex finger, const Eigen::Vector3d& force, const Eigen::Vector3d& normal,
                 double twist = 0);
   /// Cone margins are smallest from here on.
-  void ForgetForces() { margins_.clear(); }
+  void ForgetForces();
 
   /// kNone, or the first of contact-lost, slipped and object-moved that applies.
   [[nodiscard]] plan::Reason reason() const;
@@ -72,12 +73,14 @@ class MotionMonitor {
 
   ReplaySettings settings_;
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();
+  Eigen::Quaterniond start_turn_ = Eigen::Quaterniond::Identity();
   std::string phase_;
   double displacement_ = 0, rotation_ = 0, moved_ = 0, moved_now_ = 0, give_ = 0, slip_ = 0;
   double slip_now_ = 0, gap_now_ = 0;  ///< of slipped_finger_ and lost_finger_
   bool giving_ = false;
   bool unrest_ = false;  ///< the object moved in that it did not come to rest
   FingerMargins margins_;
+  std::map<FingerIndex, double> slopes_;  ///< largest tangential over normal force of each
   std::optional<std::string> lost_, slipped_, object_moved_;  ///< the phase it was seen in first
   FingerIndex lost_finger_, slipped_finger_;
 };

@@ -16,6 +16,13 @@ START = "models/cube.start.json"
 GOAL = "models/cube.goal.json"
 
 
+def soft_pair(axis):
+    """Two opposite points of the cube."""
+    points = np.zeros((2, 3))
+    points[:, axis] = -0.03, 0.03
+    return points
+
+
 class PlansTest(RegraspCase):
 
     @classmethod
@@ -58,16 +65,37 @@ class PlansTest(RegraspCase):
             self.assertEqual(plan.text, self.plan.text)
 
     def test_two_soft_fingers_take_over_from_two(self):
-        def pair(axis):
-            points = np.zeros((2, 3))
-            points[:, axis] = -0.03, 0.03
-            return points
-        plan = regrasp.plan(self.cube, pair(0), pair(1), mu=0.5, torsion=0.01)
+        plan = regrasp.plan(self.cube, soft_pair(0), soft_pair(1), mu=0.5, torsion=0.01)
         self.assertEqual(plan.data["torsion"], 0.01)
         self.assertTrue(regrasp.validate(self.cube, plan).passed)
         self.assertFalse(regrasp.validate(self.cube, plan, torsion=0).passed)
-        self.refuses(["found 2"], regrasp.plan, self.cube, pair(0), pair(1), mu=0.5)
-        self.refuses(["torsion"], regrasp.plan, self.cube, pair(0), pair(1), mu=0.5, torsion=-1)
+        self.refuses(["found 2"], regrasp.plan, self.cube, soft_pair(0), soft_pair(1), mu=0.5)
+        self.refuses(["torsion"], regrasp.plan, self.cube, soft_pair(0), soft_pair(1), mu=0.5,
+                     torsion=-1)
+
+    def test_the_second_engine_replays_and_both_are_compared(self):
+        ode = regrasp.validate(self.cube, self.plan, engine="ode")
+        self.assertTrue(ode.passed)
+        self.assertEqual(ode.data["settings"]["engine"], "ode")
+        both = regrasp.validate(self.cube, self.plan, engine="both")
+        mujoco = regrasp.validate(self.cube, self.plan)
+        self.assertEqual(both.data["settings"]["engine"], "both")
+        self.assertNotIn("engines", mujoco.steps[0])
+        for step, by_mujoco, by_ode in zip(both.steps, mujoco.steps, ode.steps, strict=True):
+            self.assertIsNone(step["engines"]["cause"])
+            self.assertEqual(step["simulation"], by_mujoco["simulation"])
+            self.assertEqual(step["engines"]["ode"]["displacement_m"],
+                             by_ode["simulation"]["displacement_m"])
+            self.assertNotEqual(step["simulation"], by_ode["simulation"])
+
+    def test_an_engine_that_is_none_is_refused(self):
+        for wrong in ("dart", "", 1, ["ode"]):
+            self.refuses(["engine", "mujoco", "ode", "both"], regrasp.validate, self.cube, self.plan,
+                         engine=wrong)
+
+    def test_soft_fingers_are_not_replayed_by_the_second_engine(self):
+        plan = regrasp.plan(self.cube, soft_pair(0), soft_pair(1), mu=0.5, torsion=0.01)
+        self.refuses(["ODE", "soft"], regrasp.validate, self.cube, plan, engine="ode")
 
     def test_a_plan_goes_through_its_file(self):
         self.plan.write(self.path("mine.json"))

@@ -9,6 +9,7 @@
 #include "planner/base/random.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
+#include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
 namespace {
@@ -100,6 +101,43 @@ TEST(FingerFrictionTest, RandomGraspsInSpaceObeyTheLaws) {
     EXPECT_NEAR(critical[WeakestFinger(critical)].required, required->upper, 1e-5);
   }
   EXPECT_GT(checked, 10);
+}
+
+/// Of a random body and of one whose fingers are equal in pairs.
+Grasp SomeGrasp(RandomGrasps& random, int trial, int dimension) {
+  const int count = 2 + trial % 4;
+  if (trial % 3 != 0) return random.OnBall(count, dimension);
+  Grasp grasp = random.OnBall(count, dimension, 0);
+  const std::size_t drawn = grasp.size();
+  for (std::size_t i = 0; i < drawn; ++i) grasp.push_back({-grasp[i].p, -grasp[i].n});
+  return grasp;
+}
+
+TEST(FingerFrictionTest, TheWeakestFingerAloneIsThatOfAllToTheLastBit) {
+  RandomGrasps random(6);
+  int found = 0, not_needed = 0, none = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int dimension = 2 + trial % 2;
+    const Grasp grasp = SomeGrasp(random, trial, dimension);
+    const double half_angle = random.Uniform(Radians(10), Radians(60));
+    const auto all = MeasureFingerFriction(grasp, UnitFrame(dimension), half_angle);
+    const auto alone = FindWeakestFinger(grasp, UnitFrame(dimension), half_angle);
+    ASSERT_EQ(all.empty(), !alone.has_value()) << trial;
+    if (!alone) {
+      ++none;
+      continue;
+    }
+    const FingerFriction& expected = all[alone->finger];
+    EXPECT_EQ(alone->finger, WeakestFinger(all)) << trial;
+    EXPECT_EQ(alone->friction.required, expected.required) << trial;
+    EXPECT_EQ(alone->friction.needed, expected.needed) << trial;
+    EXPECT_EQ(alone->friction.without, expected.without) << trial;
+    ++found;
+    not_needed += expected.needed ? 0 : 1;
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_GT(not_needed, 10);
+  EXPECT_GT(none, 20);
 }
 
 }  // namespace

@@ -73,5 +73,25 @@ TEST(AreSameGrasp, PairsContactsThatFitSeveralSoThatAllArePaired) {
   EXPECT_FALSE(AreSameGrasp(row, {at(1), at(2), at(3), at(5)}, kTolerance));
 }
 
+TEST(AreIdentical, OnlyTheSameFingersInTheSameOrderWithTheSameBits) {
+  const FingerGrasp grasp = {{FingerIndex(2), At(0)}, {FingerIndex(1), At(1)}};
+  EXPECT_TRUE(AreIdentical(grasp, grasp));
+  EXPECT_TRUE(AreIdentical({}, {}));
+  EXPECT_FALSE(AreIdentical(grasp, {grasp[0]}));
+  EXPECT_FALSE(AreIdentical(grasp, {grasp[1], grasp[0]}));
+  const auto changed = [&grasp](const auto& change) {
+    FingerGrasp other = grasp;
+    change(other[1]);
+    return other;
+  };
+  for (const FingerGrasp& other :
+       {changed([](FingerContact& held) { held.finger = FingerIndex(0); }),
+        changed([](FingerContact& held) { held.contact.p.x() = std::nextafter(1, 2); }),
+        changed([](FingerContact& held) { held.contact.n.x() += 1e-16; }),
+        changed([](FingerContact& held) { held.contact.torsion = 0.1; })}) {
+    EXPECT_FALSE(AreIdentical(grasp, other));
+  }
+}
+
 }  // namespace
 }  // namespace regrasp::plan

@@ -20,7 +20,7 @@ Report MakeReport() {
   for (int index : {0, 1}) {
     ReportStep& step = report.steps.emplace_back();
     step.check.index = plan::EntryIndex(index);
-    step.needs = {{FingerIndex(3), {Radians(12), true, std::nullopt}}};
+    step.weakest_finger = {FingerIndex(3), {Radians(12), true, std::nullopt}};
     step.replay.emplace();
     step.replay->adapted = sim::StepMotion();
     step.replay->rest_margins = {{FingerIndex(2), Radians(4.5)}};

@@ -138,5 +138,25 @@ TEST(MotionMonitorTest, TheSmallestConeMarginOfEveryFingerThatPressesStays) {
   EXPECT_TRUE(monitor.margins().empty());
 }
 
+TEST(MotionMonitorTest, MarginsAreTheLeastOfAllForcesToTheLastBit) {
+  ReplaySettings settings = UnitSettings();
+  settings.mu = 0.5;
+  settings.squeeze_N = 1;
+  MotionMonitor monitor(settings);
+  const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, 3).normalized();
+  const Eigen::Vector3d tangent = normal.unitOrthogonal();
+  FingerMargins expected;
+  for (int i = 0; i < 1000; ++i) {
+    const FingerIndex finger(i % 3);
+    // Swings that grow and fade, and in the end repeat nearly the same force.
+    const double slope = i < 900 ? 0.5 * std::sin(0.01 * i) * std::cos(0.37 * i) : 0.3 + 1e-15 * i;
+    const double twist = finger == FingerIndex(2) ? 0.05 * std::abs(slope) : 0;
+    const Eigen::Vector3d force = (2 + std::sin(i)) * (normal + slope * tangent);
+    monitor.AddForce(finger, force, normal, twist);
+    AddMargin(finger, ConeMargin(force, normal, std::atan(settings.mu), twist), expected);
+  }
+  EXPECT_EQ(monitor.margins(), expected);
+}
+
 }  // namespace
 }  // namespace regrasp::sim
