@@ -326,26 +326,37 @@ TEST(FindGaitTest, AGivenGraspFindsAPoseWhereFingersReachIt) {
   EXPECT_NE(found.gait->start.pose.matrix(), turned.gait->start.pose.matrix());
 }
 
+/// A pose, three fingers that hold there, and these with a fourth one.
+struct ThreeAndFour {
+  GaitRequest request;
+  grasp::Grasp three;
+  grasp::Grasp four;
+};
+
+ThreeAndFour FindThreeAndFour() {
+  ThreeAndFour found{RequestFor("cube", 0.8, 0), {}, {}};
+  GaitRequest turn = RequestFor("cube", 0.8, 150);
+  for (turn.seed = 1; turn.seed < 20; ++turn.seed) {
+    const GaitResult turned = FindGait(turn);
+    EXPECT_TRUE(turned.gait) << turned.message;
+    if (!turned.gait) break;
+    const std::vector<Stretch>& stretches = turned.gait->stretches;
+    // Some need no finger to be placed.
+    const auto place = std::ranges::find(stretches, Stretch::Kind::kPlace, &Stretch::kind);
+    if (place == stretches.end()) continue;
+    found.request.start_pose = found.request.goal_pose = place->path.back().pose;
+    found.three = GraspBefore(turned, place - stretches.begin());
+    found.four = found.three;
+    found.four.push_back(turned.contacts[place->contact]);
+    break;
+  }
+  return found;
+}
+
 /// Four fingers, then three of them, then four again: a finger leaves alone and comes alone.
 TEST(FindGaitTest, GraspsMayHaveMoreFingersBeforeOrAfter) {
-  // Some need no finger to be placed.
-  GaitResult turned;
-  GaitRequest turn = RequestFor("cube", 0.8, 150);
-  const auto first_place = [&] {
-    return std::ranges::find(turned.gait->stretches, Stretch::Kind::kPlace, &Stretch::kind);
-  };
-  for (turn.seed = 1; turn.seed < 20; ++turn.seed) {
-    turned = FindGait(turn);
-    ASSERT_TRUE(turned.gait) << turned.message;
-    if (first_place() != turned.gait->stretches.end()) break;
-  }
-  const auto place = first_place();
-  ASSERT_NE(place, turned.gait->stretches.end());
-  GaitRequest request = RequestFor("cube", 0.8, 0);
-  request.start_pose = request.goal_pose = place->path.back().pose;
-  grasp::Grasp three = GraspBefore(turned, place - turned.gait->stretches.begin());
-  grasp::Grasp four = three;
-  four.push_back(turned.contacts[place->contact]);
+  auto [request, three, four] = FindThreeAndFour();
+  ASSERT_EQ(four.size(), 4U);
   for (const bool leaves : {true, false}) {
     request.start_grasp = leaves ? four : three;
     request.goal_grasp = leaves ? three : four;
@@ -357,6 +368,27 @@ TEST(FindGaitTest, GraspsMayHaveMoreFingersBeforeOrAfter) {
     EXPECT_EQ(plan.initial.size(), request.start_grasp.size());
     EXPECT_EQ(plan.goal.size(), request.goal_grasp.size());
   }
+}
+
+/// Two fingertips balance no third one that slides, and where the hand is asked none does.
+TEST(FindGaitTest, WhereTheHandIsAskedAFingerSlidesBesideThreeOthersOnly) {
+  const ThreeAndFour hold = FindThreeAndFour();
+  ASSERT_EQ(hold.four.size(), 4U);
+  const auto slides = [&](const grasp::Grasp& start, bool is_asked) {
+    GaitRequest request = hold.request;
+    request.start_grasp = request.goal_grasp = start;
+    request.goal_grasp[0].p += 0.0015 * start[0].n.unitOrthogonal();
+    request.most_expanded = 60;
+    if (is_asked) {
+      request.carry_out = [](const plan::Plan&) { return planning::CarriedOut{}; };
+    }
+    const GaitResult found = FindGait(request);
+    return found.gait && std::ranges::count(found.gait->stretches, Stretch::Kind::kSlide,
+                                            &Stretch::kind) > 0;
+  };
+  EXPECT_TRUE(slides(hold.three, false));
+  EXPECT_FALSE(slides(hold.three, true));
+  EXPECT_TRUE(slides(hold.four, true));
 }
 
 /// No hand is as long as that.
