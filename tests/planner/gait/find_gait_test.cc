@@ -383,8 +383,8 @@ TEST(FindGaitTest, WhereTheHandIsAskedAFingerSlidesBesideThreeOthersOnly) {
       request.carry_out = [](const plan::Plan&) { return planning::CarriedOut{}; };
     }
     const GaitResult found = FindGait(request);
-    return found.gait && std::ranges::count(found.gait->stretches, Stretch::Kind::kSlide,
-                                            &Stretch::kind) > 0;
+    return found.gait &&
+           std::ranges::count(found.gait->stretches, Stretch::Kind::kSlide, &Stretch::kind) > 0;
   };
   EXPECT_TRUE(slides(hold.three, false));
   EXPECT_FALSE(slides(hold.three, true));
