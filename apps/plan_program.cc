@@ -99,7 +99,8 @@ void PlanProgram::AddSearch(CLI::App& app) {
       "the default), margin (the weakest grasp's margin, with two steps more at most), travel (the "
       "fewest found, then the least travel of the fingers); with the planner contour regions "
       "(every switch where the smaller of its two grasps' contact regions is largest; default: "
-      "well inside both sets)");
+      "well inside both sets); with --hand margin (of the plans found that the hand's motors carry "
+      "out the one with the largest share of the replay's limits to spare; default: the first)");
   AddInteger(
       app, "--effort", effort, std::int64_t{1}, kMostEffort,
       "When to give up; the planner general after so many force-closure tests, each of some "

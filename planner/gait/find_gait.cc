@@ -229,6 +229,7 @@ GaitResult FindGait(const GaitRequest& request) {
   result.gait = std::move(tried.found.gait);
   result.message = std::move(tried.found.message);
   result.is_carried_out = tried.is_carried_out;
+  result.spare = tried.spare;
   return result;
 }
 

@@ -29,6 +29,9 @@ struct GaitRequest : planning::InHandTask {
   grasp::Grasp goal_grasp;   ///< the same
   std::uint64_t seed = 0;
   std::int64_t most_expanded = kDefaultExpanded;
+  /// Of the gaits with reserve that are found and carried out the one with most to spare
+  /// (planning::CarriedOut::spare), instead of the first; where plans are tried.
+  bool seeks_most_spare = false;
   Deadline deadline = {};
   planning::Progress progress = [](std::string_view) {};
 };
@@ -36,6 +39,7 @@ struct GaitRequest : planning::InHandTask {
 struct GaitResult {
   std::optional<Gait> gait;
   std::optional<bool> is_carried_out;    ///< as the request's test has it; none: it was not asked
+  double spare = 0;                      ///< of one that is: planning::CarriedOut::spare
   std::vector<grasp::Contact> contacts;  ///< by the numbers that the gait has, the object's units
   std::string message;                   ///< where there is none: what stopped it, counted
 };

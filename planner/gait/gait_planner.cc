@@ -1,9 +1,12 @@
 #include "planner/gait/gait_planner.h"
 
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/gait/explain_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/planning/rest_summary.h"
@@ -31,6 +34,7 @@ GaitRequest RequestFor(const PlanRequest& asked) {
   request.goal_grasp = asked.goal.grasp;
   request.seed = asked.seed;
   request.most_expanded = asked.effort.value_or(kDefaultExpanded);
+  request.seeks_most_spare = asked.objective == planning::Objective::kMargin;
   request.deadline = asked.deadline;
   request.progress = asked.progress;
   return request;
@@ -54,12 +58,17 @@ GaitPlanner::GaitPlanner()
                .in_space = planning::PlannerScope{kFewestFingers,
                                                   {kFewestFingers, kMostFingers},
                                                   {kFewestFingers, kFewestFingers}},
-               .options = {PlanOption::kHand, PlanOption::kEffort, PlanOption::kExplain},
+               .options = {PlanOption::kMargin, PlanOption::kHand, PlanOption::kEffort,
+                           PlanOption::kExplain},
                .has_graph = false,
                .needs_hand = true}) {}
 
 PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   GaitRequest request = RequestFor(asked);
+  if (request.seeks_most_spare && (!request.carry_out || request.reserve == Reserve::kNone)) {
+    throw InputError(OptionName(PlanOption::kMargin) +
+                     ": goes with plans that the hand tries, and none is tried without reserve");
+  }
   const auto time = request.deadline.left();
   const GaitResult found = FindGait(request);
   PlanResult result;
@@ -75,7 +84,9 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   }
   result.plan = PlanOf(*found.gait, request, found.contacts);
   if (found.is_carried_out.value_or(false)) {
-    result.notes.emplace_back("the hand's own motors carry it out in a simulation");
+    result.notes.push_back("the hand's own motors carry it out in a simulation, with " +
+                           FormatShort(std::floor(100 * found.spare)) +
+                           " % of the replay's limits to spare at its closest");
   } else if (found.is_carried_out) {
     result.warnings.emplace_back(
         "the hand's own motors do not carry it out in a simulation; validate --hand says what "

@@ -122,6 +122,7 @@ TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Co
   const Deadline before_without =
       is_required ? request.deadline : request.deadline.After(kTimeBeforeWithout);
   FoundGait best;
+  TriedGait widest;
   bool has_found = false;
   for (const Look& look : LooksFor(request)) {
     if (look.is_again && !has_found) continue;
@@ -135,13 +136,20 @@ TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Co
     if (has_found) {
       const auto carried = Try(*found.gait, request, contacts);
       if (!carried) return FindAsIfNotAsked(request, find);
-      if (carried->is_whole) return {std::move(found), true};
+      if (carried->is_whole) {
+        if (!widest.is_carried_out || carried->spare > widest.spare) {
+          widest = {std::move(found), true, carried->spare};
+        }
+        if (!request.seeks_most_spare || before_without.IsOver()) return widest;
+        continue;
+      }
     }
     if (!best.gait && (found.gait || best.message.empty() || !look.is_whole)) {
       best = std::move(found);
     }
     if (before_without.IsOver()) break;
   }
+  if (widest.is_carried_out) return widest;
   if (is_required) {
     if (!best.gait) return {std::move(best)};
     return {{std::nullopt,
@@ -151,7 +159,7 @@ TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Co
   if (without.gait) {
     const auto carried = Try(*without.gait, request, contacts);
     if (!carried) return FindAsIfNotAsked(request, find);
-    if (carried->is_whole) return {std::move(without), true};
+    if (carried->is_whole) return {std::move(without), true, carried->spare};
   }
   FoundGait& chosen = best.gait ? best : without;
   if (!chosen.gait) return {std::move(chosen)};

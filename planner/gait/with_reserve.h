@@ -39,11 +39,14 @@ using FindOne = std::function<FoundGait(const GaitRequest& asked, std::span<cons
 struct TriedGait {
   FoundGait found;
   std::optional<bool> is_carried_out = {};
+  double spare = 0;  ///< of one that is: planning::CarriedOut::spare
 };
 
 /// Looks for gaits with reserve until the hand carries one out (planning::InHandTask::carry_out),
 /// with more or less to spare by turns, and again, as each time draws others; where there is none,
-/// for one without. Where the hand can't tell, as if it were not asked.
+/// for one without. Where the hand can't tell, as if it were not asked. Where the request seeks the
+/// most to spare, it goes on all the same, and the gait with most is taken, the first of equal
+/// ones.
 /// @param contacts  of gaits, by their numbers.
 /// @returns no gait that is not carried out where the request's reserve is required.
 [[nodiscard]] TriedGait FindCarriedOut(const GaitRequest& request,

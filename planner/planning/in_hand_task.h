@@ -37,6 +37,7 @@ struct CarriedOut {
   bool is_held = false;   ///< the start grasp, before the first step
   int steps = 0;          ///< that pass before one fails, or all
   bool is_whole = false;  ///< the plan's last rest is come to
+  double spare = 0;       ///< of a whole one: the least share of a limit that is left, all along
 };
 
 /// What is asked of a hand beside start and goal grasps: that the object turns, or goes to a pose.

@@ -155,7 +155,8 @@ def plan(object: Object, start: GivenGrasp, goal: GivenGrasp, mu: float | None =
         mu: friction coefficient, or
         friction_angle_deg: the half-angle of the friction cones in degrees.
         planner: "auto", or the name of a planner as on the command line.
-        optimize: "steps", "margin", "travel", or "regions" in the plane.
+        optimize: "steps", "margin", "travel", or "regions" in the plane; with a hand "margin": of
+            the plans that its motors carry out the one with most to spare.
         contacts: contact points of the planner "roadmap"; None: as many as it likes.
         clusters: that it sorts them into.
         seed: of all that is drawn at random.

@@ -12,6 +12,24 @@
 namespace regrasp::sim {
 namespace {
 
+/// The least share that a step leaves of what is allowed. Shakes are left out, and torques: the
+/// squeeze is chosen by their limits.
+double SpareOf(const HandMeasures& measures, const HandTolerance& tolerance) {
+  const double at_rest = tolerance.at_rest;
+  return 1 - std::max({measures.off_m / tolerance.length_m, measures.off_rad / tolerance.angle_rad,
+                       measures.rest_off_m / (at_rest * tolerance.length_m),
+                       measures.rest_off_rad / (at_rest * tolerance.angle_rad),
+                       measures.slip_m / tolerance.slip_m});
+}
+
+double SpareOf(const ReplayResult& result) {
+  double least = 1;
+  for (const StepReplay& step : result.steps) {
+    least = std::min(least, SpareOf(*step.hand, HandReplayOptions().tolerance));
+  }
+  return std::max(0.0, least);
+}
+
 /// Of plans for one scale at a time.
 struct Replays {
   kinematics::HandFile file;
@@ -41,7 +59,8 @@ std::function<std::optional<planning::CarriedOut>(const plan::Plan&)> CarryOutTe
       const bool is_whole = result.steps.back().reason == plan::Reason::kNone;
       // The first entry is the start grasp.
       const int passed = static_cast<int>(result.steps.size()) - (is_whole ? 0 : 1);
-      return planning::CarriedOut{passed > 0, std::max(0, passed - 1), is_whole};
+      return planning::CarriedOut{passed > 0, std::max(0, passed - 1), is_whole,
+                                  is_whole ? SpareOf(result) : 0};
     } catch (const InputError&) {
       return std::nullopt;
     }

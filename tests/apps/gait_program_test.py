@@ -455,8 +455,10 @@ class Gait(ProgramCase):
                 ("says what is before it", ("--goal", "goal.json")),
                 ("--hand: the planner general has no such option; use --planner gait",
                  ("--turn", "z 90", "--planner", "general")),
-                ("no planner has all of --optimize margin (general) --hand (gait)",
-                 ("--turn", "z 90", "--optimize", "margin"))):
+                ("no planner has all of --optimize travel (general) --hand (gait)",
+                 ("--turn", "z 90", "--optimize", "travel")),
+                ("--optimize margin: goes with plans that the hand tries",
+                 ("--turn", "z 90", "--optimize", "margin", "--reserve", "none"))):
             self.assert_refused(2, words, *self.arguments(*more))
         self.assert_refused(2, "plans for a hand, and none is given (--hand)", "--object",
                             self.model("cube.obj"), "--mu", "0.5", "--output", "plan.json",

@@ -182,6 +182,39 @@ TEST(WithReserveTest, WhereMovesFailHalfWayFingersAreSwitchedSooner) {
   EXPECT_GT(most, kMostTurn);
 }
 
+/// What a made-up hand has to spare depends on how many steps a plan has.
+TEST(WithReserveTest, OfTheGaitsThatAreCarriedOutTheOneWithMostToSpareIsFoundWhereThatIsSought) {
+  GaitRequest request = RequestFor("cube", 0.8, 120);
+  std::vector<std::string> plans;
+  const auto spare = [](const plan::Plan& plan) {
+    return 1.0 / static_cast<double>(2 + (7 * plan.steps.size()) % 5);
+  };
+  double most = 0;
+  request.carry_out = [&](const plan::Plan& plan) {
+    const int steps = static_cast<int>(plan.steps.size());
+    plans.push_back(plan::FormatPlan(plan));
+    most = std::max(most, spare(plan));
+    return std::optional(planning::CarriedOut{true, steps, true, spare(plan)});
+  };
+  const auto find = [&] {
+    plans.clear();
+    most = 0;
+    const GaitResult found = FindGait(request);
+    EXPECT_TRUE(found.gait) << found.message;
+    EXPECT_EQ(found.is_carried_out, true);
+    const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
+    EXPECT_EQ(found.spare, spare(plan));
+    return plan;
+  };
+  const plan::Plan first = find();
+  EXPECT_EQ(plan::FormatPlan(first), plans.back());
+  request.seeks_most_spare = true;
+  const plan::Plan best = find();
+  EXPECT_GT(plans.size(), 1U);
+  EXPECT_NE(plan::FormatPlan(best), plans.back());
+  EXPECT_EQ(spare(best), most);
+}
+
 TEST(WithReserveTest, NothingIsTriedTwice) {
   GaitRequest request = RequestFor("cube", 0.8, 120);
   MadeUpHand hand{.carries_out = [](const plan::Plan&, std::size_t) { return false; }};

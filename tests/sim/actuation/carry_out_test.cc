@@ -56,6 +56,24 @@ TEST_F(CarryOutTestTest, PlansThatThePlannerTriedAreCarriedOutAndWithLittleFrict
   EXPECT_LT(slipped->steps, std::ssize(found.plan->steps));
 }
 
+TEST_F(CarryOutTestTest, ThePlanWithTheLargestMarginHasAtLeastThatOfTheFirst) {
+  planning::PlanRequest request = Turning(90);
+  const auto carry_out = CarryOutTest(hand_, cube_);
+  const auto spare = [&] {
+    const planning::PlanResult found = planning::Solve(planner_, request);
+    EXPECT_TRUE(found.plan) << found.message;
+    const auto carried = carry_out(*found.plan);
+    EXPECT_TRUE(carried && carried->is_whole);
+    return carried->spare;
+  };
+  const double first = spare();
+  request.objective = planning::Objective::kMargin;
+  const double most = spare();
+  EXPECT_GT(first, 0);
+  EXPECT_GT(most, first);
+  EXPECT_LT(most, 1);
+}
+
 TEST_F(CarryOutTestTest, OfAHandWithoutActuatorsItCanNotTell) {
   std::string model = ReadFile(ProjectPath("models/hands/ring5.xml"));
   const std::string end = "</actuator>";
