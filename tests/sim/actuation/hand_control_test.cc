@@ -49,12 +49,12 @@ TEST_F(HeldInHand, AShakePushesAndTwists) {
   EXPECT_EQ(shaken(0).reason, plan::Reason::kNone);
   EXPECT_EQ(shaken(0.03).reason, plan::Reason::kNone);
   // Servos give way to a twist first, and then to a push too, which comes before it.
-  const StepReplay twisted = shaken(0.07);
+  const StepReplay twisted = shaken(0.1);
   EXPECT_EQ(twisted.reason, plan::Reason::kObjectMoved);
   ASSERT_TRUE(twisted.fault.push);
   EXPECT_TRUE(twisted.fault.push->force_N.isZero());
   EXPECT_FALSE(twisted.fault.push->torque_Nm.isZero());
-  const StepReplay pushed = shaken(0.15);
+  const StepReplay pushed = shaken(0.3);
   EXPECT_EQ(pushed.reason, plan::Reason::kObjectMoved);
   ASSERT_TRUE(pushed.fault.push);
   EXPECT_FALSE(pushed.fault.push->force_N.isZero());
