@@ -20,6 +20,7 @@ TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTh
   const double usual = squeeze(1);
   EXPECT_GT(usual, 0);
   EXPECT_LT(2 * usual, kMost);
+  // Ten halvings leave a thousandth of the most: once of the one, twice of the other.
   EXPECT_NEAR(squeeze(2), 2 * usual, 3e-3 * kMost);
   EXPECT_EQ(squeeze(1e6), kMost);
 }
