@@ -9,6 +9,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <span>
 
 #include "apps/colour.h"
 #include "apps/help.h"
@@ -51,22 +52,46 @@ int FlushResults(const std::string& program, int exit_code) {
 /// What the build makes manual pages and completions with.
 constexpr char kHelpAs[] = "--help-as";
 
+/// Not a negative number.
+bool IsOption(std::string_view word) {
+  return word.starts_with("-") && word.size() > 1 &&
+         (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
+}
+
+/// @param words  all that follows an option up to the next one.
+/// @throws InputError  its value has several words, which are no single argument.
+void CheckQuoted(const OptionHelp& option, std::span<const char* const> words) {
+  if (!option.type.starts_with('"') || words.size() < 2) return;
+  std::string value;
+  for (const char* word : words) value += (value.empty() ? "" : " ") + std::string(word);
+  throw InputError(option.name + ": its words are one argument, in quotes: " + option.name + " \"" +
+                   value + "\"");
+}
+
 /// What is mistyped is told before what is missing.
-/// @throws InputError  there is no such option.
+/// @throws InputError  there is no such option, or its words are not in quotes.
 void CheckKnown(const CLI::App& app, int argc, const char* const* argv) {
+  std::vector<OptionHelp> options;
   std::vector<std::string> names;
   for (const HelpGroup& group : HelpGroups(app)) {
-    for (const OptionHelp& option : group.options) names.push_back(option.name);
+    for (const OptionHelp& option : group.options) {
+      options.push_back(option);
+      names.push_back(option.name);
+    }
   }
+  const std::span<const char* const> words(argv, argc);
   for (int i = 1; i < argc; ++i) {
     const std::string given = argv[i];
     if (given == "--") return;
     const std::string name = given.substr(0, given.find('='));
-    const bool is_option =
-        name.starts_with("-") && name.size() > 1 &&
-        (name[1] == '-' || std::isalpha(static_cast<unsigned char>(name[1])) != 0);
-    if (!is_option || name == "-h" || name == kHelpAs) continue;
-    if (std::ranges::find(names, name) != names.end()) continue;
+    if (!IsOption(name) || name == "-h" || name == kHelpAs) continue;
+    const auto known = std::ranges::find(options, name, &OptionHelp::name);
+    if (known != options.end()) {
+      const auto rest = words.subspan(i + 1);
+      const auto next = std::ranges::find_if(rest, IsOption) - rest.begin();
+      if (name == given) CheckQuoted(*known, rest.first(next));
+      continue;
+    }
     // "-object" is taken for "--object".
     const std::string meant = name[1] == '-' ? name : "-" + name;
     throw InputError("unknown option " + name + DidYouMean(meant, names) + " (" + app.get_name() +

@@ -94,6 +94,17 @@ class Help(ProgramCase):
             self.program = program
             self.assert_refused(2, words, *more)
 
+    def test_words_without_quotes_are_told_with_them(self):
+        hand = ["--hand", "no.json", "--object", "no.obj", "--mu", "0.8", "--output", "plan.json"]
+        for typed, right in ((["--turn", "z", "90"], '--turn "z 90"'),
+                             (["--goal-pose", "0", "0", "-0.1", "1", "0", "0", "0"],
+                              '--goal-pose "0 0 -0.1 1 0 0 0"')):
+            self.program = "plan"
+            self.assert_refused(2, f"{typed[0]}: its words are one argument, in quotes: {right}",
+                                *hand[:2], *typed, *hand[2:])
+            # In quotes they are taken: what is wrong then is the file.
+            self.assert_refused(2, "no.json: no such file", *hand, typed[0], " ".join(typed[1:]))
+
     def test_completions_have_every_option(self):
         for program in PROGRAMS:
             options = options_in(self.help(program))
