@@ -26,6 +26,9 @@ HandTolerance AnyTolerance() {
           .limit_s = kAnything};
 }
 
+/// Of what was measured: more than it changes by where the replay ends sooner.
+constexpr double kAHundredth = 0.01;
+
 class HandJudgeTest : public HeldInHand {
  protected:
   /// The last entry that is replayed, without a shake.
@@ -43,9 +46,9 @@ class HandJudgeTest : public HeldInHand {
     ASSERT_GT(measured, 0);
     HandTolerance tolerance = AnyTolerance();
     if (allowed == &HandTolerance::at_rest) tolerance.angle_rad = 1;
-    tolerance.*allowed = 1.01 * measured;
+    tolerance.*allowed = (1 + kAHundredth) * measured;
     EXPECT_EQ(Replay(tolerance).reason, Reason::kNone);
-    tolerance.*allowed = 0.99 * measured;
+    tolerance.*allowed = (1 - kAHundredth) * measured;
     EXPECT_EQ(Replay(tolerance).reason, reason);
   }
 };
