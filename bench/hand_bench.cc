@@ -112,8 +112,8 @@ void Replay(const Contest& contest, const kinematics::HandFile& file, const Hand
   if (contest.of_critical) {
     // Of a plan that fails anyway a failure says nothing.
     if (trial.fault) return;
-    trial = bench::TryInHand(file, body, plan,
-                             *contest.of_critical * trial.critical_friction / kFriction);
+    const double critical = bench::CriticalFriction(trial, file.hand, body);
+    trial = bench::TryInHand(file, body, plan, *contest.of_critical * critical / kFriction);
   }
   replays.seconds += ProcessorSeconds() - begin;
   ++replays.count;
@@ -304,9 +304,10 @@ int main(int argc, char** argv) {
   app.add_option("--plan-mu", contest.plan_mu,
                  "Friction that is planned with, of 0.8 that there is");
   app.add_option("--min-quality", contest.min_quality, "Of the grasps of plans");
-  app.add_option("--of-critical", contest.of_critical,
-                 "Friction in replays of plans that pass, over what their weakest rest needs, with "
-                 "contacts where they have rolled to (default: 0.8)");
+  app.add_option(
+      "--of-critical", contest.of_critical,
+      "Friction in replays of plans that pass, over what the weight and the shakes need at "
+      "their weakest rest, with contacts where they have rolled to (default: 0.8)");
   app.add_option("--body", only, "Only the bodies that are named so");
   app.add_option("hands", hands, "Hand files")->required();
   CLI11_PARSE(app, argc, argv);

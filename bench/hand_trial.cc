@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "planner/grasp/required_half_angle.h"
+#include "bench/least_friction.h"
 #include "planner/object/body_measures.h"
 #include "planner/plan/check.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/hand/check_hand.h"
+#include "sim/measure/push.h"
+#include "sim/scene/scaling.h"
 
 namespace regrasp::bench {
 namespace {
@@ -17,17 +18,18 @@ TrialFault FaultOf(plan::Reason reason, plan::EntryIndex entry, const std::strin
   return {reason, "step " + std::to_string(entry) + ": " + detail};
 }
 
-/// That the contacts need which press on the object.
-double CriticalFriction(const sim::HandWorld& world, const HandBody& body, double scale) {
-  grasp::Grasp grasp;
+/// Of the tips that press on the object.
+grasp::Grasp ContactsNow(const sim::HandWorld& world, double scale) {
+  grasp::Grasp contacts;
   for (FingerIndex finger{0}; finger < std::ssize(world.hand().fingers); ++finger) {
     const sim::TipTouch touch = world.touch(finger);
-    if (touch.force.isZero(0)) continue;
-    grasp.push_back({touch.point_O / scale, touch.inward_O, {}});
+    if (!touch.force.isZero(0)) contacts.push_back({touch.point_O / scale, touch.inward_O, {}});
   }
-  const auto required = grasp::ComputeRequiredHalfAngle(grasp, body.solid().wrench_frame());
-  return required ? std::tan(required->upper) : std::numeric_limits<double>::infinity();
+  return contacts;
 }
+
+/// What fingers push with in all over the squeeze that they are asked for, never that much.
+constexpr double kHardest = 4;
 
 }  // namespace
 
@@ -53,12 +55,12 @@ HandTrial TryInHand(const kinematics::HandFile& hand, const HandBody& body, cons
   sim::HandReplayObserver observer;
   observer.on_rest = [&](const sim::HandWorld& world, plan::EntryIndex entry) {
     if (entry == end) trial.end = world.object_pose();
-    trial.critical_friction =
-        std::max(trial.critical_friction, CriticalFriction(world, body, plan.scale));
+    trial.rests.push_back({ContactsNow(world, plan.scale), world.object_pose().linear()});
   };
   const sim::ReplayResult replay =
       sim::ReplayHand(hand, body.solid(), plan::LocatePlan(body.solid(), plan), options, observer);
   for (const sim::StepReplay& step : replay.steps) trial.simulated_s += step.hand->simulated_s;
+  trial.squeeze_N = replay.settings.squeeze_N;
   const sim::StepReplay& last = replay.steps.back();
   if (last.reason != plan::Reason::kNone) {
     trial.fault = FaultOf(last.reason, last.index, last.detail);
@@ -68,6 +70,28 @@ HandTrial TryInHand(const kinematics::HandFile& hand, const HandBody& body, cons
     trial.off_rad = last.hand->rest_off_rad;
   }
   return trial;
+}
+
+double CriticalFriction(const HandTrial& trial, const kinematics::HandModel& hand,
+                        const HandBody& body) {
+  const object::WrenchFrame frame = body.solid().wrench_frame();
+  const double weight = object::MeasureBody(body.solid(), body.scale).mass_kg * sim::kGravity;
+  const double shake = sim::HandReplayOptions().shake * trial.squeeze_N;
+  // Pushes have their torque over half the diameter, loads over the frame's radius.
+  const double arm = body.solid().diameter() / 2 / frame.radius;
+  double critical = 0;
+  for (const HandTrial::Rest& rest : trial.rests) {
+    const Eigen::Matrix3d to_object = rest.turn.transpose();
+    std::vector<grasp::Wrench> loads;
+    for (const sim::Push& push : sim::PushDirections(3)) {
+      const grasp::Wrench wrench = sim::PushWrench(push, shake);
+      loads.push_back({to_object * (wrench.force - weight * hand.up),
+                       arm * (to_object * wrench.torque_over_radius)});
+    }
+    critical =
+        std::max(critical, LeastFriction(rest.contacts, frame, loads, kHardest * trial.squeeze_N));
+  }
+  return critical;
 }
 
 }  // namespace regrasp::bench

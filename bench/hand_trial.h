@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/hand_bodies.h"
+#include "planner/grasp/contact.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"
@@ -28,8 +30,13 @@ struct TrialFault {
 struct HandTrial {
   std::optional<TrialFault> fault;
   double simulated_s = 0;  ///< without the shakes
-  /// The least friction at which all rests are force closure, with contacts where they came to be.
-  double critical_friction = 0;
+  /// A rest, before it is shaken.
+  struct Rest {
+    grasp::Grasp contacts;  ///< where they came to be
+    Eigen::Matrix3d turn;   ///< of the body in the palm's frame
+  };
+  std::vector<Rest> rests;
+  double squeeze_N = 0;
   // At the last rest, before it is shaken; none where the replay does not come there.
   std::optional<Eigen::Isometry3d> end;  ///< of the body
   double off_m = 0;                      ///< from where the plan has it
@@ -40,5 +47,11 @@ struct HandTrial {
 /// @param friction_factor  the world's friction over the one that the hand believes.
 [[nodiscard]] HandTrial TryInHand(const kinematics::HandFile& hand, const HandBody& body,
                                   const plan::Plan& plan, double friction_factor = 1);
+
+/// The least friction with which the contacts of all rests of a trial could balance the weight and
+/// each push of the shake: with less the body can't stay there, whatever the hand does. Force
+/// closure may need more, where the weight keeps the body between the fingers.
+[[nodiscard]] double CriticalFriction(const HandTrial& trial, const kinematics::HandModel& hand,
+                                      const HandBody& body);
 
 }  // namespace regrasp::bench
