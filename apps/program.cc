@@ -59,8 +59,11 @@ bool IsOption(std::string_view word) {
 }
 
 /// @param words  all that follows an option up to the next one.
-/// @throws InputError  its value has several words, which are no single argument.
-void CheckQuoted(const OptionHelp& option, std::span<const char* const> words) {
+/// @throws InputError  it has no value, or one of several words that are no single argument.
+void CheckValue(const OptionHelp& option, std::span<const char* const> words) {
+  if (!option.type.empty() && words.empty()) {
+    throw InputError(option.name + ": its value is missing: " + option.name + " " + option.type);
+  }
   if (!option.type.starts_with('"') || words.size() < 2) return;
   std::string value;
   for (const char* word : words) value += (value.empty() ? "" : " ") + std::string(word);
@@ -69,8 +72,8 @@ void CheckQuoted(const OptionHelp& option, std::span<const char* const> words) {
 }
 
 /// What is mistyped is told before what is missing.
-/// @throws InputError  there is no such option, or its words are not in quotes.
-void CheckKnown(const CLI::App& app, int argc, const char* const* argv) {
+/// @throws InputError  there is no such option, or as CheckValue.
+void CheckOptions(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<OptionHelp> options;
   std::vector<std::string> names;
   for (const HelpGroup& group : HelpGroups(app)) {
@@ -89,7 +92,7 @@ void CheckKnown(const CLI::App& app, int argc, const char* const* argv) {
     if (known != options.end()) {
       const auto rest = words.subspan(i + 1);
       const auto next = std::ranges::find_if(rest, IsOption) - rest.begin();
-      if (name == given) CheckQuoted(*known, rest.first(next));
+      if (name == given) CheckValue(*known, rest.first(next));
       continue;
     }
     // "-object" is taken for "--object".
@@ -107,7 +110,7 @@ int Run(CLI::App& app, int argc, const char* const* argv, const std::function<in
   // What is said of the command line names the program as it was called.
   const std::string called = "regrasp " + app.get_name();
   if (argc > 0 && argv[0] == called) app.name(called);
-  CheckKnown(app, argc, argv);
+  CheckOptions(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

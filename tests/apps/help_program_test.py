@@ -105,6 +105,14 @@ class Help(ProgramCase):
             # In quotes they are taken: what is wrong then is the file.
             self.assert_refused(2, "no.json: no such file", *hand, typed[0], " ".join(typed[1:]))
 
+    def test_a_missing_value_is_told_and_not_taken_from_the_next_option(self):
+        rest = ["--object", "no.obj", "--mu", "0.3", "--output", "plan.json"]
+        self.program = "plan"
+        for words in (["--start", *rest], [*rest, "--start"]):
+            self.assert_refused(2, "--start: its value is missing: --start FILE|random", *words)
+        # What only begins like an option is a value.
+        self.assert_refused(2, "found \"-1\"", *rest[:2], "--mu", "-1", *rest[4:])
+
     def test_completions_have_every_option(self):
         for program in PROGRAMS:
             options = options_in(self.help(program))
