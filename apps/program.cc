@@ -52,7 +52,7 @@ int FlushResults(const std::string& program, int exit_code) {
 /// What the build makes manual pages and completions with.
 constexpr char kHelpAs[] = "--help-as";
 
-/// Not a negative number.
+/// Whether a word is an option: no negative number, and not "-", which is standard input or output.
 bool IsOption(std::string_view word) {
   return word.starts_with("-") && word.size() > 1 &&
          (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);

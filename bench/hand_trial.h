@@ -32,7 +32,7 @@ struct HandTrial {
   double simulated_s = 0;  ///< without the shakes
   /// A rest, before it is shaken.
   struct Rest {
-    grasp::Grasp contacts;  ///< where they came to be
+    grasp::Grasp contacts;  ///< where they came to be, in the unit of the body's file
     Eigen::Matrix3d turn;   ///< of the body in the palm's frame
   };
   std::vector<Rest> rests;

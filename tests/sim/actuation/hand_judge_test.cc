@@ -26,7 +26,7 @@ HandTolerance AnyTolerance() {
           .limit_s = kAnything};
 }
 
-/// Of what was measured: more than it changes by where the replay ends sooner.
+/// Of what was measured. Replays are the same until one of them ends: any share decides.
 constexpr double kAHundredth = 0.01;
 
 class HandJudgeTest : public HeldInHand {
