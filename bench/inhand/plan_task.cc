@@ -89,7 +89,7 @@ planning::PlanResult Solve(const kinematics::HandFile& hand, const HandBody& bod
     planning::PlanResult result = planning::Solve(gait::GaitPlanner(), request);
     bool is_carried_out = false;
     if (ways.size() > 1 && result.plan) {
-      const auto carried = ways[i].carry_out(*result.plan);
+      const auto carried = ways[i].carry_out(*result.plan, deadline);
       is_carried_out = carried && carried->is_whole;
     }
     if (is_carried_out || !found.plan) found = std::move(result);

@@ -144,12 +144,12 @@ CarryOut TrialOf(const HandSetup& setup, const GaitRequest& request,
     const Gait fewer = WithFewerMoves(setup, gait);
     request.progress("trying a plan on the hand's own motors");
     const plan::Plan plan = PlanOf(fewer, request, contacts);
-    const auto carried = request.carry_out(plan);
+    const auto carried = request.carry_out(plan, request.deadline);
     if (!carried) return {.is_whole = true};  // who asks finds out
-    const bool fails_in_move = carried->is_held && !carried->is_whole &&
+    const bool fails_in_move = carried->is_held && !carried->is_whole && !carried->is_cut_short &&
                                std::holds_alternative<plan::Move>(plan.steps[carried->steps]);
-    return {CountChanges(fewer, carried->steps), carried->is_held, fails_in_move,
-            carried->is_whole};
+    return {CountChanges(fewer, carried->steps), carried->is_held, fails_in_move, carried->is_whole,
+            carried->is_cut_short};
   };
 }
 
@@ -229,6 +229,7 @@ GaitResult FindGait(const GaitRequest& request) {
   result.gait = std::move(tried.found.gait);
   result.message = std::move(tried.found.message);
   result.is_carried_out = tried.is_carried_out;
+  result.is_cut_short = tried.is_cut_short;
   result.spare = tried.spare;
   return result;
 }

@@ -39,6 +39,7 @@ struct GaitRequest : planning::InHandTask {
 struct GaitResult {
   std::optional<Gait> gait;
   std::optional<bool> is_carried_out;    ///< as the request's test has it; none: it was not asked
+  bool is_cut_short = false;             ///< the time was up while it was tried
   double spare = 0;                      ///< of one that is: planning::CarriedOut::spare
   std::vector<grasp::Contact> contacts;  ///< by the numbers that the gait has, the object's units
   std::string message;                   ///< where there is none: what stopped it, counted

@@ -87,6 +87,11 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     result.notes.push_back("the hand's own motors carry it out in a simulation, with " +
                            FormatShort(std::floor(100 * found.spare)) +
                            " % of the replay's limits to spare at its closest");
+  } else if (found.is_cut_short) {
+    result.warnings.emplace_back(
+        "the time was up while the hand's own motors tried it in a simulation; validate --hand "
+        "says "
+        "whether they carry it out");
   } else if (found.is_carried_out) {
     result.warnings.emplace_back(
         "the hand's own motors do not carry it out in a simulation; validate --hand says what "

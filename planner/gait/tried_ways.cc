@@ -16,6 +16,7 @@ bool TriedWays::IsCarriedOut(int rest) {
 
 bool TriedWays::Try(int rest, const Gait& gait) {
   const CarriedGait carried = carry_out_(gait);
+  if (carried.is_cut_short) return false;  // which says nothing of the rest
   at_once_ = carried.is_whole ? std::min(2 * at_once_, kMostAtOnce)
                               : std::max(at_once_ / 2, kFewestAtOnce);
   if (carried.is_whole) {

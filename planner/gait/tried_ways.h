@@ -20,6 +20,7 @@ struct CarriedGait {
   bool is_held = true;         ///< before the first stretch
   bool fails_in_move = false;  ///< and in no change
   bool is_whole = false;       ///< none failed
+  bool is_cut_short = false;   ///< the time was up before one failed
 };
 /// Tries a gait, or the beginning of one.
 using CarryOut = std::function<CarriedGait(const Gait&)>;

@@ -52,9 +52,10 @@ void Bound(GaitRequest& asked, std::int64_t expanded, double share) {
 }
 
 std::optional<planning::CarriedOut> Try(const Gait& gait, const GaitRequest& request,
-                                        const std::vector<grasp::Contact>& contacts) {
+                                        const std::vector<grasp::Contact>& contacts,
+                                        const Deadline& deadline) {
   request.progress("trying a plan on the hand's own motors");
-  return request.carry_out(PlanOf(gait, request, contacts));
+  return request.carry_out(PlanOf(gait, request, contacts), deadline);
 }
 
 /// One look for a gait.
@@ -121,7 +122,7 @@ TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Co
   const bool is_required = request.reserve == Reserve::kRequired;
   const Deadline before_without =
       is_required ? request.deadline : request.deadline.After(kTimeBeforeWithout);
-  FoundGait best;
+  TriedGait best{{}, false};
   TriedGait widest;
   bool has_found = false;
   for (const Look& look : LooksFor(request)) {
@@ -133,8 +134,9 @@ TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Co
     Bound(asked, look.expanded, look.time);
     FoundGait found = find(asked, look.spares);
     has_found = found.gait.has_value();
+    bool is_cut_short = false;
     if (has_found) {
-      const auto carried = Try(*found.gait, request, contacts);
+      const auto carried = Try(*found.gait, request, contacts, before_without);
       if (!carried) return FindAsIfNotAsked(request, find);
       if (carried->is_whole) {
         if (!widest.is_carried_out || carried->spare > widest.spare) {
@@ -143,27 +145,30 @@ TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Co
         if (!request.seeks_most_spare || before_without.IsOver()) return widest;
         continue;
       }
+      is_cut_short = carried->is_cut_short;
     }
-    if (!best.gait && (found.gait || best.message.empty() || !look.is_whole)) {
-      best = std::move(found);
+    if (!best.found.gait && (found.gait || best.found.message.empty() || !look.is_whole)) {
+      best.found = std::move(found);
+      best.is_cut_short = is_cut_short;
     }
     if (before_without.IsOver()) break;
   }
   if (widest.is_carried_out) return widest;
   if (is_required) {
-    if (!best.gait) return {std::move(best)};
+    if (!best.found.gait) return {std::move(best.found)};
     return {{std::nullopt,
              "of the gaits with reserve that were found the hand's motors carry none out"}};
   }
-  FoundGait without = find(request, {});
-  if (without.gait) {
-    const auto carried = Try(*without.gait, request, contacts);
+  TriedGait without{find(request, {}), false};
+  if (without.found.gait) {
+    const auto carried = Try(*without.found.gait, request, contacts, request.deadline);
     if (!carried) return FindAsIfNotAsked(request, find);
-    if (carried->is_whole) return {std::move(without), true, carried->spare};
+    if (carried->is_whole) return {std::move(without.found), true, carried->spare};
+    without.is_cut_short = carried->is_cut_short;
   }
-  FoundGait& chosen = best.gait ? best : without;
-  if (!chosen.gait) return {std::move(chosen)};
-  return {std::move(chosen), false};
+  TriedGait& chosen = best.found.gait ? best : without;
+  if (!chosen.found.gait) return {std::move(chosen.found)};
+  return std::move(chosen);
 }
 
 }  // namespace regrasp::gait

@@ -39,7 +39,8 @@ using FindOne = std::function<FoundGait(const GaitRequest& asked, std::span<cons
 struct TriedGait {
   FoundGait found;
   std::optional<bool> is_carried_out = {};
-  double spare = 0;  ///< of one that is: planning::CarriedOut::spare
+  double spare = 0;           ///< of one that is: planning::CarriedOut::spare
+  bool is_cut_short = false;  ///< the time was up while it was tried
 };
 
 /// Looks for gaits with reserve until the hand carries one out (planning::InHandTask::carry_out),

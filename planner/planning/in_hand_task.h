@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/base/index.h"
 
 namespace regrasp::kinematics {
@@ -38,6 +39,7 @@ struct CarriedOut {
   int steps = 0;          ///< that pass before one fails, or all
   bool is_whole = false;  ///< the plan's last rest is come to
   double spare = 0;       ///< of a whole one: the least share of a limit that is left, all along
+  bool is_cut_short = false;  ///< the time was up before a step failed
 };
 
 /// What is asked of a hand beside start and goal grasps: that the object turns, or goes to a pose.
@@ -53,8 +55,8 @@ struct InHandTask {
   /// That hold the contacts of a given start grasp, in its order; none: whichever can.
   std::vector<FingerIndex> start_fingers = {};
   /// Where reserve is looked for: how far the hand carries a plan out, nullopt where that can't be
-  /// told (sim/actuation/carry_out.h). None: reserve is all that is asked for.
-  std::function<std::optional<CarriedOut>(const plan::Plan&)> carry_out = {};
+  /// told, until the deadline (sim/actuation/carry_out.h). None: reserve is all that is asked for.
+  std::function<std::optional<CarriedOut>(const plan::Plan&, const Deadline&)> carry_out = {};
 };
 
 }  // namespace regrasp::planning

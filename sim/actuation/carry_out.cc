@@ -50,17 +50,24 @@ struct Replays {
 
 }  // namespace
 
-std::function<std::optional<planning::CarriedOut>(const plan::Plan&)> CarryOutTest(
+std::function<std::optional<planning::CarriedOut>(const plan::Plan&, const Deadline&)> CarryOutTest(
     kinematics::HandFile file, const object::Polyhedron& solid) {
   const auto replays = std::make_shared<Replays>(Replays{std::move(file), solid});
-  return [replays, &solid](const plan::Plan& plan) -> std::optional<planning::CarriedOut> {
+  return [replays, &solid](const plan::Plan& plan,
+                           const Deadline& deadline) -> std::optional<planning::CarriedOut> {
     try {
-      const ReplayResult result = replays->At(plan.scale).Replay(plan::LocatePlan(solid, plan));
-      const bool is_whole = result.steps.back().reason == plan::Reason::kNone;
+      const ReplayResult result =
+          replays->At(plan.scale).Replay(plan::LocatePlan(solid, plan), deadline);
+      const bool fails = !result.steps.empty() && result.steps.back().reason != plan::Reason::kNone;
       // The first entry is the start grasp.
-      const int passed = static_cast<int>(result.steps.size()) - (is_whole ? 0 : 1);
-      return planning::CarriedOut{passed > 0, std::max(0, passed - 1), is_whole,
-                                  is_whole ? SpareOf(result) : 0};
+      const std::ptrdiff_t passed = std::ssize(result.steps) - (fails ? 1 : 0);
+      const bool is_whole = passed == std::ssize(plan.steps) + 1;
+      return planning::CarriedOut{
+          .is_held = passed > 0,
+          .steps = static_cast<int>(std::max<std::ptrdiff_t>(0, passed - 1)),
+          .is_whole = is_whole,
+          .spare = is_whole ? SpareOf(result) : 0,
+          .is_cut_short = !fails && !is_whole};
     } catch (const InputError&) {
       return std::nullopt;
     }

@@ -15,8 +15,9 @@ namespace regrasp::sim {
 /// that it does (planning::InHandTask).
 ///
 /// @param solid  outlives what is returned.
-/// @returns what tells of a plan; nullopt where the hand's model can't be simulated.
-[[nodiscard]] std::function<std::optional<planning::CarriedOut>(const plan::Plan&)> CarryOutTest(
-    kinematics::HandFile file, const object::Polyhedron& solid);
+/// @returns what tells of a plan, at its deadline after the entry that is replayed then; nullopt
+///          where the hand's model can't be simulated.
+[[nodiscard]] std::function<std::optional<planning::CarriedOut>(const plan::Plan&, const Deadline&)>
+CarryOutTest(kinematics::HandFile file, const object::Polyhedron& solid);
 
 }  // namespace regrasp::sim

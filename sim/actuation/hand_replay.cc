@@ -190,7 +190,7 @@ struct HandReplays::Impl {
                   WorldOptions(options, options.half_angle.value_or(half_angle)));
   }
 
-  ReplayResult Run(const plan::Plan& plan) {
+  ReplayResult Run(const plan::Plan& plan, const Deadline& deadline) {
     MakeWorldFor(plan);
     if (known > kMostKnown) Forget();
     const int entries = static_cast<int>(plan.steps.size()) + 1;
@@ -212,7 +212,7 @@ struct HandReplays::Impl {
       next = &found->second->next;
     }
     if (last != nullptr) replay.GoOnFrom(last->rested);
-    for (; index < entries; ++index) {
+    for (; index < entries && !deadline.IsOver(); ++index) {
       result.steps.push_back(replay.Carry(index));
       if (result.steps.back().reason != plan::Reason::kNone) break;
       auto& come = (*next)[NumbersOf(plan, index)];
@@ -229,6 +229,8 @@ HandReplays::HandReplays(kinematics::HandFile file, const object::Polyhedron& so
     : impl_(new Impl{std::move(file), solid, options}) {}
 HandReplays::~HandReplays() = default;
 
-ReplayResult HandReplays::Replay(const plan::Plan& plan) { return impl_->Run(plan); }
+ReplayResult HandReplays::Replay(const plan::Plan& plan, const Deadline& deadline) {
+  return impl_->Run(plan, deadline);
+}
 
 }  // namespace regrasp::sim

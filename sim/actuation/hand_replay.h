@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
@@ -68,8 +69,9 @@ class HandReplays {
   HandReplays(const HandReplays&) = delete;
   HandReplays& operator=(const HandReplays&) = delete;
 
-  /// What ReplayHand gives, to the bit. @throws InputError  as it does.
-  [[nodiscard]] ReplayResult Replay(const plan::Plan& plan);
+  /// What ReplayHand gives, to the bit; after the deadline without the entries that were left.
+  /// @throws InputError  as ReplayHand.
+  [[nodiscard]] ReplayResult Replay(const plan::Plan& plan, const Deadline& deadline);
 
  private:
   struct Impl;

@@ -380,7 +380,7 @@ TEST(FindGaitTest, WhereTheHandIsAskedAFingerSlidesBesideThreeOthersOnly) {
     request.goal_grasp[0].p += 0.0015 * start[0].n.unitOrthogonal();
     request.most_expanded = 60;
     if (is_asked) {
-      request.carry_out = [](const plan::Plan&) { return planning::CarriedOut{}; };
+      request.carry_out = [](const plan::Plan&, const Deadline&) { return planning::CarriedOut{}; };
     }
     const GaitResult found = FindGait(request);
     return found.gait &&

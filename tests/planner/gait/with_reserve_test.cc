@@ -101,7 +101,7 @@ struct MadeUpHand {
   std::vector<plan::Plan> plans = {};
 
   void TriesFor(GaitRequest& request) {
-    request.carry_out = [this](const plan::Plan& plan) {
+    request.carry_out = [this](const plan::Plan& plan, const Deadline&) {
       plans.push_back(plan);
       planning::CarriedOut carried{holds, 0, false};
       if (!holds) return std::optional(carried);
@@ -190,7 +190,7 @@ TEST(WithReserveTest, OfTheGaitsThatAreCarriedOutTheOneWithMostToSpareIsFoundWhe
     return 1.0 / static_cast<double>(2 + (7 * plan.steps.size()) % 5);
   };
   double most = 0;
-  request.carry_out = [&](const plan::Plan& plan) {
+  request.carry_out = [&](const plan::Plan& plan, const Deadline&) {
     const int steps = static_cast<int>(plan.steps.size());
     plans.push_back(plan::FormatPlan(plan));
     most = std::max(most, spare(plan));
@@ -251,10 +251,39 @@ TEST(WithReserveTest, WhereTheHandHoldsNothingThereIsAGaitUnlessThatIsRequired) 
   EXPECT_TRUE(hand.plans.empty());
 }
 
+/// A clock that is set by hand.
+TEST(WithReserveTest, WhereTheTimeIsUpInATrialItIsNotSaidThatTheHandDoesNotCarryItOut) {
+  GaitRequest request = RequestFor("cube", 0.8, 120);
+  Deadline::Clock::time_point now;
+  request.deadline = {now + std::chrono::seconds(10), [&] { return now; }};
+  int trials = 0;
+  request.carry_out = [&](const plan::Plan&, const Deadline& deadline) {
+    ++trials;
+    now += std::chrono::seconds(20);
+    EXPECT_TRUE(deadline.IsOver());
+    return std::optional(planning::CarriedOut{.is_held = true, .is_cut_short = true});
+  };
+  const GaitResult cut_short = FindGait(request);
+  ASSERT_TRUE(cut_short.gait) << cut_short.message;
+  EXPECT_TRUE(cut_short.is_cut_short);
+  EXPECT_EQ(cut_short.is_carried_out, false);
+  EXPECT_EQ(trials, 1);
+
+  now = {};
+  request.carry_out = [&](const plan::Plan&, const Deadline&) {
+    now += std::chrono::seconds(20);
+    return std::optional(planning::CarriedOut{.is_held = true});
+  };
+  const GaitResult failed = FindGait(request);
+  ASSERT_TRUE(failed.gait) << failed.message;
+  EXPECT_FALSE(failed.is_cut_short);
+  EXPECT_EQ(failed.is_carried_out, false);
+}
+
 TEST(WithReserveTest, WhereItCanNotBeToldItIsAsIfTheHandWereNotAsked) {
   GaitRequest request = RequestFor("cube", 0.8, 60);
   const GaitResult usual = FindGait(request);
-  request.carry_out = [](const plan::Plan&) { return std::nullopt; };
+  request.carry_out = [](const plan::Plan&, const Deadline&) { return std::nullopt; };
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(usual.gait && found.gait);
   EXPECT_EQ(found.is_carried_out, std::nullopt);

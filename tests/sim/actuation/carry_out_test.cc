@@ -43,17 +43,54 @@ TEST_F(CarryOutTestTest, PlansThatThePlannerTriedAreCarriedOutAndWithLittleFrict
   ASSERT_FALSE(found.notes.empty());
   EXPECT_NE(found.notes.front().find("motors carry it out"), std::string::npos);
   const auto carry_out = CarryOutTest(hand_, cube_);
-  const auto carried = carry_out(*found.plan);
+  const auto carried = carry_out(*found.plan, {});
   ASSERT_TRUE(carried);
   EXPECT_TRUE(carried->is_held);
   EXPECT_TRUE(carried->is_whole);
   EXPECT_EQ(carried->steps, std::ssize(found.plan->steps));
   plan::Plan slippery = *found.plan;
   slippery.half_angle = std::atan(0.05);
-  const auto slipped = carry_out(slippery);
+  const auto slipped = carry_out(slippery, {});
   ASSERT_TRUE(slipped);
   EXPECT_FALSE(slipped->is_whole);
   EXPECT_LT(slipped->steps, std::ssize(found.plan->steps));
+}
+
+/// By a clock that goes on by a second whenever it is looked at: before every entry.
+TEST_F(CarryOutTestTest, AtItsDeadlineATrialEndsAndLaterGoesOnFromThere) {
+  const planning::PlanResult found = planning::Solve(planner_, Turning(90));
+  ASSERT_TRUE(found.plan) << found.message;
+  const std::ptrdiff_t steps = std::ssize(found.plan->steps);
+  ASSERT_GT(steps, 0);
+  const auto carry_out = CarryOutTest(hand_, cube_);
+  Deadline::Clock::time_point now;
+  const Deadline after_one_entry(now + std::chrono::seconds(2),
+                                 [&now] { return now += std::chrono::seconds(1); });
+  const auto cut_short = carry_out(*found.plan, after_one_entry);
+  ASSERT_TRUE(cut_short);
+  EXPECT_TRUE(cut_short->is_cut_short);
+  EXPECT_FALSE(cut_short->is_whole);
+  EXPECT_TRUE(cut_short->is_held);
+  EXPECT_EQ(cut_short->steps, 0);
+  const auto over = carry_out(*found.plan, after_one_entry);
+  ASSERT_TRUE(over);
+  EXPECT_TRUE(over->is_cut_short);
+  const auto whole = carry_out(*found.plan, {});
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE(whole->is_whole);
+  EXPECT_FALSE(whole->is_cut_short);
+  EXPECT_EQ(whole->spare, CarryOutTest(hand_, cube_)(*found.plan, {})->spare);
+}
+
+TEST_F(CarryOutTestTest, OfAPlanWhoseTrialWasCutShortItIsSaidThatTheTimeWasUp) {
+  planning::PlanRequest request = Turning(90);
+  request.in_hand->carry_out = [](const plan::Plan&, const Deadline&) {
+    return std::optional(planning::CarriedOut{.is_cut_short = true});
+  };
+  const planning::PlanResult found = planning::Solve(planner_, request);
+  ASSERT_TRUE(found.plan) << found.message;
+  ASSERT_FALSE(found.warnings.empty());
+  EXPECT_NE(found.warnings.front().find("the time was up while"), std::string::npos);
 }
 
 TEST_F(CarryOutTestTest, ThePlanWithTheLargestMarginHasAtLeastThatOfTheFirst) {
@@ -62,7 +99,7 @@ TEST_F(CarryOutTestTest, ThePlanWithTheLargestMarginHasAtLeastThatOfTheFirst) {
   const auto spare = [&] {
     const planning::PlanResult found = planning::Solve(planner_, request);
     EXPECT_TRUE(found.plan) << found.message;
-    const auto carried = carry_out(*found.plan);
+    const auto carried = carry_out(*found.plan, {});
     EXPECT_TRUE(carried && carried->is_whole);
     return carried->spare;
   };
@@ -87,7 +124,7 @@ TEST_F(CarryOutTestTest, OfAHandWithoutActuatorsItCanNotTell) {
   request.in_hand->reserve = planning::Reserve::kNone;
   const planning::PlanResult found = planning::Solve(planner_, request);
   ASSERT_TRUE(found.plan) << found.message;
-  EXPECT_FALSE(CarryOutTest(kinematics::ReadHandFile(path), cube_)(*found.plan));
+  EXPECT_FALSE(CarryOutTest(kinematics::ReadHandFile(path), cube_)(*found.plan, {}));
 }
 
 }  // namespace

@@ -402,7 +402,7 @@ TEST(HandReplaysTest, GiveWhatEachPlanAloneGivesWhateverWasReplayedBefore) {
        std::vector<const plan::Plan*>{&begun, &good, &other, &begun, &slippery, &good}) {
     SCOPED_TRACE(reasons.size());
     const ReplayResult alone = ReplayOf(*plan, options);
-    ExpectSame(replays.Replay(*plan), alone);
+    ExpectSame(replays.Replay(*plan, {}), alone);
     reasons.push_back(ReasonOf(alone));
   }
   EXPECT_EQ(reasons[1], Reason::kNone);
@@ -416,8 +416,8 @@ TEST(HandReplaysTest, WithoutAShakeTheyGiveTheSameToo) {
   HandReplays replays(Hand(), Cube(), options);
   plan::Plan begun = GoodPlan();
   begun.steps.pop_back();
-  ExpectSame(replays.Replay(begun), ReplayOf(begun, options));
-  ExpectSame(replays.Replay(GoodPlan()), ReplayOf(GoodPlan(), options));
+  ExpectSame(replays.Replay(begun, {}), ReplayOf(begun, options));
+  ExpectSame(replays.Replay(GoodPlan(), {}), ReplayOf(GoodPlan(), options));
 }
 
 }  // namespace
