@@ -36,6 +36,9 @@ std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
 std::string HowFar(const GaitRequest& request, const GaitCounts& counts) {
   const double share = counts.steps == 0 ? 1 : static_cast<double>(counts.farthest) / counts.steps;
   if (share == 1 && !request.goal_grasp.empty()) return "the goal grasp is not reached";
+  if (share == 1 && request.goal_pose && counts.at_goal == 0) {
+    return "the object comes near its goal pose, and no grasp is found that holds it there";
+  }
   if (share == 1) return "every way to the goal fails where its paths are worked out";
   if (request.goal_pose) {
     return "the object comes " + FormatShort(100 * share, 3) + " % of the way to its goal pose";

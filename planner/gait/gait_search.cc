@@ -94,6 +94,7 @@ void GaitCounts::Add(const GaitCounts& other) {
   colliding += other.colliding;
   rolled += other.rolled;
   not_carried += other.not_carried;
+  at_goal += other.at_goal;
 }
 
 void GaitSearch::BeginWith(const Hold& hold) {
@@ -305,6 +306,7 @@ std::optional<Gait> GaitSearch::GaitFrom(int index) {
   if (!grid_.IsGoal(carried.end) || !goal_.IsHeldBy(tree_[index].hold.holding)) {
     return std::nullopt;
   }
+  ++counts_.at_goal;
   const int end = carried.end;
   if (tree_[index].ends_in_vain || grid_.StepOf(end) > tree_[index].farthest) return std::nullopt;
   std::optional<Gait> gait = tree_.WayTo(index, end);

@@ -33,6 +33,7 @@ struct GaitCounts {
   std::int64_t colliding = 0;    ///< grasps in which fingers hit each other
   std::int64_t rolled = 0;       ///< that are lost where contacts roll, with reserve
   std::int64_t not_carried = 0;  ///< to which the way was tried in vain
+  std::int64_t at_goal = 0;      ///< with which the object comes to its goal, if there is a way
   /// Steps of the track: the farthest that was reached, or carried out where ways are tried.
   int farthest = 0;
   int steps = 0;  ///< that it has

@@ -404,6 +404,23 @@ TEST(FindGaitTest, AGraspOutOfReachIsNamed) {
   EXPECT_THAT(found.message, testing::HasSubstr("held by the goal grasp"));
 }
 
+/// Goal poses 20, 50 and 90 mm above the start; up to 35 mm the hand holds the cube there.
+TEST(FindGaitTest, SaysWhetherTheObjectIsHeldAtItsGoalPoseOrOnlyNearIt) {
+  GaitRequest request = RequestFor("cube", 0.8, 0);
+  const GaitResult first = FindGait(request);
+  ASSERT_TRUE(first.gait) << first.message;
+  request.start_pose = first.gait->start.pose;
+  request.most_expanded = 20;
+  const auto message_at = [&](double height) {
+    request.goal_pose = Eigen::Translation3d(0, 0, height) * *request.start_pose;
+    const GaitResult found = FindGait(request);
+    return found.gait ? std::string("found") : found.message;
+  };
+  EXPECT_EQ(message_at(0.020), "found");
+  EXPECT_THAT(message_at(0.050), testing::HasSubstr("no grasp is found that holds it there"));
+  EXPECT_THAT(message_at(0.090), testing::HasSubstr("% of the way to its goal pose"));
+}
+
 /// A cube of 13 cm is too large
 /// for this hand, and no tilt of the palm makes it smaller.
 TEST(ExplainGaitTest, NamesTheSizeThatHelpsAndWhatDoesNot) {
