@@ -46,6 +46,7 @@ GraspForces Solve(const UnitContacts& contacts, const Wrench& load) {
   if (result.balanced) {
     result.margin = simplex.Maximise(ToVector<kDim>(force, torque), 1, {.gap = kMarginGap}).lower;
   } else {
+    simplex.FindNearest();
     result.margin = -simplex.unbalanced();
   }
   const double inset = std::max(result.margin, 0.0) * share;

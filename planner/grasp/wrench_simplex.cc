@@ -134,6 +134,33 @@ typename WrenchSimplex<kDim>::Status WrenchSimplex<kDim>::FindWeights(bool stop_
 }
 
 template <int kDim>
+typename WrenchSimplex<kDim>::Column WrenchSimplex<kDim>::Unbalanced(int row, double sign) {
+  Column column{kUnbalanced, {}};
+  column.entries[row] = sign;
+  return column;
+}
+
+template <int kDim>
+void WrenchSimplex<kDim>::FindNearest() {
+  std::array<Column, kRows> columns;
+  for (int r = 0; r < kDim; ++r) columns[r] = Unbalanced(r, target_[r] < start_[r] ? -1 : 1);
+  columns[kDim] = {kStart, WithShare(start_, 1)};
+  const std::array<double, kRows> right = WithShare(target_, 1);
+  program_.StartFromBasis(columns, Dual(right.data()));
+  const auto price = [&](const Dual& dual, Column& column) {
+    double reduced_cost = FindBest(dual, column);
+    for (int r = 0; r < kDim; ++r) {
+      if (std::abs(dual[r]) - 1 <= reduced_cost) continue;
+      reduced_cost = std::abs(dual[r]) - 1;
+      column = Unbalanced(r, dual[r] < 0 ? -1 : 1);
+    }
+    return reduced_cost > kNearestGap * unbalanced();
+  };
+  program_.Run(price, kLimits);
+  program_.Refactor();
+}
+
+template <int kDim>
 typename WrenchSimplex<kDim>::Maximum WrenchSimplex<kDim>::Maximise(const Vector& column,
                                                                     double share,
                                                                     const Goal& goal) {
@@ -220,7 +247,14 @@ typename WrenchSimplex<kDim>::Vector WrenchSimplex<kDim>::twist() const {
 
 template <int kDim>
 double WrenchSimplex<kDim>::unbalanced() const {
-  return program_.unbalanced();
+  double sum = program_.unbalanced();
+  for (int r = 0; r < kRows; ++r) {
+    const Column* column = program_.column(r);
+    if (column != nullptr && column->contact == kUnbalanced) {
+      sum += std::max(program_.weights()[r], 0.0);
+    }
+  }
+  return sum;
 }
 
 template class WrenchSimplex<3>;

@@ -47,6 +47,11 @@ class WrenchSimplex {
   /// @param stop_early  end with the first twist that separates, not with the nearest point.
   Status FindWeights(bool stop_early);
 
+  /// Where no weights are: those whose sum is nearest to the target, by the sum of the absolute
+  /// values of what is unbalanced, to a millionth of it. FindWeights does not find them: an entry
+  /// of the wrench that it has balanced stays so.
+  void FindNearest();
+
   struct Maximum {
     double lower;  ///< reached
     double upper;  ///< cannot be exceeded; infinite where there is no bound
@@ -85,7 +90,7 @@ class WrenchSimplex {
   /// separates: twist · w < twist · target for all columns.
   [[nodiscard]] Vector twist() const;
 
-  /// Σ |target − Σ λ w|, of what artificial columns still carry.
+  /// Σ |target − Σ λ w|.
   [[nodiscard]] double unbalanced() const;
 
   /// The largest y · w of all columns, y a twist.
@@ -102,16 +107,20 @@ class WrenchSimplex {
     void ForEachEntry(const Visit& visit) const {
       for (int r = 0; r < kRows; ++r) visit(r, entries[r]);
     }
-    [[nodiscard]] double cost() const { return contact == kMaximised ? -1 : 0; }
+    [[nodiscard]] double cost() const {
+      return contact == kMaximised ? -1 : contact == kUnbalanced ? 1 : 0;
+    }
   };
   static constexpr int kStart = -1;
   static constexpr int kMaximised = -2;
+  static constexpr int kUnbalanced = -3;  ///< ± a unit of one entry of the wrench
 
   using Program = lp::Simplex<kRows, Column>;
   using Dual = typename Program::Vector;
 
   /// @returns its reduced cost.
   double FindBest(const Dual& dual, Column& column) const;
+  [[nodiscard]] static Column Unbalanced(int row, double sign);
   [[nodiscard]] bool Separates(const Dual& dual, double reduced_cost) const;
 
   std::span<const UnitContact> contacts_;

@@ -134,6 +134,31 @@ TEST(GraspForcesTest, BestEffortUsesWhatTheConesAllow) {
   EXPECT_NEAR(Unbalanced(grasp, UnitFrame(2), result, {}), 5 - 10 * std::tan(Radians(20)), 1e-6);
 }
 
+/// Forces for one sum of normal forces and those for another one are, by halves, forces for the
+/// mean of both: what the least effort leaves unbalanced is convex in the sum.
+TEST(GraspForcesTest, WhatTheBestEffortLeavesUnbalancedIsConvexInTheSumOfNormalForces) {
+  constexpr double kNearest = 1e-5;  // of the best efforts, each found to 1e-6 of itself
+  RandomGrasps random(77);
+  int best_efforts = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const int dimension = 2 + trial % 2;
+    const Grasp grasp = random.OnBall(2 + trial % 4, dimension);
+    const Wrench load = RandomLoad(random, dimension, 1);
+    const double half_angle = Radians(random.Uniform(5, 40));
+    const auto left = [&](double total) {
+      const GraspForces found =
+          ComputeGraspForces(grasp, UnitFrame(dimension), half_angle, load, total);
+      return found.balanced ? 0 : -found.margin * total;
+    };
+    const double few = random.Uniform(0.1, 4);
+    const double many = random.Uniform(0.1, 4);
+    const double middle = left((few + many) / 2);
+    EXPECT_LE(middle, (left(few) + left(many)) / 2 * (1 + kNearest)) << trial;
+    best_efforts += static_cast<int>(middle > 0);
+  }
+  EXPECT_GT(best_efforts, 100);
+}
+
 TEST(GraspForcesTest, BadArgumentsThrow) {
   const Grasp grasp{{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}};
   EXPECT_NO_THROW((void)ComputeGraspForces(grasp, UnitFrame(2), 0.3, {}, 1));
