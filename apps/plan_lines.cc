@@ -1,15 +1,18 @@
 #include "apps/plan_lines.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "apps/batch/object_shelf.h"
 #include "apps/build_id.h"
 #include "apps/lines_run.h"
+#include "apps/nearest_word.h"
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "planner/base/deadline.h"
@@ -56,13 +59,28 @@ double ReadPositive(const plan::JsonReader& value, bool or_zero) {
              value.Quoted());
 }
 
+/// Members with other names are the user's own.
+void RefuseMisspelt(const plan::JsonReader& reader, const Json& object,
+                    const std::vector<std::string>& names) {
+  for (const auto& [name, value] : object.items()) {
+    if (std::ranges::find(names, name) != names.end()) continue;
+    const std::string meant = DidYouMean(name, names);
+    if (!meant.empty()) reader.Fail("unknown member " + name + meant);
+  }
+}
+
 Query ReadQuery(const Line& line, const PlanProgram& program) {
   const Json json = ParseJson(line.text, line.name);
   const plan::JsonReader root(json, line.name);
   if (!json.is_object()) root.Fail("expected an object, found " + root.Quoted());
+  RefuseMisspelt(root, json,
+                 {"object", "friction", "scale", "seed", "min_quality", "start", "goal"});
   Query query{"", "", program};
   if (root.Has("object")) {
     const plan::JsonReader object = root.Member("object");
+    if (json.at("object").is_object()) {
+      RefuseMisspelt(object, json.at("object"), {"file", "sha256"});
+    }
     query.object_name = object.Member("file").String();
     if (object.Has("sha256")) query.object_sha256 = object.Member("sha256").String();
   }

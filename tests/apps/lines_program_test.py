@@ -134,7 +134,7 @@ class Lines(ProgramCase):
                          ["other.jsonl", "plans.jsonl", "queries.jsonl"])
 
     def test_a_bad_line_is_named_and_stops_no_other(self):
-        good = {"object": {"file": "cube.obj"}, "seed": 1}
+        good = {"object": {"file": "cube.obj"}, "seed": 1, "note": "a member of the user's own"}
         bad = [("{", "not JSON"), ("", "not JSON"), ("[1]", "expected an object"),
                ({"seed": 1}, "/object/file: there is no file"),
                ({"object": {"file": "gone.obj"}}, '/object/file: there is no file "gone.obj"'),
@@ -145,6 +145,9 @@ class Lines(ProgramCase):
                ({**good, "scale": 0}, "/scale: must be positive, found 0"),
                ({**good, "min_quality": -1}, "/min_quality: must not be negative, found -1"),
                ({**good, "start": "anywhere"}, "/start"),
+               ({**good, "fricton": {"mu": 0.8}}, "unknown member fricton; did you mean friction?"),
+               ({"object": {"fil": "cube.obj"}},
+                "/object: unknown member fil; did you mean file?"),
                ({**good, "start": {"format": "regrasp-grasp"}}, '/start: "version" is missing'),
                ({"object": {"file": "cube.obj", "sha256": "0" * 64}},
                 f"/object/sha256: the query is for an object with digest {'0' * 64}")]
@@ -161,9 +164,9 @@ class Lines(ProgramCase):
             self.assertIn(f"queries.jsonl: line {i + 2}: ", nothing[i]["message"])
             self.assertIn(words, nothing[i]["message"])
             self.assertIn("plan: " + nothing[i]["message"], said)
-        self.assertIn("2 plan, 14 bad-input", said[-1])
+        self.assertIn("2 plan, 16 bad-input", said[-1])
         # What has no plan is passed on, and is no fault of the plans.
-        self.assertIn("2 pass, 14 no-plan", self.validate("plans.jsonl", "out").stderr)
+        self.assertIn("2 pass, 16 no-plan", self.validate("plans.jsonl", "out").stderr)
 
     def test_messages_of_many_bad_lines_are_few(self):
         self.write_lines("queries.jsonl", ["{"] * 100)
