@@ -48,11 +48,10 @@ bool WriteAll(int file, std::string_view bytes) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would read what it finds
   const int nowhere = open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
-  if (!kAddressSanitizer && !limits.opens_files)
-    Limit(RLIMIT_NOFILE, 0);  // what is open stays open
+  if (!kSanitizer && !limits.opens_files) Limit(RLIMIT_NOFILE, 0);  // what is open stays open
   Limit(RLIMIT_CORE, 0);
   Limit(RLIMIT_CPU, static_cast<rlim_t>(limits.processor.count()));
-  if (!kAddressSanitizer) Limit(RLIMIT_AS, limits.memory_bytes);
+  if (!kSanitizer) Limit(RLIMIT_AS, limits.memory_bytes);
   // _exit, because the exit handlers and buffers belong to the parent.
   try {
     _exit(WriteAll(out, task()) ? kExitDone : kExitThrew);

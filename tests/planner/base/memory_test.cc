@@ -31,7 +31,7 @@ TEST(Memory, HalfOfWhatThereIsMayBeUsed) {
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   EXPECT_GT(UsableMemory(), 0);
   EXPECT_LE(UsableMemory(), installed / 2);
-  if (!kAddressSanitizer) {
+  if (!kSanitizer) {
     EXPECT_TRUE(HalvesItsAddressSpace(rlim_t{1} << 29));
   }
 }
