@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <string>
 
 #include "sim/scene/engine.h"
@@ -19,6 +20,15 @@ namespace {
 /// log file are what this replaces.
 void IgnoreWarning(const char* /*message*/) {}
 
+/// What the hooks were before, while simulations live, perhaps in several threads.
+struct HooksBefore {
+  std::mutex mutex;
+  int living = 0;
+  void (*error)(const char*) = nullptr;
+  void (*warning)(const char*) = nullptr;
+};
+HooksBefore before;
+
 /// The warnings that mean that a step is not to be trusted; the others are of the renderer.
 constexpr std::array kFatalWarnings = {mjWARN_INERTIA, mjWARN_CONTACTFULL, mjWARN_CNSTRFULL,
                                        mjWARN_BADQPOS, mjWARN_BADQVEL,     mjWARN_BADQACC,
@@ -30,14 +40,20 @@ bool AreFinite(const mjtNum* values, int count) {
 
 }  // namespace
 
-EngineHooks::EngineHooks() : error_(mju_user_error), warning_(mju_user_warning) {
+EngineHooks::EngineHooks() {
+  const std::scoped_lock lock(before.mutex);
+  if (before.living++ > 0) return;
+  before.error = mju_user_error;
+  before.warning = mju_user_warning;
   mju_user_error = ThrowError;
   mju_user_warning = IgnoreWarning;
 }
 
 EngineHooks::~EngineHooks() {
-  mju_user_error = error_;
-  mju_user_warning = warning_;
+  const std::scoped_lock lock(before.mutex);
+  if (--before.living > 0) return;
+  mju_user_error = before.error;
+  mju_user_warning = before.warning;
 }
 
 void CheckState(const mjModel& model, const mjData& data) {

@@ -6,18 +6,14 @@
 
 namespace regrasp::sim {
 
-/// Takes MuJoCo's two global hooks while a simulation lives: its errors become UnstableError, its
-/// warnings neither reach the terminal nor leave a log file.
+/// Takes MuJoCo's two global hooks while any simulation lives, in whatever thread: its errors
+/// become UnstableError, its warnings neither reach the terminal nor leave a log file.
 class EngineHooks {
  public:
   EngineHooks();
   ~EngineHooks();
   EngineHooks(const EngineHooks&) = delete;
   EngineHooks& operator=(const EngineHooks&) = delete;
-
- private:
-  void (*error_)(const char*);
-  void (*warning_)(const char*);
 };
 
 /// @throws UnstableError  a warning says that the last step is not to be trusted, or the state is

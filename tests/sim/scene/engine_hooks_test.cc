@@ -1,0 +1,26 @@
+#include "sim/scene/engine_hooks.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace regrasp::sim {
+namespace {
+
+TEST(EngineHooksTest, AreTakenFromTheFirstSimulationToTheLastWhicheverEndsFirst) {
+  const auto error = mju_user_error;
+  const auto warning = mju_user_warning;
+  auto first = std::make_unique<EngineHooks>();
+  auto second = std::make_unique<EngineHooks>();
+  EXPECT_NE(mju_user_error, error);
+  EXPECT_NE(mju_user_warning, warning);
+  first.reset();
+  EXPECT_NE(mju_user_error, error);
+  EXPECT_NE(mju_user_warning, warning);
+  second.reset();
+  EXPECT_EQ(mju_user_error, error);
+  EXPECT_EQ(mju_user_warning, warning);
+}
+
+}  // namespace
+}  // namespace regrasp::sim
