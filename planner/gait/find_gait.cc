@@ -149,7 +149,7 @@ CarryOut TrialOf(const HandSetup& setup, const GaitRequest& request,
     const plan::Plan plan = PlanOf(fewer, request, contacts);
     const auto carried = request.carry_out(plan, request.deadline);
     if (!carried) return {.is_whole = true};  // who asks finds out
-    const bool fails_in_move = carried->is_held && !carried->is_whole && !carried->is_cut_short &&
+    const bool fails_in_move = carried->is_held && !carried->is_whole &&
                                std::holds_alternative<plan::Move>(plan.steps[carried->steps]);
     return {CountChanges(fewer, carried->steps), carried->is_held, fails_in_move, carried->is_whole,
             carried->is_cut_short};

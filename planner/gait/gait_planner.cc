@@ -90,8 +90,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   } else if (found.is_cut_short) {
     result.warnings.emplace_back(
         "the time was up while the hand's own motors tried it in a simulation; validate --hand "
-        "says "
-        "whether they carry it out");
+        "says whether they carry it out");
   } else if (found.is_carried_out) {
     result.warnings.emplace_back(
         "the hand's own motors do not carry it out in a simulation; validate --hand says what "
