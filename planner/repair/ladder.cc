@@ -188,7 +188,10 @@ class Ladder {
     if (original_.soup.facets.empty()) {  // a solid as it is: of triangles, to measure against
       if (!Cleans()) return false;
       climbed_.attempt.stages.pop_back();
-      climbed_.solid = original_.soup;
+      const auto is_triangle = [](const auto& facet) { return facet.size() == 3; };
+      if (!std::ranges::all_of(climbed_.solid->facets, is_triangle)) {
+        climbed_.solid = original_.soup;
+      }
     }
     PolygonSoup fine = *climbed_.solid;
     MarkInvented(soup_, climbed_.comparison, fine);

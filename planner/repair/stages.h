@@ -63,7 +63,9 @@ struct StageResult {
 /// A sheet of some thickness about an open surface.
 [[nodiscard]] StageResult Solidify(const object::PolygonSoup& soup, double thickness);
 
-/// At most so many facets (Lindstrom and Turk's edge collapse).
+/// At most so many facets (Lindstrom and Turk's edge collapse). Where facets meet by it, it is done
+/// anew without collapses there, and then without such as turn facets over; as it was at first
+/// where they meet all the same.
 /// @param soup  the surface of a solid.
 [[nodiscard]] StageResult Simplify(const object::PolygonSoup& soup, int facets);
 

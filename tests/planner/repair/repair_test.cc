@@ -165,6 +165,33 @@ TEST(Repair, WhatWasInventedStaysInventedInACoarserSolid) {
   EXPECT_EQ(InventedShare(Repair(cube, "cube", options).solid), 0);
 }
 
+/// Edges that were collapsed anyhow would leave facets that meet on this one.
+TEST(Repair, WhereCollapsesMakeFacetsMeetOthersAreFound) {
+  PolygonSoup bumpy = SphereSoup(30);
+  for (std::size_t i = 0; i < bumpy.vertices.size(); ++i) {
+    bumpy.vertices[i] *= 1 + 0.05 * std::sin(12.9898 * double(i * i));
+  }
+  RepairOptions options;
+  options.facets = 800;
+  options.max_deviation = 0.2;
+  const Repaired coarse = Repair(bumpy, "bumpy", options);
+  EXPECT_EQ(LastStage(coarse), "simplify");
+  EXPECT_LE(std::ssize(coarse.solid.facets), 800);
+  EXPECT_NEAR(SolidOf(coarse).mass_properties().volume, 4 * std::numbers::pi / 3, 0.1);
+  // Where a wall is so thin that there are none it is refused.
+  PolygonSoup hollow = SphereSoup(20);
+  const PolygonSoup inside = hollow;
+  const int first = static_cast<int>(hollow.vertices.size());
+  for (const Vector3d& v : inside.vertices) hollow.vertices.emplace_back(0.98 * v);
+  for (std::vector<int> facet : inside.facets) {
+    std::ranges::reverse(facet);
+    for (int& corner : facet) corner += first;
+    hollow.facets.push_back(std::move(facet));
+  }
+  options.facets = 200;
+  EXPECT_THAT(Refusal(hollow, options), HasSubstr("self-intersecting"));
+}
+
 TEST(Repair, ACoarserSolidIsNotInventedWhereItIsMerelyFarOff) {
   RepairOptions options;
   options.facets = 60;
