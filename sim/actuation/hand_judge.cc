@@ -246,7 +246,7 @@ bool HandJudge::MayTouch(const kinematics::HandModel::Part& a,
                          const kinematics::HandModel::Part& b) const {
   const std::pair<kinematics::HandModel::Part, kinematics::HandModel::Part> pair =
       std::minmax(a, b);
-  return std::ranges::find(world_.hand().ignored, pair) != world_.hand().ignored.end();
+  return std::ranges::binary_search(world_.hand().ignored, pair);
 }
 
 void HandJudge::Watch(const Isometry3d& planned) {

@@ -207,7 +207,6 @@ struct HandWorld::Impl {
     contact.solref[1] = 1;
     std::ranges::copy(kTipImpedance, contact.solimp);
     contact.dim = 3;
-    contact.efc_address = -1;  // no force until the engine finds one
     contact.efc_address = -1;  // it has no force before a step
     contact.geom1 = object_geom;
     contact.geom2 = fingers[finger].tip_geom;
