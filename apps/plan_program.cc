@@ -125,8 +125,10 @@ void PlanProgram::AddBatch(CLI::App& app) {
       ->type_name("FILE");
   app.add_option("--shard", shard, "Part I of N of the queries alone; merge joins the results")
       ->type_name("I/N");
-  AddInteger(app, "--jobs", jobs, 1, kMostJobs,
-             "How many queries of --batch are planned at a time (default: one a processor)");
+  AddInteger(
+      app, "--jobs", jobs, 1, kMostJobs,
+      "How many queries of --batch are planned at a time, or searches made at a time for one "
+      "--hand (default: one a processor); without --time-limit no plan depends on it");
   app.add_flag("--fresh", fresh,
                "Throw away what an earlier run with --batch and the same --output left");
 }
@@ -155,6 +157,7 @@ planning::PlanRequest PlanProgram::RequestFor(const object::Object& object) cons
   request.last_resort = !no_lazy;
   request.effort = effort;
   request.explain = explain;
+  if (batch.empty()) request.jobs = jobs;  // else there are as many processes
   return request;
 }
 
@@ -222,8 +225,11 @@ FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoin
 
 void PlanProgram::Finish(const CLI::App& app) {
   if (batch.empty()) {
-    for (const char* name : {"--jobs", "--shard", "--fresh"}) {
+    for (const char* name : {"--shard", "--fresh"}) {
       if (app.count(name) > 0) throw InputError(std::string(name) + " goes with --batch");
+    }
+    if (app.count("--jobs") > 0 && !hand.given()) {
+      throw InputError("--jobs goes with --batch or --hand");
     }
     return;
   }

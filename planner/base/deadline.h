@@ -37,6 +37,15 @@ class Deadline {
     const Clock::time_point now = now_();
     return {now + std::chrono::duration_cast<Clock::duration>(share * (*at_ - now)), now_};
   }
+  /// Over when this one is, and from when `is_over` says so, which is for good.
+  [[nodiscard]] Deadline OrWhen(std::function<bool()> is_over) const {
+    // Far from the clock's last instant, as deadlines are added to.
+    constexpr std::chrono::hours kNever(24 * 365 * 100);
+    return {at_.value_or(Clock::now() + kNever),
+            [now = at_ ? now_ : Clock::now, is_over = std::move(is_over)] {
+              return is_over() ? Clock::time_point::max() : now();
+            }};
+  }
   /// Another one by the same clock, after so long from now.
   [[nodiscard]] Deadline In(Clock::duration time) const {
     return at_ ? Deadline(now_() + time, now_) : Deadline();

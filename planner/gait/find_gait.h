@@ -33,6 +33,7 @@ struct GaitRequest : planning::InHandTask {
   /// (planning::CarriedOut::spare), instead of the first; where plans are tried.
   bool seeks_most_spare = false;
   Deadline deadline = {};
+  int jobs = 1;  ///< searches at a time where plans are tried, ≥ 1
   planning::Progress progress = [](std::string_view) {};
 };
 
@@ -52,8 +53,9 @@ struct GaitResult {
 /// Finds a gait of the hand that turns the object: chooses where in the hand it begins and with
 /// which grasp. A preferred reserve is left out where the gait gets much longer by it.
 ///
-/// Laws: without a deadline the same request gives the same gait, bit for bit; every rest is force
-/// closure and meets the criteria where it can; every path is certified (certified_path.h).
+/// Laws: without a deadline the same request gives the same gait, bit for bit, with any jobs; every
+/// rest is force closure and meets the criteria where it can; every path is certified
+/// (certified_path.h).
 /// @throws std::invalid_argument  start_fingers are not one of the hand for each contact.
 [[nodiscard]] GaitResult FindGait(const GaitRequest& request);
 

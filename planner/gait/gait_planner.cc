@@ -36,6 +36,7 @@ GaitRequest RequestFor(const PlanRequest& asked) {
   request.most_expanded = asked.effort.value_or(kDefaultExpanded);
   request.seeks_most_spare = asked.objective == planning::Objective::kMargin;
   request.deadline = asked.deadline;
+  request.jobs = asked.jobs;
   request.progress = asked.progress;
   return request;
 }

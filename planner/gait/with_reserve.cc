@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
+#include "planner/base/in_blocks.h"
 #include "planner/gait/plan_of_gait.h"
 
 namespace regrasp::gait {
@@ -51,12 +56,7 @@ void Bound(GaitRequest& asked, std::int64_t expanded, double share) {
   asked.deadline = asked.deadline.After(share);
 }
 
-std::optional<planning::CarriedOut> Try(const Gait& gait, const GaitRequest& request,
-                                        const std::vector<grasp::Contact>& contacts,
-                                        const Deadline& deadline) {
-  request.progress("trying a plan on the hand's own motors");
-  return request.carry_out(PlanOf(gait, request, contacts), deadline);
-}
+constexpr std::string_view kTrying = "trying a plan on the hand's own motors";
 
 /// One look for a gait.
 struct Look {
@@ -67,25 +67,29 @@ struct Look {
   bool is_whole;          ///< tried when it is found, and not on the way
   bool is_again = false;  ///< left out where the look before it found nothing
 };
+/// Made one after the other; those of other rows may be made at the same time.
+using Row = std::vector<Look>;
 
 /// In their order.
-std::vector<Look> LooksFor(const GaitRequest& request) {
+std::vector<Row> LooksFor(const GaitRequest& request) {
   const bool is_short_turn = !request.goal_pose && std::abs(request.turn.angle) <= kShortTurn;
   const std::span<const Spare> whole =
       is_short_turn ? std::span<const Spare>(kTriedWhole) : std::span(&kFollowed.front(), 1);
-  std::vector<Look> looks;
-  const int rounds = request.deadline.left() ? kMostRounds : kRounds;
+  std::vector<Row> rows;
+  const int rounds = request.deadline.left() ? std::max(kMostRounds, request.jobs) : kRounds;
   for (int round = 0; round < rounds; ++round) {
     const std::uint64_t stream = static_cast<std::uint64_t>(round) * kTimesWhole;
     for (const Spare& spare : whole) {
+      Row& row = rows.emplace_back();
       for (int again = 0; again < kTimesWhole; ++again) {
-        looks.push_back(
+        row.push_back(
             {{&spare, 1}, stream + again, kExpandedWhole, kTimeForWhole, true, again > 0});
       }
     }
-    looks.push_back({kTried, stream, kExpandedInRound << round, 1, false});
+    const int doublings = std::min(round, kMostRounds - 1);
+    rows.push_back({{kTried, stream, kExpandedInRound << doublings, 1, false}});
   }
-  return looks;
+  return rows;
 }
 
 TriedGait FindAsIfNotAsked(GaitRequest request, const FindOne& find) {
@@ -94,6 +98,130 @@ TriedGait FindAsIfNotAsked(GaitRequest request, const FindOne& find) {
   FoundGait without = find(request, {});
   return {without.gait ? FindWithReserve(request, find, without) : std::move(without)};
 }
+
+/// Makes looks, rows of them at a time, until the hand carries a gait out. Where no deadline makes
+/// it depend on the machine, what comes of it does not depend on the threads: the first row counts
+/// in which one is carried out.
+class Looking {
+ public:
+  /// All outlive this object.
+  Looking(const GaitRequest& request, const std::vector<grasp::Contact>& contacts,
+          const FindOne& find)
+      : request_(request),
+        contacts_(contacts),
+        find_(find),
+        rows_(LooksFor(request)),
+        seen_(rows_.size()),
+        last_row_(rows_.size()) {}
+
+  void Run(const Deadline& deadline) {
+    InBlocks(rows_.size(), 1, request_.jobs, [&](std::size_t begin, std::size_t end) {
+      try {
+        for (std::size_t row = begin; row < end; ++row) MakeRow(row, deadline);
+      } catch (...) {
+        is_over_ = true;
+        throw;
+      }
+    });
+  }
+
+  /// Whether nothing tells what the hand carries out.
+  [[nodiscard]] bool cannot_tell() const { return cannot_tell_; }
+
+  /// Of gaits that are carried out the first of those with most to spare, if there is any.
+  [[nodiscard]] TriedGait Widest() {
+    Seen* widest = nullptr;
+    ForEachSeen([&](Seen& seen) {
+      if (!seen.carried || !seen.carried->is_whole) return;
+      const bool is_wider = widest == nullptr || (request_.seeks_most_spare &&
+                                                  seen.carried->spare > widest->carried->spare);
+      if (is_wider) widest = &seen;
+    });
+    if (widest == nullptr) return {};
+    return {std::move(widest->found), true, widest->carried->spare};
+  }
+
+  /// The first gait, or else why there is none: of looks where gaits are tried on the way, if any
+  /// was made.
+  [[nodiscard]] TriedGait FirstNotCarriedOut() {
+    TriedGait best{{}, false};
+    ForEachSeen([&](Seen& seen) {
+      if (best.found.gait) return;
+      if (!seen.found.gait && !best.found.message.empty() && seen.is_whole) return;
+      best.found = std::move(seen.found);
+      best.is_cut_short = seen.carried && seen.carried->is_cut_short;
+    });
+    return best;
+  }
+
+ private:
+  struct Seen {
+    FoundGait found;
+    bool is_whole;                                     ///< as Look has it
+    std::optional<planning::CarriedOut> carried = {};  ///< of a gait
+  };
+
+  void MakeRow(std::size_t row, const Deadline& until) {
+    const auto is_given_up = [this, row] { return is_over_ || row > last_row_; };
+    const Deadline deadline = until.OrWhen(is_given_up);
+    if (row > 0 && deadline.IsOver()) return;
+    for (const Look& look : rows_[row]) {
+      if (look.is_again && !seen_[row].back().found.gait) return;
+      seen_[row].push_back(Make(look, deadline));
+      const Seen& seen = seen_[row].back();
+      if (seen.carried && seen.carried->is_whole && !request_.seeks_most_spare) {
+        EndWith(row);
+        return;
+      }
+      if (deadline.IsOver()) return;
+    }
+  }
+
+  Seen Make(const Look& look, const Deadline& deadline) {
+    GaitRequest asked = request_;
+    asked.seed += look.stream << kStreamShift;
+    asked.deadline = deadline;
+    asked.progress = [this](std::string_view text) { Tell(text); };
+    if (look.is_whole) asked.carry_out = nullptr;
+    Bound(asked, look.expanded, look.time);
+    Seen seen{find_(asked, look.spares), look.is_whole};
+    if (!seen.found.gait) return seen;
+    Tell(kTrying);
+    seen.carried = request_.carry_out(PlanOf(*seen.found.gait, request_, contacts_), deadline);
+    if (!seen.carried) cannot_tell_ = is_over_ = true;
+    return seen;
+  }
+
+  void Tell(std::string_view text) {
+    const std::scoped_lock lock(telling_);
+    request_.progress(text);
+  }
+
+  /// Later rows are given up; where a deadline makes what is found depend on the machine, all are.
+  void EndWith(std::size_t row) {
+    if (request_.deadline.left()) is_over_ = true;
+    std::size_t last = last_row_;
+    while (row < last && !last_row_.compare_exchange_weak(last, row)) {
+    }
+  }
+
+  template <typename F>
+  void ForEachSeen(const F& call) {
+    for (std::vector<Seen>& row : seen_) {
+      for (Seen& seen : row) call(seen);
+    }
+  }
+
+  const GaitRequest& request_;
+  const std::vector<grasp::Contact>& contacts_;
+  const FindOne& find_;
+  std::vector<Row> rows_;
+  std::vector<std::vector<Seen>> seen_;  ///< by row
+  std::atomic<std::size_t> last_row_;
+  std::atomic<bool> is_over_ = false;
+  std::atomic<bool> cannot_tell_ = false;
+  std::mutex telling_;
+};
 
 }  // namespace
 
@@ -120,40 +248,11 @@ FoundGait FindWithReserve(const GaitRequest& request, const FindOne& find,
 TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Contact>& contacts,
                          const FindOne& find) {
   const bool is_required = request.reserve == Reserve::kRequired;
-  const Deadline before_without =
-      is_required ? request.deadline : request.deadline.After(kTimeBeforeWithout);
-  TriedGait best{{}, false};
-  TriedGait widest;
-  bool has_found = false;
-  for (const Look& look : LooksFor(request)) {
-    if (look.is_again && !has_found) continue;
-    GaitRequest asked = request;
-    asked.seed += look.stream << kStreamShift;
-    asked.deadline = before_without;
-    if (look.is_whole) asked.carry_out = nullptr;
-    Bound(asked, look.expanded, look.time);
-    FoundGait found = find(asked, look.spares);
-    has_found = found.gait.has_value();
-    bool is_cut_short = false;
-    if (has_found) {
-      const auto carried = Try(*found.gait, request, contacts, before_without);
-      if (!carried) return FindAsIfNotAsked(request, find);
-      if (carried->is_whole) {
-        if (!widest.is_carried_out || carried->spare > widest.spare) {
-          widest = {std::move(found), true, carried->spare};
-        }
-        if (!request.seeks_most_spare || before_without.IsOver()) return widest;
-        continue;
-      }
-      is_cut_short = carried->is_cut_short;
-    }
-    if (!best.found.gait && (found.gait || best.found.message.empty() || !look.is_whole)) {
-      best.found = std::move(found);
-      best.is_cut_short = is_cut_short;
-    }
-    if (before_without.IsOver()) break;
-  }
-  if (widest.is_carried_out) return widest;
+  Looking looking(request, contacts, find);
+  looking.Run(is_required ? request.deadline : request.deadline.After(kTimeBeforeWithout));
+  if (looking.cannot_tell()) return FindAsIfNotAsked(request, find);
+  if (TriedGait widest = looking.Widest(); widest.is_carried_out) return widest;
+  TriedGait best = looking.FirstNotCarriedOut();
   if (is_required) {
     if (!best.found.gait) return {std::move(best.found)};
     return {{std::nullopt,
@@ -161,7 +260,9 @@ TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Co
   }
   TriedGait without{find(request, {}), false};
   if (without.found.gait) {
-    const auto carried = Try(*without.found.gait, request, contacts, request.deadline);
+    request.progress(kTrying);
+    const plan::Plan plan = PlanOf(*without.found.gait, request, contacts);
+    const auto carried = request.carry_out(plan, request.deadline);
     if (!carried) return FindAsIfNotAsked(request, find);
     if (carried->is_whole) return {std::move(without.found), true, carried->spare};
     without.is_cut_short = carried->is_cut_short;

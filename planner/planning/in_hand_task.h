@@ -55,7 +55,8 @@ struct InHandTask {
   /// That hold the contacts of a given start grasp, in its order; none: whichever can.
   std::vector<FingerIndex> start_fingers = {};
   /// Where reserve is looked for: how far the hand carries a plan out, nullopt where that can't be
-  /// told, until the deadline (sim/actuation/carry_out.h). None: reserve is all that is asked for.
+  /// told, until the deadline (sim/actuation/carry_out.h); as many threads ask as the request has
+  /// jobs. None: reserve is all that is asked for.
   std::function<std::optional<CarriedOut>(const plan::Plan&, const Deadline&)> carry_out = {};
 };
 

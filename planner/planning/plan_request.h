@@ -68,6 +68,8 @@ struct PlanRequest {
   // What limits the work.
   /// When reading and planning make an end; the plan then depends on the machine.
   Deadline deadline = {};
+  /// Searches that a planner may make at a time, ≥ 1; without a deadline the plan is the same.
+  int jobs = 1;
   /// Bytes that a planner's graph may take; where it would take more there is no plan.
   double memory = std::numeric_limits<double>::infinity();
 

@@ -1,7 +1,10 @@
 #include "sim/actuation/carry_out.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <thread>
 #include <utility>
 
 #include "planner/base/error.h"
@@ -32,27 +35,43 @@ double SpareOf(const ReplayResult& result) {
 
 /// Of plans for one scale at a time.
 struct Replays {
-  kinematics::HandFile file;
-  const object::Polyhedron& solid;
   double scale = 0;
   std::unique_ptr<HandReplays> replays = nullptr;
+};
 
-  HandReplays& At(double asked) {
-    if (!replays || asked != scale) {
+/// What each thread replays with: its plans have much in common with the one before.
+class ReplaysByThread {
+ public:
+  ReplaysByThread(kinematics::HandFile file, const object::Polyhedron& solid)
+      : file_(std::move(file)), solid_(solid) {}
+
+  HandReplays& At(double scale) {
+    Replays& own = Own();
+    if (!own.replays || scale != own.scale) {
       HandReplayOptions options;
-      options.mass_kg = object::MeasureBody(solid, asked).mass_kg;
-      scale = asked;
-      replays = std::make_unique<HandReplays>(file, solid, options);
+      options.mass_kg = object::MeasureBody(solid_, scale).mass_kg;
+      own = {scale, std::make_unique<HandReplays>(file_, solid_, options)};
     }
-    return *replays;
+    return *own.replays;
   }
+
+ private:
+  Replays& Own() {
+    const std::scoped_lock lock(mutex_);
+    return by_thread_[std::this_thread::get_id()];  // which stays where it is
+  }
+
+  kinematics::HandFile file_;
+  const object::Polyhedron& solid_;
+  std::mutex mutex_;
+  std::map<std::thread::id, Replays> by_thread_;
 };
 
 }  // namespace
 
 std::function<std::optional<planning::CarriedOut>(const plan::Plan&, const Deadline&)> CarryOutTest(
     kinematics::HandFile file, const object::Polyhedron& solid) {
-  const auto replays = std::make_shared<Replays>(Replays{std::move(file), solid});
+  const auto replays = std::make_shared<ReplaysByThread>(std::move(file), solid);
   return [replays, &solid](const plan::Plan& plan,
                            const Deadline& deadline) -> std::optional<planning::CarriedOut> {
     try {

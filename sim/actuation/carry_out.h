@@ -12,7 +12,7 @@ namespace regrasp::sim {
 
 /// Tells how far a hand carries a plan out: replayed on its own model (ReplayHand) with the plan's
 /// friction, for a body of the density of water, shakes included. For planners that look for plans
-/// that it does (planning::InHandTask).
+/// that it does (planning::InHandTask). Several threads may ask at a time.
 ///
 /// @param solid  outlives what is returned.
 /// @returns what tells of a plan, at its deadline after the entry that is replayed then; nullopt

@@ -269,10 +269,12 @@ class Gait(ProgramCase):
 
     def test_the_same_arguments_give_the_same_bytes(self):
         texts = []
-        for name in ("a.json", "b.json"):
-            self.assert_done(*self.arguments("--turn", "z -120", "--seed", "5", output=name))
+        for name, jobs in (("a.json", 1), ("b.json", 1), ("c.json", 3)):
+            self.assert_done(*self.arguments("--turn", "z -120", "--seed", "5", "--jobs", str(jobs),
+                                             output=name))
             texts.append(self.read(name))
         self.assertEqual(texts[0], texts[1])
+        self.assertEqual(texts[0], texts[2])
 
     def first(self, plan, kind):
         """Its number in the report, and the step."""

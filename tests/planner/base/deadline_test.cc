@@ -35,6 +35,23 @@ TEST(Deadline, AShareOfWhatIsLeftGoesByTheSameClock) {
   EXPECT_FALSE(Deadline().After(0.5).left().has_value());
 }
 
+TEST(Deadline, IsOverTooWhenSomethingElseSaysSo) {
+  bool is_over = false;
+  const Deadline other = Deadline().OrWhen([&] { return is_over; });
+  EXPECT_FALSE(other.IsOver());
+  EXPECT_FALSE(other.After(0.1).IsOver());
+  is_over = true;
+  EXPECT_TRUE(other.IsOver());
+  EXPECT_TRUE(other.After(0.1).IsOver());
+
+  Deadline::Clock::time_point now;
+  const Deadline sooner =
+      Deadline(now + std::chrono::seconds(1), [&] { return now; }).OrWhen([] { return false; });
+  EXPECT_FALSE(sooner.IsOver());
+  now += std::chrono::seconds(1);
+  EXPECT_TRUE(sooner.IsOver());
+}
+
 TEST(Deadline, BeyondTheClocksRangeThereIsNone) {
   const Clock::time_point begin = Clock::now();
   EXPECT_EQ(DeadlineAfter(begin, 1e300).left(), std::nullopt);

@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "planner/gait/plan_of_gait.h"
@@ -278,6 +282,87 @@ TEST(WithReserveTest, WhereTheTimeIsUpInATrialItIsNotSaidThatTheHandDoesNotCarry
   ASSERT_TRUE(failed.gait) << failed.message;
   EXPECT_FALSE(failed.is_cut_short);
   EXPECT_EQ(failed.is_carried_out, false);
+}
+
+/// A hand that carries out one of so many plans, whichever.
+std::function<std::optional<planning::CarriedOut>(const plan::Plan&, const Deadline&)> OneOf(
+    std::size_t many, std::atomic<int>& trials) {
+  return [many, &trials](const plan::Plan& plan, const Deadline&) {
+    ++trials;
+    const bool is_carried = std::hash<std::string>()(plan::FormatPlan(plan)) % many == 0;
+    return std::optional(planning::CarriedOut{
+        true, is_carried ? static_cast<int>(plan.steps.size()) : 0, is_carried, 0.5});
+  };
+}
+
+TEST(WithReserveTest, WithAnyJobsTheGaitIsTheSameWithoutADeadline) {
+  int found_later = 0;
+  for (int seed = 1; seed <= 6; ++seed) {
+    GaitRequest request = RequestFor("cube", 0.8, 60);
+    request.seed = seed;
+    request.most_expanded = 200;
+    const auto find = [&](int jobs, int& tried) {
+      std::atomic<int> trials = 0;
+      request.jobs = jobs;
+      request.carry_out = OneOf(4, trials);
+      const GaitResult found = FindGait(request);
+      tried = trials;
+      return found;
+    };
+    int trials_alone = 0;
+    int trials_together = 0;
+    const GaitResult alone = find(1, trials_alone);
+    const GaitResult together = find(3, trials_together);
+    ASSERT_EQ(alone.gait.has_value(), together.gait.has_value());
+    EXPECT_EQ(alone.is_carried_out, together.is_carried_out);
+    EXPECT_EQ(alone.message, together.message);
+    if (!alone.gait) continue;
+    EXPECT_EQ(plan::FormatPlan(PlanOf(*alone.gait, request, alone.contacts)),
+              plan::FormatPlan(PlanOf(*together.gait, request, together.contacts)));
+    EXPECT_GE(trials_together, trials_alone);
+    if (alone.is_carried_out.value_or(false) && trials_alone > 4) ++found_later;
+  }
+  EXPECT_GT(found_later, 0);
+}
+
+TEST(WithReserveTest, WhatIsThrownInOneOfSeveralSearchesEndsThemAll) {
+  GaitRequest request = RequestFor("cube", 0.8, 60);
+  request.jobs = 3;
+  request.deadline = DeadlineAfter(Deadline::Clock::now(), 3600);
+  std::atomic<int> trials = 0;
+  request.carry_out = [&](const plan::Plan&, const Deadline&) {
+    if (++trials == 5) throw std::runtime_error("the fifth");
+    return std::optional(planning::CarriedOut{.is_held = true});
+  };
+  EXPECT_THROW(static_cast<void>(FindGait(request)), std::runtime_error);
+  EXPECT_GE(trials, 5);
+}
+
+TEST(WithReserveTest, WithADeadlineTheFirstSearchThatEndsInAGaitEndsThemAll) {
+  GaitRequest request = RequestFor("cube", 0.8, 60);
+  request.jobs = 3;
+  Deadline::Clock::time_point now;
+  request.deadline = {now + std::chrono::seconds(10), [&] { return now; }};
+  std::mutex mutex;
+  std::optional<std::thread::id> first;
+  // All but the first thread that asks wait in their trials until they are given up.
+  request.carry_out = [&](const plan::Plan& plan, const Deadline& deadline) {
+    bool is_first = false;
+    {
+      const std::scoped_lock lock(mutex);
+      is_first = first.value_or(std::this_thread::get_id()) == std::this_thread::get_id();
+      first = first.value_or(std::this_thread::get_id());
+    }
+    while (!is_first && !deadline.IsOver()) std::this_thread::yield();
+    return std::optional(planning::CarriedOut{.is_held = true,
+                                              .steps = static_cast<int>(plan.steps.size()),
+                                              .is_whole = is_first,
+                                              .spare = 0.5,
+                                              .is_cut_short = !is_first});
+  };
+  const GaitResult found = FindGait(request);
+  ASSERT_TRUE(found.gait) << found.message;
+  EXPECT_EQ(found.is_carried_out, true);
 }
 
 TEST(WithReserveTest, WhereItCanNotBeToldItIsAsIfTheHandWereNotAsked) {

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "planner/base/angle.h"
 #include "planner/base/file.h"
+#include "planner/base/in_blocks.h"
 #include "planner/gait/gait_planner.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/models.h"
@@ -80,6 +84,26 @@ TEST_F(CarryOutTestTest, AtItsDeadlineATrialEndsAndLaterGoesOnFromThere) {
   EXPECT_TRUE(whole->is_whole);
   EXPECT_FALSE(whole->is_cut_short);
   EXPECT_EQ(whole->spare, CarryOutTest(hand_, cube_)(*found.plan, {})->spare);
+}
+
+TEST_F(CarryOutTestTest, SeveralThreadsGetWhatOneGets) {
+  const planning::PlanResult found = planning::Solve(planner_, Turning(90));
+  ASSERT_TRUE(found.plan) << found.message;
+  plan::Plan slippery = *found.plan;
+  slippery.half_angle = std::atan(0.05);
+  const std::vector<const plan::Plan*> plans = {&*found.plan, &slippery, &*found.plan, &slippery};
+  const auto together = CarryOutTest(hand_, cube_);
+  std::vector<std::optional<planning::CarriedOut>> carried(plans.size());
+  InBlocks(plans.size(), 1, 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) carried[i] = together(*plans[i], {});
+  });
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    const auto alone = CarryOutTest(hand_, cube_)(*plans[i], {});
+    ASSERT_TRUE(alone && carried[i]);
+    EXPECT_EQ(carried[i]->steps, alone->steps);
+    EXPECT_EQ(carried[i]->is_whole, alone->is_whole);
+    EXPECT_EQ(carried[i]->spare, alone->spare);
+  }
 }
 
 TEST_F(CarryOutTestTest, OfAPlanWhoseTrialWasCutShortItIsSaidThatTheTimeWasUp) {
