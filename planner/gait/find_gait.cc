@@ -21,10 +21,29 @@ namespace {
 constexpr int kContacts = 400;
 /// Of the diameter: contacts keep off the borders of faces, where the least slip is to another one.
 constexpr double kFromBorder = 0.02;
+/// Less where faces are so small that of this many places on the surface fewer are that far off.
+constexpr int kDrawnForBorder = 400;
+constexpr int kFewestOffBorder = 4;
+
+/// From the borders of faces, over the diameter.
+double DistanceFromBorders(const GaitRequest& request) {
+  const double radius = FingersOf(request).fingertip_radius;
+  for (double distance = kFromBorder; distance > sampling::SurfaceSampler::kFromBorder;
+       distance /= 2) {
+    const sampling::SurfaceSampler sampler(*request.solid, radius, distance);
+    RandomStream random(request.seed, RandomUse::kContactPoints);
+    int off_border = 0;
+    for (int i = 0; i < kDrawnForBorder; ++i) {
+      if (sampler.IsValid(sampler.DrawAnywhere(random))) ++off_border;
+    }
+    if (off_border >= kFewestOffBorder) return distance;
+  }
+  return sampling::SurfaceSampler::kFromBorder;
+}
 
 std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
   const sampling::SurfaceSampler sampler(*request.solid, FingersOf(request).fingertip_radius,
-                                         kFromBorder);
+                                         DistanceFromBorders(request));
   RandomStream random(request.seed, RandomUse::kContactPoints);
   std::vector<grasp::Contact> contacts;
   for (int i = 0; i < kContacts; ++i) {

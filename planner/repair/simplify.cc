@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -24,6 +25,8 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 /// Where facets meet less is collapsed; so often at most.
 constexpr int kMostRounds = 12;
+/// Where so many pairs of facets meet it is no matter of some places.
+constexpr std::size_t kMostPairs = 2000;
 
 using IsKept = Mesh::Property_map<Mesh::Edge_index, bool>;
 using Boxes = std::vector<CGAL::Bbox_3>;
@@ -59,7 +62,8 @@ Mesh Collapsed(const Mesh& fine, Care care, const Boxes& kept, int facets) {
 /// Where facets meet that are no neighbours there: what the boxes of both have in common.
 Boxes MeetingIn(const Mesh& mesh) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
-  pmp::self_intersections(faces(mesh), mesh, std::back_inserter(pairs));
+  pmp::self_intersections(faces(mesh), mesh, std::back_inserter(pairs),
+                          CGAL::parameters::maximum_number(kMostPairs));
   Boxes boxes;
   for (const auto& [one, other] : pairs) {
     const CGAL::Bbox_3 a = pmp::face_bbox(one, mesh);
@@ -79,6 +83,7 @@ std::optional<Mesh> CollapsedApart(const Mesh& fine, Care care, int facets) {
     if (std::ssize(mesh.faces()) > facets) return std::nullopt;
     const Boxes meeting = MeetingIn(mesh);
     if (meeting.empty()) return mesh;
+    if (meeting.size() == kMostPairs) return std::nullopt;
     kept.insert(kept.end(), meeting.begin(), meeting.end());
   }
   return std::nullopt;

@@ -445,5 +445,16 @@ TEST(FindGaitTest, SaysWhatStoppedIt) {
   EXPECT_THAT(none.message, testing::HasSubstr("0 of 90 degrees"));
 }
 
+/// A fiftieth of the diameter off the borders of their facets there is next to no place on these.
+TEST(FindGaitTest, BodiesOfSmallFacetsHaveContacts) {
+  for (const auto& [model, scale] : {std::pair("duck1000", 0.63), {"spanner1000", 0.59}}) {
+    GaitRequest request = RequestFor(model, scale, 20);
+    request.reserve = Reserve::kNone;
+    const GaitResult found = FindGait(request);
+    EXPECT_TRUE(found.gait) << model << ": " << found.message;
+    EXPECT_EQ(found.contacts.size(), 400U);
+  }
+}
+
 }  // namespace
 }  // namespace regrasp::gait
