@@ -125,10 +125,9 @@ void PlanProgram::AddBatch(CLI::App& app) {
       ->type_name("FILE");
   app.add_option("--shard", shard, "Part I of N of the queries alone; merge joins the results")
       ->type_name("I/N");
-  AddInteger(
-      app, "--jobs", jobs, 1, kMostJobs,
-      "How many queries of --batch are planned at a time, or searches made at a time for one "
-      "--hand (default: one a processor); without --time-limit no plan depends on it");
+  AddInteger(app, "--jobs", jobs, 1, kMostJobs,
+             "Queries of --batch planned at a time, or with --hand searches made (default: one a "
+             "processor); without --time-limit no plan depends on it");
   app.add_flag("--fresh", fresh,
                "Throw away what an earlier run with --batch and the same --output left");
 }
