@@ -296,6 +296,8 @@ std::function<std::optional<planning::CarriedOut>(const plan::Plan&, const Deadl
 }
 
 TEST(WithReserveTest, WithAnyJobsTheGaitIsTheSameWithoutADeadline) {
+  // More than the first row makes: a whole gait is tried four times at most.
+  constexpr int kOfFirstRow = 4;
   int found_later = 0;
   for (int seed = 1; seed <= 6; ++seed) {
     GaitRequest request = RequestFor("cube", 0.8, 60);
@@ -320,7 +322,9 @@ TEST(WithReserveTest, WithAnyJobsTheGaitIsTheSameWithoutADeadline) {
     EXPECT_EQ(plan::FormatPlan(PlanOf(*alone.gait, request, alone.contacts)),
               plan::FormatPlan(PlanOf(*together.gait, request, together.contacts)));
     EXPECT_GE(trials_together, trials_alone);
-    if (alone.is_carried_out.value_or(false) && trials_alone > 4) ++found_later;
+    if (alone.is_carried_out.value_or(false) && trials_alone > kOfFirstRow) {
+      ++found_later;
+    };
   }
   EXPECT_GT(found_later, 0);
 }
