@@ -14,25 +14,19 @@ namespace {
 /// So soon after Ctrl-C work ends, about, and so rarely is the interpreter's lock taken.
 constexpr std::chrono::milliseconds kInterval(50);
 
-/// Instead of no end, so that the work looks at its deadline; far from the clock's last instant, as
-/// deadlines are added to.
-constexpr std::chrono::hours kNever(24 * 365 * 100);
-
-Deadline::Clock::time_point EndOf(std::optional<double> limit_s) {
-  const auto now = Deadline::Clock::now();
-  const auto left = limit_s ? DeadlineAfter(now, *limit_s).left() : std::nullopt;
-  return now + std::min<Deadline::Clock::duration>(left.value_or(kNever), kNever);
+Deadline LimitOf(std::optional<double> limit_s) {
+  return limit_s ? DeadlineAfter(Deadline::Clock::now(), *limit_s) : Deadline();
 }
 
 }  // namespace
 
 Interrupt::Interrupt(std::optional<double> limit_s, py::object progress)
-    : end_(EndOf(limit_s)),
+    : limit_(LimitOf(limit_s)),
       progress_(std::move(progress)),
       next_(Deadline::Clock::now() + kInterval) {}
 
 Deadline Interrupt::deadline() {
-  return {end_, [this] { return Now(); }};
+  return limit_.OrWhen([this] { return HasRaised(); });
 }
 
 std::function<void(std::string_view)> Interrupt::progress() {
@@ -61,11 +55,11 @@ void Interrupt::Ask(const std::function<void()>& call) {
   }
 }
 
-Deadline::Clock::time_point Interrupt::Now() {
+bool Interrupt::HasRaised() {
   const auto now = Deadline::Clock::now();
   auto next = next_.load();
   if (now >= next && next_.compare_exchange_strong(next, now + kInterval)) Poll();
-  return raised_ ? Deadline::Clock::time_point::max() : now;
+  return raised_;
 }
 
 void Interrupt::ThrowIfRaised() {

@@ -13,8 +13,8 @@ namespace regrasp::python {
 
 /// Lets Ctrl-C end work that runs without the interpreter's lock, and passes on what it says.
 ///
-/// Python handles a signal only where it is asked to: whenever the work looks at its deadline, a
-/// clock of ours asks, every kInterval at most. What the handler or the progress function throws is
+/// Python handles a signal only where it is asked to: whenever the work looks at its deadline we
+/// ask, every kInterval at most. What the handler or the progress function throws is
 /// kept, the deadline is over from then on, and the caller throws it when the work has come back.
 class Interrupt {
  public:
@@ -36,10 +36,11 @@ class Interrupt {
   void ThrowIfRaised();
 
  private:
-  Deadline::Clock::time_point Now();
+  /// Asks Python if it is time to.
+  bool HasRaised();
   void Ask(const std::function<void()>& call);
 
-  Deadline::Clock::time_point end_;
+  Deadline limit_;
   pybind11::object progress_;
   std::atomic<Deadline::Clock::time_point> next_;
   std::atomic<bool> raised_ = false;
