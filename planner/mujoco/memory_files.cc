@@ -17,4 +17,9 @@ void MemoryFiles::Add(const std::string& name, const std::string& bytes) {
               bytes.size());
 }
 
+void MemoryFiles::Replace(const std::string& name, const std::string& bytes) {
+  mj_deleteFileVFS(files_.get(), name.c_str());
+  Add(name, bytes);
+}
+
 }  // namespace regrasp::mujoco

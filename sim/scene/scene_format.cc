@@ -193,8 +193,18 @@ std::string CollisionRemark(const std::string& options) {
          options + " to the option, from MuJoCo 3.2.3 on with ccd_ instead of mpr_.";
 }
 
-/// Enough for all that fingers touch; later versions size themselves.
-constexpr char kEngineSize[] = "  <size njmax=\"400\" nconmax=\"100\"/>\n";
+/// Of one finger: a capsule has two on a patch, and where patches meet a tip is on some of them.
+constexpr int kContactsPerFinger = 8;
+/// A contact has a normal, two tangential and at a soft finger a torsional one.
+constexpr int kConstraintsPerContact = 4;
+
+/// Enough for all that fingers touch, so that no step fails for want of room (CheckState); the
+/// engine's memory, which it clears, grows with the square. Later versions size themselves.
+std::string EngineSize(std::size_t fingers) {
+  const std::size_t contacts = kContactsPerFinger * fingers;
+  return "  <size njmax=\"" + std::to_string(kConstraintsPerContact * contacts) + "\" nconmax=\"" +
+         std::to_string(contacts) + "\"/>\n";
+}
 
 }  // namespace
 
@@ -213,7 +223,7 @@ std::string FormatScene(const Scene& scene, const object::Object& body,
                {"gravity", FormatDouble(0 - s.gravity_m_s2)},
                {"collision", surface ? "" : collision},
                {"collision_remark", surface ? CollisionRemark(collision) : ""},
-               {"size", surface ? "" : kEngineSize},
+               {"size", surface ? "" : EngineSize(scene.fingers.size())},
                {"diameter", FormatDouble(s.diameter_m)},
                {"light", FormatDouble(s.diameter_m)},
                {"friction", FormatFriction(s)},
