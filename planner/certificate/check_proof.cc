@@ -87,7 +87,7 @@ motion::ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int 
   if (!balanced) return Nothing("the forces cannot be balanced exactly");
   for (int i = 0; i < count; ++i) {
     const Rational torque = twist ? (*balanced)[first_torque + i] : Rational(0);
-    if (!IsInsideCone(layout.Force(*balanced, i * dimension), contacts[i].n, mu, 0,
+    if (!IsInsideCone(layout.Force(*balanced, i * dimension), contacts[i].n, mu, Rational(0),
                       TwistSquared(contacts[i], torque))) {
       return Nothing("the force at contact " + std::to_string(i) +
                      ", balanced exactly, is not inside its cone");

@@ -114,19 +114,7 @@ Vector Exact(const Eigen::Vector3d& v) {
   return {Rational(v.x()), Rational(v.y()), Rational(v.z())};
 }
 
-Vector operator+(const Vector& a, const Vector& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-Vector operator-(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vector operator*(const Rational& s, const Vector& a) { return {s * a[0], s * a[1], s * a[2]}; }
-Rational Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector Cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 bool IsZero(const Vector& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
-Rational SquaredNorm(const Vector& a) { return Dot(a, a); }
 
 Rational RootAbove(const Rational& x) {
   if (x == 0) return 0;
@@ -134,8 +122,7 @@ Rational RootAbove(const Rational& x) {
   long exponent = static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) -
                   static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
   exponent -= exponent % 2;
-  constexpr double kAbove = 1 + 5e-7;
-  return Shifted(Rational(std::sqrt(Shifted(x, -exponent).get_d()) * kAbove), exponent / 2);
+  return Shifted(Rational(std::sqrt(Shifted(x, -exponent).get_d()) * kRootAbove), exponent / 2);
 }
 
 std::vector<ExactContact> Exact(std::span<const grasp::Contact> contacts) {
@@ -150,15 +137,6 @@ bool AllFinite(std::span<const Eigen::Vector3d> vectors) {
     if (!vector.allFinite()) return false;
   }
   return true;
-}
-
-bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu, const Rational& margin,
-                  const Rational& twist_squared) {
-  const Rational normal = Dot(force, n);
-  // Of unit n the distance from the border is (μ f·n − |f × n|) / √(1 + μ²).
-  const Rational reach = mu * normal - margin * RootAbove((1 + mu * mu) * Dot(n, n));
-  return reach > 0 &&
-         reach * reach > (Dot(force, force) + twist_squared) * Dot(n, n) - normal * normal;
 }
 
 std::optional<std::vector<Rational>> Balance::Corrected(const std::vector<Rational>& x) const {

@@ -3,32 +3,37 @@
 #include <gmpxx.h>
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "planner/grasp/contact.h"
+#include "planner/motion/vectors_of.h"
 
 /// Vectors, cones and the balance of forces in rational arithmetic, without rounding.
 namespace regrasp::motion::exact {
 
 using Rational = mpq_class;
-using Vector = std::array<Rational, 3>;
+using Vector = VectorOf<Rational>;
+
+inline constexpr double kRootAbove = 1 + 5e-7;
 
 /// The values of doubles, which must be finite.
 [[nodiscard]] Vector Exact(const Eigen::Vector3d& v);
 
-[[nodiscard]] Vector operator+(const Vector& a, const Vector& b);
-[[nodiscard]] Vector operator-(const Vector& a, const Vector& b);
-[[nodiscard]] Vector operator*(const Rational& s, const Vector& a);
-[[nodiscard]] Rational Dot(const Vector& a, const Vector& b);
-[[nodiscard]] Vector Cross(const Vector& a, const Vector& b);
 [[nodiscard]] bool IsZero(const Vector& a);
-[[nodiscard]] Rational SquaredNorm(const Vector& a);
 
-/// √x from above, larger by a millionth of it at most. @param x  not negative.
+/// √x from above, larger by a millionth of it at most: a root in doubles times kRootAbove.
+/// @param x  not negative.
 [[nodiscard]] Rational RootAbove(const Rational& x);
+
+template <>
+struct NumberTraits<Rational> {
+  static Rational RootAbove(const Rational& x) { return exact::RootAbove(x); }
+  static Rational Min(const Rational& a, const Rational& b) { return a < b ? a : b; }
+  static Rational Max(const Rational& a, const Rational& b) { return a < b ? b : a; }
+  static double Rounded(const Rational& x) { return x.get_d(); }
+};
 
 struct ExactContact {
   Vector p;
@@ -38,14 +43,6 @@ struct ExactContact {
 [[nodiscard]] std::vector<ExactContact> Exact(std::span<const grasp::Contact> contacts);
 
 [[nodiscard]] bool AllFinite(std::span<const Eigen::Vector3d> vectors);
-
-/// A force, and all that differ from it by no more than `margin`, are strictly inside the cone of
-/// friction μ about n, which need not be unit. Where `margin` is 0 the answer is exact; otherwise
-/// it may be no where less than a millionth of `margin` is missing.
-/// @param twist_squared  of a soft finger (torque / torsion)², which takes of the friction as the
-///     square of a tangential force does; `margin` is then of both together.
-[[nodiscard]] bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu,
-                                const Rational& margin = 0, const Rational& twist_squared = 0);
 
 /// Homogeneous linear equations A x = 0 with a solution that is exact up to rounding.
 class Balance {

@@ -8,7 +8,8 @@
 namespace regrasp::mujoco {
 
 /// Files that MuJoCo finds in memory before it looks for them on the disk, by the last part of
-/// their paths. An empty store is 2 MB that the engine clears: keep one where models are made often.
+/// their paths. An empty store is 2 MB that the engine clears: keep one where models are made
+/// often.
 class MemoryFiles {
  public:
   MemoryFiles();

@@ -92,6 +92,34 @@ TEST(MotionProofTest, VeryShortMotionsAreProved) {
   }
 }
 
+/// Two fingers that press against each other with forces at the border of the cone, or one rounding
+/// on either side of it: intervals cannot tell, and rounded numbers tell wrongly.
+TEST(MotionProofTest, ForcesAtTheBorderOfAConeAreToldExactly) {
+  RandomBoxes random(2);
+  constexpr double kFar = 2;
+  int inside = 0;
+  int outside = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double mu = 1 + random.Uniform() / 2;
+    const double normal = 1 + random.Uniform() / 2;
+    const double border = mu * normal;
+    for (const double tangential :
+         {std::nextafter(border, 0), border, std::nextafter(border, kFar)}) {
+      const Vector3d force(normal, tangential, 0);
+      // The second one is where the first one's force points to: no torque is left.
+      const grasp::Grasp grasp = {{Vector3d::Zero(), Vector3d::UnitX()},
+                                  {force, -Vector3d::UnitX()}};
+      const Pieces pieces = {{0, 1, {force, -force}, {force, -force}}};
+      const bool holds = std::fma(mu, normal, -tangential) > 0;  // of the sign of the exact value
+      const ProofVerdict verdict = CheckMotionProof(grasp, grasp, 2, mu, pieces);
+      EXPECT_EQ(verdict.proves(), holds) << mu << " " << normal << " " << tangential;
+      ++(holds ? inside : outside);
+    }
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_GT(outside, 100);
+}
+
 /// Every finger turns its normal by up to `most` radians, and some move too.
 grasp::Grasp Turned(const grasp::Grasp& grasp, int dimension, double most, RandomBoxes& random) {
   grasp::Grasp turned = grasp;

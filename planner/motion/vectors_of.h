@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+
+/// Vectors and cones over a number type without rounding errors: exact numbers, or intervals that
+/// surely contain the exact ones.
+namespace regrasp::motion::exact {
+
+template <class Number>
+using VectorOf = std::array<Number, 3>;
+
+/// What is not the same for all number types. Each has
+/// - `Number RootAbove(const Number& x)`: √x from above, larger by a millionth of it at most, x not
+///   negative;
+/// - `Number Min(const Number&, const Number&)` and `Max`;
+/// - `double Rounded(const Number&)`.
+template <class Number>
+struct NumberTraits;
+
+template <class Number>
+VectorOf<Number> operator+(const VectorOf<Number>& a, const VectorOf<Number>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class Number>
+VectorOf<Number> operator-(const VectorOf<Number>& a, const VectorOf<Number>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class Number>
+VectorOf<Number> operator*(const Number& s, const VectorOf<Number>& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
+template <class Number>
+Number Dot(const VectorOf<Number>& a, const VectorOf<Number>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class Number>
+VectorOf<Number> Cross(const VectorOf<Number>& a, const VectorOf<Number>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+template <class Number>
+Number SquaredNorm(const VectorOf<Number>& a) {
+  return Dot(a, a);
+}
+
+/// A force, and all that differ from it by no more than `margin`, are strictly inside the cone of
+/// friction μ about n, which need not be unit. Where `margin` is 0 the answer is exact; otherwise
+/// it may be no where less than a millionth of `margin` is missing.
+/// @param twist_squared  of a soft finger (torque / torsion)², which takes of the friction as the
+///     square of a tangential force does; `margin` is then of both together.
+template <class Number>
+bool IsInsideCone(const VectorOf<Number>& force, const VectorOf<Number>& n, const Number& mu,
+                  const Number& margin, const Number& twist_squared) {
+  const Number normal = Dot(force, n);
+  const Number length_squared = Dot(n, n);
+  // Of unit n the distance from the border is (μ f·n − |f × n|) / √(1 + μ²).
+  const Number root = NumberTraits<Number>::RootAbove((1 + mu * mu) * length_squared);
+  const Number reach = mu * normal - margin * root;
+  if (!(reach > 0)) return false;
+  return reach * reach > (Dot(force, force) + twist_squared) * length_squared - normal * normal;
+}
+
+}  // namespace regrasp::motion::exact
