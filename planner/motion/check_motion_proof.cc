@@ -421,7 +421,7 @@ ProofVerdict CheckPiece(const std::vector<GivenContact>& given, int dimension, c
   return {Kind::kForceClosure, ""};
 }
 
-/// By intervals where they can tell, a twentieth of the time, otherwise by rational numbers. What
+/// By intervals where they can tell, otherwise by rational numbers, which take far longer. What
 /// intervals prove those prove too: the steps are the same.
 ProofVerdict CheckFiltered(const std::vector<GivenContact>& given, int dimension, double mu,
                            const MotionSegment& piece) {
