@@ -456,9 +456,10 @@ HandWorld::State HandWorld::Save() const {
 void HandWorld::Restore(const State& state) {
   const mjModel* m = impl_->model.get();
   mjData* d = impl_->data.get();
-  mj_resetData(m, d);
   impl_->surface.Forget();
+  // A reset would clear all of the engine's memory, for every push of a shake.
   RestoreState(state.engine, *d);
+  std::fill_n(d->xfrc_applied, std::ptrdiff_t{6} * m->nbody, 0);
   SetControls(state.controls);
   mj_forward(m, d);
   std::ranges::copy(state.engine.qacc_warmstart, d->qacc_warmstart);
