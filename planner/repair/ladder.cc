@@ -196,7 +196,10 @@ class Ladder {
     PolygonSoup fine = *climbed_.solid;
     MarkInvented(soup_, climbed_.comparison, fine);
     const auto coarse = Run("simplify", [&] { return Simplify(fine, *options_.facets); });
-    return coarse && Accepts(*coarse, &fine);
+    if (!coarse) return false;
+    if (Accepts(*coarse, &fine)) return true;
+    last().outcome += "; with a larger --faces it may come out";
+    return false;
   }
 
   /// How long a stage may take. What unites shells may go round for ever where they touch along

@@ -193,7 +193,8 @@ TEST(Repair, WhereCollapsesMakeFacetsMeetOthersAreFound) {
     hollow.facets.push_back(std::move(facet));
   }
   options.facets = 200;
-  EXPECT_THAT(Refusal(hollow, options), HasSubstr("self-intersecting"));
+  EXPECT_THAT(Refusal(hollow, options),
+              AllOf(HasSubstr("self-intersecting"), HasSubstr("larger --faces")));
 }
 
 TEST(Repair, ACoarserSolidIsNotInventedWhereItIsMerelyFarOff) {
