@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -93,18 +94,19 @@ TEST(MotionProofTest, VeryShortMotionsAreProved) {
 }
 
 /// Two fingers that press against each other with forces at the border of the cone, or one rounding
-/// on either side of it: intervals cannot tell, and rounded numbers tell wrongly.
+/// on either side of it: intervals cannot tell, and rounded numbers tell wrongly. Of sizes at which
+/// powers overflow or vanish, too.
 TEST(MotionProofTest, ForcesAtTheBorderOfAConeAreToldExactly) {
   RandomBoxes random(2);
-  constexpr double kFar = 2;
+  constexpr std::array kSizes = {1.0, 1e-100, 1e100};
   int inside = 0;
   int outside = 0;
   for (int i = 0; i < 300; ++i) {
     const double mu = 1 + random.Uniform() / 2;
-    const double normal = 1 + random.Uniform() / 2;
+    const double normal = kSizes[i % kSizes.size()] * (1 + random.Uniform() / 2);
     const double border = mu * normal;
     for (const double tangential :
-         {std::nextafter(border, 0), border, std::nextafter(border, kFar)}) {
+         {std::nextafter(border, 0), border, std::nextafter(border, 2 * border)}) {
       const Vector3d force(normal, tangential, 0);
       // The second one is where the first one's force points to: no torque is left.
       const grasp::Grasp grasp = {{Vector3d::Zero(), Vector3d::UnitX()},
