@@ -39,19 +39,6 @@ using Kind = ProofVerdict::Kind;
 
 ProofVerdict Nothing(std::string why) { return {Kind::kNothing, std::move(why)}; }
 
-template <class Number>
-Number Lesser(const Number& a, const Number& b) {
-  return NumberTraits<Number>::Min(a, b);
-}
-template <class Number>
-Number Greater(const Number& a, const Number& b) {
-  return NumberTraits<Number>::Max(a, b);
-}
-template <class Number>
-Number Root(const Number& x) {
-  return NumberTraits<Number>::RootAbove(x);
-}
-
 /// A point or a difference of points that goes linearly from one end of a piece to the other.
 template <class Number>
 struct Linear {
@@ -421,8 +408,9 @@ ProofVerdict CheckPiece(const std::vector<GivenContact>& given, int dimension, c
   return {Kind::kForceClosure, ""};
 }
 
-/// By intervals where they can tell, otherwise by rational numbers, which take far longer. What
-/// intervals prove those prove too: the steps are the same.
+/// By intervals where they can tell, otherwise by rational numbers, which take far longer. Both
+/// take the same steps, and each proves only what is so; where two supports are as good they may
+/// take different ones.
 ProofVerdict CheckFiltered(const std::vector<GivenContact>& given, int dimension, double mu,
                            const MotionSegment& piece) {
   try {

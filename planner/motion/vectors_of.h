@@ -18,6 +18,19 @@ template <class Number>
 struct NumberTraits;
 
 template <class Number>
+Number Lesser(const Number& a, const Number& b) {
+  return NumberTraits<Number>::Min(a, b);
+}
+template <class Number>
+Number Greater(const Number& a, const Number& b) {
+  return NumberTraits<Number>::Max(a, b);
+}
+template <class Number>
+Number Root(const Number& x) {
+  return NumberTraits<Number>::RootAbove(x);
+}
+
+template <class Number>
 VectorOf<Number> operator+(const VectorOf<Number>& a, const VectorOf<Number>& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
@@ -53,7 +66,7 @@ bool IsInsideCone(const VectorOf<Number>& force, const VectorOf<Number>& n, cons
   const Number normal = Dot(force, n);
   const Number length_squared = Dot(n, n);
   // Of unit n the distance from the border is (μ f·n − |f × n|) / √(1 + μ²).
-  const Number root = NumberTraits<Number>::RootAbove((1 + mu * mu) * length_squared);
+  const Number root = Root<Number>((1 + mu * mu) * length_squared);
   const Number reach = mu * normal - margin * root;
   if (!(reach > 0)) return false;
   return reach * reach > (Dot(force, force) + twist_squared) * length_squared - normal * normal;
