@@ -26,31 +26,32 @@ class Deadline {
   Deadline(Clock::time_point at, std::function<Clock::time_point()> now = Clock::now)
       : at_(at), now_(std::move(now)) {}
 
-  [[nodiscard]] bool IsOver() const { return at_ && now_() >= *at_; }
+  [[nodiscard]] bool IsOver() const { return (is_over_ && is_over_()) || (at_ && now_() >= *at_); }
   /// @throws TimeUp  it is over.
   void Check() const {
     if (IsOver()) throw TimeUp();
   }
   /// An earlier one, after a share of what is left.
   [[nodiscard]] Deadline After(double share) const {
-    if (!at_) return {};
-    const Clock::time_point now = now_();
-    return {now + std::chrono::duration_cast<Clock::duration>(share * (*at_ - now)), now_};
+    if (!at_) return *this;
+    return In(std::chrono::duration_cast<Clock::duration>(share * (*at_ - now_())));
   }
-  /// Over when this one is, and from when `is_over` says so, which is for good.
+  /// Over when this one is, and from when `is_over` says so, which is for good. How much is left
+  /// does not depend on that.
   [[nodiscard]] Deadline OrWhen(std::function<bool()> is_over) const {
-    // Far from the clock's last instant, as deadlines are added to.
-    constexpr std::chrono::hours kNever(24 * 365 * 100);
-    return {at_.value_or(Clock::now() + kNever),
-            [now = at_ ? now_ : Clock::now, is_over = std::move(is_over)] {
-              return is_over() ? Clock::time_point::max() : now();
-            }};
+    Deadline either = *this;
+    either.is_over_ = [first = is_over_, second = std::move(is_over)] {
+      return (first && first()) || second();
+    };
+    return either;
   }
-  /// Another one by the same clock, after so long from now.
+  /// Another one by the same clock, after so long from now; without a time as this one is.
   [[nodiscard]] Deadline In(Clock::duration time) const {
-    return at_ ? Deadline(now_() + time, now_) : Deadline();
+    Deadline other = *this;
+    if (at_) other.at_ = now_() + time;
+    return other;
   }
-  /// What is left until then, negative afterwards; nullopt: no end.
+  /// What is left until then, negative afterwards; nullopt: no end, but for what OrWhen says.
   [[nodiscard]] std::optional<Clock::duration> left() const {
     return at_ ? std::optional(*at_ - now_()) : std::nullopt;
   }
@@ -58,6 +59,7 @@ class Deadline {
  private:
   std::optional<Clock::time_point> at_;
   std::function<Clock::time_point()> now_;
+  std::function<bool()> is_over_;
 };
 
 /// So many seconds after `begin`; never where that is beyond the clock's range.

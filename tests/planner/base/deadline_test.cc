@@ -43,11 +43,16 @@ TEST(Deadline, IsOverTooWhenSomethingElseSaysSo) {
   is_over = true;
   EXPECT_TRUE(other.IsOver());
   EXPECT_TRUE(other.After(0.1).IsOver());
+  // It is no limit of time.
+  EXPECT_FALSE(other.left().has_value());
+  EXPECT_FALSE(other.OrWhen([] { return false; }).left().has_value());
+  EXPECT_TRUE(other.OrWhen([] { return false; }).IsOver());
 
   Deadline::Clock::time_point now;
   const Deadline sooner =
       Deadline(now + std::chrono::seconds(1), [&] { return now; }).OrWhen([] { return false; });
   EXPECT_FALSE(sooner.IsOver());
+  EXPECT_EQ(sooner.left(), std::chrono::seconds(1));
   now += std::chrono::seconds(1);
   EXPECT_TRUE(sooner.IsOver());
 }
