@@ -120,8 +120,6 @@ void HandJudge::WatchObject(const Isometry3d& planned, double share, double& off
 void HandJudge::WatchContact(FingerIndex f) {
   Finger& state = fingers_[f];
   const double dt = world_.timestep();
-  const std::string name = FingerText(world_.hand(), f);
-  const int joints = static_cast<int>(world_.hand().fingers[f].joints.size());
   const TipTouch touch = world_.touch(f);
   state.without_force = touch.force.norm() > kNoForce ? 0 : state.without_force + dt;
   double slip = 0;
@@ -136,10 +134,13 @@ void HandJudge::WatchContact(FingerIndex f) {
     }
   }
   measures_.slip_m = std::max(measures_.slip_m, slip);
+  if (state.without_force <= tolerance_.lost_s && slip <= tolerance_.slip_m) return;
+  const std::string name = FingerText(world_.hand(), f);
+  const int joints = static_cast<int>(world_.hand().fingers[f].joints.size());
   if (state.without_force > tolerance_.lost_s) {
     Fail(Reason::kContactLost, name + " has lost its contact",
          {"no force", {f}, {{f, joints}}, world_.tip(f)});
-  } else if (slip > tolerance_.slip_m) {
+  } else {
     const std::string how = state.slides_to_O ? " off its way" : " slipped";
     Fail(Reason::kSlipped,
          name +
@@ -158,7 +159,6 @@ void HandJudge::WatchFinger(FingerIndex f) {
 void HandJudge::WatchActuators(FingerIndex f) {
   Finger& state = fingers_[f];
   const double dt = world_.timestep();
-  const std::string name = FingerText(world_.hand(), f);
   for (std::size_t drive = 0; drive < state.at_limit.size(); ++drive) {
     const double share = world_.load_share(f, static_cast<int>(drive));
     measures_.torque_share = std::max(measures_.torque_share, share);
@@ -170,7 +170,8 @@ void HandJudge::WatchActuators(FingerIndex f) {
         std::ranges::find(chain.joints, static_cast<int>(drive), &kinematics::Joint::drive);
     const int number = static_cast<int>(joint - chain.joints.begin());
     Fail(Reason::kTorqueLimit,
-         "the actuator of joint " + joint->name + " of " + name + " is at its limit of " +
+         "the actuator of joint " + joint->name + " of " + FingerText(world_.hand(), f) +
+             " is at its limit of " +
              FormatShort(world_.servo(f, static_cast<int>(drive)).limit, 3) +
              " N·m for longer than " + FormatShort(1e3 * tolerance_.limit_s) + " ms",
          {FormatShort(world_.servo(f, static_cast<int>(drive)).limit, 3) + " N·m",

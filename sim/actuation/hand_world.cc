@@ -46,6 +46,17 @@ std::pair<Vector3d, Vector3d> Tangents(const Vector3d& normal) {
   return {first, normal.cross(first)};
 }
 
+/// Room for as many contacts, and for the rows of constraints that these, both ends of every range,
+/// friction in joints and what couples them can be. All of it is cleared whenever a state is
+/// placed.
+void SetRoom(int contacts, mjModel& model) {
+  constexpr int kRowsOfContact = 3;
+  constexpr int kRowsOfWeld = 6;  // of what couples, the most
+  model.nconmax = contacts;
+  model.njmax = kRowsOfContact * contacts + kRowsOfWeld * model.neq +
+                2 * (model.njnt + model.ntendon) + model.nv + model.ntendon;
+}
+
 }  // namespace
 
 struct HandWorld::Impl {
@@ -74,6 +85,7 @@ struct HandWorld::Impl {
       : hand(file.hand), surface(file, given.tip, solid, scale), options(given) {
     model = kinematics::CompileText(file.compiled->text.files.front(),
                                     HandSceneText(file, solid, scale, options.mass_kg));
+    SetRoom(surface.most_contacts(), *model);
     data.reset(mj_makeData(model.get()));
     if (!data) throw EnvironmentError("MuJoCo has no memory for a hand");
     centroid = scale * solid.mass_properties().centroid;
@@ -85,10 +97,12 @@ struct HandWorld::Impl {
     model->opt.impratio = kFrictionHardness;
     const Vector3d gravity = -options.gravity_m_s2 * (palm.linear() * hand.up);
     std::copy_n(gravity.data(), 3, model->opt.gravity);
-    // Links that touch anything are a failure and not a matter of forces: HandJudge looks.
+    // Links that touch anything are a failure and not a matter of forces: HandJudge looks. The
+    // engine looks at pairs that are named, of which there are none.
+    model->opt.collision = mjCOL_PAIR;
+    model->npair = 0;
     std::fill_n(model->geom_contype, model->ngeom, 0);
     std::fill_n(model->geom_conaffinity, model->ngeom, 0);
-    model->npair = 0;
   }
 
   [[nodiscard]] int Id(int kind, const std::string& name) const {

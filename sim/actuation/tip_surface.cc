@@ -11,6 +11,8 @@ using Eigen::Vector3d;
 
 /// A tip goes this far before the triangles near it are looked for anew, metres.
 constexpr double kNeighbourhood = 3e-3;
+/// Nothing bounds those of a ball, which on smooth bodies has one or two.
+constexpr int kMostOfShape = 2 * collision::kMostContacts;
 
 }  // namespace
 
@@ -30,6 +32,12 @@ TipSurface::TipSurface(const kinematics::HandFile& file, TipShape tip,
       }
     }
   }
+}
+
+int TipSurface::most_contacts() const {
+  std::size_t shapes = 0;
+  for (const Tip& tip : tips_) shapes += tip.shapes.size();
+  return kMostOfShape * static_cast<int>(shapes);
 }
 
 void TipSurface::Forget() {

@@ -19,6 +19,9 @@ class TipSurface {
   TipSurface(const kinematics::HandFile& file, TipShape tip, const object::Polyhedron& solid,
              double scale);
 
+  /// As many contacts as all tips may be expected to have at a time.
+  [[nodiscard]] int most_contacts() const;
+
   /// What comes does not depend on what was, to the last bit.
   void Forget();
 
