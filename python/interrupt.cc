@@ -1,7 +1,6 @@
 #include "python/interrupt.h"
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <utility>
 
@@ -10,9 +9,6 @@ namespace regrasp::python {
 namespace py = pybind11;
 
 namespace {
-
-/// So soon after Ctrl-C work ends, about, and so rarely is the interpreter's lock taken.
-constexpr std::chrono::milliseconds kInterval(50);
 
 Deadline LimitOf(std::optional<double> limit_s) {
   return limit_s ? DeadlineAfter(Deadline::Clock::now(), *limit_s) : Deadline();

@@ -3,9 +3,12 @@
 #include <pybind11/pybind11.h>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
+#include <future>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "planner/base/deadline.h"
 
@@ -30,12 +33,24 @@ class Interrupt {
 
   /// Asks Python at once.
   void Poll();
+
+  /// Does work in a thread of its own, which may start others, while this one asks Python: signals
+  /// are handled in the interpreter's first thread alone. What says something is any of them.
+  template <typename Work>
+  auto Run(Work work) {
+    auto result = std::async(std::launch::async, std::move(work));
+    while (result.wait_for(kInterval) != std::future_status::ready) Poll();
+    return result.get();
+  }
   [[nodiscard]] bool raised() const { return raised_; }
   /// @pre the interpreter's lock is held.
   /// @throws pybind11::error_already_set  the signal handler or the progress function did.
   void ThrowIfRaised();
 
  private:
+  /// So soon after Ctrl-C work ends, about, and so rarely is the interpreter's lock taken.
+  static constexpr std::chrono::milliseconds kInterval{50};
+
   /// Asks Python if it is time to.
   bool HasRaised();
   void Ask(const std::function<void()>& call);

@@ -43,6 +43,7 @@ struct PlanArguments {
   double torsion = 0;  ///< of soft fingers, the object's unit of length
   std::optional<int> contacts, clusters;
   std::optional<double> time_limit_s;
+  int jobs = 1;  ///< searches at a time, ≥ 1
 };
 
 /// What is asked of a hand; poses are a position and a quaternion w, x, y, z.
@@ -51,7 +52,7 @@ struct HandArguments {
   double turn_angle = 0;  ///< radians
   std::optional<std::array<double, 7>> start_pose, goal_pose;
   double clearance = 1e-3;
-  planning::Reserve reserve = planning::Reserve::kPreferred;
+  planning::Reserve reserve = planning::Reserve::kRequired;
 };
 
 std::optional<Eigen::Isometry3d> PoseOf(const std::optional<std::array<double, 7>>& numbers) {
@@ -102,6 +103,7 @@ planning::PlanResult Find(const PythonObject& object, const PlanArguments& given
   request.seed = given.seed;
   request.contact_points = given.contacts;
   request.clusters = given.clusters;
+  request.jobs = given.jobs;
   request.deadline = interrupt.deadline();
   request.progress = interrupt.progress();
   if (task) gait::AskInHand(*task, request);
@@ -125,7 +127,8 @@ py::tuple FindPlan(const PythonObject& object, const PlanArguments& given, py::o
   {
     const py::gil_scoped_release unlocked;
     try {
-      result = Find(object, given, task, interrupt);
+      const auto find = [&] { return Find(object, given, task, interrupt); };
+      result = given.jobs > 1 ? interrupt.Run(find) : find();
     } catch (const TimeUp&) {
       if (!interrupt.raised()) throw;
     }
@@ -164,7 +167,8 @@ void BindPlans(py::module_& module) {
       .def_readwrite("torsion", &PlanArguments::torsion)
       .def_readwrite("contacts", &PlanArguments::contacts)
       .def_readwrite("clusters", &PlanArguments::clusters)
-      .def_readwrite("time_limit_s", &PlanArguments::time_limit_s);
+      .def_readwrite("time_limit_s", &PlanArguments::time_limit_s)
+      .def_readwrite("jobs", &PlanArguments::jobs);
   module.def("find_plan",
              [](const PythonObject& object, const PlanArguments& given, py::object progress) {
                return FindPlan(object, given, std::move(progress), std::nullopt);

@@ -7,7 +7,6 @@ import json
 import math
 import os
 
-
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
 from ._types import ArrayLike, GivenGrasp, Progress
@@ -16,6 +15,7 @@ from .objects import Object
 
 _PLANNERS = ["auto", *_regrasp.planner_names()]
 _RANDOM = ("random", "random-any")
+_MOST_JOBS = 1024
 
 
 class NoPlan(RuntimeError):
@@ -205,9 +205,9 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
                  friction_angle_deg: float | None = None, turn: tuple[str, float] | None = None,
                  start: GivenGrasp | None = None, goal: GivenGrasp | None = None,
                  start_pose: ArrayLike | None = None, goal_pose: ArrayLike | None = None,
-                 reserve: str = "preferred", clearance: float = 0.001, seed: int = 0,
+                 reserve: str = "required", clearance: float = 0.001, seed: int = 0,
                  min_quality: float = 0.01, time_limit: float | None = None,
-                 progress: Progress = None) -> Plan:
+                 jobs: int | None = None, progress: Progress = None) -> Plan:
     """Finds how a hand turns an object, moves it, or changes its grasp: with all joints, and without
     collisions.
 
@@ -227,16 +227,20 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
             quaternion w, x, y, z; None: where the hand's reach is best.
         goal_pose: likewise.
         reserve: whether something to spare for the hand's motors, and that they carry the plan
-            out in a simulation, is "preferred", "required" or not asked for ("none").
+            out in a simulation, is "required", "preferred" (otherwise there is a plan that they do
+            not carry out) or not asked for ("none").
         clearance: that links keep from each other, from palm and object, metres.
         seed: of all that is drawn at random.
         min_quality: that the sequence prefers.
         time_limit: seconds after which planning gives up.
-        progress: called with a line of text for each stage.
+        jobs: searches at a time; None: one a processor. Without a time limit it changes nothing but
+            the time that it takes.
+        progress: called with a line of text for each stage, from whichever thread is at it.
 
     Raises:
         InputError: an argument is wrong.
-        NoPlan: no sequence was found.
+        NoPlan: no sequence was found, or none that the hand's motors carry out; its text says what
+            fails.
 
     >>> ring = Hand.read("models/hands/ring4.json")
     >>> cube = Object.read("models/cube.obj")
@@ -254,6 +258,9 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     if turn is None and goal_pose is None and start is None and start_pose is None:
         raise InputError("goal: start or start_pose says what is before it")
     given = _asked(mu, friction_angle_deg, seed, min_quality, time_limit)
+    if jobs is None:
+        jobs = min(os.cpu_count() or 1, _MOST_JOBS)
+    given.jobs = _arguments.integer("jobs", jobs, 1, _MOST_JOBS)
     given.start = "" if start is None else _grasp_text("start", start, object, random=False)
     given.goal = "" if goal is None else _grasp_text("goal", goal, object, random=False)
     task = _regrasp.HandArguments()

@@ -1,7 +1,10 @@
 """Plans for hands, and their validation by the hand."""
 
 import json
+import os
+import signal
 import subprocess
+import threading
 import unittest
 
 import numpy as np
@@ -64,6 +67,39 @@ class HandsTest(RegraspCase):
                                  goal_pose=[5, 0, 0, 1, 0, 0, 0], reserve="none", time_limit=0.5)
         self.assertTrue(str(caught.exception))
 
+    def test_any_number_of_searches_at_a_time_finds_the_same_plan(self):
+        told = []
+        plans = [regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 120), jobs=jobs,
+                                      progress=told.append).text for jobs in (1, 3)]
+        self.assertEqual(plans[0], plans[1])
+        self.assertTrue(told)
+
+    def test_ctrl_c_ends_several_searches(self):
+        timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+        told = []
+
+        def begin(text):
+            if not told:
+                timer.start()
+            told.append(text)
+        with self.assertRaises(KeyboardInterrupt):
+            regrasp.plan_in_hand(self.cube, self.hand, mu=0.25, turn=("z", 3600), jobs=3,
+                                 progress=begin)
+            timer.join()
+        self.assertTrue(told)
+
+    def test_what_the_progress_function_raises_ends_several_searches(self):
+        def stop(text):
+            raise KeyError(text)
+        with self.assertRaises(KeyError):
+            regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 120), jobs=3,
+                                 progress=stop)
+
+    def test_what_the_motors_do_not_carry_out_is_no_plan_and_says_what_fails(self):
+        with self.assertRaises(regrasp.NoPlan) as caught:
+            regrasp.plan_in_hand(self.cube, self.hand, mu=0.3, turn=("z", 90))
+        self.assertIn("fails (slipped): finger", str(caught.exception))
+
     def test_arguments_about_hands_that_are_wrong_are_named(self):
         gear = regrasp.Object.read("models/gear128.wkt")
 
@@ -84,6 +120,7 @@ class HandsTest(RegraspCase):
              start=[[.03, 0, 0], [-.03, 0, 0]])
         plan("reserve", "'preferred'", reserve="prefered", turn=("z", 9))
         plan("clearance", "0.05", clearance=1, turn=("z", 9))
+        plan("jobs", "from 1 to 1024", jobs=0, turn=("z", 9))
         self.refuses(["hand", "fingers without a hand"], lambda: regrasp.validate(
             self.cube, self.points_plan, hand=self.hand))
         self.refuses(["hand", "needed"], lambda: regrasp.validate(
