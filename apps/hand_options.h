@@ -15,7 +15,7 @@ struct HandOptions {
   std::string start_pose;
   std::string goal_pose;
   double clearance_m = 1e-3;
-  planning::Reserve reserve = planning::Reserve::kPreferred;
+  planning::Reserve reserve = planning::Reserve::kRequired;
 
   void AddTo(CLI::App& app);
 

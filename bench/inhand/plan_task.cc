@@ -47,7 +47,8 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
                                                 const HandBody& body, const Task& task,
                                                 const std::optional<TaskStart>& start,
                                                 const criteria::GraspCriteria& criteria) {
-  planning::InHandTask in_hand{.hand = &hand.hand, .scale = body.scale};
+  planning::InHandTask in_hand{
+      .hand = &hand.hand, .scale = body.scale, .reserve = planning::Reserve::kRequired};
   in_hand.carry_out = sim::CarryOutTest(hand, body.solid());
   if (start) {
     in_hand.start_pose = start->pose;
@@ -69,8 +70,8 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
   return ways;
 }
 
-/// Each way has its share of the time that those before it left. The first plan that the hand
-/// carries out, or the first one.
+/// Each way has its share of the time that those before it left. The first plan that there is, or
+/// why the first way has none; rather where the hand carries none out.
 planning::PlanResult Solve(const kinematics::HandFile& hand, const HandBody& body, const Task& task,
                            const std::optional<TaskStart>& start, const Deadline& deadline) {
   planning::PlanRequest request;
@@ -87,13 +88,9 @@ planning::PlanResult Solve(const kinematics::HandFile& hand, const HandBody& bod
     }
     request.deadline = deadline.After(1.0 / static_cast<double>(ways.size() - i));
     planning::PlanResult result = planning::Solve(gait::GaitPlanner(), request);
-    bool is_carried_out = false;
-    if (ways.size() > 1 && result.plan) {
-      const auto carried = ways[i].carry_out(*result.plan, deadline);
-      is_carried_out = carried && carried->is_whole;
-    }
-    if (is_carried_out || !found.plan) found = std::move(result);
-    if (is_carried_out || deadline.IsOver()) break;
+    const bool is_done = result.plan || deadline.IsOver();
+    if (i == 0 || result.plan || (result.trial && !found.trial)) found = std::move(result);
+    if (is_done) break;
   }
   return found;
 }
@@ -121,6 +118,7 @@ PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body, con
     planned.seconds = ProcessorSeconds() - begin;
     planned.plan = std::move(result.plan);
     planned.message = std::move(result.message);
+    planned.trial = result.trial;
   } catch (const std::runtime_error& error) {  // no place in the hand, or no such start
     planned.seconds = ProcessorSeconds() - begin;
     planned.message = error.what();

@@ -7,6 +7,7 @@
 #include "bench/inhand/task.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/plan.h"
+#include "planner/plan/reason.h"
 
 namespace regrasp::bench {
 
@@ -23,10 +24,12 @@ struct PlannedTask {
   std::optional<plan::Plan> plan;
   double seconds = 0;   ///< of the processor
   std::string message;  ///< where there is none
+  /// Where plans were found that the hand carries none out of, why not.
+  std::optional<plan::Reason> trial = {};
 };
 
-/// Plans a task as the program `plan` does by its usual options: with reserve where there is some,
-/// plans tried on the hand's own motors, and grasps of a quality of 0.01.
+/// Plans a task as the program `plan` does by its usual options: with reserve, plans tried on the
+/// hand's own motors and none that these do not carry out, and grasps of a quality of 0.01.
 /// @param start    where it begins; none: wherever the planner likes. A task that moves the
 ///                 centroid begins where the hand's reach is good, or is there half-way.
 /// @param limit_s  of processor time.

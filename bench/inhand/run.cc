@@ -90,7 +90,7 @@ Row RunTask(const ScoreRun& run, const Task& task, const kinematics::HandFile& h
   const PlannedTask planned = PlanTask(hand, body, task, start, run.limit_s);
   row.seconds = planned.seconds;
   if (!planned.plan) {
-    row.reason = kNoPlan;
+    row.reason = planned.trial ? plan::ReasonName(*planned.trial) : kNoPlan;
     row.detail = planned.message;
     start.reset();
     return row;

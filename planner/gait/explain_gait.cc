@@ -63,9 +63,25 @@ Kind TiltedPalm(kinematics::HandModel& hand) {
           }};
 }
 
+/// One of many tries, which looks at fewer rests. Nothing is asked of motors that don't stop it.
+GaitRequest TryOf(const GaitRequest& request, bool with_motors) {
+  GaitRequest tried = request;
+  if (!with_motors) tried.reserve = Reserve::kNone;
+  tried.most_expanded = std::min(request.most_expanded,
+                                 std::max(kFewestExpanded, request.most_expanded / kShareOfTry));
+  return tried;
+}
+
+bool AreMotorsInTheWay(const GaitRequest& request) {
+  if (request.reserve != Reserve::kRequired) return false;
+  request.progress("trying without the hand's motors");
+  return FindGait(TryOf(request, false)).gait.has_value();
+}
+
 }  // namespace
 
 std::string ExplainGait(const GaitRequest& request) {
+  const bool with_motors = AreMotorsInTheWay(request);
   kinematics::HandModel tilted;
   std::vector<Kind> kinds = {MoreFriction(), OtherSize()};
   const bool is_upright = !request.start_pose && !request.goal_pose &&
@@ -77,11 +93,8 @@ std::string ExplainGait(const GaitRequest& request) {
   for (std::size_t i = 0; i < most.changes.size(); ++i) {
     for (Kind& kind : kinds) {
       if (i >= kind.changes.size() || !kind.helps.empty()) continue;
-      GaitRequest changed = request;
+      GaitRequest changed = TryOf(request, with_motors);
       const std::string words = kind.change(kind.changes[i], changed);
-      if (changed.reserve == Reserve::kPreferred) changed.reserve = Reserve::kNone;
-      changed.most_expanded = std::min(
-          request.most_expanded, std::max(kFewestExpanded, request.most_expanded / kShareOfTry));
       changed.progress = [&](std::string_view) { request.progress("trying " + words); };
       if (FindGait(changed).gait) kind.helps = words;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <stdexcept>
 
@@ -13,6 +14,7 @@
 #include "planner/gait/places_in_hand.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/with_reserve.h"
+#include "planner/plan/reason.h"
 #include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::gait {
@@ -66,6 +68,16 @@ std::string HowFar(const GaitRequest& request, const GaitCounts& counts) {
          " of " + FormatShort(Degrees(request.turn.angle), 3) + " degrees";
 }
 
+/// "slipped 5, hand-collides 2"
+std::string FailuresText(const FailureCounts& failures) {
+  std::string text;
+  for (const auto& [reason, count] : failures) {
+    text += (text.empty() ? "" : ", ") + std::string(plan::ReasonName(reason)) + " " +
+            std::to_string(count);
+  }
+  return text;
+}
+
 /// Why no place led to the end, of the one where the object came farthest.
 std::string WhatStopped(const GaitRequest& request, const std::vector<GaitCounts>& counts) {
   if (counts.empty()) {
@@ -79,7 +91,7 @@ std::string WhatStopped(const GaitRequest& request, const std::vector<GaitCounts
   std::string text = HowFar(request, best) + "; of " + std::to_string(counts.size()) +
                      " places in the hand the best one has " + std::to_string(best.grasps) +
                      " grasps";
-  const auto add = [&](std::int64_t count, const char* what) {
+  const auto add = [&](std::int64_t count, const std::string& what) {
     if (count > 0) text += ", " + std::to_string(count) + " " + what;
   };
   add(best.colliding, "in which fingers collide");
@@ -87,7 +99,9 @@ std::string WhatStopped(const GaitRequest& request, const std::vector<GaitCounts
   add(best.ways.no_slide, "for which a finger cannot slide");
   add(best.ways.no_move, "with moves that fingers cannot follow");
   add(best.rolled, "that no longer hold where their contacts roll to");
-  add(best.not_carried, "to which the hand's motors do not come");
+  add(std::accumulate(best.not_carried.begin(), best.not_carried.end(), std::int64_t{0},
+                      [](std::int64_t sum, const auto& one) { return sum + one.second; }),
+      "to which the hand's motors do not come (" + FailuresText(best.not_carried) + ")");
   if (request.reserve == Reserve::kRequired) {
     text += "; without reserve there may be a plan";
   }
@@ -170,8 +184,12 @@ CarryOut TrialOf(const HandSetup& setup, const GaitRequest& request,
     if (!carried) return {.is_whole = true};  // who asks finds out
     const bool fails_in_move = carried->is_held && !carried->is_whole &&
                                std::holds_alternative<plan::Move>(plan.steps[carried->steps]);
-    return {CountChanges(fewer, carried->steps), carried->is_held, fails_in_move, carried->is_whole,
-            carried->is_cut_short};
+    return {CountChanges(fewer, carried->steps),
+            carried->is_held,
+            fails_in_move,
+            carried->is_whole,
+            carried->is_cut_short,
+            carried->reason};
   };
 }
 
@@ -250,9 +268,7 @@ GaitResult FindGait(const GaitRequest& request) {
   }
   result.gait = std::move(tried.found.gait);
   result.message = std::move(tried.found.message);
-  result.is_carried_out = tried.is_carried_out;
-  result.is_cut_short = tried.is_cut_short;
-  result.spare = tried.spare;
+  result.trial = std::move(tried.trial);
   return result;
 }
 

@@ -39,9 +39,9 @@ struct GaitRequest : planning::InHandTask {
 
 struct GaitResult {
   std::optional<Gait> gait;
-  std::optional<bool> is_carried_out;    ///< as the request's test has it; none: it was not asked
-  bool is_cut_short = false;             ///< the time was up while it was tried
-  double spare = 0;                      ///< of one that is: planning::CarriedOut::spare
+  /// How far the hand carries it out, as the request's test has it. Where there is no gait because
+  /// it carries none out, of the one that came farthest. None: nothing was tried, or nothing tells.
+  std::optional<planning::CarriedOut> trial;
   std::vector<grasp::Contact> contacts;  ///< by the numbers that the gait has, the object's units
   std::string message;                   ///< where there is none: what stopped it, counted
 };

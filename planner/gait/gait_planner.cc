@@ -9,6 +9,7 @@
 #include "planner/base/number.h"
 #include "planner/gait/explain_gait.h"
 #include "planner/gait/plan_of_gait.h"
+#include "planner/gait/with_reserve.h"
 #include "planner/planning/rest_summary.h"
 
 namespace regrasp::gait {
@@ -76,6 +77,10 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   if (!found.gait) {
     result.status = PlanResult::Status::kNoSequence;
     result.message = found.message;
+    if (found.trial) {
+      if (!found.trial->is_cut_short) result.trial = found.trial->reason;
+      result.message += "; with --reserve preferred there is a plan all the same";
+    }
     if (request.deadline.IsOver()) result.message += "; that was when the time was up";
     if (asked.explain) {
       if (time) request.deadline = request.deadline.In(*time);
@@ -84,18 +89,16 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     return result;
   }
   result.plan = PlanOf(*found.gait, request, found.contacts);
-  if (found.is_carried_out.value_or(false)) {
+  if (found.trial && found.trial->is_whole) {
     result.notes.push_back("the hand's own motors carry it out in a simulation, with " +
-                           FormatShort(std::floor(100 * found.spare)) +
+                           FormatShort(std::floor(100 * found.trial->spare)) +
                            " % of the replay's limits to spare at its closest");
-  } else if (found.is_cut_short) {
-    result.warnings.emplace_back(
-        "the time was up while the hand's own motors tried it in a simulation; validate --hand "
-        "says whether they carry it out");
-  } else if (found.is_carried_out) {
-    result.warnings.emplace_back(
-        "the hand's own motors do not carry it out in a simulation; validate --hand says what "
-        "fails");
+  } else if (found.trial) {
+    const bool says = !found.trial->is_cut_short;
+    result.warnings.push_back(
+        std::string("the hand's own motors do not ") + (says ? "" : "yet ") +
+        "carry it out in a simulation: " + FailureText(*found.trial, result.plan->steps.size()) +
+        "; validate --hand " + (says ? "shows it" : "says whether they do"));
   }
   const std::vector<planning::Rest> rests = RestsOf(*result.plan);
   const criteria::GraspEvaluator evaluator(*asked.object, asked.criteria, FingersOf(request));

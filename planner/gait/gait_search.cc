@@ -93,7 +93,7 @@ void GaitCounts::Add(const GaitCounts& other) {
   ways.no_move += other.ways.no_move;
   colliding += other.colliding;
   rolled += other.rolled;
-  not_carried += other.not_carried;
+  for (const auto& [reason, count] : other.not_carried) not_carried[reason] += count;
   at_goal += other.at_goal;
 }
 

@@ -30,10 +30,10 @@ struct GaitCounts {
   std::int64_t grasps = 0;    ///< rests that were looked at
   std::int64_t expanded = 0;  ///< from which fingers were switched
   WayCounts ways;
-  std::int64_t colliding = 0;    ///< grasps in which fingers hit each other
-  std::int64_t rolled = 0;       ///< that are lost where contacts roll, with reserve
-  std::int64_t not_carried = 0;  ///< to which the way was tried in vain
-  std::int64_t at_goal = 0;      ///< with which the object comes to its goal, if there is a way
+  std::int64_t colliding = 0;  ///< grasps in which fingers hit each other
+  std::int64_t rolled = 0;     ///< that are lost where contacts roll, with reserve
+  FailureCounts not_carried;   ///< to which the way was tried in vain
+  std::int64_t at_goal = 0;    ///< with which the object comes to its goal, if there is a way
   /// Steps of the track: the farthest that was reached, or carried out where ways are tried.
   int farthest = 0;
   int steps = 0;  ///< that it has

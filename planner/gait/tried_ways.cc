@@ -23,7 +23,7 @@ bool TriedWays::Try(int rest, const Gait& gait) {
     TakeAsCarried(rest);
     return true;
   }
-  ++in_vain_;
+  ++in_vain_[carried.reason];
   const int cut = tree_.CutOffAfter(rest, carried.is_held ? carried.changes : -1);
   if (cut < 0) {
     tree_[rest].ends_in_vain = true;

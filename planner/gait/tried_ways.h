@@ -11,6 +11,7 @@
 #include "planner/gait/gait.h"
 #include "planner/gait/pose_grid.h"
 #include "planner/gait/rest_tree.h"
+#include "planner/plan/reason.h"
 
 namespace regrasp::gait {
 
@@ -21,7 +22,10 @@ struct CarriedGait {
   bool fails_in_move = false;  ///< and in no change
   bool is_whole = false;       ///< none failed
   bool is_cut_short = false;   ///< the time was up before one failed
+  plan::Reason reason = {};    ///< of what failed
 };
+/// How often what failed.
+using FailureCounts = std::map<plan::Reason, std::int64_t>;
 /// Tries a gait, or the beginning of one.
 using CarryOut = std::function<CarriedGait(const Gait&)>;
 
@@ -50,7 +54,7 @@ class TriedWays {
   [[nodiscard]] int MayReach() const {
     return are_tried() ? farthest_ + at_once_ : std::numeric_limits<int>::max();
   }
-  [[nodiscard]] std::int64_t in_vain() const { return in_vain_; }  ///< ways
+  [[nodiscard]] const FailureCounts& in_vain() const { return in_vain_; }  ///< ways
 
  private:
   static constexpr int kFewestAtOnce = 12;  ///< steps of the track, some 40 degrees
@@ -72,7 +76,7 @@ class TriedWays {
   CarryOut carry_out_;
   int at_once_ = kFewestAtOnce;
   int farthest_ = 0;
-  std::int64_t in_vain_ = 0;
+  FailureCounts in_vain_;
   std::set<std::tuple<int, int, Holding>> failed_;  ///< rest, node and grasp
   std::map<int, FailedChanges> failed_changes_;     ///< by rest
 };

@@ -13,6 +13,7 @@
 
 #include "planner/base/in_blocks.h"
 #include "planner/gait/plan_of_gait.h"
+#include "planner/plan/reason.h"
 
 namespace regrasp::gait {
 namespace {
@@ -128,7 +129,7 @@ class Looking {
   /// Whether nothing tells what the hand carries out.
   [[nodiscard]] bool cannot_tell() const { return cannot_tell_; }
 
-  /// Of gaits that are carried out the first of those with most to spare, if there is any.
+  /// Of gaits that are carried out the first of those with most to spare; no gait where none is.
   [[nodiscard]] TriedGait Widest() {
     Seen* widest = nullptr;
     ForEachSeen([&](Seen& seen) {
@@ -138,20 +139,39 @@ class Looking {
       if (is_wider) widest = &seen;
     });
     if (widest == nullptr) return {};
-    return {std::move(widest->found), true, widest->carried->spare};
+    return {std::move(widest->found), std::move(widest->carried)};
   }
 
   /// The first gait, or else why there is none: of looks where gaits are tried on the way, if any
   /// was made.
   [[nodiscard]] TriedGait FirstNotCarriedOut() {
-    TriedGait best{{}, false};
+    TriedGait best;
     ForEachSeen([&](Seen& seen) {
       if (best.found.gait) return;
       if (!seen.found.gait && !best.found.message.empty() && seen.is_whole) return;
-      best.found = std::move(seen.found);
-      best.is_cut_short = seen.carried && seen.carried->is_cut_short;
+      best = {std::move(seen.found), std::move(seen.carried)};
     });
     return best;
+  }
+
+  /// Why the hand carries no gait out: what stopped the one that came farthest, or else why there
+  /// is none.
+  [[nodiscard]] TriedGait NoneCarriedOut() {
+    std::size_t count = 0;
+    const Seen* farthest = nullptr;
+    ForEachSeen([&](const Seen& seen) {
+      if (!seen.carried) return;
+      ++count;
+      if (farthest == nullptr || seen.ShareCarried() > farthest->ShareCarried()) farthest = &seen;
+    });
+    if (farthest == nullptr) return {std::move(FirstNotCarriedOut().found)};
+    std::string text = count == 1
+                           ? "the hand's own motors do not carry out the plan that was found: "
+                           : "of " + std::to_string(count) +
+                                 " plans that were found the hand's own motors carry none out; of "
+                                 "the one that comes farthest ";
+    text += FailureText(*farthest->carried, farthest->steps);
+    return {{std::nullopt, std::move(text)}, farthest->carried};
   }
 
  private:
@@ -159,6 +179,11 @@ class Looking {
     FoundGait found;
     bool is_whole;                                     ///< as Look has it
     std::optional<planning::CarriedOut> carried = {};  ///< of a gait
+    std::size_t steps = 0;                             ///< of its plan
+
+    [[nodiscard]] double ShareCarried() const {
+      return (carried->is_held ? 1.0 + carried->steps : 0.0) / (1.0 + static_cast<double>(steps));
+    }
   };
 
   void MakeRow(std::size_t row, const Deadline& until) {
@@ -187,7 +212,9 @@ class Looking {
     Seen seen{find_(asked, look.spares), look.is_whole};
     if (!seen.found.gait) return seen;
     Tell(kTrying);
-    seen.carried = request_.carry_out(PlanOf(*seen.found.gait, request_, contacts_), deadline);
+    const plan::Plan plan = PlanOf(*seen.found.gait, request_, contacts_);
+    seen.steps = plan.steps.size();
+    seen.carried = request_.carry_out(plan, deadline);
     if (!seen.carried) cannot_tell_ = is_over_ = true;
     return seen;
   }
@@ -225,6 +252,15 @@ class Looking {
 
 }  // namespace
 
+std::string FailureText(const planning::CarriedOut& carried, std::size_t steps) {
+  const std::string where =
+      carried.is_held ? "step " + std::to_string(carried.steps + 1) + " of " + std::to_string(steps)
+                      : "the first hold";
+  if (carried.is_cut_short) return "the time was up in " + where;
+  return where + " fails (" + std::string(plan::ReasonName(carried.reason)) +
+         "): " + carried.detail;
+}
+
 FoundGait FindWithReserve(const GaitRequest& request, const FindOne& find,
                           const FoundGait& without) {
   FoundGait none = without;
@@ -251,25 +287,18 @@ TriedGait FindCarriedOut(const GaitRequest& request, const std::vector<grasp::Co
   Looking looking(request, contacts, find);
   looking.Run(is_required ? request.deadline : request.deadline.After(kTimeBeforeWithout));
   if (looking.cannot_tell()) return FindAsIfNotAsked(request, find);
-  if (TriedGait widest = looking.Widest(); widest.is_carried_out) return widest;
+  if (TriedGait widest = looking.Widest(); widest.found.gait) return widest;
+  if (is_required) return looking.NoneCarriedOut();
   TriedGait best = looking.FirstNotCarriedOut();
-  if (is_required) {
-    if (!best.found.gait) return {std::move(best.found)};
-    return {{std::nullopt,
-             "of the gaits with reserve that were found the hand's motors carry none out"}};
-  }
-  TriedGait without{find(request, {}), false};
+  TriedGait without{find(request, {})};
   if (without.found.gait) {
     request.progress(kTrying);
     const plan::Plan plan = PlanOf(*without.found.gait, request, contacts);
-    const auto carried = request.carry_out(plan, request.deadline);
-    if (!carried) return FindAsIfNotAsked(request, find);
-    if (carried->is_whole) return {std::move(without.found), true, carried->spare};
-    without.is_cut_short = carried->is_cut_short;
+    without.trial = request.carry_out(plan, request.deadline);
+    if (!without.trial) return FindAsIfNotAsked(request, find);
+    if (without.trial->is_whole) return without;
   }
-  TriedGait& chosen = best.found.gait ? best : without;
-  if (!chosen.found.gait) return {std::move(chosen.found)};
-  return std::move(chosen);
+  return std::move(best.found.gait ? best : without);
 }
 
 }  // namespace regrasp::gait

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
@@ -35,13 +36,15 @@ using FindOne = std::function<FoundGait(const GaitRequest& asked, std::span<cons
 [[nodiscard]] FoundGait FindWithReserve(const GaitRequest& request, const FindOne& find,
                                         const FoundGait& without);
 
-/// A gait, and whether the hand carries it out; nullopt: nothing tells.
+/// A gait, and how far the hand carries it out, or the one that came farthest of those that are not
+/// given because it does not; nullopt: nothing tells, or none was tried.
 struct TriedGait {
   FoundGait found;
-  std::optional<bool> is_carried_out = {};
-  double spare = 0;           ///< of one that is: planning::CarriedOut::spare
-  bool is_cut_short = false;  ///< the time was up while it was tried
+  std::optional<planning::CarriedOut> trial = {};
 };
+
+/// Where and why a plan of so many steps is not carried out.
+[[nodiscard]] std::string FailureText(const planning::CarriedOut& carried, std::size_t steps);
 
 /// Looks for gaits with reserve until the hand carries one out (planning::InHandTask::carry_out),
 /// with more or less to spare by turns, and again, as each time draws others; where there is none,

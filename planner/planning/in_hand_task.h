@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "planner/base/deadline.h"
@@ -14,7 +15,8 @@ struct HandModel;
 
 namespace regrasp::plan {
 struct Plan;
-}
+enum class Reason;
+}  // namespace regrasp::plan
 
 namespace regrasp::planning {
 
@@ -26,11 +28,12 @@ struct Turn {
 
 /// Whether a plan for a hand is to have something to spare, so that motors can carry it out: forces
 /// well inside their cones, better grasps, more clearance, grasps that hold where their contacts
-/// have rolled to, and no slides, whose drag the fingers that hold can seldom balance.
+/// have rolled to, and no slides, whose drag the fingers that hold can seldom balance. Where plans
+/// are tried (InHandTask::carry_out) what counts is that the hand carries one out.
 enum class Reserve {
   kNone,       ///< is not looked for
   kPreferred,  ///< is looked for, for a while, where there is a plan; not at any length
-  kRequired,
+  kRequired,   ///< or there is no plan
 };
 
 /// How far a hand carries a plan out.
@@ -40,6 +43,8 @@ struct CarriedOut {
   bool is_whole = false;  ///< the plan's last rest is come to
   double spare = 0;       ///< of a whole one: the least share of a limit that is left, all along
   bool is_cut_short = false;  ///< the time was up before a step failed
+  plan::Reason reason = {};   ///< of the step that failed; none (the first) where none did
+  std::string detail = {};    ///< of it, for people: which finger or link, by how much
 };
 
 /// What is asked of a hand beside start and goal grasps: that the object turns, or goes to a pose.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/plan/plan.h"
+#include "planner/plan/reason.h"
 
 namespace regrasp::planning {
 
@@ -16,7 +17,10 @@ struct PlanResult {
     kNoGrasp,     ///< a random start or goal could not be drawn, or a given one is in no set
   };
   Status status = Status::kFound;
-  std::string message;                ///< for a negative answer: what was searched
+  std::string message;  ///< for a negative answer: what was searched
+  /// Where plans were found that a hand carries none of out, why not: of the one that came
+  /// farthest.
+  std::optional<plan::Reason> trial;
   std::vector<std::string> warnings;  ///< of grasps that don't meet the criteria
   std::vector<std::string> notes;     ///< what was gained by making the sequence better, for people
   /// The plan, all but the object's file, digest and scale. Set where the status is kFound.

@@ -81,12 +81,17 @@ std::function<std::optional<planning::CarriedOut>(const plan::Plan&, const Deadl
       // The first entry is the start grasp.
       const std::ptrdiff_t passed = std::ssize(result.steps) - (fails ? 1 : 0);
       const bool is_whole = passed == std::ssize(plan.steps) + 1;
-      return planning::CarriedOut{
+      planning::CarriedOut carried{
           .is_held = passed > 0,
           .steps = static_cast<int>(std::max<std::ptrdiff_t>(0, passed - 1)),
           .is_whole = is_whole,
           .spare = is_whole ? SpareOf(result) : 0,
           .is_cut_short = !fails && !is_whole};
+      if (fails) {
+        carried.reason = result.steps.back().reason;
+        carried.detail = result.steps.back().detail;
+      }
+      return carried;
     } catch (const InputError&) {
       return std::nullopt;
     }

@@ -442,6 +442,21 @@ class Gait(ProgramCase):
             verdicts.append(report["verdict"])
         self.assertEqual(verdicts, ["fail", "pass"])
 
+    def test_what_the_motors_do_not_carry_out_is_written_only_where_that_is_asked_for(self):
+        # Tips that roll slip where the plan needs all the friction that there is.
+        turn = ("--object", self.model("cube.obj"), "--mu", "0.3", "--hand", self.hand("ring4"),
+                "--turn", "z 90", "--output", "plan.json")
+        self.assert_refused(1, ("motors", " of the one that comes farthest step ", "fails (slipped)",
+                                "mm allowed", "with --reserve preferred there is a plan"),
+                            *turn, "--quiet")
+        self.assertIn("do not carry it out in a simulation: ",
+                      self.assert_done(*turn, "--reserve", "preferred").stderr)
+        done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json", "--hand",
+                                self.hand("ring4"), "--out", "result", "--no-frames",
+                                program="validate")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("slipped", done.stdout)
+
     def test_bad_usage_is_one_line(self):
         for words, more in (
                 ("--goal says what the hand is to do", ()),

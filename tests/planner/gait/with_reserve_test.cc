@@ -19,6 +19,7 @@
 #include "planner/gait/rolling.h"
 #include "planner/grasp/grasp_forces.h"
 #include "planner/plan/plan_io.h"
+#include "planner/plan/reason.h"
 #include "tests/planner/gait/gait_requests.h"
 
 namespace regrasp::gait {
@@ -97,6 +98,12 @@ TEST(WithReserveTest, WhereNothingIsToSpareARequiredReserveIsToldOf) {
   EXPECT_THAT(found.message, testing::HasSubstr("without reserve there may be a plan"));
 }
 
+/// Fails where there is no trial.
+bool IsCarriedOut(const GaitResult& result) {
+  EXPECT_TRUE(result.trial) << result.message;
+  return result.trial && result.trial->is_whole;
+}
+
 /// A hand that was made up: what it is asked to carry out, and how far it does.
 struct MadeUpHand {
   /// Whether it carries out a step of a plan, by number; all before it were.
@@ -108,6 +115,8 @@ struct MadeUpHand {
     request.carry_out = [this](const plan::Plan& plan, const Deadline&) {
       plans.push_back(plan);
       planning::CarriedOut carried{holds, 0, false};
+      carried.reason = plan::Reason::kSlipped;
+      carried.detail = "finger 7 slipped, plan " + std::to_string(plans.size());
       if (!holds) return std::optional(carried);
       while (carried.steps < std::ssize(plan.steps) && carries_out(plan, carried.steps)) {
         ++carried.steps;
@@ -156,7 +165,7 @@ TEST(WithReserveTest, WhatIsFoundIsWhatTheHandCarriesOutAsItWasTried) {
   hand.TriesFor(request);
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  EXPECT_EQ(found.is_carried_out, true);
+  EXPECT_TRUE(IsCarriedOut(found));
   const plan::Plan carried = PlanOf(*found.gait, request, found.contacts);
   EXPECT_FALSE(std::ranges::any_of(carried.steps, places));
   EXPECT_EQ(plan::FormatPlan(carried), plan::FormatPlan(hand.plans.back()));
@@ -171,7 +180,7 @@ TEST(WithReserveTest, WhereMovesFailHalfWayFingersAreSwitchedSooner) {
   hand.TriesFor(request);
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  EXPECT_EQ(found.is_carried_out, true);
+  EXPECT_TRUE(IsCarriedOut(found));
   const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
   double most = 0;
   for (const plan::Step& step : plan.steps) most = std::max(most, TurnIn(step));
@@ -205,9 +214,9 @@ TEST(WithReserveTest, OfTheGaitsThatAreCarriedOutTheOneWithMostToSpareIsFoundWhe
     most = 0;
     const GaitResult found = FindGait(request);
     EXPECT_TRUE(found.gait) << found.message;
-    EXPECT_EQ(found.is_carried_out, true);
+    EXPECT_TRUE(IsCarriedOut(found));
     const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
-    EXPECT_EQ(found.spare, spare(plan));
+    EXPECT_EQ(found.trial->spare, spare(plan));
     return plan;
   };
   const plan::Plan first = find();
@@ -239,7 +248,7 @@ TEST(WithReserveTest, WhereTheHandHoldsNothingThereIsAGaitUnlessThatIsRequired) 
   request.most_expanded = 60;
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait);
-  EXPECT_EQ(found.is_carried_out, false);
+  EXPECT_FALSE(IsCarriedOut(found));
   EXPECT_GT(hand.plans.size(), 3U);
   const auto slides = [](const plan::Plan& plan) {
     return std::ranges::count(plan.steps, std::string("align"), plan::StepKind) > 0;
@@ -248,11 +257,50 @@ TEST(WithReserveTest, WhereTheHandHoldsNothingThereIsAGaitUnlessThatIsRequired) 
   request.reserve = Reserve::kRequired;
   const GaitResult none = FindGait(request);
   EXPECT_FALSE(none.gait);
-  EXPECT_THAT(none.message, testing::HasSubstr("the hand's motors"));
+  EXPECT_FALSE(IsCarriedOut(none));
+  EXPECT_THAT(none.message, testing::HasSubstr("motors carry none out"));
+  EXPECT_THAT(none.message, testing::HasSubstr("the first hold fails (slipped): finger 7 slipped"));
   request.reserve = Reserve::kNone;
   hand.plans.clear();
   EXPECT_TRUE(FindGait(request).gait);
   EXPECT_TRUE(hand.plans.empty());
+}
+
+TEST(WithReserveTest, OfWhatIsNotCarriedOutThePlanIsNamedThatComesFarthest) {
+  GaitRequest request = RequestFor("cube", 0.8, 180);
+  request.reserve = Reserve::kRequired;
+  request.most_expanded = 40;
+  // Of every second plan half, and nothing of the others.
+  MadeUpHand hand;
+  hand.carries_out = [&](const plan::Plan& tried, std::size_t i) {
+    return hand.plans.size() % 2 == 0 && i < tried.steps.size() / 2;
+  };
+  hand.TriesFor(request);
+  const GaitResult none = FindGait(request);
+  EXPECT_FALSE(none.gait);
+  const std::string last_words = "finger 7 slipped, plan ";
+  const std::size_t at = none.message.find(last_words);
+  ASSERT_NE(at, std::string::npos) << none.message;
+  const std::size_t named = std::stoul(none.message.substr(at + last_words.size()));
+  EXPECT_EQ(named % 2, 0U);
+  const std::size_t steps = hand.plans.at(named - 1).steps.size();
+  ASSERT_GE(steps, 2U);
+  EXPECT_THAT(none.message, testing::HasSubstr("step " + std::to_string(steps / 2 + 1) + " of " +
+                                               std::to_string(steps) + " fails (slipped)"));
+  ASSERT_TRUE(none.trial);
+  EXPECT_EQ(none.trial->reason, plan::Reason::kSlipped);
+}
+
+TEST(WithReserveTest, WhatFailsOnTheWayToNoGaitIsCountedByItsReason) {
+  GaitRequest request = RequestFor("cube", 0.8, 180);
+  request.reserve = Reserve::kRequired;
+  request.most_expanded = 10;
+  MadeUpHand hand{.carries_out = [](const plan::Plan&, std::size_t) { return false; }};
+  hand.TriesFor(request);
+  const GaitResult none = FindGait(request);
+  EXPECT_FALSE(none.gait);
+  EXPECT_FALSE(none.trial);
+  EXPECT_THAT(none.message, testing::ContainsRegex("motors do not come .slipped [1-9]"));
 }
 
 /// A clock that is set by hand.
@@ -269,8 +317,8 @@ TEST(WithReserveTest, WhereTheTimeIsUpInATrialItIsNotSaidThatTheHandDoesNotCarry
   };
   const GaitResult cut_short = FindGait(request);
   ASSERT_TRUE(cut_short.gait) << cut_short.message;
-  EXPECT_TRUE(cut_short.is_cut_short);
-  EXPECT_EQ(cut_short.is_carried_out, false);
+  EXPECT_TRUE(cut_short.trial->is_cut_short);
+  EXPECT_FALSE(IsCarriedOut(cut_short));
   EXPECT_EQ(trials, 1);
 
   now = {};
@@ -280,8 +328,8 @@ TEST(WithReserveTest, WhereTheTimeIsUpInATrialItIsNotSaidThatTheHandDoesNotCarry
   };
   const GaitResult failed = FindGait(request);
   ASSERT_TRUE(failed.gait) << failed.message;
-  EXPECT_FALSE(failed.is_cut_short);
-  EXPECT_EQ(failed.is_carried_out, false);
+  EXPECT_FALSE(failed.trial->is_cut_short);
+  EXPECT_FALSE(IsCarriedOut(failed));
 }
 
 /// A hand that carries out one of so many plans, whichever.
@@ -316,13 +364,13 @@ TEST(WithReserveTest, WithAnyJobsTheGaitIsTheSameWithoutADeadline) {
     const GaitResult alone = find(1, trials_alone);
     const GaitResult together = find(3, trials_together);
     ASSERT_EQ(alone.gait.has_value(), together.gait.has_value());
-    EXPECT_EQ(alone.is_carried_out, together.is_carried_out);
+    EXPECT_EQ(IsCarriedOut(alone), IsCarriedOut(together));
     EXPECT_EQ(alone.message, together.message);
     if (!alone.gait) continue;
     EXPECT_EQ(plan::FormatPlan(PlanOf(*alone.gait, request, alone.contacts)),
               plan::FormatPlan(PlanOf(*together.gait, request, together.contacts)));
     EXPECT_GE(trials_together, trials_alone);
-    if (alone.is_carried_out.value_or(false) && trials_alone > kOfFirstRow) {
+    if (IsCarriedOut(alone) && trials_alone > kOfFirstRow) {
       ++found_later;
     };
   }
@@ -349,7 +397,10 @@ TEST(WithReserveTest, WithADeadlineTheFirstSearchThatEndsInAGaitEndsThemAll) {
   request.deadline = {now + std::chrono::seconds(10), [&] { return now; }};
   std::mutex mutex;
   std::optional<std::thread::id> first;
-  // All but the first thread that asks wait in their trials until they are given up.
+  // All but the first thread that asks wait in their trials until they are given up, which is at
+  // once; without an end they would wait for ever where they are not.
+  constexpr std::chrono::minutes kForEver(2);
+  std::atomic<bool> is_given_up = true;
   request.carry_out = [&](const plan::Plan& plan, const Deadline& deadline) {
     bool is_first = false;
     {
@@ -357,7 +408,11 @@ TEST(WithReserveTest, WithADeadlineTheFirstSearchThatEndsInAGaitEndsThemAll) {
       is_first = first.value_or(std::this_thread::get_id()) == std::this_thread::get_id();
       first = first.value_or(std::this_thread::get_id());
     }
-    while (!is_first && !deadline.IsOver()) std::this_thread::yield();
+    const auto until = std::chrono::steady_clock::now() + kForEver;
+    while (!is_first && !deadline.IsOver() && is_given_up) {
+      is_given_up = std::chrono::steady_clock::now() < until;
+      std::this_thread::yield();
+    }
     return std::optional(planning::CarriedOut{.is_held = true,
                                               .steps = static_cast<int>(plan.steps.size()),
                                               .is_whole = is_first,
@@ -366,7 +421,8 @@ TEST(WithReserveTest, WithADeadlineTheFirstSearchThatEndsInAGaitEndsThemAll) {
   };
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  EXPECT_EQ(found.is_carried_out, true);
+  EXPECT_TRUE(IsCarriedOut(found));
+  EXPECT_TRUE(is_given_up);
 }
 
 TEST(WithReserveTest, WhereItCanNotBeToldItIsAsIfTheHandWereNotAsked) {
@@ -375,7 +431,7 @@ TEST(WithReserveTest, WhereItCanNotBeToldItIsAsIfTheHandWereNotAsked) {
   request.carry_out = [](const plan::Plan&, const Deadline&) { return std::nullopt; };
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(usual.gait && found.gait);
-  EXPECT_EQ(found.is_carried_out, std::nullopt);
+  EXPECT_FALSE(found.trial);
   EXPECT_EQ(plan::FormatPlan(PlanOf(*found.gait, request, found.contacts)),
             plan::FormatPlan(PlanOf(*usual.gait, request, usual.contacts)));
 }

@@ -11,6 +11,7 @@
 #include "planner/base/file.h"
 #include "planner/base/in_blocks.h"
 #include "planner/gait/gait_planner.h"
+#include "planner/plan/reason.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
@@ -52,12 +53,15 @@ TEST_F(CarryOutTestTest, PlansThatThePlannerTriedAreCarriedOutAndWithLittleFrict
   EXPECT_TRUE(carried->is_held);
   EXPECT_TRUE(carried->is_whole);
   EXPECT_EQ(carried->steps, std::ssize(found.plan->steps));
+  EXPECT_EQ(carried->reason, plan::Reason::kNone);
   plan::Plan slippery = *found.plan;
   slippery.half_angle = std::atan(0.05);
   const auto slipped = carry_out(slippery, {});
   ASSERT_TRUE(slipped);
   EXPECT_FALSE(slipped->is_whole);
   EXPECT_LT(slipped->steps, std::ssize(found.plan->steps));
+  EXPECT_NE(slipped->reason, plan::Reason::kNone);
+  EXPECT_NE(slipped->detail, "");
 }
 
 /// By a clock that goes on by a second whenever it is looked at: before every entry.
@@ -108,13 +112,36 @@ TEST_F(CarryOutTestTest, SeveralThreadsGetWhatOneGets) {
 
 TEST_F(CarryOutTestTest, OfAPlanWhoseTrialWasCutShortItIsSaidThatTheTimeWasUp) {
   planning::PlanRequest request = Turning(90);
+  request.effort = 4;
   request.in_hand->carry_out = [](const plan::Plan&, const Deadline&) {
     return std::optional(planning::CarriedOut{.is_cut_short = true});
   };
   const planning::PlanResult found = planning::Solve(planner_, request);
   ASSERT_TRUE(found.plan) << found.message;
   ASSERT_FALSE(found.warnings.empty());
-  EXPECT_NE(found.warnings.front().find("the time was up while"), std::string::npos);
+  EXPECT_NE(found.warnings.front().find("the time was up in the first hold"), std::string::npos);
+  request.in_hand->reserve = planning::Reserve::kRequired;
+  const planning::PlanResult none = planning::Solve(planner_, request);
+  EXPECT_FALSE(none.plan);
+  EXPECT_NE(none.message.find("the time was up in the first hold"), std::string::npos);
+  EXPECT_FALSE(none.trial);  // which says nothing of what fails
+}
+
+TEST_F(CarryOutTestTest, WhatTheMotorsDoNotCarryOutIsNoPlanWhereReserveIsRequired) {
+  planning::PlanRequest request = Turning(90);
+  request.effort = 4;
+  request.in_hand->reserve = planning::Reserve::kRequired;
+  request.in_hand->carry_out = [](const plan::Plan&, const Deadline&) {
+    return std::optional(planning::CarriedOut{.reason = plan::Reason::kTorqueLimit,
+                                              .detail = "finger 1 is at its limit"});
+  };
+  const planning::PlanResult none = planning::Solve(planner_, request);
+  EXPECT_EQ(none.status, planning::PlanResult::Status::kNoSequence);
+  EXPECT_EQ(none.trial, plan::Reason::kTorqueLimit);
+  EXPECT_NE(none.message.find("(torque-limit): finger 1 is at its limit"), std::string::npos)
+      << none.message;
+  request.in_hand->reserve = planning::Reserve::kPreferred;
+  EXPECT_TRUE(planning::Solve(planner_, request).plan);
 }
 
 TEST_F(CarryOutTestTest, ThePlanWithTheLargestMarginHasAtLeastThatOfTheFirst) {
