@@ -23,7 +23,7 @@ def namespace_of(folders):
 def foreign_names(folders, text):
     """The namespaces that a file opens outside its own; a forward declaration is no opening."""
     own = namespace_of(folders)
-    text = re.sub(r"namespace [\w:]+ \{\n((class|struct) \w+;[^\n]*\n)+\}", "", text)
+    text = re.sub(r"namespace [\w:]+ \{\n((class|struct|enum class) \w+;[^\n]*\n)+\}", "", text)
     opened = re.findall(r"^namespace (regrasp[\w:]*) \{", text, re.MULTILINE)
     return [name for name in opened if name != own and not name.startswith(own + "::")]
 
@@ -52,7 +52,8 @@ class Names(unittest.TestCase):
                          ["regrasp::scene"])
 
     def test_its_own_namespaces_and_what_it_declares_forward_pass(self):
-        text = "namespace regrasp::plan {\nclass Plan;\n}\nnamespace regrasp::motion::exact {\n"
+        text = ("namespace regrasp::plan {\nclass Plan;\nenum class Reason;\n}\n"
+                "namespace regrasp::motion::exact {\n")
         self.assertEqual(foreign_names(("planner", "motion"), text), [])
         for folders, own in ((("planner", "base"), "regrasp"), (("sim", "scene"), "regrasp::sim"),
                              (("planner", "sets"), "regrasp::sets"),
