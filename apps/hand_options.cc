@@ -103,9 +103,8 @@ void HandOptions::AddTo(CLI::App& app) {
       "Something to spare, for the hand's own motors: forces well inside their cones, better "
       "grasps that also hold where contacts roll to, more clearance, no slides. Plans are tried on "
       "the hand's model, and one is taken that its motors carry out. required, or there is no "
-      "plan, "
-      "and it is said what fails; preferred, otherwise one is written that they do not carry out, "
-      "with a warning; none, nothing is tried (default required)");
+      "plan, and it is said what fails; preferred, otherwise one is written that they do not carry "
+      "out, with a warning; none, nothing is tried (default required)");
 }
 
 void HandOptions::Check(const std::string& start, const std::string& goal) const {
