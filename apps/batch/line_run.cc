@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <deque>
 #include <iostream>
@@ -20,12 +21,16 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Entries that a child works on: so many that a process more does not matter, and few enough that
-/// little is lost with a run that is killed.
-constexpr int kChunk = 8;
+/// A child works on as many entries as take about this long, seconds: so many that a process more
+/// does not matter (with eight plans of 70 ms each 0.7 % of the time went to processes), and few
+/// enough that little is lost with a run that is killed, and that the last ones do not wait for
+/// one.
+constexpr double kChunkTime = 2;
+constexpr int kFirstChunk = 8;
+constexpr int kLargestChunk = 64;
 
-/// How far ahead of the output children may be, in chunks a job: their results wait in memory.
-constexpr int kMostAhead = 256;
+/// How far ahead of the output children may be, in entries a job: their results wait in memory.
+constexpr int kMostAhead = 2048;
 
 /// Groups that are remembered; to forget one costs time alone.
 constexpr std::size_t kMostGroups = 4096;
@@ -34,6 +39,13 @@ constexpr std::size_t kMostGroups = 4096;
 constexpr int kKeptBytes = 1 << 25;
 
 using Chunk = std::vector<Line>;
+using Clock = std::chrono::steady_clock;
+
+/// What a child has been given, and when.
+struct Running {
+  Chunk chunk;
+  Clock::time_point since;
+};
 
 class LineRun {
  public:
@@ -60,20 +72,20 @@ class LineRun {
       chunk = std::move(again_.front());
       again_.pop_front();
     } else {
-      const std::int64_t ahead = std::int64_t{kMostAhead} * kChunk * options_.jobs;
+      const std::int64_t ahead = std::int64_t{kMostAhead} * options_.jobs;
       if (read_to_ >= output_.next() + ahead) return std::nullopt;
       chunk = Read();
       if (chunk.empty()) return std::nullopt;
       Prepare(chunk);
     }
-    running_[task_] = std::move(chunk);
+    running_[task_] = {std::move(chunk), Clock::now()};
     return task_++;
   }
 
   Chunk Read() {
     Chunk chunk;
     // By the clock of a process a limit is that of one entry.
-    const int most = options_.time_limit_s ? 1 : kChunk;
+    const int most = options_.time_limit_s ? 1 : chunk_size_;
     while (static_cast<int>(chunk.size()) < most) {
       std::optional<Line> line = input_.Next();
       if (!line) break;
@@ -96,7 +108,7 @@ class LineRun {
     // and to be given fresh pages took as long as to compile the scene.
     mallopt(M_MMAP_THRESHOLD, kKeptBytes);
     mallopt(M_TRIM_THRESHOLD, kKeptBytes);
-    for (const Line& line : running_.at(task)) {
+    for (const Line& line : running_.at(task).chunk) {
       std::cout << work_.work(line) << '\n' << std::flush;
     }
     return 0;
@@ -105,11 +117,12 @@ class LineRun {
   /// What a child has written, as far as lines are whole; where it ended early the entry that it
   /// was at is an error, and others go on with the rest.
   void Take(int task, const ChildExit& exit) {
-    Chunk chunk = std::move(running_.extract(task).mapped());
+    auto [chunk, since] = std::move(running_.extract(task).mapped());
     Say(exit.errors);
     const std::int64_t first = chunk.front().entry;
     std::string lines = exit.output.substr(0, exit.output.rfind('\n') + 1);
     auto done = static_cast<std::size_t>(std::ranges::count(lines, '\n'));
+    MeasureChunk(done, std::chrono::duration<double>(Clock::now() - since).count());
     if (done < chunk.size()) {
       const Line& stopped = chunk[done];
       const std::string why = Why(exit);
@@ -123,6 +136,12 @@ class LineRun {
     }
     finished_[first] = std::move(lines);
     AppendFinished();
+  }
+
+  /// What is done at a time goes by what the last child has done.
+  void MeasureChunk(std::size_t done, double seconds) {
+    const double size = kChunkTime * static_cast<double>(done) / std::max(seconds, 1e-9);
+    chunk_size_ = static_cast<int>(std::clamp(size, 1.0, double{kLargestChunk}));
   }
 
   void AppendFinished() {
@@ -162,7 +181,8 @@ class LineRun {
   const LineRunOptions& options_;
   int task_ = 0;
   std::int64_t read_to_ = 0;
-  std::map<int, Chunk> running_;
+  int chunk_size_ = kFirstChunk;
+  std::map<int, Running> running_;
   std::deque<Chunk> again_;                       ///< rests of chunks whose process ended early
   std::map<std::int64_t, std::string> finished_;  ///< lines that wait for others, by first entry
   std::set<std::string> groups_;                  ///< that were prepared

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/grasp/cone_support.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/force_closure_core.h"
+#include "planner/grasp/friction_search.h"
 #include "planner/grasp/required_half_angle.h"
 
 namespace regrasp::grasp {
@@ -44,43 +43,17 @@ bool IsWeaker(const FingerFriction& a, const FingerFriction& b) {
   return a.without.value_or(kNone) - b.without.value_or(kNone) > kEqual;
 }
 
-/// One finger's friction, all others keeping theirs.
+/// The half-angle that a finger of a force-closure grasp needs itself, all others keeping theirs,
+/// which is the finger's own at most: by halving the interval between no friction and all of it.
 template <int kDim>
-class OwnFriction {
- public:
-  OwnFriction(const UnitContacts& contacts, std::size_t finger, double half_angle)
-      : contacts_(contacts), finger_(contacts_[finger]), half_angle_(half_angle) {}
-
-  /// Whether the grasp is force closure at this half-angle of the finger.
-  bool Holds(double half_angle) {
-    if (half_angle <= refuted_) return false;
-    finger_.axial = std::cos(half_angle);
-    finger_.tangential = std::sin(half_angle);
-    typename WrenchSimplex<kDim>::Vector twist;
-    const Decision decision = DecideForceClosure<kDim>(contacts_, nullptr, &twist).decision;
-    if (decision == Decision::kNo) {
-      const double held_off = HeldOffHalfAngle<kDim>(finger_, twist.data());
-      refuted_ = std::max(refuted_, held_off - kClearlyRefuted);
-    }
-    return decision == Decision::kYes;
+double FindRequired(FrictionSearch<kDim>& own, double half_angle) {
+  double lower = 0, upper = half_angle;
+  while (upper - lower > kTolerance) {
+    const double middle = lower + (upper - lower) / 2;
+    (own.Decide(middle) == Decision::kYes ? upper : lower) = middle;
   }
-
-  /// Halves the interval between no friction and all of it.
-  double FindRequired() {
-    double lower = 0, upper = half_angle_;
-    while (upper - lower > kTolerance) {
-      const double middle = lower + (upper - lower) / 2;
-      (Holds(middle) ? upper : lower) = middle;
-    }
-    return upper;
-  }
-
- private:
-  UnitContacts contacts_;
-  UnitContact& finger_;
-  double half_angle_;
-  double refuted_ = 0;  ///< up to this half-angle some twist separates
-};
+  return upper;
+}
 
 template <int kDim>
 std::vector<FingerFriction> MeasureAll(std::span<const Contact> contacts, const UnitContacts& units,
@@ -89,8 +62,8 @@ std::vector<FingerFriction> MeasureAll(std::span<const Contact> contacts, const 
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const std::optional<double> without = RequiredWithout(contacts, i, frame);
     const bool needed = !without || *without > half_angle;
-    const double required = needed ? OwnFriction<kDim>(units, i, half_angle).FindRequired() : 0;
-    fingers.push_back({required, needed, without});
+    FrictionSearch<kDim> own(units, i);
+    fingers.push_back({needed ? FindRequired(own, half_angle) : 0, needed, without});
   }
   return fingers;
 }
@@ -112,17 +85,19 @@ class WeakestSearch {
  private:
   void Include(std::size_t i) {
     const bool needed = !IsForceClosure(Without(contacts_, i), frame_, half_angle_);
-    OwnFriction<kDim> own(units_, i, half_angle_);
+    FrictionSearch<kDim> own(units_, i);
+    const auto holds = [&](double angle) { return own.Decide(angle) == Decision::kYes; };
     if (i > 0) {
       const double most = weakest_.friction.required + kEqual;
       const double least = weakest_.friction.required - kEqual;
-      const bool needs_more = needed && most < half_angle_ && !own.Holds(most);
+      const bool needs_more = needed && most < half_angle_ && !holds(most);
       if (!needs_more) {
-        if (least > 0 && (!needed || own.Holds(least))) return;
+        if (least > 0 && (!needed || holds(least))) return;
         if (!NeedMoreWithout(i)) return;
       }
     }
-    weakest_ = {static_cast<int>(i), {needed ? own.FindRequired() : 0, needed, std::nullopt}};
+    const double required = needed ? FindRequired(own, half_angle_) : 0;
+    weakest_ = {static_cast<int>(i), {required, needed, std::nullopt}};
     without_known_ = false;
   }
 

@@ -127,9 +127,11 @@ double LowerBoundBeyondStart(const UnitContacts& contacts, WrenchSimplex<kDim>& 
 
 template <int kDim>
 ForceClosure DecideOpenForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof,
-                                    typename WrenchSimplex<kDim>::Vector* twist) {
+                                    typename WrenchSimplex<kDim>::Vector* twist,
+                                    std::optional<WrenchSimplex<kDim>>* used) {
   using Simplex = WrenchSimplex<kDim>;
-  Simplex simplex(contacts, typename Simplex::Vector{});
+  std::optional<Simplex> own;
+  Simplex& simplex = (used == nullptr ? own : *used).emplace(contacts, typename Simplex::Vector{});
   const typename Simplex::Status status = simplex.FindWeights(/*stop_early=*/true);
   if (status == Simplex::Status::kInfeasible) {
     if (proof != nullptr) proof->twist = simplex.twist();
@@ -168,7 +170,8 @@ Decision DecideOnly(const UnitContacts& contacts, typename WrenchSimplex<kDim>::
 
 template <int kDim>
 ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof,
-                                typename WrenchSimplex<kDim>::Vector* twist) {
+                                typename WrenchSimplex<kDim>::Vector* twist,
+                                std::optional<WrenchSimplex<kDim>>* used) {
   if (twist != nullptr) *twist = {};
   const bool space = kDim == 6;
   const bool few = contacts.size() <= kPairLinesFirst;
@@ -183,18 +186,21 @@ ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<
       return Yes<kDim>(contacts, std::numeric_limits<double>::min());
     }
   }
-  const ForceClosure answer = DecideOpenForceClosure<kDim>(contacts, proof, twist);
+  const ForceClosure answer = DecideOpenForceClosure<kDim>(contacts, proof, twist, used);
   const bool unsettled = space && !few && !soft && answer.decision == Decision::kTooClose;
   return unsettled && TestPairLines(contacts) == PairLineVerdict::kNo ? No(contacts.size(), 0)
                                                                       : answer;
 }
 
 template ForceClosure DecideForceClosure<3>(const UnitContacts&, ForceClosureProof<3>*,
-                                            WrenchSimplex<3>::Vector*);
+                                            WrenchSimplex<3>::Vector*,
+                                            std::optional<WrenchSimplex<3>>*);
 template ForceClosure DecideForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*,
-                                            WrenchSimplex<6>::Vector*);
+                                            WrenchSimplex<6>::Vector*,
+                                            std::optional<WrenchSimplex<6>>*);
 template ForceClosure DecideOpenForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*,
-                                                WrenchSimplex<6>::Vector*);
+                                                WrenchSimplex<6>::Vector*,
+                                                std::optional<WrenchSimplex<6>>*);
 template Decision DecideOnly<6>(const UnitContacts&, WrenchSimplex<6>::Vector&);
 
 }  // namespace regrasp::grasp

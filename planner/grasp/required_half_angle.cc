@@ -4,8 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "planner/grasp/cone_support.h"
-#include "planner/grasp/force_closure_core.h"
+#include "planner/grasp/friction_search.h"
 
 namespace regrasp::grasp {
 namespace {
@@ -20,16 +19,23 @@ constexpr int kMaxSteps = 64;
 /// at every step.
 constexpr double kWiden = 4;
 
+/// Halves the interval between an angle that is too small and one that is enough.
 template <int kDim>
 class Bracket {
  public:
-  Bracket(UnitContacts& contacts, double tolerance) : contacts_(contacts), tolerance_(tolerance) {}
+  Bracket(UnitContacts contacts, double tolerance)
+      : search_(std::move(contacts)), tolerance_(tolerance) {}
 
   std::optional<RequiredHalfAngle> Find() {
-    if (Decide(kLargestHalfAngle) != Decision::kYes) return std::nullopt;
+    if (search_.Decide(kLargestHalfAngle) != Decision::kYes) return std::nullopt;
+    return Narrow({0, kLargestHalfAngle});
+  }
+
+  RequiredHalfAngle Narrow(const RequiredHalfAngle& known) {
+    bounds_ = known;
     for (int step = 0; step < kMaxSteps && bounds_.upper - bounds_.lower > tolerance_; ++step) {
       const double middle = bounds_.lower + (bounds_.upper - bounds_.lower) / 2;
-      switch (Decide(middle)) {
+      switch (search_.Decide(middle)) {
         case Decision::kYes:
           bounds_.upper = middle;
           break;
@@ -38,45 +44,47 @@ class Bracket {
           break;
         case Decision::kTooClose:
           CloseIn(middle);
+          Confirm(known);
           return bounds_;
       }
     }
+    Confirm(known);
     return bounds_;
   }
 
  private:
-  Decision Decide(double half_angle) {
-    if (half_angle <= refuted_) return Decision::kNo;
-    SetUnitForces(contacts_, half_angle);
-    typename WrenchSimplex<kDim>::Vector twist;
-    const Decision decision = DecideForceClosure<kDim>(contacts_, nullptr, &twist).decision;
-    if (decision == Decision::kNo) RefuteUpTo(twist);
-    return decision;
-  }
-
-  /// A twist that separates at one angle often does so at larger ones, too.
-  void RefuteUpTo(const typename WrenchSimplex<kDim>::Vector& twist) {
-    double angle = kLargestHalfAngle;
-    for (const UnitContact& contact : contacts_) {
-      angle = std::min(angle, HeldOffHalfAngle<kDim>(contact, twist.data()));
+  /// What was decided from columns of other angles is to be so by itself: next to the angle that is
+  /// needed one of the two may be too close to call.
+  void Confirm(const RequiredHalfAngle& known) {
+    double d = tolerance_ / kWiden;
+    while (bounds_.upper < known.upper && search_.DecideAlone(bounds_.upper) != Decision::kYes) {
+      bounds_.upper = std::min(bounds_.upper + d, known.upper);
+      d *= kWiden;
     }
-    refuted_ = std::max(refuted_, angle - kClearlyRefuted);
+    d = tolerance_ / kWiden;
+    while (bounds_.lower > known.lower && search_.DecideAlone(bounds_.lower) != Decision::kNo) {
+      bounds_.lower = std::max(bounds_.lower - d, known.lower);
+      d *= kWiden;
+    }
   }
 
   void CloseIn(double half_angle) {
     for (double d = tolerance_ / kWiden; half_angle - d > bounds_.lower; d *= kWiden) {
-      if (Decide(half_angle - d) == Decision::kNo) bounds_.lower = half_angle - d;
+      if (search_.Decide(half_angle - d) == Decision::kNo) bounds_.lower = half_angle - d;
     }
     for (double d = tolerance_ / kWiden; half_angle + d < bounds_.upper; d *= kWiden) {
-      if (Decide(half_angle + d) == Decision::kYes) bounds_.upper = half_angle + d;
+      if (search_.Decide(half_angle + d) == Decision::kYes) bounds_.upper = half_angle + d;
     }
   }
 
-  UnitContacts& contacts_;
+  FrictionSearch<kDim> search_;
   double tolerance_;
-  double refuted_ = 0;  ///< up to this half-angle some twist separates
-  RequiredHalfAngle bounds_{0, kLargestHalfAngle};
+  RequiredHalfAngle bounds_;
 };
+
+void CheckTolerance(double tolerance) {
+  if (!(tolerance > 0)) throw std::invalid_argument("required half-angle: tolerance not positive");
+}
 
 }  // namespace
 
@@ -84,12 +92,24 @@ std::optional<RequiredHalfAngle> ComputeRequiredHalfAngle(std::span<const Contac
                                                           const object::WrenchFrame& frame,
                                                           double tolerance) {
   CheckGrasp(contacts, frame);
-  if (!(tolerance > 0)) throw std::invalid_argument("required half-angle: tolerance not positive");
+  CheckTolerance(tolerance);
   const object::WrenchFrame own = ContactFrame(contacts, frame.dimension);
   if (!(own.radius > 0)) return std::nullopt;
-  UnitContacts units = MakeUnitContacts(contacts, own);
+  const UnitContacts units = MakeUnitContacts(contacts, own);
   return frame.dimension == 3 ? Bracket<6>(units, tolerance).Find()
                               : Bracket<3>(units, tolerance).Find();
+}
+
+RequiredHalfAngle NarrowRequiredHalfAngle(std::span<const Contact> contacts,
+                                          const object::WrenchFrame& frame,
+                                          const RequiredHalfAngle& known, double tolerance) {
+  CheckGrasp(contacts, frame);
+  CheckTolerance(tolerance);
+  const object::WrenchFrame own = ContactFrame(contacts, frame.dimension);
+  if (!(own.radius > 0)) return known;
+  const UnitContacts units = MakeUnitContacts(contacts, own);
+  return frame.dimension == 3 ? Bracket<6>(units, tolerance).Narrow(known)
+                              : Bracket<3>(units, tolerance).Narrow(known);
 }
 
 }  // namespace regrasp::grasp

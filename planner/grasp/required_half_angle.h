@@ -23,4 +23,11 @@ struct RequiredHalfAngle {
 [[nodiscard]] std::optional<RequiredHalfAngle> ComputeRequiredHalfAngle(
     std::span<const Contact> contacts, const object::WrenchFrame& frame, double tolerance = 1e-9);
 
+/// The same between bounds that are known: the grasp is force closure at known.upper, and whatever
+/// it needs no less than known.lower is asked for.
+[[nodiscard]] RequiredHalfAngle NarrowRequiredHalfAngle(std::span<const Contact> contacts,
+                                                        const object::WrenchFrame& frame,
+                                                        const RequiredHalfAngle& known,
+                                                        double tolerance);
+
 }  // namespace regrasp::grasp

@@ -26,6 +26,10 @@ constexpr double kNearestGap = 1e-6;
 /// Grasps take 5 to 20 pivots, forces of full precision 30 to 60: what takes more is stalling.
 constexpr lp::Limits kLimits = {.pivots = 200, .refactor_after = 24};
 
+/// For rims that are a little different a pivot or two are enough. A search from the beginning
+/// takes as long as some twenty.
+constexpr int kMostResumed = 12;
+
 /// A wrench with its part of the sum Σ λ = 1.
 template <std::size_t kDim>
 std::array<double, kDim + 1> WithShare(const std::array<double, kDim>& wrench, double share) {
@@ -48,13 +52,23 @@ double TwistSize(const Dual& dual) {
 template <int kDim>
 WrenchSimplex<kDim>::WrenchSimplex(std::span<const UnitContact> contacts, const Vector& target)
     : contacts_(contacts), target_(target) {
-  target_size_ = 0;
   for (double value : target) target_size_ += std::abs(value);
-  column_size_ = 0;
   const int count = static_cast<int>(contacts.size());
   for (int i = 0; i < count; ++i) start_weight_sum_ += lp::UnevenWeight(i);
+  SetRims();
+  const std::array<double, kRows> right = WithShare(target, 1);
+  program_.StartFeasibility(Dual(right.data()), {kStart, WithShare(start_, 1)}, kDim);
+}
+
+template <int kDim>
+void WrenchSimplex<kDim>::SetRims() {
+  start_ = {};
+  column_size_ = 0;
+  rims_.clear();
+  const int count = static_cast<int>(contacts_.size());
   for (int i = 0; i < count; ++i) {
-    const UnitContact& contact = contacts[i];
+    const UnitContact& contact = contacts_[i];
+    rims_.push_back({contact.axial, contact.tangential});
     column_size_ = std::max(
         column_size_, (contact.axial + contact.tangential) * (1 + contact.q.template lpNorm<1>()) +
                           contact.tangential * contact.torsion * contact.n.template lpNorm<1>());
@@ -62,8 +76,6 @@ WrenchSimplex<kDim>::WrenchSimplex(std::span<const UnitContact> contacts, const 
     WriteWrench<kDim>(contact, {(StartWeight(i) * contact.axial) * contact.n}, wrench.data());
     for (int r = 0; r < kDim; ++r) start_[r] += wrench[r];
   }
-  const std::array<double, kRows> right = WithShare(target, 1);
-  program_.StartFeasibility(Dual(right.data()), {kStart, WithShare(start_, 1)}, kDim);
 }
 
 template <int kDim>
@@ -131,6 +143,67 @@ typename WrenchSimplex<kDim>::Status WrenchSimplex<kDim>::FindWeights(bool stop_
   Column column;
   const Dual dual = program_.dual();
   return Separates(dual, FindBest(dual, column)) ? Status::kInfeasible : Status::kStalled;
+}
+
+template <int kDim>
+std::optional<typename WrenchSimplex<kDim>::Column> WrenchSimplex<kDim>::Turned(
+    const Column& column, const Rims& before) const {
+  if (column.contact == kStart) return Column{kStart, WithShare(start_, 1)};
+  if (column.contact < 0) return std::nullopt;
+  const Rim& rim = before[column.contact];
+  if (!(rim.tangential > 0)) return std::nullopt;
+  // It is axial w(n) + tangential w(t), of which w(t) stays.
+  const UnitContact& contact = contacts_[column.contact];
+  const double scale = contact.tangential / rim.tangential;
+  Vector wrench;
+  WriteWrench<kDim>(contact, {(contact.axial - scale * rim.axial) * contact.n}, wrench.data());
+  for (int r = 0; r < kDim; ++r) wrench[r] += scale * column.entries[r];
+  return Column{column.contact, WithShare(wrench, 1)};
+}
+
+template <int kDim>
+int WrenchSimplex<kDim>::FarthestFacet() const {
+  int farthest = -1;
+  double largest = 0;
+  for (int r = 0; r < kRows; ++r) {
+    const double weight = program_.weights()[r];
+    if (!(weight < 0)) continue;
+    const double rate = program_.inverse().row(r).template head<kDim>().squaredNorm();
+    if (weight * weight > largest * rate) {
+      largest = weight * weight / rate;
+      farthest = r;
+    }
+  }
+  return farthest;
+}
+
+template <int kDim>
+typename WrenchSimplex<kDim>::Status WrenchSimplex<kDim>::Resume(Vector& twist) {
+  const Rims before = rims_;
+  SetRims();
+  std::array<Column, kRows> columns;
+  for (int r = 0; r < kRows; ++r) {
+    const Column* column = program_.column(r);
+    const auto turned = column == nullptr ? std::nullopt : Turned(*column, before);
+    if (!turned) return Status::kStalled;
+    columns[r] = *turned;
+  }
+  const std::array<double, kRows> right = WithShare(target_, 1);
+  program_.StartFromBasis(columns, Dual(right.data()));
+  Column column;
+  for (int pivot = 0; pivot < kMostResumed; ++pivot) {
+    if (!program_.weights().allFinite()) return Status::kStalled;
+    const int row = FarthestFacet();
+    if (row < 0) return Status::kFeasible;
+    // On the other side of the facet: every column but this one is on it.
+    const Dual outward = -program_.inverse().row(row);
+    if (Separates(outward, FindBest(outward, column))) {
+      std::copy_n(outward.data(), kDim, twist.begin());
+      return Status::kInfeasible;
+    }
+    if (!program_.EnterAt(row, column)) return Status::kStalled;
+  }
+  return Status::kStalled;
 }
 
 template <int kDim>

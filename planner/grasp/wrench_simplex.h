@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "planner/grasp/unit_contacts.h"
@@ -46,6 +48,16 @@ class WrenchSimplex {
   /// Looks for weights: minimises the L1 distance from the target to the hull of the columns.
   /// @param stop_early  end with the first twist that separates, not with the nearest point.
   Status FindWeights(bool stop_early);
+
+  /// Looks for weights again after the rims of contacts have been changed, from the columns that
+  /// the last search ended with, turned to where their rims are now: by the dual simplex method,
+  /// which replaces a column whose weight is negative, that with the farthest facet first, by the
+  /// one that reaches farthest over this facet. For rims that are nearly the same it takes a pivot
+  /// or two.
+  /// @param twist  set after kInfeasible: it separates.
+  /// @returns kStalled also where there is no full basis to begin from: FindWeights ended without
+  ///          weights, or Maximise came after it.
+  Status Resume(Vector& twist);
 
   /// Where no weights are: those whose sum is nearest to the target, by the sum of the absolute
   /// values of what is unbalanced, to a millionth of it. FindWeights does not find them: an entry
@@ -118,17 +130,31 @@ class WrenchSimplex {
   using Program = lp::Simplex<kRows, Column>;
   using Dual = typename Program::Vector;
 
+  struct Rim {
+    double axial;
+    double tangential;
+  };
+  using Rims = boost::container::small_vector<Rim, kInlineContacts>;
+
+  /// What goes by the rims, but for the columns: the start, and how large columns are.
+  void SetRims();
+  /// A column that was made for other rims, where they are now; nullopt of one that has none.
+  [[nodiscard]] std::optional<Column> Turned(const Column& column, const Rims& before) const;
+  /// The row whose weight is the most negative one over the rate at which it grows, the distance of
+  /// the target from the facet of the other columns; −1 where none is negative.
+  [[nodiscard]] int FarthestFacet() const;
   /// @returns its reduced cost.
   double FindBest(const Dual& dual, Column& column) const;
   [[nodiscard]] static Column Unbalanced(int row, double sign);
   [[nodiscard]] bool Separates(const Dual& dual, double reduced_cost) const;
 
   std::span<const UnitContact> contacts_;
+  Rims rims_;  ///< that the columns were made for
   Vector target_;
   Vector start_{};
   double start_weight_sum_ = 0;
-  double target_size_;
-  double column_size_;
+  double target_size_ = 0;
+  double column_size_ = 0;
   Program program_;
 };
 

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "planner/lp/invert.h"
 
 namespace regrasp::lp {
 
@@ -100,8 +101,8 @@ class Simplex {
     ComputeDual();
   }
 
-  /// The second phase, from columns of which a weighted sum with weights ≥ 0 is the right-hand
-  /// side.
+  /// The second phase, from columns of which a weighted sum is the right-hand side; its weights are
+  /// to be ≥ 0, or made so by EnterAt.
   void StartFromBasis(const std::array<Column, kRows>& columns, const Vector& right) {
     right_ = right;
     basis_ = columns;
@@ -132,12 +133,23 @@ class Simplex {
     return End::kPivotLimit;
   }
 
-  /// One pivot. @returns the row that the column is in now, or −1 where nothing holds it.
+  /// One pivot, the leaving column chosen by the weights. @returns the row that the column is in
+  /// now, or −1 where nothing holds it.
   int Enter(const Column& column) {
     const TableauColumn alpha = TimesInverse(column);
     const int leaving = ChooseLeaving(alpha);
     if (leaving >= 0) Replace(leaving, column, alpha);
     return leaving;
+  }
+
+  /// One pivot in which the column of a given row leaves. Weights may become negative, and those
+  /// that are may become positive: a step of the dual simplex method.
+  /// @returns false, and leaves all as it was, where the column's entry there is no pivot.
+  bool EnterAt(int row, const Column& column) {
+    const TableauColumn alpha = TimesInverse(column);
+    if (!(std::abs(alpha[row]) > kPivot)) return false;
+    Replace(row, column, alpha);
+    return true;
   }
 
   /// The same for a column whose weight may have any sign, so that it never leaves. Only one is.
@@ -157,7 +169,7 @@ class Simplex {
         if (!IsLeftOut(r)) matrix(r, c) = value;
       });
     }
-    const Eigen::Matrix<double, kRows, kRows> inverse = matrix.inverse();
+    const Eigen::Matrix<double, kRows, kRows> inverse = Invert(matrix);
     Vector weights = inverse.col(kRows - 1) * right_[kRows - 1];
     for (int c = 0; c < kRows - 1; ++c) weights += inverse.col(c) * right_[c];
     tableau_.setZero();

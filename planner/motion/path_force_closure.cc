@@ -129,8 +129,13 @@ class PathDecision {
 /// is known before what it covers easily is looked at.
 class PathAngle {
  public:
-  PathAngle(const GraspMotion& motion, const object::WrenchFrame& frame, ProofBudget& budget)
-      : motion_(motion), proofs_(motion, frame.dimension), frame_(frame), budget_(budget) {}
+  PathAngle(const GraspMotion& motion, const object::WrenchFrame& frame,
+            std::optional<double> proven, ProofBudget& budget)
+      : motion_(motion),
+        proofs_(motion, frame.dimension),
+        frame_(frame),
+        proven_(proven),
+        budget_(budget) {}
 
   /// @returns false where an instant is force closure at no angle.
   bool Search() {
@@ -170,12 +175,21 @@ class PathAngle {
 
   /// The required half-angle of an instant; nullopt where it is force closure at none.
   std::optional<double> Include(double t) {
-    const auto required =
-        grasp::ComputeRequiredHalfAngle(GraspAt(motion_, t), frame_, kInstantAccuracy);
+    const auto required = RequiredAt(t);
     if (!required) return std::nullopt;
     bounds_.lower = std::max(bounds_.lower, required->lower);
     bounds_.upper = std::max(bounds_.upper, required->upper);
     return required->upper;
+  }
+
+  /// No smaller than what another instant needs, which is all that is asked.
+  [[nodiscard]] std::optional<grasp::RequiredHalfAngle> RequiredAt(double t) const {
+    const grasp::Grasp grasp = GraspAt(motion_, t);
+    if (!proven_ || *proven_ > kLargestHalfAngle) {
+      return grasp::ComputeRequiredHalfAngle(grasp, frame_, kInstantAccuracy);
+    }
+    const double lower = std::min(bounds_.lower, *proven_);
+    return grasp::NarrowRequiredHalfAngle(grasp, frame_, {lower, *proven_}, kInstantAccuracy);
   }
 
   bool Add(double from, double to) {
@@ -207,6 +221,7 @@ class PathAngle {
   const GraspMotion& motion_;
   SegmentProofs proofs_;
   const object::WrenchFrame& frame_;
+  std::optional<double> proven_;
   ProofBudget& budget_;
   grasp::RequiredHalfAngle bounds_;  ///< of the instants seen so far
   std::priority_queue<Interval> open_;
@@ -236,7 +251,7 @@ PathForceClosure DecidePathForceClosure(const GraspMotion& motion, const object:
 std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
     const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven,
     ProofBudget& budget) {
-  PathAngle search(motion, frame, budget);
+  PathAngle search(motion, frame, proven, budget);
   if (!search.Search()) return std::nullopt;
   grasp::RequiredHalfAngle bounds = search.bounds();
   if (!search.complete()) {

@@ -61,7 +61,7 @@ void CreepUntilTouch(ReplayWorld& world, const plan::FingerGrasp& placed_B) {
     world.Step();
     std::erase_if(open, [&](const plan::FingerContact& placed) {
       const bool touches =
-          world.engine().contact_force(placed.finger).norm() >= kTouchForce * s.squeeze_N;
+          world.engine().tip_force(placed.finger).force.norm() >= kTouchForce * s.squeeze_N;
       if (touches) Touch(world, placed.finger);
       return touches;
     });

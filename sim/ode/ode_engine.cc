@@ -100,6 +100,7 @@ struct OdeEngine::Impl {
   Vector3d spin = Vector3d::Zero();
   std::vector<Motion> tips;
   std::map<PatchIndex, Vector3d> forces;  ///< of the contacts of the last step, on the object
+  std::vector<TipForce> tip_forces;       ///< their sums, in newtons; contacts are hard points here
 
   // What acts.
   std::vector<Vector3d> targets;
@@ -118,6 +119,7 @@ struct OdeEngine::Impl {
   [[nodiscard]] bool Solve(int tried, std::vector<Touch>& touches);
   void SolveByTries(std::vector<Touch>& touches);
   void TakeBodies(const std::vector<Touch>& touches);
+  void SumForces();
 };
 
 OdeEngine::Impl::Impl(const Scene& metres, const object::Object& body)
@@ -142,6 +144,7 @@ OdeEngine::Impl::Impl(const Scene& metres, const object::Object& body)
     targets.push_back(finger.start_S);
   }
   sites_of_finger.resize(fingers.size());
+  SumForces();
 }
 
 Vector3d OdeEngine::Impl::ServoPush(FingerIndex finger) const {
@@ -281,9 +284,17 @@ void OdeEngine::Impl::TakeBodies(const std::vector<Touch>& touches) {
   }
   forces.clear();
   for (const Touch& touch : touches) forces[touch.where] = touch.force;
+  SumForces();
   const bool finite = IsFinite(centre) && turn.coeffs().allFinite() && spin.allFinite() &&
                       std::ranges::all_of(tips, IsFinite);
   if (!finite) throw UnstableError("the state is not finite");
+}
+
+void OdeEngine::Impl::SumForces() {
+  tip_forces.assign(fingers.size(), TipForce());
+  for (const auto& [where, force] : forces) {
+    tip_forces[where.finger].force += units.force_N() * force;
+  }
 }
 
 OdeEngine::OdeEngine(const Scene& scene, const object::Object& body)
@@ -300,16 +311,7 @@ Vector3d OdeEngine::tip(FingerIndex finger) const {
   return impl_->units.length_m * impl_->tips[finger].position;
 }
 
-Vector3d OdeEngine::contact_force(FingerIndex finger) const {
-  Vector3d total = Vector3d::Zero();
-  for (const auto& [where, force] : impl_->forces) {
-    if (where.finger == finger) total += force;
-  }
-  return impl_->units.force_N() * total;
-}
-
-/// Contacts are hard points here.
-Vector3d OdeEngine::contact_torque(FingerIndex /*finger*/) const { return Vector3d::Zero(); }
+const TipForce& OdeEngine::tip_force(FingerIndex finger) const { return impl_->tip_forces[finger]; }
 
 void OdeEngine::PlaceTip(FingerIndex finger, const Vector3d& tip) {
   impl_->tips[finger] = {tip / impl_->units.length_m, Vector3d::Zero()};
@@ -403,6 +405,7 @@ void OdeEngine::Restore(const State& state) {
     c += 3;
     impl_->forces[where] = Take(c);
   }
+  impl_->SumForces();
 }
 
 }  // namespace regrasp::sim

@@ -29,8 +29,7 @@ class OdeEngine final : public Engine {
   [[nodiscard]] double time() const override;
   [[nodiscard]] Eigen::Isometry3d object_pose() const override;
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const override;
-  [[nodiscard]] Eigen::Vector3d contact_force(FingerIndex finger) const override;
-  [[nodiscard]] Eigen::Vector3d contact_torque(FingerIndex finger) const override;
+  [[nodiscard]] const TipForce& tip_force(FingerIndex finger) const override;
   void PlaceTip(FingerIndex finger, const Eigen::Vector3d& tip) override;
   void ShiftTip(FingerIndex finger, const Eigen::Vector3d& offset) override;
   void SetTarget(FingerIndex finger, const Eigen::Vector3d& target) override;

@@ -140,7 +140,7 @@ StepMotion ShakeAtRest(ReplayWorld& world, const object::Object& object, double 
 FingerMargins MarginsNow(const ReplayWorld& world) {
   FingerMargins margins;
   for (const FingerIndex f : world.HoldingFingers()) {
-    const Eigen::Vector3d force = world.engine().contact_force(f);
+    const Eigen::Vector3d force = world.engine().tip_force(f).force;
     const Eigen::Vector3d normal = world.X_SB().linear() * world.fingers()[f].contact.n;
     if (force.dot(normal) < kPressing * world.settings().squeeze_N) continue;
     AddMargin(f, ConeMargin(force, normal, world.half_angle(), world.Twist(f)), margins);

@@ -27,6 +27,12 @@ struct EngineUnits {
 /// One of the places where fingers touch, Scene::sites (sim/scene/scene.h).
 using SiteIndex = Index<struct SiteTag>;
 
+/// What a finger does to the object; zero where they do not touch.
+struct TipForce {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about the normal; zero of hard points
+};
+
 /// The physics of one scene (sim/scene/scene.h): an object, free or in the plane, and fingers on
 /// servos that stop at the patches of sites. It knows no plan and judges nothing: targets of the
 /// servos and loads go in; poses, tips and forces of contacts come out.
@@ -45,10 +51,8 @@ class Engine {
   [[nodiscard]] virtual double time() const = 0;
   [[nodiscard]] virtual Eigen::Isometry3d object_pose() const = 0;
   [[nodiscard]] virtual Eigen::Vector3d tip(FingerIndex finger) const = 0;
-  /// Force of a finger on the object in the last step; zero where they do not touch.
-  [[nodiscard]] virtual Eigen::Vector3d contact_force(FingerIndex finger) const = 0;
-  /// Its torque on the object about the normal; zero of hard points.
-  [[nodiscard]] virtual Eigen::Vector3d contact_torque(FingerIndex finger) const = 0;
+  /// What a finger did to the object in the last step.
+  [[nodiscard]] virtual const TipForce& tip_force(FingerIndex finger) const = 0;
 
   /// Moves a finger there at once, at rest.
   virtual void PlaceTip(FingerIndex finger, const Eigen::Vector3d& tip) = 0;

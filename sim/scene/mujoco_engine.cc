@@ -34,6 +34,14 @@ ModelPtr LoadModel(const std::string& mjcf) {
 
 std::string EngineVersion() { return mj_versionString(); }
 
+/// Where the engine's model has a finger.
+struct FingerParts {
+  int geom;
+  int position;         ///< of its slides in qpos
+  int velocity;         ///< in qvel
+  const mjtNum* start;  ///< where they are 0
+};
+
 struct MujocoEngine::Impl {
   EngineHooks hooks;
   EngineUnits units;
@@ -41,29 +49,33 @@ struct MujocoEngine::Impl {
   DataPtr data;
   int object = 0;
   int slides = 0;  ///< of a finger: 3 in space, 2 in the plane
-  std::vector<int> body_of_finger;
-  std::vector<int> geom_of_finger;
+  std::vector<FingerParts> fingers;
+  std::vector<TipForce> tip_forces;
   std::vector<FingerIndex> finger_of_geom;  ///< none for the object's
   std::vector<std::vector<int>> geoms_of_site;
 
-  Impl(const std::string& mjcf, int fingers, const EngineUnits& given);
-  [[nodiscard]] int First(FingerIndex finger) const;  ///< index of a finger's first coordinate
+  Impl(const std::string& mjcf, int finger_count, const EngineUnits& given);
+  void ReadForces();
   [[nodiscard]] int BitOf(FingerIndex finger) const {
-    return model->geom_contype[geom_of_finger[finger]];
+    return model->geom_contype[fingers[finger].geom];
   }
 };
 
-MujocoEngine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits& given)
+MujocoEngine::Impl::Impl(const std::string& mjcf, int finger_count, const EngineUnits& given)
     : units(given), model(LoadModel(mjcf)) {
   data.reset(mj_makeData(model.get()));
   if (!data) throw EnvironmentError("MuJoCo has no memory for the scene");
   object = mj_name2id(model.get(), mjOBJ_BODY, "object");
   finger_of_geom.resize(model->ngeom);
-  for (FingerIndex f{0}; f < fingers; ++f) {
+  for (FingerIndex f{0}; f < finger_count; ++f) {
     const std::string name = "finger" + std::to_string(f);
-    body_of_finger.push_back(mj_name2id(model.get(), mjOBJ_BODY, name.c_str()));
-    geom_of_finger.push_back(mj_name2id(model.get(), mjOBJ_GEOM, name.c_str()));
-    finger_of_geom[geom_of_finger.back()] = f;
+    const int body = mj_name2id(model.get(), mjOBJ_BODY, name.c_str());
+    const int geom = mj_name2id(model.get(), mjOBJ_GEOM, name.c_str());
+    const int joint = model->body_jntadr[body];
+    slides = model->body_jntnum[body];
+    fingers.push_back(
+        {geom, model->jnt_qposadr[joint], model->jnt_dofadr[joint], model->body_pos + 3 * body});
+    finger_of_geom[geom] = f;
   }
   for (int site = 0;; ++site) {
     std::vector<int> geoms;
@@ -76,12 +88,26 @@ MujocoEngine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits
     if (geoms.empty()) break;
     geoms_of_site.push_back(std::move(geoms));
   }
-  slides = fingers > 0 ? model->body_jntnum[body_of_finger.front()] : 0;
   mj_forward(model.get(), data.get());
+  ReadForces();
 }
 
-int MujocoEngine::Impl::First(FingerIndex finger) const {
-  return model->body_jntadr[body_of_finger[finger]];
+void MujocoEngine::Impl::ReadForces() {
+  tip_forces.assign(fingers.size(), TipForce());
+  for (int i = 0; i < data->ncon; ++i) {
+    const mjContact& contact = data->contact[i];
+    const bool first = finger_of_geom[contact.geom1].valid();
+    const FingerIndex finger = finger_of_geom[first ? contact.geom1 : contact.geom2];
+    if (!finger.valid()) continue;
+    // Of the second geom, force and then torque along the axes of the contact's frame, its rows.
+    std::array<mjtNum, 6> local;
+    mj_contactForce(model.get(), data.get(), i, local.data());
+    const Eigen::Map<const Eigen::Matrix3d> axes(contact.frame);
+    const double unit = first ? units.force_N() : -units.force_N();
+    TipForce& total = tip_forces[finger];
+    total.force += unit * (axes * Eigen::Map<const Vector3d>(local.data()));
+    total.torque += unit * units.length_m * (axes * Eigen::Map<const Vector3d>(local.data() + 3));
+  }
 }
 
 MujocoEngine::MujocoEngine(const std::string& mjcf, int fingers, const EngineUnits& units)
@@ -104,58 +130,33 @@ Eigen::Isometry3d MujocoEngine::object_pose() const {
 }
 
 Vector3d MujocoEngine::tip(FingerIndex finger) const {
-  const mjModel& m = *impl_->model;
-  const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
-  const mjtNum* q = impl_->data->qpos + m.jnt_qposadr[impl_->First(finger)];
-  Vector3d tip(start[0], start[1], start[2]);
-  for (int k = 0; k < impl_->slides; ++k) tip[k] += q[k];
+  const FingerParts& parts = impl_->fingers[finger];
+  Vector3d tip = Eigen::Map<const Vector3d>(parts.start);
+  for (int k = 0; k < impl_->slides; ++k) tip[k] += impl_->data->qpos[parts.position + k];
   return impl_->units.length_m * tip;
 }
 
-Vector3d MujocoEngine::contact_force(FingerIndex finger) const {
-  return impl_->units.force_N() * SumOfContacts(finger, 0);
-}
-
-Vector3d MujocoEngine::contact_torque(FingerIndex finger) const {
-  return impl_->units.force_N() * impl_->units.length_m * SumOfContacts(finger, 3);
-}
-
-Vector3d MujocoEngine::SumOfContacts(FingerIndex finger, int begin) const {
-  const mjData& d = *impl_->data;
-  Vector3d total = Vector3d::Zero();
-  for (int i = 0; i < d.ncon; ++i) {
-    const mjContact& contact = d.contact[i];
-    const bool first = impl_->finger_of_geom[contact.geom1] == finger;
-    if (!first && impl_->finger_of_geom[contact.geom2] != finger) continue;
-    std::array<mjtNum, 6> local;
-    mj_contactForce(impl_->model.get(), &d, i, local.data());
-    std::array<mjtNum, 3> world;
-    mju_rotVecMatT(world.data(), local.data() + begin, contact.frame);
-    // The engine gives the force on the second geom.
-    total += (first ? 1 : -1) * Vector3d(world[0], world[1], world[2]);
-  }
-  return total;
+const TipForce& MujocoEngine::tip_force(FingerIndex finger) const {
+  return impl_->tip_forces[finger];
 }
 
 void MujocoEngine::PlaceTip(FingerIndex finger, const Vector3d& tip) {
-  const mjModel& m = *impl_->model;
-  const int joint = impl_->First(finger);
-  const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
+  const FingerParts& parts = impl_->fingers[finger];
   for (int k = 0; k < impl_->slides; ++k) {
-    impl_->data->qpos[m.jnt_qposadr[joint] + k] = tip[k] / impl_->units.length_m - start[k];
-    impl_->data->qvel[m.jnt_dofadr[joint] + k] = 0;
+    impl_->data->qpos[parts.position + k] = tip[k] / impl_->units.length_m - parts.start[k];
+    impl_->data->qvel[parts.velocity + k] = 0;
   }
 }
 
 void MujocoEngine::ShiftTip(FingerIndex finger, const Vector3d& offset) {
-  const int joint = impl_->First(finger);
+  const FingerParts& parts = impl_->fingers[finger];
   for (int k = 0; k < impl_->slides; ++k) {
-    impl_->data->qpos[impl_->model->jnt_qposadr[joint] + k] += offset[k] / impl_->units.length_m;
+    impl_->data->qpos[parts.position + k] += offset[k] / impl_->units.length_m;
   }
 }
 
 void MujocoEngine::SetTarget(FingerIndex finger, const Vector3d& target) {
-  const mjtNum* start = impl_->model->body_pos + 3 * impl_->body_of_finger[finger];
+  const mjtNum* start = impl_->fingers[finger].start;
   const int slides = impl_->slides;
   for (int k = 0; k < slides; ++k) {
     impl_->data->ctrl[slides * finger + k] = target[k] / impl_->units.length_m - start[k];
@@ -192,6 +193,7 @@ void MujocoEngine::Step() {
   mjData& d = *impl_->data;
   mj_step(impl_->model.get(), &d);
   CheckState(*impl_->model, d);
+  impl_->ReadForces();
 }
 
 MujocoEngine::State MujocoEngine::Save() const { return SaveState(*impl_->model, *impl_->data); }

@@ -27,8 +27,7 @@ class MujocoEngine final : public Engine {
   [[nodiscard]] double time() const override;
   [[nodiscard]] Eigen::Isometry3d object_pose() const override;
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const override;
-  [[nodiscard]] Eigen::Vector3d contact_force(FingerIndex finger) const override;
-  [[nodiscard]] Eigen::Vector3d contact_torque(FingerIndex finger) const override;
+  [[nodiscard]] const TipForce& tip_force(FingerIndex finger) const override;
   void PlaceTip(FingerIndex finger, const Eigen::Vector3d& tip) override;
   void ShiftTip(FingerIndex finger, const Eigen::Vector3d& offset) override;
   void SetTarget(FingerIndex finger, const Eigen::Vector3d& target) override;
@@ -42,9 +41,6 @@ class MujocoEngine final : public Engine {
 
  private:
   struct Impl;
-  /// Of all contacts of a finger three numbers of what the engine has in their frames, from `begin`
-  /// on, in the world's axes, on the object.
-  [[nodiscard]] Eigen::Vector3d SumOfContacts(FingerIndex finger, int begin) const;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
@@ -11,13 +12,26 @@
 namespace regrasp::sim {
 namespace {
 
-double RotationAngle(const Eigen::Quaterniond& from, const Eigen::Isometry3d& to) {
-  return from.angularDistance(Eigen::Quaterniond(to.linear()));
+/// Below this sine of half a turn its series is exact to rounding: the next term, 15/336 of its
+/// sixth power, is left out.
+constexpr double kSmallSine = 0.01;
+
+double RotationAngle(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  // |R' − R| = 2 √2 sin(θ/2). It is asked after every step, and the object hardly ever turns.
+  const double sine = (to.linear() - from.linear()).norm() / (2 * std::numbers::sqrt2);
+  if (sine < kSmallSine) {
+    const double square = sine * sine;
+    return 2 * sine * (1 + square * (1.0 / 6 + square * 3 / 40));
+  }
+  return Eigen::Quaterniond(from.linear()).angularDistance(Eigen::Quaterniond(to.linear()));
 }
 
 /// A force less steep than this part of the steepest one has the larger margin, whatever rounding
 /// does to either.
 constexpr double kSurelyLessSteep = 1 - 1e-12;
+
+/// In place of the slope of a finger that has not pressed yet.
+constexpr double kNoSlope = -1;
 
 /// A turn may be a thousandth of a degree.
 constexpr int kAngleDigits = 3;
@@ -27,21 +41,19 @@ std::string Name(FingerIndex finger) { return "finger " + std::to_string(finger)
 }  // namespace
 
 double MeasureMotion(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, double radius) {
-  return (to.translation() - from.translation()).norm() +
-         radius * RotationAngle(Eigen::Quaterniond(from.linear()), to);
+  return (to.translation() - from.translation()).norm() + radius * RotationAngle(from, to);
 }
 
 void MotionMonitor::Start(const Eigen::Isometry3d& X_SB) {
   const ReplaySettings settings = settings_;
   *this = MotionMonitor(settings);
   start_ = X_SB;
-  start_turn_ = X_SB.linear();
 }
 
 void MotionMonitor::AddPose(const Eigen::Isometry3d& X_SB) {
   // As MeasureMotion; both parts are wanted after every step.
   const double displacement = (X_SB.translation() - start_.translation()).norm();
-  const double rotation = RotationAngle(start_turn_, X_SB);
+  const double rotation = RotationAngle(start_, X_SB);
   const double moved = displacement + settings_.diameter_m / 2 * rotation;
   moved_now_ = moved;
   if (giving_) {
@@ -88,10 +100,11 @@ void MotionMonitor::AddForce(FingerIndex finger, const Eigen::Vector3d& force,
   const double pressing = force.dot(normal);
   if (pressing < kPressing * settings_.squeeze_N) return;
   // It is asked of every finger in every time step: the angle only where it may be the largest.
-  const auto [steepest, is_first] = slopes_.try_emplace(finger, 0);
+  if (finger >= std::ssize(slopes_)) slopes_.resize(finger + 1, kNoSlope);
+  double& steepest = slopes_[finger];
   const double tangential = TangentialForce(force, normal, twist);
-  if (!is_first && tangential < kSurelyLessSteep * steepest->second * pressing) return;
-  steepest->second = std::max(steepest->second, tangential / pressing);
+  if (tangential < kSurelyLessSteep * steepest * pressing) return;
+  steepest = std::max(steepest, tangential / pressing);
   AddMargin(finger, ConeMargin(force, normal, std::atan(settings_.mu), twist), margins_);
 }
 

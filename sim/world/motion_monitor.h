@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planner/plan/reason.h"
 #include "sim/scene/settings.h"
@@ -73,14 +73,13 @@ class MotionMonitor {
 
   ReplaySettings settings_;
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();
-  Eigen::Quaterniond start_turn_ = Eigen::Quaterniond::Identity();
   std::string phase_;
   double displacement_ = 0, rotation_ = 0, moved_ = 0, moved_now_ = 0, give_ = 0, slip_ = 0;
   double slip_now_ = 0, gap_now_ = 0;  ///< of slipped_finger_ and lost_finger_
   bool giving_ = false;
   bool unrest_ = false;  ///< the object moved in that it did not come to rest
   FingerMargins margins_;
-  std::map<FingerIndex, double> slopes_;  ///< largest tangential over normal force of each
+  std::vector<double> slopes_;  ///< by finger: the largest tangential over its normal force
   std::optional<std::string> lost_, slipped_, object_moved_;  ///< the phase it was seen in first
   FingerIndex lost_finger_, slipped_finger_;
 };

@@ -72,16 +72,13 @@ std::vector<FingerIndex> ReplayWorld::HoldingFingers() const {
 }
 
 Vector3d ReplayWorld::ContactPoint_B(FingerIndex finger) const {
-  return ContactPoint_B(finger, X_SB().inverse());
-}
-
-Vector3d ReplayWorld::ContactPoint_B(FingerIndex finger, const Isometry3d& X_BS) const {
-  return X_BS * engine_->tip(finger) + settings().fingertip_radius_m * fingers_[finger].contact.n;
+  return X_SB().inverse() * engine_->tip(finger) +
+         settings().fingertip_radius_m * fingers_[finger].contact.n;
 }
 
 double ReplayWorld::Twist(FingerIndex finger) const {
   if (settings().torsion_m == 0) return 0;
-  return engine_->contact_torque(finger).norm() / settings().torsion_m;
+  return engine_->tip_force(finger).torque.norm() / settings().torsion_m;
 }
 
 Vector3d ReplayWorld::TipAt_S(const grasp::Contact& contact_B, double gap) const {
@@ -126,15 +123,17 @@ void ReplayWorld::StartMonitoring() {
 }
 
 void ReplayWorld::MonitorMotion() {
+  // After every step, so that it is worked out in the frame of the scene, where positions are.
   const Isometry3d X_SB = this->X_SB();
-  const Isometry3d X_BS = X_SB.inverse();
   monitor_.AddPose(X_SB);
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     const WorldFinger& finger = fingers_[f];
     if (!finger.holding || finger.sliding) continue;
-    monitor_.AddForce(f, engine_->contact_force(f), X_SB.linear() * finger.contact.n, Twist(f));
-    const Vector3d slide = ContactPoint_B(f, X_BS) - finger.touch_B;
-    monitor_.AddSlip(f, (slide - slide.dot(finger.contact.n) * finger.contact.n).norm());
+    const Vector3d normal_S = X_SB.linear() * finger.contact.n;
+    monitor_.AddForce(f, engine_->tip_force(f).force, normal_S, Twist(f));
+    const Vector3d point_S = engine_->tip(f) + settings().fingertip_radius_m * normal_S;
+    const Vector3d slide_S = point_S - X_SB * finger.touch_B;
+    monitor_.AddSlip(f, (slide_S - slide_S.dot(normal_S) * normal_S).norm());
   }
 }
 
@@ -167,7 +166,7 @@ plan::Snapshot ReplayWorld::TakeSnapshot() const {
     state.normal_W = X_SB.linear() * finger.contact.n;
     state.contact_W =
         p_WS_ + X_SB * (finger.holding ? ContactPoint_B(state.finger) : finger.contact.p);
-    state.force_W = engine_->contact_force(state.finger);
+    state.force_W = engine_->tip_force(state.finger).force;
     if (finger.role == plan::FingerRole::kMoved) {
       for (const Vector3d& point_B : finger.path_B) state.path_W.push_back(p_WS_ + X_SB * point_B);
     }

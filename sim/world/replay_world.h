@@ -76,8 +76,6 @@ class ReplayWorld {
   [[nodiscard]] plan::Snapshot TakeSnapshot() const;
 
  private:
-  [[nodiscard]] Eigen::Vector3d ContactPoint_B(FingerIndex finger,
-                                               const Eigen::Isometry3d& X_BS) const;
   void MonitorMotion();
   void Sample();
 

@@ -31,17 +31,19 @@ double ArmOf(const Eigen::AngleAxisd& turn_B, const ReplayWorld& world) {
   return std::min(s.diameter_m / 2, kArmOfGyration * gyration);
 }
 
-/// The largest travel of any of them, metres.
-double TravelFrom(const Posture& from, const ReplayWorld& world) {
+/// Whether any of them has travelled farther than this, metres.
+bool HasTravelled(const Posture& from, double limit, const ReplayWorld& world) {
   const Eigen::Isometry3d X_SB = world.X_SB();
+  for (std::size_t i = 0; i < from.fingers.size(); ++i) {
+    if ((world.engine().tip(from.fingers[i]) - from.tips_S[i]).norm() > limit) return true;
+  }
+  // With the longest arm first, which needs no axis.
+  if (MeasureMotion(from.X_SB, X_SB, world.settings().diameter_m / 2) <= limit) return false;
   const Eigen::AngleAxisd turn_B(
       Eigen::Quaterniond(from.X_SB.linear().transpose() * X_SB.linear()));
-  double travel = (X_SB.translation() - from.X_SB.translation()).norm() +
-                  ArmOf(turn_B, world) * std::abs(turn_B.angle());
-  for (std::size_t i = 0; i < from.fingers.size(); ++i) {
-    travel = std::max(travel, (world.engine().tip(from.fingers[i]) - from.tips_S[i]).norm());
-  }
-  return travel;
+  return (X_SB.translation() - from.X_SB.translation()).norm() +
+             ArmOf(turn_B, world) * std::abs(turn_B.angle()) >
+         limit;
 }
 
 }  // namespace
@@ -55,7 +57,7 @@ bool WaitUntilStill(ReplayWorld& world) {
     world.Step();
     if (world.monitor().lost()) return false;
     ++quiet;
-    if (TravelFrom(since, world) <= still) continue;
+    if (!HasTravelled(since, still, world)) continue;
     since = TakePosture(world);
     quiet = 0;
   }

@@ -86,6 +86,30 @@ TEST(RequiredHalfAngleTest, HoldsAtTheUpperBoundAndAboveAndNotAtTheLowerAndBelow
   EXPECT_LT(widest, kClose);
 }
 
+TEST(RequiredHalfAngleTest, BetweenKnownBoundsItIsTheSame) {
+  RandomGrasps random(13);
+  const double tolerance = 1e-7;
+  int found = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const int dimension = 2 + trial % 2;
+    const Grasp grasp = random.OnBall(3 + trial % 3, dimension);
+    const object::WrenchFrame frame = UnitFrame(dimension);
+    const auto required = ComputeRequiredHalfAngle(grasp, frame);
+    if (!required || required->lower <= 0) continue;
+    ++found;
+    const RequiredHalfAngle known{random.Uniform(0, required->lower),
+                                  random.Uniform(required->upper, Radians(89))};
+    const RequiredHalfAngle narrowed = NarrowRequiredHalfAngle(grasp, frame, known, tolerance);
+    EXPECT_NEAR(narrowed.lower, required->lower, kClose);
+    EXPECT_NEAR(narrowed.upper, required->upper, kClose);
+    // One that needs less than what is known needs no more than that.
+    const RequiredHalfAngle above{required->upper + tolerance, Radians(89)};
+    EXPECT_LE(NarrowRequiredHalfAngle(grasp, frame, above, tolerance).upper,
+              above.lower + tolerance);
+  }
+  EXPECT_GT(found, 80);
+}
+
 TEST(RequiredHalfAngleTest, MoreContactsNeverNeedMore) {
   RandomGrasps random(12);
   int compared = 0;
@@ -115,6 +139,8 @@ TEST(RequiredHalfAngleTest, BadArgumentsThrow) {
   EXPECT_THROW((void)ComputeRequiredHalfAngle({}, UnitFrame(3)), std::invalid_argument);
   const Grasp grasp{{{1, 0, 0}, {-1, 0, 0}}};
   EXPECT_THROW((void)ComputeRequiredHalfAngle(grasp, UnitFrame(3), 0), std::invalid_argument);
+  EXPECT_THROW((void)NarrowRequiredHalfAngle(grasp, UnitFrame(3), {0, 1}, 0),
+               std::invalid_argument);
 }
 
 }  // namespace

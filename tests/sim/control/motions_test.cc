@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 Vector3d SumOfForces(const ReplayWorld& world) {
   Vector3d sum = Vector3d::Zero();
-  for (const FingerIndex f : world.HoldingFingers()) sum += world.engine().contact_force(f);
+  for (const FingerIndex f : world.HoldingFingers()) sum += world.engine().tip_force(f).force;
   return sum;
 }
 
@@ -55,7 +55,7 @@ TEST(RetractFingersTest, AFingerThatLeftStopsNothing) {
     pressing.force_S = 0.1 * world.settings().squeeze_N * (world.X_SB().linear() * contact.n);
     world.engine().PlaceTip(finger, pressing.anchor_S);
     world.Step();
-    return world.engine().contact_force(finger).norm();
+    return world.engine().tip_force(finger).force.norm();
   };
   EXPECT_GT(press(), 0);
   RetractFingers(world, {finger});

@@ -65,7 +65,7 @@ TEST(OdeEngineTest, ServosPullFingersThatTouchNothing) {
   constexpr int kSteps = 400;
   for (int i = 0; i < kSteps; ++i) free.engine.Step();
   EXPECT_LT((free.engine.tip(spare) - target).norm(), 1e-6);
-  EXPECT_TRUE(free.engine.contact_force(spare).isZero());
+  EXPECT_TRUE(free.engine.tip_force(spare).force.isZero());
 }
 
 TEST(OdeEngineTest, HoldsWithinTheConeAndBalancesTheWeight) {
@@ -73,7 +73,7 @@ TEST(OdeEngineTest, HoldsWithinTheConeAndBalancesTheWeight) {
   const ReplayWorld& world = held.world;
   Vector3d total = Vector3d::Zero();
   for (const FingerIndex f : world.HoldingFingers()) {
-    const Vector3d force = world.engine().contact_force(f);
+    const Vector3d force = world.engine().tip_force(f).force;
     const Vector3d normal = world.X_SB().linear() * world.fingers()[f].contact.n;
     EXPECT_GT(force.dot(normal), 0);
     EXPECT_GE(ConeMargin(force, normal, world.half_angle()), 0);
