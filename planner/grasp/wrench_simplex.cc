@@ -30,6 +30,10 @@ constexpr lp::Limits kLimits = {.pivots = 200, .refactor_after = 24};
 /// takes as long as some twenty.
 constexpr int kMostResumed = 12;
 
+/// Rims are not turned where their tangential part grows by more than this: so many times does the
+/// rounding of what was tangential in the column before.
+constexpr double kMostTurned = 1e3;
+
 /// A wrench with its part of the sum Σ λ = 1.
 template <std::size_t kDim>
 std::array<double, kDim + 1> WithShare(const std::array<double, kDim>& wrench, double share) {
@@ -151,9 +155,9 @@ std::optional<typename WrenchSimplex<kDim>::Column> WrenchSimplex<kDim>::Turned(
   if (column.contact == kStart) return Column{kStart, WithShare(start_, 1)};
   if (column.contact < 0) return std::nullopt;
   const Rim& rim = before[column.contact];
-  if (!(rim.tangential > 0)) return std::nullopt;
-  // It is axial w(n) + tangential w(t), of which w(t) stays.
   const UnitContact& contact = contacts_[column.contact];
+  if (!(rim.tangential * kMostTurned >= contact.tangential)) return std::nullopt;
+  // It is axial w(n) + tangential w(t), of which w(t) stays.
   const double scale = contact.tangential / rim.tangential;
   Vector wrench;
   WriteWrench<kDim>(contact, {(contact.axial - scale * rim.axial) * contact.n}, wrench.data());
@@ -185,7 +189,10 @@ typename WrenchSimplex<kDim>::Status WrenchSimplex<kDim>::Resume(Vector& twist) 
   for (int r = 0; r < kRows; ++r) {
     const Column* column = program_.column(r);
     const auto turned = column == nullptr ? std::nullopt : Turned(*column, before);
-    if (!turned) return Status::kStalled;
+    if (!turned) {
+      rims_ = before;  // the columns are still for these
+      return Status::kStalled;
+    }
     columns[r] = *turned;
   }
   const std::array<double, kRows> right = WithShare(target_, 1);
