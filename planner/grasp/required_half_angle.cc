@@ -82,8 +82,22 @@ class Bracket {
   RequiredHalfAngle bounds_;
 };
 
-void CheckTolerance(double tolerance) {
+/// What `find` returns of the bracket of a grasp; nullopt where all contacts coincide.
+template <class Find>
+std::optional<RequiredHalfAngle> WithBracket(std::span<const Contact> contacts,
+                                             const object::WrenchFrame& frame, double tolerance,
+                                             const Find& find) {
+  CheckGrasp(contacts, frame);
   if (!(tolerance > 0)) throw std::invalid_argument("required half-angle: tolerance not positive");
+  const object::WrenchFrame own = ContactFrame(contacts, frame.dimension);
+  if (!(own.radius > 0)) return std::nullopt;
+  const UnitContacts units = MakeUnitContacts(contacts, own);
+  if (frame.dimension == 3) {
+    Bracket<6> bracket(units, tolerance);
+    return find(bracket);
+  }
+  Bracket<3> bracket(units, tolerance);
+  return find(bracket);
 }
 
 }  // namespace
@@ -91,25 +105,16 @@ void CheckTolerance(double tolerance) {
 std::optional<RequiredHalfAngle> ComputeRequiredHalfAngle(std::span<const Contact> contacts,
                                                           const object::WrenchFrame& frame,
                                                           double tolerance) {
-  CheckGrasp(contacts, frame);
-  CheckTolerance(tolerance);
-  const object::WrenchFrame own = ContactFrame(contacts, frame.dimension);
-  if (!(own.radius > 0)) return std::nullopt;
-  const UnitContacts units = MakeUnitContacts(contacts, own);
-  return frame.dimension == 3 ? Bracket<6>(units, tolerance).Find()
-                              : Bracket<3>(units, tolerance).Find();
+  return WithBracket(contacts, frame, tolerance, [](auto& bracket) { return bracket.Find(); });
 }
 
 RequiredHalfAngle NarrowRequiredHalfAngle(std::span<const Contact> contacts,
                                           const object::WrenchFrame& frame,
                                           const RequiredHalfAngle& known, double tolerance) {
-  CheckGrasp(contacts, frame);
-  CheckTolerance(tolerance);
-  const object::WrenchFrame own = ContactFrame(contacts, frame.dimension);
-  if (!(own.radius > 0)) return known;
-  const UnitContacts units = MakeUnitContacts(contacts, own);
-  return frame.dimension == 3 ? Bracket<6>(units, tolerance).Narrow(known)
-                              : Bracket<3>(units, tolerance).Narrow(known);
+  const auto narrow = [&](auto& bracket) -> std::optional<RequiredHalfAngle> {
+    return bracket.Narrow(known);
+  };
+  return WithBracket(contacts, frame, tolerance, narrow).value_or(known);
 }
 
 }  // namespace regrasp::grasp

@@ -24,7 +24,8 @@ struct RequiredHalfAngle {
     std::span<const Contact> contacts, const object::WrenchFrame& frame, double tolerance = 1e-9);
 
 /// The same between bounds that are known: the grasp is force closure at known.upper, and whatever
-/// it needs no less than known.lower is asked for.
+/// it needs no less than known.lower is asked for. Radians.
+/// @throws std::invalid_argument  as ComputeRequiredHalfAngle.
 [[nodiscard]] RequiredHalfAngle NarrowRequiredHalfAngle(std::span<const Contact> contacts,
                                                         const object::WrenchFrame& frame,
                                                         const RequiredHalfAngle& known,

@@ -27,10 +27,10 @@ struct EngineUnits {
 /// One of the places where fingers touch, Scene::sites (sim/scene/scene.h).
 using SiteIndex = Index<struct SiteTag>;
 
-/// What a finger does to the object; zero where they do not touch.
+/// What a finger does to the object, in the frame of the scene; zero where they do not touch.
 struct TipForce {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about the normal; zero of hard points
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m, about the normal; 0 of hard points
 };
 
 /// The physics of one scene (sim/scene/scene.h): an object, free or in the plane, and fingers on

@@ -30,10 +30,6 @@ ModelPtr LoadModel(const std::string& mjcf) {
   return model;
 }
 
-}  // namespace
-
-std::string EngineVersion() { return mj_versionString(); }
-
 /// Where the engine's model has a finger.
 struct FingerParts {
   int geom;
@@ -41,6 +37,10 @@ struct FingerParts {
   int velocity;         ///< in qvel
   const mjtNum* start;  ///< where they are 0
 };
+
+}  // namespace
+
+std::string EngineVersion() { return mj_versionString(); }
 
 struct MujocoEngine::Impl {
   EngineHooks hooks;
