@@ -21,7 +21,7 @@
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan_io.h"
 #include "report/failure.h"
-#include "report/report.h"
+#include "report/report_json.h"
 
 namespace regrasp::apps {
 
@@ -140,7 +140,7 @@ class ValidateLines {
       std::cerr << line.name + ": " + failure->headline() + "\n";
     }
     if (options.draws_frames(report.passed())) DrawFrames(line, task);
-    Json json = ParseJson(report::FormatReportJson(report), line.name);
+    Json json = report::ReportJson(report);
     for (const std::string& warning : report.warnings()) json["warnings"].push_back(warning);
     return FormatRecord(line.entry, json);
   }

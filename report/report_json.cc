@@ -1,3 +1,5 @@
+#include "report/report_json.h"
+
 #include <cmath>
 #include <utility>
 
@@ -6,7 +8,6 @@
 #include "planner/certificate/plan_proof.h"
 #include "report/failure.h"
 #include "report/json_values.h"
-#include "report/report.h"
 #include "report/report_seal.h"
 #include "report/simulation_json.h"
 #include "report/stress_table.h"
@@ -172,7 +173,7 @@ Json RunJson(const RunRecord& run) {
 
 }  // namespace
 
-std::string FormatReportJson(const Report& report) {
+Json ReportJson(const Report& report) {
   Json json = {{"format", "regrasp-report"},
                {"version", 1},
                {"verdict", report.passed() ? "pass" : "fail"},
@@ -196,7 +197,9 @@ std::string FormatReportJson(const Report& report) {
     step["why"] = failure->why;
     step["mend"] = failure->mend;
   }
-  return SealReport(std::move(json));
+  return json;
 }
+
+std::string FormatReportJson(const Report& report) { return SealReport(ReportJson(report)); }
 
 }  // namespace regrasp::report

@@ -1,8 +1,8 @@
 #include "sim/scene/engine_hooks.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <mutex>
 #include <string>
 
@@ -35,7 +35,8 @@ constexpr std::array kFatalWarnings = {mjWARN_INERTIA, mjWARN_CONTACTFULL, mjWAR
                                        mjWARN_BADCTRL};
 
 bool AreFinite(const mjtNum* values, int count) {
-  return std::all_of(values, values + count, [](mjtNum x) { return std::isfinite(x); });
+  // After every step: 0 times a number is 0 only where it is finite, and vectors are summed fast.
+  return (0 * Eigen::Map<const Eigen::VectorXd>(values, count)).sum() == 0;
 }
 
 }  // namespace

@@ -21,6 +21,9 @@ using mujoco::ModelPtr;
 
 constexpr const char* kFileName = "scene.xml";
 
+/// Of a contact that resists no torque.
+constexpr int kPointDimensions = 3;
+
 ModelPtr LoadModel(const std::string& mjcf) {
   thread_local mujoco::MemoryFiles files;  // to make one took 1 % of a replay's time
   files.Replace(kFileName, mjcf);
@@ -45,6 +48,7 @@ std::string EngineVersion() { return mj_versionString(); }
 struct MujocoEngine::Impl {
   EngineHooks hooks;
   EngineUnits units;
+  double per_metre = 1 / units.length_m;
   ModelPtr model;
   DataPtr data;
   int object = 0;
@@ -67,6 +71,7 @@ MujocoEngine::Impl::Impl(const std::string& mjcf, int finger_count, const Engine
   if (!data) throw EnvironmentError("MuJoCo has no memory for the scene");
   object = mj_name2id(model.get(), mjOBJ_BODY, "object");
   finger_of_geom.resize(model->ngeom);
+  tip_forces.resize(finger_count);
   for (FingerIndex f{0}; f < finger_count; ++f) {
     const std::string name = "finger" + std::to_string(f);
     const int body = mj_name2id(model.get(), mjOBJ_BODY, name.c_str());
@@ -93,20 +98,22 @@ MujocoEngine::Impl::Impl(const std::string& mjcf, int finger_count, const Engine
 }
 
 void MujocoEngine::Impl::ReadForces() {
-  tip_forces.assign(fingers.size(), TipForce());
+  std::ranges::fill(tip_forces, TipForce());
   for (int i = 0; i < data->ncon; ++i) {
     const mjContact& contact = data->contact[i];
+    if (contact.efc_address < 0) continue;
     const bool first = finger_of_geom[contact.geom1].valid();
     const FingerIndex finger = finger_of_geom[first ? contact.geom1 : contact.geom2];
     if (!finger.valid()) continue;
-    // Of the second geom, force and then torque along the axes of the contact's frame, its rows.
-    std::array<mjtNum, 6> local;
-    mj_contactForce(model.get(), data.get(), i, local.data());
+    // Of the second geom, force and then torque along the axes of the contact's frame, its rows:
+    // what mj_contactForce copies where cones are elliptic.
+    const mjtNum* local = data->efc_force + contact.efc_address;
     const Eigen::Map<const Eigen::Matrix3d> axes(contact.frame);
     const double unit = first ? units.force_N() : -units.force_N();
     TipForce& total = tip_forces[finger];
-    total.force += unit * (axes * Eigen::Map<const Vector3d>(local.data()));
-    total.torque += unit * units.length_m * (axes * Eigen::Map<const Vector3d>(local.data() + 3));
+    total.force += unit * (axes * Eigen::Map<const Vector3d>(local));
+    if (contact.dim == kPointDimensions) continue;
+    total.torque += unit * units.length_m * (axes.col(0) * local[3]);
   }
 }
 
@@ -125,7 +132,7 @@ Eigen::Isometry3d MujocoEngine::object_pose() const {
     return pose;
   }
   pose.translation() = impl_->units.length_m * Vector3d(q[0], q[1], q[2]);
-  pose.linear() = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized().toRotationMatrix();
+  pose.linear() = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).toRotationMatrix();
   return pose;
 }
 
@@ -159,7 +166,7 @@ void MujocoEngine::SetTarget(FingerIndex finger, const Vector3d& target) {
   const mjtNum* start = impl_->fingers[finger].start;
   const int slides = impl_->slides;
   for (int k = 0; k < slides; ++k) {
-    impl_->data->ctrl[slides * finger + k] = target[k] / impl_->units.length_m - start[k];
+    impl_->data->ctrl[slides * finger + k] = target[k] * impl_->per_metre - start[k];
   }
 }
 

@@ -1,19 +1,14 @@
 #include "sim/world/cone_margin.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 namespace regrasp::sim {
 
-double TangentialForce(const Eigen::Vector3d& force, const Eigen::Vector3d& normal, double twist) {
-  const double tangential = normal.cross(force).norm();
-  return twist == 0 ? tangential : std::hypot(tangential, twist);
-}
-
 double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal, double half_angle,
                   double twist) {
-  return half_angle - std::atan2(TangentialForce(force, normal, twist), normal.dot(force));
+  return half_angle -
+         std::atan2(std::sqrt(TangentialSquare(force, normal, twist)), normal.dot(force));
 }
 
 void AddMargin(FingerIndex finger, double margin, FingerMargins& margins) {

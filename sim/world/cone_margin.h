@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <map>
 #include <optional>
 
@@ -8,10 +8,12 @@
 
 namespace regrasp::sim {
 
-/// What of a force is friction.
+/// The square of what of a force is friction; it is asked of every finger in every time step.
 /// @param normal, twist  as in ConeMargin.
-[[nodiscard]] double TangentialForce(const Eigen::Vector3d& force, const Eigen::Vector3d& normal,
-                                     double twist = 0);
+[[nodiscard]] inline double TangentialSquare(const Eigen::Vector3d& force,
+                                             const Eigen::Vector3d& normal, double twist = 0) {
+  return normal.cross(force).squaredNorm() + twist * twist;
+}
 
 /// What is left of the friction of a contact: the friction half-angle minus the angle between the
 /// force on the object and the inward normal, radians. 0 where the force lies on its cone, negative

@@ -26,10 +26,6 @@ double RotationAngle(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to)
   return Eigen::Quaterniond(from.linear()).angularDistance(Eigen::Quaterniond(to.linear()));
 }
 
-/// A force less steep than this part of the steepest one has the larger margin, whatever rounding
-/// does to either.
-constexpr double kSurelyLessSteep = 1 - 1e-12;
-
 /// In place of the slope of a finger that has not pressed yet.
 constexpr double kNoSlope = -1;
 
@@ -99,18 +95,22 @@ void MotionMonitor::AddForce(FingerIndex finger, const Eigen::Vector3d& force,
                              const Eigen::Vector3d& normal, double twist) {
   const double pressing = force.dot(normal);
   if (pressing < kPressing * settings_.squeeze_N) return;
-  // It is asked of every finger in every time step: the angle only where it may be the largest.
-  if (finger >= std::ssize(slopes_)) slopes_.resize(finger + 1, kNoSlope);
-  double& steepest = slopes_[finger];
-  const double tangential = TangentialForce(force, normal, twist);
-  if (tangential < kSurelyLessSteep * steepest * pressing) return;
-  steepest = std::max(steepest, tangential / pressing);
-  AddMargin(finger, ConeMargin(force, normal, std::atan(settings_.mu), twist), margins_);
+  // It is asked of every finger in every time step: the angle is worked out when it is read.
+  if (finger >= std::ssize(slope_squares_)) slope_squares_.resize(finger + 1, kNoSlope);
+  const double square = TangentialSquare(force, normal, twist);
+  const double normal_square = pressing * pressing;
+  double& steepest = slope_squares_[finger];
+  if (square > steepest * normal_square) steepest = square / normal_square;
 }
 
-void MotionMonitor::ForgetForces() {
-  slopes_.clear();
-  margins_.clear();
+FingerMargins MotionMonitor::margins() const {
+  FingerMargins margins;
+  for (FingerIndex finger{0}; finger < std::ssize(slope_squares_); ++finger) {
+    const double square = slope_squares_[finger];
+    if (square != kNoSlope)
+      margins[finger] = std::atan(settings_.mu) - std::atan(std::sqrt(square));
+  }
+  return margins;
 }
 
 plan::Reason MotionMonitor::reason() const {

@@ -42,7 +42,7 @@ class MotionMonitor {
   void AddForce(FingerIndex finger, const Eigen::Vector3d& force, const Eigen::Vector3d& normal,
                 double twist = 0);
   /// Cone margins are smallest from here on.
-  void ForgetForces();
+  void ForgetForces() { slope_squares_.clear(); }
 
   /// kNone, or the first of contact-lost, slipped and object-moved that applies.
   [[nodiscard]] plan::Reason reason() const;
@@ -66,7 +66,8 @@ class MotionMonitor {
   [[nodiscard]] double give_m() const { return give_; }
   [[nodiscard]] double slip_m() const { return slip_; }
   [[nodiscard]] bool contact_lost() const { return lost_.has_value(); }
-  [[nodiscard]] const FingerMargins& margins() const { return margins_; }
+  /// Of the fingers that pressed; worked out by this call.
+  [[nodiscard]] FingerMargins margins() const;
 
  private:
   [[nodiscard]] std::string MotionText() const;
@@ -78,8 +79,8 @@ class MotionMonitor {
   double slip_now_ = 0, gap_now_ = 0;  ///< of slipped_finger_ and lost_finger_
   bool giving_ = false;
   bool unrest_ = false;  ///< the object moved in that it did not come to rest
-  FingerMargins margins_;
-  std::vector<double> slopes_;  ///< by finger: the largest tangential over its normal force
+  /// By finger: the largest tangential over its normal force, squared.
+  std::vector<double> slope_squares_;
   std::optional<std::string> lost_, slipped_, object_moved_;  ///< the phase it was seen in first
   FingerIndex lost_finger_, slipped_finger_;
 };

@@ -94,10 +94,10 @@ void ReplayWorld::SetGravity(double gravity) {
 
 void ReplayWorld::Step() {
   const Vector3d own_weight(0, 0, settings().finger_mass_kg * gravity_);
+  const double compliance = 1 / settings().finger_stiffness_N_m;
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     const WorldFinger& finger = fingers_[f];
-    engine_->SetTarget(
-        f, finger.anchor_S + (finger.force_S + own_weight) / settings().finger_stiffness_N_m);
+    engine_->SetTarget(f, finger.anchor_S + compliance * (finger.force_S + own_weight));
   }
   engine_->Step();
   MonitorMotion();
