@@ -107,8 +107,8 @@ FingerMargins MotionMonitor::margins() const {
   FingerMargins margins;
   for (FingerIndex finger{0}; finger < std::ssize(slope_squares_); ++finger) {
     const double square = slope_squares_[finger];
-    if (square != kNoSlope)
-      margins[finger] = std::atan(settings_.mu) - std::atan(std::sqrt(square));
+    if (square == kNoSlope) continue;
+    margins[finger] = std::atan(settings_.mu) - std::atan(std::sqrt(square));
   }
   return margins;
 }

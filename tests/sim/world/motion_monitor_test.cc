@@ -155,9 +155,10 @@ TEST(MotionMonitorTest, MarginsAreTheLeastOfAllForces) {
     monitor.AddForce(finger, force, normal, twist);
     AddMargin(finger, ConeMargin(force, normal, std::atan(settings.mu), twist), expected);
   }
+  constexpr double kRoundings = 1e-15;  // radians: some of an angle
   const FingerMargins margins = monitor.margins();
   ASSERT_EQ(margins.size(), expected.size());
-  for (const auto& [finger, margin] : expected) EXPECT_NEAR(margins.at(finger), margin, 1e-15);
+  for (const auto& [finger, margin] : expected) EXPECT_NEAR(margins.at(finger), margin, kRoundings);
 }
 
 }  // namespace
