@@ -8,7 +8,7 @@ namespace regrasp::apps {
 
 namespace {
 
-constexpr std::size_t kDigits = 3;
+constexpr std::size_t kEntryDigits = 3;
 
 /// All that an entry can be.
 std::vector<std::string> EntryKinds() {
@@ -21,12 +21,12 @@ std::vector<std::string> EntryKinds() {
 
 std::string EntryNumber(plan::EntryIndex index) {
   const std::string number = std::to_string(index);
-  return std::string(kDigits - std::min(kDigits, number.size()), '0') + number;
+  return std::string(kEntryDigits - std::min(kEntryDigits, number.size()), '0') + number;
 }
 
 std::optional<std::string> AfterEntryNumber(const std::string& name) {
   const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-  if (digits < kDigits) return std::nullopt;
+  if (digits < kEntryDigits) return std::nullopt;
   return name.substr(digits);
 }
 

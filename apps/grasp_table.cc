@@ -76,7 +76,7 @@ void AppendHeld(const std::vector<double>& values, const std::vector<double>& ho
 
 /// @param all    grasps of k contacts.
 /// @param holds  which of them do, of each.
-std::vector<GraspGroup> Split(const GraspGroup& all, const std::vector<double>& holds) {
+std::vector<GraspGroup> SplitByVerdict(const GraspGroup& all, const std::vector<double>& holds) {
   const auto k = static_cast<std::size_t>(all.contacts);
   std::vector<GraspGroup> groups(k);
   for (std::size_t g = 0; g < all.places.size(); ++g) {
@@ -127,7 +127,7 @@ GraspTable ReadGrasps(const std::string& file, int dimension) {
   }
   GraspTable table{shape[0], all.contacts, {}};
   if (holds != nullptr) {
-    table.groups = Split(all, holds->values);
+    table.groups = SplitByVerdict(all, holds->values);
   } else {
     table.groups.push_back(std::move(all));
   }

@@ -99,7 +99,7 @@ std::string BreakChoices(const std::string& head, int width) {
 }
 
 /// A name, and beside or below it what it does.
-std::string Describe(const std::string& name, const std::string& what, int width) {
+std::string DescribeEntry(const std::string& name, const std::string& what, int width) {
   const std::string head = "  " + name;
   const std::string text = Wrap(what, kTextColumn, width);
   if (Length(head) + 2 > kTextColumn) return BreakChoices(head, width) + "\n" + text;
@@ -107,13 +107,13 @@ std::string Describe(const std::string& name, const std::string& what, int width
 }
 
 std::string DescribeOption(const OptionHelp& option, int width) {
-  return Describe(HeadOf(option), option.text + (option.required ? " (required)" : ""), width);
+  return DescribeEntry(HeadOf(option), option.text + (option.required ? " (required)" : ""), width);
 }
 
 std::string DescribeSubcommands(const CLI::App& app, int width) {
   std::string text;
   for (const CLI::App* command : Subcommands(app)) {
-    text += Describe(command->get_name(), command->get_description(), width);
+    text += DescribeEntry(command->get_name(), command->get_description(), width);
   }
   return text.empty() ? "" : "\nCommands:\n" + text;
 }

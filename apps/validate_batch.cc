@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 constexpr char kWarning[] = "warning: ";
 
 /// Before the number of the signal that stopped a batch, as shells count it.
-constexpr int kSignalled = 128;
+constexpr int kChildSignalled = 128;
 
 /// Of a child: the earlier run's report stays. Beyond every ExitCode.
 constexpr int kExitKept = 4;
@@ -150,7 +150,7 @@ class Batch {
         [this](int index) { return ValidateOne(options_, library_.plans[index], folder_.path()); },
         [this](int index, const ChildExit& exit) { Take(index, exit); });
     progress_.Clear();
-    if (stop_ != 0) return kSignalled + stop_;
+    if (stop_ != 0) return kChildSignalled + stop_;
     ExpectResults();
     WriteFile(folder_.path() / kIndexName, FormatBatchPage(summary_));
     WriteFile(folder_.path() / kSummaryName, FormatSummaryJson(summary_));

@@ -34,7 +34,7 @@ constexpr std::size_t kDigits = 7;
 
 /// What stands before the initial grasp, without parsing: lines with the same text have the same
 /// object, read in the same way.
-std::string ObjectText(const Line& line) {
+std::string ValidateObjectText(const Line& line) {
   const std::string_view text = line.text;
   const std::size_t begin = text.find(R"("object":)");
   if (begin == std::string_view::npos) return "";
@@ -66,7 +66,7 @@ class ValidateLines {
     run.time_limit_s = options_.time_limit_s;
     run.fresh = options_.fresh;
     run.quiet = quiet;
-    run.work.group = ObjectText;
+    run.work.group = ValidateObjectText;
     run.work.prepare = [this](const Line& line) { Prepare(line); };
     run.work.work = [this](const Line& line) {
       return GuardLine(line, [&] { return ValidateLine(line); });

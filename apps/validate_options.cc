@@ -228,7 +228,7 @@ void AddHandReplay(CLI::App& app, ValidateOptions& options) {
       "contacts as planned for balls, so that it tells whether such a plan holds (default ball)");
 }
 
-void AddTrials(CLI::App& app, ValidateOptions& options) {
+void AddTrialOptions(CLI::App& app, ValidateOptions& options) {
   constexpr int kMostTrials = 1'000'000;
   constexpr double kMostJointNoise = 45;
   const NumberRange share{0, sim::kMostError};
@@ -347,7 +347,7 @@ void ValidateOptions::AddTo(CLI::App& app) {
   BeginGroup(app, "Replay by a hand");
   AddHandReplay(app, *this);
   BeginGroup(app, "Trials with noise");
-  AddTrials(app, *this);
+  AddTrialOptions(app, *this);
   BeginGroup(app, "Reset states");
   AddStates(app, *this);
   BeginGroup(app, "Pictures");

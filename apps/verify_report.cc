@@ -37,7 +37,7 @@ std::vector<certificate::EntryProof> ReadProofs(const plan::JsonReader& steps, i
   return proofs;
 }
 
-std::string Describe(const motion::ProofVerdict& verdict) {
+std::string DescribeProof(const motion::ProofVerdict& verdict) {
   if (verdict.kind == Kind::kForceClosure) return "proved";
   if (verdict.kind == Kind::kNotForceClosure) return "refuted";
   return "not proved: " + verdict.why;
@@ -51,9 +51,9 @@ std::string FaultOf(const plan::StepCheck& check) {
 }
 
 std::string DescribeProofs(const certificate::EntryVerdict& entry) {
-  std::string text = Describe(entry.rest);
+  std::string text = DescribeProof(entry.rest);
   for (std::size_t k = 0; k < entry.motions.size(); ++k) {
-    text += (k == 0 ? "; segments " : ", ") + Describe(entry.motions[k]);
+    text += (k == 0 ? "; segments " : ", ") + DescribeProof(entry.motions[k]);
   }
   return text;
 }

@@ -1,5 +1,10 @@
 # What every target of the project shares.
 
+option(REGRASP_UNITY "Compile several sources of a folder as one translation unit" ON)
+# Bytes of source per translation unit. Headers cost 2 to 5 s per unit, so small units are slow to build
+# from scratch and large units are slow to rebuild after a change.
+set(REGRASP_UNIT_SIZE 100000 CACHE STRING "Bytes of source per translation unit")
+
 add_library(regrasp_options INTERFACE)
 # No fused multiply-add: results must be the same bits on every x86-64 machine.
 target_compile_options(regrasp_options INTERFACE -ffp-contract=off)
@@ -9,6 +14,10 @@ target_compile_options(regrasp_options INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(regrasp_options INTERFACE $<BUILD_INTERFACE:-Wno-restrict>)
 endif()
+# In a unit of several sources GCC takes a class that is defined in a source for one of a header.
+if(REGRASP_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(regrasp_options INTERFACE $<BUILD_INTERFACE:-Wno-subobject-linkage>)
+endif()
 if(REGRASP_WARNINGS_AS_ERRORS)
   target_compile_options(regrasp_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
@@ -17,6 +26,37 @@ target_include_directories(regrasp_options INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/regrasp>)
 
+# regrasp_sources(OUT NAME SOURCE...): what to compile for the absolute paths SOURCE of target NAME. With
+# REGRASP_UNITY these are files in the build folder that include about REGRASP_UNIT_SIZE bytes of
+# sources each, by paths relative to the project so that all clones share a compiler cache. CMake's own
+# UNITY_BUILD counts files instead of bytes and writes absolute paths.
+function(regrasp_sources out name)
+  if(NOT REGRASP_UNITY)
+    set(${out} ${ARGN} PARENT_SCOPE)
+    return()
+  endif()
+  set(units "")
+  set(text "")
+  set(bytes 0)
+  set(number 0)
+  list(GET ARGN -1 last)
+  foreach(source IN LISTS ARGN)
+    file(SIZE ${source} size)
+    file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${source})
+    string(APPEND text "#include \"${path}\"\n")
+    math(EXPR bytes "${bytes} + ${size}")
+    if(bytes GREATER_EQUAL REGRASP_UNIT_SIZE OR source STREQUAL last)
+      set(unit ${CMAKE_CURRENT_BINARY_DIR}/${name}_${number}.cc)
+      file(CONFIGURE OUTPUT ${unit} CONTENT "${text}" @ONLY)
+      list(APPEND units ${unit})
+      math(EXPR number "${number} + 1")
+      set(text "")
+      set(bytes 0)
+    endif()
+  endforeach()
+  set(${out} ${units} PARENT_SCOPE)
+endfunction()
+
 # regrasp_library(NAME [PUBLIC lib...] [PRIVATE lib...])
 #
 # One folder, one static library `regrasp_NAME` (exported as regrasp::NAME) of all its *.cc.
@@ -24,7 +64,8 @@ target_include_directories(regrasp_options INTERFACE
 function(regrasp_library name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
-  add_library(regrasp_${name} STATIC ${sources})
+  regrasp_sources(units ${name} ${sources})
+  add_library(regrasp_${name} STATIC ${units})
   add_library(regrasp::${name} ALIAS regrasp_${name})
   set_target_properties(regrasp_${name} PROPERTIES EXPORT_NAME ${name})
   target_link_libraries(regrasp_${name} PUBLIC regrasp_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})

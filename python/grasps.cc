@@ -15,7 +15,7 @@ namespace {
 
 using Values = py::array_t<double, py::array::c_style>;
 
-py::array_t<double> ArrayOf(const std::vector<double>& values, bool asked) {
+py::array_t<double> ValueArray(const std::vector<double>& values, bool asked) {
   if (!asked) return py::array_t<double>(0);
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
@@ -50,8 +50,8 @@ py::tuple JudgeGrasps(const Values& points, const Values& normals, const PythonO
     lower.mutable_at(i) = verdict.margin_lower;
     upper.mutable_at(i) = verdict.margin_upper;
   }
-  return py::make_tuple(decisions, lower, upper, ArrayOf(verdicts.required_half_angle, required),
-                        ArrayOf(verdicts.quality, quality));
+  return py::make_tuple(decisions, lower, upper, ValueArray(verdicts.required_half_angle, required),
+                        ValueArray(verdicts.quality, quality));
 }
 
 }  // namespace

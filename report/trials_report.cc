@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kPercentDigits = 3;
 
-std::string Percent(double share) { return FormatShort(100 * share, kPercentDigits); }
+std::string TrialPercent(double share) { return FormatShort(100 * share, kPercentDigits); }
 
 }  // namespace
 
@@ -42,9 +42,9 @@ Json TrialsJson(const sim::TrialSummary& summary) {
 std::string TrialsShareText(const sim::TrialSummary& summary) {
   const ShareInterval interval = summary.interval();
   return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
-         " pass: " + Percent(summary.share()) + " %, with " + Percent(sim::kTrialConfidence) +
-         " % confidence between " + Percent(interval.lower) + " and " + Percent(interval.upper) +
-         " %";
+         " pass: " + TrialPercent(summary.share()) + " %, with " +
+         TrialPercent(sim::kTrialConfidence) + " % confidence between " +
+         TrialPercent(interval.lower) + " and " + TrialPercent(interval.upper) + " %";
 }
 
 std::string TrialsFailureText(const sim::TrialSummary& summary) {
@@ -67,7 +67,7 @@ std::string TrialsNoiseText(const sim::TrialSummary& summary) {
       options.joint_noise ? "joints by " + FormatShort(Degrees(*options.joint_noise)) + "°, " : "";
   return (options.joint_noise ? "object at first off by " : "contacts off by ") +
          FormatShort(options.position_noise) + " diameters, " + joints + "friction by " +
-         Percent(options.friction_error) + " %, mass by " + Percent(options.mass_error) +
+         TrialPercent(options.friction_error) + " %, mass by " + TrialPercent(options.mass_error) +
          " % (standard deviations); seed " + std::to_string(options.seed);
 }
 

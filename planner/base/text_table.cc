@@ -18,7 +18,7 @@ std::size_t CountCharacters(const std::string& text) {
 }
 
 /// Lower-case digits, at least so many.
-std::string Hexadecimal(char32_t value, int digits) {
+std::string HexDigits(char32_t value, int digits) {
   std::string text;
   for (; value > 0 || digits > 0; value >>= 4, --digits) {
     text.insert(text.begin(), "0123456789abcdef"[value & 0xF]);
@@ -49,11 +49,11 @@ std::string OneLine(std::string_view text) {
   while (!text.empty()) {
     const Utf8Character character = TakeCharacter(text);
     if (!character.is_valid) {
-      for (const char byte : character.bytes) line += "\\x" + Hexadecimal(AsByte(byte), 2);
+      for (const char byte : character.bytes) line += "\\x" + HexDigits(AsByte(byte), 2);
     } else if (character.code < 0x20 || character.code == 0x7F) {
       line += ' ';
     } else if (IsInvisible(character.code)) {
-      line += "\\u" + Hexadecimal(character.code, 4);
+      line += "\\u" + HexDigits(character.code, 4);
     } else {
       line += character.bytes;
     }

@@ -11,7 +11,7 @@ namespace regrasp::certificate {
 namespace {
 
 using namespace motion::exact;
-using Kind = motion::ProofVerdict::Kind;
+using VerdictKind = motion::ProofVerdict::Kind;
 
 /// Whether the torque of a soft finger resists a turn about the line to another contact.
 bool Twists(const std::vector<ExactContact>& contacts) {
@@ -39,7 +39,7 @@ bool Span(const std::vector<ExactContact>& contacts, int dimension) {
   return false;
 }
 
-motion::ProofVerdict Nothing(std::string why) { return {Kind::kNothing, std::move(why)}; }
+motion::ProofVerdict Nothing(std::string why) { return {VerdictKind::kNothing, std::move(why)}; }
 
 /// Why the torques of a proof are none.
 std::string TorqueFault(const std::vector<ExactContact>& contacts, const GraspProof& proof) {
@@ -93,7 +93,7 @@ motion::ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int 
                      ", balanced exactly, is not inside its cone");
     }
   }
-  return {Kind::kForceClosure, ""};
+  return {VerdictKind::kForceClosure, ""};
 }
 
 /// Whether velocities refute: all are in the polar cones, of soft fingers with the spins n·ω.
@@ -112,7 +112,7 @@ motion::ProofVerdict CheckVelocities(const std::vector<ExactContact>& contacts,
                      " works with the twist");
     }
   }
-  return {Kind::kNotForceClosure, ""};
+  return {VerdictKind::kNotForceClosure, ""};
 }
 
 motion::ProofVerdict CheckTwist(const std::vector<ExactContact>& contacts, const Rational& mu,
@@ -134,7 +134,7 @@ motion::ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const 
   for (const int sign : {1, -1}) {
     const Vector omega = Rational(sign) * (contacts[line[1]].p - a);
     const motion::ProofVerdict verdict = CheckTwist(contacts, mu, Cross(a, omega), omega);
-    if (verdict.kind == Kind::kNotForceClosure) return verdict;
+    if (verdict.kind == VerdictKind::kNotForceClosure) return verdict;
   }
   return Nothing("about the line of contacts " + std::to_string(line[0]) + " and " +
                  std::to_string(line[1]) + " the others turn the object both ways");

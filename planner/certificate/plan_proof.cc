@@ -15,7 +15,7 @@ namespace regrasp::certificate {
 
 namespace {
 
-using Kind = GraspProof::Kind;
+using ProofKind = GraspProof::Kind;
 
 /// From one waypoint to the next, the contacts of each finger at the same place.
 struct Motion {
@@ -64,17 +64,17 @@ motion::MotionSegments ProvePath(const Entry& entry, std::size_t index, int dime
 
 Json GraspProofJson(const GraspProof& proof, int dimension) {
   switch (proof.kind) {
-    case Kind::kForces: {
+    case ProofKind::kForces: {
       Json json = {{"forces", plan::ForcesJson(proof.forces, dimension)}};
       if (!proof.torques.empty()) json["torques"] = proof.torques;
       return json;
     }
-    case Kind::kTwist:
+    case ProofKind::kTwist:
       return {{"twist",
                {{"v", plan::VectorJson(proof.v, 3)}, {"omega", plan::VectorJson(proof.omega, 3)}}}};
-    case Kind::kLine:
+    case ProofKind::kLine:
       return {{"line", proof.line}};
-    case Kind::kNone:
+    case ProofKind::kNone:
       break;
   }
   return nullptr;
@@ -84,15 +84,15 @@ GraspProof ReadGraspProof(const plan::JsonReader& json, int dimension) {
   GraspProof proof;
   if (json.IsNull()) return proof;
   if (json.Has("forces")) {
-    proof.kind = Kind::kForces;
+    proof.kind = ProofKind::kForces;
     proof.forces = plan::ReadForces(json.Member("forces"), dimension);
     proof.torques = plan::ReadTorques(json, "torques");
   } else if (json.Has("twist")) {
-    proof.kind = Kind::kTwist;
+    proof.kind = ProofKind::kTwist;
     proof.v = json.Member("twist").Member("v").Vector(3);
     proof.omega = json.Member("twist").Member("omega").Vector(3);
   } else {
-    proof.kind = Kind::kLine;
+    proof.kind = ProofKind::kLine;
     const auto line = json.Member("line").Elements();
     if (line.size() != proof.line.size()) json.Member("line").Fail("expected two contacts");
     for (std::size_t i = 0; i < line.size(); ++i) {

@@ -12,8 +12,8 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::span<const Vector3d>;
 
-constexpr double kConverged = 1e-9;  // of the distance
-constexpr int kMostIterations = 100;
+constexpr double kPointsConverged = 1e-9;  // of the distance
+constexpr int kMostPointIterations = 100;
 /// Nearer than this is no distance, metres.
 constexpr double kMeet = 1e-12;
 
@@ -60,13 +60,13 @@ std::optional<NearestPair> FindNearestPoints(Points a, Points b) {
   PairSimplex simplex;
   simplex.Add({a.front(), b.front()});
   Vector3d nearest = simplex.differences.points[0];
-  for (int i = 0; i < kMostIterations; ++i) {
+  for (int i = 0; i < kMostPointIterations; ++i) {
     const double distance = nearest.norm();
     if (distance <= kMeet) return std::nullopt;
     const NearestPair support = {Farthest(a, -nearest), Farthest(b, nearest)};
     // What is left to gain.
     const double gain = nearest.dot(nearest - (support.on_a - support.on_b));
-    if (gain <= kConverged * distance * distance) break;
+    if (gain <= kPointsConverged * distance * distance) break;
     PairSimplex next = simplex;
     next.Add(support);
     const Vector3d nearer = next.Reduce();

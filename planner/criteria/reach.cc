@@ -14,7 +14,7 @@ namespace {
 
 /// Faces and fingers that touch are at their distance up to rounding, and don't overlap: a relative
 /// slack for computed distances, and one in diameters for the coordinates that they come from.
-constexpr double kTouches = 1 - 1e-9;
+constexpr double kTouchesInside = 1 - 1e-9;
 constexpr double kRounding = 1e-12;
 
 /// How far from the contact the path of a finger is free is told to this share of the diameter.
@@ -29,7 +29,7 @@ constexpr char kUnits[] = " (units of the object's file)";
 bool IsBlocked(const object::Object& object, const grasp::Contact& contact, double radius,
                double travel) {
   const Vector3d rest = BallCentre(contact, radius);
-  const double within = std::max(kTouches * radius - kRounding * object.diameter(), 0.0);
+  const double within = std::max(kTouchesInside * radius - kRounding * object.diameter(), 0.0);
   const auto near = object.FacesNearSegment(rest, rest - travel * contact.n, within);
   return std::ranges::any_of(near, [&](FaceIndex face) { return face != contact.face; });
 }
@@ -55,7 +55,7 @@ bool KeepApart(std::span<const grasp::Contact> contacts, double radius) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     for (std::size_t j = i + 1; j < contacts.size(); ++j) {
       const Vector3d between = BallCentre(contacts[i], radius) - BallCentre(contacts[j], radius);
-      if (between.norm() < kTouches * 2 * radius) return false;
+      if (between.norm() < kTouchesInside * 2 * radius) return false;
     }
   }
   return true;
@@ -74,7 +74,7 @@ std::optional<std::string> FindObstacle(const object::Object& object, const gras
     return "its contact lies in a sealed cavity, where no finger comes from outside";
   }
   const double clearance = ComputeClearance(object, contact, radius);
-  if (clearance < kTouches * radius) {
+  if (clearance < kTouchesInside * radius) {
     return "a ball of radius " + FormatShort(radius) + " at its contact enters the object; " +
            FormatShort(clearance) + " fits" + kUnits;
   }

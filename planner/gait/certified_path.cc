@@ -89,8 +89,8 @@ class Middle {
 
 /// Whether all checks hold between two keyframes: an interval is halved for those that do not hold
 /// about its middle. Most hold in the large; a fingertip that touches is looked at closely.
-bool Hold(const HandScene& scene, const Standing& standing, const Touching& touching,
-          const Keyframe& from, const Keyframe& to, const Checks& checks) {
+bool CertifyOpen(const HandScene& scene, const Standing& standing, const Touching& touching,
+                 const Keyframe& from, const Keyframe& to, const Checks& checks) {
   Middle middle(scene, standing, touching, from, to);
   const bool is_finest = middle.LargestBound() < kFinest;
   Checks open;
@@ -99,8 +99,8 @@ bool Hold(const HandScene& scene, const Standing& standing, const Touching& touc
     if (is_finest || !middle.Passes(check, 0)) return false;
     open.push_back(check);
   }
-  return open.empty() || (Hold(scene, standing, touching, from, middle.frame(), open) &&
-                          Hold(scene, standing, touching, middle.frame(), to, open));
+  return open.empty() || (CertifyOpen(scene, standing, touching, from, middle.frame(), open) &&
+                          CertifyOpen(scene, standing, touching, middle.frame(), to, open));
 }
 
 /// What can change where these things move.
@@ -130,8 +130,8 @@ bool IsClear(const HandScene& scene, const Keyframe& from, const Keyframe& to,
     moves.push_back(scene.MotionBound(finger, from.postures[finger], to.postures[finger]) > 0);
   }
   const bool object_moves = from.pose.matrix() != to.pose.matrix();
-  return Hold(scene, Standing(moves.size(), nullptr), touching, from, to,
-              ChecksOf(moves, object_moves));
+  return CertifyOpen(scene, Standing(moves.size(), nullptr), touching, from, to,
+                     ChecksOf(moves, object_moves));
 }
 
 bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from, const Posture& to,
@@ -148,7 +148,7 @@ bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from, co
   end.postures[finger] = to;
   Touching touching(count, TipContact::kFree);
   touching[finger] = tip;
-  return Hold(scene, standing, touching, begin, end, ChecksOf(moves, false));
+  return CertifyOpen(scene, standing, touching, begin, end, ChecksOf(moves, false));
 }
 
 }  // namespace regrasp::gait

@@ -17,7 +17,7 @@ constexpr std::int64_t kShareOfTry = 20;
 constexpr std::int64_t kFewestExpanded = 40;
 
 /// Something that can be otherwise, and by how much, the least first.
-struct Kind {
+struct Relaxation {
   std::string vain;  ///< "more friction"
   std::vector<double> changes;
   /// Changes the request. @returns in words.
@@ -25,7 +25,7 @@ struct Kind {
   std::string helps = {};  ///< the least change that does, in words
 };
 
-Kind MoreFriction() {
+Relaxation MoreFriction() {
   return {"more friction", {1.1, 1.2, 1.5, 2}, [](double factor, GaitRequest& request) {
             const double before = std::tan(request.criteria.half_angle);
             request.criteria.half_angle = std::atan(factor * before);
@@ -35,7 +35,7 @@ Kind MoreFriction() {
 }
 
 /// Contacts that are given grow with the object, poses stay.
-Kind OtherSize() {
+Relaxation OtherSize() {
   return {"another size of the object",
           {0.9, 1.1, 0.8, 1.25, 0.65, 1.5, 0.5, 2},
           [](double factor, GaitRequest& request) {
@@ -46,7 +46,7 @@ Kind OtherSize() {
 }
 
 /// The palm tilted about an axis of the hand, `hand` being a place for it.
-Kind TiltedPalm(kinematics::HandModel& hand) {
+Relaxation TiltedPalm(kinematics::HandModel& hand) {
   return {"a tilt of the palm",
           {15, -15, 30, -30, 45, -45},
           [&hand](double degrees, GaitRequest& request) {
@@ -83,15 +83,15 @@ bool AreMotorsInTheWay(const GaitRequest& request) {
 std::string ExplainGait(const GaitRequest& request) {
   const bool with_motors = AreMotorsInTheWay(request);
   kinematics::HandModel tilted;
-  std::vector<Kind> kinds = {MoreFriction(), OtherSize()};
+  std::vector<Relaxation> kinds = {MoreFriction(), OtherSize()};
   const bool is_upright = !request.start_pose && !request.goal_pose &&
                           request.start_grasp.empty() && request.goal_grasp.empty();
   if (is_upright) kinds.push_back(TiltedPalm(tilted));
   // The least of each kind first: time is for all alike.
   const auto most =
-      std::ranges::max(kinds, {}, [](const Kind& kind) { return kind.changes.size(); });
+      std::ranges::max(kinds, {}, [](const Relaxation& kind) { return kind.changes.size(); });
   for (std::size_t i = 0; i < most.changes.size(); ++i) {
-    for (Kind& kind : kinds) {
+    for (Relaxation& kind : kinds) {
       if (i >= kind.changes.size() || !kind.helps.empty()) continue;
       GaitRequest changed = TryOf(request, with_motors);
       const std::string words = kind.change(kind.changes[i], changed);
@@ -101,7 +101,7 @@ std::string ExplainGait(const GaitRequest& request) {
   }
   std::string helps;
   std::string vain;
-  for (const Kind& kind : kinds) {
+  for (const Relaxation& kind : kinds) {
     if (!kind.helps.empty()) helps += (helps.empty() ? "" : "; ") + kind.helps;
     if (kind.helps.empty()) vain += (vain.empty() ? "" : ", ") + kind.vain;
   }

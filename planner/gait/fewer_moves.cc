@@ -7,7 +7,7 @@
 namespace regrasp::gait {
 namespace {
 
-bool IsSame(const Keyframe& a, const Keyframe& b) {
+bool IsSameKeyframe(const Keyframe& a, const Keyframe& b) {
   return a.pose.matrix() == b.pose.matrix() && a.postures == b.postures;
 }
 
@@ -27,7 +27,7 @@ Gait WithFewerMoves(const HandSetup& setup, const Gait& gait) {
       move.path.insert(move.path.end(), more.begin() + 1, more.end());
     }
     if (setup.rolled_on == nullptr) {
-      if (IsSame(move.path.front(), move.path.back())) continue;
+      if (IsSameKeyframe(move.path.front(), move.path.back())) continue;
       auto straight = FindMove(setup, HoldingAtEnd(fewer), move.path.front(), move.path.back());
       if (straight) move.path = *std::move(straight);
     }

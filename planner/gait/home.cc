@@ -19,7 +19,7 @@ constexpr int kMostDrawn = 60'000;  // where a grasp is given that most poses do
 constexpr int kPoints = 40;         // of the surface that are looked at
 constexpr int kPosesOfTurn = 4;     // at which it is looked at them
 constexpr int kHomes = 24;
-constexpr int kDrawnGrasps = 150;  // at each pose
+constexpr int kHomeGrasps = 150;  // at each pose
 /// So many of the best by what tips may reach are looked at more closely.
 constexpr int kCloser = 36;
 /// Contacts within reach of a finger are worth their logarithm, so that all fingers count.
@@ -102,7 +102,7 @@ double CloserScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::G
     }
     int grasps = 0;
     std::vector<int> grasps_without(reached.size(), 0);
-    for (int i = 0; reached.size() >= 3 && i < kDrawnGrasps; ++i) {
+    for (int i = 0; reached.size() >= 3 && i < kHomeGrasps; ++i) {
       const std::vector<int> fingers = random.Choose(static_cast<int>(reached.size()), 3);
       if (!DrawGrasp(setup, reached, fingers, memory, random)) continue;
       ++grasps;

@@ -23,7 +23,7 @@ constexpr int kExpandedAtOnce = 6;
 constexpr std::int64_t kExpandedForNext = 20;
 constexpr double kExpandedForStep = 0.75;
 /// Times that places are looked for.
-constexpr int kDrawings = 4;
+constexpr int kPoseDrawings = 4;
 
 }  // namespace
 
@@ -122,7 +122,7 @@ std::unique_ptr<PlaceSearch> PlacesInHand::SearchAlong(const PoseTrack& track,
 }
 
 bool PlacesInHand::DrawHomes() {
-  if (++drawings_ > (request_.start_pose ? 1 : kDrawings)) return false;
+  if (++drawings_ > (request_.start_pose ? 1 : kPoseDrawings)) return false;
   if (request_.start_pose) {
     homes_.assign(terms_.size(), *request_.start_pose);
     return true;

@@ -12,9 +12,9 @@ namespace regrasp::gait {
 namespace {
 
 /// Places of the surface that are drawn for all fingers together, in each rest.
-constexpr int kContacts = 24;
+constexpr int kRandomContacts = 24;
 /// Of the diameter: contacts keep off the borders of faces.
-constexpr double kFromBorder = 0.02;
+constexpr double kRandomFromBorder = 0.02;
 /// Postures drawn for a finger that does not hold.
 constexpr int kPostures = 200;
 
@@ -23,7 +23,7 @@ constexpr int kPostures = 200;
 RandomRests::RandomRests(const GaitRequest& request, RandomRestOptions options)
     : request_(request),
       options_(std::move(options)),
-      sampler_(*request.solid, FingersOf(request).fingertip_radius, kFromBorder),
+      sampler_(*request.solid, FingersOf(request).fingertip_radius, kRandomFromBorder),
       surface_(*request.solid, request.scale),
       scene_(*request.hand, surface_, request.margin),
       evaluator_(*request.solid, request.criteria, FingersOf(request),
@@ -74,10 +74,10 @@ bool RandomRests::PlaceAt(FingerIndex finger, const grasp::Contact& contact, Hel
 std::vector<grasp::Contact> RandomRests::DrawContacts(RandomStream& random) const {
   std::vector<grasp::Contact> contacts;
   const auto given = static_cast<int>(options_.among.size());
-  for (const int i : random.Choose(given, std::min(given, kContacts))) {
+  for (const int i : random.Choose(given, std::min(given, kRandomContacts))) {
     contacts.push_back(options_.among[i]);
   }
-  for (int i = 0; given == 0 && i < kContacts; ++i) {
+  for (int i = 0; given == 0 && i < kRandomContacts; ++i) {
     if (const auto contact = sampler_.TryDraw(random)) contacts.push_back(*contact);
   }
   return contacts;

@@ -7,7 +7,7 @@ namespace {
 /// would have gone over to another branch of postures.
 constexpr double kJump = 0.35;
 /// How far ends of runs are looked for at once, steps; a power of two.
-constexpr int kStride = 4;
+constexpr int kCellStride = 4;
 
 bool IsNoJump(const Posture& from, const Posture& to, int steps) {
   return (to - from).cwiseAbs().maxCoeff() <= steps * kJump;
@@ -51,7 +51,7 @@ bool ReachMap::CanFollow(FingerIndex finger, int point, int node, int neighbour)
 
 int ReachMap::WorkOutRunEnd(FingerIndex finger, int point, int node) {
   const Posture* at = Find(finger, point, node);
-  for (int stride = kStride; stride > 0; stride /= 2) {
+  for (int stride = kCellStride; stride > 0; stride /= 2) {
     while (true) {
       const int next = grid_.Onward(node, stride);
       const Posture* then = next == PoseGrid::kNoNode ? nullptr : Find(finger, point, next);

@@ -18,7 +18,7 @@ using Contacts = std::vector<Contact>;
 
 /// Shares that the way between two waypoints is cut into: the fewest, of how far a tip goes in one,
 /// metres, and the most.
-constexpr double kStride = 0.004;
+constexpr double kSlideStride = 0.004;
 constexpr int kMostShares = 64;
 /// A motion that needs shorter pieces of a proof keeps too close to the limit.
 constexpr double kShortestPiece = 1.0 / 64;
@@ -94,7 +94,7 @@ class Slider {
   [[nodiscard]] std::optional<std::vector<Keyframe>> Follow(const motion::GraspMotion& motion,
                                                             const Keyframe& from,
                                                             bool is_last) const {
-    for (int shares = std::max(1, static_cast<int>(std::ceil(LengthOf(motion) / kStride)));
+    for (int shares = std::max(1, static_cast<int>(std::ceil(LengthOf(motion) / kSlideStride)));
          shares <= kMostShares; shares *= 2) {
       auto path = InShares(motion, from, shares);
       if (!path || (is_last && !LeadToTheEnd(motion, *path))) return std::nullopt;

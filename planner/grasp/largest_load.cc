@@ -13,7 +13,7 @@ namespace {
 constexpr double kLoadGap = 1e-9;
 
 /// As in ComputeGraspForces: what is unbalanced by less is rounding of the simplex.
-constexpr double kBalanced = 1e-10;
+constexpr double kLoadBalanced = 1e-10;
 
 template <int kDim>
 typename WrenchSimplex<kDim>::Vector ToVector(const Wrench& wrench) {
@@ -28,12 +28,12 @@ typename WrenchSimplex<kDim>::Vector ToVector(const Wrench& wrench) {
 
 /// All in units of the total normal force.
 template <int kDim>
-std::optional<QualityBounds> Solve(const UnitContacts& contacts, const Wrench& load,
-                                   const Wrench& direction) {
+std::optional<QualityBounds> SolveLargestLoad(const UnitContacts& contacts, const Wrench& load,
+                                              const Wrench& direction) {
   const Wrench target{-load.force, -load.torque_over_radius};
   WrenchSimplex<kDim> simplex(contacts, ToVector<kDim>(target));
   simplex.FindWeights(/*stop_early=*/false);
-  if (simplex.unbalanced() > kBalanced) return std::nullopt;
+  if (simplex.unbalanced() > kLoadBalanced) return std::nullopt;
   const auto found = simplex.Maximise(ToVector<kDim>(direction), 0, {.gap = kLoadGap});
   return QualityBounds{found.lower, found.upper};
 }
@@ -60,8 +60,8 @@ std::optional<QualityBounds> ComputeLargestLoad(std::span<const Contact> contact
   UnitContacts units = MakeUnitContacts(contacts, frame);
   SetUnitNormalForces(units, half_angle);
   const Wrench unit_load{load.force / total_normal, load.torque_over_radius / total_normal};
-  return frame.dimension == 3 ? Solve<6>(units, unit_load, direction)
-                              : Solve<3>(units, unit_load, direction);
+  return frame.dimension == 3 ? SolveLargestLoad<6>(units, unit_load, direction)
+                              : SolveLargestLoad<3>(units, unit_load, direction);
 }
 
 }  // namespace regrasp::grasp

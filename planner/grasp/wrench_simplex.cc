@@ -10,7 +10,7 @@
 namespace regrasp::grasp {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 /// A twist separates only if it does so by this much of |twist| · |wrench|: some thousand roundings
 /// of a double, where evaluating the support function makes about twenty.
@@ -89,7 +89,7 @@ double WrenchSimplex<kDim>::StartWeight(int contact) const {
 
 template <int kDim>
 double WrenchSimplex<kDim>::FindBest(const Dual& dual, Column& column) const {
-  double best = -kInfinity;
+  double best = -kNoBound;
   Eigen::Vector3d best_velocity = Eigen::Vector3d::Zero();
   double best_spin = 0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -114,7 +114,7 @@ double WrenchSimplex<kDim>::FindBest(const Dual& dual, Column& column) const {
 
 template <int kDim>
 double WrenchSimplex<kDim>::Support(std::span<const UnitContact> contacts, const Vector& twist) {
-  double best = -kInfinity;
+  double best = -kNoBound;
   for (const UnitContact& contact : contacts) {
     best = std::max(best, ConeSupportOf<kDim>(contact, twist.data()));
   }
@@ -246,16 +246,16 @@ typename WrenchSimplex<kDim>::Maximum WrenchSimplex<kDim>::Maximise(const Vector
                                                                     const Goal& goal) {
   program_.StartOptimality();
   const int row = program_.EnterFree({kMaximised, WithShare(column, share)});
-  if (row < 0) return {kInfinity, kInfinity};
+  if (row < 0) return {kNoBound, kNoBound};
   program_.Refactor();
-  Maximum maximum{0, kInfinity};
+  Maximum maximum{0, kNoBound};
   const auto price = [&](const Dual& dual, Column& best) {
     const double reduced_cost = FindBest(dual, best);
     maximum.lower = program_.weights()[row];
     maximum.upper = std::min(maximum.upper, maximum.lower + std::max(reduced_cost, 0.0));
     return maximum.upper - maximum.lower > goal.gap && !(maximum.lower > goal.enough);
   };
-  if (program_.Run(price, kLimits) == lp::End::kUnbounded) return {kInfinity, kInfinity};
+  if (program_.Run(price, kLimits) == lp::End::kUnbounded) return {kNoBound, kNoBound};
   program_.Refactor();
   maximum.lower = program_.weights()[row];
   return maximum;
@@ -274,7 +274,7 @@ template <int kDim>
 double WrenchSimplex<kDim>::Reach(const Vector& direction) const {
   Dual rate = Dual::Zero();
   for (int c = 0; c < kDim; ++c) rate -= direction[c] * program_.inverse().col(c);
-  double reach = kInfinity;
+  double reach = kNoBound;
   for (int r = 0; r < kRows; ++r) {
     if (rate[r] > 0) reach = std::min(reach, program_.weights()[r] / rate[r]);
   }

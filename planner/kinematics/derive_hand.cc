@@ -26,7 +26,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kWorld = 0;
-constexpr std::size_t kFewestFingers = 3;
+constexpr std::size_t kFewestDerived = 3;
 /// Geoms that end within this of each other end alike: the rounder one is taken, metres.
 constexpr double kEndsAlike = 2e-3;
 /// A ball that ends so far inside the tip is doubtful, metres.
@@ -154,7 +154,7 @@ void HandDeriver::FindTips() {
     return false;
   });
   std::ranges::sort(tips_, {}, &TipBody::body);
-  if (tips_.size() < kFewestFingers) {
+  if (tips_.size() < kFewestDerived) {
     Fail("found " + std::to_string(tips_.size()) +
          " fingers below a common body; a hand needs three chains of joints from one palm, which "
          "is a body, to links that collide");

@@ -23,7 +23,7 @@ using collision::ConvexShape;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr int kWorld = 0;
+constexpr int kWorldBody = 0;
 /// Shapes that are nearer than this while the hand is at rest are so by construction, metres.
 constexpr double kNearAtRest = 1e-3;
 
@@ -61,7 +61,7 @@ class HandBuilder {
 
   int FindBody(const std::string& name, const std::string& where) const {
     const int body = mj_name2id(&model_, mjOBJ_BODY, name.c_str());
-    if (body > kWorld) return body;
+    if (body > kWorldBody) return body;
     std::string bodies;
     for (int i = 1; i < std::min(model_.nbody, 40); ++i) {
       bodies += (bodies.empty() ? "" : ", ") + BodyName(model_, i);
@@ -101,7 +101,7 @@ void HandBuilder::AddFinger(int index) {
   const int tip_body = FindBody(tip.body, where + "/tip/body");
   std::vector<int> bodies;
   for (int body = tip_body; body != palm_; body = model_.body_parentid[body]) {
-    if (body == kWorld) {
+    if (body == kWorldBody) {
       Fail(where, "body " + tip.body + " is not below the palm " + description_.palm);
     }
     bodies.push_back(body);
@@ -203,7 +203,7 @@ void HandBuilder::SetLimits(const std::string& where, Finger& finger) const {
 }
 
 HandBuilder::Place HandBuilder::PlaceOf(int body) const {
-  for (; body != kWorld; body = model_.body_parentid[body]) {
+  for (; body != kWorldBody; body = model_.body_parentid[body]) {
     const auto found = places_.find(body);
     if (found != places_.end()) return found->second;
   }

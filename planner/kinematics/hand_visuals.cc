@@ -18,7 +18,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Triangles = std::vector<std::array<Vector3d, 3>>;
 
-constexpr int kSides = 32;
+constexpr int kVisualSides = 32;
 constexpr int kLastShownGroup = 2;
 
 /// Triangles and the normals at their corners.
@@ -36,7 +36,7 @@ struct Surface {
   }
 };
 
-Surface Box(const Vector3d& half) {
+Surface BoxSurface(const Vector3d& half) {
   Surface surface;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
@@ -50,14 +50,14 @@ Surface Box(const Vector3d& half) {
   return surface;
 }
 
-Surface Cylinder(double radius, double half_length) {
+Surface CylinderSurface(double radius, double half_length) {
   Surface surface;
   const auto outward = [](int i) {
-    const double angle = 2 * std::numbers::pi * i / kSides;
+    const double angle = 2 * std::numbers::pi * i / kVisualSides;
     return Vector3d(std::cos(angle), std::sin(angle), 0);
   };
   const Vector3d top(0, 0, half_length);
-  for (int i = 0; i < kSides; ++i) {
+  for (int i = 0; i < kVisualSides; ++i) {
     const Vector3d n = outward(i);
     const Vector3d next_n = outward(i + 1);
     const Vector3d a = radius * n;
@@ -98,10 +98,10 @@ void AddGeom(const mjModel& model, int geom, const Isometry3d& pose, LinkVisual&
           {pose * Vector3d(0, 0, -size[1]), pose * Vector3d(0, 0, size[1]), size[0]});
       return;
     case mjGEOM_BOX:
-      surface = Box({size[0], size[1], size[2]});
+      surface = BoxSurface({size[0], size[1], size[2]});
       break;
     case mjGEOM_CYLINDER:
-      surface = Cylinder(size[0], size[1]);
+      surface = CylinderSurface(size[0], size[1]);
       break;
     case mjGEOM_MESH:
       surface = Mesh(model, model.geom_dataid[geom]);

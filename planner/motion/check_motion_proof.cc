@@ -48,7 +48,7 @@ struct Linear {
 
 /// A contact on a piece.
 template <class Number>
-struct MovingContact {
+struct CheckedContact {
   Linear<Number> p;
   Linear<Number> n;  ///< the normals at both ends, which turns between do not go linearly
   bool turns = false;
@@ -56,10 +56,10 @@ struct MovingContact {
 };
 
 template <class Number>
-using MovingContacts = std::vector<MovingContact<Number>>;
+using CheckedContacts = std::vector<CheckedContact<Number>>;
 
 template <class Number>
-Linear<Number> Difference(const MovingContacts<Number>& moving, std::size_t to, std::size_t from) {
+Linear<Number> Difference(const CheckedContacts<Number>& moving, std::size_t to, std::size_t from) {
   return {moving[to].p.start - moving[from].p.start, moving[to].p.end - moving[from].p.end};
 }
 
@@ -99,7 +99,7 @@ struct Support {
 
 /// Two opposite forces at a distance d apply the torque d · force.
 template <class Number>
-std::optional<Number> PairTorqueFactor(const MovingContacts<Number>& moving, std::size_t i,
+std::optional<Number> PairTorqueFactor(const CheckedContacts<Number>& moving, std::size_t i,
                                        std::size_t j) {
   const Linear<Number> side = Difference(moving, j, i);
   const Number length = LeastSquaredLength<Number, 2>({side.start, side.end});
@@ -112,7 +112,7 @@ std::optional<Number> PairTorqueFactor(const MovingContacts<Number>& moving, std
 /// the cross product of two sides λ ≥ Σ_{i<j} |d_i × d_j|² / Σ |d|² = |c|² / (3 Σ |d|²), and 3 Σ
 /// |d|² is the sum over the sides, convex in t.
 template <class Number>
-std::optional<Number> TripleTorqueFactor(const MovingContacts<Number>& moving, std::size_t i,
+std::optional<Number> TripleTorqueFactor(const CheckedContacts<Number>& moving, std::size_t i,
                                          std::size_t j, std::size_t k) {
   const std::array sides = {Difference(moving, j, i), Difference(moving, k, i),
                             Difference(moving, k, j)};
@@ -131,7 +131,7 @@ std::optional<Number> TripleTorqueFactor(const MovingContacts<Number>& moving, s
 /// contact, s = τ·d / n·d, and two opposite forces at the distance |d| the rest, at most |τ| + |s
 /// n|.
 template <class Number>
-std::optional<Support<Number>> TwistSupport(const MovingContacts<Number>& moving,
+std::optional<Support<Number>> TwistSupport(const CheckedContacts<Number>& moving,
                                             std::size_t twisting, std::size_t other) {
   const Linear<Number> arm = Difference(moving, other, twisting);
   const VectorOf<Number>& n = moving[twisting].n.start;
@@ -185,7 +185,7 @@ double TripleMerit(const RoundedEnds& a, const RoundedEnds& b, const RoundedEnds
 
 /// The pair or triple that supports best, found in floating point.
 template <class Number>
-std::vector<std::size_t> BestSupport(const MovingContacts<Number>& moving, int dimension) {
+std::vector<std::size_t> BestSupport(const CheckedContacts<Number>& moving, int dimension) {
   std::vector<RoundedEnds> points;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     points.push_back({Rounded(moving[i].p.start - moving[0].p.start),
@@ -211,7 +211,7 @@ std::vector<std::size_t> BestSupport(const MovingContacts<Number>& moving, int d
 
 /// The two contacts of which one twists best; nullopt where none surely does.
 template <class Number>
-std::optional<Support<Number>> FindTwistSupport(const MovingContacts<Number>& moving) {
+std::optional<Support<Number>> FindTwistSupport(const CheckedContacts<Number>& moving) {
   std::optional<Support<Number>> best;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     for (std::size_t j = 0; moving[i].torsion > 0 && j < moving.size(); ++j) {
@@ -226,7 +226,7 @@ std::optional<Support<Number>> FindTwistSupport(const MovingContacts<Number>& mo
 /// @returns nullopt where the contacts are on one line somewhere, or not surely off it, and no soft
 ///          finger twists.
 template <class Number>
-std::optional<Support<Number>> FindSupport(const MovingContacts<Number>& moving, int dimension) {
+std::optional<Support<Number>> FindSupport(const CheckedContacts<Number>& moving, int dimension) {
   const std::vector<std::size_t> best = BestSupport(moving, dimension);
   if (best.empty()) return FindTwistSupport(moving);
   const auto factor = dimension == 2 ? PairTorqueFactor(moving, best[0], best[1])
@@ -264,7 +264,7 @@ std::vector<Applied<Number>> AppliedOn(const MotionSegment& piece, int dimension
 
 /// The middle of the supporting contacts.
 template <class Number>
-Linear<Number> MiddleOf(const MovingContacts<Number>& moving, const Support<Number>& support) {
+Linear<Number> MiddleOf(const CheckedContacts<Number>& moving, const Support<Number>& support) {
   Linear<Number> sum = moving[support.contacts.front()].p;
   for (std::size_t k = 1; k < support.contacts.size(); ++k) {
     sum.start = sum.start + moving[support.contacts[k]].p.start;
@@ -283,7 +283,7 @@ struct Correction {
 
 /// Anywhere on a piece, from above.
 template <class Number>
-Correction<Number> LargestCorrection(const MovingContacts<Number>& moving,
+Correction<Number> LargestCorrection(const CheckedContacts<Number>& moving,
                                      const std::vector<Applied<Number>>& applied,
                                      const Support<Number>& support) {
   const VectorOf<Number> zero = {0, 0, 0};
@@ -317,7 +317,7 @@ Correction<Number> LargestCorrection(const MovingContacts<Number>& moving,
 /// @param twist  of a contact that does not turn: its torque over its torsion, times the normal.
 template <class Number>
 bool StaysInsideCone(const VectorOf<Number>& force, const Number& twist, const Number& margin,
-                     const MovingContact<Number>& contact, const Number& mu) {
+                     const CheckedContact<Number>& contact, const Number& mu) {
   const Linear<Number>& n = contact.n;
   if (!contact.turns) {
     return IsInsideCone<Number>(force, n.start, mu, margin, twist * twist * SquaredNorm(n.start));
@@ -364,9 +364,9 @@ std::string PieceFault(const std::vector<GivenContact>& contacts, const MotionSe
 }
 
 template <class Number>
-MovingContacts<Number> ContactsOn(const std::vector<GivenContact>& given,
-                                  const MotionSegment& piece) {
-  MovingContacts<Number> contacts;
+CheckedContacts<Number> ContactsOn(const std::vector<GivenContact>& given,
+                                   const MotionSegment& piece) {
+  CheckedContacts<Number> contacts;
   contacts.reserve(given.size());
   for (const GivenContact& contact : given) {
     const VectorOf<Number> from = NumbersOf<Number>(contact.from);
@@ -383,7 +383,7 @@ MovingContacts<Number> ContactsOn(const std::vector<GivenContact>& given,
 template <class Number>
 ProofVerdict CheckPiece(const std::vector<GivenContact>& given, int dimension, const Number& mu,
                         const MotionSegment& piece) {
-  const MovingContacts<Number> moving = ContactsOn<Number>(given, piece);
+  const CheckedContacts<Number> moving = ContactsOn<Number>(given, piece);
   const std::optional<Support<Number>> support = FindSupport(moving, dimension);
   if (!support) return Nothing("the contacts may come to be on one line");
   const std::vector<Applied<Number>> applied = AppliedOn<Number>(piece, dimension);

@@ -94,27 +94,27 @@ void AddMesh(const aiMesh& mesh, const aiMatrix4x4& placement, PolygonSoup& soup
   }
 }
 
-struct Unit {
+struct FileUnit {
   std::string name;
   double metres = 1;
 };
 
 /// One that has a name, or "units of 0.3 m".
-Unit UnitOf(double metres) {
-  static const std::vector<Unit> kNamed = {{"metres", 1},
-                                           {"centimetres", 0.01},
-                                           {"millimetres", 0.001},
-                                           {"inches", 0.0254},
-                                           {"feet", 0.3048}};
+FileUnit UnitOf(double metres) {
+  static const std::vector<FileUnit> kNamed = {{"metres", 1},
+                                               {"centimetres", 0.01},
+                                               {"millimetres", 0.001},
+                                               {"inches", 0.0254},
+                                               {"feet", 0.3048}};
   constexpr double kSame = 1e-6;  // files have it rounded
-  for (const Unit& named : kNamed) {
+  for (const FileUnit& named : kNamed) {
     if (std::abs(metres - named.metres) <= kSame * named.metres) return named;
   }
   return {"units of " + FormatShort(metres) + " m", metres};
 }
 
 /// Of a COLLADA file; nullopt where it has no element for it.
-std::optional<Unit> ColladaUnit(std::string_view bytes) {
+std::optional<FileUnit> ColladaUnit(std::string_view bytes) {
   constexpr std::string_view kElement = "<unit", kAttribute = "meter=";
   const std::size_t from = bytes.find(kElement);
   if (from == std::string_view::npos) return std::nullopt;
@@ -129,7 +129,7 @@ std::optional<Unit> ColladaUnit(std::string_view bytes) {
 }
 
 /// Of an FBX file, which has it in centimetres.
-std::optional<Unit> FbxUnit(const aiScene& scene) {
+std::optional<FileUnit> FbxUnit(const aiScene& scene) {
   float centimetres = 0;
   if (scene.mMetaData == nullptr || !scene.mMetaData->Get("UnitScaleFactor", centimetres) ||
       !(centimetres > 0)) {
@@ -143,7 +143,7 @@ std::optional<Unit> FbxUnit(const aiScene& scene) {
 void ApplyUnit(const aiScene& scene, std::string_view bytes, const std::string& file,
                PolygonSoup& soup) {
   const std::string ending = LowerCase(std::filesystem::path(file).extension().string());
-  std::optional<Unit> unit;
+  std::optional<FileUnit> unit;
   if (ending == ".glb" || ending == ".gltf") unit = UnitOf(1);
   if (ending == ".dae") unit = ColladaUnit(bytes);
   if (ending == ".fbx") unit = FbxUnit(scene);

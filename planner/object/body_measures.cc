@@ -10,13 +10,13 @@ namespace regrasp::object {
 
 namespace {
 
-struct Unit {
+struct LengthUnit {
   const char* name;
   double metres;
 };
 
 /// What files are usually in, the likeliest first.
-constexpr std::array<Unit, 4> kUnits = {
+constexpr std::array<LengthUnit, 4> kUnits = {
     {{"millimetres", 0.001}, {"centimetres", 0.01}, {"inches", 0.0254}, {"metres", 1}}};
 
 /// What hands grasp is mostly this wide, metres.
@@ -48,7 +48,7 @@ std::string UnitText(const std::string& unit) {
 std::string SizeWarning(const BodyMeasures& body, double scale) {
   if (body.diameter_m >= kSmallestUsual && body.diameter_m <= kLargestUsual) return "";
   const double units = body.diameter_m / scale;
-  const auto unit = std::ranges::find_if(kUnits, [&](const Unit& guess) {
+  const auto unit = std::ranges::find_if(kUnits, [&](const LengthUnit& guess) {
     return units * guess.metres >= kSmallestGuess && units * guess.metres <= kLargestGuess;
   });
   const std::string size = "the object is " + MeasuresText(body) + ": ";

@@ -18,16 +18,16 @@ using Eigen::Vector2d;
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_2;
-using Segment = Kernel::Segment_2;
-using Ring = CGAL::Polygon_2<Kernel>;
+using RingKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using RingPoint = RingKernel::Point_2;
+using RingSegment = RingKernel::Segment_2;
+using Ring = CGAL::Polygon_2<RingKernel>;
 
-struct Edge {
+struct RingEdge {
   int ring = 0, index = 0, ring_size = 0;
-  Segment segment;
+  RingSegment segment;
 };
-using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, const Edge*>;
+using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, const RingEdge*>;
 
 std::string RingName(int ring) { return "ring " + std::to_string(ring); }
 
@@ -35,7 +35,7 @@ std::string VertexName(int ring, std::size_t vertex) {
   return RingName(ring) + ": vertex " + std::to_string(vertex);
 }
 
-std::string EdgeName(const Edge& edge) {
+std::string EdgeName(const RingEdge& edge) {
   return RingName(edge.ring) + ": edge " + std::to_string(edge.index);
 }
 
@@ -63,41 +63,41 @@ void CheckPoints(const std::vector<Vector2d>& ring, int index, const std::string
   }
 }
 
-std::vector<Edge> CollectEdges(const PolygonRings& rings) {
-  std::vector<Edge> edges;
+std::vector<RingEdge> CollectEdges(const PolygonRings& rings) {
+  std::vector<RingEdge> edges;
   for (int r = 0; r < std::ssize(rings); ++r) {
     const auto& ring = rings[r];
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vector2d& a = ring[i];
       const Vector2d& b = ring[(i + 1) % ring.size()];
       edges.push_back({r, static_cast<int>(i), static_cast<int>(ring.size()),
-                       Segment(Point(a.x(), a.y()), Point(b.x(), b.y()))});
+                       RingSegment(RingPoint(a.x(), a.y()), RingPoint(b.x(), b.y()))});
     }
   }
   return edges;
 }
 
-bool Follows(const Edge& first, const Edge& second) {
+bool Follows(const RingEdge& first, const RingEdge& second) {
   return first.ring == second.ring && (first.index + 1) % first.ring_size == second.index;
 }
 
 /// True iff two edges share more than the point where one follows the other.
-bool MeetWrongly(const Edge& a, const Edge& b) {
+bool MeetWrongly(const RingEdge& a, const RingEdge& b) {
   if (Follows(b, a)) return MeetWrongly(b, a);
   if (!Follows(a, b)) return CGAL::do_intersect(a.segment, b.segment);
   // Neighbours meet again only where the ring turns back onto itself.
-  const Point &p = a.segment.source(), &q = a.segment.target(), &r = b.segment.target();
+  const RingPoint &p = a.segment.source(), &q = a.segment.target(), &r = b.segment.target();
   return CGAL::collinear(p, q, r) && !CGAL::collinear_are_ordered_along_line(p, q, r);
 }
 
 void CheckCrossings(const PolygonRings& rings, const std::string& name) {
-  const std::vector<Edge> edges = CollectEdges(rings);
+  const std::vector<RingEdge> edges = CollectEdges(rings);
   if (edges.size() > kMaxFacets) {
     throw InputError(name + ": " + std::to_string(edges.size()) + " edges, more than " +
                      std::to_string(kMaxFacets));
   }
   std::vector<EdgeBox> boxes;
-  for (const Edge& edge : edges) boxes.emplace_back(edge.segment.bbox(), &edge);
+  for (const RingEdge& edge : edges) boxes.emplace_back(edge.segment.bbox(), &edge);
   std::size_t overlaps = 0;
   CGAL::box_self_intersection_d(
       boxes.begin(), boxes.end(), [&](const EdgeBox& one, const EdgeBox& other) {
@@ -117,19 +117,19 @@ Ring ToRing(const std::vector<Vector2d>& points) {
   return ring;
 }
 
-bool Inside(const Ring& inner, const Ring& outer) {
+bool IsInside(const Ring& inner, const Ring& outer) {
   return outer.bounded_side(inner[0]) == CGAL::ON_BOUNDED_SIDE;
 }
 
 /// Rings do not touch, so one point of a ring decides for all of it.
 void CheckNesting(const std::vector<Ring>& rings, const std::string& name) {
   for (std::size_t r = 1; r < rings.size(); ++r) {
-    if (!Inside(rings[r], rings[0])) {
+    if (!IsInside(rings[r], rings[0])) {
       throw InputError(name + ": " + RingName(int(r)) + ": a hole outside the outer ring");
     }
     for (std::size_t other = 1; other < rings.size(); ++other) {
       if (other == r || !CGAL::do_overlap(rings[r].bbox(), rings[other].bbox())) continue;
-      if (Inside(rings[r], rings[other])) {
+      if (IsInside(rings[r], rings[other])) {
         throw InputError(name + ": " + RingName(int(r)) + ": a hole inside " +
                          RingName(int(other)) + ", another hole");
       }

@@ -13,8 +13,8 @@ namespace regrasp::object {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Search = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<Kernel>>;
+using DiameterKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Search = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<DiameterKernel>>;
 
 /// Below this the plain double loop is faster than building a tree.
 constexpr std::size_t kFewPoints = 256;
@@ -50,13 +50,13 @@ const Eigen::Vector3d& EndOfBox(std::span<const Eigen::Vector3d> points) {
 
 /// The points that may be ends of the diameter. With all points within r of a centre and two of
 /// them L apart, an end is no nearer to the centre than L − r: on long bodies few are left.
-std::vector<Kernel::Point_3> FindOuter(std::span<const Eigen::Vector3d> points) {
+std::vector<DiameterKernel::Point_3> FindOuter(std::span<const Eigen::Vector3d> points) {
   const Eigen::Vector3d& one = FarthestFrom(EndOfBox(points), points);
   const Eigen::Vector3d& other = FarthestFrom(one, points);
   const Eigen::Vector3d centre = one / 2 + other / 2;
   const double radius = (FarthestFrom(centre, points) - centre).norm();
   const double least = (other - one).norm() - radius - kSlack * radius;
-  std::vector<Kernel::Point_3> outer;
+  std::vector<DiameterKernel::Point_3> outer;
   for (const auto& p : points) {
     if ((p - centre).norm() >= least) outer.emplace_back(p.x(), p.y(), p.z());
   }
@@ -64,14 +64,14 @@ std::vector<Kernel::Point_3> FindOuter(std::span<const Eigen::Vector3d> points) 
 }
 
 double LargestSquaredByTree(std::span<const Eigen::Vector3d> points) {
-  const std::vector<Kernel::Point_3> copies = FindOuter(points);
+  const std::vector<DiameterKernel::Point_3> copies = FindOuter(points);
   Search::Tree tree(copies.begin(), copies.end());
   constexpr bool kNearest = false;  // farthest
   double largest = 0;
   for (const auto& p : copies) {
     const Search farthest(tree, p, 1, 0.0, kNearest);
     // Measured again rather than taken from the search, which adds up its distance in pieces.
-    const Kernel::Vector_3 difference = farthest.begin()->first - p;
+    const DiameterKernel::Vector_3 difference = farthest.begin()->first - p;
     largest = std::max(largest, difference.squared_length());
   }
   return largest;

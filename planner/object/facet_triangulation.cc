@@ -19,18 +19,17 @@ using Eigen::Vector3d;
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point2 = Kernel::Point_2;
-using Point3 = Kernel::Point_3;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using FaceBase =
-    CGAL::Triangulation_face_base_with_info_2<bool, Kernel,
-                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using TriangulationKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point2 = TriangulationKernel::Point_2;
+using Point3 = TriangulationKernel::Point_3;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, TriangulationKernel>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<
+    bool, TriangulationKernel, CGAL::Constrained_triangulation_face_base_2<TriangulationKernel>>;
 using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+    TriangulationKernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
     CGAL::No_constraint_intersection_tag>;
 
-Point3 ToPoint(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+Point3 ToPoint3(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 /// Newell's normal: the area vector of the polygon, from its first corner.
 Vector3d AreaVector(const std::vector<Vector3d>& corners) {
@@ -122,9 +121,9 @@ double ExtentSquared(const std::vector<Vector3d>& corners) {
 }  // namespace
 
 bool AreCollinear(const std::vector<Vector3d>& corners) {
-  const Point3 a = ToPoint(corners[0]), b = ToPoint(corners[1]);
+  const Point3 a = ToPoint3(corners[0]), b = ToPoint3(corners[1]);
   return std::all_of(corners.begin() + 2, corners.end(),
-                     [&](const Vector3d& c) { return CGAL::collinear(a, b, ToPoint(c)); });
+                     [&](const Vector3d& c) { return CGAL::collinear(a, b, ToPoint3(c)); });
 }
 
 PolygonCut CutPolygon(const std::vector<Vector3d>& corners) {

@@ -131,15 +131,15 @@ class Lines {
   std::map<std::size_t, std::vector<int>> lines_;
 };
 
-using Edge = std::pair<int, int>;  ///< the lower vertex first
+using VertexEdge = std::pair<int, int>;  ///< the lower vertex first
 
 /// What lies between the ends of edges of facets without area, in the order of Place.
 /// @returns nullopt where that is far more than there are edges.
-std::optional<std::map<Edge, std::vector<int>>> FindSplits(const WeldedSoup& soup,
-                                                           const std::vector<bool>& flattened) {
+std::optional<std::map<VertexEdge, std::vector<int>>> FindSplits(
+    const WeldedSoup& soup, const std::vector<bool>& flattened) {
   const std::vector<EdgeSide> sides = SortedEdgeSides(soup.facets, soup.vertices.size());
   Lines lines(soup, sides, flattened);
-  std::map<Edge, std::vector<int>> splits;
+  std::map<VertexEdge, std::vector<int>> splits;
   std::size_t count = 0;
   ForEachEdge(sides, [&](std::span<const EdgeSide> edge) {
     const auto on_line = std::ranges::find_if(

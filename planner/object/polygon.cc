@@ -23,26 +23,27 @@ namespace {
 /// roundings, so that distances decide alone.
 constexpr double kBoxSlack = 1e-9;
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Segment = Kernel::Segment_2;
+using PlaneKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using PlaneSegment = PlaneKernel::Segment_2;
 
-Kernel::Point_2 ToPoint(const Vector2d& p) { return {p.x(), p.y()}; }
+PlaneKernel::Point_2 ToPlanePoint(const Vector2d& p) { return {p.x(), p.y()}; }
 
-Vector3d InSpace(const Vector2d& p) { return {p.x(), p.y(), 0}; }
+Vector3d LiftToSpace(const Vector2d& p) { return {p.x(), p.y(), 0}; }
 
 std::vector<Vector3d> AllPoints(const PolygonRings& rings) {
   std::vector<Vector3d> points;
   for (const auto& ring : rings) {
-    for (const auto& p : ring) points.push_back(InSpace(p));
+    for (const auto& p : ring) points.push_back(LiftToSpace(p));
   }
   return points;
 }
 
-void CheckEdges(const PolygonRings& rings, double diameter, const std::string& name) {
+void CheckRingEdges(const PolygonRings& rings, double diameter, const std::string& name) {
   for (std::size_t r = 0; r < rings.size(); ++r) {
     for (std::size_t i = 0; i < rings[r].size(); ++i) {
       const Vector2d& next = rings[r][(i + 1) % rings[r].size()];
-      const std::string complaint = EdgeComplaint(InSpace(rings[r][i]), InSpace(next), diameter);
+      const std::string complaint =
+          EdgeComplaint(LiftToSpace(rings[r][i]), LiftToSpace(next), diameter);
       if (complaint.empty()) continue;
       throw InputError(name + ": ring " + std::to_string(r) + ": edge " + std::to_string(i) + ": " +
                        complaint);
@@ -50,14 +51,14 @@ void CheckEdges(const PolygonRings& rings, double diameter, const std::string& n
   }
 }
 
-std::vector<Face> MakeFaces(const PolygonRings& rings) {
+std::vector<Face> MakeEdgeFaces(const PolygonRings& rings) {
   std::vector<Face> faces;
   for (const auto& ring : rings) {
     const int first = static_cast<int>(faces.size());
     const int size = static_cast<int>(ring.size());
     for (int i = 0; i < size; ++i) {
       const int next = (i + 1) % size;
-      const Vector3d a = InSpace(ring[i]), b = InSpace(ring[next]);
+      const Vector3d a = LiftToSpace(ring[i]), b = LiftToSpace(ring[next]);
       const Vector2d along = (ring[next] - ring[i]).stableNormalized();
       // Adding 0 turns −0 into +0: normals are printed.
       faces.push_back(
@@ -87,7 +88,7 @@ Polygon Polygon::FromRings(PolygonRings rings, const std::string& name) {
   if (const std::string complaint = SizeComplaint(points, diameter); !complaint.empty()) {
     throw InputError(name + ": vertices: " + complaint);
   }
-  CheckEdges(rings, diameter, name);
+  CheckRingEdges(rings, diameter, name);
   const MassProperties mass = ComputeMassProperties(rings);
   if (!(mass.volume > 0)) throw InputError(name + ": ring 0: no area");
   return Polygon(std::move(rings), diameter, mass);
@@ -98,7 +99,8 @@ Polygon Polygon::FromWkt(std::string_view text, const std::string& name) {
 }
 
 Polygon::Polygon(PolygonRings rings, double diameter, MassProperties mass_properties)
-    : Object(2, MakeFaces(rings), diameter, std::move(mass_properties)), rings_(std::move(rings)) {
+    : Object(2, MakeEdgeFaces(rings), diameter, std::move(mass_properties)),
+      rings_(std::move(rings)) {
   for (FaceIndex face{0}; face < face_count(); ++face) {
     const std::vector<FaceBorder>& ends = BordersOf(face);
     edges_.emplace_back(ends[0].a.head<2>(), ends[1].a.head<2>());
@@ -130,11 +132,12 @@ std::vector<FaceIndex> Polygon::FacesNear(const Vector3d& point, double toleranc
 
 std::vector<FaceIndex> Polygon::FacesNearSegment(const Vector3d& a, const Vector3d& b,
                                                  double tolerance) const {
-  const Segment segment(ToPoint(a.head<2>()), ToPoint(b.head<2>()));
+  const PlaneSegment segment(ToPlanePoint(a.head<2>()), ToPlanePoint(b.head<2>()));
   std::vector<FaceIndex> faces;
   for (FaceIndex face{0}; face < face_count(); ++face) {
     const auto& [from, to] = edges_[face];
-    const double squared = CGAL::squared_distance(segment, Segment(ToPoint(from), ToPoint(to)));
+    const double squared =
+        CGAL::squared_distance(segment, PlaneSegment(ToPlanePoint(from), ToPlanePoint(to)));
     if (std::sqrt(squared) <= tolerance) faces.push_back(face);
   }
   return faces;

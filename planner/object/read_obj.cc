@@ -23,7 +23,7 @@ constexpr auto kIgnored = std::to_array<std::string_view>(
 constexpr std::string_view kInventedGroup = "invented";
 
 /// The first three numbers; a weight or a colour may follow.
-Eigen::Vector3d ReadVertex(TextScanner& scanner, std::size_t index) {
+Eigen::Vector3d ReadObjVertex(TextScanner& scanner, std::size_t index) {
   const std::string what = "vertex " + std::to_string(index);
   Eigen::Vector3d vertex;
   for (double& x : vertex) {
@@ -76,7 +76,7 @@ PolygonSoup ReadObj(std::string_view text, const std::string& name) {
   bool invented = false;
   while (const auto statement = scanner.Next()) {
     if (*statement == "v") {
-      soup.vertices.push_back(ReadVertex(scanner, soup.vertices.size()));
+      soup.vertices.push_back(ReadObjVertex(scanner, soup.vertices.size()));
     } else if (*statement == "f") {
       if (invented) soup.invented.resize(soup.facets.size());
       if (invented || !soup.invented.empty()) soup.invented.push_back(invented);

@@ -8,7 +8,7 @@ namespace regrasp::object {
 
 namespace {
 
-struct Header {
+struct OffHeader {
   bool plain = true;  ///< vertices have three numbers and nothing behind them
   long long vertices = 0, facets = 0;
 };
@@ -23,8 +23,8 @@ bool IsKnownKind(const std::string& kind) {
   return rest == "off";
 }
 
-Header ReadHeader(TextScanner& scanner) {
-  Header header;
+OffHeader ReadHeader(TextScanner& scanner) {
+  OffHeader header;
   const std::string kind = LowerCase(scanner.Next().value_or(""));
   if (!IsKnownKind(kind)) scanner.Fail(Quoted(kind) + " is not the start of an OFF file");
   header.plain = kind == "off";
@@ -35,7 +35,7 @@ Header ReadHeader(TextScanner& scanner) {
   return header;
 }
 
-std::vector<int> ReadFacet(TextScanner& scanner, const Header& header, long long facet) {
+std::vector<int> ReadOffFacet(TextScanner& scanner, const OffHeader& header, long long facet) {
   const std::string what = "facet " + std::to_string(facet);
   const long long corners = scanner.ReadInteger(what);
   if (corners < 0) scanner.Fail(what + ": a negative number of corners");
@@ -57,14 +57,14 @@ std::vector<int> ReadFacet(TextScanner& scanner, const Header& header, long long
 PolygonSoup ReadOff(std::string_view text, const std::string& name) {
   PolygonSoup soup;
   TextScanner scanner(text, name);
-  const Header header = ReadHeader(scanner);
+  const OffHeader header = ReadHeader(scanner);
   for (long long v = 0; v < header.vertices; ++v) {
     Eigen::Vector3d& vertex = soup.vertices.emplace_back();
     for (double& x : vertex) x = scanner.ReadDouble("vertex " + std::to_string(v));
     if (!header.plain) scanner.SkipLine();
   }
   for (long long f = 0; f < header.facets; ++f) {
-    soup.facets.push_back(ReadFacet(scanner, header, f));
+    soup.facets.push_back(ReadOffFacet(scanner, header, f));
   }
   if (const auto word = scanner.Next()) {
     scanner.Fail(Quoted(*word) + " behind the last of " + std::to_string(header.facets) +

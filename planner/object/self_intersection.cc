@@ -15,8 +15,8 @@ namespace regrasp::object {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
+using IntersectionKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using CornerPoint = IntersectionKernel::Point_3;
 using Corners = std::array<int, 3>;
 
 /// The clock is looked at once in about a millisecond.
@@ -42,21 +42,21 @@ int SortShared(Corners& a, Corners& b) {
 bool Meet(const TriangleMesh& mesh, Corners a, Corners b) {
   const auto point = [&](int v) {
     const Eigen::Vector3d& p = mesh.vertices[v];
-    return Point(p.x(), p.y(), p.z());
+    return CornerPoint(p.x(), p.y(), p.z());
   };
   const int shared = SortShared(a, b);
   if (shared == 3) return true;
-  const Point p = point(a[0]), q = point(a[1]), r = point(a[2]);
+  const CornerPoint p = point(a[0]), q = point(a[1]), r = point(a[2]);
   if (shared == 2) {  // folded onto each other
-    const Point s = point(b[2]);
+    const CornerPoint s = point(b[2]);
     return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
   }
-  const Point u = point(b[0]), v = point(b[1]), w = point(b[2]);
-  const Kernel::Triangle_3 first(p, q, r), second(u, v, w);
+  const CornerPoint u = point(b[0]), v = point(b[1]), w = point(b[2]);
+  const IntersectionKernel::Triangle_3 first(p, q, r), second(u, v, w);
   if (shared == 0) return CGAL::do_intersect(first, second);
   // Where they meet beyond the vertex, the far edge of one ends in the other.
-  return CGAL::do_intersect(first, Kernel::Segment_3(v, w)) ||
-         CGAL::do_intersect(second, Kernel::Segment_3(q, r));
+  return CGAL::do_intersect(first, IntersectionKernel::Segment_3(v, w)) ||
+         CGAL::do_intersect(second, IntersectionKernel::Segment_3(q, r));
 }
 
 }  // namespace

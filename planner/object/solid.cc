@@ -29,7 +29,8 @@ struct Shell {
   CGAL::Bbox_3 box;
 };
 
-std::vector<Shell> CollectShells(const TriangleMesh& mesh, const SurfaceTopology& topology) {
+std::vector<Shell> CollectOrientedShells(const TriangleMesh& mesh,
+                                         const SurfaceTopology& topology) {
   std::vector<Shell> shells(topology.shell_count);
   for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     Shell& shell = shells[topology.shell[t]];
@@ -216,7 +217,7 @@ SolidShells Unite(TriangleMesh& mesh, SurfaceTopology& topology, const std::vect
 
 SolidShells OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology, std::optional<Shells> choice,
                         const std::string& name) {
-  const std::vector<Shell> shells = CollectShells(mesh, topology);
+  const std::vector<Shell> shells = CollectOrientedShells(mesh, topology);
   const auto largest = std::ranges::max_element(
       shells, {}, [](const Shell& shell) { return std::abs(shell.volume); });
   if (std::abs(largest->volume) <= kVolumeRounding * largest->area * Extent(largest->box)) {

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 namespace {
 
 /// Of a fault that is named by where it is between waypoints.
-constexpr int kNoWaypoint = -1;
+constexpr int kBetweenWaypoints = -1;
 
 std::string Name(const FingerContact& held) { return "finger " + std::to_string(held.finger); }
 
@@ -134,12 +134,13 @@ std::optional<Obstacle> FindPathObstacle(const object::Object& object, const Fin
   for (std::size_t i = 0; i < motions.size(); ++i) {
     if (const auto t = FindBlocked(object, motions[i], radius)) {
       const auto why = criteria::FindObstacle(object, motions[i].At(*t), radius);
-      return Named(at(*t), Unreached(from[i], why.value_or(""), grasp_at(*t), radius), kNoWaypoint);
+      return Named(at(*t), Unreached(from[i], why.value_or(""), grasp_at(*t), radius),
+                   kBetweenWaypoints);
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (const auto t = FindMeeting(motions[i], motions[j], radius)) {
         const FingerGrasp there = grasp_at(*t);
-        return Named(at(*t), Overlap(there[j], there[i], there, radius), kNoWaypoint);
+        return Named(at(*t), Overlap(there[j], there[i], there, radius), kBetweenWaypoints);
       }
     }
   }

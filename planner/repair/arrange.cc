@@ -30,9 +30,9 @@ namespace {
 
 /// Where facets meet has to be known exactly: of three that meet at a point each is cut by the
 /// others there.
-using Exact = ExactKernel;
-using Cutting =
-    CGAL::Constrained_Delaunay_triangulation_2<Exact, CGAL::Default, CGAL::Exact_intersections_tag>;
+using ArrangementKernel = ExactKernel;
+using Cutting = CGAL::Constrained_Delaunay_triangulation_2<ArrangementKernel, CGAL::Default,
+                                                           CGAL::Exact_intersections_tag>;
 using Corners = std::array<int, 3>;
 
 /// More pairs of facets than this take minutes.
@@ -65,7 +65,7 @@ class Sets {
 };
 
 /// A closed surface of triangles whose vertices are all different.
-struct Surface {
+struct SoupSurface {
   std::vector<Vector3d> vertices;
   std::vector<Corners> triangles;
 
@@ -76,16 +76,16 @@ struct Surface {
   void Turn(int triangle) { std::swap(triangles[triangle][1], triangles[triangle][2]); }
 };
 
-Kernel::Point_3 ToPoint(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Kernel::Point_3 ToKernelPoint(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 ExactPoint ToExact(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 bool HasArea(const std::array<Vector3d, 3>& t) {
-  return !CGAL::collinear(ToPoint(t[0]), ToPoint(t[1]), ToPoint(t[2]));
+  return !CGAL::collinear(ToKernelPoint(t[0]), ToKernelPoint(t[1]), ToKernelPoint(t[2]));
 }
 
-Surface SurfaceOf(const object::PolygonSoup& soup) {
+SoupSurface SurfaceOf(const object::PolygonSoup& soup) {
   std::map<std::array<double, 3>, int> number;
-  Surface surface;
+  SoupSurface surface;
   std::vector<int> twin;
   for (const Vector3d& v : soup.vertices) {
     const auto [at, is_new] =
@@ -123,14 +123,14 @@ double Turns(const std::array<Vector3d, 3>& t, const Vector3d& from) {
 }
 
 /// How often some triangles of a surface wind about a point.
-double WindingNumber(const Surface& surface, const std::vector<int>& triangles,
+double WindingNumber(const SoupSurface& surface, const std::vector<int>& triangles,
                      const Vector3d& point) {
   double sum = 0;
   for (const int t : triangles) sum += Turns(surface.At(t), point);
   return sum;
 }
 
-double VolumeOf(const Surface& surface, const std::vector<int>& triangles) {
+double SignedVolume(const SoupSurface& surface, const std::vector<int>& triangles) {
   double sum = 0;
   for (const int t : triangles) {
     const auto& [a, b, c] = surface.At(t);
@@ -141,7 +141,7 @@ double VolumeOf(const Surface& surface, const std::vector<int>& triangles) {
 }
 
 /// Turns shells outwards, but for cavities: those that turn inwards inside another.
-void TurnOutwards(Surface& surface) {
+void TurnSurfaceOutwards(SoupSurface& surface) {
   Sets connected(surface.vertices.size());
   for (const Corners& t : surface.triangles) {
     connected.Unite(t[0], t[1]);
@@ -152,9 +152,9 @@ void TurnOutwards(Surface& surface) {
     shells[connected.Find(surface.triangles[t][0])].push_back(t);
   }
   for (const auto& [root, shell] : shells) {
-    if (VolumeOf(surface, shell) >= 0) continue;
+    if (SignedVolume(surface, shell) >= 0) continue;
     const bool cavity = std::ranges::any_of(shells, [&](const auto& other) {
-      return other.first != root && VolumeOf(surface, other.second) > 0 &&
+      return other.first != root && SignedVolume(surface, other.second) > 0 &&
              std::ranges::all_of(shell, [&](int t) {
                return WindingNumber(surface, other.second, surface.At(t)[0]) > 0.5;
              });
@@ -180,7 +180,7 @@ struct Meetings {
 
 class MeetingFinder {
  public:
-  explicit MeetingFinder(const Surface& surface)
+  explicit MeetingFinder(const SoupSurface& surface)
       : surface_(surface), meetings_(surface.triangles.size()) {}
 
   Meetings Find() {
@@ -189,7 +189,7 @@ class MeetingFinder {
     for (int t = 0; t < std::ssize(surface_.triangles); ++t) {
       const auto corners = surface_.At(t);
       CGAL::Bbox_3 box;
-      for (const Vector3d& v : corners) box += ToPoint(v).bbox();
+      for (const Vector3d& v : corners) box += ToKernelPoint(v).bbox();
       boxes.emplace_back(box, t);
     }
     CGAL::box_self_intersection_d(
@@ -201,7 +201,7 @@ class MeetingFinder {
 
  private:
   [[nodiscard]] Kernel::Point_3 Corner(int triangle, int k) const {
-    return ToPoint(surface_.vertices[surface_.triangles[triangle][k]]);
+    return ToKernelPoint(surface_.vertices[surface_.triangles[triangle][k]]);
   }
   [[nodiscard]] bool Has(int triangle, int vertex) const {
     return std::ranges::count(surface_.triangles[triangle], vertex) > 0;
@@ -236,12 +236,12 @@ class MeetingFinder {
     const auto common = CGAL::intersection(ExactTriangle(one), ExactTriangle(other));
     if (!common) return;
     if (const auto* p = boost::get<ExactPoint>(&*common)) Add(one, other, {*p, *p});
-    if (const auto* s = boost::get<Exact::Segment_3>(&*common)) {
+    if (const auto* s = boost::get<ArrangementKernel::Segment_3>(&*common)) {
       Add(one, other, {s->source(), s->target()});
     }
   }
 
-  [[nodiscard]] Exact::Triangle_3 ExactTriangle(int t) const {
+  [[nodiscard]] ArrangementKernel::Triangle_3 ExactTriangle(int t) const {
     const auto corners = surface_.At(t);
     return {ToExact(corners[0]), ToExact(corners[1]), ToExact(corners[2])};
   }
@@ -251,7 +251,7 @@ class MeetingFinder {
     meetings_.of_triangle[other].push_back(meeting);
   }
 
-  const Surface& surface_;
+  const SoupSurface& surface_;
   Meetings meetings_;
 };
 
@@ -267,11 +267,11 @@ class FlatView {
     while (Coefficient(axis_) == 0) axis_ = (axis_ + 1) % 3;
   }
 
-  [[nodiscard]] Exact::Point_2 Project(const ExactPoint& p) const {
+  [[nodiscard]] ArrangementKernel::Point_2 Project(const ExactPoint& p) const {
     return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]};
   }
-  [[nodiscard]] ExactPoint Lift(const Exact::Point_2& p) const {
-    std::array<Exact::FT, 3> at;
+  [[nodiscard]] ExactPoint Lift(const ArrangementKernel::Point_2& p) const {
+    std::array<ArrangementKernel::FT, 3> at;
     at[(axis_ + 1) % 3] = p.x();
     at[(axis_ + 2) % 3] = p.y();
     at[axis_] = -(Coefficient((axis_ + 1) % 3) * p.x() + Coefficient((axis_ + 2) % 3) * p.y() +
@@ -281,17 +281,17 @@ class FlatView {
   }
 
  private:
-  [[nodiscard]] Exact::FT Coefficient(int axis) const {
+  [[nodiscard]] ArrangementKernel::FT Coefficient(int axis) const {
     return axis == 0 ? plane_.a() : axis == 1 ? plane_.b() : plane_.c();
   }
 
-  Exact::Plane_3 plane_;
+  ArrangementKernel::Plane_3 plane_;
   int axis_ = 0;
 };
 
 /// A triangle as a FlatView has it.
 struct FlatTriangle {
-  std::array<Exact::Point_2, 3> at;
+  std::array<ArrangementKernel::Point_2, 3> at;
   int side;  ///< 1 where it is counter-clockwise, −1 where clockwise
   CGAL::Bbox_2 box;
 
@@ -304,7 +304,7 @@ struct FlatTriangle {
   }
 
   /// Its side where it is over a point, otherwise 0.
-  [[nodiscard]] int SideOver(const Exact::Point_2& p) const {
+  [[nodiscard]] int SideOver(const ArrangementKernel::Point_2& p) const {
     if (!CGAL::do_overlap(box, p.bbox())) return 0;
     for (int k = 0; k < 3; ++k) {
       if (CGAL::orientation(at[k], at[(k + 1) % 3], p) != side) return 0;
@@ -323,7 +323,7 @@ struct Piece {
 /// A surface cut along all lines where it meets itself.
 class Arrangement {
  public:
-  explicit Arrangement(const Surface& surface)
+  explicit Arrangement(const SoupSurface& surface)
       : surface_(surface), meetings_(MeetingFinder(surface).Find()) {
     for (const Vector3d& v : surface.vertices) AddPoint(ToExact(v));
     for (const std::vector<int>& flat : meetings_.coplanar.All()) {
@@ -373,7 +373,7 @@ class Arrangement {
                                   view.Project(ToExact(corners[(k + 1) % 3])));
       }
       for (const Meeting& meeting : meetings_.of_triangle[t]) {
-        const Exact::Point_2 a = view.Project(meeting.a), b = view.Project(meeting.b);
+        const ArrangementKernel::Point_2 a = view.Project(meeting.a), b = view.Project(meeting.b);
         if (a == b) {
           cutting.insert(a);
         } else {
@@ -389,10 +389,10 @@ class Arrangement {
   /// @param triangles  of the numbers in `flat`.
   void AddPiece(const std::vector<int>& flat, const std::vector<FlatTriangle>& triangles,
                 const FlatView& view, Cutting::Face_handle face) {
-    std::array<Exact::Point_2, 3> corners;
+    std::array<ArrangementKernel::Point_2, 3> corners;
     for (int k = 0; k < 3; ++k) corners[k] = face->vertex(k)->point();
     Piece piece{{}, 0, {}};
-    const Exact::Point_2 middle = CGAL::centroid(corners[0], corners[1], corners[2]);
+    const ArrangementKernel::Point_2 middle = CGAL::centroid(corners[0], corners[1], corners[2]);
     for (std::size_t i = 0; i < flat.size(); ++i) {
       const int side = triangles[i].SideOver(middle);
       piece.layers += side;
@@ -447,7 +447,7 @@ class Arrangement {
     return static_cast<int>(std::lround(turns));
   }
 
-  const Surface& surface_;
+  const SoupSurface& surface_;
   Meetings meetings_;
   std::vector<ExactPoint> points_;
   std::map<ExactPoint, int> number_;
@@ -465,7 +465,7 @@ Mesh Resolved(const object::PolygonSoup& soup, Touching touching) {
 
 /// Parts that touch are joined, or drawn back where that makes facets meet again. What meets all
 /// the same is parted as blemishes are.
-object::PolygonSoup Tidied(const object::PolygonSoup& soup) {
+object::PolygonSoup TidiedSoup(const object::PolygonSoup& soup) {
   for (const Touching touching : {Touching::kJoin, Touching::kPart}) {
     const Mesh mesh = Resolved(soup, touching);
     if (!pmp::does_self_intersect(mesh)) return SoupOf(mesh);
@@ -476,10 +476,10 @@ object::PolygonSoup Tidied(const object::PolygonSoup& soup) {
 }  // namespace
 
 StageResult ArrangeSurface(const object::PolygonSoup& soup) {
-  Surface surface = SurfaceOf(soup);
-  TurnOutwards(surface);
+  SoupSurface surface = SurfaceOf(soup);
+  TurnSurfaceOutwards(surface);
   const Arrangement arrangement(surface);
-  StageResult result{Tidied(arrangement.Boundary())};
+  StageResult result{TidiedSoup(arrangement.Boundary())};
   result.facts["meeting_pairs"] = arrangement.pairs();
   return result;
 }

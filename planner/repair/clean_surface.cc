@@ -21,7 +21,7 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 namespace {
 
-using Point = Kernel::Point_3;
+using MeshPoint = Kernel::Point_3;
 using Cell = std::array<std::int64_t, 3>;
 
 /// For each vertex the first one within `distance` that stands for it.
@@ -59,10 +59,10 @@ std::vector<int> CornersOf(const std::vector<int>& facet, const std::vector<int>
 }
 
 /// The triangles of least area that fill a polygon.
-void AddTriangles(const std::vector<int>& corners, const std::vector<Point>& points,
+void AddTriangles(const std::vector<int>& corners, const std::vector<MeshPoint>& points,
                   std::vector<std::vector<std::size_t>>& triangles) {
   if (corners.size() < 3) return;
-  std::vector<Point> outline;
+  std::vector<MeshPoint> outline;
   for (const int v : corners) outline.push_back(points[v]);
   std::vector<CGAL::Triple<int, int, int>> patch = {{0, 1, 2}};
   if (corners.size() > 3) {
@@ -75,10 +75,10 @@ void AddTriangles(const std::vector<int>& corners, const std::vector<Point>& poi
   }
 }
 
-object::PolygonSoup ToSoup(const std::vector<Point>& points,
+object::PolygonSoup ToSoup(const std::vector<MeshPoint>& points,
                            const std::vector<std::vector<std::size_t>>& triangles) {
   object::PolygonSoup soup;
-  for (const Point& p : points) soup.vertices.emplace_back(p.x(), p.y(), p.z());
+  for (const MeshPoint& p : points) soup.vertices.emplace_back(p.x(), p.y(), p.z());
   for (const auto& t : triangles) soup.facets.push_back({int(t[0]), int(t[1]), int(t[2])});
   return soup;
 }
@@ -94,7 +94,7 @@ Mesh Tidied(Mesh mesh) {
 }  // namespace
 
 StageResult CleanSurface(const object::PolygonSoup& soup) {
-  std::vector<Point> points;
+  std::vector<MeshPoint> points;
   for (const auto& v : soup.vertices) points.emplace_back(v.x(), v.y(), v.z());
   const double diameter = object::ComputeDiameter(soup.vertices);
   const std::vector<int> twin = FindTwins(soup.vertices, kWeldDistance * diameter);

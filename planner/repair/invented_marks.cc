@@ -40,7 +40,7 @@ PolygonSoup TrianglesOf(const PolygonSoup& soup, bool marked) {
 }
 
 /// Points of a triangle that are looked at: its centre, and halfway to its corners.
-std::array<Vector3d, 4> PointsOf(const PolygonSoup& solid, std::size_t facet) {
+std::array<Vector3d, 4> CornersOf(const PolygonSoup& solid, std::size_t facet) {
   const auto& f = solid.facets[facet];
   const Vector3d &a = solid.vertices[f[0]], &b = solid.vertices[f[1]], &c = solid.vertices[f[2]];
   const Vector3d centre = (a + b + c) / 3;
@@ -66,7 +66,7 @@ void InheritMarks(const PolygonSoup& original, PolygonSoup& solid) {
   }
   const SurfaceDistance to_invented(invented), to_known(known);
   for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-    const std::array<Vector3d, 4> points = PointsOf(solid, f);
+    const std::array<Vector3d, 4> points = CornersOf(solid, f);
     if (std::ranges::any_of(points, [&](const Vector3d& p) {
           return to_invented.DistanceTo(p) < to_known.DistanceTo(p);
         })) {

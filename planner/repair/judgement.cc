@@ -12,7 +12,7 @@ namespace regrasp::repair {
 
 namespace {
 
-std::string Percent(double share) { return FormatShort(100 * share, 3) + " %"; }
+std::string PercentOf(double share) { return FormatShort(100 * share, 3) + " %"; }
 
 }  // namespace
 
@@ -51,21 +51,21 @@ Judgement JudgeShape(const Comparison& comparison, const Original& original,
     return {Shortfall::kTooFar,
             "the solid is too far from its surface: 95 % of what is seen from outside lies "
             "within " +
-                Percent(deviation) + " of the diameter, " + Percent(options.max_deviation) +
+                PercentOf(deviation) + " of the diameter, " + PercentOf(options.max_deviation) +
                 " are allowed (--max-deviation)",
             deviation};
   }
   if (options.thickness) return {};
   if (comparison.invented_share > kMostInvented) {
     return {Shortfall::kNotAllThere,
-            "the surface is not all there: " + Percent(comparison.invented_share) +
-                " of the solid's would be invented, " + Percent(kMostInvented) +
+            "the surface is not all there: " + PercentOf(comparison.invented_share) +
+                " of the solid's would be invented, " + PercentOf(kMostInvented) +
                 " at most are taken; scan the other sides too, or give an open sheet a wall "
                 "(--solidify THICKNESS)"};
   }
   if (original.open && comparison.thin_share > kMostThin) {
-    return {Shortfall::kSheet, "it is an open sheet: " + Percent(comparison.thin_share) +
-                                   " of the solid would be thinner than " + Percent(kThinWall) +
+    return {Shortfall::kSheet, "it is an open sheet: " + PercentOf(comparison.thin_share) +
+                                   " of the solid would be thinner than " + PercentOf(kThinWall) +
                                    " of the diameter; give it a wall (--solidify THICKNESS)"};
   }
   return {};

@@ -22,7 +22,7 @@ namespace regrasp::repair {
 
 namespace {
 
-using Point = Kernel::Point_3;
+using CloudPoint = Kernel::Point_3;
 using Search = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<Kernel>>;
 
 /// A triangle with an edge longer than this, in typical distances between neighbours, bridges what
@@ -39,9 +39,9 @@ double MiddleOf(std::vector<double> values) {
 }
 
 /// The middle one of the distances from points to their nearest others.
-double TypicalDistance(const Search::Tree& tree, const std::vector<Point>& points) {
+double TypicalDistance(const Search::Tree& tree, const std::vector<CloudPoint>& points) {
   std::vector<double> distances;
-  for (const Point& p : points) {
+  for (const CloudPoint& p : points) {
     Search search(tree, p, 2);  // itself first
     distances.push_back(std::sqrt(std::next(search.begin())->second));
   }
@@ -49,7 +49,7 @@ double TypicalDistance(const Search::Tree& tree, const std::vector<Point>& point
 }
 
 /// How widely the neighbours of a point are spread across their plane, over how widely along it.
-double ScatterAt(const Search::Tree& tree, const Point& p) {
+double ScatterAt(const Search::Tree& tree, const CloudPoint& p) {
   constexpr int kNeighbors = 12;
   Search search(tree, p, 1 + kNeighbors);
   Eigen::Matrix3Xd spread(3, std::distance(search.begin(), search.end()));
@@ -64,7 +64,7 @@ double ScatterAt(const Search::Tree& tree, const Point& p) {
 }
 
 /// The middle one of points' scatters.
-double ScatterOf(const Search::Tree& tree, const std::vector<Point>& points) {
+double ScatterOf(const Search::Tree& tree, const std::vector<CloudPoint>& points) {
   /// Of more points so many are looked at, evenly among those sorted by place.
   constexpr std::size_t kLooks = 10000;
   const std::size_t step = 1 + points.size() / kLooks;
@@ -76,7 +76,7 @@ double ScatterOf(const Search::Tree& tree, const std::vector<Point>& points) {
 }
 
 /// A number that is a point's own.
-std::uint64_t OwnNumber(const Point& p) {
+std::uint64_t OwnNumber(const CloudPoint& p) {
   std::uint64_t bits = 0;
   for (const double x : {p.x(), p.y(), p.z()}) {  // the mixing of splitmix64
     bits += std::bit_cast<std::uint64_t>(x) + 0x9e3779b97f4a7c15;
@@ -125,7 +125,7 @@ void MakeCanonical(object::PolygonSoup& soup) {
 }  // namespace
 
 StageResult ReconstructSurface(const object::PolygonSoup& cloud) {
-  std::vector<Point> points;
+  std::vector<CloudPoint> points;
   for (const auto& v : cloud.vertices) points.emplace_back(v.x(), v.y(), v.z());
   std::ranges::sort(points);
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -136,7 +136,7 @@ StageResult ReconstructSurface(const object::PolygonSoup& cloud) {
   CGAL::advancing_front_surface_reconstruction(points.begin(), points.end(),
                                                std::back_inserter(triangles), RadiusOrPoints());
   StageResult result;
-  for (const Point& p : points) result.soup.vertices.emplace_back(p.x(), p.y(), p.z());
+  for (const CloudPoint& p : points) result.soup.vertices.emplace_back(p.x(), p.y(), p.z());
   for (const auto& [a, b, c] : triangles) {
     const double edge = std::sqrt(std::max({CGAL::squared_distance(points[a], points[b]),
                                             CGAL::squared_distance(points[b], points[c]),

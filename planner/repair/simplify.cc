@@ -24,9 +24,9 @@ namespace sms = CGAL::Surface_mesh_simplification;
 namespace pmp = CGAL::Polygon_mesh_processing;
 
 /// Where facets meet less is collapsed; so often at most.
-constexpr int kMostRounds = 12;
+constexpr int kMostSimplifications = 12;
 /// Where so many pairs of facets meet it is no matter of some places.
-constexpr std::size_t kMostPairs = 2000;
+constexpr std::size_t kMostClosePairs = 2000;
 
 using IsKept = Mesh::Property_map<Mesh::Edge_index, bool>;
 using Boxes = std::vector<CGAL::Bbox_3>;
@@ -63,7 +63,7 @@ Mesh Collapsed(const Mesh& fine, Care care, const Boxes& kept, int facets) {
 Boxes MeetingIn(const Mesh& mesh) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   pmp::self_intersections(faces(mesh), mesh, std::back_inserter(pairs),
-                          CGAL::parameters::maximum_number(kMostPairs));
+                          CGAL::parameters::maximum_number(kMostClosePairs));
   Boxes boxes;
   for (const auto& [one, other] : pairs) {
     const CGAL::Bbox_3 a = pmp::face_bbox(one, mesh);
@@ -78,12 +78,12 @@ Boxes MeetingIn(const Mesh& mesh) {
 /// Nullopt where facets meet all the same, or where that takes more facets.
 std::optional<Mesh> CollapsedApart(const Mesh& fine, Care care, int facets) {
   Boxes kept;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostSimplifications; ++round) {
     Mesh mesh = Collapsed(fine, care, kept, facets);
     if (std::ssize(mesh.faces()) > facets) return std::nullopt;
     const Boxes meeting = MeetingIn(mesh);
     if (meeting.empty()) return mesh;
-    if (meeting.size() == kMostPairs) return std::nullopt;
+    if (meeting.size() == kMostClosePairs) return std::nullopt;
     kept.insert(kept.end(), meeting.begin(), meeting.end());
   }
   return std::nullopt;

@@ -26,16 +26,16 @@ Quadruple RepresentativesOf(const ContactClusters& clusters, const FourClusters&
 /// Contacts for each of the four of a grasp.
 using Sets = std::array<std::vector<int>, 4>;
 
-bool Contains(std::span<const int> contacts, int contact) {
+bool ContainsContact(std::span<const int> contacts, int contact) {
   return std::find(contacts.begin(), contacts.end(), contact) != contacts.end();
 }
 
 /// Whether two different contacts of a grasp are one of each set.
 bool HasOneOfEach(const Quadruple& grasp, const std::vector<int>& a, const std::vector<int>& b) {
   for (const int one : grasp) {
-    if (!Contains(a, one)) continue;
+    if (!ContainsContact(a, one)) continue;
     for (const int other : grasp) {
-      if (other != one && Contains(b, other)) return true;
+      if (other != one && ContainsContact(b, other)) return true;
     }
   }
   return false;
@@ -51,7 +51,7 @@ Replacements OneOfEach(const Sets& sets, const Quadruple& grasp, int contact_cou
   Replacements replacements{{sets.begin(), sets.end()}, std::vector<int>(contact_count, 0), {}};
   for (int i = 0; i < 4; ++i) {
     for (int moved = 0; moved < 4; ++moved) {
-      if (moved == i || !Contains(sets[i], grasp[moved])) continue;
+      if (moved == i || !ContainsContact(sets[i], grasp[moved])) continue;
       std::vector<int>& both = replacements.lists[i];
       std::erase(both, grasp[moved]);
       both.insert(both.end(), sets[moved].begin(), sets[moved].end());

@@ -8,7 +8,7 @@ namespace regrasp::search {
 
 namespace {
 
-constexpr int kUnreached = std::numeric_limits<int>::max();
+constexpr int kUnreachedCount = std::numeric_limits<int>::max();
 
 /// Breadth-first search that is advanced vertex by vertex.
 class Flood {
@@ -52,7 +52,7 @@ class Flood {
 class AStar {
  public:
   AStar(const SwitchingGraph& graph, int start, int goal, const VertexFilter& admits)
-      : graph_(graph), goal_(goal), admits_(admits), best_(graph.vertex_count(), kUnreached) {
+      : graph_(graph), goal_(goal), admits_(admits), best_(graph.vertex_count(), kUnreachedCount) {
     Push(start, 0);
   }
 

@@ -18,7 +18,7 @@ constexpr double kNearer = 0.85;
 constexpr double kLeastReach = 1e-3;
 
 /// Halvings with which a lower level is found after a move.
-constexpr int kHalvings = 4;
+constexpr int kTransitionHalvings = 4;
 
 /// Where the later grasp needs more than this at the beginning it is left alone, radians.
 constexpr double kHighest = 1.2;
@@ -85,7 +85,7 @@ class Descent {
       level_ = below;
       return;
     }
-    for (int i = 0; i < kHalvings; ++i) {
+    for (int i = 0; i < kTransitionHalvings; ++i) {
       const double middle = (below + level_) / 2;
       (space_.HoldsAt(after, middle) ? level_ : below) = middle;
     }

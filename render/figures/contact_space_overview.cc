@@ -20,12 +20,12 @@ using Eigen::Vector2d;
 namespace {
 
 // Points.
-constexpr double kTopSpace = 8;
-constexpr double kRightSpace = 13;
+constexpr double kOverviewTopSpace = 8;
+constexpr double kOverviewRightSpace = 13;
 constexpr double kRingGap = 22;
-constexpr double kPathWidth = 1;
+constexpr double kOverviewPathWidth = 1;
 constexpr double kSwitchWidth = 0.7;
-constexpr double kDotRadius = 1.6;
+constexpr double kOverviewDotRadius = 1.6;
 constexpr double kMarkRadius = 4.4;
 
 /// A ring is drawn at least this share as long as the longest one.
@@ -33,7 +33,7 @@ constexpr double kLeastShare = 0.25;
 /// Boundaries of more edges than this are as wide as two columns.
 constexpr int kManyEdges = 60;
 
-constexpr Color kHatchInk = {120, 126, 136};
+constexpr Color kOverviewHatchInk = {120, 126, 136};
 constexpr Color kOtherBorder = {150, 155, 164};
 
 /// What it costs a number to cover things: the weights of label_layout.h.
@@ -51,8 +51,8 @@ class Overview {
   /// All outlive this object.
   Overview(const contour::Boundary& boundary, const ContactSpaceMap& map, const AxisUnit& unit);
 
-  [[nodiscard]] double width() const { return kLeftSpace + extent_ + kRightSpace; }
-  [[nodiscard]] double height() const { return kTopSpace + extent_ + kBottomSpace; }
+  [[nodiscard]] double width() const { return kLeftSpace + extent_ + kOverviewRightSpace; }
+  [[nodiscard]] double height() const { return kOverviewTopSpace + extent_ + kBottomSpace; }
   void Draw(cairo_t* cr) const;
 
  private:
@@ -89,7 +89,7 @@ Overview::Overview(const contour::Boundary& boundary, const ContactSpaceMap& map
   for (double& share : shares) share = std::max(share, kLeastShare * longest);
   const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
   const bool wide = shares.size() > 1 || edges > kManyEdges;
-  extent_ = (wide ? kTwoColumnWidth : kColumnWidth) - kLeftSpace - kRightSpace;
+  extent_ = (wide ? kTwoColumnWidth : kColumnWidth) - kLeftSpace - kOverviewRightSpace;
   const double drawn = extent_ - static_cast<double>(shares.size() - 1) * kRingGap;
   double from = 0;
   for (const double share : shares) {
@@ -104,7 +104,7 @@ PlotWindow Overview::WindowOf(const std::array<contour::RingIndex, 2>& rings) co
   PlotWindow window;
   window.high = {boundary_.perimeter(rings[0]), boundary_.perimeter(rings[1])};
   window.scale = Vector2d(across.length, up.length).cwiseQuotient(window.high);
-  window.corner = {kLeftSpace + across.from, kTopSpace + extent_ - up.from - up.length};
+  window.corner = {kLeftSpace + across.from, kOverviewTopSpace + extent_ - up.from - up.length};
   return window;
 }
 
@@ -120,7 +120,7 @@ void Overview::DrawSets(cairo_t* cr, const std::array<contour::RingIndex, 2>& ri
     FillPieces(cr, window, pieces, set.name ? PlanSetTint(*set.name) : OtherSetTint(set.set));
     if (set.stretching) hatched.insert(hatched.end(), pieces.begin(), pieces.end());
   }
-  HatchPieces(cr, window, hatched, kHatchInk);
+  HatchPieces(cr, window, hatched, kOverviewHatchInk);
   for (const bool named : {false, true}) {
     std::vector<Segment> border;
     for (const MapSet& set : map_.sets) {
@@ -161,17 +161,17 @@ void Overview::DrawPlan(cairo_t* cr) const {
       cairo_line_to(cr, at.x(), at.y());
     }
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_line_width(cr, kPathWidth);
+    cairo_set_line_width(cr, kOverviewPathWidth);
     cairo_stroke(cr);
   }
-  for (const SpacePoint& rest : map_.rests) DrawDot(cr, ToPage(rest), kDotRadius);
+  for (const SpacePoint& rest : map_.rests) DrawDot(cr, ToPage(rest), kOverviewDotRadius);
 }
 
 /// True iff a set's largest square has space for its name, and no grasp is there.
 bool Overview::HasClearanceAt(const MapSet& set, const SpacePoint& place) const {
   const double half = set.largest * WindowOf(place.rings).scale.minCoeff();
   return half >= kMarkRadius && std::ranges::none_of(map_.rests, [&](const SpacePoint& rest) {
-           return (ToPage(rest) - ToPage(place)).norm() < kMarkRadius + kDotRadius;
+           return (ToPage(rest) - ToPage(place)).norm() < kMarkRadius + kOverviewDotRadius;
          });
 }
 
@@ -184,7 +184,7 @@ void Overview::DrawMarks(cairo_t* cr) const {
     const Vector2d at = ToPage(map_.rests[i]);
     marks.push_back(std::to_string(i));
     anchors.push_back({at, Vector2d::Zero()});
-    obstacles.push_back({at, at, kDotRadius, kDotWeight});
+    obstacles.push_back({at, at, kOverviewDotRadius, kDotWeight});
   }
   for (const MapSwitch& step : map_.switches) {
     obstacles.push_back({ToPage(step.from), ToPage(step.to), 0, kTravelWeight});

@@ -29,7 +29,8 @@ struct MarkerShape {
 constexpr std::array<MarkerShape, 5> kShapes = {
     {{0, 0}, {4, kPi / 4}, {3, -kPi / 2}, {4, 0}, {5, -kPi / 2}}};
 
-void AddPath(cairo_t* cr, const MarkerShape& shape, const Eigen::Vector2d& centre, double radius) {
+void AddMarkerPath(cairo_t* cr, const MarkerShape& shape, const Eigen::Vector2d& centre,
+                   double radius) {
   if (shape.corners == 0) return SetCircle(cr, centre, radius);
   cairo_new_path(cr);
   const double step = 2 * kPi / shape.corners;
@@ -68,7 +69,7 @@ void DrawFingerMarker(cairo_t* cr, const FingerMarker& marker) {
   }
   const int count = static_cast<int>(kShapes.size());
   const MarkerShape& shape = kShapes[((marker.finger % count) + count) % count];
-  AddPath(cr, shape, marker.centre, marker.radius);
+  AddMarkerPath(cr, shape, marker.centre, marker.radius);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_MITER);
   if (marker.style == MarkerStyle::kHollow) {
     FillAndStroke(cr, kWhite, color, kOutlineWidth);

@@ -20,7 +20,7 @@ using Eigen::Vector2d;
 using Region = polygon::ConvexRegion<double>;
 using Frame = polygon::EdgeFrame<double>;
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 /// Where the cones' intersection has a smaller area, over D², they only touch and rounding made the
 /// rest: the tolerance for reading points, squared.
@@ -134,11 +134,11 @@ double LargestSpanningAngle(const grasp::Grasp& grasp) {
   std::vector<double> angles;
   for (const grasp::Contact& contact : grasp) angles.push_back(AngleOf(Head(contact.n)));
   std::sort(angles.begin(), angles.end());
-  double largest_gap = angles.front() + 2 * kPi - angles.back();
+  double largest_gap = angles.front() + 2 * kHalfTurn - angles.back();
   for (std::size_t i = 1; i < angles.size(); ++i) {
     largest_gap = std::max(largest_gap, angles[i] - angles[i - 1]);
   }
-  return (kPi - largest_gap) / 2;
+  return (kHalfTurn - largest_gap) / 2;
 }
 
 std::vector<DoubleCone> FrictionCones(const grasp::Grasp& grasp, double half_angle) {
@@ -190,8 +190,9 @@ std::optional<Vector2d> SeparatingDirection(const polygon::DirectionCone<double>
   const double width = std::atan2(Cross(right, left), right.dot(left));
   std::vector<double> turns = {0, width};
   for (const Vector2d& line : {Vector2d(b - a), Vector2d(c - a)}) {
-    const double turn = std::remainder(AngleOf(line) - start, kPi);  // the line, not its direction
-    for (const double t : {turn, turn + kPi}) {
+    const double turn =
+        std::remainder(AngleOf(line) - start, kHalfTurn);  // the line, not its direction
+    for (const double t : {turn, turn + kHalfTurn}) {
       if (t > 0 && t < width) turns.push_back(t);
     }
   }
@@ -241,7 +242,7 @@ std::optional<GraspDiagram> TryParallel(const object::Polygon& polygon, const gr
 
 GraspDiagram DescribeGrasp(const object::Polygon& polygon, const grasp::Grasp& grasp,
                            double half_angle) {
-  if (!(half_angle > 0) || !(half_angle < kPi / 2)) {
+  if (!(half_angle > 0) || !(half_angle < kHalfTurn / 2)) {
     throw std::invalid_argument("DescribeGrasp: the half-angle is not in (0, pi/2)");
   }
   for (const grasp::Contact& contact : grasp) {

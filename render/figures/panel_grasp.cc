@@ -24,14 +24,14 @@ constexpr double kBeyondFocus = 1.12;  ///< of the distance from the contact to 
 constexpr double kLongestOuter = kPanelMargin - 2;  ///< so that cones end on the panel
 constexpr double kConeInset = 1;                    ///< from the panel's border
 constexpr double kShortestInner = 12;               ///< whatever space there is
-constexpr Hatch kHatch = {.slope = 1, .spacing = 3.2, .width = 0.35};
+constexpr Hatch kConeHatch = {.slope = 1, .spacing = 3.2, .width = 0.35};
 constexpr double kCellBorder = 0.5;
 constexpr double kForceLine = 0.55;
 constexpr double kForceLineInset = 4;  ///< from the panel's border
-constexpr double kDash = 3;
+constexpr double kConeDash = 3;
 constexpr double kFocusRadius = 1.7;
 
-constexpr Color kHatchInk = {168, 174, 184};
+constexpr Color kConeHatchInk = {168, 174, 184};
 constexpr Color kCellInk = {96, 104, 118};
 
 /// What is between two distances from the apex of one side of a cone.
@@ -145,7 +145,7 @@ void DrawFocusCell(cairo_t* cr, const GraspDiagram& grasp, const PanelView& view
   cairo_new_path(cr);
   for (const Outline& part : grasp.focus_cell) AddOutline(cr, OnPanel(part, view));
   cairo_clip(cr);
-  DrawHatch(cr, {0, 0}, {view.width, view.height}, kHatch, kHatchInk);
+  DrawHatch(cr, {0, 0}, {view.width, view.height}, kConeHatch, kConeHatchInk);
   cairo_restore(cr);
   cairo_new_path(cr);
   for (const Outline& part : grasp.focus_cell) AddOutline(cr, OnPanel(part, view));
@@ -164,7 +164,7 @@ void DrawForceLines(cairo_t* cr, const GraspDiagram& grasp, const PanelView& vie
     }
   }
   if (grasp.kind == DiagramKind::kTwoFinger) {
-    cairo_set_dash(cr, &kDash, 1, 0);
+    cairo_set_dash(cr, &kConeDash, 1, 0);
     StrokeLine(cr, view.ToPanel(grasp.cones[0].apex), view.ToPanel(grasp.cones[1].apex),
                kForceLine);
     cairo_set_dash(cr, nullptr, 0, 0);

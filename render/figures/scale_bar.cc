@@ -13,7 +13,7 @@ namespace {
 // Points.
 constexpr double kInset = 5;  ///< from the panel's right border
 constexpr double kWidth = 0.6;
-constexpr double kTick = 1.5;
+constexpr double kBarTick = 1.5;
 constexpr double kTextAbove = 2.5;
 
 constexpr double kLongest = 0.25;  ///< of the panel's width
@@ -31,7 +31,7 @@ void DrawScaleBar(cairo_t* cr, const Eigen::Vector2d& panel, double points_per_m
   const double y = panel.y() - kWidth;
   SetColor(cr, kInk);
   StrokeLine(cr, {left, y}, {right, y}, kWidth);
-  for (const double x : {left, right}) StrokeLine(cr, {x, y - kTick}, {x, y}, kWidth);
+  for (const double x : {left, right}) StrokeLine(cr, {x, y - kBarTick}, {x, y}, kWidth);
   DrawLabel(cr, FormatLength(metres), {(left + right) / 2, y - kTextAbove}, TextAlign::kCentre);
 }
 

@@ -23,22 +23,22 @@ using Eigen::Vector3d;
 namespace {
 
 // Points.
-constexpr double kMargin = 10;          ///< for markers, arrow heads and numbers
-constexpr double kTallestPanel = 1.25;  ///< over its width
+constexpr double kMargin = 10;               ///< for markers, arrow heads and numbers
+constexpr double kTallestSolidPanel = 1.25;  ///< over its width
 constexpr double kEdge = 0.8;
 constexpr double kHiddenEdge = 0.35;
 constexpr double kHiddenDash = 1.6;
 constexpr double kStem = 2.0;
-constexpr double kConeBorder = 0.4;
-constexpr double kArrowWidth = 1.0;
-constexpr double kPathWidth = 0.9;
+constexpr double kSolidConeBorder = 0.4;
+constexpr double kSolidArrowWidth = 1.0;
+constexpr double kSolidPathWidth = 0.9;
 
-constexpr double kConeFill = 0.26;  ///< opacity
+constexpr double kSolidConeFill = 0.26;  ///< opacity
 constexpr Color kHiddenInk = {120, 128, 142};
 constexpr int kConeSides = 48;
 
 // What it costs a number to cover things: the weights of label_layout.h.
-constexpr double kMarkerWeight = 2;
+constexpr double kSolidMarkerWeight = 2;
 constexpr double kStemWeight = 1.5;
 constexpr double kEdgeWeight = 0.25;
 
@@ -102,8 +102,8 @@ class SolidPainter {
       const double turn = 2 * M_PI * i / kConeSides;
       rim.push_back(camera_(
           glyph.contact +
-          kConeLength * (std::cos(half_angle) * axis +
-                         std::sin(half_angle) * (std::cos(turn) * u + std::sin(turn) * v))));
+          kSolidConeLength * (std::cos(half_angle) * axis +
+                              std::sin(half_angle) * (std::cos(turn) * u + std::sin(turn) * v))));
     }
     const Color color = FingerColor(glyph.finger);
     cairo_new_path(cr_);
@@ -113,10 +113,10 @@ class SolidPainter {
     }
     AddOutline(cr_, TurnedLeft(rim));
     cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_WINDING);
-    Fill(cr_, color, kConeFill);
+    Fill(cr_, color, kSolidConeFill);
     cairo_new_path(cr_);
     AddOutline(cr_, rim);
-    Stroke(cr_, Paler(color, 0.7), kConeBorder);
+    Stroke(cr_, Paler(color, 0.7), kSolidConeBorder);
   }
 
   void DrawStem(const FingerGlyph& glyph) {
@@ -130,13 +130,13 @@ class SolidPainter {
     std::vector<Vector2d> path;
     if (HasPath(glyph)) {
       for (const Vector3d& p : glyph.path) path.push_back(camera_(p));
-      StrokeArrow(cr_, path, kPathWidth);
+      StrokeArrow(cr_, path, kSolidPathWidth);
     } else if (glyph.role == plan::FingerRole::kPlaced) {
       path = {camera_(glyph.end), camera_(glyph.stem_end)};
-      StrokeArrow(cr_, path, kArrowWidth);
+      StrokeArrow(cr_, path, kSolidArrowWidth);
     } else if (glyph.role == plan::FingerRole::kReleased) {
       path = {camera_(glyph.stem_end), camera_(glyph.end)};
-      StrokeArrow(cr_, path, kArrowWidth);
+      StrokeArrow(cr_, path, kSolidArrowWidth);
     }
   }
 
@@ -174,7 +174,7 @@ class SolidPainter {
       obstacles.push_back({contact, end, kStem, kStemWeight});
     }
     for (const FingerMarker& marker : markers) {
-      obstacles.push_back({marker.centre, marker.centre, marker.reach(), kMarkerWeight});
+      obstacles.push_back({marker.centre, marker.centre, marker.reach(), kSolidMarkerWeight});
     }
     render::DrawNumbers(cr_, names, anchors, obstacles, size);
   }
@@ -244,8 +244,8 @@ SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan
       extend(glyph.end);
       extend(glyph.contact);
       // The cone fits into a ball about its rim.
-      const Vector3d rim = glyph.contact - kConeLength * std::cos(half_angle_) * glyph.outward;
-      const double radius = kConeLength * std::sin(half_angle_);
+      const Vector3d rim = glyph.contact - kSolidConeLength * std::cos(half_angle_) * glyph.outward;
+      const double radius = kSolidConeLength * std::sin(half_angle_);
       for (const int axis : {0, 1}) {
         extend(rim + radius * axes_.col(axis));
         extend(rim - radius * axes_.col(axis));
@@ -259,7 +259,7 @@ SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan
 double SolidPanels::HeightFor(double width) const {
   const Vector2d size = high_ - low_;
   const double height = (width - 2 * kMargin) * size.y() / size.x() + 2 * kMargin + kScaleBarSpace;
-  return std::min(height, kTallestPanel * width);
+  return std::min(height, kTallestSolidPanel * width);
 }
 
 void SolidPanels::Draw(cairo_t* cr, int index, double width) const {

@@ -21,7 +21,7 @@ constexpr double kSpace = 1.1;   ///< that an inset takes, of its radius
 constexpr double kTravel = 3.6;  ///< of the magnified path
 constexpr double kDisc = 0.8;    ///< of a finger's place
 constexpr double kArrow = 0.22;
-constexpr double kRim = 0.09;
+constexpr double kInsetRim = 0.09;
 constexpr double kText = 0.8;
 
 constexpr double kMostMagnified = 200;
@@ -84,7 +84,7 @@ std::vector<Obstacle> DrawInset(const CairoImage& page, const AlignInset& inset,
   const double font = style.font;
   const Camera& camera = inset.camera;
   SetColor(cr, ground.ink);
-  StrokeLine(cr, inset.centre, inset.ball, kRim * font);
+  StrokeLine(cr, inset.centre, inset.ball, kInsetRim * font);
   cairo_save(cr);
   SetCircle(cr, inset.centre, inset.radius);
   cairo_clip(cr);
@@ -109,7 +109,7 @@ std::vector<Obstacle> DrawInset(const CairoImage& page, const AlignInset& inset,
   FillWithHalo(cr, ground.ink, 0.3 * font, ground.halo);
   cairo_restore(cr);
   SetCircle(cr, inset.centre, inset.radius);
-  Stroke(cr, ground.ink, kRim * font);
+  Stroke(cr, ground.ink, kInsetRim * font);
   return {{inset.centre, inset.centre, inset.radius, kWeight}};
 }
 

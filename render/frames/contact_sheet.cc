@@ -14,14 +14,14 @@ namespace {
 /// The narrowest pictures (pixels), and those of a sheet that would be higher than this otherwise:
 /// it is wider than asked for then.
 constexpr int kNarrow = 190;
-constexpr int kNarrowest = 100;
+constexpr int kNarrowestSheet = 100;
 constexpr int kHighest = 12'000;
 constexpr double kSheetAspect = 4.0 / 3;
 
 /// The font of labels: a share of the picture's width, but no smaller (pixels), and no larger than
 /// this share of the sheet's width.
-constexpr double kFontSize = 0.05;
-constexpr double kSmallestFont = 11;
+constexpr double kSheetFontSize = 0.05;
+constexpr double kSmallestSheetFont = 11;
 constexpr double kLargestFont = 1.0 / 70;
 
 constexpr double kGap = 0.04;         ///< widths of a picture
@@ -72,11 +72,11 @@ SheetGrid::SheetGrid(int count, int picture_width, int picture_height, int sheet
     columns = std::clamp(number, 1, count);
     rows = (count + columns - 1) / columns;
     width = std::clamp(static_cast<int>(sheet_width / (columns + (columns + 1) * kGap)),
-                       std::min(kNarrowest, picture_width), picture_width);
+                       std::min(kNarrowestSheet, picture_width), picture_width);
     height = std::max(1, static_cast<int>(std::lround(aspect * width)));
     gap = std::max(1, static_cast<int>(kGap * width));
-    font = std::clamp(kFontSize * width, kSmallestFont,
-                      std::max(kSmallestFont, kLargestFont * sheet_width));
+    font = std::clamp(kSheetFontSize * width, kSmallestSheetFont,
+                      std::max(kSmallestSheetFont, kLargestFont * sheet_width));
     label = static_cast<int>(std::lround(kLabelHeight * font));
     if (has_heading) heading = static_cast<int>(std::lround(kHeadingHeight * label));
   };

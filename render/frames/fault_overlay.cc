@@ -20,15 +20,16 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // In font sizes.
-constexpr double kMargin = 1.33;
-constexpr double kCaptionMargin = 2.6;
+constexpr double kFaultMargin = 1.33;
+constexpr double kFaultCaptionMargin = 2.6;
 constexpr double kLineWidth = 0.11;
 constexpr double kTick = 0.42;
-constexpr double kHalo = 0.32;
+constexpr double kFaultHalo = 0.32;
 constexpr double kDash = 0.35;
-constexpr double kRingGap = 0.3;
+constexpr double kFaultRingGap = 0.3;
 constexpr double kAbsentRadius = 0.9;
-constexpr double kLeader = 1.6;  ///< a text farther than this from what it tells has a line to it
+constexpr double kFaultLeader =
+    1.6;  ///< a text farther than this from what it tells has a line to it
 
 // In diameters of the object.
 constexpr double kNormalLength = 0.2;
@@ -86,7 +87,8 @@ class Overlay {
 
   /// A ring around a finger at fault, which the body may hide.
   void DrawRing(const FingerGlyph& glyph) {
-    const double radius = glyph.ball_radius * camera_.PixelsPerUnit(glyph.ball) + kRingGap * font_;
+    const double radius =
+        glyph.ball_radius * camera_.PixelsPerUnit(glyph.ball) + kFaultRingGap * font_;
     for (const bool white : {true, false}) {
       SetCircle(cr_, camera_.Project(glyph.ball), radius);
       Stroke(cr_, white ? style_.ground.halo : kFaultRed, (white ? 2.6 : 1.4) * kLineWidth * font_);
@@ -223,7 +225,7 @@ class Overlay {
   /// At the top left, in as many lines as it takes.
   void DrawHeading(const std::string& text) {
     if (style_.font < kSmallestFont) return;
-    const double margin = kMargin * font_;
+    const double margin = kFaultMargin * font_;
     SelectFont(cr_, font_, /*bold=*/true);
     base_ = margin;
     for (const std::string& line : Wrap(text, camera_.width - 2 * margin)) {
@@ -235,7 +237,7 @@ class Overlay {
 
   /// Under the heading: a finger at fault that is not in the picture.
   void DrawAbsent(FingerIndex finger) {
-    const double margin = kMargin * font_;
+    const double margin = kFaultMargin * font_;
     const double radius = kAbsentRadius * font_;
     base_ += 0.4 * font_ + radius;
     const Vector2d centre(margin + radius, base_);
@@ -316,7 +318,7 @@ class Overlay {
   void Text(const Vector2d& at, const std::string& text) {
     cairo_move_to(cr_, at.x(), at.y());
     cairo_text_path(cr_, text.c_str());
-    FillWithHalo(cr_, kFaultRed, kHalo * font_, style_.ground.halo);
+    FillWithHalo(cr_, kFaultRed, kFaultHalo * font_, style_.ground.halo);
   }
 
   void Label(const Vector2d& at, const std::string& text, Color color, double gap = 0) {
@@ -373,9 +375,10 @@ class Overlay {
     const Vector2d half(TextWidth(cr_, text) / 2, 0.6 * font_);
     const Vector2d margin = half + Vector2d::Constant(0.4 * font_);
     // Off the border, below the heading and above the caption.
-    const Vector2d low = half + Vector2d(kMargin * font_, std::max(kMargin * font_, base_));
+    const Vector2d low =
+        half + Vector2d(kFaultMargin * font_, std::max(kFaultMargin * font_, base_));
     const Vector2d high = Vector2d(camera_.width, camera_.height) - half -
-                          Vector2d(kMargin * font_, kCaptionMargin * font_);
+                          Vector2d(kFaultMargin * font_, kFaultCaptionMargin * font_);
     double least = std::numeric_limits<double>::infinity();
     Vector2d best = at;
     for (const double distance : {0.9, 1.8, 3.0, 4.5, 6.5}) {
@@ -393,13 +396,13 @@ class Overlay {
       }
     }
     const Vector2d near = at.cwiseMax(best - half).cwiseMin(best + half);
-    if ((near - at).norm() > gap + kLeader * font_) {
+    if ((near - at).norm() > gap + kFaultLeader * font_) {
       SetColor(cr_, color);
       StrokeLine(cr_, near, at, 0.6 * kLineWidth * font_);
     }
     cairo_move_to(cr_, best.x() - half.x(), best.y() + 0.36 * font_);
     cairo_text_path(cr_, text.c_str());
-    FillWithHalo(cr_, color, kHalo * font_, style_.ground.halo);
+    FillWithHalo(cr_, color, kFaultHalo * font_, style_.ground.halo);
     taken_.push_back({best - half, best + half});
   }
 

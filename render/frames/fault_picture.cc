@@ -16,10 +16,10 @@ using Eigen::Vector3d;
 using plan::Reason;
 
 // In diameters of the object.
-constexpr double kTooShort = 0.03;   ///< a distance that is hardly seen is drawn …
-constexpr double kLeastSeen = 0.05;  ///< as long as this …
-constexpr double kMostSeen = 0.35;   ///< and a longer one, to a place off the surface, so
-constexpr double kFarAway = 1.5;     ///< from the centroid: not drawn
+constexpr double kTooShort = 0.03;        ///< a distance that is hardly seen is drawn …
+constexpr double kLeastSeen = 0.05;       ///< as long as this …
+constexpr double kMostSeen = 0.35;        ///< and a longer one, to a place off the surface, so
+constexpr double kFarFromCentroid = 1.5;  ///< from the centroid: not drawn
 
 /// Lengths are not drawn longer than by this factor: what is left is as good as zero.
 constexpr double kMostStretch = 2000;
@@ -90,7 +90,7 @@ class FaultSketch {
     return picture_.snapshot.X_WO.linear() * n_O.stableNormalized();
   }
   [[nodiscard]] bool IsNear(const Vector3d& p_W) const {
-    return (p_W - picture_.marks.centroid).stableNorm() <= kFarAway * diameter_m();
+    return (p_W - picture_.marks.centroid).stableNorm() <= kFarFromCentroid * diameter_m();
   }
 
   [[nodiscard]] std::string PlaceText() const {
@@ -127,7 +127,7 @@ class FaultSketch {
     const Vector3d away = found.p - expected.p;
     const double distance = away.stableNorm();
     const bool off = IsOffSurface(reason_);
-    const double most = reason_ == Reason::kOffSurface ? kMostSeen : kFarAway;
+    const double most = reason_ == Reason::kOffSurface ? kMostSeen : kFarFromCentroid;
     const double stretch = StretchOf(distance / object_.diameter(), most);
     const Vector3d leg =
         away.stableNormalized() * std::min(distance * stretch, 2 * object_.diameter());
@@ -216,7 +216,7 @@ class FaultSketch {
       // As far off as it can be seen: the hand is drawn as it stands.
       const Vector3d expected = X_WP * place.tip->expected;
       const Vector3d away = X_WP * place.tip->found - expected;
-      const double stretch = StretchOf(away.norm() / diameter_m(), kFarAway);
+      const double stretch = StretchOf(away.norm() / diameter_m(), kFarFromCentroid);
       picture_.marks.dimensions.push_back(
           {expected, expected + stretch * away, place.number + StretchText(stretch)});
       picture_.marks.tips.push_back({expected, place.tip->radius});
@@ -232,10 +232,10 @@ class FaultSketch {
     const Vector3d back = *fault_.X_WO_before * Centroid() - picture_.marks.centroid;
     const Eigen::AngleAxisd turn(fault_.X_WO_before->linear() * now.linear().transpose());
     const double motion = back.norm() / diameter_m() + std::abs(turn.angle()) / 2;
-    if (!std::isfinite(motion) || motion > kFarAway) return;
+    if (!std::isfinite(motion) || motion > kFarFromCentroid) return;
     const bool of_hand = fault_.hand && fault_.hand->pose;
     if (reason_ != Reason::kObjectMoved && !of_hand && motion < kTooShort) return;
-    const double stretch = StretchOf(motion, kFarAway);
+    const double stretch = StretchOf(motion, kFarFromCentroid);
     Isometry3d ghost = Isometry3d::Identity();
     ghost.linear() = Eigen::AngleAxisd(stretch * turn.angle(), turn.axis()).matrix() * now.linear();
     ghost.translation() = picture_.marks.centroid + stretch * back - ghost.linear() * Centroid();

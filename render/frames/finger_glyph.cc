@@ -37,7 +37,7 @@ constexpr double kTouching = 1e-3;
 constexpr double kRaySkip = 1e-4;
 
 constexpr double kConeOpacity = 0.5;
-constexpr double kGhostOpacity = 0.33;
+constexpr double kGhostGlyphOpacity = 0.33;
 
 /// The pose of a mesh that opens along +z at the origin: apex at `apex`, opening along `direction`.
 Eigen::Isometry3d PoseAlong(const Vector3d& apex, const Vector3d& direction) {
@@ -76,7 +76,7 @@ void AddTrack(const FingerGlyph& glyph, Color color, const GlyphMeshes& meshes,
   if (!FirstLeg(glyph)) return;
   const Vector3d lift = glyph.outward * kTrackRadius;
   // Which way it stood there is not known.
-  shapes.push_back({Ball{glyph.path.front(), glyph.ball_radius}, color, kGhostOpacity});
+  shapes.push_back({Ball{glyph.path.front(), glyph.ball_radius}, color, kGhostGlyphOpacity});
   shapes.push_back({Ball{glyph.path.front() + lift, 2 * kTrackRadius}, color});
   double before = 0;
   for (std::size_t i = 1; i < glyph.path.size(); ++i) {
@@ -170,7 +170,7 @@ void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const Glyph
                      std::vector<Shape>& shapes) {
   const Color color = glyph.color;
   const bool ghost = glyph.role == plan::FingerRole::kReleased;
-  const double opacity = ghost ? kGhostOpacity : 1;
+  const double opacity = ghost ? kGhostGlyphOpacity : 1;
   shapes.push_back({Ball{glyph.ball, glyph.ball_radius}, color, opacity});
   const Vector3d stem_start = glyph.ball + glyph.outward * (glyph.ball_radius - glyph.stem_radius);
   shapes.push_back({Rod{stem_start, glyph.stem_end, glyph.stem_radius}, color, opacity});

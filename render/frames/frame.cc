@@ -62,7 +62,7 @@ constexpr double kFarAway = 0.5;
 
 /// What stays free of the scene, in font sizes: all around, above it for a heading, and below it
 /// for a caption of two lines.
-constexpr double kMargin = 2.1;
+constexpr double kFrameMargin = 2.1;
 constexpr double kHeadingMargin = 3.75;
 constexpr double kCaptionMargin = 4.6;
 constexpr double kMostMargin = 0.25;  ///< of the image's height
@@ -146,7 +146,7 @@ void PaintRed(const std::vector<FingerIndex>& at_fault, std::vector<FingerGlyph>
 Margins MarginsFor(const FrameOptions& options) {
   const double font = FontSize(options.width, options.height) / options.height;
   const auto margin = [&](double fonts) { return std::min(fonts * font, kMostMargin); };
-  return {margin(kMargin), margin(options.has_heading ? kHeadingMargin : kMargin),
+  return {margin(kFrameMargin), margin(options.has_heading ? kHeadingMargin : kFrameMargin),
           margin(kCaptionMargin)};
 }
 

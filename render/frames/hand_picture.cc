@@ -40,13 +40,13 @@ constexpr double kPointsOneWay = 0.35;
 constexpr double kSameAxis = 0.8;
 constexpr double kAcross = 1e-3;
 // In font sizes.
-constexpr double kLabelRadius = 1.9;
+constexpr double kHandLabelRadius = 1.9;
 constexpr double kSmallFont = 0.8;
-constexpr double kLineHeight = 1.15;
-constexpr double kHalo = 0.32;
+constexpr double kHandLineHeight = 1.15;
+constexpr double kHandHalo = 0.32;
 constexpr double kRing = 0.11;
-constexpr double kLeader = 0.09;
-constexpr double kShade = 0.75;
+constexpr double kHandLeader = 0.09;
+constexpr double kHandShade = 0.75;
 
 /// Where a hand is in its picture: of size 1 about the origin, turned as it is seen best.
 struct Placing {
@@ -132,11 +132,11 @@ Color LinkColor(const std::array<float, 3>& rgba) {
 }
 
 Color Shaded(Color color) {
-  const auto shade = [](int channel) { return static_cast<unsigned char>(kShade * channel); };
+  const auto shade = [](int channel) { return static_cast<unsigned char>(kHandShade * channel); };
   return {shade(color.r), shade(color.g), shade(color.b)};
 }
 
-struct Scene {
+struct HandPictureScene {
   std::vector<FacetMesh> meshes;
   Drawing drawing;
   std::vector<Vector3d> points;  ///< that bound it
@@ -153,8 +153,9 @@ void AddEnds(const Rod& rod, std::vector<Vector3d>& points) {
   }
 }
 
-Scene MakeScene(const kinematics::HandModel& hand, const Visuals& visuals, const Placing& place) {
-  Scene scene;
+HandPictureScene MakeHandScene(const kinematics::HandModel& hand, const Visuals& visuals,
+                               const Placing& place) {
+  HandPictureScene scene;
   Layer links{{}, kLinkOpacity};
   for (const kinematics::LinkVisual& look : visuals) {
     if (look.above_palm) continue;
@@ -192,7 +193,7 @@ Scene MakeScene(const kinematics::HandModel& hand, const Visuals& visuals, const
 }
 
 /// Which way is up, from the palm's origin.
-void AddArrow(const Vector3d& up, const Placing& place, Scene& scene) {
+void AddUpArrow(const Vector3d& up, const Placing& place, HandPictureScene& scene) {
   const Vector3d from = place(Vector3d::Zero());
   const Vector3d along = place.palm.linear() * up;
   const Vector3d tip = from + kArrowLength * along;
@@ -231,8 +232,8 @@ class TipLabels {
       const Vector3d last = place(TipAtRest(finger) - finger.tip.centre);
       covered.push_back({at, camera_.Project(last), radius});
     }
-    const std::vector<Vector2d> centres =
-        PlaceLabels(anchors, covered, kLabelRadius * style_.font, camera_.width, camera_.height);
+    const std::vector<Vector2d> centres = PlaceLabels(
+        anchors, covered, kHandLabelRadius * style_.font, camera_.width, camera_.height);
     for (std::size_t i = 0; i < centres.size(); ++i) {
       const Color color = FingerColor(FingerIndex(static_cast<int>(i)));
       DrawRing(*anchors[i].owner, radii[i], color);
@@ -250,15 +251,15 @@ class TipLabels {
 
   void DrawLeader(const Vector2d& ball, double radius, const Vector2d& label, Color color) const {
     const Vector2d away = label - ball;
-    const double gap = away.norm() - radius - kLabelRadius * style_.font;
+    const double gap = away.norm() - radius - kHandLabelRadius * style_.font;
     if (gap < 0.5 * style_.font) return;
     SetColor(page_.context(), color);
     StrokeLine(page_.context(), ball + radius * away.normalized(),
-               ball + (radius + gap) * away.normalized(), kLeader * style_.font);
+               ball + (radius + gap) * away.normalized(), kHandLeader * style_.font);
   }
 
   void Write(const kinematics::Finger& finger, const Vector2d& centre, Color color) const {
-    const Vector2d half_line(0, kLineHeight / 2 * style_.font);
+    const Vector2d half_line(0, kHandLineHeight / 2 * style_.font);
     WriteLine(finger.name, centre - half_line, style_.font, true, color);
     WriteLine(FormatFixed(1e3 * finger.tip.radius, 1) + " mm", centre + half_line,
               kSmallFont * style_.font, false, style_.ground.ink);
@@ -274,7 +275,7 @@ class TipLabels {
         std::clamp(start.x(), 0.5 * font, std::max(0.5 * font, camera_.width - width - 0.5 * font));
     cairo_move_to(cr, start.x(), start.y());
     cairo_text_path(cr, text.c_str());
-    FillWithHalo(cr, color, kHalo * font, style_.ground.halo);
+    FillWithHalo(cr, color, kHandHalo * font, style_.ground.halo);
   }
 
   const CairoImage& page_;
@@ -287,8 +288,8 @@ class TipLabels {
 Image DrawHand(const kinematics::HandModel& hand, const Visuals& visuals,
                const std::string& caption, const HandPictureOptions& options) {
   const Placing place = PlaceHand(hand, visuals);
-  Scene scene = MakeScene(hand, visuals, place);
-  AddArrow(hand.up, place, scene);
+  HandPictureScene scene = MakeHandScene(hand, visuals, place);
+  AddUpArrow(hand.up, place, scene);
   const TextStyle style{FontSize(options.width, options.height), kWhiteGround};
   const double font = style.font / options.height;
   const Margins margins{5 * font, 4.5 * font, 4.6 * font};

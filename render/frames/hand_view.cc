@@ -23,7 +23,7 @@ constexpr double kFaultTint = 0.72;
 /// How much a hand hides of what is behind it.
 constexpr double kHandOpacity = 0.9;
 /// Width of its outline, in diameters.
-constexpr double kRim = 0.006;
+constexpr double kHandRim = 0.006;
 /// By so much for each joint links are thicker than those before them: round ends of two links that
 /// are the same ball at a joint would fight for it.
 constexpr double kHair = 1.5e-3;
@@ -32,7 +32,7 @@ constexpr double kHair = 1.5e-3;
 constexpr double kWindow = 0.16;
 /// A finger of whose places this share is hidden is seen as through glass.
 constexpr double kMostHidden = 0.5;
-constexpr double kRaySkip = 1e-4;
+constexpr double kHandRaySkip = 1e-4;
 
 Color Mixed(Color a, Color b, double share) {
   const auto mix = [share](int x, int y) {
@@ -95,7 +95,7 @@ void Grow(double by, FacetMesh& mesh) {
 
 /// A mesh a little larger, seen from inside: before it stands the mesh itself but at its rim.
 FacetMesh MakeShell(FacetMesh mesh) {
-  Grow(kRim, mesh);
+  Grow(kHandRim, mesh);
   return TurnInsideOut(std::move(mesh));
 }
 
@@ -205,7 +205,7 @@ std::vector<Window> HandFigure::Windows(const plan::Snapshot& snapshot,
     int hidden = 0;
     for (const double place : kPlaces) {
       const Vector3d p = glyph.contact + place * kConeLength * glyph.outward;
-      if (IsMet(links, p, camera.ToEye(p), kRaySkip)) ++hidden;
+      if (IsMet(links, p, camera.ToEye(p), kHandRaySkip)) ++hidden;
     }
     if (hidden == 0) continue;
     const double share = static_cast<double>(hidden) / kPlaces.size();

@@ -18,7 +18,7 @@ constexpr double kLeastTurn = Radians(3);
 constexpr double kStep = Radians(4);
 
 // In diameters.
-constexpr double kRadius = 0.40;
+constexpr double kTurnRadius = 0.40;
 constexpr double kAbove = 0.06;  ///< the object
 constexpr double kLineRadius = 0.011;
 /// The arrow's head, of that of forces.
@@ -48,12 +48,12 @@ std::vector<Vector3d> TurnArrow(const FacetMesh& surface, const Isometry3d& befo
   Vector3d centre = (before.translation() + after.translation()) / 2;
   centre += (height + kAbove - centre.dot(out)) * out;
   Vector3d middle = to_eye - to_eye.dot(out) * out;
-  middle = middle.norm() < kRadius ? out.unitOrthogonal() : middle.normalized();
+  middle = middle.norm() < kTurnRadius ? out.unitOrthogonal() : middle.normalized();
   std::vector<Vector3d> arrow;
   const int steps = std::max(2, static_cast<int>(std::ceil(turn.angle() / kStep)));
   for (int i = 0; i <= steps; ++i) {
     const double angle = turn.angle() * (static_cast<double>(i) / steps - 0.5);
-    arrow.emplace_back(centre + kRadius * (AngleAxisd(angle, turn.axis()) * middle));
+    arrow.emplace_back(centre + kTurnRadius * (AngleAxisd(angle, turn.axis()) * middle));
   }
   return arrow;
 }

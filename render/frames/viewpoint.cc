@@ -57,9 +57,9 @@ constexpr double kEdgeOnSine = 0.14;
 constexpr double kForeshortenedCosine = 0.80;
 
 /// Nearer than this a ray meets the side that it starts on.
-constexpr double kRaySkip = 1e-4;
+constexpr double kViewRaySkip = 1e-4;
 /// Of a finger's number, in diameters.
-constexpr double kLabelRadius = 0.025;
+constexpr double kViewLabelRadius = 0.025;
 /// Of a fine mesh so many facets tell what the object looks like.
 constexpr std::size_t kMostFacets = 4096;
 
@@ -85,11 +85,11 @@ struct Sight {
 };
 
 /// Fingers before an object, seen from far away.
-class Scene {
+class ViewScene {
  public:
   /// All arguments outlive this object.
-  Scene(const RayTree& body, const std::vector<FingerGlyph>& fingers, const Eigen::Matrix3d& axes,
-        const Standing& standing)
+  ViewScene(const RayTree& body, const std::vector<FingerGlyph>& fingers,
+            const Eigen::Matrix3d& axes, const Standing& standing)
       : body_(body), fingers_(fingers), axes_(axes), standing_(standing) {}
 
   [[nodiscard]] Sight Look(const FingerGlyph& glyph, double largest_force) const {
@@ -130,14 +130,15 @@ class Scene {
   [[nodiscard]] double Share(const FingerGlyph& own, const Vector3d& p) const {
     if (IsCovered(own, p)) return 0;
     if (standing_.hand.empty()) return ThroughWalls(p, axes_.col(2));
-    const double through_hand = IsMet(standing_.hand, p, axes_.col(2), kRaySkip) ? kThroughHand : 1;
+    const double through_hand =
+        IsMet(standing_.hand, p, axes_.col(2), kViewRaySkip) ? kThroughHand : 1;
     const Eigen::Isometry3d& to_body = standing_.to_body;
     return through_hand * ThroughWalls(to_body * p, to_body.linear() * axes_.col(2));
   }
 
   /// The same of the object alone, in its frame.
   [[nodiscard]] double ThroughWalls(const Vector3d& p, const Vector3d& back) const {
-    const int sides = body_.CountHits(p, back, kRaySkip, kMostSides);
+    const int sides = body_.CountHits(p, back, kViewRaySkip, kMostSides);
     return std::pow(kThroughWall, sides / 2) * (sides % 2 == 1 ? kInside : 1);
   }
 
@@ -181,7 +182,7 @@ class Scene {
       const double gap =
           std::min((place - ball).norm() - other.ball_radius,
                    DistanceToSegment(place, ball, Flat(other.end)) - other.stem_radius);
-      share = std::min(share, std::max(0.0, (gap / kLabelRadius + 1) / 2));
+      share = std::min(share, std::max(0.0, (gap / kViewLabelRadius + 1) / 2));
       const bool nearer = (place - ball).norm() < (place - Flat(own.ball)).norm();
       if (&other != &own && nearer) return 0;
     }
@@ -206,7 +207,7 @@ struct FrameSight {
 FrameSight LookAt(const RayTree& body, const std::vector<FingerGlyph>& fingers,
                   const Eigen::Matrix3d& axes, double largest_force, const Standing& standing) {
   if (fingers.empty()) return {};
-  const Scene scene(body, fingers, axes, standing);
+  const ViewScene scene(body, fingers, axes, standing);
   std::vector<double> scores;
   for (const FingerGlyph& glyph : fingers) {
     scores.push_back(scene.Look(glyph, largest_force).Score());
@@ -270,7 +271,7 @@ double HiddenShare(const std::vector<Facet>& facets, const Standing& standing,
   int all = 0;
   for (std::size_t i = 0; i < facets.size(); i += stride) {
     ++all;
-    if (IsMet(standing.hand, from_body * facets[i].corner, back, kRaySkip)) ++hidden;
+    if (IsMet(standing.hand, from_body * facets[i].corner, back, kViewRaySkip)) ++hidden;
   }
   return static_cast<double>(hidden) / all;
 }

@@ -15,7 +15,7 @@ namespace {
 
 /// Of 100: thin edges and small numbers stay sharp.
 constexpr float kQuality = 82;
-constexpr int kBytesPerPixel = 3;
+constexpr int kWebpBytesPerPixel = 3;
 /// After so many pictures one stands whole. Others hold what changed by more than a few levels
 /// since the one before; without it slow shading would never come right.
 constexpr int kKeyPictures = 10;
@@ -35,7 +35,7 @@ void CheckSize(int width, int height) {
 }
 
 /// What fails although sizes are right is out of memory.
-void Require(bool good) {
+void RequireWebp(bool good) {
   if (!good) throw std::bad_alloc();
 }
 
@@ -49,7 +49,8 @@ class Picture {
     picture_.use_argb = 1;  // scaled and cut into frames in RGB
     picture_.width = image.width;
     picture_.height = image.height;
-    Require(WebPPictureImportRGB(&picture_, image.rgb.data(), kBytesPerPixel * image.width) != 0);
+    RequireWebp(
+        WebPPictureImportRGB(&picture_, image.rgb.data(), kWebpBytesPerPixel * image.width) != 0);
   }
   ~Picture() { WebPPictureFree(&picture_); }
   Picture(const Picture&) = delete;
@@ -72,7 +73,7 @@ class WebpAnimation : public MovingPicture {
     options.kmin = kKeyPictures / 2 + 1;
     options.kmax = kKeyPictures;
     encoder_ = WebPAnimEncoderNew(width, height, &options);
-    Require(encoder_ != nullptr);
+    RequireWebp(encoder_ != nullptr);
   }
   ~WebpAnimation() override { WebPAnimEncoderDelete(encoder_); }
   WebpAnimation(const WebpAnimation&) = delete;
@@ -83,20 +84,20 @@ class WebpAnimation : public MovingPicture {
       throw std::invalid_argument("WebpAnimation: an image of another size, or no duration");
     }
     Picture picture(image);
-    Require(WebPAnimEncoderAdd(encoder_, picture.get(), time_ms_, &config_) != 0);
+    RequireWebp(WebPAnimEncoderAdd(encoder_, picture.get(), time_ms_, &config_) != 0);
     time_ms_ += duration_ms;
   }
 
   std::string Finish() override {
     assert(time_ms_ > 0);
     // A null picture says when the last one ends.
-    Require(WebPAnimEncoderAdd(encoder_, nullptr, time_ms_, nullptr) != 0);
+    RequireWebp(WebPAnimEncoderAdd(encoder_, nullptr, time_ms_, nullptr) != 0);
     WebPData data;
     WebPDataInit(&data);
     const bool good = WebPAnimEncoderAssemble(encoder_, &data) != 0;
     const std::string bytes(reinterpret_cast<const char*>(data.bytes), good ? data.size : 0);
     WebPDataClear(&data);
-    Require(good);
+    RequireWebp(good);
     return bytes;
   }
 
@@ -115,7 +116,8 @@ std::string EncodeWebp(const Image& image, int width) {
   Picture picture(image);
   if (width < image.width) {
     const double height = std::round(static_cast<double>(image.height) * width / image.width);
-    Require(WebPPictureRescale(picture.get(), width, std::max(1, static_cast<int>(height))) != 0);
+    RequireWebp(WebPPictureRescale(picture.get(), width, std::max(1, static_cast<int>(height))) !=
+                0);
   }
   WebPConfig config = MakeConfig();
   config.use_sharp_yuv = 1;  // thin coloured lines keep their colour
@@ -126,7 +128,7 @@ std::string EncodeWebp(const Image& image, int width) {
   const bool good = WebPEncode(&config, picture.get()) != 0;
   const std::string bytes(reinterpret_cast<const char*>(writer.mem), good ? writer.size : 0);
   WebPMemoryWriterClear(&writer);
-  Require(good);
+  RequireWebp(good);
   return bytes;
 }
 

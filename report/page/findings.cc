@@ -19,7 +19,7 @@
 namespace regrasp::report {
 namespace {
 
-constexpr char kNothing[] = "–";
+constexpr char kNoFinding[] = "–";
 
 /// The steps that were replayed.
 std::vector<const ReportStep*> Replayed(const Report& report) {
@@ -63,7 +63,7 @@ std::vector<Element> Disagreements(const Report& report) {
 
 std::string Margin(const sim::FingerMargins& margins) {
   const auto least = sim::SmallestMargin(margins);
-  if (!least || !std::isfinite(*least)) return kNothing;
+  if (!least || !std::isfinite(*least)) return kNoFinding;
   return FormatDegrees(Degrees(*least)) + " (finger " +
          std::to_string(sim::FingerOfSmallestMargin(margins)) + ")";
 }
@@ -72,12 +72,12 @@ Element RequirementsRow(const ReportStep& step, bool both) {
   const std::optional<sim::NeedOfFinger>& need = step.weakest_finger;
   Element row("tr");
   row.Add(NumberCell(std::to_string(step.check.index)));
-  row.Add(NumberCell(need ? std::to_string(need->finger) : kNothing));
-  row.Add(NumberCell(need ? FormatDegrees(Degrees(need->friction.required)) : kNothing));
+  row.Add(NumberCell(need ? std::to_string(need->finger) : kNoFinding));
+  row.Add(NumberCell(need ? FormatDegrees(Degrees(need->friction.required)) : kNoFinding));
   row.Add(NumberCell(Margin(step.replay->rest_margins)));
   row.Add(NumberCell(Margin(step.replay->shake_margins)));
   if (both)
-    row.Add(NumberCell(step.replay->fixed ? ReasonText(step.replay->fixed->reason) : kNothing));
+    row.Add(NumberCell(step.replay->fixed ? ReasonText(step.replay->fixed->reason) : kNoFinding));
   return row;
 }
 

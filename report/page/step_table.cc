@@ -12,18 +12,18 @@ namespace regrasp::report {
 
 namespace {
 
-constexpr char kNothing[] = "–";
+constexpr char kNoStepValue[] = "–";
 
 std::string DegreesOr(const std::optional<double>& radians, const char* otherwise) {
   return radians ? FormatDegrees(Degrees(*radians)) : otherwise;
 }
 
 std::string Required(const plan::StepCheck& check) {
-  if (check.skipped) return kNothing;
+  if (check.skipped) return kNoStepValue;
   if (check.required) return FormatDegrees(Degrees(check.required->upper));
   const bool decided =
       check.reason == plan::Reason::kNotForceClosure || check.reason == plan::Reason::kNotProved;
-  return decided ? "none" : kNothing;
+  return decided ? "none" : kNoStepValue;
 }
 
 Element MinorCell(std::string_view text) {
@@ -38,14 +38,15 @@ Element TitleCell(const std::string& title, const std::string& anchor) {
 Element StepRow(const ReportStep& step, const std::string& title, const StepMeasures& measures,
                 const std::string& anchor) {
   const sim::StepReplay* replay = step.replay && !step.skipped ? &*step.replay : nullptr;
-  return Element("tr", {{"class", std::string(VerdictName(step.verdict()))}},
-                 NumberCell(std::to_string(step.check.index)), TitleCell(title, anchor),
-                 MinorCell(Required(step.check)),
-                 NumberCell(measures.margin_deg ? FormatDegrees(*measures.margin_deg) : kNothing),
-                 NumberCell(replay ? LengthText(replay->displacement_m) : kNothing),
-                 MinorCell(replay ? NumberText(replay->rotation_deg) + "°" : kNothing),
-                 NumberCell(replay ? LengthText(replay->slip_m) : kNothing),
-                 Element("td", {}, VerdictText(step)));
+  return Element(
+      "tr", {{"class", std::string(VerdictName(step.verdict()))}},
+      NumberCell(std::to_string(step.check.index)), TitleCell(title, anchor),
+      MinorCell(Required(step.check)),
+      NumberCell(measures.margin_deg ? FormatDegrees(*measures.margin_deg) : kNoStepValue),
+      NumberCell(replay ? LengthText(replay->displacement_m) : kNoStepValue),
+      MinorCell(replay ? NumberText(replay->rotation_deg) + "°" : kNoStepValue),
+      NumberCell(replay ? LengthText(replay->slip_m) : kNoStepValue),
+      Element("td", {}, VerdictText(step)));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-void Append(const Eigen::VectorXd& vector, Values& values) {
+void AppendVector(const Eigen::VectorXd& vector, Values& values) {
   values.insert(values.end(), vector.begin(), vector.end());
 }
 
@@ -44,7 +44,7 @@ NpzArray VectorsOf(const DrawnStates& drawn, const std::string& name, std::size_
                    Eigen::Vector3d ResetState::Tip::*vector) {
   const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   return TipsOf(drawn, name, {fingers, 3}, [&](const ResetState::Tip& tip, Values& values) {
-    Append(tip.holds ? tip.*vector : none, values);
+    AppendVector(tip.holds ? tip.*vector : none, values);
   });
 }
 
@@ -56,7 +56,8 @@ NpzArray ListsOf(const DrawnStates& drawn, const std::string& name,
   });
 }
 
-NpzArray NumbersOf(const DrawnStates& drawn, const std::string& name, double ResetState::*number) {
+NpzArray ResetNumbersOf(const DrawnStates& drawn, const std::string& name,
+                        double ResetState::*number) {
   return RowsOf(drawn, name, {}, [number](const ResetState& state, Values& values) {
     values.push_back(state.*number);
   });
@@ -72,27 +73,27 @@ void AddStates(const DrawnStates& drawn, std::size_t fingers, std::vector<NpzArr
   arrays.push_back(ListsOf(drawn, "joints", &ResetState::joints));
   arrays.push_back(ListsOf(drawn, "controls", &ResetState::controls));
   arrays.push_back(ListsOf(drawn, "qpos", &ResetState::qpos));
-  arrays.push_back(
-      RowsOf(drawn, "object_position", {3},
-             [](const ResetState& state, Values& values) { Append(state.position, values); }));
-  arrays.push_back(
-      RowsOf(drawn, "object_quaternion", {4},
-             [](const ResetState& state, Values& values) { Append(state.quaternion, values); }));
+  arrays.push_back(RowsOf(
+      drawn, "object_position", {3},
+      [](const ResetState& state, Values& values) { AppendVector(state.position, values); }));
+  arrays.push_back(RowsOf(
+      drawn, "object_quaternion", {4},
+      [](const ResetState& state, Values& values) { AppendVector(state.quaternion, values); }));
   arrays.push_back(
       TipsOf(drawn, "holds", {fingers},
              [](const ResetState::Tip& tip, Values& values) { values.push_back(tip.holds); }));
   arrays.back().is_truth = true;
   arrays.push_back(VectorsOf(drawn, "contact_points", fingers, &ResetState::Tip::contact_O));
   arrays.push_back(VectorsOf(drawn, "contact_forces", fingers, &ResetState::Tip::force_O));
-  arrays.push_back(NumbersOf(drawn, "squeeze_N", &ResetState::squeeze_N));
-  arrays.push_back(NumbersOf(drawn, "off_m", &ResetState::off_m));
-  arrays.push_back(NumbersOf(drawn, "off_rad", &ResetState::off_rad));
+  arrays.push_back(ResetNumbersOf(drawn, "squeeze_N", &ResetState::squeeze_N));
+  arrays.push_back(ResetNumbersOf(drawn, "off_m", &ResetState::off_m));
+  arrays.push_back(ResetNumbersOf(drawn, "off_rad", &ResetState::off_rad));
 }
 
 void AddSettings(const kinematics::HandModel& hand, const ResetStateOptions& options,
                  const ResetStatesOrigin& origin, std::vector<NpzArray>& arrays) {
   NpzArray gravity{"gravity", {3}};
-  Append(-kGravity * hand.up, gravity.values);
+  AppendVector(-kGravity * hand.up, gravity.values);
   arrays.push_back(std::move(gravity));
   arrays.push_back(Number("mu", std::tan(options.half_angle)));
   arrays.push_back(Number("mass_kg", options.mass_kg));

@@ -24,16 +24,17 @@ constexpr const char* kMeshPrefix = "mesh_";
 constexpr const char* kTipPrefix = "regrasp_tip_";
 
 /// Enough digits that a simulation goes on from a keyframe as it would have.
-std::string Numbers(const mjtNum* values, int count) {
+std::string NumbersText(const mjtNum* values, int count) {
   std::string text;
   for (int i = 0; i < count; ++i) text += (i > 0 ? " " : "") + FormatDouble(values[i]);
   return text;
 }
-std::string Numbers(const std::vector<double>& values) {
-  return Numbers(values.data(), static_cast<int>(values.size()));
+std::string NumbersText(const std::vector<double>& values) {
+  return NumbersText(values.data(), static_cast<int>(values.size()));
 }
 
-XmlElement Element(std::string name, std::vector<std::pair<std::string, std::string>> attributes) {
+XmlElement ExportElement(std::string name,
+                         std::vector<std::pair<std::string, std::string>> attributes) {
   XmlElement element;
   element.name = std::move(name);
   element.attributes = std::move(attributes);
@@ -48,7 +49,8 @@ void ForEach(XmlElement& element, const std::function<void(XmlElement&)>& visit)
 /// The section of that name; made where there is none.
 XmlElement& Section(XmlElement& root, const std::string& name) {
   const auto found = std::ranges::find(root.children, name, &XmlElement::name);
-  return found != root.children.end() ? *found : root.children.emplace_back(Element(name, {}));
+  return found != root.children.end() ? *found
+                                      : root.children.emplace_back(ExportElement(name, {}));
 }
 
 class SceneWriter {
@@ -77,10 +79,10 @@ class SceneWriter {
     SetContacts(Section(root, "contact"));
     XmlElement& frames = Section(root, "keyframe");
     for (const SceneKey& key : keys) {
-      frames.children.push_back(Element("key", {{"name", key.name},
-                                                {"time", FormatDouble(key.time_s)},
-                                                {"qpos", Numbers(key.qpos)},
-                                                {"ctrl", Numbers(key.controls)}}));
+      frames.children.push_back(ExportElement("key", {{"name", key.name},
+                                                      {"time", FormatDouble(key.time_s)},
+                                                      {"qpos", NumbersText(key.qpos)},
+                                                      {"ctrl", NumbersText(key.controls)}}));
     }
     files.push_back({kSceneName, kinematics::FormatXml(root)});
     return files;
@@ -127,7 +129,7 @@ class SceneWriter {
   void SetOptions(XmlElement& option) const {
     const mjOption& opt = world_.model().opt;
     option.attributes = {{"timestep", FormatDouble(opt.timestep)},
-                         {"gravity", Numbers(opt.gravity, 3)},
+                         {"gravity", NumbersText(opt.gravity, 3)},
                          {"cone", "elliptic"},
                          {"impratio", FormatDouble(opt.impratio)}};
     option.children.clear();
@@ -165,14 +167,15 @@ class SceneWriter {
         continue;
       }
       tips_.push_back(kTipPrefix + std::to_string(i));
-      element.children.push_back(Element("geom", {{"name", tips_.back()},
-                                                  {"type", "sphere"},
-                                                  {"size", FormatDouble(tips[i].radius)},
-                                                  {"pos", Numbers(tips[i].centre.data(), 3)},
-                                                  {"mass", "0"},
-                                                  {"rgba", "0.9 0.5 0.1 0.5"},
-                                                  {"contype", "0"},
-                                                  {"conaffinity", "0"}}));
+      element.children.push_back(
+          ExportElement("geom", {{"name", tips_.back()},
+                                 {"type", "sphere"},
+                                 {"size", FormatDouble(tips[i].radius)},
+                                 {"pos", NumbersText(tips[i].centre.data(), 3)},
+                                 {"mass", "0"},
+                                 {"rgba", "0.9 0.5 0.1 0.5"},
+                                 {"contype", "0"},
+                                 {"conaffinity", "0"}}));
     }
   }
 
@@ -188,12 +191,12 @@ class SceneWriter {
       for (const int corner : triangle)
         faces += (faces.empty() ? "" : " ") + std::to_string(corner);
     }
-    return Element("mesh",
-                   // The hand's model may scale all meshes that do not say.
-                   {{"name", kHandSceneObject},
-                    {"scale", "1 1 1"},
-                    {"vertex", Numbers(vertices)},
-                    {"face", faces}});
+    return ExportElement("mesh",
+                         // The hand's model may scale all meshes that do not say.
+                         {{"name", kHandSceneObject},
+                          {"scale", "1 1 1"},
+                          {"vertex", NumbersText(vertices)},
+                          {"face", faces}});
   }
 
   /// Geoms of a tip's link that collide.
@@ -216,8 +219,8 @@ class SceneWriter {
     for (std::size_t i = 0; i < section.children.size(); ++i) {
       const auto a = static_cast<std::ptrdiff_t>(i);
       XmlElement& actuator = section.children[i];
-      actuator.Set("gainprm", Numbers(model.actuator_gainprm + mjNGAIN * a, 3));
-      actuator.Set("biasprm", Numbers(model.actuator_biasprm + mjNBIAS * a, 3));
+      actuator.Set("gainprm", NumbersText(model.actuator_gainprm + mjNGAIN * a, 3));
+      actuator.Set("biasprm", NumbersText(model.actuator_biasprm + mjNBIAS * a, 3));
       if (model.actuator_biastype[a] == mjBIAS_AFFINE) actuator.Set("biastype", "affine");
       if (model.actuator_ctrllimited[a] == 0) {
         actuator.Remove("ctrlrange");
@@ -225,7 +228,7 @@ class SceneWriter {
       }
       if (model.actuator_forcelimited[a] != 0) {
         actuator.Set("forcelimited", "true");
-        actuator.Set("forcerange", Numbers(model.actuator_forcerange + 2 * a, 2));
+        actuator.Set("forcerange", NumbersText(model.actuator_forcerange + 2 * a, 2));
       }
     }
   }
@@ -234,13 +237,13 @@ class SceneWriter {
     std::erase_if(section.children, [](const XmlElement& child) { return child.name == "pair"; });
     const std::string mu = FormatDouble(mu_);
     for (const std::string& tip : tips_) {
-      section.children.push_back(
-          Element("pair", {{"geom1", tip},
-                           {"geom2", kHandSceneObject},
-                           {"condim", "3"},
-                           {"friction", mu + " " + mu + " 0.005 0.0001 0.0001"},
-                           {"solref", FormatDouble(kTipContactTime) + " 1"},
-                           {"solimp", Numbers(kTipImpedance.data(), kTipImpedance.size())}}));
+      section.children.push_back(ExportElement(
+          "pair", {{"geom1", tip},
+                   {"geom2", kHandSceneObject},
+                   {"condim", "3"},
+                   {"friction", mu + " " + mu + " 0.005 0.0001 0.0001"},
+                   {"solref", FormatDouble(kTipContactTime) + " 1"},
+                   {"solimp", NumbersText(kTipImpedance.data(), kTipImpedance.size())}}));
     }
   }
 

@@ -34,7 +34,7 @@ constexpr double kFrictionHardness = 100;
 constexpr double kFrozen = 1e3;
 /// What is deeper in the object is pushed out as if it were this deep, or tips that overlap it
 /// where their balls do not were thrown off, metres: five times what presses at rest.
-constexpr double kDeepest = 3e-4;
+constexpr double kDeepestContact = 3e-4;
 
 Isometry3d PoseAt(const mjData& data, int body) {
   return kinematics::PoseAt(data.xpos, data.xmat, body);
@@ -207,7 +207,7 @@ struct HandWorld::Impl {
   void AddContact(FingerIndex finger, const collision::SurfaceContact& touching,
                   const Isometry3d& pose) {
     mjContact contact = {};
-    contact.dist = std::max(touching.gap, -kDeepest);
+    contact.dist = std::max(touching.gap, -kDeepestContact);
     const Vector3d normal = pose.linear() * touching.outward;
     const Vector3d at = pose * touching.point + contact.dist / 2 * normal;
     const auto [first, second] = Tangents(normal);

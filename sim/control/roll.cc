@@ -20,10 +20,10 @@ namespace {
 
 /// Forces are planned anew after this share of D of travel of the tip that goes farthest, and
 /// after this turn of a normal, radians: in between they are mixed, and have to fit the cones.
-constexpr double kSegment = 0.01;
+constexpr double kRollSegment = 0.01;
 constexpr double kTurnSegment = Radians(2);
 /// The engine misses a touch at an edge now and then, so that turns are short.
-constexpr double kLeastSegmentTime = 0.08;  ///< natural times
+constexpr double kLeastRollTime = 0.08;  ///< natural times
 
 Vector3d Tip(const grasp::Contact& contact, double radius) {
   return contact.p - radius * contact.n;
@@ -82,9 +82,9 @@ void RollFingers(ReplayWorld& world, const plan::FingerGrasp& from_B,
   const Extent extent = FindExtent(from_B, to_B);
   const double travel = extent.travel / world.settings().diameter_m;
   const int segments =
-      static_cast<int>(std::ceil(std::max(travel / kSegment, extent.turn / kTurnSegment)));
+      static_cast<int>(std::ceil(std::max(travel / kRollSegment, extent.turn / kTurnSegment)));
   if (segments == 0) return;
-  const double duration = std::max(kLeastSegmentTime, travel / (segments * kSlideSpeed));
+  const double duration = std::max(kLeastRollTime, travel / (segments * kSlideSpeed));
   std::vector<SiteIndex> sites;
   for (std::size_t i = 0; i < to_B.size(); ++i) {
     sites.push_back(FindSite(world.scene(), from_B[i].contact, to_B[i].contact));

@@ -24,7 +24,7 @@ std::string DegreesText(double radians) { return FormatDegrees(Degrees(radians))
 
 std::string After(const std::string& when) { return when.empty() ? "" : ", " + when; }
 
-double TurnBetween(const Isometry3d& a, const Isometry3d& b) {
+double TurnAngle(const Isometry3d& a, const Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
@@ -32,7 +32,7 @@ double TurnBetween(const Isometry3d& a, const Isometry3d& b) {
 std::string MotionText(const Isometry3d& a, const Isometry3d& b) {
   constexpr double kNothing = 1e-12;
   const double length = (a.translation() - b.translation()).norm();
-  const double turn = TurnBetween(a, b);
+  const double turn = TurnAngle(a, b);
   if (turn <= kNothing) return FormatLength(length);
   if (length <= kNothing) return DegreesText(turn);
   return FormatLength(length) + " and " + DegreesText(turn);
@@ -97,7 +97,7 @@ std::vector<Vector3d> AllDirections() {
   return directions;
 }
 
-Solid Moved(const Isometry3d& pose, Solid solid) {
+Solid MovedSolid(const Isometry3d& pose, Solid solid) {
   for (Vector3d& point : solid.points) point = pose * point;
   solid.centre = pose * solid.centre;
   return solid;
@@ -214,7 +214,7 @@ double GapBetween(HandBody& body, const HandState& state, int a, int b) {
 double GapToObject(HandBody& body, const HandState& state, int part,
                    std::span<const Solid> surface) {
   body.SetJoints(state.joints);
-  return NearestOf(Moved(state.pose.inverse(), body.Place(part)), surface).gap;
+  return NearestOf(MovedSolid(state.pose.inverse(), body.Place(part)), surface).gap;
 }
 
 HandFinding PartsCollide(HandBody& body, const HandState& state, int a, int b, double clearance,
@@ -236,7 +236,7 @@ HandFinding PartMeetsObject(HandBody& body, const HandState& state, int part,
                             std::span<const Solid> surface, double needed,
                             const std::string& when) {
   body.SetJoints(state.joints);
-  const Solid solid = Moved(state.pose.inverse(), body.Place(part));
+  const Solid solid = MovedSolid(state.pose.inverse(), body.Place(part));
   Nearness nearness = NearestOf(solid, surface);
   const std::vector<Vector3d> ways = WaysOut(solid, surface);
   if (nearness.gap < 0 && !ways.empty()) nearness.gap = -FreeingDistance(solid, surface, ways);

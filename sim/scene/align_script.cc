@@ -30,7 +30,7 @@ constexpr std::array kShorter = {0.5, 0.4, 0.6, 0.3, 0.7};
 constexpr int kRefinements = 4;
 
 /// A sliding finger needs clearance all along its path; looked for at so many places of a segment.
-constexpr int kClearanceSamples = 4;
+constexpr int kAlignClearanceSamples = 4;
 
 /// What is asked of a segment.
 struct Demand {
@@ -229,9 +229,10 @@ class ScriptWriter {
   }
 
   [[nodiscard]] bool HasClearance(const Places& moving, double begin, double end) const {
-    for (int i = 1; i <= kClearanceSamples; ++i) {
-      const double t = i < kClearanceSamples ? begin + (end - begin) * i / kClearanceSamples : end;
-      const bool rests = i == kClearanceSamples;
+    for (int i = 1; i <= kAlignClearanceSamples; ++i) {
+      const double t =
+          i < kAlignClearanceSamples ? begin + (end - begin) * i / kAlignClearanceSamples : end;
+      const bool rests = i == kAlignClearanceSamples;
       if (!CanRest(moving, t, {limits_.half_angle, limits_.clearance, !rests})) return false;
     }
     return true;

@@ -13,7 +13,7 @@ namespace {
 using Site = RegionMetric::Site;
 
 /// Lengths and sizes that differ by less than this, over the boundary's length, are equal.
-constexpr double kRounding = 1e-12;
+constexpr double kDiagramRounding = 1e-12;
 
 /// Boxes are halved until so few sites can be nearest in them, or until that many halvings in a row
 /// spared none: at a vertex of the diagram where more sites meet they never do.
@@ -347,7 +347,7 @@ RegionMetric::RegionMetric(const ContourGraph& graph, sets::SetIndex set)
       add(MakeSite(segment.from.reverse().eval(), segment.to.reverse().eval()));
     }
   }
-  rounding_ = kRounding * period.maxCoeff();
+  rounding_ = kDiagramRounding * period.maxCoeff();
 }
 
 double RegionMetric::SizeAt(const Vector2d& point) const {

@@ -11,13 +11,13 @@ using Eigen::Vector2d;
 
 namespace {
 
-double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+double CrossProduct(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Twice the area of a convex outline.
 double DoubleArea(const std::vector<Vector2d>& outline) {
   double area = 0;
   for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-    area += Cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
+    area += CrossProduct(outline[i] - outline[0], outline[i + 1] - outline[0]);
   }
   return area;
 }
@@ -109,7 +109,7 @@ std::optional<PlacedGrasp> SetGeometry::Draw(sets::SetIndex set, RandomStream& r
   for (const PieceIndex piece : graph_.pieces_of(set)) {
     const std::vector<Vector2d>& outline = OutlineOf(piece);
     for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-      left -= Cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
+      left -= CrossProduct(outline[i] - outline[0], outline[i + 1] - outline[0]);
       if (left < 0) {
         return PlacedGrasp{piece, PointOfTriangle(outline[0], outline[i], outline[i + 1], s, t)};
       }

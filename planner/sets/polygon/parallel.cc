@@ -200,7 +200,7 @@ Cuts<NT> CutsOfOuterPair(const CentredSet<NT>& set, int region) {
 }
 
 template <class NT>
-ConvexRegion<NT> MakeContactPairs(const CentredSet<NT>& set, int centre, int k, int l, int region) {
+ConvexRegion<NT> MakeCentredPairs(const CentredSet<NT>& set, int centre, int k, int l, int region) {
   const int outer = k == centre ? l : k;
   const Cuts<NT> cuts =
       k == centre || l == centre
@@ -223,12 +223,12 @@ void AddContactPairs(const EdgeTable& edges, const EdgeTriple& triple, int centr
   for (int region = 0; region < count; ++region) {
     const auto recipe = [&edges, triple, centre, k, l, region](auto zero) {
       const auto set = MakeCentredSet<decltype(zero)>(edges, triple, centre);
-      return MakeContactPairs(set, centre, k, l, region);
+      return MakeCentredPairs(set, centre, k, l, region);
     };
     auto made =
         by_intervals
             ? FilteredRegion::Make(
-                  recipe, [&] { return MakeContactPairs(*by_intervals, centre, k, l, region); })
+                  recipe, [&] { return MakeCentredPairs(*by_intervals, centre, k, l, region); })
             : FilteredRegion::Make(recipe);
     if (made) pairs.push_back(std::move(*made));
   }
