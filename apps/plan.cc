@@ -12,6 +12,7 @@
 #include "apps/plan_program.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "apps/repair_module.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
@@ -21,7 +22,6 @@
 #include "planner/object/mesh_defect.h"
 #include "planner/plan/invented_contacts.h"
 #include "planner/plan/plan_io.h"
-#include "planner/repair/repair.h"
 
 namespace {
 
@@ -59,7 +59,7 @@ object::ObjectFile ReadObject(const PlannerOptions& common) {
     return common.ReadObjectFile(kPlanName);
   } catch (const object::MeshError& error) {
     ProgressLine progress(common.quiet);
-    throw InputError(error.what() + repair::RepairHint(common.object, {progress.reporter(), {}}));
+    throw InputError(error.what() + RepairHint(common.object, {progress.reporter(), {}}));
   }
 }
 

@@ -1,9 +1,9 @@
 #include "apps/plan_object.h"
 
+#include "apps/repair_module.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/repair/repair.h"
 
 namespace regrasp::apps {
 
@@ -37,7 +37,7 @@ object::ObjectFile ReadObjectOf(const plan::Plan& plan, const std::string& path,
   if (!plan.repair || Sha256(ReadFile(path)) == plan.repair->sha256) {
     return object::ReadObject(path, reading);
   }
-  return repair::ReadRepaired(path, plan.repair->options, reading);
+  return ReadRepaired(path, plan.repair->options, reading);
 }
 
 void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object,

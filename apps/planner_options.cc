@@ -6,6 +6,7 @@
 #include "apps/nearest_word.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "apps/repair_module.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/memory.h"
@@ -13,7 +14,6 @@
 #include "planner/object/given_points.h"
 #include "planner/object/reading.h"
 #include "planner/registry/registry.h"
-#include "planner/repair/repair.h"
 #include "planner/roadmap/build_roadmap.h"
 
 namespace regrasp::apps {
@@ -186,7 +186,7 @@ object::ObjectFile PlannerOptions::ReadObjectFile(const std::string& program) co
     return file;
   }
   std::string text;
-  object::ObjectFile repaired = repair::ReadRepaired(object, repair.Get(), reading, &text);
+  object::ObjectFile repaired = ReadRepaired(object, repair.Get(), reading, &text);
   progress.Clear();
   if (!quiet) PrintMessage(program, object + ": " + text);
   return repaired;

@@ -10,6 +10,7 @@
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "apps/repair_module.h"
 #include "apps/run_digest.h"
 #include "apps/states_run.h"
 #include "planner/base/error.h"
@@ -19,7 +20,6 @@
 #include "planner/object/reading.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
-#include "planner/repair/repair.h"
 #include "report/json_values.h"
 #include "report/report.h"
 #include "sim/actuation/hand_scene_export.h"
@@ -196,7 +196,7 @@ object::ObjectFile ReadGraspObject(const ValidateOptions& options, ProgressLine&
     if (!options.quiet) PrintMessage(kValidateName, options.object_path + ": " + text);
   };
   if (!options.repair.wanted()) return object::ReadObject(options.object_path, reading);
-  return repair::ReadRepaired(options.object_path, options.repair.Get(), reading);
+  return ReadRepaired(options.object_path, options.repair.Get(), reading);
 }
 
 ValidateTask ReadTask(const ValidateOptions& options) {

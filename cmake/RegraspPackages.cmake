@@ -37,6 +37,9 @@ set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
 to another, with force closure held at every instant, and validate them: analytically, by a
 replay in MuJoCo or the Open Dynamics Engine, and with pictures.")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
+# Libraries that are loaded at their first use (planner/base/shared_library.h).
+set(loaded "libosmesa6, libavcodec59, libavformat59, libavutil57")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS ${loaded})
 # plotutils has a program `graph`, too, and rcs a program `merge`.
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONFLICTS "plotutils, rcs")
 
@@ -53,7 +56,7 @@ set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "The Python module regrasp, for NumPy arrays and notebooks.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-yaml")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-yaml, ${loaded}")
 # Its byte code is made when it is installed and removed with it.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${folder}/postinst ${folder}/prerm)
 configure_file(cmake/python-postinst ${folder}/postinst COPYONLY FILE_PERMISSIONS

@@ -1,13 +1,12 @@
 #include "render/frames/canvas.h"
 
-#include <GL/gl.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "render/frames/gl.h"
 #include "render/frames/offscreen_context.h"
 
 namespace regrasp::render {
@@ -55,9 +54,9 @@ struct Vertices {
     }
   }
   void Draw() const {
-    glVertexPointer(3, GL_FLOAT, 0, points.data());
-    glNormalPointer(GL_FLOAT, 0, normals.data());
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(points.size() / 3));
+    gl().VertexPointer(3, GL_FLOAT, 0, points.data());
+    gl().NormalPointer(GL_FLOAT, 0, normals.data());
+    gl().DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(points.size() / 3));
   }
 };
 
@@ -75,26 +74,26 @@ void SetCamera(const Camera& camera, const Band& band) {
   const double right = half * camera.width / camera.height;
   const double top = half * (1 - 2.0 * band.top / band.height);
   const double bottom = half * (1 - 2.0 * (band.top + band.rows) / band.height);
-  glMatrixMode(GL_PROJECTION);
-  glLoadIdentity();
-  (perspective ? glFrustum : glOrtho)(-right, right, bottom, top, near, far);
-  glMatrixMode(GL_MODELVIEW);
-  glLoadIdentity();
+  gl().MatrixMode(GL_PROJECTION);
+  gl().LoadIdentity();
+  (perspective ? gl().Frustum : gl().Ortho)(-right, right, bottom, top, near, far);
+  gl().MatrixMode(GL_MODELVIEW);
+  gl().LoadIdentity();
   const float black[4] = {0, 0, 0, 1};
   const float ambient[4] = {kAmbient, kAmbient, kAmbient, 1};
   const float diffuse[4] = {kDiffuse, kDiffuse, kDiffuse, 1};
-  glLightModelfv(GL_LIGHT_MODEL_AMBIENT, black);
-  glLightfv(GL_LIGHT0, GL_POSITION, kLightFrom);
-  glLightfv(GL_LIGHT0, GL_AMBIENT, ambient);
-  glLightfv(GL_LIGHT0, GL_DIFFUSE, diffuse);
+  gl().LightModelfv(GL_LIGHT_MODEL_AMBIENT, black);
+  gl().Lightfv(GL_LIGHT0, GL_POSITION, kLightFrom);
+  gl().Lightfv(GL_LIGHT0, GL_AMBIENT, ambient);
+  gl().Lightfv(GL_LIGHT0, GL_DIFFUSE, diffuse);
   Eigen::Isometry3d camera_pose = Eigen::Isometry3d::Identity();
   camera_pose.linear() = camera.axes;
   camera_pose.translation() = camera.position;
-  glLoadMatrixd(camera_pose.inverse().data());
+  gl().LoadMatrixd(camera_pose.inverse().data());
 }
 
 void SetColor(Color color, double opacity) {
-  glColor4ub(color.r, color.g, color.b, static_cast<GLubyte>(std::lround(255 * opacity)));
+  gl().Color4ub(color.r, color.g, color.b, static_cast<GLubyte>(std::lround(255 * opacity)));
 }
 
 /// Draws shapes with the colour that is set.
@@ -110,16 +109,16 @@ class FormPainter {
     Vertices(MakeCapsule(rod.from, rod.to, rod.radius)).Draw();
   }
   void operator()(const Line& line) const {
-    glDisable(GL_LIGHTING);
+    gl().Disable(GL_LIGHTING);
     const Vector3d back = camera_.ToEye((line.from + line.to) / 2);
     Vertices(MakeBand(line.from, line.to, line.radius, back)).Draw();
-    glEnable(GL_LIGHTING);
+    gl().Enable(GL_LIGHTING);
   }
   void operator()(const MeshInstance& instance) const {
-    glPushMatrix();
-    glMultMatrixd(instance.pose.data());
+    gl().PushMatrix();
+    gl().MultMatrixd(instance.pose.data());
     meshes_[instance.mesh].Draw();
-    glPopMatrix();
+    gl().PopMatrix();
   }
   void Draw(const std::vector<Shape>& shapes, bool opaque) const {
     for (const Shape& shape : shapes) {
@@ -155,19 +154,19 @@ std::vector<Shape> SortTranslucent(const Camera& camera, const std::vector<Shape
 
 void InitState() {
   for (const GLenum on : {GL_DEPTH_TEST, GL_CULL_FACE, GL_LIGHTING, GL_LIGHT0, GL_COLOR_MATERIAL}) {
-    glEnable(on);
+    gl().Enable(on);
   }
-  glColorMaterial(GL_FRONT, GL_AMBIENT_AND_DIFFUSE);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glDepthFunc(GL_LEQUAL);
-  glEnableClientState(GL_VERTEX_ARRAY);
-  glEnableClientState(GL_NORMAL_ARRAY);
+  gl().ColorMaterial(GL_FRONT, GL_AMBIENT_AND_DIFFUSE);
+  gl().BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl().DepthFunc(GL_LEQUAL);
+  gl().EnableClientState(GL_VERTEX_ARRAY);
+  gl().EnableClientState(GL_NORMAL_ARRAY);
 }
 
 /// Whether what is drawn sets the colours, and the samples' alpha.
 void SetMask(bool colors, bool alpha) {
-  glColorMask(colors ? GL_TRUE : GL_FALSE, colors ? GL_TRUE : GL_FALSE, colors ? GL_TRUE : GL_FALSE,
-              alpha ? GL_TRUE : GL_FALSE);
+  gl().ColorMask(colors ? GL_TRUE : GL_FALSE, colors ? GL_TRUE : GL_FALSE,
+                 colors ? GL_TRUE : GL_FALSE, alpha ? GL_TRUE : GL_FALSE);
 }
 
 /// The shapes' picture with others, opaque, among them. Where one of those is seen the sample's
@@ -175,22 +174,22 @@ void SetMask(bool colors, bool alpha) {
 void DrawPicture(const FormPainter& painter, const Drawing& drawing,
                  const std::vector<Shape>& translucent, std::span<const Shape> more) {
   SetMask(true, true);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   SetMask(true, false);
   painter.Draw(drawing.shapes, /*opaque=*/true);
   SetMask(true, true);
   for (const Shape& shape : more) painter.Draw(shape);
   SetMask(true, false);
-  glEnable(GL_BLEND);
-  glDepthMask(GL_FALSE);
+  gl().Enable(GL_BLEND);
+  gl().DepthMask(GL_FALSE);
   painter.Draw(translucent, /*opaque=*/false);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
+  gl().DepthMask(GL_TRUE);
+  gl().Disable(GL_BLEND);
   SetMask(false, false);
   for (const MeshInstance& mesh : drawing.hiding) painter(mesh);
   SetMask(true, false);
   painter.Draw(drawing.outline, /*opaque=*/true);
-  glFinish();
+  gl().Finish();
 }
 
 /// How much of each picture is seen: that of the shapes alone, then those of the layers. Sums to
@@ -254,7 +253,7 @@ class Canvas::Impl {
   Image Draw(const Camera& camera, const Drawing& drawing, Color paper) {
     const OffscreenContext::Use use(context_);
     constexpr float kFull = 255;
-    glClearColor(paper.r / kFull, paper.g / kFull, paper.b / kFull, 0);
+    gl().ClearColor(paper.r / kFull, paper.g / kFull, paper.b / kFull, 0);
     Image image = MakeImage(width_, height_);
     for (int top = 0; top < height_; top += band_rows_) {
       DrawBand(camera, drawing, {top, std::min(band_rows_, height_ - top), height_}, image);
@@ -282,10 +281,10 @@ class Canvas::Impl {
     FadeInWindows(drawing.veil->windows, band, veil);
     // What is before the covers keeps its alpha.
     SetMask(false, true);
-    glColor4ub(0, 0, 0, 0);
+    gl().Color4ub(0, 0, 0, 0);
     for (const MeshInstance& cover : drawing.veil->covers) painter(cover);
     SetMask(true, true);
-    glFinish();
+    gl().Finish();
     std::vector<bool> over(count / 4);
     for (std::size_t i = 0; i < over.size(); ++i) over[i] = seen[4 * i + 3] != 0;
     seen = draw({});
@@ -347,7 +346,7 @@ class Canvas::Impl {
 
   void DrawBand(const Camera& camera, const Drawing& drawing, const Band& band, Image& image) {
     const int rows = band.rows * factor_;
-    glViewport(0, 0, width_ * factor_, rows);
+    gl().Viewport(0, 0, width_ * factor_, rows);
     SetCamera(camera, band);
     const FormPainter painter(camera, *meshes_);
     const std::vector<Shape> translucent = SortTranslucent(camera, drawing.shapes);

@@ -1,11 +1,11 @@
 #include "render/frames/offscreen_context.h"
 
-#include <GL/osmesa.h>
-
 #include <cstdlib>
 #include <string>
 
 #include "planner/base/error.h"
+#include "planner/base/shared_library.h"
+#include "render/frames/gl.h"
 
 namespace regrasp::render {
 
@@ -14,6 +14,19 @@ namespace {
 constexpr int kDepthBits = 24;
 constexpr int kBytesPerPixel = 4;
 
+Gl LoadGl() {
+  // Mesa 22 (Debian 12) and older.
+  const SharedLibrary mesa({"libOSMesa.so.8", "libOSMesa.so.6"});
+  Gl gl;
+#define REGRASP_GL_FIND(name) mesa.Find("gl" #name, gl.name);
+  REGRASP_GL_FUNCTIONS(REGRASP_GL_FIND)
+#undef REGRASP_GL_FIND
+  mesa.Find("OSMesaCreateContextExt", gl.CreateContext);
+  mesa.Find("OSMesaDestroyContext", gl.DestroyContext);
+  mesa.Find("OSMesaMakeCurrent", gl.MakeCurrent);
+  return gl;
+}
+
 OSMesaContext CreateContext() {
   // Mesa would keep shaders in the home folder. Its versions have two names for this.
   constexpr char kName[] = "MESA_SHADER_CACHE_DISABLE";
@@ -21,10 +34,15 @@ OSMesaContext CreateContext() {
   if (std::getenv(kName) == nullptr && std::getenv(kOldName) == nullptr) {
     for (const char* name : {kName, kOldName}) setenv(name, "true", /*overwrite=*/1);
   }
-  return OSMesaCreateContextExt(OSMESA_RGBA, kDepthBits, 0, 0, nullptr);
+  return gl().CreateContext(OSMESA_RGBA, kDepthBits, 0, 0, nullptr);
 }
 
 }  // namespace
+
+const Gl& gl() {
+  static const Gl functions = LoadGl();
+  return functions;
+}
 
 OffscreenContext::OffscreenContext(int width, int height)
     : width_(width),
@@ -35,17 +53,17 @@ OffscreenContext::OffscreenContext(int width, int height)
   try {
     const Use tried(*this);
   } catch (...) {
-    OSMesaDestroyContext(context_);
+    gl().DestroyContext(context_);
     throw;
   }
 }
 
-OffscreenContext::~OffscreenContext() { OSMesaDestroyContext(context_); }
+OffscreenContext::~OffscreenContext() { gl().DestroyContext(context_); }
 
-OffscreenContext::Use::~Use() { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+OffscreenContext::Use::~Use() { gl().MakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
 
 void OffscreenContext::MakeCurrent() {
-  if (OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width_, height_) != GL_TRUE) {
+  if (gl().MakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width_, height_) != GL_TRUE) {
     throw EnvironmentError("the off-screen rendering context of " + std::to_string(width_) + "x" +
                            std::to_string(height_) + " pixels cannot be used (OSMesa)");
   }

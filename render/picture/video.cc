@@ -14,6 +14,7 @@ extern "C" {
 #include <string>
 
 #include "planner/base/error.h"
+#include "planner/base/shared_library.h"
 #include "render/picture/color_table.h"
 
 namespace regrasp::render {
@@ -31,12 +32,64 @@ constexpr int kPicturesBetweenKeys = 40;
 /// GIF counts time in these.
 constexpr int kCentisecond_ms = 10;
 
+/// The functions of ffmpeg's libraries that are used, by library.
+// clang-format off
+#define REGRASP_AVCODEC_FUNCTIONS(F) \
+  F(av_packet_alloc) F(av_packet_free) F(av_packet_rescale_ts) F(avcodec_alloc_context3) \
+  F(avcodec_find_encoder) F(avcodec_find_encoder_by_name) F(avcodec_free_context) \
+  F(avcodec_open2) F(avcodec_parameters_from_context) F(avcodec_receive_packet) \
+  F(avcodec_send_frame)
+#define REGRASP_AVFORMAT_FUNCTIONS(F) \
+  F(av_interleaved_write_frame) F(av_write_trailer) F(avformat_alloc_output_context2) \
+  F(avformat_free_context) F(avformat_new_stream) F(avformat_write_header) F(avio_alloc_context) \
+  F(avio_close_dyn_buf) F(avio_context_free) F(avio_get_dyn_buf) F(avio_open_dyn_buf)
+#define REGRASP_AVUTIL_FUNCTIONS(F) \
+  F(av_frame_alloc) F(av_frame_free) F(av_frame_get_buffer) F(av_frame_make_writable) F(av_free) \
+  F(av_log_set_level) F(av_memdup) F(av_opt_set) F(av_opt_set_int) F(av_strerror)
+// clang-format on
+
+/// The functions of ffmpeg's libraries, loaded at the first call of ffmpeg().
+struct Ffmpeg {
+#define REGRASP_AV_MEMBER(name) decltype(&::name) name = nullptr;
+  REGRASP_AVCODEC_FUNCTIONS(REGRASP_AV_MEMBER)
+  REGRASP_AVFORMAT_FUNCTIONS(REGRASP_AV_MEMBER)
+  REGRASP_AVUTIL_FUNCTIONS(REGRASP_AV_MEMBER)
+#undef REGRASP_AV_MEMBER
+};
+
+/// A library of ffmpeg, in the version of the headers.
+SharedLibrary LibraryOf(const char* name, int version) {
+  return SharedLibrary({"lib" + std::string(name) + ".so." + std::to_string(version)});
+}
+
+Ffmpeg LoadFfmpeg() {
+  const SharedLibrary codec = LibraryOf("avcodec", LIBAVCODEC_VERSION_MAJOR);
+  const SharedLibrary format = LibraryOf("avformat", LIBAVFORMAT_VERSION_MAJOR);
+  const SharedLibrary util = LibraryOf("avutil", LIBAVUTIL_VERSION_MAJOR);
+  Ffmpeg functions;
+#define REGRASP_AV_FIND_CODEC(name) codec.Find(#name, functions.name);
+#define REGRASP_AV_FIND_FORMAT(name) format.Find(#name, functions.name);
+#define REGRASP_AV_FIND_UTIL(name) util.Find(#name, functions.name);
+  REGRASP_AVCODEC_FUNCTIONS(REGRASP_AV_FIND_CODEC)
+  REGRASP_AVFORMAT_FUNCTIONS(REGRASP_AV_FIND_FORMAT)
+  REGRASP_AVUTIL_FUNCTIONS(REGRASP_AV_FIND_UTIL)
+#undef REGRASP_AV_FIND_CODEC
+#undef REGRASP_AV_FIND_FORMAT
+#undef REGRASP_AV_FIND_UTIL
+  return functions;
+}
+
+const Ffmpeg& ffmpeg() {
+  static const Ffmpeg functions = LoadFfmpeg();
+  return functions;
+}
+
 /// What a call of ffmpeg returned.
 int Require(int result) {
   if (result >= 0) return result;
   if (result == AVERROR(ENOMEM)) throw std::bad_alloc();
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text = {};
-  av_strerror(result, text.data(), text.size());
+  ffmpeg().av_strerror(result, text.data(), text.size());
   throw EnvironmentError("ffmpeg: " + std::string(text.data()));
 }
 
@@ -50,43 +103,43 @@ template <auto free>
 struct Free {
   template <class T>
   void operator()(T* pointer) const {
-    free(&pointer);
+    (ffmpeg().*free)(&pointer);
   }
 };
-using Codec = std::unique_ptr<AVCodecContext, Free<&avcodec_free_context>>;
-using Frame = std::unique_ptr<AVFrame, Free<&av_frame_free>>;
-using Packet = std::unique_ptr<AVPacket, Free<&av_packet_free>>;
+using Codec = std::unique_ptr<AVCodecContext, Free<&Ffmpeg::avcodec_free_context>>;
+using Frame = std::unique_ptr<AVFrame, Free<&Ffmpeg::av_frame_free>>;
+using Packet = std::unique_ptr<AVPacket, Free<&Ffmpeg::av_packet_free>>;
 
 /// A muxer that writes into memory.
 class Muxer {
  public:
   explicit Muxer(const char* format) {
-    Require(avformat_alloc_output_context2(&context_, nullptr, format, nullptr));
+    Require(ffmpeg().avformat_alloc_output_context2(&context_, nullptr, format, nullptr));
     context_->flags |= AVFMT_FLAG_BITEXACT;
     context_->io_open = &OpenWritten;
     context_->io_close2 = &Close;
   }
   ~Muxer() {
     TakeBytes();
-    avformat_free_context(context_);
+    ffmpeg().avformat_free_context(context_);
   }
   Muxer(const Muxer&) = delete;
   Muxer& operator=(const Muxer&) = delete;
 
   void Begin(const AVCodecContext& codec) {
-    AVStream* stream = RequireMemory(avformat_new_stream(context_, nullptr));
+    AVStream* stream = RequireMemory(ffmpeg().avformat_new_stream(context_, nullptr));
     stream->time_base = codec.time_base;
     stream->avg_frame_rate = codec.framerate;
-    Require(avcodec_parameters_from_context(stream->codecpar, &codec));
-    Require(avio_open_dyn_buf(&context_->pb));
-    Require(avformat_write_header(context_, nullptr));
+    Require(ffmpeg().avcodec_parameters_from_context(stream->codecpar, &codec));
+    Require(ffmpeg().avio_open_dyn_buf(&context_->pb));
+    Require(ffmpeg().avformat_write_header(context_, nullptr));
   }
   void Write(AVPacket& packet, AVRational time_base) {
-    av_packet_rescale_ts(&packet, time_base, context_->streams[0]->time_base);
-    Require(av_interleaved_write_frame(context_, &packet));
+    ffmpeg().av_packet_rescale_ts(&packet, time_base, context_->streams[0]->time_base);
+    Require(ffmpeg().av_interleaved_write_frame(context_, &packet));
   }
   std::string Finish() {
-    Require(av_write_trailer(context_));
+    Require(ffmpeg().av_write_trailer(context_));
     return TakeBytes();
   }
   [[nodiscard]] AVFormatContext& context() { return *context_; }
@@ -96,32 +149,32 @@ class Muxer {
   static int OpenWritten(AVFormatContext* context, AVIOContext** io, const char* /*url*/,
                          int /*flags*/, AVDictionary** /*options*/) {
     std::uint8_t* written = nullptr;
-    const int size = avio_get_dyn_buf(context->pb, &written);
-    auto* bytes = static_cast<std::uint8_t*>(av_memdup(written, size));
+    const int size = ffmpeg().avio_get_dyn_buf(context->pb, &written);
+    auto* bytes = static_cast<std::uint8_t*>(ffmpeg().av_memdup(written, size));
     if (bytes == nullptr) return AVERROR(ENOMEM);
     // Without a function that reads, the buffer is all there is.
-    *io = avio_alloc_context(bytes, size, 0, nullptr, nullptr, nullptr, nullptr);
+    *io = ffmpeg().avio_alloc_context(bytes, size, 0, nullptr, nullptr, nullptr, nullptr);
     if (*io == nullptr) {
-      av_free(bytes);
+      ffmpeg().av_free(bytes);
       return AVERROR(ENOMEM);
     }
     return 0;
   }
   static int Close(AVFormatContext* /*context*/, AVIOContext* io) {
-    av_free(io->buffer);
-    avio_context_free(&io);
+    ffmpeg().av_free(io->buffer);
+    ffmpeg().avio_context_free(&io);
     return 0;
   }
 
   std::string TakeBytes() {
     if (context_->pb == nullptr) return "";
     std::uint8_t* bytes = nullptr;
-    const int size = avio_get_dyn_buf(context_->pb, &bytes);
+    const int size = ffmpeg().avio_get_dyn_buf(context_->pb, &bytes);
     std::string text(reinterpret_cast<const char*>(bytes), size);
     // This one ends the bytes where something was written last, which is not their end in an MP4.
-    avio_close_dyn_buf(context_->pb, &bytes);
+    ffmpeg().avio_close_dyn_buf(context_->pb, &bytes);
     context_->pb = nullptr;
-    av_free(bytes);
+    ffmpeg().av_free(bytes);
     return text;
   }
 
@@ -146,9 +199,9 @@ class Encoder {
 
   explicit Encoder(const Settings& settings)
       : muxer_(settings.format),
-        codec_(RequireMemory(avcodec_alloc_context3(settings.codec))),
-        frame_(RequireMemory(av_frame_alloc())),
-        packet_(RequireMemory(av_packet_alloc())) {
+        codec_(RequireMemory(ffmpeg().avcodec_alloc_context3(settings.codec))),
+        frame_(RequireMemory(ffmpeg().av_frame_alloc())),
+        packet_(RequireMemory(ffmpeg().av_packet_alloc())) {
     codec_->width = settings.width;
     codec_->height = settings.height;
     codec_->pix_fmt = settings.pixels;
@@ -162,22 +215,22 @@ class Encoder {
     }
     if (settings.pixels == AV_PIX_FMT_YUV420P) SetColors();
     for (const auto& [name, value] : settings.options) {
-      Require(av_opt_set(codec_->priv_data, name, value, 0));
+      Require(ffmpeg().av_opt_set(codec_->priv_data, name, value, 0));
     }
-    Require(avcodec_open2(codec_.get(), settings.codec, nullptr));
+    Require(ffmpeg().avcodec_open2(codec_.get(), settings.codec, nullptr));
     if (settings.index_first) {
-      Require(av_opt_set(muxer_.context().priv_data, "movflags", "+faststart", 0));
+      Require(ffmpeg().av_opt_set(muxer_.context().priv_data, "movflags", "+faststart", 0));
     }
     muxer_.Begin(*codec_);
     frame_->width = settings.width;
     frame_->height = settings.height;
     frame_->format = settings.pixels;
-    Require(av_frame_get_buffer(frame_.get(), 0));
+    Require(ffmpeg().av_frame_get_buffer(frame_.get(), 0));
   }
 
   /// What is encoded next, to be written to.
   AVFrame& NextFrame() {
-    Require(av_frame_make_writable(frame_.get()));
+    Require(ffmpeg().av_frame_make_writable(frame_.get()));
     return *frame_;
   }
   /// Shows the frame from `time` on, ticks.
@@ -200,9 +253,9 @@ class Encoder {
     codec_->color_trc = AVCOL_TRC_BT709;
   }
   void Send(const AVFrame* frame) {
-    Require(avcodec_send_frame(codec_.get(), frame));
+    Require(ffmpeg().avcodec_send_frame(codec_.get(), frame));
     for (;;) {
-      const int result = avcodec_receive_packet(codec_.get(), packet_.get());
+      const int result = ffmpeg().avcodec_receive_packet(codec_.get(), packet_.get());
       if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
       Require(result);
       packet_->duration = 1;
@@ -266,7 +319,7 @@ class Video : public MovingPicture {
     if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide) {
       throw std::invalid_argument("video: images of a size that it cannot hold");
     }
-    av_log_set_level(AV_LOG_QUIET);  // a library prints nothing
+    ffmpeg().av_log_set_level(AV_LOG_QUIET);  // a library prints nothing
   }
 
   void Add(const Image& image, int duration_ms) final {
@@ -289,7 +342,7 @@ class Video : public MovingPicture {
 };
 
 const AVCodec* FindX264() {
-  const AVCodec* codec = avcodec_find_encoder_by_name("libx264");
+  const AVCodec* codec = ffmpeg().avcodec_find_encoder_by_name("libx264");
   if (codec == nullptr) {
     throw EnvironmentError("libavcodec has no encoder of H.264 (libx264): write .webp or .gif");
   }
@@ -333,12 +386,12 @@ class Gif : public Video {
   Gif(int width, int height, const std::vector<Color>& colors)
       : Video(width, height),
         colors_(colors),
-        encoder_({"gif", avcodec_find_encoder(AV_CODEC_ID_GIF), AV_PIX_FMT_PAL8, width, height,
-                  kCentisecond_ms}) {}
+        encoder_({"gif", ffmpeg().avcodec_find_encoder(AV_CODEC_ID_GIF), AV_PIX_FMT_PAL8, width,
+                  height, kCentisecond_ms}) {}
 
   std::string Finish() override {
-    Require(av_opt_set_int(encoder_.muxer().context().priv_data, "final_delay",
-                           last_duration_ms_ / kCentisecond_ms, 0));
+    Require(ffmpeg().av_opt_set_int(encoder_.muxer().context().priv_data, "final_delay",
+                                    last_duration_ms_ / kCentisecond_ms, 0));
     return encoder_.Finish();
   }
 

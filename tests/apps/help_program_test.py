@@ -179,7 +179,7 @@ class Help(ProgramCase):
         self.assertEqual(complete("validate", "--mass", ""), [])
 
     def test_the_manual_page_is_rendered_without_a_warning_and_has_every_option(self):
-        self.assertIsNotNone(shutil.which("groff"), "groff is not installed: run scripts/setup")
+        self.assertIsNotNone(shutil.which("groff"), "groff is not installed: run scripts/setup --test")
         for program in PROGRAMS:
             page = self.help_as("man", program)
             done = subprocess.run(["groff", "-ww", "-man", "-Tutf8", "-P-cbou"], input=page,

@@ -69,7 +69,7 @@ class Validate(ProgramCase):
     def screenshot(self, name):
         """What headless Chromium shows of a page. Fails where there is no Chromium."""
         browser = shutil.which("chromium")
-        self.assertIsNotNone(browser, "chromium is not installed: run scripts/setup")
+        self.assertIsNotNone(browser, "chromium is not installed: run scripts/setup --test")
         picture = self.path("page.png")
         done = subprocess.run(
             [browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",

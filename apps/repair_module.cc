@@ -1,0 +1,53 @@
+#include "apps/repair_module.h"
+
+#include <system_error>
+
+#include "planner/base/error.h"
+#include "planner/base/shared_library.h"
+
+namespace regrasp::apps {
+
+namespace {
+
+/// Beside the program in a build folder, REGRASP_MODULES relative to it if installed.
+SharedLibrary LoadModule() {
+  std::error_code unknown;
+  const std::filesystem::path folder =
+      std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
+  constexpr char kFile[] = "regrasp_repair.so";
+  return SharedLibrary({folder / kFile, folder / REGRASP_MODULES / kFile});
+}
+
+const RepairFunctions& Functions() {
+  static const RepairFunctions functions = [] {
+    const RepairFunctions* (*entry)() = nullptr;
+    LoadModule().Find(kRepairEntry, entry);
+    return *entry();
+  }();
+  return functions;
+}
+
+}  // namespace
+
+object::ObjectFile ReadRepaired(const std::filesystem::path& path,
+                                const object::RepairOptions& options,
+                                const object::Reading& reading, std::string* text) {
+  try {
+    (void)Functions();
+  } catch (const EnvironmentError& error) {
+    throw EnvironmentError("repair is not built: " + std::string(error.what()) +
+                           "; help: build the target repair_module");
+  }
+  return Functions().read_repaired(path, options, reading, text);
+}
+
+std::string RepairHint(const std::filesystem::path& path, const object::Reading& reading) {
+  try {
+    (void)Functions();
+  } catch (const EnvironmentError&) {
+    return "; the program repair may make a solid of it";
+  }
+  return Functions().repair_hint(path, reading);
+}
+
+}  // namespace regrasp::apps
