@@ -4,6 +4,8 @@ option(REGRASP_UNITY "Compile several sources of a folder as one translation uni
 # Bytes of source per translation unit. Headers cost 2 to 5 s per unit, so small units are slow to build
 # from scratch and large units are slow to rebuild after a change.
 set(REGRASP_UNIT_SIZE 100000 CACHE STRING "Bytes of source per translation unit")
+# Faster to rebuild while you edit these; the names are those of regrasp_library and regrasp_tests.
+set(REGRASP_SEPARATE "" CACHE STRING "Targets to compile file by file, for example gait;gait_test")
 
 add_library(regrasp_options INTERFACE)
 # No fused multiply-add: results must be the same bits on every x86-64 machine.
@@ -31,7 +33,7 @@ target_include_directories(regrasp_options INTERFACE
 # sources each, by paths relative to the project so that all clones share a compiler cache. CMake's own
 # UNITY_BUILD counts files instead of bytes and writes absolute paths.
 function(regrasp_sources out name)
-  if(NOT REGRASP_UNITY)
+  if(NOT REGRASP_UNITY OR name IN_LIST REGRASP_SEPARATE)
     set(${out} ${ARGN} PARENT_SCOPE)
     return()
   endif()
@@ -109,7 +111,8 @@ function(regrasp_tests name)
   if(NOT sources)
     return()
   endif()
-  add_executable(${name}_test ${sources})
+  regrasp_sources(units ${name}_test ${sources})
+  add_executable(${name}_test ${units})
   target_link_libraries(${name}_test PRIVATE ${ARGN} regrasp_project_path GTest::gtest_main
                         GTest::gmock)
   regrasp_find_tests(${name}_test ${name})

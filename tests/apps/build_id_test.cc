@@ -6,7 +6,7 @@
 #include "planner/base/file.h"
 
 namespace regrasp::apps {
-namespace {
+namespace build_id_test {
 
 TEST(BuildIdTest, IsThatInTheFileOfTheRunningProgram) {
   const std::string id = BuildId();
@@ -19,5 +19,5 @@ TEST(BuildIdTest, IsThatInTheFileOfTheRunningProgram) {
   EXPECT_EQ(BuildId(), id);
 }
 
-}  // namespace
+}  // namespace build_id_test
 }  // namespace regrasp::apps

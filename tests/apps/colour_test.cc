@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::apps {
-namespace {
+namespace colour_test {
 
 TEST(PaintVerdicts, PaintsVerdictsAndNothingElse) {
   EXPECT_EQ(PaintVerdicts("step  kind  verdict\n0     hold  pass\n"),
@@ -27,5 +27,5 @@ TEST(TakesColour, IsNotForWhatIsNoTerminal) {
   EXPECT_FALSE(captured);
 }
 
-}  // namespace
+}  // namespace colour_test
 }  // namespace regrasp::apps

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::apps {
-namespace {
+namespace entry_names_test {
 
 TEST(EntryNames, SortAsTheirEntriesDo) {
   EXPECT_EQ(EntryFileName(plan::EntryIndex(0), "hold", "png"), "000_hold.png");
@@ -34,5 +34,5 @@ TEST(EntryNames, ANumberIsAtLeastThreeDigitsAtTheBeginning) {
   EXPECT_EQ(AfterEntryNumber("a003"), std::nullopt);
 }
 
-}  // namespace
+}  // namespace entry_names_test
 }  // namespace regrasp::apps

@@ -15,7 +15,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
-namespace {
+namespace held_folder_test {
 
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
@@ -184,5 +184,5 @@ TEST_F(HeldFolderTest, AFolderThatCannotBeMadeIsNamed) {
   EXPECT_THROW(HeldFolder(folder_ / "link", kAtOnce), EnvironmentError);
 }
 
-}  // namespace
+}  // namespace held_folder_test
 }  // namespace regrasp::apps

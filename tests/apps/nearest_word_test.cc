@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::apps {
-namespace {
+namespace nearest_word_test {
 
 const std::vector<std::string> kWords = {"--object", "--output", "--friction-angle", "--mu"};
 
@@ -24,5 +24,5 @@ TEST(DidYouMean, SaysNothingWhereNoWordIsNear) {
   EXPECT_EQ(DidYouMean("--object" + std::string(100, 't'), kWords), "");
 }
 
-}  // namespace
+}  // namespace nearest_word_test
 }  // namespace regrasp::apps

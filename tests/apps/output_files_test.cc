@@ -11,7 +11,7 @@
 #include "planner/base/error.h"
 
 namespace regrasp::apps {
-namespace {
+namespace output_files_test {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
@@ -146,5 +146,5 @@ TEST(PathForCiTest, IsFromTheWorkingFolderAndAbsoluteOutsideOfIt) {
   EXPECT_EQ(PathForCi("..out"), "..out");
 }
 
-}  // namespace
+}  // namespace output_files_test
 }  // namespace regrasp::apps

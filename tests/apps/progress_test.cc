@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::apps {
-namespace {
+namespace progress_test {
 
 using std::chrono::seconds;
 
@@ -28,5 +28,5 @@ TEST(ProgressLogTest, ALogGetsALineNowAndThenAndNoneAtOnce) {
 
 TEST(ProgressLogTest, QuietMeansNone) { EXPECT_EQ(ShownOf100Seconds(true), ""); }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace regrasp::apps

@@ -8,7 +8,7 @@
 #include "planner/base/error.h"
 
 namespace regrasp::apps {
-namespace {
+namespace run_date_test {
 
 class RunDateTest : public testing::Test {
  protected:
@@ -38,5 +38,5 @@ TEST_F(RunDateTest, RefusesWhatAreNoSeconds) {
   }
 }
 
-}  // namespace
+}  // namespace run_date_test
 }  // namespace regrasp::apps

@@ -8,7 +8,7 @@
 #include "tests/fixtures/models.h"
 
 namespace regrasp {
-namespace {
+namespace contest_test {
 
 constexpr ContestLimits kFewPairs = {5, 1e3};
 
@@ -103,5 +103,5 @@ TEST(Contest, SeesAPlannerThatJoinsMoreThanGeneral) {
   EXPECT_EQ(FindBetterThanGeneral(contest), "better");
 }
 
-}  // namespace
+}  // namespace contest_test
 }  // namespace regrasp

@@ -10,7 +10,7 @@
 #include "planner/grasp/required_half_angle.h"
 
 namespace regrasp::bench {
-namespace {
+namespace least_friction_test {
 
 using Eigen::Vector3d;
 
@@ -88,5 +88,5 @@ TEST(LeastFrictionTest, ForAllDirectionsItIsThatOfForceClosureAndForTheWeightNoM
   EXPECT_GT(easier, 0);
 }
 
-}  // namespace
+}  // namespace least_friction_test
 }  // namespace regrasp::bench

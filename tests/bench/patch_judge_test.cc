@@ -11,7 +11,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp {
-namespace {
+namespace patch_judge_test {
 
 using Eigen::Vector3d;
 using object::Polyhedron;
@@ -51,5 +51,5 @@ TEST(PatchJudge, AgreesBesideAnEdgeAndOnAThinWall) {
   }
 }
 
-}  // namespace
+}  // namespace patch_judge_test
 }  // namespace regrasp

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp {
-namespace {
+namespace plan_figures_test {
 
 plan::FingerContact At(int finger, double x, double y) {
   return {FingerIndex(finger), {{x, y, 0}, Eigen::Vector3d::UnitX(), FaceIndex(0)}};
@@ -55,5 +55,5 @@ TEST(PlanFigures, APlanWithoutStepsHasNoWayAndNoAligns) {
   EXPECT_EQ(TravelOf(plan), 0);
 }
 
-}  // namespace
+}  // namespace plan_figures_test
 }  // namespace regrasp

@@ -10,7 +10,7 @@
 #include "report/squeeze_text.h"
 
 namespace regrasp::report {
-namespace {
+namespace failure_test {
 
 using plan::Reason;
 using testing::EndsWith;
@@ -135,5 +135,5 @@ TEST(Failure, OfAGoalThatIsNotReachedKnowsContactsFromPoses) {
   EXPECT_THAT(DescribeFailure(report)->why, Not(HasSubstr("contacts")));
 }
 
-}  // namespace
+}  // namespace failure_test
 }  // namespace regrasp::report

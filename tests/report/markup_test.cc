@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::report {
-namespace {
+namespace markup_test {
 
 TEST(MarkupTest, MarkupInATextIsEscaped) {
   EXPECT_EQ(EscapeMarkup("a<b&\"c\">'d'"), "a&lt;b&amp;&quot;c&quot;&gt;&#39;d&#39;");
@@ -58,5 +58,5 @@ TEST(ElementTest, OnlyVoidElementsAreClosedInTheirOwnTag) {
   EXPECT_EQ(Element("td").Format(), "<td></td>");
 }
 
-}  // namespace
+}  // namespace markup_test
 }  // namespace regrasp::report

@@ -6,7 +6,7 @@
 #include "planner/base/file.h"
 
 namespace regrasp::report {
-namespace {
+namespace report_seal_test {
 
 Json MakeReport() {
   return Json::parse(R"({"format": "regrasp-report", "numbers": [1e22, 0.1, -0.0, 5e-324, 7],
@@ -60,5 +60,5 @@ TEST(ReportSealTest, AReportThatDoesNotTellItsRunHasNoSeal) {
   EXPECT_THROW((void)IsSealed("{ half"), InputError);
 }
 
-}  // namespace
+}  // namespace report_seal_test
 }  // namespace regrasp::report

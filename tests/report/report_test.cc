@@ -14,7 +14,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::report {
-namespace {
+namespace report_test {
 
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -305,5 +305,5 @@ TEST(VerdictText, OfAFailedStepSaysWhy) {
   EXPECT_EQ(VerdictText(step), "skipped");
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace regrasp::report

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::report {
-namespace {
+namespace trials_report_test {
 
 TEST(TrialsReportTest, TheJsonSaysWhatTheSummarySays) {
   sim::TrialSummary summary;
@@ -22,5 +22,5 @@ TEST(TrialsReportTest, TheJsonSaysWhatTheSummarySays) {
   EXPECT_EQ(json["steps"], Json::parse(R"([{"index": 1, "failed": 3}])"));
 }
 
-}  // namespace
+}  // namespace trials_report_test
 }  // namespace regrasp::report

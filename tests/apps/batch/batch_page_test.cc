@@ -8,7 +8,7 @@
 #include "tests/apps/batch/plan_outcomes.h"
 
 namespace regrasp::apps {
-namespace {
+namespace batch_page_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -82,5 +82,5 @@ TEST(BatchPageTest, NamesOfAnyBytesStayTextAndLinksStayLinks) {
   EXPECT_THAT(page, HasSubstr("href=\"a%3A%3Cscript%3E%23%22%27%26%25%FF/report.html\""));
 }
 
-}  // namespace
+}  // namespace batch_page_test
 }  // namespace regrasp::apps

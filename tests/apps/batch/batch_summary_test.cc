@@ -9,7 +9,7 @@
 #include "tests/apps/batch/plan_outcomes.h"
 
 namespace regrasp::apps {
-namespace {
+namespace batch_summary_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -99,5 +99,5 @@ TEST(BatchSummaryTest, NamesOfAnyBytesBreakNothing) {
   EXPECT_THAT(FormatSummaryJunit(summary, "out"), HasSubstr("&quot;&lt;"));
 }
 
-}  // namespace
+}  // namespace batch_summary_test
 }  // namespace regrasp::apps

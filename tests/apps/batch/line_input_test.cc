@@ -11,7 +11,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
-namespace {
+namespace line_input_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -103,5 +103,5 @@ TEST_F(LineInputTest, AFileThatShrinksMeanwhileIsNoticed) {
   EXPECT_THROW((void)input.Next(), InputError);
 }
 
-}  // namespace
+}  // namespace line_input_test
 }  // namespace regrasp::apps

@@ -10,7 +10,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
-namespace {
+namespace line_output_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -151,5 +151,5 @@ TEST_F(LineOutputTest, AFolderThatIsMissingIsTheMachinesFault) {
   EXPECT_THAT(Refusal<EnvironmentError>(header_), HasSubstr("plans.jsonl.part: cannot be written"));
 }
 
-}  // namespace
+}  // namespace line_output_test
 }  // namespace regrasp::apps

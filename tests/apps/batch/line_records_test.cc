@@ -10,7 +10,7 @@
 #include "planner/base/error.h"
 
 namespace regrasp::apps {
-namespace {
+namespace line_records_test {
 
 using testing::HasSubstr;
 
@@ -104,5 +104,5 @@ TEST(TallyTest, CountsInTheOrderOfWhatIsGoodFirst) {
   EXPECT_EQ(TallyText({{Outcome::kError, 2}, {Outcome::kPass, 3}}), "5 entries: 3 pass, 2 error");
 }
 
-}  // namespace
+}  // namespace line_records_test
 }  // namespace regrasp::apps

@@ -11,7 +11,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
-namespace {
+namespace line_run_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -140,5 +140,5 @@ TEST_F(LineRunTest, GoesOnWhereAnEarlierRunWasStopped) {
   EXPECT_EQ(prepared.size(), 51U);
 }
 
-}  // namespace
+}  // namespace line_run_test
 }  // namespace regrasp::apps

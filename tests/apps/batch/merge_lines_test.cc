@@ -8,7 +8,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
-namespace {
+namespace merge_lines_test {
 
 namespace fs = std::filesystem;
 using testing::AllOf;
@@ -125,5 +125,5 @@ TEST_F(MergeLinesTest, WhatIsNoFileIsRefused) {
   EXPECT_THAT(Refusal({folder_}), HasSubstr("is a folder"));
 }
 
-}  // namespace
+}  // namespace merge_lines_test
 }  // namespace regrasp::apps

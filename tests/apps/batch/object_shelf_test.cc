@@ -8,7 +8,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
-namespace {
+namespace object_shelf_test {
 
 using testing::HasSubstr;
 
@@ -87,5 +87,5 @@ TEST_F(ObjectFinderTest, TakesTheNameWhereItsDigestIsRightAndOtherwiseTheDigest)
   EXPECT_FALSE(one.is_folder());
 }
 
-}  // namespace
+}  // namespace object_shelf_test
 }  // namespace regrasp::apps

@@ -11,7 +11,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
-namespace {
+namespace plan_library_test {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
@@ -99,5 +99,5 @@ TEST_F(PlanLibraryTest, AFolderWithoutPlansAndNamesThatAreNoFoldersAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace plan_library_test
 }  // namespace regrasp::apps

@@ -21,7 +21,7 @@
 #include <vector>
 
 namespace regrasp::apps {
-namespace {
+namespace process_pool_test {
 
 /// Far above what any child here needs; one that hangs is ended by it and fails the test.
 constexpr std::chrono::seconds kHang{120};
@@ -294,5 +294,5 @@ TEST(ProcessPoolTest, ExitCodesArriveWhereThisProcessIgnoresItsChildren) {
   sigaction(SIGCHLD, &before, nullptr);
 }
 
-}  // namespace
+}  // namespace process_pool_test
 }  // namespace regrasp::apps

@@ -6,7 +6,7 @@
 #include "planner/base/error.h"
 
 namespace regrasp::apps {
-namespace {
+namespace report_summary_test {
 
 using testing::HasSubstr;
 
@@ -97,5 +97,5 @@ TEST(ReportSummaryTest, WhatIsNoReportIsRefusedWithItsPlace) {
   EXPECT_EQ(refusal(FailedReport()), "nothing was refused");
 }
 
-}  // namespace
+}  // namespace report_summary_test
 }  // namespace regrasp::apps

@@ -9,7 +9,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::bench {
-namespace {
+namespace bih_tasks_test {
 
 using Eigen::Vector3d;
 using testing::ElementsAre;
@@ -81,5 +81,5 @@ TEST_F(Bih, RefusesSheetsOfAnotherForm) {
   EXPECT_THROW((void)ReadBih(Write("s.csv", kColumns), folder_ / "nowhere"), InputError);
 }
 
-}  // namespace
+}  // namespace bih_tasks_test
 }  // namespace regrasp::bench

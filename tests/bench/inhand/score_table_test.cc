@@ -8,7 +8,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::bench {
-namespace {
+namespace score_table_test {
 
 using testing::HasSubstr;
 
@@ -107,5 +107,5 @@ TEST(ScoreTables, StandBetweenMarkers) {
   EXPECT_THROW((void)ReplaceBetweenMarkers("no markers", "new", "x.md"), InputError);
 }
 
-}  // namespace
+}  // namespace score_table_test
 }  // namespace regrasp::bench

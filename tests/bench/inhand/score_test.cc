@@ -16,7 +16,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::bench {
-namespace {
+namespace score_test {
 
 using testing::HasSubstr;
 
@@ -191,5 +191,5 @@ TEST(PlanTask, BeginsWhereThePlanBeforeItEnds) {
   EXPECT_EQ(fault->reason, plan::Reason::kStartDiffers);
 }
 
-}  // namespace
+}  // namespace score_test
 }  // namespace regrasp::bench

@@ -15,7 +15,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::bench {
-namespace {
+namespace task_test {
 
 using Eigen::Vector3d;
 using testing::HasSubstr;
@@ -157,5 +157,5 @@ TEST(CsvTable, KeepsCommasBetweenQuotationMarks) {
   EXPECT_THROW((void)CsvTable::Parse("a\n\"1\n", "x.csv"), InputError);
 }
 
-}  // namespace
+}  // namespace task_test
 }  // namespace regrasp::bench

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 namespace regrasp {
-namespace {
+namespace binomial_test {
 
 TEST(ShareInterval, OfAllOrNoneIsTheClosedForm) {
   // Upper end p of 0 of n: (1 − p)^n = 0.025.
@@ -43,5 +43,5 @@ TEST(ShareInterval, RefusesWhatIsNoShare) {
   EXPECT_THROW((void)ComputeShareInterval(1, 5, std::nan("")), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace binomial_test
 }  // namespace regrasp

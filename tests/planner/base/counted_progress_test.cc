@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace regrasp {
-namespace {
+namespace counted_progress_test {
 
 std::vector<std::string> ToldOf(int total, int done) {
   std::vector<std::string> told;
@@ -38,5 +38,5 @@ TEST(CountedProgress, MayGoOnFartherThanItSaidAndTellNobody) {
   progress.Reach(3);
 }
 
-}  // namespace
+}  // namespace counted_progress_test
 }  // namespace regrasp

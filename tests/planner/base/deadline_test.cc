@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp {
-namespace {
+namespace deadline_test {
 
 using std::chrono::seconds;
 using Clock = Deadline::Clock;
@@ -64,5 +64,5 @@ TEST(Deadline, BeyondTheClocksRangeThereIsNone) {
   EXPECT_TRUE(DeadlineAfter(begin, 0).IsOver());
 }
 
-}  // namespace
+}  // namespace deadline_test
 }  // namespace regrasp

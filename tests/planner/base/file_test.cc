@@ -11,7 +11,7 @@
 #include "planner/base/error.h"
 
 namespace regrasp {
-namespace {
+namespace file_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -85,5 +85,5 @@ TEST(Sha256, IsTheSameOfBytesThatComeInPieces) {
   EXPECT_NE(other.Finish(), Sha256("a"));
 }
 
-}  // namespace
+}  // namespace file_test
 }  // namespace regrasp

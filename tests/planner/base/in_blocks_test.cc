@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace regrasp {
-namespace {
+namespace in_blocks_test {
 
 TEST(InBlocksTest, EveryIndexIsWorkedOnOnceWhateverTheThreads) {
   for (const int threads : {0, 1, 2, 7}) {
@@ -43,5 +43,5 @@ TEST(InBlocksTest, FewerThanNoThreadsAreRefused) {
   EXPECT_THROW(InBlocks(1, 1, -1, [](std::size_t, std::size_t) {}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace in_blocks_test
 }  // namespace regrasp

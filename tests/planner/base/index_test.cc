@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace regrasp {
-namespace {
+namespace index_test {
 
 using Leaf = Index<struct LeafTag>;
 using Root = Index<struct RootTag>;
@@ -71,5 +71,5 @@ TEST(Index, IsASubscriptAndAKeyAndPrintsItsNumber) {
 
 TEST(Index, KeepsItsPlaceAmongArguments) { EXPECT_EQ(Paint(Leaf(3), Root(4)), 34); }
 
-}  // namespace
+}  // namespace index_test
 }  // namespace regrasp

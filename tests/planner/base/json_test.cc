@@ -9,7 +9,7 @@
 #include "planner/base/error.h"
 
 namespace regrasp {
-namespace {
+namespace json_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -137,5 +137,5 @@ TEST(FormatJson, BytesThatAreNoUtf8BecomeReplacements) {
 
 TEST(FormatJson, EndsWithALineEnd) { EXPECT_EQ(FormatJson(Json{{"x", 1}}), "{\n \"x\": 1\n}\n"); }
 
-}  // namespace
+}  // namespace json_test
 }  // namespace regrasp

@@ -9,7 +9,7 @@
 #include "planner/base/sanitizer.h"
 
 namespace regrasp {
-namespace {
+namespace memory_test {
 
 using ::testing::HasSubstr;
 
@@ -52,5 +52,5 @@ TEST(Memory, WhatDoesNotFitIsRefusedWithWhatWould) {
   EXPECT_THAT(MemoryComplaint(need, 1), HasSubstr("some 0 edges would fit"));
 }
 
-}  // namespace
+}  // namespace memory_test
 }  // namespace regrasp

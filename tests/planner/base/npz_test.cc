@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 namespace regrasp {
-namespace {
+namespace npz_test {
 
 template <typename Integer>
 Integer IntegerAt(const std::string& bytes, std::size_t at) {
@@ -82,5 +82,5 @@ TEST(NpzTest, AShapeThatDoesNotFitIsRefused) {
   EXPECT_THROW((void)FormatNpz({{"x", {2}, {1}}}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace npz_test
 }  // namespace regrasp

@@ -14,7 +14,7 @@
 #include "planner/base/json.h"
 
 namespace regrasp {
-namespace {
+namespace number_test {
 
 TEST(ParseDouble, ReadsDecimalNumbers) {
   EXPECT_EQ(ParseDouble("0"), 0.0);
@@ -97,5 +97,5 @@ TEST(Angle, DegreesAndRadiansAreInverse) {
   EXPECT_DOUBLE_EQ(Degrees(Radians(20)), 20);
 }
 
-}  // namespace
+}  // namespace number_test
 }  // namespace regrasp

@@ -5,7 +5,7 @@
 #include <utility>
 
 namespace regrasp {
-namespace {
+namespace quantity_text_test {
 
 TEST(QuantityText, ALengthTakesTheUnitThatSuits) {
   EXPECT_EQ(FormatLength(4100), "4.1 km");
@@ -53,5 +53,5 @@ TEST(QuantityText, OfMassesAndAngles) {
   EXPECT_EQ(FormatDegrees(-0.126), "-0.13°");
 }
 
-}  // namespace
+}  // namespace quantity_text_test
 }  // namespace regrasp

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace regrasp {
-namespace {
+namespace random_test {
 
 TEST(RandomStream, GivesTheSameNumbersForTheSameSeedAndUse) {
   RandomStream a(7, RandomUse::kStart);
@@ -90,5 +90,5 @@ TEST(RandomStream, ChoosesDifferentOnesEachAsOften) {
   EXPECT_TRUE(random.Choose(kCount, 0).empty());
 }
 
-}  // namespace
+}  // namespace random_test
 }  // namespace regrasp

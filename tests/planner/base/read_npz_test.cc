@@ -13,7 +13,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp {
-namespace {
+namespace read_npz_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -142,5 +142,5 @@ TEST(ReadNpzTest, TextsAreRefused) {
             "file.npz: a: numbers are needed, found the type U2");
 }
 
-}  // namespace
+}  // namespace read_npz_test
 }  // namespace regrasp

@@ -5,7 +5,7 @@
 #include <string>
 
 namespace regrasp {
-namespace {
+namespace text_table_test {
 
 TEST(TextTableTest, ColumnsAreAsWideAsTheirWidestCell) {
   EXPECT_EQ(FormatRows({{"a", "long", "z"}, {"abc", "b", "zz"}}), "a    long  z\nabc  b     zz\n");
@@ -42,5 +42,5 @@ TEST(TextTableTest, ALineOfAnyLengthIsCutInItsMiddle) {
   EXPECT_EQ(OneLine(longest + "ü").size(), 1 + 2 * (kLongestLine - 2) + 3);
 }
 
-}  // namespace
+}  // namespace text_table_test
 }  // namespace regrasp

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace regrasp {
-namespace {
+namespace utf8_test {
 
 /// The bytes of a character, 0 to U+10FFFF.
 std::string Encode(char32_t code) {
@@ -77,5 +77,5 @@ TEST(Utf8, OnlyWhatIsNotSeenIsInvisible) {
   }
 }
 
-}  // namespace
+}  // namespace utf8_test
 }  // namespace regrasp

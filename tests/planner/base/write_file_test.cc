@@ -27,7 +27,7 @@
 #include "planner/base/file.h"
 
 namespace regrasp {
-namespace {
+namespace write_file_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -404,5 +404,5 @@ TEST_F(WriteFileTest, ACheckLeavesEverythingAsItIs) {
   EXPECT_THAT(Names(), ElementsAre("file"));
 }
 
-}  // namespace
+}  // namespace write_file_test
 }  // namespace regrasp

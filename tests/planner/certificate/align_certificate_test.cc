@@ -11,7 +11,7 @@
 #include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp::certificate {
-namespace {
+namespace align_certificate_test {
 
 using Eigen::Vector3d;
 
@@ -99,5 +99,5 @@ TEST(AlignCertificateTest, PlansGetTheCertificatesThatTheyLack) {
   EXPECT_TRUE(certificate(2)->empty()) << "what a planner claims stays";
 }
 
-}  // namespace
+}  // namespace align_certificate_test
 }  // namespace regrasp::certificate

@@ -12,7 +12,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::certificate {
-namespace {
+namespace plan_proof_test {
 
 using Eigen::Vector3d;
 using Kind = motion::ProofVerdict::Kind;
@@ -178,5 +178,5 @@ TEST(PlanProofTest, BrokenProofsAreBadInput) {
   EXPECT_THROW((void)CheckPlanProofs(plan, kMu, std::vector<EntryProof>(4)), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace plan_proof_test
 }  // namespace regrasp::certificate

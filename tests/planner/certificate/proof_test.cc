@@ -11,7 +11,7 @@
 #include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp::certificate {
-namespace {
+namespace proof_test {
 
 using Eigen::Vector3d;
 using Kind = motion::ProofVerdict::Kind;
@@ -142,5 +142,5 @@ TEST(ProofTest, TwistsThatDoNotSeparateAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace proof_test
 }  // namespace regrasp::certificate

@@ -12,7 +12,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::certificate {
-namespace {
+namespace soft_proof_test {
 
 using Eigen::Vector3d;
 using Kind = motion::ProofVerdict::Kind;
@@ -121,5 +121,5 @@ TEST(SoftProofTest, EveryClearAnswerHasAProofThatHolds) {
   EXPECT_LT(without, 6);
 }
 
-}  // namespace
+}  // namespace soft_proof_test
 }  // namespace regrasp::certificate

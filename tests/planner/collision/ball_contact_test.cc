@@ -9,7 +9,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::collision {
-namespace {
+namespace ball_contact_test {
 
 using Eigen::Vector3d;
 
@@ -100,5 +100,5 @@ TEST(BallContactTest, AmongTheTrianglesAroundItIsTheSameToTheBit) {
   EXPECT_GT(several, 0);
 }
 
-}  // namespace
+}  // namespace ball_contact_test
 }  // namespace regrasp::collision

@@ -10,7 +10,7 @@
 #include "planner/collision/hull_distance.h"
 
 namespace regrasp::collision {
-namespace {
+namespace convex_shape_test {
 
 using Eigen::Vector3d;
 
@@ -167,5 +167,5 @@ TEST(ConvexShapeTest, TheBallContainsTheShape) {
   }
 }
 
-}  // namespace
+}  // namespace convex_shape_test
 }  // namespace regrasp::collision

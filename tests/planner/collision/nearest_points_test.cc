@@ -8,7 +8,7 @@
 #include "planner/collision/convex_shape.h"
 
 namespace regrasp::collision {
-namespace {
+namespace nearest_points_test {
 
 using Eigen::Vector3d;
 
@@ -42,5 +42,5 @@ TEST(NearestPointsTest, ThePlaneThroughEachIsAtTheHull) {
   EXPECT_GT(apart, 100);
 }
 
-}  // namespace
+}  // namespace nearest_points_test
 }  // namespace regrasp::collision

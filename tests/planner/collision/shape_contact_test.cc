@@ -10,7 +10,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::collision {
-namespace {
+namespace shape_contact_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -169,5 +169,5 @@ TEST(ShapeContactTest, TheNearestPlaceIsAsFarAsTheNearestTriangle) {
   EXPECT_GT(checked, 100);
 }
 
-}  // namespace
+}  // namespace shape_contact_test
 }  // namespace regrasp::collision

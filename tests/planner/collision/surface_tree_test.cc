@@ -9,7 +9,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::collision {
-namespace {
+namespace surface_tree_test {
 
 using Eigen::Vector3d;
 
@@ -49,5 +49,5 @@ TEST(SurfaceTreeTest, DistancesAreThoseOfAllTriangles) {
   }
 }
 
-}  // namespace
+}  // namespace surface_tree_test
 }  // namespace regrasp::collision

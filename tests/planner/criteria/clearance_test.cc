@@ -7,7 +7,7 @@
 #include "planner/object/polygon.h"
 
 namespace regrasp::criteria {
-namespace {
+namespace clearance_test {
 
 /// An L with its inner corner at (1, 1); its edges from (1, 1) go up and to the right.
 object::Polygon MakeL() {
@@ -55,5 +55,5 @@ TEST(FingertipClearance, DoesNotDependOnTheUnitOfLength) {
   }
 }
 
-}  // namespace
+}  // namespace clearance_test
 }  // namespace regrasp::criteria

@@ -8,7 +8,7 @@
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::criteria {
-namespace {
+namespace grasp_criteria_test {
 
 class GraspCriteriaTest : public testing::Test {
  protected:
@@ -62,5 +62,5 @@ TEST_F(GraspCriteriaTest, MessagesSayWhatIsAskedForBeyondForceClosure) {
   EXPECT_EQ(WithWhatIsAsked({Radians(30), 0}), "");
 }
 
-}  // namespace
+}  // namespace grasp_criteria_test
 }  // namespace regrasp::criteria

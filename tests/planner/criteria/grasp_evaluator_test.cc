@@ -8,7 +8,7 @@
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::criteria {
-namespace {
+namespace grasp_evaluator_test {
 
 /// Contacts at shares of the unit square's width.
 grasp::Grasp Across(const object::Polygon& square, double bottom, double top) {
@@ -100,5 +100,5 @@ TEST(GraspEvaluator, OnlyGoodGraspsHaveAMargin) {
   EXPECT_EQ(evaluator.Margin(Across(square, 0.2, 0.8)), std::nullopt);    // not force closure
 }
 
-}  // namespace
+}  // namespace grasp_evaluator_test
 }  // namespace regrasp::criteria

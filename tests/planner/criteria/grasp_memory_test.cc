@@ -12,7 +12,7 @@
 #include "planner/object/polygon.h"
 
 namespace regrasp::criteria {
-namespace {
+namespace grasp_memory_test {
 
 constexpr int kSteps = 8;
 
@@ -153,5 +153,5 @@ TEST_F(GraspMemoryTest, RequiredHalfAngleIsTheAngleOfTheLineBetweenTwoContacts) 
   EXPECT_THROW(Memory(90, 0), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace grasp_memory_test
 }  // namespace regrasp::criteria

@@ -11,7 +11,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::criteria {
-namespace {
+namespace reach_test {
 
 using Eigen::Vector3d;
 
@@ -188,5 +188,5 @@ TEST(Reach, AThickerFingerReachesNoMoreAndTheUnitOfLengthDoesNotMatter) {
   EXPECT_EQ(changes, 3);
 }
 
-}  // namespace
+}  // namespace reach_test
 }  // namespace regrasp::criteria

@@ -7,7 +7,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
-namespace {
+namespace carrier_test {
 
 /// A finger that finds no place to wait among those that are given waits in one that is drawn; not
 /// in one where it runs into its own hand.
@@ -43,5 +43,5 @@ TEST(CarrierTest, FingersWaitWhereTheyKeepOffTheirOwnHand) {
   EXPECT_GT(would_collide, 0);
 }
 
-}  // namespace
+}  // namespace carrier_test
 }  // namespace regrasp::gait

@@ -11,7 +11,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
-namespace {
+namespace certified_path_test {
 
 constexpr double kMargin = 1e-3;
 
@@ -86,5 +86,5 @@ TEST(CertifiedPathTest, APathAndItsReverseAreAlike) {
   }
 }
 
-}  // namespace
+}  // namespace certified_path_test
 }  // namespace regrasp::gait

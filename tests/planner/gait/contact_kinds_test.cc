@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::gait {
-namespace {
+namespace contact_kinds_test {
 
 using Eigen::Vector3d;
 
@@ -21,5 +21,5 @@ TEST(ContactKindsTest, NearContactsOnOneSideAreOfAKind) {
   EXPECT_NE(kinds.KindOf({0}), kinds.KindOf({kNone}));
 }
 
-}  // namespace
+}  // namespace contact_kinds_test
 }  // namespace regrasp::gait

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::gait {
-namespace {
+namespace crowding_test {
 
 using Eigen::Vector3d;
 
@@ -38,5 +38,5 @@ TEST(CrowdingTest, EachOneThatIsCountedPutsBackByAsMuch) {
   EXPECT_DOUBLE_EQ(crowding.PutBack(0, holding, 0), 2 * once);
 }
 
-}  // namespace
+}  // namespace crowding_test
 }  // namespace regrasp::gait

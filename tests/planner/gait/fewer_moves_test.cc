@@ -11,7 +11,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
-namespace {
+namespace fewer_moves_test {
 
 /// A hand turns a cube.
 class FewerMovesTest : public testing::Test {
@@ -79,5 +79,5 @@ TEST_F(FewerMovesTest, AMoveThatCantBeStraightStays) {
   EXPECT_EQ(same.stretches[0].path.size(), 3u);
 }
 
-}  // namespace
+}  // namespace fewer_moves_test
 }  // namespace regrasp::gait

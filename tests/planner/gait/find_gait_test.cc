@@ -16,7 +16,7 @@
 #include "tests/planner/gait/gait_requests.h"
 
 namespace regrasp::gait {
-namespace {
+namespace find_gait_test {
 
 using Eigen::Vector3d;
 
@@ -456,5 +456,5 @@ TEST(FindGaitTest, BodiesOfSmallFacetsHaveContacts) {
   }
 }
 
-}  // namespace
+}  // namespace find_gait_test
 }  // namespace regrasp::gait

@@ -15,7 +15,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
-namespace {
+namespace gait_planner_test {
 
 using planning::GraspChoice;
 using planning::PlanRequest;
@@ -134,5 +134,5 @@ TEST_F(GaitPlannerTest, ExplainsWhatWouldDoAfterItsTimeToo) {
                                             HasSubstr("the time limit ended the tries")));
 }
 
-}  // namespace
+}  // namespace gait_planner_test
 }  // namespace regrasp::gait

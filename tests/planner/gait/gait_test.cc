@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::gait {
-namespace {
+namespace gait_test {
 
 Keyframe At(double drive) {
   return {Eigen::Isometry3d::Identity(), {kinematics::Posture::Constant(1, drive)}};
@@ -47,5 +47,5 @@ TEST(GaitTest, TheOtherWayRoundItLeadsBack) {
   }
 }
 
-}  // namespace
+}  // namespace gait_test
 }  // namespace regrasp::gait

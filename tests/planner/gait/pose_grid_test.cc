@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::gait {
-namespace {
+namespace pose_grid_test {
 
 using Eigen::Vector3d;
 
@@ -55,5 +55,5 @@ TEST(PoseGridTest, OnwardsAndBackwardsWithOneTiltMakeUpTheTurn) {
   EXPECT_GT(alike, onwards.size());
 }
 
-}  // namespace
+}  // namespace pose_grid_test
 }  // namespace regrasp::gait

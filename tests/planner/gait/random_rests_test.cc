@@ -10,7 +10,7 @@
 #include "tests/planner/gait/gait_requests.h"
 
 namespace regrasp::gait {
-namespace {
+namespace random_rests_test {
 
 constexpr double kScale = 0.8333;
 constexpr int kTries = 20'000;
@@ -114,5 +114,5 @@ TEST(RandomRests, ThreeFingersHoldAtLeastAndNoMoreThanTheHandHas) {
   }
 }
 
-}  // namespace
+}  // namespace random_rests_test
 }  // namespace regrasp::gait

@@ -12,7 +12,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
-namespace {
+namespace rest_tree_test {
 
 using Eigen::Vector3d;
 
@@ -267,5 +267,5 @@ TEST_F(WayUpTest, LeadsOffTheSurface) {
   EXPECT_GT(near, 0);
 }
 
-}  // namespace
+}  // namespace rest_tree_test
 }  // namespace regrasp::gait

@@ -9,7 +9,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
-namespace {
+namespace rolling_test {
 
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
@@ -65,5 +65,5 @@ TEST_F(RollingTest, WhereNoSurfaceIsNearItStays) {
             away.p);
 }
 
-}  // namespace
+}  // namespace rolling_test
 }  // namespace regrasp::gait

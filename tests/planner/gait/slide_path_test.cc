@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace regrasp::gait {
-namespace {
+namespace slide_path_test {
 
 using Eigen::Vector3d;
 using grasp::Contact;
@@ -67,5 +67,5 @@ TEST(GoTogetherTest, WhereOneStaysTheOtherGoesAllTheWay) {
   EXPECT_TRUE(IsSame(along[1][1], kOnAFace.back()));
 }
 
-}  // namespace
+}  // namespace slide_path_test
 }  // namespace regrasp::gait

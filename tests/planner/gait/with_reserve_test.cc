@@ -23,7 +23,7 @@
 #include "tests/planner/gait/gait_requests.h"
 
 namespace regrasp::gait {
-namespace {
+namespace with_reserve_test {
 
 using Eigen::Vector3d;
 
@@ -436,5 +436,5 @@ TEST(WithReserveTest, WhereItCanNotBeToldItIsAsIfTheHandWereNotAsked) {
             plan::FormatPlan(PlanOf(*usual.gait, request, usual.contacts)));
 }
 
-}  // namespace
+}  // namespace with_reserve_test
 }  // namespace regrasp::gait

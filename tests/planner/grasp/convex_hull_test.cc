@@ -9,7 +9,7 @@
 #include "planner/base/random.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace convex_hull_test {
 
 /// The corners of the cross-polytope of so many dimensions, one on each half-axis, and its centre.
 Eigen::MatrixXd CrossPolytopeAndCentre(int dimension) {
@@ -65,5 +65,5 @@ TEST(ConvexHull, RefusesPointsThatAreTooFew) {
   EXPECT_THROW((void)ComputeConvexHull(Eigen::MatrixXd::Identity(3, 3)), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace convex_hull_test
 }  // namespace regrasp::grasp

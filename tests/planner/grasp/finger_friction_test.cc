@@ -12,7 +12,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace finger_friction_test {
 
 using Eigen::Vector3d;
 
@@ -140,5 +140,5 @@ TEST(FingerFrictionTest, TheWeakestFingerAloneIsThatOfAllToTheLastBit) {
   EXPECT_GT(none, 20);
 }
 
-}  // namespace
+}  // namespace finger_friction_test
 }  // namespace regrasp::grasp

@@ -13,7 +13,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace force_closure_test {
 
 constexpr int kSides = 64;
 /// GLPK's own feasibility tolerance is 1e-7: margins within this say nothing.
@@ -291,5 +291,5 @@ TEST(ForceClosureTest, BadArgumentsThrow) {
   EXPECT_THROW((void)TestForceClosure(bad, frame, 0.3), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace force_closure_test
 }  // namespace regrasp::grasp

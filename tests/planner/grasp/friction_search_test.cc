@@ -13,7 +13,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace friction_search_test {
 
 /// Sums of unit forces and their torques are balanced, and twists separate, up to this.
 constexpr double kRounding = 1e-9;
@@ -153,5 +153,5 @@ TEST(WrenchSimplexTest, IsNotResumedWithoutWeights) {
   EXPECT_EQ(simplex.Resume(twist), WrenchSimplex<6>::Status::kStalled);
 }
 
-}  // namespace
+}  // namespace friction_search_test
 }  // namespace regrasp::grasp

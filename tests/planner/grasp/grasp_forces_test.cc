@@ -12,7 +12,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace grasp_forces_test {
 
 constexpr double kTotal = 7.5;      // newtons, the total normal force of these tests
 constexpr double kRounding = 1e-9;  // newtons, far above what 60 pivots lose
@@ -169,5 +169,5 @@ TEST(GraspForcesTest, BadArgumentsThrow) {
   EXPECT_THROW((void)ComputeGraspForces(grasp, UnitFrame(2), 0.3, load, 1), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace grasp_forces_test
 }  // namespace regrasp::grasp

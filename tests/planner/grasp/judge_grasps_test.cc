@@ -15,7 +15,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace judge_grasps_test {
 
 constexpr int kContacts = 4;
 constexpr double kHalfAngle = 0.4;
@@ -136,5 +136,5 @@ TEST_F(JudgeGraspsTest, RefusesAnglesAndThreadsOutOfRange) {
   EXPECT_THROW((void)Judge(options_), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace judge_grasps_test
 }  // namespace regrasp::grasp

@@ -10,7 +10,7 @@
 #include "planner/grasp/quality.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace largest_load_test {
 
 using Eigen::Vector3d;
 
@@ -128,5 +128,5 @@ TEST(LargestLoadTest, WhatIsNoQuestionIsRefused) {
                std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace largest_load_test
 }  // namespace regrasp::grasp

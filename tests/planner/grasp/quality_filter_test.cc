@@ -8,7 +8,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace quality_filter_test {
 
 struct Counts {
   int good = 0;
@@ -63,5 +63,5 @@ TEST(QualityFilterTest, TwistsThatRefutedSomeRefuteMostOthers) {
   EXPECT_LT(filter.shot_count(), asked / 2);
 }
 
-}  // namespace
+}  // namespace quality_filter_test
 }  // namespace regrasp::grasp

@@ -13,7 +13,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace quality_test {
 
 /// The support of the wrench set in a direction, written out once more.
 double Support(const Grasp& grasp, const object::WrenchFrame& frame, double half_angle,
@@ -197,5 +197,5 @@ TEST(QualityTest, BadArgumentsThrow) {
   EXPECT_THROW((void)QualityAtLeast(grasp, UnitFrame(2), 0.5, std::nan("")), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace quality_test
 }  // namespace regrasp::grasp

@@ -11,7 +11,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace required_half_angle_test {
 
 /// Well above what the bounds may differ by next to an angle that is too close to call.
 constexpr double kClose = 1e-6;
@@ -143,5 +143,5 @@ TEST(RequiredHalfAngleTest, BadArgumentsThrow) {
                std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace required_half_angle_test
 }  // namespace regrasp::grasp

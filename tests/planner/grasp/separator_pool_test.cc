@@ -12,7 +12,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace separator_pool_test {
 
 using Word = SeparatorPool::Word;
 using Twist = SeparatorPool::Twist;
@@ -124,5 +124,5 @@ TEST(SeparatorPoolTest, AContactThatIsTouchedIsNotHeldOff) {
   }
 }
 
-}  // namespace
+}  // namespace separator_pool_test
 }  // namespace regrasp::grasp

@@ -8,7 +8,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace sliding_forces_test {
 
 constexpr double kTotal = 7.5;
 constexpr double kMu = 0.6;
@@ -87,5 +87,5 @@ TEST(SlidingForcesTest, TheFirstGoodNormalForceIsTakenOrElseTheBest) {
   EXPECT_NEAR(best.margin, 0.04, 1e-12);
 }
 
-}  // namespace
+}  // namespace sliding_forces_test
 }  // namespace regrasp::grasp

@@ -23,7 +23,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace soft_fingers_test {
 
 using Eigen::Vector3d;
 
@@ -355,5 +355,5 @@ TEST(SoftFingersTest, BadTorsionThrows) {
                std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace soft_fingers_test
 }  // namespace regrasp::grasp

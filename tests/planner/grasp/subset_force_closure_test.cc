@@ -7,7 +7,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace {
+namespace subset_force_closure_test {
 
 using Subsets = std::vector<std::array<int, 4>>;
 
@@ -79,5 +79,5 @@ TEST(SubsetForceClosureTest, BadArgumentsThrow) {
                std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace subset_force_closure_test
 }  // namespace regrasp::grasp

@@ -12,7 +12,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::kinematics {
-namespace {
+namespace convert_model_test {
 
 namespace fs = std::filesystem;
 using testing::Contains;
@@ -223,5 +223,5 @@ TEST(MujocoSchemaTest, KnowsWhatMayStandWhere) {
   EXPECT_GT(schema.Child("mujoco", "actuator")->children.size(), 5U);
 }
 
-}  // namespace
+}  // namespace convert_model_test
 }  // namespace regrasp::kinematics

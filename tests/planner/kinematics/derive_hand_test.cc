@@ -16,7 +16,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::kinematics {
-namespace {
+namespace derive_hand_test {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
@@ -191,5 +191,5 @@ TEST(InspectHandTest, HandsOfOthersAreUnderstood) {
   EXPECT_EQ(leap.description.tips.size(), 4U);
 }
 
-}  // namespace
+}  // namespace derive_hand_test
 }  // namespace regrasp::kinematics

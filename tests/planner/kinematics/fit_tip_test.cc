@@ -9,7 +9,7 @@
 #include "planner/base/random.h"
 
 namespace regrasp::kinematics {
-namespace {
+namespace fit_tip_test {
 
 using collision::ConvexShape;
 using Eigen::Vector3d;
@@ -95,5 +95,5 @@ TEST(FitTipTest, FlatShapesAreRefused) {
   EXPECT_THROW((void)FitTip(Box({0.01, 0.01, 0}), Directions()), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace fit_tip_test
 }  // namespace regrasp::kinematics

@@ -7,7 +7,7 @@
 #include "planner/base/json.h"
 
 namespace regrasp::kinematics {
-namespace {
+namespace hand_description_test {
 
 Json GoodJson() {
   return ParseJson(R"({"format": "regrasp-hand", "version": 1, "name": "claw", "model": "claw.xml",
@@ -51,5 +51,5 @@ TEST(HandDescriptionTest, WhatIsWrongIsNamed) {
   expect_fails("format", [](Json& json) { json["format"] = "regrasp-plan"; });
 }
 
-}  // namespace
+}  // namespace hand_description_test
 }  // namespace regrasp::kinematics

@@ -13,7 +13,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::kinematics {
-namespace {
+namespace hand_file_test {
 
 const std::string kHands = ProjectPath("models/hands/");
 
@@ -165,5 +165,5 @@ TEST(FingerKinematicsTest, MotionIsBounded) {
   EXPECT_GT(tightest, 0.5);
 }
 
-}  // namespace
+}  // namespace hand_file_test
 }  // namespace regrasp::kinematics

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace regrasp::lp {
-namespace {
+namespace invert_test {
 
 /// Of random matrices, whose condition is a few thousand at most.
 constexpr double kRounding = 1e-11;
@@ -52,5 +52,5 @@ TEST(InvertTest, OfASingularMatrixIsNotFinite) {
   EXPECT_FALSE(Invert(Square<2>(Square<2>::Ones())).allFinite());
 }
 
-}  // namespace
+}  // namespace invert_test
 }  // namespace regrasp::lp

@@ -12,7 +12,7 @@
 #include "tests/planner/lp/glpk_program.h"
 
 namespace regrasp::lp {
-namespace {
+namespace simplex_test {
 
 /// What roundings of programs with entries of about 1 may add up to.
 constexpr double kRounding = 1e-9;
@@ -374,5 +374,5 @@ TEST(UnevenWeightTest, NoTwoAreTheSame) {
   }
 }
 
-}  // namespace
+}  // namespace simplex_test
 }  // namespace regrasp::lp

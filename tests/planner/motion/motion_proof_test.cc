@@ -12,7 +12,7 @@
 #include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp::motion {
-namespace {
+namespace motion_proof_test {
 
 using Eigen::Vector3d;
 using Kind = ProofVerdict::Kind;
@@ -297,5 +297,5 @@ TEST_F(PiecesTest, WrittenAsShortDecimalsStillProve) {
   EXPECT_EQ(Verdict(pieces), Kind::kForceClosure);
 }
 
-}  // namespace
+}  // namespace motion_proof_test
 }  // namespace regrasp::motion

@@ -10,7 +10,7 @@
 #include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp::motion {
-namespace {
+namespace moving_forces_test {
 
 using Eigen::Vector3d;
 
@@ -100,5 +100,5 @@ TEST(MovingForcesTest, AreNotFoundWhereAnInstantIsNotForceClosure) {
   EXPECT_FALSE((FindMovingForces<3, 1>(MovingContactsOf(from, to), forces)));
 }
 
-}  // namespace
+}  // namespace moving_forces_test
 }  // namespace regrasp::motion

@@ -12,7 +12,7 @@
 #include "planner/motion/find_motion_proof.h"
 
 namespace regrasp::motion {
-namespace {
+namespace path_force_closure_test {
 
 constexpr unsigned kSeed = 20;
 
@@ -427,5 +427,5 @@ TEST(PathForceClosure, BoundsMotionsInOnePlaneAsNearAsOthers) {
 INSTANTIATE_TEST_SUITE_P(Dimensions, PathForceClosureIn, testing::Values(2, 3),
                          [](const auto& info) { return info.param == 2 ? "Plane" : "Space"; });
 
-}  // namespace
+}  // namespace path_force_closure_test
 }  // namespace regrasp::motion

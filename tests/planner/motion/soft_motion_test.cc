@@ -14,7 +14,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::motion {
-namespace {
+namespace soft_motion_test {
 
 using Eigen::Vector3d;
 
@@ -167,5 +167,5 @@ TEST(SoftMotionTest, WhatIsSaidToHoldHoldsAtEveryInstantAndMoreTorsionKeepsIt) {
   EXPECT_GT(helped, 10);
 }
 
-}  // namespace
+}  // namespace soft_motion_test
 }  // namespace regrasp::motion

@@ -17,7 +17,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
-namespace {
+namespace bad_files_test {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -262,5 +262,5 @@ TEST(BadFiles, DeepOrLongTextIsRefusedWithoutRecursion) {
   EXPECT_FALSE(IsObject(".off", "OFF\n" + std::string(1'000'000, ' ')));
 }
 
-}  // namespace
+}  // namespace bad_files_test
 }  // namespace regrasp::object

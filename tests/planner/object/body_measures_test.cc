@@ -10,7 +10,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
-namespace {
+namespace body_measures_test {
 
 using testing::HasSubstr;
 
@@ -77,5 +77,5 @@ TEST(BodyMeasures, TheWarningGuessesTheUnitInWhichAHandWouldGraspIt) {
   EXPECT_THAT(guess(3, 1), HasSubstr("centimetres? use --scale 0.01 (3 cm"));
 }
 
-}  // namespace
+}  // namespace body_measures_test
 }  // namespace regrasp::object

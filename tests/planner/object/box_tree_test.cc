@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace regrasp::object {
-namespace {
+namespace box_tree_test {
 
 using Box = BoxTree::Box;
 
@@ -67,5 +67,5 @@ TEST(BoxTree, AnEmptyOneHasNothing) {
                   .empty());
 }
 
-}  // namespace
+}  // namespace box_tree_test
 }  // namespace regrasp::object

@@ -9,7 +9,7 @@
 #include "planner/object/mesh_defect.h"
 
 namespace regrasp::object {
-namespace {
+namespace facet_triangulation_test {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
@@ -112,5 +112,5 @@ TEST(FacetTriangulation, RefusesFacetsWithoutAreaAndOutlinesThatMeetThemselves) 
       << "a corner on another side";
 }
 
-}  // namespace
+}  // namespace facet_triangulation_test
 }  // namespace regrasp::object

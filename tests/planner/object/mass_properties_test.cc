@@ -9,7 +9,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {
-namespace {
+namespace mass_properties_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -116,5 +116,5 @@ TEST(Diameter, IsTheLargestDistanceOfAllPairs) {
   EXPECT_EQ(ComputeDiameter(std::vector<Vector3d>(1000, Vector3d(1, 2, 3))), 0);
 }
 
-}  // namespace
+}  // namespace mass_properties_test
 }  // namespace regrasp::object

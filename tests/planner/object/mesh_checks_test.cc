@@ -17,7 +17,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {
-namespace {
+namespace mesh_checks_test {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
@@ -499,5 +499,5 @@ TEST(MeshChecks, ALargeMeshIsReadAndAHugeOneRefused) {
   }
 }
 
-}  // namespace
+}  // namespace mesh_checks_test
 }  // namespace regrasp::object

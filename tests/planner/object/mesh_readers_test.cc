@@ -19,7 +19,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
-namespace {
+namespace mesh_readers_test {
 
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
@@ -179,5 +179,5 @@ TEST(SoupBytes, ComeBackAsTheyWereAndAreRefusedWhenCut) {
   EXPECT_FALSE(SoupFromBytes(bytes + "x").has_value());
 }
 
-}  // namespace
+}  // namespace mesh_readers_test
 }  // namespace regrasp::object

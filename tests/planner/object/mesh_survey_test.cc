@@ -11,7 +11,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {
-namespace {
+namespace mesh_survey_test {
 
 using Eigen::Vector3d;
 using namespace regrasp::testing;  // NOLINT: the meshes of this folder
@@ -177,5 +177,5 @@ TEST(MeshSurvey, WhatIsEmptyIsRefused) {
   EXPECT_EQ(SurveyMesh({{}, {{0, 1, 2}, {}}}).spoilt_facets, 1);
 }
 
-}  // namespace
+}  // namespace mesh_survey_test
 }  // namespace regrasp::object

@@ -18,7 +18,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
-namespace {
+namespace models_test {
 
 using Eigen::Vector3d;
 
@@ -244,5 +244,5 @@ TEST(Models, SomeContactsAreOnInnerFaces) {
             2);
 }
 
-}  // namespace
+}  // namespace models_test
 }  // namespace regrasp::object

@@ -12,7 +12,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {
-namespace {
+namespace patch_normal_test {
 
 using Eigen::Vector3d;
 using namespace regrasp::testing;  // NOLINT: the meshes of objects
@@ -216,5 +216,5 @@ TEST(InventedFaces, TakeFingersOnlyWhereThatIsAllowed) {
   EXPECT_EQ(invented, 1);
 }
 
-}  // namespace
+}  // namespace patch_normal_test
 }  // namespace regrasp::object

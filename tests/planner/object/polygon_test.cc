@@ -10,7 +10,7 @@
 #include "planner/base/error.h"
 
 namespace regrasp::object {
-namespace {
+namespace polygon_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -222,5 +222,5 @@ TEST(Polygon, APolygonOfManyEdgesIsRead) {
   EXPECT_NEAR(disc.mass_properties().volume, std::numbers::pi, 1e-6);
 }
 
-}  // namespace
+}  // namespace polygon_test
 }  // namespace regrasp::object

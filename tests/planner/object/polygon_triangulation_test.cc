@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::object {
-namespace {
+namespace polygon_triangulation_test {
 
 TEST(TriangulatePolygon, TrianglesCoverThePolygonAndNotItsHole) {
   const Polygon polygon = Polygon::FromRings(
@@ -25,5 +25,5 @@ TEST(TriangulatePolygon, TrianglesCoverThePolygonAndNotItsHole) {
   EXPECT_NEAR(area, polygon.mass_properties().volume, 1e-12);
 }
 
-}  // namespace
+}  // namespace polygon_triangulation_test
 }  // namespace regrasp::object

@@ -11,7 +11,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {
-namespace {
+namespace polyhedron_test {
 
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
@@ -271,5 +271,5 @@ TEST(Polyhedron, QueriesOnAFineFaceAgreeWithClosedForms) {
   EXPECT_GT(uncovered, 100);
 }
 
-}  // namespace
+}  // namespace polyhedron_test
 }  // namespace regrasp::object

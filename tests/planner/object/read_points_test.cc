@@ -6,7 +6,7 @@
 #include "planner/object/mesh_readers.h"
 
 namespace regrasp::object {
-namespace {
+namespace read_points_test {
 
 using Eigen::Vector3d;
 
@@ -47,5 +47,5 @@ TEST(ReadPoints, PcdInBinaryIsTheSame) {
   EXPECT_EQ(ReadPcd(bytes, "cloud.pcd").vertices, kPoints);
 }
 
-}  // namespace
+}  // namespace read_points_test
 }  // namespace regrasp::object

@@ -16,7 +16,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
-namespace {
+namespace read_with_assimp_test {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
@@ -114,5 +114,5 @@ TEST_F(FilesBesideTest, AnObjectIsReadFromItsFileOnce) {
   EXPECT_EQ(file.sha256, Sha256(bytes));
 }
 
-}  // namespace
+}  // namespace read_with_assimp_test
 }  // namespace regrasp::object

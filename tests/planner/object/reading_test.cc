@@ -11,7 +11,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {
-namespace {
+namespace reading_test {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -95,5 +95,5 @@ TEST(Reading, EndsAtTheDeadlineInWhicheverStageItComes) {
   }
 }
 
-}  // namespace
+}  // namespace reading_test
 }  // namespace regrasp::object

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace regrasp::object {
-namespace {
+namespace segment_coverage_test {
 
 /// Ends are this near to the exact ones: the last place of a parameter, magnified by a slope of
 /// one.
@@ -91,5 +91,5 @@ TEST(CoverUnitInterval, WithoutAGapInAnyOrder) {
   EXPECT_FALSE(CoverUnitInterval({{0, 0.3}, {0.2, 0.4}, {0.5, 1}}));
 }
 
-}  // namespace
+}  // namespace segment_coverage_test
 }  // namespace regrasp::object

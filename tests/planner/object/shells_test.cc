@@ -14,7 +14,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {
-namespace {
+namespace shells_test {
 
 using Eigen::Vector3d;
 using ::testing::AllOf;
@@ -186,5 +186,5 @@ TEST(Shells, WhatNoChoiceHelpsIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace shells_test
 }  // namespace regrasp::object

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace regrasp::object {
-namespace {
+namespace size_limits_test {
 
 using testing::HasSubstr;
 
@@ -34,5 +34,5 @@ TEST(EdgeComplaint, OfEdgesWhoseProductsWouldUnderflow) {
   EXPECT_EQ(EdgeComplaint(origin, {1e-180, 1e-180, 0}, 1e-160), "");
 }
 
-}  // namespace
+}  // namespace size_limits_test
 }  // namespace regrasp::object

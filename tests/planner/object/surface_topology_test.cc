@@ -11,7 +11,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {
-namespace {
+namespace surface_topology_test {
 
 using ::testing::HasSubstr;
 
@@ -114,5 +114,5 @@ TEST(SurfaceTopology, RefusesWhatIsNotOneClosedSheetAndNamesTheEdgeOrVertex) {
   EXPECT_THAT(defect->second, HasSubstr("vertex 1 (1, 0, 0): not manifold"));
 }
 
-}  // namespace
+}  // namespace surface_topology_test
 }  // namespace regrasp::object

@@ -11,7 +11,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {
-namespace {
+namespace surface_walk_test {
 
 using Eigen::Vector3d;
 using namespace regrasp::testing;  // NOLINT: the meshes of objects
@@ -201,5 +201,5 @@ TEST(HeadFor, SaysWhereItFindsNone) {
                        FaceTowards(cube, {0, 0, -1}), {0, 0, -0.5}));
 }
 
-}  // namespace
+}  // namespace surface_walk_test
 }  // namespace regrasp::object

@@ -12,7 +12,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {
-namespace {
+namespace weld_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -104,5 +104,5 @@ TEST(WeldVertices, NamesWhatIsWrong) {
   }
 }
 
-}  // namespace
+}  // namespace weld_test
 }  // namespace regrasp::object

@@ -10,7 +10,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace check_align_test {
 
 /// A plan whose only step aligns from the first to the last of the waypoints.
 Plan AlignPlan(Plan plan, std::vector<FingerGrasp> waypoints) {
@@ -312,5 +312,5 @@ TEST(CheckAlign, PassesOnlyWithARequiredHalfAngleWithinTheFriction) {
   EXPECT_GE(passed, 4);
 }
 
-}  // namespace
+}  // namespace check_align_test
 }  // namespace regrasp::plan

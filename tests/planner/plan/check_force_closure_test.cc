@@ -12,7 +12,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace check_force_closure_test {
 
 TEST(CheckPlan, LosesForceClosureExactlyWhereTwoFingersDo) {
   // Two opposite fingers a distance s apart sideways hold a square of side 2 iff s/2 < tan θ.
@@ -177,5 +177,5 @@ TEST(CheckPlan, FailsWhereFrictionIsBelowWhatThePlanRequires) {
   EXPECT_EQ(checked, 4);
 }
 
-}  // namespace
+}  // namespace check_force_closure_test
 }  // namespace regrasp::plan

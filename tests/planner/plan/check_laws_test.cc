@@ -10,7 +10,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace check_laws_test {
 
 /// The cube's plan and changes of it that fail, so that laws are tested on both verdicts.
 std::vector<Plan> Plans() {
@@ -140,5 +140,5 @@ TEST(CheckLaws, MoreFrictionNeverTurnsPassIntoFail) {
   EXPECT_GT(changes, 0);
 }
 
-}  // namespace
+}  // namespace check_laws_test
 }  // namespace regrasp::plan

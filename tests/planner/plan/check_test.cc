@@ -15,7 +15,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace check_test {
 
 /// One change that makes a passing plan fail, where, and why.
 struct Control {
@@ -434,5 +434,5 @@ TEST(CheckPlan, ProjectsContactsOntoTheirFaces) {
   EXPECT_EQ(check.located.initial[1].contact.p, plan.initial[1].contact.p);
 }
 
-}  // namespace
+}  // namespace check_test
 }  // namespace regrasp::plan

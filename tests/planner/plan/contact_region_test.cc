@@ -16,7 +16,7 @@
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::plan {
-namespace {
+namespace contact_region_test {
 
 /// An uneven outline around a circle, convex and concave corners.
 Ring DrawRing(int edges, std::mt19937& random) {
@@ -259,5 +259,5 @@ TEST(SwitchRegion, IsOnlyOfSwitchesBetweenGraspsOfTwoContacts) {
   EXPECT_FALSE(MeasureSwitchRegion(square, before, step, Radians(20)).has_value());
 }
 
-}  // namespace
+}  // namespace contact_region_test
 }  // namespace regrasp::plan

@@ -9,7 +9,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace fault_test {
 
 using Eigen::Vector3d;
 
@@ -151,5 +151,5 @@ TEST(Fault, OfFingersThatAreTooThickHasTheirRadius) {
   EXPECT_FALSE(step.fault.grasp.empty());
 }
 
-}  // namespace
+}  // namespace fault_test
 }  // namespace regrasp::plan

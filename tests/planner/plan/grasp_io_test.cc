@@ -9,7 +9,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace grasp_io_test {
 
 std::string File(const std::string& contacts) {
   return R"({"format": "regrasp-grasp", "version": 1, "contacts": [)" + contacts + "]}";
@@ -84,5 +84,5 @@ TEST(GraspIo, RefusesContactsThatAreNotOnTheObject) {
   EXPECT_EQ(Complaint("", cube), "grasp.json: /contacts: a grasp needs a contact");
 }
 
-}  // namespace
+}  // namespace grasp_io_test
 }  // namespace regrasp::plan

@@ -18,7 +18,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace hostile_files_test {
 
 struct Outcome {
   bool read = false;
@@ -284,5 +284,5 @@ TEST(HostileFiles, RequiredFieldsCannotBeLeftOut) {
   }
 }
 
-}  // namespace
+}  // namespace hostile_files_test
 }  // namespace regrasp::plan

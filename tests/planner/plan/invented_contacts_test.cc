@@ -8,7 +8,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::plan {
-namespace {
+namespace invented_contacts_test {
 
 using ::testing::HasSubstr;
 
@@ -50,5 +50,5 @@ TEST(InventedContacts, TheFirstIsNamedAndAllAreCounted) {
                                          "(finger 1 in step 1)"));
 }
 
-}  // namespace
+}  // namespace invented_contacts_test
 }  // namespace regrasp::plan

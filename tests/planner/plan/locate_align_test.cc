@@ -8,7 +8,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::plan {
-namespace {
+namespace locate_align_test {
 
 using Eigen::Vector3d;
 
@@ -54,5 +54,5 @@ TEST(LocateAlign, PointsThatDifferByMoreThanRoundingStayWhereTheFileHasThem) {
   EXPECT_NEAR(apart, off, off / 1000);
 }
 
-}  // namespace
+}  // namespace locate_align_test
 }  // namespace regrasp::plan

@@ -11,7 +11,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace locate_grasps_test {
 
 using testing::ElementsAre;
 
@@ -94,5 +94,5 @@ TEST_F(LocateGraspsTest, WrongNumbersOfValuesAreRefused) {
                std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace locate_grasps_test
 }  // namespace regrasp::plan

@@ -11,7 +11,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace motion_fault_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -142,5 +142,5 @@ TEST(MotionFault, RoundedNumbersMayShaveACorner) {
   EXPECT_FALSE(MayMove(block, top(1.5, 0.5 + 4e-5), top(0.5, 1.5 + 4e-5)));
 }
 
-}  // namespace
+}  // namespace motion_fault_test
 }  // namespace regrasp::plan

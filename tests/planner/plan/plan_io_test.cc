@@ -11,7 +11,7 @@
 #include "sample_plans.h"
 
 namespace regrasp::plan {
-namespace {
+namespace plan_io_test {
 
 void ExpectSameContact(const grasp::Contact& a, const grasp::Contact& b) {
   EXPECT_EQ(a.p, b.p);
@@ -309,5 +309,5 @@ TEST(PlanIo, AFileThatIsNotThereIsBadInput) {
   EXPECT_THROW(static_cast<void>(ReadPlan("no/such/plan.json")), InputError);
 }
 
-}  // namespace
+}  // namespace plan_io_test
 }  // namespace regrasp::plan

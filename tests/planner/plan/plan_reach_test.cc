@@ -7,7 +7,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace plan_reach_test {
 
 using Eigen::Vector3d;
 
@@ -197,5 +197,5 @@ TEST(PlanReach, TheCheckAllowsWhatReadingRounds) {
   EXPECT_FALSE(CheckPlan(cube, plan, {.finger_radius = least + 20 * tolerance}).passed());
 }
 
-}  // namespace
+}  // namespace plan_reach_test
 }  // namespace regrasp::plan

@@ -9,7 +9,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace planned_snapshot_test {
 
 /// CubePlan() in metres.
 Plan PlanInMetres() {
@@ -100,5 +100,5 @@ TEST(PlannedSnapshot, OfAnAlignWithoutWaypointsShowsTheGraspBefore) {
   EXPECT_EQ(MakePlannedSnapshot(plan, 3, {}, 0).fingers.size(), 4u);
 }
 
-}  // namespace
+}  // namespace planned_snapshot_test
 }  // namespace regrasp::plan

@@ -9,7 +9,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::plan {
-namespace {
+namespace rest_closure_test {
 
 FingerGrasp Held(const grasp::Grasp& grasp) {
   FingerGrasp held;
@@ -52,5 +52,5 @@ TEST(RestClosureTest, OneWithoutContactsDoesNotHold) {
   EXPECT_FALSE(rests.Of({}).holds);
 }
 
-}  // namespace
+}  // namespace rest_closure_test
 }  // namespace regrasp::plan

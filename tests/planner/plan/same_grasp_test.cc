@@ -9,7 +9,7 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::plan {
-namespace {
+namespace same_grasp_test {
 
 constexpr double kTolerance = 1e-6;
 
@@ -93,5 +93,5 @@ TEST(AreIdentical, OnlyTheSameFingersInTheSameOrderWithTheSameBits) {
   }
 }
 
-}  // namespace
+}  // namespace same_grasp_test
 }  // namespace regrasp::plan

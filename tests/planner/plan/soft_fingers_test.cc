@@ -17,7 +17,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
-namespace {
+namespace soft_fingers_test {
 
 using testing::HasSubstr;
 
@@ -149,5 +149,5 @@ TEST(SoftFingersFile, RefusesATorsionThatIsNone) {
               HasSubstr("/torsion: only contacts of solids have torsion"));
 }
 
-}  // namespace
+}  // namespace soft_fingers_test
 }  // namespace regrasp::plan

@@ -11,7 +11,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::planning {
-namespace {
+namespace planner_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -100,5 +100,5 @@ TEST(WhyNotServed, NamesTheDimensionAndTheFingersThatAreMissing) {
               HasSubstr("needs a hand of 4 fingers, and this one has 3"));
 }
 
-}  // namespace
+}  // namespace planner_test
 }  // namespace regrasp::planning

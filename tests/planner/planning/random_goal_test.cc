@@ -7,7 +7,7 @@
 #include "planner/base/deadline.h"
 
 namespace regrasp::planning {
-namespace {
+namespace random_goal_test {
 
 PlanResult Found(double margin, bool warned) {
   PlanResult result;
@@ -74,5 +74,5 @@ TEST(PlanToRandomGoal, KeepsTheFirstWhereTheTimeIsUpForOthersAndEndsWhereThereIs
   EXPECT_THROW((void)Plan(at(1)), TimeUp);
 }
 
-}  // namespace
+}  // namespace random_goal_test
 }  // namespace regrasp::planning

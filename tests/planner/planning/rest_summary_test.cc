@@ -15,7 +15,7 @@
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::planning {
-namespace {
+namespace rest_summary_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -88,5 +88,5 @@ TEST_F(RestSummary, TheSmallestMarginIsThatOfAllWhateverTheirOrder) {
   }
 }
 
-}  // namespace
+}  // namespace rest_summary_test
 }  // namespace regrasp::planning

@@ -16,7 +16,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::planning {
-namespace {
+namespace solve_test {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -170,5 +170,5 @@ TEST(Solve, RefusesTwoContactsAtOnePoint) {
               ThrowsMessage<InputError>(HasSubstr("contacts 2 and 3 are at the same point")));
 }
 
-}  // namespace
+}  // namespace solve_test
 }  // namespace regrasp::planning

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 namespace regrasp::planning {
-namespace {
+namespace switch_sequence_test {
 
 using testing::ElementsAre;
 
@@ -72,5 +72,5 @@ TEST(MakeSwitchSequence, RefusesNothingAndHandsThatAreTooSmall) {
   EXPECT_THROW((void)MakeSwitchSequence(grasps, 2), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace switch_sequence_test
 }  // namespace regrasp::planning

@@ -12,7 +12,7 @@
 #include "tests/fixtures/plan_with.h"
 
 namespace regrasp::registry {
-namespace {
+namespace choose_planner_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -181,5 +181,5 @@ TEST(Registry, EveryPlannerCountsTheGraphThatItSaysItHas) {
   EXPECT_EQ(graphs, 4);
 }
 
-}  // namespace
+}  // namespace choose_planner_test
 }  // namespace regrasp::registry

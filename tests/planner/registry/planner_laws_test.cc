@@ -14,7 +14,7 @@
 #include "tests/fixtures/plan_with.h"
 
 namespace regrasp::registry {
-namespace {
+namespace planner_laws_test {
 
 using planning::Planner;
 using planning::PlanRequest;
@@ -243,5 +243,5 @@ TEST(PlannerLaws, EachHasABadPlannerThatBreaksIt) {
   for (const PlannerLaw& law : PlannerLaws()) EXPECT_TRUE(broken.contains(law.name)) << law.name;
 }
 
-}  // namespace
+}  // namespace planner_laws_test
 }  // namespace regrasp::registry

@@ -12,7 +12,7 @@
 #include "tests/fixtures/plan_with.h"
 
 namespace regrasp::registry {
-namespace {
+namespace progress_test {
 
 /// What a stage of the work told of itself: "joining: 3 of 12" is the stage "joining".
 struct Stage {
@@ -125,5 +125,5 @@ TEST(Progress, ASearchThatFindsNothingCountsItsTestsUpToItsEffort) {
   EXPECT_EQ(none, 1);
 }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace regrasp::registry

@@ -13,7 +13,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::registry {
-namespace {
+namespace rough_body_test {
 
 constexpr double kPatch = 0.15;
 constexpr double kRoughness_deg = 5;
@@ -85,5 +85,5 @@ TEST(RoughBodyControl, WithoutALookAtPatchesSomePlansLoseAGrasp) {
   EXPECT_GT(lost, 0);
 }
 
-}  // namespace
+}  // namespace rough_body_test
 }  // namespace regrasp::registry

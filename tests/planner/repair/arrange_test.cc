@@ -9,7 +9,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::repair {
-namespace {
+namespace arrange_test {
 
 using object::PolygonSoup;
 using object::Polyhedron;
@@ -91,5 +91,5 @@ TEST(ArrangeSurface, AnOpenSurfaceHasNoInside) {
   EXPECT_THROW((void)ArrangeSurface(CleanSurface(open).soup), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace arrange_test
 }  // namespace regrasp::repair

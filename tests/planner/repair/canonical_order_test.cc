@@ -8,7 +8,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::repair {
-namespace {
+namespace canonical_order_test {
 
 using object::PolygonSoup;
 using namespace regrasp::testing;  // NOLINT: the meshes of objects
@@ -61,5 +61,5 @@ TEST(CanonicalOrder, KeepsOrientationAndWhatWasInvented) {
   EXPECT_EQ(marked, was);
 }
 
-}  // namespace
+}  // namespace canonical_order_test
 }  // namespace regrasp::repair

@@ -8,7 +8,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::repair {
-namespace {
+namespace comparison_test {
 
 using object::PolygonSoup;
 using namespace regrasp::testing;  // NOLINT: the meshes of objects
@@ -103,5 +103,5 @@ TEST(Comparison, AThinWallIsFound) {
   EXPECT_GT(Compare(thin, thin, 2 * std::sqrt(2)).thin_share, 0.95);
 }
 
-}  // namespace
+}  // namespace comparison_test
 }  // namespace regrasp::repair

@@ -5,7 +5,7 @@
 #include "planner/base/random.h"
 
 namespace regrasp::repair {
-namespace {
+namespace exact_point_test {
 
 using Number = ExactKernel::FT;
 
@@ -37,5 +37,5 @@ TEST(ExactPoint, IsRoundedTheSameWhateverItWasNeededForBefore) {
   EXPECT_GT(differ, 0);
 }
 
-}  // namespace
+}  // namespace exact_point_test
 }  // namespace regrasp::repair

@@ -9,7 +9,7 @@
 #include "planner/repair/stages.h"
 
 namespace regrasp::repair {
-namespace {
+namespace fill_holes_test {
 
 using Eigen::Vector3d;
 using object::PolygonSoup;
@@ -58,5 +58,5 @@ TEST(FillHoles, AShortTangleIsFilledAndALongOneIsLeftToOtherStages) {
   EXPECT_THROW((void)FillHoles(ConeOver(Tangle(1000))), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace fill_holes_test
 }  // namespace regrasp::repair

@@ -18,7 +18,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::repair {
-namespace {
+namespace repair_test {
 
 using Eigen::Vector3d;
 using object::PolygonSoup;
@@ -494,5 +494,5 @@ TEST(Repair, TheTimeLimitEndsIt) {
   EXPECT_THROW((void)Repair(cube, "cube", {}, reading), TimeUp);
 }
 
-}  // namespace
+}  // namespace repair_test
 }  // namespace regrasp::repair

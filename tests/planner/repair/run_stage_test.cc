@@ -8,7 +8,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::repair {
-namespace {
+namespace run_stage_test {
 
 StageResult CubeWithFacts() {
   StageResult result{testing::UnitCubeSoup()};
@@ -35,5 +35,5 @@ TEST(RunStage, AStageThatCrashesTakesNothingWithIt) {
   EXPECT_EQ(run.failure, "it crashed or ran out of memory");
 }
 
-}  // namespace
+}  // namespace run_stage_test
 }  // namespace regrasp::repair

@@ -7,7 +7,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::repair {
-namespace {
+namespace surface_distance_test {
 
 using Eigen::Vector3d;
 using namespace regrasp::testing;  // NOLINT: the meshes of objects
@@ -29,5 +29,5 @@ TEST(SurfaceDistance, DoesNotDependOnWhatIsFoundFirst) {
   }
 }
 
-}  // namespace
+}  // namespace surface_distance_test
 }  // namespace regrasp::repair

@@ -11,7 +11,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace cluster_view_test {
 
 const double kHalfAngle = Radians(20), kRoughness = Radians(5);
 
@@ -86,5 +86,5 @@ TEST(DescribeClusters, FindsThoseOfThickFingersAgain) {
   EXPECT_NE(DescribeClusters(solid, plan).representatives, found);
 }
 
-}  // namespace
+}  // namespace cluster_view_test
 }  // namespace regrasp::roadmap

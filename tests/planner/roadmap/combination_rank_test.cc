@@ -5,7 +5,7 @@
 #include <set>
 
 namespace regrasp::roadmap {
-namespace {
+namespace combination_rank_test {
 
 TEST(Binomial, KnowsPascalsTriangle) {
   EXPECT_EQ(Binomial<4>(3), 0);
@@ -29,5 +29,5 @@ TEST(CombinationRank, IsABijectionOntoTheFirstNumbers) {
   EXPECT_EQ(*ranks.rbegin(), Binomial<3>(kThings) - 1);
 }
 
-}  // namespace
+}  // namespace combination_rank_test
 }  // namespace regrasp::roadmap

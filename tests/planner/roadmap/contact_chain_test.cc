@@ -12,7 +12,7 @@
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace contact_chain_test {
 
 using By = ContactChain::By;
 
@@ -232,5 +232,5 @@ TEST(DrawContactGrasp, DrawsForceClosureGraspsOrNone) {
   EXPECT_EQ(DrawContactGrasp(roadmap, thick, random), std::nullopt);
 }
 
-}  // namespace
+}  // namespace contact_chain_test
 }  // namespace regrasp::roadmap

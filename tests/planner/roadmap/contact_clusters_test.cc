@@ -11,7 +11,7 @@
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace contact_clusters_test {
 
 ContactClusters ClustersOf(const object::Polyhedron& solid, int clusters, std::uint64_t seed = 0) {
   return {Centroids(solid), solid.wrench_frame(), Radians(10), clusters, seed};
@@ -164,5 +164,5 @@ TEST(ContactClusters, RefuseAsManyClustersAsContacts) {
   EXPECT_EQ(ClustersOf(body, 15).cluster_count(), 15);
 }
 
-}  // namespace
+}  // namespace contact_clusters_test
 }  // namespace regrasp::roadmap

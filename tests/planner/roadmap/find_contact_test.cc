@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::roadmap {
-namespace {
+namespace find_contact_test {
 
 TEST(FindContact, TakesTheFirstOnTheSameFaceWithinTheTolerance) {
   const Eigen::Vector3d n = Eigen::Vector3d::UnitZ();
@@ -22,5 +22,5 @@ TEST(FindContact, TakesTheFirstOnTheSameFaceWithinTheTolerance) {
   EXPECT_EQ(find({0, 0, 1e-3}, 4, 1e-4), std::nullopt);
 }
 
-}  // namespace
+}  // namespace find_contact_test
 }  // namespace regrasp::roadmap

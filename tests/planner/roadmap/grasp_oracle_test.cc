@@ -12,7 +12,7 @@
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace grasp_oracle_test {
 
 struct Body {
   object::Polyhedron solid = MakeConvexBody(11, 2);
@@ -137,5 +137,5 @@ TEST(GraspOracle, RefusesMoreContactsThanSetsHaveNumbers) {
   EXPECT_THROW(GraspOracle(body.solid, many, {Radians(20), 0}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace grasp_oracle_test
 }  // namespace regrasp::roadmap

@@ -11,7 +11,7 @@
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace grasp_tree_test {
 
 constexpr std::int64_t kEnoughSteps = std::numeric_limits<std::int64_t>::max();
 
@@ -245,5 +245,5 @@ TEST(GraspTree, TakesTheLeastRemoteNeighbourFirst) {
   EXPECT_GT(checked, 10);
 }
 
-}  // namespace
+}  // namespace grasp_tree_test
 }  // namespace regrasp::roadmap

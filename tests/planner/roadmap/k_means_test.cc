@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 namespace regrasp::roadmap {
-namespace {
+namespace k_means_test {
 
 KMeansClusters Cluster(const Eigen::MatrixXd& points, int count, int restarts = 5,
                        std::uint64_t seed = 1) {
@@ -138,5 +138,5 @@ TEST(KMeans, RefusesNumbersOutOfRange) {
   EXPECT_NO_THROW((void)Cluster(points, 10));
 }
 
-}  // namespace
+}  // namespace k_means_test
 }  // namespace regrasp::roadmap

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::roadmap {
-namespace {
+namespace known_vertices_test {
 
 TEST(KnownVertices, KeepWhatIsLearntOfEachVertexApart) {
   KnownVertices known(3, criteria::KnownGrasp::HeldAt(0.5));
@@ -18,5 +18,5 @@ TEST(KnownVertices, KeepWhatIsLearntOfEachVertexApart) {
   EXPECT_EQ(known[1].holds_at, 0.5);
 }
 
-}  // namespace
+}  // namespace known_vertices_test
 }  // namespace regrasp::roadmap

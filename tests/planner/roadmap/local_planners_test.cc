@@ -11,7 +11,7 @@
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace local_planners_test {
 
 constexpr double kNear = 1e-9;
 
@@ -280,5 +280,5 @@ TEST(RoadmapLinkName, NamesAllLinks) {
   EXPECT_STREQ(RoadmapLinkName(RoadmapLink::kAlgorithm3), "algorithm-3");
 }
 
-}  // namespace
+}  // namespace local_planners_test
 }  // namespace regrasp::roadmap

@@ -18,7 +18,7 @@
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace plan_clustered_test {
 
 using testing::ContainsRegex;
 using testing::HasSubstr;
@@ -294,5 +294,5 @@ TEST(PlanOnClusters, RefusesAStartThatIsNotForceClosure) {
                InputError);
 }
 
-}  // namespace
+}  // namespace plan_clustered_test
 }  // namespace regrasp::roadmap

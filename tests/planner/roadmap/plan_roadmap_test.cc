@@ -19,7 +19,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace plan_roadmap_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -246,5 +246,5 @@ TEST(PlanOnRoadmap, RefusesOptionsOutOfRange) {
       std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace plan_roadmap_test
 }  // namespace regrasp::roadmap

@@ -12,7 +12,7 @@
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace roadmap_limits_test {
 
 using ::testing::HasSubstr;
 
@@ -99,5 +99,5 @@ TEST(RoadmapDeadline, EndsAPlanWhereverItComes) {
   }
 }
 
-}  // namespace
+}  // namespace roadmap_limits_test
 }  // namespace regrasp::roadmap

@@ -14,7 +14,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace roadmap_test {
 
 constexpr double kSamePoint = 1e-7;
 
@@ -231,5 +231,5 @@ TEST(Roadmap, FindsOnlyFours) {
   EXPECT_EQ(roadmap.Find(std::array{0, 0, 1, 2}), std::nullopt);
 }
 
-}  // namespace
+}  // namespace roadmap_test
 }  // namespace regrasp::roadmap

@@ -10,7 +10,7 @@
 #include "planner/base/random.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace spectral_embedding_test {
 
 /// exp(−|x − y|) of points in a cube: symmetric, in (0, 1].
 Eigen::MatrixXd RandomAffinity(int count, std::uint64_t seed) {
@@ -116,5 +116,5 @@ TEST(EmbedAffinity, RefusesDimensionsOutOfRange) {
   EXPECT_EQ(EmbedAffinity(affinity, 9).rows.cols(), 9);
 }
 
-}  // namespace
+}  // namespace spectral_embedding_test
 }  // namespace regrasp::roadmap

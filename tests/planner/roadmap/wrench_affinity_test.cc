@@ -12,7 +12,7 @@
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {
-namespace {
+namespace wrench_affinity_test {
 
 /// What the header promises of angles.
 constexpr double kAngle = 7e-5;
@@ -156,5 +156,5 @@ TEST(WrenchDistance, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
   EXPECT_GT(std::abs(distance() - before), 1e-3);
 }
 
-}  // namespace
+}  // namespace wrench_affinity_test
 }  // namespace regrasp::roadmap

@@ -10,7 +10,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::sampling {
-namespace {
+namespace contact_points_test {
 
 /// Rounding of a projection onto a face, relative to the diameter.
 constexpr double kOnFace = 1e-12;
@@ -162,5 +162,5 @@ TEST(MeshContacts, RefusesNone) {
   EXPECT_THROW((void)MeshContacts(MakeBox({0.06, 0.06, 0.06}), 0, 1), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace contact_points_test
 }  // namespace regrasp::sampling

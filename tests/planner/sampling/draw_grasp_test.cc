@@ -14,7 +14,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::sampling {
-namespace {
+namespace draw_grasp_test {
 
 constexpr grasp::ContactLimits kFour = {4, 4};
 
@@ -116,5 +116,5 @@ TEST(DrawOnSurface, MakesAnEndWhereItIsTold) {
             "the time was up");
 }
 
-}  // namespace
+}  // namespace draw_grasp_test
 }  // namespace regrasp::sampling

@@ -13,7 +13,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::sampling {
-namespace {
+namespace given_contacts_test {
 
 using Eigen::Vector3d;
 
@@ -73,5 +73,5 @@ TEST(GivenContacts, TooFewOfThemAreNoPlaceForAGrasp) {
   EXPECT_THROW((void)GivenContacts(sphere, outside, 4, 100, 1), NoGrasp);
 }
 
-}  // namespace
+}  // namespace given_contacts_test
 }  // namespace regrasp::sampling

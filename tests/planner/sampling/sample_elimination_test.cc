@@ -9,7 +9,7 @@
 #include "planner/base/random.h"
 
 namespace regrasp::sampling {
-namespace {
+namespace sample_elimination_test {
 
 constexpr int kKept = 50;
 
@@ -104,5 +104,5 @@ TEST(EliminateSamples, DoesNotLetTheTwoSidesOfAPlateCrowdEachOther) {
   EXPECT_EQ(up, 4);
 }
 
-}  // namespace
+}  // namespace sample_elimination_test
 }  // namespace regrasp::sampling

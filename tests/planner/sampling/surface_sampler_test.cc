@@ -9,7 +9,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::sampling {
-namespace {
+namespace surface_sampler_test {
 
 /// Shares of the faces in contacts drawn anywhere, which lie on their faces.
 std::vector<double> DrawnShares(const object::Object& object, int draws) {
@@ -83,5 +83,5 @@ TEST(SurfaceSampler, SaysWhereNothingIsValid) {
   EXPECT_FALSE(none.IsValid(none.Draw(random)));
 }
 
-}  // namespace
+}  // namespace surface_sampler_test
 }  // namespace regrasp::sampling

@@ -6,7 +6,7 @@
 #include "tests/planner/search/subset_graph.h"
 
 namespace regrasp::search {
-namespace {
+namespace components_test {
 
 Components Find(int vertices, const std::vector<std::vector<int>>& groups) {
   return FindComponents(vertices, static_cast<int>(groups.size()),
@@ -49,5 +49,5 @@ TEST(FindComponents, AgreesWithFloods) {
   EXPECT_GT(split, 5);
 }
 
-}  // namespace
+}  // namespace components_test
 }  // namespace regrasp::search

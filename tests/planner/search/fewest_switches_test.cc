@@ -5,7 +5,7 @@
 #include "tests/planner/search/subset_graph.h"
 
 namespace regrasp::search {
-namespace {
+namespace fewest_switches_test {
 
 bool AdmitAll(int) { return true; }
 
@@ -97,5 +97,5 @@ TEST(ReachableVertices, AreThoseAtFiniteDistance) {
   EXPECT_GT(checked, 20);
 }
 
-}  // namespace
+}  // namespace fewest_switches_test
 }  // namespace regrasp::search

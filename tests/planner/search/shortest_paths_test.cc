@@ -5,7 +5,7 @@
 #include "tests/planner/search/subset_graph.h"
 
 namespace regrasp::search {
-namespace {
+namespace shortest_paths_test {
 
 /// Distances from `start` by relaxing every edge until nothing changes; −1 where there is no path.
 std::vector<int> BruteForceDistances(const SwitchingGraph& graph, int start) {
@@ -66,5 +66,5 @@ TEST(ShortestPaths, OfAVertexToItselfAreItself) {
   EXPECT_EQ(paths->depth, (std::vector<int>{-1, 0, -1}));
 }
 
-}  // namespace
+}  // namespace shortest_paths_test
 }  // namespace regrasp::search

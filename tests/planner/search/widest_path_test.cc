@@ -7,7 +7,7 @@
 #include "tests/planner/search/subset_graph.h"
 
 namespace regrasp::search {
-namespace {
+namespace widest_path_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -108,5 +108,5 @@ TEST(WidestPath, IsEmptyWhereNoSequenceHasThatManySwitches) {
   EXPECT_FALSE(WidestPath(chain, 0, 2, 2, all, width).empty());
 }
 
-}  // namespace
+}  // namespace widest_path_test
 }  // namespace regrasp::search

@@ -7,7 +7,7 @@
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::sets {
-namespace {
+namespace candidate_search_test {
 
 using search::VertexPair;
 
@@ -111,5 +111,5 @@ TEST(FindCandidate, WhereTheTimeIsUpItIsTheBestSoFar) {
   EXPECT_THROW((void)Offers({kWeaker, kWeak}).Find(0, deadline_after(0)), TimeUp);
 }
 
-}  // namespace
+}  // namespace candidate_search_test
 }  // namespace regrasp::sets

@@ -6,7 +6,7 @@
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::sets {
-namespace {
+namespace finger_sequence_test {
 
 const object::Polygon kSquare = Square(1);
 const grasp::Grasp kUpright = MakeGrasp(kSquare, {{0, 0.5}, {2, 0.5}});
@@ -64,5 +64,5 @@ TEST(FingerSequence, AnAlignMovesTheFingersAndIsNotJoinedWithASwitch) {
   EXPECT_EQ(sequence.candidate().rests[1].grasp[1].p, moved[0].p);
 }
 
-}  // namespace
+}  // namespace finger_sequence_test
 }  // namespace regrasp::sets

@@ -9,7 +9,7 @@
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::sets {
-namespace {
+namespace set_sampling_test {
 
 std::vector<SetIndex> Sets(const std::vector<int>& numbers) {
   return {numbers.begin(), numbers.end()};
@@ -70,5 +70,5 @@ TEST_F(DrawFromSetsOfASquare, SaysOfHowManySetsItFoundNone) {
   }
 }
 
-}  // namespace
+}  // namespace set_sampling_test
 }  // namespace regrasp::sets

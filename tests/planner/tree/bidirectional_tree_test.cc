@@ -10,7 +10,7 @@
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {
-namespace {
+namespace bidirectional_tree_test {
 
 constexpr std::int64_t kEffort = 300'000;
 
@@ -123,5 +123,5 @@ TEST(BidirectionalTree, AGraspIsJoinedToItselfWithoutAStep) {
   EXPECT_TRUE(path->steps.empty());
 }
 
-}  // namespace
+}  // namespace bidirectional_tree_test
 }  // namespace regrasp::tree

@@ -15,7 +15,7 @@
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {
-namespace {
+namespace face_align_test {
 
 using Eigen::Vector3d;
 
@@ -272,5 +272,5 @@ TEST(FaceAlignTest, ThickFingersDoNotTurnWhereTheyWouldMeet) {
   EXPECT_GT(blocked, 0);
 }
 
-}  // namespace
+}  // namespace face_align_test
 }  // namespace regrasp::tree

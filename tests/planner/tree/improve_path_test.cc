@@ -12,7 +12,7 @@
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {
-namespace {
+namespace improve_path_test {
 
 /// Force closure of all grasps, every step a switch of the hand or a proved align, no grasp twice.
 void ExpectIsPath(const GraspPath& path, const SearchSpace& space) {
@@ -157,5 +157,5 @@ TEST(LeastTravel, IsTheLeastOfAllWaysOfSoManySwitches) {
   EXPECT_GT(checked, 5);
 }
 
-}  // namespace
+}  // namespace improve_path_test
 }  // namespace regrasp::tree

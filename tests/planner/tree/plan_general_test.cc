@@ -9,7 +9,7 @@
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {
-namespace {
+namespace plan_general_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -177,5 +177,5 @@ TEST(PlanGeneralTest, ObjectivesAreWhatTheySay) {
   EXPECT_GE(wider, 0);
 }
 
-}  // namespace
+}  // namespace plan_general_test
 }  // namespace regrasp::tree

@@ -16,7 +16,7 @@
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::tree {
-namespace {
+namespace sealed_cavity_test {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
@@ -129,5 +129,5 @@ TEST_P(SealedCavity, AGraspThereIsBadInputForPointsToo) {
       ThrowsMessage<InputError>(HasSubstr("finger 0: its contact lies in a sealed cavity")));
 }
 
-}  // namespace
+}  // namespace sealed_cavity_test
 }  // namespace regrasp::tree

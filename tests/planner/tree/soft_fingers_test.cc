@@ -16,7 +16,7 @@
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {
-namespace {
+namespace soft_fingers_test {
 
 using testing::HasSubstr;
 using Status = planning::PlanResult::Status;
@@ -121,5 +121,5 @@ TEST(SoftFingersPlan, HardPointsPlannersAndThePlaneRefuse) {
               testing::ThrowsMessage<InputError>(HasSubstr("not force closure: needs a friction")));
 }
 
-}  // namespace
+}  // namespace soft_fingers_test
 }  // namespace regrasp::tree

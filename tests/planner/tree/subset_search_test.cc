@@ -11,7 +11,7 @@
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {
-namespace {
+namespace subset_search_test {
 
 constexpr int kAnySteps = std::numeric_limits<int>::max();
 
@@ -225,5 +225,5 @@ TEST(SubsetSearch, ContactsAtOnePointAreNotHeldAtOnce) {
   }
 }
 
-}  // namespace
+}  // namespace subset_search_test
 }  // namespace regrasp::tree

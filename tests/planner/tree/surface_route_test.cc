@@ -9,7 +9,7 @@
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {
-namespace {
+namespace surface_route_test {
 
 using Eigen::Vector3d;
 
@@ -151,5 +151,5 @@ TEST(SurfaceRoute, GoesRoundTheConcaveEdgeOfABlockOverItsCaps) {
   EXPECT_EQ(concave, 2) << "one edge, seen from both sides";
 }
 
-}  // namespace
+}  // namespace surface_route_test
 }  // namespace regrasp::tree

@@ -6,7 +6,7 @@
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {
-namespace {
+namespace transition_test {
 
 constexpr std::int64_t kEffort = 20'000;
 
@@ -108,5 +108,5 @@ TEST(FindTransition, IsTheSameForTheSameSeed) {
   EXPECT_GT(found, 0);
 }
 
-}  // namespace
+}  // namespace transition_test
 }  // namespace regrasp::tree

@@ -6,7 +6,7 @@
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace contact_space_axis_test {
 
 constexpr contour::RingIndex kOuter(0);
 
@@ -125,5 +125,5 @@ TEST(ContactSpaceAxisTest, TheUnitSuitsTheObjectAndTicksAreRoundInIt) {
   EXPECT_EQ(labels(0.0254, 51), "cm: 0 10 20.3");
 }
 
-}  // namespace
+}  // namespace contact_space_axis_test
 }  // namespace regrasp::render

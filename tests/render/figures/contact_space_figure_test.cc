@@ -12,7 +12,7 @@
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace contact_space_figure_test {
 
 constexpr FigureFormat kFormats[] = {FigureFormat::kSvg, FigureFormat::kPdf, FigureFormat::kPng};
 
@@ -109,5 +109,5 @@ TEST(ContactSpaceFigureTest, AnOverviewIsAColumnWideOrTwoWhereThereIsMuchToShow)
   }
 }
 
-}  // namespace
+}  // namespace contact_space_figure_test
 }  // namespace regrasp::render

@@ -8,7 +8,7 @@
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace contact_space_map_test {
 
 using Eigen::Vector2d;
 using testing::ElementsAre;
@@ -169,5 +169,5 @@ TEST(ContactSpaceMapTest, OnlyRingsThatThePlanUsesAreShown) {
   EXPECT_LT(static_cast<int>(outer.map.sets.size()), outer.map.set_count);
 }
 
-}  // namespace
+}  // namespace contact_space_map_test
 }  // namespace regrasp::render

@@ -10,7 +10,7 @@
 #include "tests/render/figures/contact_space_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace contact_space_switch_test {
 
 using Eigen::Vector2d;
 using testing::SizeIs;
@@ -164,5 +164,5 @@ TEST(ContactSpaceSwitchPageTest, BothSetsHaveOneScaleAndOneAxisAndLieOnThePage) 
   EXPECT_GT(checked, 100);
 }
 
-}  // namespace
+}  // namespace contact_space_switch_test
 }  // namespace regrasp::render

@@ -6,7 +6,7 @@
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace contact_space_track_test {
 
 using testing::SizeIs;
 
@@ -62,5 +62,5 @@ TEST(ContactSpaceTrackTest, FindsTheFirstGraspOfOtherThanTwoContacts) {
   EXPECT_EQ(FindOtherThanTwoFingers(plan), (RestSize{plan::EntryIndex(2), 3}));
 }
 
-}  // namespace
+}  // namespace contact_space_track_test
 }  // namespace regrasp::render

@@ -9,7 +9,7 @@
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace contact_space_unfolding_test {
 
 using Eigen::Vector2d;
 using testing::IsEmpty;
@@ -207,5 +207,5 @@ TEST(ContactSpaceUnfoldingTest, TheDiagramIsInsideTheSet) {
   EXPECT_GT(checked, 20);
 }
 
-}  // namespace
+}  // namespace contact_space_unfolding_test
 }  // namespace regrasp::render

@@ -9,7 +9,7 @@
 #include "render/figures/figure_page.h"
 
 namespace regrasp::render {
-namespace {
+namespace figure_mark_test {
 
 constexpr FigureFormat kFormats[] = {FigureFormat::kSvg, FigureFormat::kPdf, FigureFormat::kPng};
 
@@ -39,5 +39,5 @@ TEST(FigureMarkTest, AMarkedPngIsStillReadWithoutAComplaint) {
   EXPECT_EQ(image.warning_or_error, 0u) << image.message;
 }
 
-}  // namespace
+}  // namespace figure_mark_test
 }  // namespace regrasp::render

@@ -9,7 +9,7 @@
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
-namespace {
+namespace finger_marker_test {
 
 using Eigen::Vector2d;
 
@@ -103,5 +103,5 @@ TEST(FingerMarkerTest, ThoseThatAreApartKeepTheirSize) {
   }
 }
 
-}  // namespace
+}  // namespace finger_marker_test
 }  // namespace regrasp::render

@@ -6,7 +6,7 @@
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
-namespace {
+namespace finger_numbers_test {
 
 using Eigen::Vector2d;
 
@@ -47,5 +47,5 @@ TEST(FingerNumbers, OfContactsATenthOfAMillimetreApartDoNotOverlap) {
   EXPECT_LT(gap, kNumberRadius / 10);
 }
 
-}  // namespace
+}  // namespace finger_numbers_test
 }  // namespace regrasp::render

@@ -14,7 +14,7 @@
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace grasp_diagram_test {
 
 using Eigen::Vector2d;
 
@@ -264,5 +264,5 @@ TEST(GraspDiagramTest, RefusesContactsWithoutAFaceAndAnglesThatAreNone) {
   EXPECT_THROW((void)DescribeGrasp(MakeTriangle(), grasp, Radians(20)), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace grasp_diagram_test
 }  // namespace regrasp::render

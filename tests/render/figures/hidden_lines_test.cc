@@ -9,7 +9,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
-namespace {
+namespace hidden_lines_test {
 
 using Eigen::Vector3d;
 
@@ -73,5 +73,5 @@ TEST(HiddenLinesTest, APointIsHiddenWhereASurfaceStandsBeforeIt) {
   EXPECT_FALSE(IsHidden(Square(0.3), {0, 0.01, 0}, -kUp));
 }
 
-}  // namespace
+}  // namespace hidden_lines_test
 }  // namespace regrasp::render

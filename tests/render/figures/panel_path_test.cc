@@ -8,7 +8,7 @@
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace panel_path_test {
 
 using Eigen::Vector2d;
 using testing::IsEmpty;
@@ -65,5 +65,5 @@ TEST(PanelPathTest, TicksKeepApartHoweverManyWaypointsThereAre) {
   EXPECT_THAT(PathBeside(std::span(path).first(3), UnitView(), kDistance).ticks, IsEmpty());
 }
 
-}  // namespace
+}  // namespace panel_path_test
 }  // namespace regrasp::render

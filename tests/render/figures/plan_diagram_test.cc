@@ -8,7 +8,7 @@
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace plan_diagram_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -114,5 +114,5 @@ TEST(PlanDiagramTest, LabelsOfPanelsGoOnAfterTheAlphabet) {
   EXPECT_EQ(labels.size(), 2000U);
 }
 
-}  // namespace
+}  // namespace plan_diagram_test
 }  // namespace regrasp::render

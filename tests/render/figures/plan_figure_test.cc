@@ -18,7 +18,7 @@
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace plan_figure_test {
 
 using Eigen::Vector2d;
 using testing::ElementsAre;
@@ -232,5 +232,5 @@ TEST(PlanFigureTest, ASheetHasThePanelsThatAreChosenInTheirOrder) {
   EXPECT_EQ(DrawSheet(panels, every, png), DrawSheet(panels, png));
 }
 
-}  // namespace
+}  // namespace plan_figure_test
 }  // namespace regrasp::render

@@ -11,7 +11,7 @@
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace scale_bar_test {
 
 /// Pixels in a point; extents are whole pixels.
 constexpr double kFine = 100;
@@ -67,5 +67,5 @@ TEST(ScaleBar, OfAPlanarFigureFitsTheObjectBesideIt) {
   }
 }
 
-}  // namespace
+}  // namespace scale_bar_test
 }  // namespace regrasp::render

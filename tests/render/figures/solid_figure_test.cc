@@ -11,7 +11,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
-namespace {
+namespace solid_figure_test {
 
 using Eigen::Vector3d;
 using testing::HasSubstr;
@@ -104,5 +104,5 @@ TEST(SolidFigureTest, APanelIsAsHighAsItNeedsAndNoHigher) {
   EXPECT_DOUBLE_EQ(height({0.1, 0.1, 3}), 1.25 * 200);
 }
 
-}  // namespace
+}  // namespace solid_figure_test
 }  // namespace regrasp::render

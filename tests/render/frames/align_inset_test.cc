@@ -9,7 +9,7 @@
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace align_inset_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -120,5 +120,5 @@ TEST(AlignInsetTest, OrdinalsStandOnlyWhereFingersBeginOneAfterTheOther) {
   EXPECT_GT(different, 300);
 }
 
-}  // namespace
+}  // namespace align_inset_test
 }  // namespace regrasp::render

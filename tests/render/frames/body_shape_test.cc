@@ -11,7 +11,7 @@
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace body_shape_test {
 
 using Eigen::Vector3d;
 
@@ -156,5 +156,5 @@ TEST(BodyShapeTest, TheOutlineOfARoundBodyIsWhereItTurnsAwayFromTheEye) {
   EXPECT_EQ(upright, 2);
 }
 
-}  // namespace
+}  // namespace body_shape_test
 }  // namespace regrasp::render

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace regrasp::render {
-namespace {
+namespace camera_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -130,5 +130,5 @@ TEST(CameraTest, ProjectsTheCentreOfItsViewToTheCentreOfTheImage) {
   EXPECT_DOUBLE_EQ(camera.PixelsPerUnit(Vector3d::Zero()), 20);
 }
 
-}  // namespace
+}  // namespace camera_test
 }  // namespace regrasp::render

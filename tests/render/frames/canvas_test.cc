@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace regrasp::render {
-namespace {
+namespace canvas_test {
 
 using Eigen::Vector3d;
 
@@ -186,5 +186,5 @@ TEST(CanvasTest, PerspectiveShrinksWhatIsFartherAway) {
   EXPECT_NEAR(pixels(-2) * 144.0 / 64, pixels(2), 0.1 * pixels(2));
 }
 
-}  // namespace
+}  // namespace canvas_test
 }  // namespace regrasp::render

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 namespace regrasp::render {
-namespace {
+namespace contact_sheet_test {
 
 /// How many pixels have this colour.
 int Count(const Image& image, unsigned char r, unsigned char g, unsigned char b) {
@@ -121,5 +121,5 @@ TEST(ContactSheetTest, PicturesThatWereNotAnnouncedAreRefused) {
   EXPECT_THROW(sheet.Add(MakeImage(64, 48), {}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace contact_sheet_test
 }  // namespace regrasp::render

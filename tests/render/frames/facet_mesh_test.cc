@@ -12,7 +12,7 @@
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace facet_mesh_test {
 
 using Eigen::Vector3d;
 
@@ -112,5 +112,5 @@ TEST(FacetMeshTest, ABandAlongTheLineOfSightIsADisc) {
   }
 }
 
-}  // namespace
+}  // namespace facet_mesh_test
 }  // namespace regrasp::render

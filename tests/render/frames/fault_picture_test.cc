@@ -17,7 +17,7 @@
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace fault_picture_test {
 
 using Eigen::Vector3d;
 using plan::Fault;
@@ -261,5 +261,5 @@ TEST(FaultPicture, NumbersStandOverTheMarks) {
   EXPECT_EQ(covered(/*numbers_first=*/false), 0);
 }
 
-}  // namespace
+}  // namespace fault_picture_test
 }  // namespace regrasp::render

@@ -10,7 +10,7 @@
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace frame_sequence_test {
 
 /// The cube's three frames again and again, each with a number of its own.
 class FrameSequenceTest : public ::testing::Test {
@@ -68,5 +68,5 @@ TEST_F(FrameSequenceTest, WhatGoesWrongIsThrown) {
   EXPECT_EQ(taken, 3);
 }
 
-}  // namespace
+}  // namespace frame_sequence_test
 }  // namespace regrasp::render

@@ -13,7 +13,7 @@
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace frame_test {
 
 const double kHalfAngle = Radians(20);
 
@@ -472,5 +472,5 @@ TEST(FrameTest, ShowsPlanarFrictionConesFromTheirFlatSide) {
   }
 }
 
-}  // namespace
+}  // namespace frame_test
 }  // namespace regrasp::render

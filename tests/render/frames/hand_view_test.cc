@@ -9,7 +9,7 @@
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace hand_view_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -139,5 +139,5 @@ TEST(HandFrames, AMoveShowsWhereTheObjectWas) {
             renderer.Render(snapshots[1], "", &marks).rgb);
 }
 
-}  // namespace
+}  // namespace hand_view_test
 }  // namespace regrasp::render

@@ -12,7 +12,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
-namespace {
+namespace ray_tree_test {
 
 using Eigen::Vector3d;
 
@@ -83,5 +83,5 @@ TEST(RayTreeTest, GivesTheSameAsAskingEveryTriangle) {
   EXPECT_GT(missed, 20);
 }
 
-}  // namespace
+}  // namespace ray_tree_test
 }  // namespace regrasp::render

@@ -5,7 +5,7 @@
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace replay_animation_test {
 
 using Indices = std::vector<int>;
 
@@ -191,5 +191,5 @@ TEST(ReplayAnimationTest, AFingerInTheAirIsNoFartherOutThanItsArrowOtherwise) {
   }
 }
 
-}  // namespace
+}  // namespace replay_animation_test
 }  // namespace regrasp::render

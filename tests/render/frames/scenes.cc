@@ -7,7 +7,7 @@
 
 namespace regrasp::render {
 
-namespace {
+namespace scenes_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -23,7 +23,7 @@ plan::Snapshot MakeSnapshot(std::vector<plan::FingerState> fingers) {
 
 constexpr auto kHolding = plan::FingerRole::kHolding;
 
-}  // namespace
+}  // namespace scenes_test
 
 object::Polyhedron MakeThinLBlock() {
   constexpr double a = 0.08;

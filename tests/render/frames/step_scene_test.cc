@@ -12,7 +12,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
-namespace {
+namespace step_scene_test {
 
 using Eigen::Vector3d;
 using testing::ElementsAre;
@@ -65,5 +65,5 @@ TEST(StepSceneTest, AGlbFileHasAllPartsForWhoeverReadsIt) {
   EXPECT_NEAR(p.z, -q.y(), 1e-6);
 }
 
-}  // namespace
+}  // namespace step_scene_test
 }  // namespace regrasp::render

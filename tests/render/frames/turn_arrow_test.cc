@@ -7,7 +7,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
-namespace {
+namespace turn_arrow_test {
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
@@ -58,5 +58,5 @@ TEST(TurnArrow, OfWhatHardlyTurnsThereIsNone) {
   EXPECT_TRUE(ArrowOf(1, Vector3d::UnitZ()).empty());
 }
 
-}  // namespace
+}  // namespace turn_arrow_test
 }  // namespace regrasp::render

@@ -6,7 +6,7 @@
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace {
+namespace viewpoint_test {
 
 using Eigen::Vector3d;
 
@@ -139,5 +139,5 @@ TEST(ViewpointTest, OnACubeOneViewServesAllFrames) {
   for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_FALSE(chosen.own[i]) << i;
 }
 
-}  // namespace
+}  // namespace viewpoint_test
 }  // namespace regrasp::render

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace regrasp::render {
-namespace {
+namespace caption_test {
 
 /// A plan whose one step aligns fingers 1 and 2; each has a place, in centimetres, at every
 /// waypoint.
@@ -57,5 +57,5 @@ TEST(CaptionTest, SaysHowFarTheObjectTurnsOrElseGoes) {
   EXPECT_EQ(CaptionOfMove(1e-9, 1e-9), "step 1/1 · move: free fingers");
 }
 
-}  // namespace
+}  // namespace caption_test
 }  // namespace regrasp::render

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 namespace regrasp::render {
-namespace {
+namespace color_table_test {
 
 std::array<int, 3> Channels(Color color) { return {color.r, color.g, color.b}; }
 
@@ -99,5 +99,5 @@ TEST(ColorTableTest, NothingToChooseFromIsRefused) {
   EXPECT_THROW(static_cast<void>(ChooseColors({&image, 1}, 0)), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace color_table_test
 }  // namespace regrasp::render

@@ -12,7 +12,7 @@
 #include "planner/base/error.h"
 
 namespace regrasp::render {
-namespace {
+namespace image_test {
 
 Image MakeNoise(int width, int height) {
   std::mt19937 random(7);
@@ -108,5 +108,5 @@ TEST(ImageTest, ShrinkingByOneChangesNothingAndAnUnevenFactorIsRefused) {
   EXPECT_THROW((void)Shrink(image, 4), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace image_test
 }  // namespace regrasp::render

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace regrasp::render {
-namespace {
+namespace label_layout_test {
 
 using Eigen::Vector2d;
 
@@ -89,5 +89,5 @@ TEST(LabelLayoutTest, KeepsLabelsInsideTheImage) {
   EXPECT_GE(centres[0].minCoeff(), kRadius);
 }
 
-}  // namespace
+}  // namespace label_layout_test
 }  // namespace regrasp::render

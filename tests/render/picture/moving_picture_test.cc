@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 namespace regrasp::render {
-namespace {
+namespace moving_picture_test {
 
 constexpr MovingFormat kFormats[] = {MovingFormat::kMp4, MovingFormat::kGif, MovingFormat::kWebp};
 
@@ -60,5 +60,5 @@ TEST(MovingPictureTest, OneThatIsLeftUnfinishedIsNoHarm) {
   }
 }
 
-}  // namespace
+}  // namespace moving_picture_test
 }  // namespace regrasp::render

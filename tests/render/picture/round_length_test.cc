@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace regrasp::render {
-namespace {
+namespace round_length_test {
 
 TEST(RoundLength, IsTheLongestOfOneTwoAndFiveThatFits) {
   EXPECT_DOUBLE_EQ(RoundLength(1), 1);
@@ -32,5 +32,5 @@ TEST(RoundLength, NeverExceedsTheLimitAndIsMoreThanTwoFifthsOfIt) {
   EXPECT_GT(checked, 2000);
 }
 
-}  // namespace
+}  // namespace round_length_test
 }  // namespace regrasp::render

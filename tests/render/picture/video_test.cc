@@ -16,7 +16,7 @@ extern "C" {
 #include <vector>
 
 namespace regrasp::render {
-namespace {
+namespace video_test {
 
 constexpr Color kTeal = {61, 179, 158};
 constexpr Color kRed = {214, 16, 32};
@@ -243,5 +243,5 @@ TEST(VideoTest, TooManyColoursForAGifAreRefused) {
   EXPECT_THROW(static_cast<void>(MakeGif(64, 48, std::vector<Color>(256))), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace video_test
 }  // namespace regrasp::render

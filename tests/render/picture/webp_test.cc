@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace regrasp::render {
-namespace {
+namespace webp_test {
 
 const std::uint8_t* Bytes(const std::string& text) {
   return reinterpret_cast<const std::uint8_t*>(text.data());
@@ -118,5 +118,5 @@ TEST(WebpAnimationTest, ImagesOfAnotherSizeAreRefused) {
   EXPECT_THROW(animation->Add(MakeFlat(32, 24, 0), 0), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace webp_test
 }  // namespace regrasp::render

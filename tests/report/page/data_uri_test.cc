@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::report {
-namespace {
+namespace data_uri_test {
 
 TEST(DataUriTest, BytesBecomeAUriOfBase64) {
   // The vectors of RFC 4648.
@@ -13,5 +13,5 @@ TEST(DataUriTest, BytesBecomeAUriOfBase64) {
   EXPECT_EQ(DataUri("a/b", std::string("\0\xFF", 2)), "data:a/b;base64,AP8=");
 }
 
-}  // namespace
+}  // namespace data_uri_test
 }  // namespace regrasp::report

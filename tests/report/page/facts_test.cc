@@ -7,7 +7,7 @@
 #include "sim/scene/scaling.h"
 
 namespace regrasp::report {
-namespace {
+namespace facts_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -53,5 +53,5 @@ TEST(FactsTest, TheProgramAndTheCommandAreTold) {
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dt>Validated on</dt><dd>2026-02-28 (UTC)</dd>"));
 }
 
-}  // namespace
+}  // namespace facts_test
 }  // namespace regrasp::report

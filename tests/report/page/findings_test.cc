@@ -7,7 +7,7 @@
 #include "sim/measure/push.h"
 
 namespace regrasp::report {
-namespace {
+namespace findings_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -77,5 +77,5 @@ TEST(FindingsTest, ThePushesAreATableOfBothRoutesAndAPlotOfTheLeast) {
   EXPECT_THAT(FormatFindings(report), Not(HasSubstr("<svg"))) << "one entry is no plot";
 }
 
-}  // namespace
+}  // namespace findings_test
 }  // namespace regrasp::report

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::report {
-namespace {
+namespace html_page_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -28,5 +28,5 @@ TEST(HtmlPageTest, TheHeaderSaysTheVerdict) {
   EXPECT_THAT(PageHeader("", "", true, "").Format(), HasSubstr("<strong>Pass</strong>"));
 }
 
-}  // namespace
+}  // namespace html_page_test
 }  // namespace regrasp::report

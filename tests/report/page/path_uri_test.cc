@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::report {
-namespace {
+namespace path_uri_test {
 
 TEST(PathUriTest, OnlyWhatMeansNothingElseInALinkStaysAsItIs) {
   EXPECT_EQ(PathUri("cube_01/report.html"), "cube_01/report.html");
@@ -15,5 +15,5 @@ TEST(PathUriTest, OnlyWhatMeansNothingElseInALinkStaysAsItIs) {
   EXPECT_EQ(PathUri(""), "");
 }
 
-}  // namespace
+}  // namespace path_uri_test
 }  // namespace regrasp::report

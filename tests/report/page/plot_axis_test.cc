@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 namespace regrasp::report {
-namespace {
+namespace plot_axis_test {
 
 /// Values inside the ends, in order, ticks inside and ascending positions.
 void ExpectSound(const PlotAxis& axis, const std::vector<double>& values) {
@@ -75,5 +75,5 @@ TEST(PlotAxisTest, StepsAreRoundAndNoSmallerThanAsked) {
   EXPECT_EQ(FormatPowerOfTen(0), "10⁰");
 }
 
-}  // namespace
+}  // namespace plot_axis_test
 }  // namespace regrasp::report

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace regrasp::report {
-namespace {
+namespace quantity_test {
 
 TEST(QuantityTest, NumbersHaveThreeDigits) {
   EXPECT_EQ(NumberText(0), "0");
@@ -36,5 +36,5 @@ TEST(QuantityTest, WhatIsNotFiniteIsADash) {
   EXPECT_EQ(LengthText(std::numeric_limits<double>::infinity()), "–");
 }
 
-}  // namespace
+}  // namespace quantity_test
 }  // namespace regrasp::report

@@ -10,7 +10,7 @@
 #include "report/page/step_measures.h"
 
 namespace regrasp::report {
-namespace {
+namespace report_page_test {
 
 using testing::DoubleNear;
 using testing::HasSubstr;
@@ -219,5 +219,5 @@ TEST(StepMeasuresTest, TheMarginAtRestIsThatOfTheForceThatLeansMost) {
   EXPECT_THAT(MeasureSteps(scene.report)[1].rest_margin_deg, Optional(DoubleNear(8, 1e-12)));
 }
 
-}  // namespace
+}  // namespace report_page_test
 }  // namespace regrasp::report

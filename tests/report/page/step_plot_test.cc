@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 namespace regrasp::report {
-namespace {
+namespace step_plot_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -92,5 +92,5 @@ TEST(StepPlotTest, WhatCannotBePlottedIsRefused) {
   EXPECT_THROW(static_cast<void>(FormatStepPlot(plot)), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace step_plot_test
 }  // namespace regrasp::report

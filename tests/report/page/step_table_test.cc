@@ -6,7 +6,7 @@
 #include "planner/base/angle.h"
 
 namespace regrasp::report {
-namespace {
+namespace step_table_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -52,5 +52,5 @@ TEST(FingerTableTest, AFingerThatTheOthersCannotDoWithoutSaysNone) {
   EXPECT_THAT(table, HasSubstr("<td class=\"number\">9.00°</td><td class=\"number\">30.00°</td>"));
 }
 
-}  // namespace
+}  // namespace step_table_test
 }  // namespace regrasp::report

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace regrasp::report {
-namespace {
+namespace step_text_test {
 
 TEST(StepTextTest, OnlyAnAsciiLetterIsCapitalized) {
   EXPECT_EQ(Capitalized("slipped"), "Slipped");
@@ -17,5 +17,5 @@ TEST(StepTextTest, StepsCountFromTheHold) {
   EXPECT_EQ(StepName(plan::EntryIndex(3)), "step 3");
 }
 
-}  // namespace
+}  // namespace step_text_test
 }  // namespace regrasp::report

@@ -18,7 +18,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
-namespace {
+namespace carry_out_test {
 
 /// A cube of 5 cm in a hand of five fingers.
 class CarryOutTestTest : public FolderTest {
@@ -178,5 +178,5 @@ TEST_F(CarryOutTestTest, OfAHandWithoutActuatorsItCanNotTell) {
   EXPECT_FALSE(CarryOutTest(kinematics::ReadHandFile(path), cube_)(*found.plan, {}));
 }
 
-}  // namespace
+}  // namespace carry_out_test
 }  // namespace regrasp::sim

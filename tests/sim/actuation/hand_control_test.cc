@@ -8,7 +8,7 @@
 #include "tests/sim/actuation/held_in_hand.h"
 
 namespace regrasp::sim {
-namespace {
+namespace hand_control_test {
 
 /// The force that the last finger of the grasp is asked for in a handover after which it holds no
 /// more.
@@ -60,5 +60,5 @@ TEST_F(HeldInHand, AShakePushesAndTwists) {
   EXPECT_FALSE(pushed.fault.push->force_N.isZero());
 }
 
-}  // namespace
+}  // namespace hand_control_test
 }  // namespace regrasp::sim

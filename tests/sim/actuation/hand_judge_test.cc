@@ -10,7 +10,7 @@
 #include "tests/sim/actuation/held_in_hand.h"
 
 namespace regrasp::sim {
-namespace {
+namespace hand_judge_test {
 
 using plan::Reason;
 
@@ -137,5 +137,5 @@ TEST_F(HandJudgeTest, TipsThatAreInEachOtherTouch) {
   EXPECT_FALSE(judge.breach()) << judge.breach()->detail;
 }
 
-}  // namespace
+}  // namespace hand_judge_test
 }  // namespace regrasp::sim

@@ -18,7 +18,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
-namespace {
+namespace hand_replay_test {
 
 using Eigen::Vector3d;
 using plan::Reason;
@@ -420,5 +420,5 @@ TEST(HandReplaysTest, WithoutAShakeTheyGiveTheSameToo) {
   ExpectSame(replays.Replay(GoodPlan(), {}), ReplayOf(GoodPlan(), options));
 }
 
-}  // namespace
+}  // namespace hand_replay_test
 }  // namespace regrasp::sim

@@ -17,7 +17,7 @@
 #include "tests/sim/actuation/stock_scene.h"
 
 namespace regrasp::sim {
-namespace {
+namespace hand_scene_export_test {
 
 /// With tips of either kind: the model's own are balls as well.
 class HandSceneExportTest : public FolderTest, public testing::WithParamInterface<TipShape> {};
@@ -82,5 +82,5 @@ TEST_P(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
   }
 }
 
-}  // namespace
+}  // namespace hand_scene_export_test
 }  // namespace regrasp::sim

@@ -10,7 +10,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
-namespace {
+namespace hand_trials_test {
 
 class HandTrialsTest : public testing::Test {
  protected:
@@ -70,5 +70,5 @@ TEST_F(HandTrialsTest, ATrialDependsOnTheSeedAndItsNumberAlone) {
   EXPECT_EQ(a.steps, b.steps);
 }
 
-}  // namespace
+}  // namespace hand_trials_test
 }  // namespace regrasp::sim

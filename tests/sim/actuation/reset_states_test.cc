@@ -18,7 +18,7 @@
 #include "tests/sim/actuation/stock_scene.h"
 
 namespace regrasp::sim {
-namespace {
+namespace reset_states_test {
 
 constexpr int kMostTried = 40;
 
@@ -161,5 +161,5 @@ TEST_F(ResetStatesTest, StockMuJoCoHoldsThemInTheSceneThatIsExported) {
   }
 }
 
-}  // namespace
+}  // namespace reset_states_test
 }  // namespace regrasp::sim

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace regrasp::sim {
-namespace {
+namespace timed_path_test {
 
 using plan::HandState;
 
@@ -45,5 +45,5 @@ TEST(TimedPathTest, APathThatGoesNowhereTakesNoTime) {
   EXPECT_EQ(timed.At(0).joints[0][0], 0.3);
 }
 
-}  // namespace
+}  // namespace timed_path_test
 }  // namespace regrasp::sim

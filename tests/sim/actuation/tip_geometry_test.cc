@@ -16,7 +16,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
-namespace {
+namespace tip_geometry_test {
 
 using Eigen::Vector3d;
 using plan::Reason;
@@ -193,5 +193,5 @@ TEST(TipGeometryTest, ATipThatEndsShortOfItsBallLetsOtherLinksTouch) {
   EXPECT_THAT(own.detail(), testing::HasSubstr("touches the object"));
 }
 
-}  // namespace
+}  // namespace tip_geometry_test
 }  // namespace regrasp::sim

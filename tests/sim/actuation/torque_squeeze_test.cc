@@ -6,7 +6,7 @@
 #include "tests/sim/actuation/held_in_hand.h"
 
 namespace regrasp::sim {
-namespace {
+namespace torque_squeeze_test {
 
 TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTheForce) {
   constexpr double kMost = 100;
@@ -25,5 +25,5 @@ TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTh
   EXPECT_EQ(squeeze(1e6), kMost);
 }
 
-}  // namespace
+}  // namespace torque_squeeze_test
 }  // namespace regrasp::sim

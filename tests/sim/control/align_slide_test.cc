@@ -5,7 +5,7 @@
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace align_slide_test {
 
 constexpr double kGood = 1e-4;
 
@@ -138,5 +138,5 @@ TEST(AlignPathTest, AddsUpTheWaysOfAllContacts) {
   EXPECT_NEAR(path.Travel(0, 2), 0.3 * 0.06, 1e-12);
 }
 
-}  // namespace
+}  // namespace align_slide_test
 }  // namespace regrasp::sim

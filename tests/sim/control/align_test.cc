@@ -7,7 +7,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace align_test {
 
 constexpr double kGood = 1e-4;
 
@@ -143,5 +143,5 @@ TEST(AlignScriptTest, CutsUntilTheMixturesAreForceClosureAndSlidesOrRollsWhereNo
   EXPECT_EQ(CountMoves<FingersSlide>(cube, from, to, 5, {FingerIndex(4)}), 1);
 }
 
-}  // namespace
+}  // namespace align_test
 }  // namespace regrasp::sim

@@ -6,7 +6,7 @@
 #include "tests/sim/held_cube.h"
 
 namespace regrasp::sim {
-namespace {
+namespace motions_test {
 
 using Eigen::Vector3d;
 
@@ -62,5 +62,5 @@ TEST(RetractFingersTest, AFingerThatLeftStopsNothing) {
   EXPECT_EQ(press(), 0);
 }
 
-}  // namespace
+}  // namespace motions_test
 }  // namespace regrasp::sim

@@ -4,7 +4,7 @@
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace planar_align_test {
 
 constexpr double kGood = 1e-4;
 
@@ -116,5 +116,5 @@ TEST(PlanarAlign, FailsWhereItEndsInAGraspThatDoesNotHold) {
   EXPECT_NE(result.steps[1].reason, plan::Reason::kNone);
 }
 
-}  // namespace
+}  // namespace planar_align_test
 }  // namespace regrasp::sim

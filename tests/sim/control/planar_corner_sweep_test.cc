@@ -10,7 +10,7 @@
 #include "tests/sim/control/boundary_walk.h"
 
 namespace regrasp::sim {
-namespace {
+namespace planar_corner_sweep_test {
 
 constexpr unsigned kSeed = 4;
 /// A little more than the shake: these must pass.
@@ -179,5 +179,5 @@ TEST(PlanarCornerSweep, RandomSwitchesPassAndFailBelowTheirCriticalFriction) {
   EXPECT_EQ(tally.refuted, tally.plans);
 }
 
-}  // namespace
+}  // namespace planar_corner_sweep_test
 }  // namespace regrasp::sim

@@ -8,7 +8,7 @@
 #include "tests/sim/control/boundary_walk.h"
 
 namespace regrasp::sim {
-namespace {
+namespace planar_corner_test {
 
 constexpr double kGood = 1e-4;
 
@@ -194,5 +194,5 @@ TEST(PlanarCorner, AWalkBelowTheFrictionThatItNeedsFailsInTheReplay) {
   EXPECT_NE(ReplayPlan(gear, check.located, options).steps.back().reason, plan::Reason::kNone);
 }
 
-}  // namespace
+}  // namespace planar_corner_test
 }  // namespace regrasp::sim

@@ -5,7 +5,7 @@
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace roll_test {
 
 constexpr double kGood = 1e-4;
 
@@ -69,5 +69,5 @@ TEST(RollFingers, FailsWhereTheFrictionIsTooSmallOnTheWay) {
   EXPECT_NE(step.reason, plan::Reason::kNone);
 }
 
-}  // namespace
+}  // namespace roll_test
 }  // namespace regrasp::sim

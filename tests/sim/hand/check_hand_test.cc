@@ -21,7 +21,7 @@
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
-namespace {
+namespace check_hand_test {
 
 using Eigen::Vector3d;
 using plan::Reason;
@@ -423,5 +423,5 @@ TEST(GapTest, IsDecidedCloseToTheDistance) {
   EXPECT_GT(apart, 50);
 }
 
-}  // namespace
+}  // namespace check_hand_test
 }  // namespace regrasp::sim

@@ -11,7 +11,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace shake_test {
 
 StepReplay HoldUnder(Protocol protocol, const object::Object& object, const plan::Plan& plan,
                      ReplayOptions options = {}) {
@@ -111,5 +111,5 @@ TEST(ProtocolTest, WhatComesAfterAFailedFixedShakeIsAsWithoutIt) {
   EXPECT_EQ(both.steps[1].moved_m, adapted.steps[1].moved_m);
 }
 
-}  // namespace
+}  // namespace shake_test
 }  // namespace regrasp::sim

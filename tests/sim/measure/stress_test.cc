@@ -12,7 +12,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace stress_test {
 
 /// How far the two routes may differ, over the limit: the bisection's 1 %, and as much for a replay
 /// that ends before the object has moved far.
@@ -157,5 +157,5 @@ TEST(StressTest, TheSearchLeavesNoTraceInTheReplay) {
   }
 }
 
-}  // namespace
+}  // namespace stress_test
 }  // namespace regrasp::sim

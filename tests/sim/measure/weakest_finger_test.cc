@@ -5,7 +5,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace weakest_finger_test {
 
 using plan::EntryIndex;
 
@@ -58,5 +58,5 @@ TEST(WeakestFingerTest, AGraspThatIsNotForceClosureHasNone) {
   EXPECT_FALSE(WeakestFingers(empty, frame, Radians(4)).OfEntry(EntryIndex(0)));
 }
 
-}  // namespace
+}  // namespace weakest_finger_test
 }  // namespace regrasp::sim

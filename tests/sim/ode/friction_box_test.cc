@@ -7,7 +7,7 @@
 #include <random>
 
 namespace regrasp::sim {
-namespace {
+namespace friction_box_test {
 
 using Eigen::Vector3d;
 
@@ -81,5 +81,5 @@ TEST(KeepsCone, AForceThatTheBoxHeldBackInsideTheConeIsNotCoulombs) {
   EXPECT_TRUE(KeepsCone(n, box, at_corner, kMu, kSlack));
 }
 
-}  // namespace
+}  // namespace friction_box_test
 }  // namespace regrasp::sim

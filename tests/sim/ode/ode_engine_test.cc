@@ -14,7 +14,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace ode_engine_test {
 
 using Eigen::Vector3d;
 
@@ -132,5 +132,5 @@ TEST(OdeEngineTest, WorldsOfTwoThreadsDoNotMeet) {
   EXPECT_EQ(second, alone);
 }
 
-}  // namespace
+}  // namespace ode_engine_test
 }  // namespace regrasp::sim

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace regrasp::sim {
-namespace {
+namespace patch_touch_test {
 
 using Eigen::Vector3d;
 
@@ -77,5 +77,5 @@ TEST(TouchPatch, MovesWithThePatch) {
   EXPECT_GT(touched, 100);
 }
 
-}  // namespace
+}  // namespace patch_touch_test
 }  // namespace regrasp::sim

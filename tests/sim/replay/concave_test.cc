@@ -6,7 +6,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace concave_test {
 
 /// Expects that the plan passes and its fingers touch where they were planned.
 void ExpectPassesAsPlanned(const object::Object& object, const plan::Plan& plan) {
@@ -173,5 +173,5 @@ TEST(Clearance, IsTheDistanceToAWallAtARightAngle) {
   EXPECT_EQ(criteria::ComputeClearance(*file.object, free, 0.02), 0.02);
 }
 
-}  // namespace
+}  // namespace concave_test
 }  // namespace regrasp::sim

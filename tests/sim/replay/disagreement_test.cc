@@ -14,7 +14,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace disagreement_test {
 
 using testing::HasSubstr;
 
@@ -259,5 +259,5 @@ TEST(EnginesTest, TheForcesOfTheEngineThatFailsAreLookedAt) {
   EXPECT_EQ(reached.value().cause, Cause::kConeReached);
 }
 
-}  // namespace
+}  // namespace disagreement_test
 }  // namespace regrasp::sim

@@ -5,7 +5,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace discrimination_test {
 
 constexpr int kGraspsPerObject = 75;
 constexpr int kGraspsPerPolygon = 100;
@@ -45,5 +45,5 @@ TEST(PlanarDiscrimination, GraspsBelowTheirCriticalFrictionFailAndGoodOnesAboveP
   ExpectManyDiscriminated(count, "planar grasps");
 }
 
-}  // namespace
+}  // namespace discrimination_test
 }  // namespace regrasp::sim

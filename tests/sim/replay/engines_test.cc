@@ -13,7 +13,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace engines_test {
 
 ReplayOptions By(EngineChoice engine) {
   ReplayOptions options;
@@ -200,5 +200,5 @@ TEST(BothEngines, AgreeOnRandomGraspsAboveAndBelowTheirCriticalFriction) {
   EXPECT_GE(planar, 2 * kGrasps);
 }
 
-}  // namespace
+}  // namespace engines_test
 }  // namespace regrasp::sim

@@ -10,7 +10,7 @@
 #include "tests/sim/replay/replay_expectations.h"
 
 namespace regrasp::sim {
-namespace {
+namespace planar_replay_test {
 
 TEST(PlanarHold, TwoAntipodalFingersHoldASquare) {
   const object::Polygon square = MakeSquare(0.03);
@@ -257,5 +257,5 @@ TEST(PlanarReplay, NothingLeavesThePlane) {
   EXPECT_EQ(checked, 20);
 }
 
-}  // namespace
+}  // namespace planar_replay_test
 }  // namespace regrasp::sim

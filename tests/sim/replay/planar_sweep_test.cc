@@ -12,7 +12,7 @@
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace planar_sweep_test {
 
 constexpr unsigned kSeed = 31;
 constexpr double kHalfAngle = Radians(20);
@@ -182,5 +182,5 @@ TEST(PlanarSweep, RandomSwitchesBetweenGoodGraspsPassAndOneToABadGraspFails) {
   EXPECT_EQ(failed, walks);
 }
 
-}  // namespace
+}  // namespace planar_sweep_test
 }  // namespace regrasp::sim

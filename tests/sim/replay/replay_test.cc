@@ -12,7 +12,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace replay_test {
 
 plan::Plan FourSwitches(const CubeCase& cube) {
   plan::Plan plan = MakePlan(cube.Start(), 25);
@@ -290,5 +290,5 @@ TEST(ReplayScale, RefusesSizesThatCannotBeSimulated) {
   }
 }
 
-}  // namespace
+}  // namespace replay_test
 }  // namespace regrasp::sim

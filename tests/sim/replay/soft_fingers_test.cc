@@ -17,7 +17,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace soft_fingers_test {
 
 constexpr double kDegrees = 25;
 
@@ -195,5 +195,5 @@ TEST(SoftFingersReplay, TwiceGivesTheSameBits) {
   ExpectSameBitsTwice(cube.object, plan);
 }
 
-}  // namespace
+}  // namespace soft_fingers_test
 }  // namespace regrasp::sim

@@ -7,7 +7,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace trajectory_test {
 
 TEST(Trajectory, HasAHeaderWithUnitsAndARowPerSampleAndFinger) {
   plan::Snapshot sample;
@@ -44,5 +44,5 @@ TEST(Trajectory, OfAReplayRunsForwardInTimeAndItsForcesCarryTheWeightAtTheEnd) {
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(csv, '\n')), 1 + 5 * samples.size());
 }
 
-}  // namespace
+}  // namespace trajectory_test
 }  // namespace regrasp::sim

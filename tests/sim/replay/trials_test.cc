@@ -14,7 +14,7 @@
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace trials_test {
 
 constexpr double kTip = 1e-3;  ///< metres
 
@@ -285,5 +285,5 @@ TEST(Trials, RefuseErrorsOutOfRange) {
   EXPECT_THROW((void)Passes(25, Trials(1, 0, 0, std::nan(""))), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace trials_test
 }  // namespace regrasp::sim

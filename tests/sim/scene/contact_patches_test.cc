@@ -14,7 +14,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace contact_patches_test {
 
 using Eigen::Vector3d;
 
@@ -182,5 +182,5 @@ TEST(FineFacets, AreWhereTheyAreAlthoughTheEngineKeepsMeshesInSinglePrecision) {
   EXPECT_GT(meshes, 5);
 }
 
-}  // namespace
+}  // namespace contact_patches_test
 }  // namespace regrasp::sim

@@ -5,7 +5,7 @@
 #include <memory>
 
 namespace regrasp::sim {
-namespace {
+namespace engine_hooks_test {
 
 TEST(EngineHooksTest, AreTakenFromTheFirstSimulationToTheLastWhicheverEndsFirst) {
   const auto error = mju_user_error;
@@ -22,5 +22,5 @@ TEST(EngineHooksTest, AreTakenFromTheFirstSimulationToTheLastWhicheverEndsFirst)
   EXPECT_EQ(mju_user_warning, warning);
 }
 
-}  // namespace
+}  // namespace engine_hooks_test
 }  // namespace regrasp::sim

@@ -9,7 +9,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace hand_squeeze_test {
 
 constexpr double kMass = 0.216;
 
@@ -81,5 +81,5 @@ TEST(HandSqueeze, IsTakenByTheReplayWhereItIsAskedFor) {
   EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, plan::Reason::kNone);
 }
 
-}  // namespace
+}  // namespace hand_squeeze_test
 }  // namespace regrasp::sim

@@ -13,7 +13,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace nonconvex_contacts_test {
 
 using Eigen::Vector3d;
 
@@ -313,5 +313,5 @@ TEST(NonconvexContacts, WrongContactsAreSeen) {
   EXPECT_EQ(count(grasp, loose).missed, 1);
 }
 
-}  // namespace
+}  // namespace nonconvex_contacts_test
 }  // namespace regrasp::sim

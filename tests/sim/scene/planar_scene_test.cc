@@ -8,7 +8,7 @@
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace planar_scene_test {
 
 plan::Plan FramePlan(const object::Polygon& frame) {
   return MakePlanarPlan({OnEdge(frame, 0, 4, 0.45), OnEdge(frame, 1, 6, 0.5)}, 15);
@@ -152,5 +152,5 @@ TEST(VisibleSurfaceTest, OfAPolygonIsItsClosedPrism) {
   EXPECT_LT(flux.norm(), 1e-15);
 }
 
-}  // namespace
+}  // namespace planar_scene_test
 }  // namespace regrasp::sim

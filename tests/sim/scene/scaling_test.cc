@@ -6,7 +6,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace scaling_test {
 
 /// A rod along x, 1 m long, with a square section.
 object::Polyhedron MakeRod(double width) {
@@ -104,5 +104,5 @@ TEST(EngineUnits, MakeEveryBodyLookAlike) {
   }
 }
 
-}  // namespace
+}  // namespace scaling_test
 }  // namespace regrasp::sim

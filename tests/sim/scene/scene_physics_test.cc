@@ -15,7 +15,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace scene_physics_test {
 
 /// Collects what is at fault in a scene.
 class PhysicsAudit {
@@ -159,5 +159,5 @@ TEST(ScenePhysics, EveryTamperingIsSeenForWhatItIs) {
   EXPECT_GE(kTamperings.size(), 10u);
 }
 
-}  // namespace
+}  // namespace scene_physics_test
 }  // namespace regrasp::sim

@@ -14,7 +14,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace scene_test {
 
 TEST(SceneMjcfTest, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
   const CubeCase cube;
@@ -199,5 +199,5 @@ TEST(Scaling, KeepsTheRatiosThatMakeEveryBodyTheSameExperiment) {
   EXPECT_EQ(checked, 9);
 }
 
-}  // namespace
+}  // namespace scene_test
 }  // namespace regrasp::sim

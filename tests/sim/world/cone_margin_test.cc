@@ -5,7 +5,7 @@
 #include "planner/base/angle.h"
 
 namespace regrasp::sim {
-namespace {
+namespace cone_margin_test {
 
 using Eigen::Vector3d;
 
@@ -30,5 +30,5 @@ TEST(ConeMarginTest, OfAFingerTheSmallestStaysAndOfAllTheSmallestIsNamed) {
   EXPECT_EQ(FingerOfSmallestMargin(margins), 4);
 }
 
-}  // namespace
+}  // namespace cone_margin_test
 }  // namespace regrasp::sim

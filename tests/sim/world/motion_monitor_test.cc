@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace regrasp::sim {
-namespace {
+namespace motion_monitor_test {
 
 ReplaySettings UnitSettings() {
   ReplaySettings settings;
@@ -161,5 +161,5 @@ TEST(MotionMonitorTest, MarginsAreTheLeastOfAllForces) {
   for (const auto& [finger, margin] : expected) EXPECT_NEAR(margins.at(finger), margin, kRoundings);
 }
 
-}  // namespace
+}  // namespace motion_monitor_test
 }  // namespace regrasp::sim

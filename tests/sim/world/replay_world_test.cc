@@ -10,7 +10,7 @@
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace replay_world_test {
 
 using testing::HasSubstr;
 
@@ -169,5 +169,5 @@ TEST(MonitorOfAReplay, AnAlignInThePlaneMayMoveTheObjectByTheToleranceAndNoMore)
   }
 }
 
-}  // namespace
+}  // namespace replay_world_test
 }  // namespace regrasp::sim

@@ -11,7 +11,7 @@
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {
-namespace {
+namespace stillness_test {
 
 /// Shares of the derived time step.
 constexpr double kTimesteps[] = {1, 0.5, 0.125};
@@ -207,5 +207,5 @@ TEST(Stillness, ABodyThatIsLetGoNeverComesToRest) {
   EXPECT_FALSE(WaitUntilStill(held.world));
 }
 
-}  // namespace
+}  // namespace stillness_test
 }  // namespace regrasp::sim

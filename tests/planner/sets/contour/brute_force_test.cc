@@ -11,7 +11,7 @@
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp::contour {
-namespace {
+namespace brute_force_test {
 
 using Eigen::Vector2d;
 
@@ -201,5 +201,5 @@ TEST(ContourBruteForce, WitnessesRefuseLessFriction) {
   EXPECT_LT(confirmed, pieces);
 }
 
-}  // namespace
+}  // namespace brute_force_test
 }  // namespace regrasp::contour

@@ -11,7 +11,7 @@
 #include "tests/planner/sets/contour/region_cases.h"
 
 namespace regrasp::contour {
-namespace {
+namespace contact_space_test {
 
 using Eigen::Vector2d;
 
@@ -173,5 +173,5 @@ TEST(SetBorder, SegmentsFallOrLieOnVerticesAndOneOfTheirSidesIsNotInTheSet) {
   EXPECT_GT(straight, 500);
 }
 
-}  // namespace
+}  // namespace contact_space_test
 }  // namespace regrasp::contour

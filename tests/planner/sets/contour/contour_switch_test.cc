@@ -10,7 +10,7 @@
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp::contour {
-namespace {
+namespace contour_switch_test {
 
 using Eigen::Vector2d;
 
@@ -210,5 +210,5 @@ TEST(AlignRoute, TakesTheShortPathAroundADisc) {
   EXPECT_EQ(route.size(), 2U + 2 * 4);
 }
 
-}  // namespace
+}  // namespace contour_switch_test
 }  // namespace regrasp::contour

@@ -8,7 +8,7 @@
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp::contour {
-namespace {
+namespace deadline_test {
 
 TEST(ContourDeadline, TheGraphLooksAtItForEveryPieceAndEndsWhereverItComes) {
   const object::Polygon polygon = IrregularOutline(40, 0.8, 3);
@@ -45,5 +45,5 @@ TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough
   EXPECT_EQ(of_overlaps.looks(), 5 * count);
 }
 
-}  // namespace
+}  // namespace deadline_test
 }  // namespace regrasp::contour

@@ -14,7 +14,7 @@
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp::contour {
-namespace {
+namespace exact_oracle_test {
 
 constexpr std::uint64_t kSeed = 5;
 
@@ -87,5 +87,5 @@ TEST(ContourOracle, NoticesAGraphOfLessFrictionAndOfAnotherPolygon) {
   EXPECT_NE(difference, "");
 }
 
-}  // namespace
+}  // namespace exact_oracle_test
 }  // namespace regrasp::contour

@@ -14,7 +14,7 @@
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp::contour {
-namespace {
+namespace graph_memory_test {
 
 using ::testing::HasSubstr;
 
@@ -103,5 +103,5 @@ TEST(ContourGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
   EXPECT_THAT(result.message, HasSubstr("for 10001 edges"));
 }
 
-}  // namespace
+}  // namespace graph_memory_test
 }  // namespace regrasp::contour

@@ -15,7 +15,7 @@
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp::contour {
-namespace {
+namespace known_answers_test {
 
 using Eigen::Vector2d;
 
@@ -179,5 +179,5 @@ TEST(ContourKnownAnswers, AnAnnulusIsSqueezedAcrossItsRingAndStretchedInsideItsH
   }
 }
 
-}  // namespace
+}  // namespace known_answers_test
 }  // namespace regrasp::contour

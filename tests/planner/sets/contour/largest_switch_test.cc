@@ -11,7 +11,7 @@
 #include "tests/planner/sets/contour/square_oracle.h"
 
 namespace regrasp::contour {
-namespace {
+namespace largest_switch_test {
 
 /// The largest smaller size of a switch between two sets, by samples along all edges.
 double SampledSwitchSize(SetGeometry& geometry, sets::SetIndex v, sets::SetIndex w,
@@ -112,5 +112,5 @@ TEST(LargestSwitch, IsTheSameBothWays) {
   EXPECT_GT(switches, 200);
 }
 
-}  // namespace
+}  // namespace largest_switch_test
 }  // namespace regrasp::contour

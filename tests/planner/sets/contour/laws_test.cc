@@ -14,7 +14,7 @@
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp::contour {
-namespace {
+namespace laws_test {
 
 using Eigen::Vector2d;
 
@@ -208,5 +208,5 @@ TEST(ContourLaws, FrictionOutsideItsRangeIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace laws_test
 }  // namespace regrasp::contour

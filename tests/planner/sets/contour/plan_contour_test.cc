@@ -14,7 +14,7 @@
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp::contour {
-namespace {
+namespace plan_contour_test {
 
 using testing::HasSubstr;
 using testing::SizeIs;
@@ -248,5 +248,5 @@ TEST(PlanOnContour, SaysNoExactlyWhereTheSetsAreNotJoined) {
   EXPECT_GT(apart, 50);
 }
 
-}  // namespace
+}  // namespace plan_contour_test
 }  // namespace regrasp::contour

@@ -3,14 +3,14 @@
 #include <random>
 
 namespace regrasp::contour {
-namespace {
+namespace region_cases_test {
 
 constexpr std::uint64_t kSeed = 8;
 
 /// Farther apart than roundings, nearer than what counts as one place.
 constexpr double kShake = 1e-13;
 
-}  // namespace
+}  // namespace region_cases_test
 
 double SizeToleranceOf(const object::Polygon& polygon) {
   constexpr double kTolerance = 1e-9;

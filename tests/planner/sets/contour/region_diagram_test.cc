@@ -15,7 +15,7 @@
 #include "tests/planner/sets/contour/square_oracle.h"
 
 namespace regrasp::contour {
-namespace {
+namespace region_diagram_test {
 
 using Eigen::Vector2d;
 
@@ -206,5 +206,5 @@ TEST(RegionDiagram, DoesNotDependOnWhereARingBegins) {
   EXPECT_GT(sets, 1000);
 }
 
-}  // namespace
+}  // namespace region_diagram_test
 }  // namespace regrasp::contour

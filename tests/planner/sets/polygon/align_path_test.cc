@@ -9,7 +9,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace align_path_test {
 
 grasp::Grasp GraspAt(const object::Polygon& polygon, const GraspSet& set,
                      const Eigen::VectorXd& parameters) {
@@ -95,5 +95,5 @@ TEST(AlignPath, LeadsNowhereFromAGraspOutsideTheSet) {
   EXPECT_TRUE(FindAlignPath(cells, leaning, upright).empty());
 }
 
-}  // namespace
+}  // namespace align_path_test
 }  // namespace regrasp::polygon

@@ -11,7 +11,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace attached_graph_test {
 
 sets::GraspEnds Ends(const std::vector<int>& of_itself, const std::vector<int>& by_switch) {
   return {{of_itself.begin(), of_itself.end()}, {by_switch.begin(), by_switch.end()}};
@@ -106,5 +106,5 @@ TEST_F(AttachedBlob, ASetIsTheOnlyOneOfAnEndWhereNoOtherIsJoinedToIt) {
   for (const int other : {1, 2, 3}) EXPECT_FALSE(graph.IsOnlySetOfAnEnd(other)) << other;
 }
 
-}  // namespace
+}  // namespace attached_graph_test
 }  // namespace regrasp::polygon

@@ -9,7 +9,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace brute_force_test {
 
 constexpr int kPairs = 150;    // draws of two contacts for every two edges
 constexpr int kThirds = 4;     // and of a third contact on each other edge
@@ -93,5 +93,5 @@ TEST(BruteForce, NoticesAGraphOfLessFrictionOfAnotherSpanningAndOfAnotherPolygon
       fails(MakeGraph(other, 20, planning::Spanning::kUniform), 20, planning::Spanning::kUniform));
 }
 
-}  // namespace
+}  // namespace brute_force_test
 }  // namespace regrasp::polygon

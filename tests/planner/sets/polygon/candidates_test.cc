@@ -11,7 +11,7 @@
 #include "planner/base/angle.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace candidates_test {
 
 constexpr double kPi = std::numbers::pi;
 /// Angles closer to a limit than this are left to the exact predicates alone.
@@ -168,5 +168,5 @@ TEST_P(CandidatesTest, ParallelOnesHaveACommonCone) {
 
 INSTANTIATE_TEST_SUITE_P(HalfAngles, CandidatesTest, testing::Values(10, 20, 35, 50, 65, 80));
 
-}  // namespace
+}  // namespace candidates_test
 }  // namespace regrasp::polygon

@@ -8,7 +8,7 @@
 #include "planner/sets/polygon/filtered_region.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace convex_region_test {
 
 template <class NT>
 HalfPlane<NT> Make(double a, double b, double c) {
@@ -130,5 +130,5 @@ TEST_F(ConvexRegionTest, OverlapIsDecidedAsByCuttingOneWithTheOther) {
   EXPECT_GT(apart, 100);
 }
 
-}  // namespace
+}  // namespace convex_region_test
 }  // namespace regrasp::polygon

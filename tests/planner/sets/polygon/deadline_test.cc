@@ -8,7 +8,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace deadline_test {
 
 /// Looks while the candidates of all types are listed.
 int LooksForCandidates(const object::Polygon& polygon, double half_angle) {
@@ -44,5 +44,5 @@ TEST(PolygonDeadline, TheGraphLooksAtItForEveryCandidateAndVertexAndEndsWherever
   });
 }
 
-}  // namespace
+}  // namespace deadline_test
 }  // namespace regrasp::polygon

@@ -16,7 +16,7 @@
 #include "tests/planner/sets/polygon/two_finger_oracle.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace degenerate_test {
 
 constexpr std::uint64_t kSeed = 3;
 
@@ -82,5 +82,5 @@ TEST(Degenerate, CountsAreExactBeforeAndAfterPerturbation) {
   EXPECT_GT(total.two_finger.switches, 500);
 }
 
-}  // namespace
+}  // namespace degenerate_test
 }  // namespace regrasp::polygon

@@ -10,7 +10,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace graph_cells_test {
 
 TEST(GraphCells, DrawsGraspsAllOverASet) {
   const object::Polygon square = Square(1);
@@ -85,5 +85,5 @@ TEST(GraphCells, SwitchesOfItsOwnLeadAnyGraspThatAHandCanKeepToTheSets) {
   EXPECT_TRUE(cells.FindSwitches(leaning, 2).empty());
 }
 
-}  // namespace
+}  // namespace graph_cells_test
 }  // namespace regrasp::polygon

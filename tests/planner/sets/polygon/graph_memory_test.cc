@@ -10,7 +10,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace graph_memory_test {
 
 using ::testing::HasSubstr;
 
@@ -61,5 +61,5 @@ TEST(PolygonGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
   EXPECT_THAT(result.message, HasSubstr("for 1001 edges"));
 }
 
-}  // namespace
+}  // namespace graph_memory_test
 }  // namespace regrasp::polygon

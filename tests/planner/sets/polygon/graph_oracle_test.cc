@@ -7,7 +7,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace graph_oracle_test {
 
 TEST(GraphOracle, CellsAndSwitchesOfSmallPolygonsAreThoseOfExactSetOperations) {
   OracleCount total;
@@ -54,5 +54,5 @@ TEST(GraphOracle, NoticesAnotherFrictionAnotherSpanningAndAnotherPolygon) {
   EXPECT_NE(difference, "");
 }
 
-}  // namespace
+}  // namespace graph_oracle_test
 }  // namespace regrasp::polygon

@@ -7,7 +7,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace known_answers_test {
 
 constexpr GraspType kC = GraspType::kConcurrent;
 constexpr GraspType kF = GraspType::kTwoFinger;
@@ -221,5 +221,5 @@ TEST(KnownAnswers, AForkIsSqueezedAndStretched) {
   EXPECT_TRUE(graph.SetsOn(Edges({1, 5})).empty());
 }
 
-}  // namespace
+}  // namespace known_answers_test
 }  // namespace regrasp::polygon

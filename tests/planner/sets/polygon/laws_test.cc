@@ -8,7 +8,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace laws_test {
 
 constexpr GraspType kTypes[] = {GraspType::kConcurrent, GraspType::kTwoFinger,
                                 GraspType::kParallel};
@@ -96,5 +96,5 @@ TEST(GraphLaws, NothingIsLostWhenFrictionGrowsUnderAdaptiveSpanning) {
   EXPECT_GT(lost_by_uniform, 10);
 }
 
-}  // namespace
+}  // namespace laws_test
 }  // namespace regrasp::polygon

@@ -11,7 +11,7 @@
 #include "planner/sets/polygon/common_cone.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace parallel_test {
 
 using Triple = EdgeTriple;
 using Parameters = std::array<double, 3>;
@@ -251,5 +251,5 @@ TEST_P(ParallelTest, CentresWhoseSetsShareGraspsAreOneSet) {
 
 INSTANTIATE_TEST_SUITE_P(HalfAngles, ParallelTest, testing::Values(20, 35, 50, 70));
 
-}  // namespace
+}  // namespace parallel_test
 }  // namespace regrasp::polygon

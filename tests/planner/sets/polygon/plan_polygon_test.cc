@@ -14,7 +14,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace plan_polygon_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -328,5 +328,5 @@ TEST(PlanOnPolygon, UniformSpanningNeverJoinsConcurrentAndParallelSets) {
   EXPECT_GT(plans, 3);
 }
 
-}  // namespace
+}  // namespace plan_polygon_test
 }  // namespace regrasp::polygon

@@ -9,7 +9,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace set_cells_test {
 
 /// Contacts drawn on distinct edges, in the order of the edges.
 struct Draw {
@@ -153,5 +153,5 @@ TEST(SetCells, ContactAndParameterAreInverse) {
   }
 }
 
-}  // namespace
+}  // namespace set_cells_test
 }  // namespace regrasp::polygon

@@ -5,7 +5,7 @@
 #include <random>
 
 namespace regrasp::polygon {
-namespace {
+namespace slack_program_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -87,5 +87,5 @@ TEST(SlackProgram, NoRandomPointHasMoreSlack) {
   EXPECT_GT(nearly_best, 1000);
 }
 
-}  // namespace
+}  // namespace slack_program_test
 }  // namespace regrasp::polygon

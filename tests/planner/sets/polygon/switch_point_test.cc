@@ -11,7 +11,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace switch_point_test {
 
 std::vector<FaceIndex> CommonEdges(const GraspSet& a, const GraspSet& b) {
   std::vector<FaceIndex> common;
@@ -187,5 +187,5 @@ TEST_F(AcrossTheSquare, ImprovingNeverLowersTheScoreAndEnds) {
             ScoreOf(from, to, point, worst_at_first));
 }
 
-}  // namespace
+}  // namespace switch_point_test
 }  // namespace regrasp::polygon

@@ -12,7 +12,7 @@
 #include "tests/planner/sets/polygon/two_finger_oracle.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace touching_test {
 
 constexpr double kTangent = 0.25;
 
@@ -135,5 +135,5 @@ TEST(Touching, ContactsThatTouchDoNotJoinAParallelAndATwoFingerSet) {
   }
 }
 
-}  // namespace
+}  // namespace touching_test
 }  // namespace regrasp::polygon

@@ -7,7 +7,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
-namespace {
+namespace two_finger_oracle_test {
 
 TEST(TwoFingerOracle, SetsAndSwitchesOfSmallPolygonsAreThoseOfExactClipping) {
   TwoFingerCount total;
@@ -40,5 +40,5 @@ TEST(TwoFingerOracle, NoticesAnotherFriction) {
   EXPECT_NE(difference, "");
 }
 
-}  // namespace
+}  // namespace two_finger_oracle_test
 }  // namespace regrasp::polygon

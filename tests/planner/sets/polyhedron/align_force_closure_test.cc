@@ -15,7 +15,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace align_force_closure_test {
 
 constexpr int kPlans = 200;
 constexpr int kPlansOfControls = 60;
@@ -193,5 +193,5 @@ TEST(AlignsOfPolyhedra, AWayWithAContactOnTheWrongSideIsFoundNotForceClosure) {
   EXPECT_GE(turned, 20);
 }
 
-}  // namespace
+}  // namespace align_force_closure_test
 }  // namespace regrasp::polyhedron

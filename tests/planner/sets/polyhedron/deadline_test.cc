@@ -8,7 +8,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace deadline_test {
 
 TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereverItComes) {
   const object::Polyhedron body = RegularOctahedron();
@@ -45,5 +45,5 @@ TEST(PolyhedronDeadline, SamplingLooksAtItForEveryPointAndEndsWhereverItComes) {
                             [&](const Deadline& deadline) { sample(100, deadline); });
 }
 
-}  // namespace
+}  // namespace deadline_test
 }  // namespace regrasp::polyhedron

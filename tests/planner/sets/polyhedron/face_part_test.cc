@@ -11,7 +11,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace face_part_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -227,5 +227,5 @@ TEST(SplitFaces, TheChecksSeeAPartThatIsNotConvexAndOnesThatOverlap) {
   EXPECT_GT(body.face_measure(FaceIndex(part.face)), AreaOf(part.outline()) + 0.1);
 }
 
-}  // namespace
+}  // namespace face_part_test
 }  // namespace regrasp::polyhedron

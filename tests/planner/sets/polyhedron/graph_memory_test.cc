@@ -11,7 +11,7 @@
 #include "tests/fixtures/plan_with.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace graph_memory_test {
 
 using ::testing::HasSubstr;
 
@@ -56,5 +56,5 @@ TEST(PolyhedronGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
   EXPECT_THAT(result.message, HasSubstr("for 300 faces"));
 }
 
-}  // namespace
+}  // namespace graph_memory_test
 }  // namespace regrasp::polyhedron

@@ -13,7 +13,7 @@
 #include "tests/planner/sets/polyhedron/cone_program.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace graph_program_test {
 
 using Eigen::Vector3d;
 
@@ -305,5 +305,5 @@ TEST(GraphProgram, PyramidsTellConesThatMeetFromConesThatTouchAndThatPart) {
   EXPECT_EQ(decide({1.03, 0, 1}, -Vector3d::UnitZ()), Verdict::kApart);
 }
 
-}  // namespace
+}  // namespace graph_program_test
 }  // namespace regrasp::polyhedron

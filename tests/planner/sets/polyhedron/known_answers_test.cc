@@ -10,7 +10,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace known_answers_test {
 
 using Eigen::Vector3d;
 
@@ -185,5 +185,5 @@ TEST(Stone, HasAsManyFacesAsAskedFor) {
   }
 }
 
-}  // namespace
+}  // namespace known_answers_test
 }  // namespace regrasp::polyhedron

@@ -15,7 +15,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace laws_test {
 
 using Eigen::Affine3d;
 using Eigen::Vector3d;
@@ -218,5 +218,5 @@ TEST(PolyhedronLaws, NeighboursAreMutualAndTheSameTwice) {
   }
 }
 
-}  // namespace
+}  // namespace laws_test
 }  // namespace regrasp::polyhedron

@@ -18,7 +18,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace min_max_test {
 
 using Eigen::Vector3d;
 
@@ -241,5 +241,5 @@ TEST(MinMax, OfUnionVolumesIsNotBeatenByWalksDown) {
   EXPECT_GT(none, 50);
 }
 
-}  // namespace
+}  // namespace min_max_test
 }  // namespace regrasp::polyhedron

@@ -12,7 +12,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace normal_quadruples_test {
 
 using Eigen::Vector3d;
 
@@ -186,5 +186,5 @@ TEST(NormalQuadruples, OfBoxesDoNotSpanAndOfAnOctahedronTwoTetrahedraDo) {
   }
 }
 
-}  // namespace
+}  // namespace normal_quadruples_test
 }  // namespace regrasp::polyhedron

@@ -12,7 +12,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace plan_polyhedron_test {
 
 using testing::HasSubstr;
 using Status = planning::PlanResult::Status;
@@ -174,5 +174,5 @@ TEST(FocusView, SeesItsContactsInsideTheRegionsOfTheirFaces) {
   EXPECT_GT(seen, 20);
 }
 
-}  // namespace
+}  // namespace plan_polyhedron_test
 }  // namespace regrasp::polyhedron

@@ -14,7 +14,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace random_grasps_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -269,5 +269,5 @@ TEST(RandomGrasps, AreFoundInEveryPieceOfEveryCell) {
   EXPECT_GT(count.grasps, count.cells);
 }
 
-}  // namespace
+}  // namespace random_grasps_test
 }  // namespace regrasp::polyhedron

@@ -10,7 +10,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
-namespace {
+namespace union_volume_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -164,5 +164,5 @@ TEST(UnionVolume, OfASingleContactIsItsCone) {
   }
 }
 
-}  // namespace
+}  // namespace union_volume_test
 }  // namespace regrasp::polyhedron
