@@ -130,6 +130,11 @@ void FigureProgram::AddTo(CLI::App& app) {
 }
 
 void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const {
+  if (plan.hand) {
+    throw InputError("--plan: " + plan_path + " is a plan for the hand " + plan.hand->file +
+                     ": figures of hands are not supported, expected a plan for fingers; help: "
+                     "draw it with validate --out DIR");
+  }
   if (contact_space && object.object->dimension() != 2) {
     throw InputError("--contact-space: " + object_path + " is a solid, not a planar object");
   }

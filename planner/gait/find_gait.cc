@@ -8,12 +8,14 @@
 #include <stdexcept>
 
 #include "planner/base/angle.h"
+#include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/gait/fewer_moves.h"
 #include "planner/gait/gait_search.h"
 #include "planner/gait/places_in_hand.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/with_reserve.h"
+#include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/reason.h"
 #include "planner/sampling/surface_sampler.h"
 
@@ -21,31 +23,17 @@ namespace regrasp::gait {
 namespace {
 
 constexpr int kContacts = 400;
-/// Of the diameter: contacts keep off the borders of faces, where the least slip is to another one.
-constexpr double kFromBorder = 0.02;
-/// Less where faces are so small that of this many places on the surface fewer are that far off.
-constexpr int kDrawnForBorder = 400;
-constexpr int kFewestOffBorder = 4;
-
-/// From the borders of faces, over the diameter.
-double DistanceFromBorders(const GaitRequest& request) {
-  const double radius = FingersOf(request).fingertip_radius;
-  for (double distance = kFromBorder; distance > sampling::SurfaceSampler::kFromBorder;
-       distance /= 2) {
-    const sampling::SurfaceSampler sampler(*request.solid, radius, distance);
-    RandomStream random(request.seed, RandomUse::kContactPoints);
-    int off_border = 0;
-    for (int i = 0; i < kDrawnForBorder; ++i) {
-      if (sampler.IsValid(sampler.DrawAnywhere(random))) ++off_border;
-    }
-    if (off_border >= kFewestOffBorder) return distance;
-  }
-  return sampling::SurfaceSampler::kFromBorder;
-}
+/// Least distance of a contact from sharp edges, in diameters: a fingertip that slips a little
+/// stays on its face.
+constexpr double kEdgeClearance = 0.02;
+/// Grasps in space have at least three contacts.
+constexpr std::size_t kFewestHoldingFingers = 3;
+/// Distances are exact up to this.
+constexpr double kFarAway_m = 1e3;
 
 std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
   const sampling::SurfaceSampler sampler(*request.solid, FingersOf(request).fingertip_radius,
-                                         DistanceFromBorders(request));
+                                         kEdgeClearance);
   RandomStream random(request.seed, RandomUse::kContactPoints);
   std::vector<grasp::Contact> contacts;
   for (int i = 0; i < kContacts; ++i) {
@@ -132,6 +120,38 @@ void CheckStartFingers(const GaitRequest& request) {
   }
 }
 
+/// How far a finger is from touching the object.
+struct FingerGap {
+  std::string finger;
+  double distance = 0;  ///< of the object's surface from the finger's first joint, metres
+  double reach = 0;     ///< MaximumReach
+};
+
+/// @throws InputError  at the pose fewer than three fingers can touch the object.
+void CheckReach(const GaitRequest& request, const collision::SurfaceTree& surface,
+                const std::optional<Eigen::Isometry3d>& pose, const std::string& option) {
+  if (!pose) return;
+  std::vector<FingerGap> gaps;
+  for (const kinematics::Finger& finger : request.hand->fingers) {
+    const collision::ConvexShape base{{pose->inverse() * finger.joints.front().offset}, 0};
+    gaps.push_back(
+        {finger.name, surface.DistanceFrom(base, kFarAway_m), kinematics::MaximumReach(finger)});
+  }
+  const auto missing = [](const FingerGap& gap) { return gap.distance - gap.reach; };
+  std::ranges::sort(gaps, {}, missing);
+  if (gaps.size() >= kFewestHoldingFingers && missing(gaps[kFewestHoldingFingers - 1]) <= 0) return;
+  const std::size_t in_reach =
+      std::ranges::count_if(gaps, [&](const FingerGap& gap) { return missing(gap) <= 0; });
+  const FingerGap& first = gaps[in_reach];
+  throw InputError(
+      option + ": the object is out of reach of " +
+      (in_reach == 0 ? "every finger" : "all but " + std::to_string(in_reach) + " of the fingers") +
+      ", expected at least " + std::to_string(kFewestHoldingFingers) +
+      " fingers that can touch it; its surface is " + FormatShort(first.distance, 3) +
+      " m from the first joint of finger " + first.finger + ", which reaches " +
+      FormatShort(first.reach, 3) + " m");
+}
+
 bool Holds(const std::vector<int>& grasp, criteria::GraspMemory& memory) {
   criteria::ContactSet contacts;
   for (const int number : grasp) {
@@ -215,6 +235,9 @@ hand::Hand FingersOf(const planning::InHandTask& task) {
 
 GaitResult FindGait(const GaitRequest& request) {
   CheckStartFingers(request);
+  const collision::SurfaceTree surface(*request.solid, request.scale);
+  CheckReach(request, surface, request.start_pose, "--start-pose");
+  CheckReach(request, surface, request.goal_pose, "--goal-pose");
   GaitResult result;
   result.contacts = DrawContacts(request);
   const GaitEnds ends{AppendGrasp(request.start_grasp, result.contacts),
@@ -226,7 +249,6 @@ GaitResult FindGait(const GaitRequest& request) {
   std::vector<kinematics::InverseKinematics> inverse;
   inverse.reserve(request.hand->fingers.size());
   for (const kinematics::Finger& finger : request.hand->fingers) inverse.emplace_back(finger);
-  const collision::SurfaceTree surface(*request.solid, request.scale);
   const collision::BallContact rolled_on(*request.solid, request.scale);
   const hand::Hand fingers = FingersOf(request);
   const FindOne find = [&](const GaitRequest& asked, std::span<const Spare> spares) -> FoundGait {

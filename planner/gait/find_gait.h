@@ -57,6 +57,8 @@ struct GaitResult {
 /// rest is force closure and meets the criteria where it can; every path is certified
 /// (certified_path.h).
 /// @throws std::invalid_argument  start_fingers are not one of the hand for each contact.
+/// @throws InputError  fewer than three fingers can touch the object at the start or goal pose,
+///     however they are bent.
 [[nodiscard]] GaitResult FindGait(const GaitRequest& request);
 
 }  // namespace regrasp::gait

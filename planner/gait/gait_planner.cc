@@ -85,6 +85,10 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     if (asked.explain) {
       if (time) request.deadline = request.deadline.In(*time);
       result.message += "; " + ExplainGait(request);
+    } else {
+      result.message +=
+          "; help: --explain searches for a friction, an object size and a palm tilt "
+          "that help";
     }
     return result;
   }

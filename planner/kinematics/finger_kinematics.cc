@@ -84,4 +84,10 @@ std::vector<double> LinkReach(const Finger& finger, const LinkShape& shape) {
   return reach;
 }
 
+double MaximumReach(const Finger& finger) {
+  double reach = finger.tip.centre.norm() + finger.tip.radius;
+  for (std::size_t i = 1; i < finger.joints.size(); ++i) reach += finger.joints[i].offset.norm();
+  return reach;
+}
+
 }  // namespace regrasp::kinematics

@@ -39,4 +39,8 @@ struct TipState {
 /// axis than this, whatever the joints after it do, metres.
 [[nodiscard]] std::vector<double> LinkReach(const Finger& finger, const LinkShape& shape);
 
+/// An upper bound on the distance of a point that the fingertip touches from the finger's first
+/// joint, metres: the sum of the lengths of all links, whatever the joint limits.
+[[nodiscard]] double MaximumReach(const Finger& finger);
+
 }  // namespace regrasp::kinematics

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planner/criteria/clearance.h"
 #include "planner/criteria/reach.h"
@@ -22,6 +23,30 @@ constexpr double kOffFace = 1e-9;
 /// The nearest face is looked for within this share of the reach first.
 constexpr double kFirstLook = 1.0 / 64;
 
+double AreaOverPerimeter(const object::Object& object, FaceIndex face) {
+  double perimeter = 0;
+  for (const object::FaceBorder& border : object.BordersOf(face)) {
+    perimeter += (border.b - border.a).norm();
+  }
+  return perimeter > 0 ? object.face_measure(face) / perimeter : 0;
+}
+
+/// Distance to the nearest edge of the contact's face that is not nearly flat.
+double DistanceToSharpEdge(const object::Object& object, const grasp::Contact& contact) {
+  static const double least_cosine = std::cos(SurfaceSampler::kNearlyFlatAngle);
+  const Vector3d n = object.inward_normal(contact.face);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const object::FaceBorder& border : object.BordersOf(contact.face)) {
+    if (n.dot(object.inward_normal(border.beyond)) >= least_cosine) continue;
+    const Vector3d along = border.b - border.a;
+    const double length2 = along.squaredNorm();
+    const double t = length2 > 0 ? (contact.p - border.a).dot(along) / length2 : 0;
+    const Vector3d closest = border.a + std::clamp(t, 0.0, 1.0) * along;
+    nearest = std::min(nearest, (contact.p - closest).norm());
+  }
+  return nearest;
+}
+
 }  // namespace
 
 double TriangleArea(const object::Polyhedron& solid, object::TriangleIndex triangle) {
@@ -37,11 +62,10 @@ grasp::Contact ContactOnTriangle(const object::Polyhedron& solid, object::Triang
   return {solid.ClosestPoint(face, p), solid.inward_normal(face), face};
 }
 
-SurfaceSampler::SurfaceSampler(const object::Object& object, double finger_radius,
-                               double from_border)
+SurfaceSampler::SurfaceSampler(const object::Object& object, double finger_radius, double clearance)
     : object_(object),
       finger_radius_(finger_radius),
-      from_border_(from_border),
+      clearance_(clearance * object.diameter()),
       solid_(dynamic_cast<const object::Polyhedron*>(&object)),
       polygon_(dynamic_cast<const object::Polygon*>(&object)) {
   for (FaceIndex face{0}; face < object.face_count(); ++face) {
@@ -64,9 +88,17 @@ double SurfaceSampler::MeasureOf(int facet) const {
                            : TriangleArea(*solid_, object::TriangleIndex(facet));
 }
 
+bool SurfaceSampler::IsOffBorder(const grasp::Contact& contact) const {
+  const double distance = object_.DistanceToBorder(contact.face, contact.p);
+  if (distance >= clearance_) return true;
+  if (distance < kFromBorder * object_.diameter()) return false;
+  const double sharp =
+      std::min(clearance_, kSmallFaceClearance * AreaOverPerimeter(object_, contact.face));
+  return distance >= sharp || DistanceToSharpEdge(object_, contact) >= sharp;
+}
+
 bool SurfaceSampler::IsValid(const grasp::Contact& contact) const {
-  return object_.DistanceToBorder(contact.face, contact.p) >= from_border_ * object_.diameter() &&
-         criteria::CanRest(object_, contact) &&
+  return IsOffBorder(contact) && criteria::CanRest(object_, contact) &&
          criteria::CanReach(object_, contact, finger_radius_);
 }
 

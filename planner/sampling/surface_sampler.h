@@ -23,17 +23,25 @@ class SurfaceSampler {
   /// Over the diameter: on the border of its face the least slip takes a finger to the next face.
   /// Far more than a good grasp slips.
   static constexpr double kFromBorder = 2e-4;
+  /// An edge at which the normal turns by no more than this, radians, is nearly flat: a fingertip
+  /// that crosses it stays within every usual friction cone.
+  static constexpr double kNearlyFlatAngle = 0.35;
+  /// Area over perimeter is half the inradius of a square or a disc, and all of it of a thin strip.
+  static constexpr double kSmallFaceClearance = 0.6;
   /// Contacts drawn for one that is valid.
   static constexpr int kMostDraws = 1000;
 
   /// @param object  outlives this object.
   /// @param finger_radius  its unit of length; 0: points.
-  /// @param from_border  least distance of a valid contact from the border of its face, diameters.
+  /// @param clearance  least distance of a valid contact from the sharp edges of its face, in
+  ///     diameters. On a face too small for that the distance is kSmallFaceClearance of the face's
+  ///     area over its perimeter, so every face keeps part of its area. At least kFromBorder, if
+  ///     that is less than `clearance`, also applies to nearly flat edges.
   explicit SurfaceSampler(const object::Object& object, double finger_radius = 0,
-                          double from_border = kFromBorder);
+                          double clearance = kFromBorder);
 
   /// Whether a finger can be placed at a contact (CanRest, CanReach), away from the border of
-  /// its face.
+  /// its face: by kFromBorder from every edge, by the clearance from sharp edges.
   [[nodiscard]] bool IsValid(const grasp::Contact& contact) const;
 
   /// Of a solid, by area.
@@ -62,6 +70,7 @@ class SurfaceSampler {
   [[nodiscard]] double measure() const { return up_to_.back(); }
 
  private:
+  [[nodiscard]] bool IsOffBorder(const grasp::Contact& contact) const;
   /// Of the running sums: some facets that follow each other.
   struct Range {
     double from, to;
@@ -85,7 +94,7 @@ class SurfaceSampler {
 
   const object::Object& object_;
   double finger_radius_;
-  double from_border_;
+  double clearance_;                 ///< from sharp edges, in the object's unit of length
   const object::Polyhedron* solid_;  ///< the object, in space
   const object::Polygon* polygon_;   ///< the object, in the plane
   std::vector<int> facets_;          ///< those of one face together

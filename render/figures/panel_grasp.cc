@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 namespace {
 
 // Points, unless said otherwise.
-constexpr double kConeLength = 0.2;  ///< of the polygon's diameter
+constexpr double kPanelConeLength = 0.2;  ///< of the polygon's diameter
 constexpr double kConeBorder = 0.4;
 constexpr double kConeFill = 0.26;  ///< opacity
 constexpr double kLongConeFill = 0.12;
@@ -90,7 +90,7 @@ double LengthOnPanel(const DoubleCone& cone, int side, const PanelView& view) {
 
 double UsualLength(const object::Polygon& polygon, const DoubleCone& cone, int side,
                    const PanelView& view) {
-  const double usual = kConeLength * view.scale * polygon.diameter();
+  const double usual = kPanelConeLength * view.scale * polygon.diameter();
   if (side < 0) return std::min(usual, kLongestOuter);
   return std::min(usual, std::max(LengthOnPanel(cone, side, view), kShortestInner));
 }

@@ -102,8 +102,8 @@ class SolidPainter {
       const double turn = 2 * M_PI * i / kConeSides;
       rim.push_back(camera_(
           glyph.contact +
-          kSolidConeLength * (std::cos(half_angle) * axis +
-                              std::sin(half_angle) * (std::cos(turn) * u + std::sin(turn) * v))));
+          kConeLength * (std::cos(half_angle) * axis +
+                         std::sin(half_angle) * (std::cos(turn) * u + std::sin(turn) * v))));
     }
     const Color color = FingerColor(glyph.finger);
     cairo_new_path(cr_);
@@ -244,8 +244,8 @@ SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan
       extend(glyph.end);
       extend(glyph.contact);
       // The cone fits into a ball about its rim.
-      const Vector3d rim = glyph.contact - kSolidConeLength * std::cos(half_angle_) * glyph.outward;
-      const double radius = kSolidConeLength * std::sin(half_angle_);
+      const Vector3d rim = glyph.contact - kConeLength * std::cos(half_angle_) * glyph.outward;
+      const double radius = kConeLength * std::sin(half_angle_);
       for (const int axis : {0, 1}) {
         extend(rim + radius * axes_.col(axis));
         extend(rim - radius * axes_.col(axis));

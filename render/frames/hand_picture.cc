@@ -3,7 +3,10 @@
 #include <cairo.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "planner/base/number.h"
 #include "planner/kinematics/finger_kinematics.h"
@@ -29,11 +32,14 @@ constexpr double kLinkOpacity = 0.68;
 constexpr double kPaler = 0.45;
 /// Where a link is round like the ball, the ball is seen.
 constexpr double kOutside = 1.02;
-/// Of the arrow, in sizes of the hand.
+/// Of arrows, in sizes of the hand.
 constexpr double kArrowLength = 0.22;
+constexpr double kAxisLength = 0.15;
+/// x red, y green, z blue.
+constexpr std::array<Color, 3> kAxisColors = {{{196, 40, 40}, {30, 130, 60}, {40, 80, 190}}};
 constexpr double kArrowRadius = 0.006;
-constexpr double kArrowHeadLength = 0.05;
-constexpr double kArrowHeadHalfAngle = 0.35;
+constexpr double kHandArrowHeadLength = 0.05;
+constexpr double kHandArrowHeadHalfAngle = 0.35;
 /// Where the fingers point this much one way, they are seen from the side to which they bend.
 constexpr double kPointsOneWay = 0.35;
 /// Cosines of directions that count as one, and as at right angles.
@@ -192,20 +198,57 @@ HandPictureScene MakeHandScene(const kinematics::HandModel& hand, const Visuals&
   return scene;
 }
 
-/// Which way is up, from the palm's origin.
-void AddUpArrow(const Vector3d& up, const Placing& place, HandPictureScene& scene) {
+/// An arrow from the palm's origin.
+struct PalmArrow {
+  Vector3d direction;  ///< of length 1, in the palm's frame
+  double length;       ///< in sizes of the hand
+  Color color;
+  std::string label;
+};
+
+/// The axes of the palm's frame, in which poses of objects are given, and the direction up.
+std::vector<PalmArrow> PalmArrows(const Vector3d& up) {
+  return {{Vector3d::UnitX(), kAxisLength, kAxisColors[0], "x"},
+          {Vector3d::UnitY(), kAxisLength, kAxisColors[1], "y"},
+          {Vector3d::UnitZ(), kAxisLength, kAxisColors[2], "z"},
+          {up, kArrowLength, kInk, "up"}};
+}
+
+void AddArrow(const PalmArrow& arrow, const Placing& place, HandPictureScene& scene) {
   const Vector3d from = place(Vector3d::Zero());
-  const Vector3d along = place.palm.linear() * up;
-  const Vector3d tip = from + kArrowLength * along;
+  const Vector3d along = place.palm.linear() * arrow.direction;
+  const Vector3d tip = from + arrow.length * along;
+  const double head_length = kHandArrowHeadLength * arrow.length / kArrowLength;
   scene.drawing.shapes.push_back(
-      {Rod{from, tip - 0.9 * kArrowHeadLength * along, kArrowRadius}, kInk});
+      {Rod{from, tip - 0.9 * head_length * along, kArrowRadius}, arrow.color});
   Isometry3d head = Isometry3d::Identity();
   // The cone opens along its z from its apex.
   head.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), -along).toRotationMatrix();
   head.translation() = tip;
-  scene.drawing.shapes.push_back({MeshInstance{static_cast<int>(scene.meshes.size()), head}, kInk});
-  scene.meshes.push_back(MakeCone(kArrowHeadHalfAngle, kArrowHeadLength));
+  scene.drawing.shapes.push_back(
+      {MeshInstance{static_cast<int>(scene.meshes.size()), head}, arrow.color});
+  scene.meshes.push_back(MakeCone(kHandArrowHeadHalfAngle, head_length));
   scene.points.push_back(tip);
+}
+
+void WriteArrowLabels(const CairoImage& page, const Camera& camera, const Placing& place,
+                      const std::vector<PalmArrow>& arrows, const TextStyle& style) {
+  cairo_t* cr = page.context();
+  const double font = kSmallFont * style.font;
+  const Vector2d origin = camera.Project(place(Vector3d::Zero()));
+  for (const PalmArrow& arrow : arrows) {
+    const Vector3d along = place.palm.linear() * arrow.direction;
+    const Vector2d tip = camera.Project(place(Vector3d::Zero()) + arrow.length * along);
+    const Vector2d away = tip - origin;
+    // An arrow towards the eye has its label beside it.
+    const Vector2d beyond =
+        away.norm() > font ? Vector2d(away.normalized()) : Vector2d(1, 1).normalized();
+    SelectFont(cr, font, true);
+    const Vector2d start = CentredText(cr, arrow.label, tip + 0.9 * font * beyond);
+    cairo_move_to(cr, start.x(), start.y());
+    cairo_text_path(cr, arrow.label.c_str());
+    FillWithHalo(cr, arrow.color, kHandHalo * font, style.ground.halo);
+  }
 }
 
 /// Name and radius of each ball beside it, away from the middle of the hand.
@@ -289,7 +332,8 @@ Image DrawHand(const kinematics::HandModel& hand, const Visuals& visuals,
                const std::string& caption, const HandPictureOptions& options) {
   const Placing place = PlaceHand(hand, visuals);
   HandPictureScene scene = MakeHandScene(hand, visuals, place);
-  AddUpArrow(hand.up, place, scene);
+  const std::vector<PalmArrow> arrows = PalmArrows(hand.up);
+  for (const PalmArrow& arrow : arrows) AddArrow(arrow, place, scene);
   const TextStyle style{FontSize(options.width, options.height), kWhiteGround};
   const double font = style.font / options.height;
   const Margins margins{5 * font, 4.5 * font, 4.6 * font};
@@ -301,6 +345,7 @@ Image DrawHand(const kinematics::HandModel& hand, const Visuals& visuals,
   const CairoImage page(canvas.Draw(camera, scene.drawing));
   const std::vector<Obstacle> covered = DrawCaption(page, camera, caption, place.size, style);
   TipLabels(page, camera, style).Draw(hand, place, covered);
+  WriteArrowLabels(page, camera, place, arrows, style);
   return page.ToImage();
 }
 

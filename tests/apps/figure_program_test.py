@@ -54,6 +54,15 @@ class Figure(ProgramCase):
     def refuse(self, words, *more, code=2, **changes):
         return self.assert_refused(code, words, *self.arguments(*more, **changes))
 
+    def test_a_plan_for_a_hand_is_refused(self):
+        hand = self.model(os.path.join("hands", "ring4.json"))
+        self.assert_done("--object", self.model("cube.obj"), "--scale", "0.8", "--mu", "0.8",
+                         "--hand", hand, "--turn", "z 90", "--reserve", "none", "--output",
+                         "hand_plan.json", program="plan")
+        self.refuse("hand_plan.json is a plan for the hand ring4", object=self.model("cube.obj"),
+                    plan="hand_plan.json")
+        self.assertFalse(os.path.exists(self.path("result")))
+
     def test_a_terminal_is_told_what_is_done_from_the_first_moment(self):
         done, shown = self.run_on_terminal(*self.arguments())
         self.assertEqual(done.returncode, 0, shown)

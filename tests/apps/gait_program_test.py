@@ -3,6 +3,7 @@
 import copy
 import csv
 import json
+import math
 import os
 
 import xml.etree.ElementTree
@@ -536,6 +537,42 @@ class Gait(ProgramCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("0 of 90 degrees", done.stderr)
         self.assertFalse(os.path.exists(self.path("plan.json")))
+
+    def test_no_plan_names_the_option_that_may_help(self):
+        done = self.run_program("--object", self.model("cube.obj"), "--scale", "20", "--mu", "0.8",
+                                "--hand", self.hand("ring4"), "--turn", "z 90", "--output",
+                                "plan.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("help: --explain", done.stderr)
+
+    def test_a_pose_out_of_reach_is_refused_with_the_reach(self):
+        for option, pose in (("--goal-pose", "1 1 1 1 0 0 0"), ("--goal-pose", "0 0 0.6 1 0 0 0"),
+                             ("--start-pose", "0 0.9 0 1 0 0 0")):
+            more = ("--turn", "z 90") if option == "--start-pose" else ()
+            self.assert_refused(2, "out of reach of every finger, expected at least 3", option,
+                                pose, *more, *self.arguments())
+        self.assert_refused(2, "m from the first joint of finger finger", "--goal-pose",
+                            "1 1 1 1 0 0 0", *self.arguments())
+        # In reach of the fingers' base: searched, whatever the result.
+        done = self.run_program(*self.arguments("--goal-pose", "0 0 0.06 1 0 0 0", "--effort", "2",
+                                                "--reserve", "none"))
+        self.assertNotEqual(done.returncode, 2, done.stderr)
+
+    def test_thin_rods_of_many_sides_are_turned_as_those_of_few(self):
+        for sides in (6, 12, 20):
+            corners = [(0.0075 * math.cos(2 * math.pi * i / sides),
+                        0.0075 * math.sin(2 * math.pi * i / sides)) for i in range(sides)]
+            lines = [f"v {x:.9f} {y:.9f} {z}" for z in (-0.06, 0.06) for x, y in corners]
+            lines.append("f " + " ".join(str(i) for i in range(sides, 0, -1)))
+            lines.append("f " + " ".join(str(sides + i) for i in range(1, sides + 1)))
+            for i in range(sides):
+                j = (i + 1) % sides
+                lines.append(f"f {i + 1} {j + 1} {sides + j + 1} {sides + i + 1}")
+            self.write("rod.obj", "\n".join(lines) + "\n")
+            done = self.run_program("--object", "rod.obj", "--mu", "0.8", "--hand",
+                                    self.hand("ring4"), "--turn", "z 20", "--reserve", "none",
+                                    "--output", "plan.json")
+            self.assertEqual(done.returncode, 0, (sides, done.stderr))
 
     def test_effort_is_when_to_give_up(self):
         for effort, code in (("2", 1), ("8000", 0)):

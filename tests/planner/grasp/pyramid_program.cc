@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace regrasp::grasp {
-namespace pyramid_program_test {
+namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 constexpr int kRows = 7;  // balance, and the sum of the normal forces
@@ -121,7 +121,7 @@ std::vector<Edge> Edges(const Contact& contact, int dimension, double half_angle
   return edges;
 }
 
-}  // namespace pyramid_program_test
+}  // namespace
 
 std::optional<double> PyramidMargin(std::span<const Contact> contacts,
                                     const object::WrenchFrame& frame, double half_angle,

@@ -4,7 +4,7 @@
 
 namespace regrasp::plan {
 
-namespace sample_plans_test {
+namespace {
 
 const grasp::Contact kRight{{1, 0.05, -0.1}, {-1, 0, 0}};
 const grasp::Contact kLeft{{-1, -0.1, 0.05}, {1, 0, 0}};
@@ -17,7 +17,7 @@ grasp::Contact Moved(const grasp::Contact& contact, double x, double y, double z
   return {contact.p + Eigen::Vector3d(x, y, z), contact.n};
 }
 
-}  // namespace sample_plans_test
+}  // namespace
 
 Plan EmptyPlan(int dimension, int fingers, double half_angle_deg) {
   Plan plan;

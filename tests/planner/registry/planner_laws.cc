@@ -15,7 +15,7 @@
 #include "tests/fixtures/plan_with.h"
 
 namespace regrasp::registry {
-namespace planner_laws_test {
+namespace {
 
 using planning::GraspChoice;
 using planning::Planner;
@@ -366,7 +366,7 @@ std::string PlansAreForTheHand(const Planner& planner, const object::Object& obj
   return breach.empty() && plans == 0 ? "no plan" : breach;
 }
 
-}  // namespace planner_laws_test
+}  // namespace
 
 const std::vector<PlannerLaw>& PlannerLaws() {
   static const std::vector<PlannerLaw> laws = {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
 #include <vector>
 
 #include "planner/criteria/clearance.h"
@@ -81,6 +85,64 @@ TEST(SurfaceSampler, SaysWhereNothingIsValid) {
   const SurfaceSampler none(polygon, 0, 1);
   EXPECT_FALSE(none.TryDraw(random));
   EXPECT_FALSE(none.IsValid(none.Draw(random)));
+}
+
+/// A rod along z with a regular outline, lengths in metres.
+object::Polyhedron MakeRod(int sides, double diameter, double length) {
+  std::vector<Eigen::Vector2d> outline;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    outline.emplace_back(diameter / 2 * std::cos(angle), diameter / 2 * std::sin(angle));
+  }
+  return object::Polyhedron::FromSoup(Extrude(outline, 0, length), "rod");
+}
+
+constexpr double kClearance = 0.02;
+
+TEST(SurfaceSampler, ThinSidesKeepTheirShareOfContactsWhateverTheirNumber) {
+  for (const int sides : {3, 4, 6, 7, 9, 10, 12, 16, 20, 48, 200}) {
+    for (const double diameter : {0.015, 0.004}) {
+      const object::Polyhedron rod = MakeRod(sides, diameter, 0.12);
+      const SurfaceSampler sampler(rod, 0, kClearance);
+      RandomStream random(4, RandomUse::kContactPoints);
+      std::set<FaceIndex> faces;
+      int on_sides = 0;
+      for (int i = 0; i < 400; ++i) {
+        const auto contact = sampler.TryDraw(random);
+        ASSERT_TRUE(contact) << sides;
+        EXPECT_GE(rod.DistanceToBorder(contact->face, contact->p),
+                  SurfaceSampler::kFromBorder * rod.diameter());
+        if (std::abs(contact->n.z()) > 0.5) continue;
+        ++on_sides;
+        faces.insert(contact->face);
+      }
+      // The ends are less than 6 % of the surface.
+      EXPECT_GT(on_sides, 320) << sides << " sides, diameter " << diameter;
+      EXPECT_GT(faces.size(), std::min(sides, 60) * 0.8) << sides;
+    }
+  }
+}
+
+TEST(SurfaceSampler, ContactsKeepTheClearanceFromSharpEdgesAndMayBeBesideNearlyFlatOnes) {
+  const object::Polyhedron cube = MakeCube();
+  // Sides of 18.8 mm, at edges of 18 degrees.
+  const object::Polyhedron drum = MakeRod(20, 0.12, 0.12);
+  for (const object::Polyhedron* solid : {&cube, &drum}) {
+    const SurfaceSampler sampler(*solid, 0, kClearance);
+    const double clearance = kClearance * solid->diameter();
+    RandomStream random(4, RandomUse::kContactPoints);
+    int beside = 0;
+    for (int i = 0; i < 600; ++i) {
+      const grasp::Contact contact = sampler.Draw(random);
+      const double distance = solid->DistanceToBorder(contact.face, contact.p);
+      if (distance >= clearance) continue;
+      ++beside;
+      EXPECT_LT(std::abs(contact.n.z()), 0.5);
+      EXPECT_GE(contact.p.z(), clearance);
+      EXPECT_LE(contact.p.z(), 0.12 - clearance);
+    }
+    EXPECT_EQ(beside > 0, solid == &drum) << beside;
+  }
 }
 
 }  // namespace surface_sampler_test

@@ -8,11 +8,11 @@ namespace regrasp::render {
 
 using Eigen::Vector2d;
 
-namespace contact_space_scenes_test {
+namespace {
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-}  // namespace contact_space_scenes_test
+}  // namespace
 
 object::Polygon MakeRing(int edges) {
   return object::Polygon::FromRings({Circle(edges), Circle(edges, 0.5)}, "ring");

@@ -7,7 +7,7 @@
 
 namespace regrasp::render {
 
-namespace scenes_test {
+namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -23,7 +23,7 @@ plan::Snapshot MakeSnapshot(std::vector<plan::FingerState> fingers) {
 
 constexpr auto kHolding = plan::FingerRole::kHolding;
 
-}  // namespace scenes_test
+}  // namespace
 
 object::Polyhedron MakeThinLBlock() {
   constexpr double a = 0.08;

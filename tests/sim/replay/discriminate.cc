@@ -11,7 +11,7 @@
 
 namespace regrasp::sim {
 
-namespace discriminate_test {
+namespace {
 
 constexpr double kBelow = 0.9;  ///< of the critical μ: must fail
 constexpr double kAbove = 1.5;  ///< of the critical μ: must pass where the quality allows
@@ -49,7 +49,7 @@ DiscriminationCount DiscriminateGrasp(const object::Object& body, const plan::Fi
   return count;
 }
 
-}  // namespace discriminate_test
+}  // namespace
 
 DiscriminationCount& DiscriminationCount::operator+=(const DiscriminationCount& other) {
   failed_below += other.failed_below;

@@ -7,7 +7,7 @@
 
 namespace regrasp::sim {
 
-namespace replay_expectations_test {
+namespace {
 
 std::vector<double> RecordReplay(const object::Object& object, const plan::Plan& plan) {
   std::vector<double> bits;
@@ -42,7 +42,7 @@ void ExpectTouches(const object::Object& object, const plan::FingerGrasp& grasp,
   EXPECT_EQ(touching, grasp.size());
 }
 
-}  // namespace replay_expectations_test
+}  // namespace
 
 void ExpectGood(const ReplayResult& result, std::size_t entries) {
   ASSERT_EQ(result.steps.size(), entries);

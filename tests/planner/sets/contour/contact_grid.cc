@@ -15,7 +15,7 @@
 #include "planner/sets/contour/contact_space.h"
 
 namespace regrasp::contour {
-namespace contact_grid_test {
+namespace {
 
 using Eigen::Vector2d;
 
@@ -46,7 +46,7 @@ double DepthIn(const std::vector<Vector2d>& outline, const Vector2d& p, double r
 
 bool IsGrasp(Sense sense) { return sense == Sense::kSqueezing || sense == Sense::kStretching; }
 
-}  // namespace contact_grid_test
+}  // namespace
 
 Sense SenseOf(const object::Polygon& polygon, double half_angle, const grasp::Contact& a,
               const grasp::Contact& b) {

@@ -15,7 +15,7 @@
 #include "tests/planner/sets/exact_region.h"
 
 namespace regrasp::contour {
-namespace exact_oracle_test {
+namespace {
 
 using Number = CGAL::Gmpq;
 using Vec = exact::Vec<Number>;
@@ -204,7 +204,7 @@ void CompareSets(const char* what, const std::set<T>& ours, const std::set<T>& t
   out << what << ": " << difference.size() << " differ\n";
 }
 
-}  // namespace exact_oracle_test
+}  // namespace
 
 OracleCounts& OracleCounts::operator+=(const OracleCounts& other) {
   candidates += other.candidates;

@@ -7,7 +7,7 @@ namespace regrasp::contour {
 
 using Eigen::Vector2d;
 
-namespace held_contact_test {
+namespace {
 
 /// Calls work(piece, k) for the pieces of a set whose k-th edge is `edge`.
 template <class Work>
@@ -20,7 +20,7 @@ void ForEachPieceOn(const ContourGraph& graph, sets::SetIndex set, FaceIndex edg
   }
 }
 
-}  // namespace held_contact_test
+}  // namespace
 
 std::optional<Section> SectionOf(const std::vector<Vector2d>& outline, int k, double at) {
   Section section = {std::numeric_limits<double>::infinity(),

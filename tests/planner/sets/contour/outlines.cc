@@ -6,7 +6,7 @@
 #include <numbers>
 
 namespace regrasp::contour {
-namespace outlines_test {
+namespace {
 
 Ring RegularRing(int n, double radius) {
   Ring ring;
@@ -17,7 +17,7 @@ Ring RegularRing(int n, double radius) {
   return ring;
 }
 
-}  // namespace outlines_test
+}  // namespace
 
 object::Polygon Rectangle(double width, double height) {
   return object::Polygon::FromRings({{{0, 0}, {width, 0}, {width, height}, {0, height}}},

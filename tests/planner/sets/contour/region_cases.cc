@@ -3,14 +3,14 @@
 #include <random>
 
 namespace regrasp::contour {
-namespace region_cases_test {
+namespace {
 
 constexpr std::uint64_t kSeed = 8;
 
 /// Farther apart than roundings, nearer than what counts as one place.
 constexpr double kShake = 1e-13;
 
-}  // namespace region_cases_test
+}  // namespace
 
 double SizeToleranceOf(const object::Polygon& polygon) {
   constexpr double kTolerance = 1e-9;

@@ -4,12 +4,12 @@
 #include <cmath>
 
 namespace regrasp::contour {
-namespace square_oracle_test {
+namespace {
 
 /// Halvings of the largest possible square: to some 1e-12 of the perimeter.
 constexpr int kHalvings = 40;
 
-}  // namespace square_oracle_test
+}  // namespace
 
 SquareOracle::SquareOracle(const object::Polygon& polygon, double half_angle)
     : polygon_(polygon), half_angle_(half_angle) {

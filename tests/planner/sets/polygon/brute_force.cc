@@ -10,7 +10,7 @@
 #include "planner/sets/polygon/focus_cell.h"
 
 namespace regrasp::polygon {
-namespace brute_force_test {
+namespace {
 
 constexpr std::size_t kMostFailures = 20;  // more say nothing new
 constexpr double kCrowding = 4;            // contacts near ends are at distance v^kCrowding
@@ -23,7 +23,7 @@ std::vector<int> EdgesWithout(const std::vector<int>& edges, int edge) {
   return rest;
 }
 
-}  // namespace brute_force_test
+}  // namespace
 
 BruteForce::BruteForce(const object::Polygon& polygon, const PolygonGraph& graph, double half_angle,
                        planning::Spanning spanning, std::uint64_t seed)

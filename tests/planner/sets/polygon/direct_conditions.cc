@@ -7,7 +7,7 @@
 #include <optional>
 
 namespace regrasp::polygon {
-namespace direct_conditions_test {
+namespace {
 
 using Eigen::Vector2d;
 constexpr double kPi = std::numbers::pi;
@@ -107,7 +107,7 @@ double ParallelMargin(const grasp::Contact& a, const grasp::Contact& b, const gr
   return best;
 }
 
-}  // namespace direct_conditions_test
+}  // namespace
 
 double ConcurrentHalfAngle(std::span<const grasp::Contact> contacts, double half_angle,
                            planning::Spanning spanning) {

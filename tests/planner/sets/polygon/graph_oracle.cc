@@ -11,7 +11,7 @@
 #include "bench/polygon_set_cells.h"
 
 namespace regrasp::polygon {
-namespace graph_oracle_test {
+namespace {
 
 using Region = CGAL::Polygon_2<CellKernel>;
 
@@ -88,7 +88,7 @@ std::string Text(const std::vector<Number>& values) {
 
 std::string Text(const Vertex& v) { return "edges" + Text(v.edges) + " parts" + Text(v.parts); }
 
-}  // namespace graph_oracle_test
+}  // namespace
 
 OracleCount& OracleCount::operator+=(const OracleCount& other) {
   candidates += other.candidates;

@@ -12,7 +12,7 @@
 #include "tests/planner/sets/exact_region.h"
 
 namespace regrasp::polygon {
-namespace two_finger_oracle_test {
+namespace {
 
 using Number = CellKernel::FT;
 using Vec = exact::Vec<Number>;
@@ -44,7 +44,7 @@ Range SeenRange(const SetCell& cell, const Edge& edge, double tangent) {
   return {std::max(range->low, Number(0)), std::min(range->high, Number(1))};
 }
 
-}  // namespace two_finger_oracle_test
+}  // namespace
 
 TwoFingerCount CompareTwoFingerSets(const object::Polygon& polygon, const PolygonGraph& graph,
                                     double half_angle, std::string& difference) {

@@ -95,7 +95,7 @@ std::vector<Ring> RingOutline() {
           {{-0.9, -0.6}, {-0.4, 0.9}, {1, -0.3}}};
 }
 
-namespace bodies_test {
+namespace {
 
 /// A linear map that leaves no two lengths and no right angle alike.
 Eigen::Affine3d Skewed() {
@@ -108,7 +108,7 @@ object::Polyhedron SkewedBody(const object::Polyhedron& body) {
   return object::Polyhedron::FromSoup(MappedSoup(body, Skewed()), "skewed");
 }
 
-}  // namespace bodies_test
+}  // namespace
 
 const std::vector<NamedBody>& SmallBodies() {
   static const std::vector<NamedBody> bodies = {

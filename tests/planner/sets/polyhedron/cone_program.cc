@@ -13,7 +13,7 @@ namespace regrasp::polyhedron {
 
 using Eigen::Vector3d;
 
-namespace cone_program_test {
+namespace {
 
 /// Sides of the pyramids that decide: their half-angles differ by less than a hundredth.
 constexpr int kSides = 24;
@@ -88,7 +88,7 @@ std::vector<Vector3d> EdgesOf(const SeenFrom& set, const ConePyramid& pyramid) {
   return edges;
 }
 
-}  // namespace cone_program_test
+}  // namespace
 
 double ConeMargin(std::span<const SeenFrom> sets, const ConePyramid& pyramid, double scale,
                   double reach) {
