@@ -208,10 +208,16 @@ struct PalmArrow {
 
 /// The axes of the palm's frame, in which poses of objects are given, and the direction up.
 std::vector<PalmArrow> PalmArrows(const Vector3d& up) {
-  return {{Vector3d::UnitX(), kAxisLength, kAxisColors[0], "x"},
-          {Vector3d::UnitY(), kAxisLength, kAxisColors[1], "y"},
-          {Vector3d::UnitZ(), kAxisLength, kAxisColors[2], "z"},
-          {up, kArrowLength, kInk, "up"}};
+  std::vector<PalmArrow> arrows;
+  bool is_up_drawn = false;
+  for (int i = 0; i < 3; ++i) {
+    const bool is_up = up.dot(Vector3d::Unit(i)) > 1 - kAcross * kAcross;
+    is_up_drawn = is_up_drawn || is_up;
+    arrows.push_back({Vector3d::Unit(i), is_up ? kArrowLength : kAxisLength, kAxisColors[i],
+                      std::string(1, static_cast<char>('x' + i)) + (is_up ? ", up" : "")});
+  }
+  if (!is_up_drawn) arrows.push_back({up, kArrowLength, kInk, "up"});
+  return arrows;
 }
 
 void AddArrow(const PalmArrow& arrow, const Placing& place, HandPictureScene& scene) {
