@@ -1,4 +1,4 @@
-// regrasp: the programs under one name, `regrasp plan` for `plan`.
+// regrasp: all programs under one name, `regrasp plan` for `plan`; `regrasp help plan` for its help.
 
 #include <unistd.h>
 
@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/commands.h"
@@ -45,9 +46,23 @@ void CheckCommand(const std::string& name) {
   throw EnvironmentError(program + " cannot be started: " + std::strerror(errno));
 }
 
+/// Replaces this process by the help of a command.
+[[noreturn]] void ShowHelpOf(const std::string& name) {
+  CheckCommand(name);
+  std::string option = "--help";
+  char* arguments[] = {nullptr, option.data(), nullptr};
+  Become(name, arguments);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  const bool is_help = argc > 1 && std::string_view(argv[1]) == "help";
+  if (is_help && argc > 2) {
+    return RunGuarded(kProgram, [argv]() -> int { ShowHelpOf(argv[2]); });
+  }
+  std::string help = "--help";
+  if (is_help) argv[1] = help.data();
   if (argc > 1 && argv[1][0] != '-') {
     return RunGuarded(kProgram, [argv]() -> int {
       CheckCommand(argv[1]);
@@ -58,7 +73,7 @@ int main(int argc, char** argv) {
                kProgram);
   for (const Command& command : kCommands) app.add_subcommand(command.name, command.text);
   app.footer(
-      "  regrasp plan --help\n"
+      "  regrasp help plan\n"
       "  regrasp validate --object cube.obj --plan plan.json\n");
   return RunProgram(app, argc, argv, []() -> int {
     throw InputError("a command is required (regrasp --help lists all)");

@@ -38,6 +38,14 @@ class Regrasp(ProgramCase):
         self.assertEqual((done.returncode, done.stderr), (
             2, "plan: unknown option --objct; did you mean --object? (regrasp plan --help lists all)\n"))
 
+    def test_help_of_a_command_is_the_commands_own(self):
+        self.assertEqual(self.assert_done("help").stdout, self.assert_done("--help").stdout)
+        for command in COMMANDS:
+            self.assertEqual(self.assert_done("help", command).stdout,
+                             self.assert_done(command, "--help").stdout)
+        self.assert_refused(2, "unknown command paln; did you mean plan? (", "help", "paln")
+        self.assert_refused(2, "unknown command help", "help", "help")
+
     def test_versions(self):
         version = self.assert_done("--version").stdout
         self.assertRegex(version, r"^regrasp \d+\.\d+\.\d+\n$")
