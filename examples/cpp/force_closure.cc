@@ -1,11 +1,12 @@
 // Counts force-closure grasps among random ones on the unit sphere: force_closure [COUNT]
+#include "planner/grasp/force_closure.h"
+
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <random>
 
 #include "planner/base/angle.h"
-#include "planner/grasp/force_closure.h"
 
 using namespace regrasp;
 

@@ -41,8 +41,7 @@ int main(int argc, char** argv) {
     request.seed = 1;
     gait::AskInHand(task, request);
 
-    const planning::PlanResult result =
-        planning::Solve(registry::ChoosePlanner(request), request);
+    const planning::PlanResult result = planning::Solve(registry::ChoosePlanner(request), request);
     if (!result.plan) {
       std::cout << "no plan found: " << result.message << '\n';
       return 1;
