@@ -15,7 +15,7 @@ import urllib.parse
 SOURCE, MKDOCS = sys.argv[1:3]
 
 PAGES = ["index", "first_picture", "trust_a_plan", "guard_a_library", "make_a_figure", "python", "hands",
-         "formats", "method", "validation"]
+         "formats", "interchange", "method", "validation", "failure_reasons", "limitations"]
 
 
 class Page(html.parser.HTMLParser):
