@@ -191,10 +191,11 @@ void GltfDocument::ReadContainer(std::string_view bytes) {
   if (bytes.size() < kGlbHeader) throw InputError("header: the file ends inside it");
   const auto version = TakeNumber<std::uint32_t>(bytes.data() + 4);
   const auto length = TakeNumber<std::uint32_t>(bytes.data() + 8);
-  if (version != 2) throw InputError("header: version: expected 2, found " + std::to_string(version));
+  if (version != 2)
+    throw InputError("header: version: expected 2, found " + std::to_string(version));
   if (length != bytes.size()) {
-    throw InputError("header: length: expected " + std::to_string(bytes.size()) +
-                     " bytes, found " + std::to_string(length));
+    throw InputError("header: length: expected " + std::to_string(bytes.size()) + " bytes, found " +
+                     std::to_string(length));
   }
   std::optional<std::string_view> document;
   for (std::size_t at = kGlbHeader; at < bytes.size();) {
@@ -307,9 +308,9 @@ std::vector<Eigen::Vector3d> GltfDocument::Positions(long long index) {
   const auto normalized = accessor.Find("normalized");
   const Layout layout{component.Count(), normalized && normalized->IsTrue(), 3,
                       accessor.Member("count").Count()};
-  const bool allowed = layout.component_type == kFloat ||
-                       (quantized_ && SizeOf(layout.component_type) > 0 &&
-                        layout.component_type != kUnsignedInt);
+  const bool allowed =
+      layout.component_type == kFloat ||
+      (quantized_ && SizeOf(layout.component_type) > 0 && layout.component_type != kUnsignedInt);
   if (!allowed) {
     component.Fail("expected 5126 (float), found " + std::to_string(layout.component_type));
   }

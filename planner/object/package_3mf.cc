@@ -24,9 +24,8 @@ std::string PercentDecoded(std::string_view text) {
   while (!text.empty()) {
     unsigned char code = 0;
     const char* digits = text.data() + 1;
-    const bool escaped =
-        text.size() >= 3 && text[0] == '%' &&
-        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+    const bool escaped = text.size() >= 3 && text[0] == '%' &&
+                         std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
     decoded += escaped ? static_cast<char>(code) : text[0];
     text.remove_prefix(escaped ? 3 : 1);
   }

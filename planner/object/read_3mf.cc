@@ -149,7 +149,8 @@ Model ParseModel(const std::string& text, const std::string& part) {
   ScanXml(text, part, [&](const XmlTag& tag) {
     is_model = is_model || (tag.space() == kCore && tag.name() == "model");
     if (!is_model) {
-      throw InputError("expected the element \"model\" of 3MF, found " + Quoted(tag.name()));
+      throw InputError("expected the element \"model\" of 3MF, found " + Quoted(tag.name()) +
+                       (tag.space().empty() ? " without a namespace" : " of another namespace"));
     }
     TakeElement(tag, model);
   });

@@ -72,13 +72,14 @@ Affine3d TransformOfNode(const GltfValue& node) {
     }
     return transform;
   }
-  if (const auto t = node.Numbers("translation", 3)) transform.translate(Eigen::Vector3d(t->data()));
+  if (const auto t = node.Numbers("translation", 3))
+    transform.translate(Eigen::Vector3d(t->data()));
   if (const auto r = node.Numbers("rotation", 4)) {
     const Eigen::Quaterniond rotation((*r)[3], (*r)[0], (*r)[1], (*r)[2]);
     constexpr double kUnit = 1e-3;
     if (std::abs(rotation.norm() - 1) > kUnit) {
-      node.Member("rotation").Fail("expected a unit quaternion, found length " +
-                                   FormatShort(rotation.norm()));
+      node.Member("rotation")
+          .Fail("expected a unit quaternion, found length " + FormatShort(rotation.norm()));
     }
     transform.rotate(rotation.normalized());
   }

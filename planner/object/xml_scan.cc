@@ -84,10 +84,10 @@ void ScanXml(std::string_view text, const std::string& part,
   XML_SetStartNamespaceDeclHandler(parser.get(), Scan::Declare);
   if (XML_Parse(parser.get(), text.data(), static_cast<int>(text.size()), XML_TRUE) ==
       XML_STATUS_ERROR) {
-    throw InputError((part.empty() ? "" : part + ": ") + "line " +
-                     std::to_string(XML_GetCurrentLineNumber(parser.get())) + ": " +
-                     (scan.failure.empty() ? XML_ErrorString(XML_GetErrorCode(parser.get()))
-                                           : scan.failure));
+    throw InputError(
+        (part.empty() ? "" : part + ": ") + "line " +
+        std::to_string(XML_GetCurrentLineNumber(parser.get())) + ": " +
+        (scan.failure.empty() ? XML_ErrorString(XML_GetErrorCode(parser.get())) : scan.failure));
   }
 }
 

@@ -58,7 +58,9 @@ inline std::string FacetText(const std::string& before, const std::string& behin
 
 inline std::string KnownObj() { return VertexText("v ", "\n") + FacetText("f ", "\n", 1); }
 
-inline std::string KnownOff() { return "OFF\n4 4 0\n" + VertexText("", "\n") + FacetText("3 ", "\n"); }
+inline std::string KnownOff() {
+  return "OFF\n4 4 0\n" + VertexText("", "\n") + FacetText("3 ", "\n");
+}
 
 inline const std::string kPlyVertices =
     "element vertex 4\nproperty double x\nproperty double y\nproperty double z\n";
@@ -113,9 +115,10 @@ struct KnownCollada {
   std::string up = "Y_UP";
   std::string unit = "meter=\"1\"";
   double factor = 1;  ///< of the coordinates
-  std::string primitives = "<triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#v\" "
-                           "offset=\"0\"/><p>" +
-                           FacetText("", " ") + "</p></triangles>";
+  std::string primitives =
+      "<triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#v\" "
+      "offset=\"0\"/><p>" +
+      FacetText("", " ") + "</p></triangles>";
   std::string node = "";  ///< transformations of the node
   std::string instance = "<instance_geometry url=\"#g\"/>";
 
@@ -150,10 +153,12 @@ inline std::string KnownFbx(const std::string& settings) {
     indices += (indices.empty() ? "" : ",") + std::to_string(a) + "," + std::to_string(b) + "," +
                std::to_string(-1 - c);
   }
-  return "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXHeaderVersion: 1003\n\tFBXVersion: "
+  return "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXHeaderVersion: "
+         "1003\n\tFBXVersion: "
          "7400\n}\nGlobalSettings:  {\n\tVersion: 1000\n\tProperties70:  {\n\t\tP: "
          "\"UnitScaleFactor\", \"double\", \"Number\", \"\",100\n" +
-         settings + "\t}\n}\nObjects:  {\n\tGeometry: 1000, \"Geometry::t\", \"Mesh\" {\n\t\tVertices: "
+         settings +
+         "\t}\n}\nObjects:  {\n\tGeometry: 1000, \"Geometry::t\", \"Mesh\" {\n\t\tVertices: "
          "*12 {\n\t\t\ta: " +
          vertices + "\n\t\t}\n\t\tPolygonVertexIndex: *12 {\n\t\t\ta: " + indices +
          "\n\t\t}\n\t\tGeometryVersion: 124\n\t}\n\tModel: 2000, \"Model::t\", \"Mesh\" "
@@ -189,8 +194,9 @@ inline std::string ModelOf3mf(const std::string& objects, const std::string& ite
 }
 
 inline std::string RelationshipsTo(const std::vector<std::string>& targets) {
-  std::string text = "<?xml version=\"1.0\"?><Relationships "
-                     "xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">";
+  std::string text =
+      "<?xml version=\"1.0\"?><Relationships "
+      "xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">";
   for (const std::string& target : targets) {
     text += "<Relationship Target=\"" + target + "\" Id=\"r" + std::to_string(text.size()) +
             "\" Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>";

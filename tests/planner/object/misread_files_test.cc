@@ -62,10 +62,10 @@ std::string Widened(const std::string& text, const std::string& unit, std::size_
 TEST_F(MisreadFilesTest, TextInOtherEncodings) {
   const std::string two(2, '\0'), four(4, '\0');
   const std::map<std::string, std::string> files = {
-      {".obj", KnownObj()},   {".off", KnownOff()},
-      {".ply", KnownPly()},   {".stl", KnownTextStl("a", false)},
-      {".xyz", "0 0 0\n"},    {".pcd", "VERSION 0.7\nDATA ascii\n"},
-      {".pwn", "0 0 0\n"},    {".wkt", "POLYGON((0 0,1 0,0 1,0 0))"},
+      {".obj", KnownObj()},          {".off", KnownOff()},
+      {".ply", KnownPly()},          {".stl", KnownTextStl("a", false)},
+      {".xyz", "0 0 0\n"},           {".pcd", "VERSION 0.7\nDATA ascii\n"},
+      {".pwn", "0 0 0\n"},           {".wkt", "POLYGON((0 0,1 0,0 1,0 0))"},
       {".gltf", KnownGltf().Gltf()}, {".dae", KnownCollada().Text()}};
   for (const auto& [ending, text] : files) {
     EXPECT_EQ(Refusal("plain" + ending, text), ending == ".pcd" ? Refusal("plain.pcd", text) : "");
@@ -122,10 +122,10 @@ TEST_F(MisreadFilesTest, SurfacesOfPlyInOtherElements) {
   // Negative controls: clouds, and elements that hold no surface.
   EXPECT_EQ(Refusal("cloud.ply", ply("", "")), "");
   EXPECT_EQ(Refusal("no_faces.ply", ply("element face 0\n" + list, "")), "");
-  EXPECT_EQ(Refusal("camera.ply",
-                    ply("element camera 1\nproperty float view_px\nproperty int viewportx\n",
-                        "0 640\n")),
-            "");
+  EXPECT_EQ(
+      Refusal("camera.ply",
+              ply("element camera 1\nproperty float view_px\nproperty int viewportx\n", "0 640\n")),
+      "");
   EXPECT_EQ(Refusal("face_and_edge.ply",
                     ply("element face 4\n" + list +
                             "element edge 1\nproperty int vertex1\nproperty int vertex2\n",
@@ -165,11 +165,10 @@ TEST_F(MisreadFilesTest, ColladaThatAssimpMisreads) {
   };
   using C = KnownCollada;
   EXPECT_EQ(Refusal("a.dae", with([](C&) {})), "");
-  ExpectRefused("lookat.dae",
-                with([](C& c) { c.node = "<lookat>1 2 3 0 0 0 0 0 1</lookat>"; }), "\"lookat\"");
+  ExpectRefused("lookat.dae", with([](C& c) { c.node = "<lookat>1 2 3 0 0 0 0 0 1</lookat>"; }),
+                "\"lookat\"");
   ExpectRefused("skew.dae", with([](C& c) { c.node = "<skew>45 0 1 0 1 0 0</skew>"; }), "\"skew\"");
-  ExpectRefused("skin.dae",
-                with([](C& c) { c.instance = "<instance_controller url=\"#g\"/>"; }),
+  ExpectRefused("skin.dae", with([](C& c) { c.instance = "<instance_controller url=\"#g\"/>"; }),
                 "\"instance_controller\"");
   ExpectRefused("hole.dae", with([](C& c) {
                   c.primitives =
@@ -177,20 +176,18 @@ TEST_F(MisreadFilesTest, ColladaThatAssimpMisreads) {
                       "offset=\"0\"/><ph><p>0 2 1</p><h>0 1 3</h></ph></polygons>";
                 }),
                 "\"ph\"");
-  ExpectRefused("elsewhere.dae", with([](C& c) {
-                  c.instance = "<instance_geometry url=\"other.dae#g\"/>";
-                }),
+  ExpectRefused("elsewhere.dae",
+                with([](C& c) { c.instance = "<instance_geometry url=\"other.dae#g\"/>"; }),
                 "its surface comes from another file, \"other.dae#g\"");
-  ExpectRefused("units.dae", with([](C& c) {
-                  c.node = "<asset><unit meter=\"0.01\"/></asset>";
-                }),
+  ExpectRefused("units.dae", with([](C& c) { c.node = "<asset><unit meter=\"0.01\"/></asset>"; }),
                 "unit: several");
   ExpectRefused("zero.dae", with([](C& c) { c.unit = "meter=\"0\""; }), "unit: meter");
 }
 
 TEST_F(MisreadFilesTest, FbxThatAssimpMisreads) {
   std::string nurbs = KnownFbx("");
-  nurbs.insert(nurbs.find("\tModel:"), "\tGeometry: 1001, \"Geometry::n\", \"NurbsSurface\" {\n\t}\n");
+  nurbs.insert(nurbs.find("\tModel:"),
+               "\tGeometry: 1001, \"Geometry::n\", \"NurbsSurface\" {\n\t}\n");
   ExpectRefused("nurbs.fbx", nurbs, "\"NurbsSurface\": not supported");
 }
 
@@ -199,15 +196,21 @@ TEST_F(MisreadFilesTest, GltfThatWouldBeAnotherSolid) {
       {"required extension KHR_draco_mesh_compression: not supported",
        [](KnownGltf& g) { g.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }},
       {"required extension EXT_made_up: not supported",
-       [](KnownGltf& g) { g.json["extensionsRequired"] = {"KHR_materials_unlit", "EXT_made_up"}; }},
+       [](KnownGltf& g) {
+         g.json["extensionsRequired"] = {"KHR_materials_unlit", "EXT_made_up"};
+       }},
       {"/nodes/0: extension EXT_mesh_gpu_instancing: not supported",
        [](KnownGltf& g) {
          g.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = 0;
        }},
       {"/meshes/0/primitives/0: extension KHR_draco_mesh_compression",
-       [](KnownGltf& g) { g.primitive()["extensions"]["KHR_draco_mesh_compression"] = {{"a", 1}}; }},
+       [](KnownGltf& g) {
+         g.primitive()["extensions"]["KHR_draco_mesh_compression"] = {{"a", 1}};
+       }},
       {"/meshes/0/weights/1: morph weight: not supported, expected 0, found 1",
-       [](KnownGltf& g) { g.json["meshes"][0]["weights"] = {0, 1}; }},
+       [](KnownGltf& g) {
+         g.json["meshes"][0]["weights"] = {0, 1};
+       }},
       {"/nodes/0/weights/0: morph weight",
        [](KnownGltf& g) {
          g.json["meshes"][0]["weights"] = {0};
@@ -237,7 +240,9 @@ TEST_F(MisreadFilesTest, GltfThatWouldBeAnotherSolid) {
       {"is a child of two nodes", [](KnownGltf& g) { g.node()["children"] = {0}; }},
       {"its scene has no triangle", [](KnownGltf& g) { g.primitive()["mode"] = 0; }},
       {"/nodes/0/rotation: expected a unit quaternion",
-       [](KnownGltf& g) { g.node()["rotation"] = {0, 0, 0, 2}; }},
+       [](KnownGltf& g) {
+         g.node()["rotation"] = {0, 0, 0, 2};
+       }},
       {"/nodes/0/matrix: expected 0, 0, 0, 1 in its last row",
        [](KnownGltf& g) {
          g.node()["matrix"] = {1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -271,11 +276,11 @@ TEST_F(MisreadFilesTest, PackagesOf3mfThatAreAmbiguous) {
                            {"a.model", model},
                            {"b.model", model}}),
                 "several relationships to a model");
-  ExpectRefused("two_of_a_name.3mf",
-                StoredZip({{"_rels/.rels", RelationshipsTo({"/a.model"})},
-                           {"a.model", model},
-                           {"A.model", model}}),
-                "a.model: the archive has several files of this name");
+  ExpectRefused(
+      "two_of_a_name.3mf",
+      StoredZip(
+          {{"_rels/.rels", RelationshipsTo({"/a.model"})}, {"a.model", model}, {"A.model", model}}),
+      "a.model: the archive has several files of this name");
   ExpectRefused("missing_part.3mf",
                 Package({{root, ModelOf3mf("", "<item objectid=\"1\" p:path=\"/3D/b.model\"/>")}}),
                 "the archive has no 3D/b.model");

@@ -137,8 +137,8 @@ TEST_F(SameSolidTest, ColladaWhateverItsAxisAndUnit) {
   ExpectKnown("strip.dae", strip.Text());
   KnownCollada there_and_back;
   there_and_back.node =
-      "<translate>1 2 3</translate><rotate>0 0 1 90</rotate><rotate>0 0 1 -90</rotate>"
-      "<translate>-1 -2 -3</translate>";
+      "<translate>0.1 0.2 0.3</translate><rotate>0 0 1 90</rotate><rotate>0 0 1 -90</rotate>"
+      "<translate>-0.1 -0.2 -0.3</translate>";
   ExpectKnown("moved.dae", there_and_back.Text());
 }
 
@@ -171,16 +171,15 @@ TEST_F(SameSolidTest, GltfInItsVariants) {
        }},
       {"lines_beside",
        [](KnownGltf& g) {
-         g.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}},
-                                                      {"mode", 1}});
+         g.json["meshes"][0]["primitives"].push_back(
+             {{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
        }},
       {"matrix",
        [](KnownGltf& g) {  // a half turn about z, undone by the child
          g.node() = {{"children", {1}},
                      {"matrix", {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}};
-         g.json["nodes"].push_back({{"mesh", 0},
-                                    {"rotation", {0, 0, 1, 0}},
-                                    {"translation", {5, 6, -7}}});
+         g.json["nodes"].push_back(
+             {{"mesh", 0}, {"rotation", {0, 0, 1, 0}}, {"translation", {5, 6, -7}}});
        }},
       {"second_scene",
        [](KnownGltf& g) {
@@ -224,8 +223,9 @@ TEST_F(SameSolidTest, QuantizedGltf) {
     int bytes;
   };
   // Shares of 0, 0.4, 0.6 and 1 are whole numbers of steps.
-  for (const Kind& kind : {Kind{5121, true, 255, 0.1, 1}, Kind{5123, true, 65535, 0.1, 2},
-                           Kind{5120, false, 125, 0.1 / 125, 1}, Kind{5122, false, 100, 0.001, 2}}) {
+  for (const Kind& kind :
+       {Kind{5121, true, 255, 0.1, 1}, Kind{5123, true, 65535, 0.1, 2},
+        Kind{5120, false, 125, 0.1 / 125, 1}, Kind{5122, false, 100, 0.001, 2}}) {
     KnownGltf gltf;
     gltf.json["extensionsUsed"] = {"KHR_mesh_quantization"};
     gltf.json["extensionsRequired"] = {"KHR_mesh_quantization"};
@@ -255,21 +255,19 @@ TEST_F(SameSolidTest, PackagesOf3mf) {
   const std::pair<std::string, std::string> parts{part, ModelOf3mf(solid, "")};
   ExpectKnown({
       {"a.3mf", Package({{"3D/3dmodel.model", ModelOf3mf(solid, item)}})},
-      {"inches.3mf",
-       Package({{"3D/3dmodel.model", ModelOf3mf("<object id=\"1\">" + MeshOf3mf(1 / 0.0254) +
-                                                    "</object>",
-                                                item, "unit=\"inch\"")}})},
+      {"inches.3mf", Package({{"3D/3dmodel.model",
+                               ModelOf3mf("<object id=\"1\">" + MeshOf3mf(1 / 0.0254) + "</object>",
+                                          item, "unit=\"inch\"")}})},
       {"other_name.3mf", Package({{"Geometry/root.model", ModelOf3mf(solid, item)},
                                   {"3D/3dmodel.model", ModelOf3mf(other, item)}})},
-      {"escaped_name.3mf",
-       StoredZip({{"_rels/.rels", RelationshipsTo({"/3D/my%20model.model"})},
-                  {"3D/my model.model", ModelOf3mf(solid, item)}})},
+      {"escaped_name.3mf", StoredZip({{"_rels/.rels", RelationshipsTo({"/3D/my%20model.model"})},
+                                      {"3D/my model.model", ModelOf3mf(solid, item)}})},
       {"component.3mf",
-       Package({{"3D/3dmodel.model",
-                 ModelOf3mf(shell, "<item objectid=\"2\"/>", required)}, parts})},
+       Package(
+           {{"3D/3dmodel.model", ModelOf3mf(shell, "<item objectid=\"2\"/>", required)}, parts})},
       {"component_of_the_same_number.3mf",
-       Package({{"3D/3dmodel.model",
-                 ModelOf3mf(other + shell, "<item objectid=\"2\"/>", required)}, parts})},
+       Package({{"3D/3dmodel.model", ModelOf3mf(other + shell, "<item objectid=\"2\"/>", required)},
+                parts})},
       {"item_of_the_same_number.3mf",
        Package({{"3D/3dmodel.model",
                  ModelOf3mf(other, "<item objectid=\"1\" p:path=\"/" + part + "\"/>", required)},
@@ -278,7 +276,8 @@ TEST_F(SameSolidTest, PackagesOf3mf) {
        Package({{"3D/3dmodel.model",
                  ModelOf3mf(other,
                             "<item objectid=\"1\" xmlns:q=\"http://schemas.microsoft.com/"
-                            "3dmanufacturing/production/2015/06\" q:path=\"/" + part + "\"/>")},
+                            "3dmanufacturing/production/2015/06\" q:path=\"/" +
+                                part + "\"/>")},
                 parts})},
       {"support.3mf", Package({{"3D/3dmodel.model",
                                 ModelOf3mf(solid + support, item + "<item objectid=\"9\"/>")}})},
@@ -300,8 +299,8 @@ TEST_F(SameSolidTest, TheComparisonFailsForTurnedMirroredAndScaledSolids) {
     std::string text;
     for (const Vector3d& p : kKnownVertices) {
       const Vector3d q = change(p);
-      text += "v " + FormatDouble(q.x()) + " " + FormatDouble(q.y()) + " " + FormatDouble(q.z()) +
-              "\n";
+      text +=
+          "v " + FormatDouble(q.x()) + " " + FormatDouble(q.y()) + " " + FormatDouble(q.z()) + "\n";
     }
     const ObjectFile object = ReadObject(Write("changed.obj", text + FacetText("f ", "\n", 1)));
     return FarthestVertex(dynamic_cast<const Polyhedron&>(*object.object));
