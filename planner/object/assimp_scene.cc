@@ -184,6 +184,8 @@ PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
   }
   if (scene == nullptr) throw InputError(importer.GetErrorString());
   PolygonSoup soup = SoupOf(*scene);
+  // The vertices of lines are no cloud of points.
+  if (soup.facets.empty()) throw InputError("its scene has no polygon");
   if (!is_collada) ApplyFbxUnit(*scene, soup);
   if (collada_unit) soup.unit = UnitOf(*collada_unit).name;
   return soup;

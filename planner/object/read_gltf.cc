@@ -22,7 +22,7 @@ using Eigen::Affine3d;
 /// that are read.
 constexpr auto kHarmless = std::to_array<std::string_view>(
     {"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_",
-     "EXT_lights_", "KHR_xmp", "KHR_mesh_quantization"});
+     "KHR_technique", "EXT_lights_", "KHR_xmp", "KHR_mesh_quantization"});
 
 /// Extensions of a node, mesh or primitive that change its geometry, required or not.
 constexpr auto kShaping = std::to_array<std::string_view>(

@@ -311,19 +311,22 @@ bool IsSurface(const Element& element) {
   return element.name == "face" || element.name == "tristrips";
 }
 
-/// An element of another name may hold the surface: in lists of integers, or, if nothing else does,
-/// in integers. The element "camera" describes the scanner of a cloud.
+bool HasFacets(const Element& element) { return IsSurface(element) && element.count > 0; }
+
+/// An element of another name may hold the surface: in lists of integers, in three integers a row,
+/// or, if nothing else does, in any list or integers. The element "camera" describes the scanner of
+/// a cloud.
 bool MayBeSurface(const Element& element, bool has_facets) {
   if (element.count == 0 || element.name == "vertex" || IsSurface(element)) return false;
-  const auto is_index = [](const Property& p) { return !IsFloat(p.type); };
-  const auto is_list_of_indices = [&](const Property& p) { return p.count_type && is_index(p); };
-  if (std::ranges::any_of(element.properties, is_list_of_indices)) return true;
   constexpr std::ptrdiff_t kCorners = 3;
-  if (has_facets)
-    return std::ranges::count_if(element.properties, [](const Property& p) {
-             return p.name.starts_with('v') && !IsFloat(p.type);
-           }) >= kCorners;
-  return element.name != "camera" && std::ranges::any_of(element.properties, is_index);
+  const auto is_corner = [](const Property& p) { return !IsFloat(p.type) && p.name[0] == 'v'; };
+  if (has_facets) {
+    const auto is_list = [](const Property& p) { return p.count_type && !IsFloat(p.type); };
+    return std::ranges::any_of(element.properties, is_list) ||
+           std::ranges::count_if(element.properties, is_corner) >= kCorners;
+  }
+  const auto may_be_index = [](const Property& p) { return p.count_type || !IsFloat(p.type); };
+  return element.name != "camera" && std::ranges::any_of(element.properties, may_be_index);
 }
 
 /// Also keeps a declared number of rows from being counted through without reading a byte.
@@ -351,8 +354,7 @@ void CheckElement(const Element& element, const std::string& name) {
 }
 
 void CheckElements(const std::vector<Element>& elements, const std::string& name) {
-  const bool has_facets = std::ranges::any_of(
-      elements, [](const Element& element) { return IsSurface(element) && element.count > 0; });
+  const bool has_facets = std::ranges::any_of(elements, HasFacets);
   std::set<std::string> names;
   for (const Element& element : elements) {
     if (!names.insert(element.name).second) {
@@ -388,6 +390,9 @@ PolygonSoup ReadPly(std::string_view bytes, const std::string& name) {
     }
   }
   if (!values.AtEnd()) throw InputError(name + ": the file goes on behind the last element");
+  if (soup.facets.empty() && std::ranges::any_of(header.elements, HasFacets)) {
+    throw InputError(name + ": element \"tristrips\": there is no triangle in it");
+  }
   return soup;
 }
 
