@@ -91,8 +91,8 @@ std::string BoxText(const object::Polyhedron& solid, double scale) {
   return text + " mm";
 }
 
-/// What the search for a hand's plan is about to grasp; a wrong unit of length shows here, before
-/// minutes of search without result.
+/// Print size and mass before the search for a hand's plan: a wrong unit of length shows at once
+/// instead of after minutes of search without result.
 void PrintSize(const PlannerOptions& common, const object::ObjectFile& object,
                const object::BodyMeasures& body) {
   const std::string warning = object::SizeWarning(body, common.scale);

@@ -159,7 +159,7 @@ PolygonSoup SoupOf(const aiScene& scene) {
   return soup;
 }
 
-/// assimp passes over this kind of geometry.
+/// assimp ignores this kind of geometry.
 void CheckFbx(std::string_view bytes) {
   if (bytes.find("NurbsSurface") == std::string_view::npos) return;
   throw InputError("geometry \"NurbsSurface\": not supported");
@@ -184,7 +184,7 @@ PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
   }
   if (scene == nullptr) throw InputError(importer.GetErrorString());
   PolygonSoup soup = SoupOf(*scene);
-  // The vertices of lines are no cloud of points.
+  // The vertices of lines are not a cloud of points.
   if (soup.facets.empty()) throw InputError("its scene has no polygon");
   if (!is_collada) ApplyFbxUnit(*scene, soup);
   if (collada_unit) soup.unit = UnitOf(*collada_unit).name;

@@ -14,7 +14,7 @@ namespace regrasp::object {
 
 namespace {
 
-/// Elements that assimp 5.2 passes over, or of which it makes another surface.
+/// Elements that assimp 5.2 ignores or reads as another surface.
 constexpr auto kMisread = std::to_array<std::string_view>(
     {"brep", "convex_mesh", "instance_controller", "lookat", "ph", "skew", "spline"});
 

@@ -53,7 +53,7 @@ std::string Package3mf::RootModel() {
 }
 
 std::string Package3mf::Read(const std::string& part) {
-  // Names of parts are the same whatever their case.
+  // Part names are not case-sensitive.
   for (const std::string& name : {part, PercentDecoded(part)}) {
     const auto is_it = [&](const std::string& entry) {
       return LowerCase(PartName(entry)) == LowerCase(name);

@@ -193,7 +193,7 @@ class Models {
   }
 
  private:
-  /// Names of parts are the same whatever their case.
+  /// Part names are not case-sensitive.
   const Model& Part(const std::string& part) {
     const auto [place, is_new] = models_.try_emplace(LowerCase(part));
     if (!is_new) return place->second;

@@ -21,12 +21,12 @@ constexpr auto kIgnored = std::to_array<std::string_view>(
      "mg",    "o",      "bevel",  "lod",    "usemap", "c_interp",   "d_interp", "ctech",
      "stech", "maplib", "usemtl", "mtllib", "res",    "shadow_obj", "trace_obj"});
 
-/// Statements that make lines or curves: beside facets they are ignored, alone they are no cloud of
-/// points either.
+/// Statements that make lines or curves. They are ignored beside facets; without facets the file is
+/// refused, because its vertices are not a cloud of points.
 constexpr auto kCurves = std::to_array<std::string_view>({"l", "curv", "curv2", "cdc"});
 
-/// Statements that make a surface which is not read: free-form surfaces, patches of old versions,
-/// other files, and the output of other programs.
+/// Statements that make a surface and are not supported: free-form surfaces, patches of old
+/// versions, other files, and the output of other programs.
 constexpr auto kOtherSurfaces =
     std::to_array<std::string_view>({"surf", "bsp", "bzp", "cdp", "call", "csh"});
 

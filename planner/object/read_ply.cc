@@ -278,7 +278,7 @@ std::vector<int> ReadIndices(ValueReader& values, const Element& element, long l
 constexpr int kStripEnd = -1;
 
 /// Adds the triangles of strips: each vertex behind the second one makes a triangle with the two
-/// before it, every second one of them turned round. Triangles with a repeated vertex only lead
+/// before it, and every second triangle is reversed. Triangles with a repeated vertex only lead
 /// from one part of a strip to another.
 void AddStrips(std::span<const int> indices, PolygonSoup& soup) {
   std::size_t first = 0;  // of this strip

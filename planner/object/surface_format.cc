@@ -35,7 +35,7 @@ struct FormatStart {
   SurfaceFormat format;
 };
 
-/// What files of a format begin with.
+/// First bytes of files of a format.
 constexpr auto kByStart = std::to_array<FormatStart>({{"ply\n", SurfaceFormat::kPly},
                                                       {"ply\r", SurfaceFormat::kPly},
                                                       {"glTF", SurfaceFormat::kGltf},

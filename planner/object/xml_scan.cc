@@ -25,7 +25,7 @@ QualifiedName SplitName(std::string_view qualified) {
   return {qualified.substr(0, at), qualified.substr(at + 1)};
 }
 
-/// What expat, which is C, is handed and hands back: exceptions do not pass through it.
+/// State shared with expat, a C library: exceptions must not pass through it.
 struct Scan {
   XML_Parser parser;
   const std::function<void(const XmlTag&)>& begin;

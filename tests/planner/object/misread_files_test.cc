@@ -1,5 +1,5 @@
-// Files that cannot be read as their formats say are refused by name: none becomes another solid,
-// and of none are the vertices taken for a cloud of points.
+// Files that cannot be read as their formats state are refused by name: none becomes another solid,
+// and no vertices of a surface become a cloud of points.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ using ::testing::StartsWith;
 
 class MisreadFilesTest : public FolderTest {
  protected:
-  /// What the reader of surfaces says, as `plan` and `repair` call it; empty if it reads the file.
+  /// The message of the reader that `plan` and `repair` call; empty if it reads the file.
   [[nodiscard]] std::string Refusal(const std::string& file, const std::string& bytes) const {
     const std::filesystem::path path = Write(file, bytes);
     try {
@@ -49,7 +49,7 @@ class MisreadFilesTest : public FolderTest {
   }
 };
 
-/// ASCII text as UTF-16 or UTF-32. @param order  of the bytes of a character, 0 for its own.
+/// ASCII text as UTF-16 or UTF-32. @param place  of the ASCII byte among the zeros of `unit`.
 std::string Widened(const std::string& text, const std::string& unit, std::size_t place) {
   std::string bytes;
   for (const char c : text) {
