@@ -1,5 +1,6 @@
 // plan: finds a regrasp sequence from a start grasp to a goal grasp and writes a plan; or many.
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -20,6 +21,7 @@
 #include "planner/criteria/reach.h"
 #include "planner/object/body_measures.h"
 #include "planner/object/mesh_defect.h"
+#include "planner/object/polyhedron.h"
 #include "planner/plan/invented_contacts.h"
 #include "planner/plan/plan_io.h"
 
@@ -77,6 +79,31 @@ void PrintSummary(const PlannerOptions& common, const FinishedPlan& finished) {
   for (const std::string& note : result.notes) PrintMessage(kPlanName, note);
 }
 
+/// "60 × 60 × 60 mm": the size of a solid's bounding box along the axes of its file.
+std::string BoxText(const object::Polyhedron& solid, double scale) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : solid.vertices()) box.extend(vertex);
+  constexpr double kMillimetres = 1000;
+  std::string text;
+  for (const double size : box.sizes()) {
+    text += (text.empty() ? "" : " × ") + FormatPlain(size * scale * kMillimetres, 3);
+  }
+  return text + " mm";
+}
+
+/// Print size and mass before the search for a hand's plan: a wrong unit of length shows at once
+/// instead of after minutes of search without result.
+void PrintSize(const PlannerOptions& common, const object::ObjectFile& object,
+               const object::BodyMeasures& body) {
+  const std::string warning = object::SizeWarning(body, common.scale);
+  if (!warning.empty()) PrintMessage(kPlanName, "warning: " + warning);
+  const auto* solid = dynamic_cast<const object::Polyhedron*>(object.object.get());
+  if (common.quiet || solid == nullptr) return;
+  PrintMessage(kPlanName, object.file + ": " + BoxText(*solid, common.scale) + ", " +
+                              object::MeasuresText(body) + " at the density of water" +
+                              object::UnitText(object.unit));
+}
+
 int RunOne(PlanProgram program) {
   const PlannerOptions& common = program.common;
   program.CheckEnds();
@@ -86,6 +113,8 @@ int RunOne(PlanProgram program) {
   criteria::CheckFingerRadius(*object.object, program.finger_radius, "--finger-radius");
   const object::BodyMeasures body = object::MeasureBody(*object.object, common.scale);
   const GivenPoints given = common.ReadGivenPoints();
+  const bool has_hand = program.hand.given();
+  if (has_hand) program.on_search = [&] { PrintSize(common, object, body); };
   FinishedPlan finished = program.Plan(object, given);
   planning::PlanResult& result = finished.result;
   if (!result.plan) {
@@ -102,14 +131,17 @@ int RunOne(PlanProgram program) {
   } else {
     WriteFile(program.output, text);
   }
-  result.warnings.insert(result.warnings.begin(),
-                         {object::SizeWarning(body, common.scale), common.friction.warning()});
+  result.warnings.insert(
+      result.warnings.begin(),
+      {has_hand ? "" : object::SizeWarning(body, common.scale), common.friction.warning()});
   for (const std::string& warning : result.warnings) {
     if (!warning.empty()) PrintMessage(kPlanName, "warning: " + warning);
   }
   if (common.quiet) return kExitDone;
-  PrintMessage(kPlanName, object.file + ": " + object::MeasuresText(body) +
-                              " at the density of water" + object::UnitText(object.unit));
+  if (!has_hand) {
+    PrintMessage(kPlanName, object.file + ": " + object::MeasuresText(body) +
+                                " at the density of water" + object::UnitText(object.unit));
+  }
   PrintSummary(common, finished);
   return kExitDone;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 #include <thread>
 
 #include "apps/help.h"
@@ -178,7 +179,14 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
   if (start.given()) request.start = Choose(start, *object.object);
   if (goal.given()) request.goal = Choose(goal, *object.object);
   ProgressLine progress(common.quiet);
-  request.progress = progress.reporter();
+  std::once_flag begun;
+  request.progress = [&](std::string_view text) {
+    std::call_once(begun, [&] {
+      progress.Clear();
+      on_search();
+    });
+    progress.Report(text);
+  };
   planning::PlanResult result = planning::Solve(planner, request);
   progress.Clear();
   return result;

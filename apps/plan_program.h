@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,6 +64,8 @@ struct PlanProgram {
   bool fresh = false;  ///< of a batch: does again what an earlier run did
   /// Given options that change results, each with its values.
   std::vector<std::pair<std::string, std::vector<std::string>>> given;
+  /// Called once when the search for a hand's plan begins, after the input has been checked.
+  std::function<void()> on_search = [] {};
 
   PlanProgram();
   /// Adds all options to the command line; they are set when it is parsed.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planner/base/error.h"
+#include "planner/base/text_encoding.h"
 #include "planner/plan/json_reader.h"
 
 namespace regrasp::apps {
@@ -72,6 +73,7 @@ std::string FormatHeader(const LinesHeader& header) {
 }
 
 std::optional<LinesHeader> ParseHeader(std::string_view line, const std::string& name) {
+  line = TextOf(line, name);
   if (!line.starts_with(R"({"format":"regrasp-lines",)")) return std::nullopt;
   const Json json = ParseJson(line, name);
   const plan::JsonReader root(json, name);

@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "planner/base/error.h"
+#include "planner/base/text_encoding.h"
 
 namespace regrasp {
 
 Json ParseJson(std::string_view text, const std::string& name) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = TextOf(text, name);
   // nlohmann takes a NUL for the end of its input and does not look behind it.
   if (text.find('\0') != std::string_view::npos) throw InputError(name + ": not JSON: a NUL byte");
   // nlohmann keeps the last of two equal keys without a word, recurses into any depth when a value

@@ -240,6 +240,7 @@ GaitResult FindGait(const GaitRequest& request) {
   CheckReach(request, surface, request.goal_pose, "--goal-pose");
   GaitResult result;
   result.contacts = DrawContacts(request);
+  request.progress("searching a gait");
   const GaitEnds ends{AppendGrasp(request.start_grasp, result.contacts),
                       AppendGrasp(request.goal_grasp, result.contacts), request.start_fingers};
   std::vector<SurfacePoint> points;

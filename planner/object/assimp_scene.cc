@@ -18,6 +18,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/object/collada_check.h"
 #include "planner/object/text_scanner.h"
 
 namespace regrasp::object {
@@ -71,7 +72,10 @@ class OneFile : public Assimp::IOSystem {
 };
 
 /// Adds a mesh as one node places it. A node that mirrors turns facets inside out: turned back.
+/// @throws InputError  bones or morph targets would move its vertices, or its indices are wrong.
 void AddMesh(const aiMesh& mesh, const aiMatrix4x4& placement, PolygonSoup& soup) {
+  if (mesh.mNumBones > 0) throw InputError("mesh with bones (skin): not supported");
+  if (mesh.mNumAnimMeshes > 0) throw InputError("mesh with morph targets: not supported");
   const std::size_t first = soup.vertices.size();
   for (unsigned int v = 0; v < mesh.mNumVertices; ++v) {
     const aiVector3D p = placement * mesh.mVertices[v];
@@ -113,21 +117,6 @@ FileUnit UnitOf(double metres) {
   return {"units of " + FormatShort(metres) + " m", metres};
 }
 
-/// Of a COLLADA file; nullopt where it has no element for it.
-std::optional<FileUnit> ColladaUnit(std::string_view bytes) {
-  constexpr std::string_view kElement = "<unit", kAttribute = "meter=";
-  const std::size_t from = bytes.find(kElement);
-  if (from == std::string_view::npos) return std::nullopt;
-  const std::string_view element = bytes.substr(from, bytes.find('>', from) - from);
-  const std::size_t at = element.find(kAttribute);
-  if (at == std::string_view::npos) return std::nullopt;
-  const std::string_view value = element.substr(at + kAttribute.size());
-  if (value.empty()) return std::nullopt;
-  const auto metres = ParseDouble(value.substr(1, value.find(value[0], 1) - 1));
-  if (!metres || !(*metres > 0)) return std::nullopt;
-  return UnitOf(*metres);
-}
-
 /// Of an FBX file, which has it in centimetres.
 std::optional<FileUnit> FbxUnit(const aiScene& scene) {
   float centimetres = 0;
@@ -138,28 +127,55 @@ std::optional<FileUnit> FbxUnit(const aiScene& scene) {
   return UnitOf(double{centimetres} / 100);
 }
 
-/// Brings a surface into metres where the file says what its unit is. assimp has done so with
-/// COLLADA, and glTF is in metres.
-void ApplyUnit(const aiScene& scene, std::string_view bytes, const std::string& file,
-               PolygonSoup& soup) {
-  const std::string ending = LowerCase(std::filesystem::path(file).extension().string());
-  std::optional<FileUnit> unit;
-  if (ending == ".glb" || ending == ".gltf") unit = UnitOf(1);
-  if (ending == ".dae") unit = ColladaUnit(bytes);
-  if (ending == ".fbx") unit = FbxUnit(scene);
+/// Brings a surface into metres. assimp has done so with COLLADA.
+void ApplyFbxUnit(const aiScene& scene, PolygonSoup& soup) {
+  const std::optional<FileUnit> unit = FbxUnit(scene);
   if (!unit) return;
   soup.unit = unit->name;
-  if (ending != ".fbx") return;
   for (Eigen::Vector3d& vertex : soup.vertices) vertex *= unit->metres;
+}
+
+/// The surface of a scene, in the units of assimp.
+PolygonSoup SoupOf(const aiScene& scene) {
+  PolygonSoup soup;
+  struct Visit {
+    const aiNode* node;
+    aiMatrix4x4 placement;
+  };
+  std::vector<Visit> stack;
+  if (scene.mRootNode != nullptr) stack.push_back({scene.mRootNode, aiMatrix4x4()});
+  while (!stack.empty()) {
+    const Visit visit = stack.back();
+    stack.pop_back();
+    const aiMatrix4x4 placement = visit.placement * visit.node->mTransformation;
+    for (unsigned int m = 0; m < visit.node->mNumMeshes; ++m) {
+      if (visit.node->mMeshes[m] >= scene.mNumMeshes) throw InputError("a node without its mesh");
+      AddMesh(*scene.mMeshes[visit.node->mMeshes[m]], placement, soup);
+    }
+    for (unsigned int c = visit.node->mNumChildren; c-- > 0;) {
+      stack.push_back({visit.node->mChildren[c], placement});
+    }
+  }
+  return soup;
+}
+
+/// assimp ignores this kind of geometry.
+void CheckFbx(std::string_view bytes) {
+  if (bytes.find("NurbsSurface") == std::string_view::npos) return;
+  throw InputError("geometry \"NurbsSurface\": not supported");
 }
 
 }  // namespace
 
 PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
+  const bool is_collada = LowerCase(std::filesystem::path(file).extension().string()) == ".dae";
+  const std::optional<double> collada_unit = is_collada ? CheckCollada(bytes) : std::nullopt;
+  if (!is_collada) CheckFbx(bytes);
   Assimp::Importer importer;
   auto* files = new OneFile(bytes, file);
   importer.SetIOHandler(files);  // which owns it from here on
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   constexpr unsigned int kNoPostProcessing = 0;
   const aiScene* scene = importer.ReadFile(file, kNoPostProcessing);
   if (const std::string& other = files->missed(); !other.empty()) {
@@ -167,26 +183,11 @@ PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
                      "; an object is one file: convert it (to .glb or .ply)");
   }
   if (scene == nullptr) throw InputError(importer.GetErrorString());
-  PolygonSoup soup;
-  struct Visit {
-    const aiNode* node;
-    aiMatrix4x4 placement;
-  };
-  std::vector<Visit> stack;
-  if (scene->mRootNode != nullptr) stack.push_back({scene->mRootNode, aiMatrix4x4()});
-  while (!stack.empty()) {
-    const Visit visit = stack.back();
-    stack.pop_back();
-    const aiMatrix4x4 placement = visit.placement * visit.node->mTransformation;
-    for (unsigned int m = 0; m < visit.node->mNumMeshes; ++m) {
-      if (visit.node->mMeshes[m] >= scene->mNumMeshes) throw InputError("a node without its mesh");
-      AddMesh(*scene->mMeshes[visit.node->mMeshes[m]], placement, soup);
-    }
-    for (unsigned int c = visit.node->mNumChildren; c-- > 0;) {
-      stack.push_back({visit.node->mChildren[c], placement});
-    }
-  }
-  ApplyUnit(*scene, bytes, file, soup);
+  PolygonSoup soup = SoupOf(*scene);
+  // The vertices of lines are not a cloud of points.
+  if (soup.facets.empty()) throw InputError("its scene has no polygon");
+  if (!is_collada) ApplyFbxUnit(*scene, soup);
+  if (collada_unit) soup.unit = UnitOf(*collada_unit).name;
   return soup;
 }
 

@@ -1,22 +1,19 @@
 #include "planner/object/read_3mf.h"
 
-#include <expat.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <map>
-#include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "planner/base/error.h"
-#include "planner/base/file.h"
-#include "planner/base/number.h"
-#include "planner/base/zip_archive.h"
+#include "planner/object/package_3mf.h"
 #include "planner/object/size_limits.h"
 #include "planner/object/text_scanner.h"
+#include "planner/object/xml_scan.h"
 
 namespace regrasp::object {
 
@@ -24,144 +21,154 @@ namespace {
 
 using Eigen::Affine3d;
 
-constexpr const char* kModel = "3D/3dmodel.model";
+constexpr std::string_view kCore = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+constexpr std::string_view kProduction =
+    "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
+constexpr std::string_view kMaterials =
+    "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 
-/// The text of the package's model. @throws InputError
-std::string ReadModel(std::string_view bytes) {
-  auto text = ZipArchive(bytes).Read(kModel, kMaxInputBytes);
-  if (!text) throw InputError(std::string("the archive has no ") + kModel);
-  return std::move(*text);
-}
+/// An object of a part of the package.
+struct ObjectName {
+  std::string part, id;
+  auto operator<=>(const ObjectName&) const = default;
+};
 
 struct Placed {
-  std::string object;
+  ObjectName object;
   Affine3d transform = Affine3d::Identity();
 };
 
 struct Object3mf {
+  std::string type = "model";
+  bool has_mesh = false;
   PolygonSoup mesh;
   std::vector<Placed> components;
 };
 
+/// A model part.
 struct Model {
+  std::string part;
   std::string unit = "millimeter";
   std::map<std::string, Object3mf> objects;
   std::vector<Placed> items;
   Object3mf* current = nullptr;
+  std::string current_id;
 };
 
-/// The attributes of an element.
-class Attributes {
- public:
-  Attributes(std::string element, const char** pairs)
-      : element_(std::move(element)), pairs_(pairs) {}
+int VertexOf(const XmlTag& tag, std::string_view attribute, const PolygonSoup& mesh) {
+  const std::string text = tag.Text(attribute);
+  const auto index = ParseInteger(text);
+  if (index && *index >= 0 && *index < std::ssize(mesh.vertices)) return int(*index);
+  throw InputError("triangle: " + std::string(attribute) + ": " + Quoted(text) +
+                   " is out of range (" + std::to_string(mesh.vertices.size()) + " vertices)");
+}
 
-  [[nodiscard]] std::optional<std::string> Find(std::string_view name) const {
-    for (const char** pair = pairs_; *pair != nullptr; pair += 2) {
-      if (name == pair[0]) return pair[1];
+/// Twelve numbers, the rows of a matrix that points are multiplied with from the left.
+Affine3d TransformOf(const XmlTag& tag) {
+  Affine3d transform = Affine3d::Identity();
+  const auto text = tag.Find("transform");
+  if (!text) return transform;
+  TextScanner scanner(*text, std::string(tag.name()));
+  for (int k = 0; k < 12; ++k) transform(k % 3, k / 3) = scanner.ReadDouble("transform");
+  if (scanner.Next())
+    throw InputError(std::string(tag.name()) + ": transform: expected 12 numbers");
+  return transform;
+}
+
+/// The object of an item or a component: of this part, or of the one that `p:path` names.
+Placed PlacedBy(const XmlTag& tag, const Model& model) {
+  const auto path = tag.Find("path", kProduction);
+  return {{path ? Package3mf::PartName(*path) : model.part, tag.Text("objectid")},
+          TransformOf(tag)};
+}
+
+/// Other required extensions change what the core elements mean.
+void TakeModel(const XmlTag& tag, Model& model) {
+  if (auto unit = tag.Find("unit")) model.unit = *std::move(unit);
+  std::istringstream required(tag.Find("requiredextensions").value_or(""));
+  for (std::string prefix; required >> prefix;) {
+    const auto found = tag.prefixes().find(prefix);
+    const std::string space = found == tag.prefixes().end() ? "" : found->second;
+    if (space != kProduction && space != kMaterials) {
+      throw InputError("required extension " + Quoted(prefix) + ": not supported, found " +
+                       (space.empty() ? "no namespace" : "namespace \"" + space + "\""));
     }
-    return std::nullopt;
   }
-  [[nodiscard]] std::string Text(std::string_view name) const {
-    if (auto text = Find(name)) return *std::move(text);
-    throw InputError(element_ + ": lacks " + std::string(name));
-  }
-  [[nodiscard]] double Double(std::string_view name) const {
-    const auto value = ParseDouble(Text(name));
-    if (!value) throw InputError(element_ + ": " + std::string(name) + " is not a finite number");
-    return *value;
-  }
-  [[nodiscard]] int Vertex(std::string_view name, const PolygonSoup& mesh) const {
-    const auto index = ParseInteger(Text(name));
-    if (index && *index >= 0 && *index < std::ssize(mesh.vertices)) return int(*index);
-    throw InputError(element_ + ": " + std::string(name) + ": " + Quoted(Text(name)) +
-                     " is out of range (" + std::to_string(mesh.vertices.size()) + " vertices)");
-  }
-  /// Twelve numbers, the rows of a matrix that points are multiplied with from the left.
-  [[nodiscard]] Affine3d Transform() const {
-    Affine3d transform = Affine3d::Identity();
-    const auto text = Find("transform");
-    if (!text) return transform;
-    TextScanner scanner(*text, element_);
-    for (int k = 0; k < 12; ++k) transform(k % 3, k / 3) = scanner.ReadDouble("transform");
-    return transform;
-  }
+}
 
- private:
-  std::string element_;
-  const char** pairs_;
-};
+void TakeObject(const XmlTag& tag, Model& model) {
+  model.current_id = tag.Text("id");
+  const auto [place, is_new] = model.objects.try_emplace(model.current_id);
+  if (!is_new) throw InputError("object " + Quoted(model.current_id) + ": its id is repeated");
+  model.current = &place->second;
+  if (auto type = tag.Find("type")) model.current->type = *std::move(type);
+}
 
-void TakeElement(const Attributes& attributes, std::string_view element, Model& model) {
-  if (element == "model") {
-    if (auto unit = attributes.Find("unit")) model.unit = *std::move(unit);
-  } else if (element == "object") {
-    model.current = &model.objects[attributes.Text("id")];
-  } else if (element == "item") {
-    model.items.push_back({attributes.Text("objectid"), attributes.Transform()});
-  } else if (model.current == nullptr) {
+void TakeItem(const XmlTag& tag, Model& model) {
+  if (tag.Find("printable") == "0") {
+    throw InputError("item: printable: not supported, expected \"1\", found \"0\"");
+  }
+  model.items.push_back(PlacedBy(tag, model));
+}
+
+/// Extensions add these to an object; they replace its mesh or add to it.
+constexpr auto kOtherShapes = std::to_array<std::string_view>(
+    {"beamlattice", "booleanshape", "displacementmesh", "levelset", "implicitfunction"});
+
+void TakeElement(const XmlTag& tag, Model& model) {
+  if (tag.space() != kCore) {
+    if (model.current != nullptr &&
+        std::ranges::find(kOtherShapes, tag.name()) != kOtherShapes.end()) {
+      throw InputError("object " + Quoted(model.current_id) + ": " + Quoted(tag.name()) +
+                       ": not supported, expected a mesh or components");
+    }
     return;
-  } else if (element == "vertex") {
-    model.current->mesh.vertices.emplace_back(attributes.Double("x"), attributes.Double("y"),
-                                              attributes.Double("z"));
-  } else if (element == "triangle") {
-    const PolygonSoup& mesh = model.current->mesh;
-    const std::array<int, 3> corners = {attributes.Vertex("v1", mesh),
-                                        attributes.Vertex("v2", mesh),
-                                        attributes.Vertex("v3", mesh)};
-    model.current->mesh.facets.emplace_back(corners.begin(), corners.end());
-  } else if (element == "component") {
-    model.current->components.push_back({attributes.Text("objectid"), attributes.Transform()});
+  }
+  if (tag.name() == "model") return TakeModel(tag, model);
+  if (tag.name() == "object") return TakeObject(tag, model);
+  if (tag.name() == "item") return TakeItem(tag, model);
+  if (model.current == nullptr) return;
+  PolygonSoup& mesh = model.current->mesh;
+  if (tag.name() == "mesh") {
+    model.current->has_mesh = true;
+  } else if (tag.name() == "vertex") {
+    mesh.vertices.emplace_back(tag.Number("x"), tag.Number("y"), tag.Number("z"));
+  } else if (tag.name() == "triangle") {
+    const std::array<int, 3> corners = {VertexOf(tag, "v1", mesh), VertexOf(tag, "v2", mesh),
+                                        VertexOf(tag, "v3", mesh)};
+    mesh.facets.emplace_back(corners.begin(), corners.end());
+  } else if (tag.name() == "component") {
+    model.current->components.push_back(PlacedBy(tag, model));
   }
 }
 
-/// What expat, which is C, is handed and hands back: exceptions do not pass through it.
-struct Parsing {
-  XML_Parser parser;
+Model ParseModel(const std::string& text, const std::string& part) {
   Model model;
-  std::string failure;
-
-  static void Begin(void* data, const char* name, const char** pairs) {
-    auto& parsing = *static_cast<Parsing*>(data);
-    if (!parsing.failure.empty()) return;
-    const std::string_view qualified = name;
-    const std::string_view element = qualified.substr(qualified.find(':') + 1);
-    try {
-      TakeElement(Attributes(std::string(element), pairs), element, parsing.model);
-    } catch (const std::exception& error) {
-      parsing.failure = error.what();
-      XML_StopParser(parsing.parser, XML_FALSE);
+  model.part = part;
+  bool is_model = false;
+  ScanXml(text, part, [&](const XmlTag& tag) {
+    is_model = is_model || (tag.space() == kCore && tag.name() == "model");
+    if (!is_model) {
+      throw InputError("expected the element \"model\" of 3MF, found " + Quoted(tag.name()) +
+                       (tag.space().empty() ? " without a namespace" : " of another namespace"));
     }
-  }
-};
-
-Model ParseModel(const std::string& text) {
-  const std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser(XML_ParserCreate(nullptr),
-                                                                       XML_ParserFree);
-  Parsing parsing{parser.get(), {}, {}};
-  XML_SetUserData(parser.get(), &parsing);
-  XML_SetStartElementHandler(parser.get(), Parsing::Begin);
-  if (XML_Parse(parser.get(), text.data(), int(text.size()), XML_TRUE) == XML_STATUS_ERROR) {
-    throw InputError(std::string(kModel) + ": line " +
-                     std::to_string(XML_GetCurrentLineNumber(parser.get())) + ": " +
-                     (parsing.failure.empty() ? XML_ErrorString(XML_GetErrorCode(parser.get()))
-                                              : parsing.failure));
-  }
-  return std::move(parsing.model);
+    TakeElement(tag, model);
+  });
+  return model;
 }
 
-struct Unit {
+struct Unit3mf {
   double metres;
   const char* name;
 };
 
-const Unit& UnitOf(const std::string& unit) {
-  static const std::map<std::string, Unit> kUnits = {{"micron", {1e-6, "micrometres"}},
-                                                     {"millimeter", {1e-3, "millimetres"}},
-                                                     {"centimeter", {0.01, "centimetres"}},
-                                                     {"inch", {0.0254, "inches"}},
-                                                     {"foot", {0.3048, "feet"}},
-                                                     {"meter", {1, "metres"}}};
+const Unit3mf& UnitOf3mf(const std::string& unit) {
+  static const std::map<std::string, Unit3mf> kUnits = {{"micron", {1e-6, "micrometres"}},
+                                                        {"millimeter", {1e-3, "millimetres"}},
+                                                        {"centimeter", {0.01, "centimetres"}},
+                                                        {"inch", {0.0254, "inches"}},
+                                                        {"foot", {0.3048, "feet"}},
+                                                        {"meter", {1, "metres"}}};
   const auto found = kUnits.find(unit);
   if (found == kUnits.end()) throw InputError("its unit " + Quoted(unit) + " is not one of 3MF");
   return found->second;
@@ -170,23 +177,57 @@ const Unit& UnitOf(const std::string& unit) {
 /// Components of components lie no deeper, and no more objects are placed.
 constexpr int kDeepest = 64, kMostPlaced = 100'000;
 
+/// The model parts of a package, each parsed once.
+class Models {
+ public:
+  explicit Models(std::string_view bytes) : package_(bytes), root_(package_.RootModel()) {}
+
+  const Model& root() { return Part(root_); }
+
+  /// @throws InputError  if there is no such object.
+  const Object3mf& Find(const ObjectName& name) {
+    const Model& model = Part(name.part);
+    const auto found = model.objects.find(name.id);
+    if (found != model.objects.end()) return found->second;
+    throw InputError(name.part + ": there is no object " + Quoted(name.id));
+  }
+
+ private:
+  /// Part names are not case-sensitive.
+  const Model& Part(const std::string& part) {
+    const auto [place, is_new] = models_.try_emplace(LowerCase(part));
+    if (!is_new) return place->second;
+    if (models_.size() > kMostParts) throw InputError("more than 10000 parts");
+    place->second = ParseModel(package_.Read(part), part);
+    if (place->second.unit != root().unit) {
+      throw InputError(part + ": unit: expected " + Quoted(root().unit) + " as in " + root_ +
+                       ", found " + Quoted(place->second.unit));
+    }
+    return place->second;
+  }
+
+  static constexpr std::size_t kMostParts = 10'000;
+  Package3mf package_;
+  std::string root_;
+  std::map<std::string, Model> models_;
+};
+
 class Placer {
  public:
-  explicit Placer(const Model& model) : model_(model) {}
+  explicit Placer(Models& models) : models_(models) {}
 
   void Place(const Placed& placed, int depth = 0) {
-    const auto found = model_.objects.find(placed.object);
-    if (found == model_.objects.end()) {
-      throw InputError("there is no object " + Quoted(placed.object));
-    }
-    const auto& [mesh, components] = found->second;
+    const Object3mf& object = models_.Find(placed.object);
+    if (object.type == "support" || object.type == "solidsupport") return;
+    CheckObject(placed.object, object);
+    const PolygonSoup& mesh = object.mesh;
     if (depth == kDeepest || ++placed_ > kMostPlaced ||
         soup_.facets.size() + mesh.facets.size() > kMaxFacets ||
         soup_.vertices.size() + mesh.vertices.size() > 3 * kMaxFacets) {
       throw InputError("its components are too many, or contain each other");
     }
     Add(mesh, placed.transform);
-    for (const Placed& component : components) {
+    for (const Placed& component : object.components) {
       Place({component.object, placed.transform * component.transform}, depth + 1);
     }
   }
@@ -194,6 +235,18 @@ class Placer {
   [[nodiscard]] const PolygonSoup& soup() const { return soup_; }
 
  private:
+  static void CheckObject(const ObjectName& name, const Object3mf& object) {
+    const std::string what = name.part + ": object " + Quoted(name.id);
+    if (object.type != "model") {
+      throw InputError(what + ": type: not supported, expected \"model\", found " +
+                       Quoted(object.type));
+    }
+    if (object.has_mesh == !object.components.empty()) {
+      throw InputError(what + ": expected a mesh or components, found " +
+                       (object.has_mesh ? "both" : "neither"));
+    }
+  }
+
   void Add(const PolygonSoup& mesh, const Affine3d& transform) {
     const int first = static_cast<int>(soup_.vertices.size());
     for (const auto& vertex : mesh.vertices) soup_.vertices.push_back(transform * vertex);
@@ -205,7 +258,7 @@ class Placer {
     }
   }
 
-  const Model& model_;
+  Models& models_;
   PolygonSoup soup_;
   int placed_ = 0;
 };
@@ -213,12 +266,14 @@ class Placer {
 }  // namespace
 
 PolygonSoup Read3mf(std::string_view bytes) {
-  const Model model = ParseModel(ReadModel(bytes));
-  const Unit& unit = UnitOf(model.unit);
+  Models models(bytes);
+  const Model& root = models.root();
+  const Unit3mf& unit = UnitOf3mf(root.unit);
   const Affine3d metres(Eigen::Scaling(unit.metres));
-  Placer placer(model);
-  for (const Placed& item : model.items) placer.Place({item.object, metres * item.transform});
+  Placer placer(models);
+  for (const Placed& item : root.items) placer.Place({item.object, metres * item.transform});
   PolygonSoup soup = placer.soup();
+  if (soup.facets.empty()) throw InputError(root.part + ": build: no object of type \"model\"");
   soup.unit = unit.name;
   return soup;
 }

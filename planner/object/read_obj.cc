@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 
+#include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/base/text_encoding.h"
 #include "planner/object/mesh_defect.h"
 #include "planner/object/mesh_readers.h"
 #include "planner/object/text_scanner.h"
@@ -11,13 +14,25 @@ namespace regrasp::object {
 
 namespace {
 
-/// Statements of the format that say nothing about flat facets.
+/// Statements that neither make a surface nor belong to one that is read.
 constexpr auto kIgnored = std::to_array<std::string_view>(
-    {"vt",       "vn",    "vp",     "cstype", "deg",    "bmat",   "step",       "p",
-     "l",        "curv",  "curv2",  "surf",   "parm",   "trim",   "hole",       "scrv",
-     "sp",       "end",   "con",    "s",      "mg",     "o",      "bevel",      "c_interp",
-     "d_interp", "lod",   "usemap", "maplib", "usemtl", "mtllib", "shadow_obj", "trace_obj",
-     "ctech",    "stech", "call",   "csh"});
+    {"vt",    "vn",     "vp",     "cstype", "deg",    "bmat",       "step",     "p",
+     "parm",  "trim",   "hole",   "scrv",   "sp",     "end",        "con",      "s",
+     "mg",    "o",      "bevel",  "lod",    "usemap", "c_interp",   "d_interp", "ctech",
+     "stech", "maplib", "usemtl", "mtllib", "res",    "shadow_obj", "trace_obj"});
+
+/// Statements that make lines or curves. They are ignored beside facets; without facets the file is
+/// refused, because its vertices are not a cloud of points.
+constexpr auto kCurves = std::to_array<std::string_view>({"l", "curv", "curv2", "cdc"});
+
+/// Statements that make a surface and are not supported: free-form surfaces, patches of old
+/// versions, other files, and the output of other programs.
+constexpr auto kOtherSurfaces =
+    std::to_array<std::string_view>({"surf", "bsp", "bzp", "cdp", "call", "csh"});
+
+bool IsOneOf(std::span<const std::string_view> statements, std::string_view statement) {
+  return std::ranges::find(statements, statement) != statements.end();
+}
 
 /// The group of facets that a repair invented (repair/repair.h).
 constexpr std::string_view kInventedGroup = "invented";
@@ -56,6 +71,17 @@ int ResolveIndex(TextScanner& scanner, long long index, std::size_t vertices, st
                " is out of range (" + std::to_string(count) + " vertices so far)");
 }
 
+void ReadObjFacet(TextScanner& scanner, bool invented, PolygonSoup& soup) {
+  if (invented) soup.invented.resize(soup.facets.size());
+  if (invented || !soup.invented.empty()) soup.invented.push_back(invented);
+  std::vector<int>& facet = soup.facets.emplace_back();
+  const std::size_t index = soup.facets.size() - 1;
+  while (const auto word = scanner.NextOnLine()) {
+    const long long corner = ReadCorner(scanner, *word, index);
+    facet.push_back(ResolveIndex(scanner, corner, soup.vertices.size(), index));
+  }
+}
+
 void CheckIndices(const PolygonSoup& soup, const std::string& name) {
   for (std::size_t f = 0; f < soup.facets.size(); ++f) {
     for (const int index : soup.facets[f]) {
@@ -72,26 +98,28 @@ void CheckIndices(const PolygonSoup& soup, const std::string& name) {
 
 PolygonSoup ReadObj(std::string_view text, const std::string& name) {
   PolygonSoup soup;
-  TextScanner scanner(text, name);
+  TextScanner scanner(TextOf(text, name), name);
   bool invented = false;
+  std::string curve;  // the first statement of its kind
   while (const auto statement = scanner.Next()) {
     if (*statement == "v") {
       soup.vertices.push_back(ReadObjVertex(scanner, soup.vertices.size()));
     } else if (*statement == "f") {
-      if (invented) soup.invented.resize(soup.facets.size());
-      if (invented || !soup.invented.empty()) soup.invented.push_back(invented);
-      std::vector<int>& facet = soup.facets.emplace_back();
-      const std::size_t index = soup.facets.size() - 1;
-      while (const auto word = scanner.NextOnLine()) {
-        const long long corner = ReadCorner(scanner, *word, index);
-        facet.push_back(ResolveIndex(scanner, corner, soup.vertices.size(), index));
-      }
+      ReadObjFacet(scanner, invented, soup);
     } else if (*statement == "g") {
       invented = scanner.NextOnLine() == kInventedGroup;
-    } else if (std::ranges::find(kIgnored, *statement) == kIgnored.end()) {
+    } else if (IsOneOf(kCurves, *statement)) {
+      if (curve.empty()) curve = *statement;
+    } else if (IsOneOf(kOtherSurfaces, *statement)) {
+      scanner.Fail("statement " + Quoted(*statement) + ": not supported, expected facets (\"f\")");
+    } else if (!IsOneOf(kIgnored, *statement)) {
       scanner.Fail(Quoted(*statement) + " is not a statement of OBJ");
     }
     scanner.SkipLine();
+  }
+  if (soup.facets.empty() && !curve.empty()) {
+    throw InputError(name + ": statement " + Quoted(curve) +
+                     ": not supported, expected facets (\"f\"), found curves only");
   }
   CheckIndices(soup, name);
   return soup;

@@ -11,6 +11,7 @@
 #include "planner/object/read_soup.h"
 #include "planner/object/read_with_assimp.h"
 #include "planner/object/reading.h"
+#include "planner/object/surface_format.h"
 #include "planner/object/text_scanner.h"
 
 namespace regrasp::object {
@@ -32,16 +33,25 @@ PolygonSoup ReadWithAssimp(const std::string& bytes, const std::filesystem::path
   }
 }
 
-PolygonSoup ParseSoup(const std::filesystem::path& path, const std::string& ending,
-                      const std::string& bytes, const Deadline& deadline) {
+PolygonSoup ParseSoup(const std::filesystem::path& path, const std::string& bytes,
+                      const Deadline& deadline) {
   const std::string name = path.string();
-  if (ending == ".obj") return ReadObj(bytes, name);
-  if (ending == ".off") return ReadOff(bytes, name);
-  if (ending == ".ply") return ReadPly(bytes, name);
-  if (ending == ".stl") return ReadStl(bytes, name);
-  if (ending == ".xyz" || ending == ".pwn") return ReadXyz(bytes, name);
-  if (ending == ".pcd") return ReadPcd(bytes, name);
-  return ReadWithAssimp(bytes, path, deadline);
+  switch (FormatOf(path, bytes)) {
+    case SurfaceFormat::kObj:
+      return ReadObj(bytes, name);
+    case SurfaceFormat::kOff:
+      return ReadOff(bytes, name);
+    case SurfaceFormat::kPly:
+      return ReadPly(bytes, name);
+    case SurfaceFormat::kStl:
+      return ReadStl(bytes, name);
+    case SurfaceFormat::kXyz:
+      return ReadXyz(bytes, name);
+    case SurfaceFormat::kPcd:
+      return ReadPcd(bytes, name);
+    default:
+      return ReadWithAssimp(bytes, path, deadline);
+  }
 }
 
 ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
@@ -56,7 +66,7 @@ ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
     }
     file.object = std::make_unique<Polygon>(Polygon::FromWkt(bytes, path.string()));
   } else {
-    const PolygonSoup soup = ParseSoup(path, ending, bytes, reading.deadline);
+    const PolygonSoup soup = ParseSoup(path, bytes, reading.deadline);
     std::string().swap(bytes);  // large files are read in little memory
     file.unit = soup.unit;
     file.object = std::make_unique<Polyhedron>(Polyhedron::FromSoup(soup, path.string(), reading));
@@ -72,8 +82,7 @@ SoupFile ReadSoup(const std::filesystem::path& path, const Reading& reading) {
   const std::string bytes = ReadFile(path);
   const std::string ending = LowerCase(path.extension().string());
   if (ending == ".wkt") throw InputError(path.string() + ": a polygon; only surfaces are repaired");
-  return {path.filename().string(), Sha256(bytes),
-          ParseSoup(path, ending, bytes, reading.deadline)};
+  return {path.filename().string(), Sha256(bytes), ParseSoup(path, bytes, reading.deadline)};
 }
 
 ObjectFile ReadObject(const std::filesystem::path& path, const Reading& reading) {

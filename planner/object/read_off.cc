@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "planner/base/text_encoding.h"
 #include "planner/object/mesh_defect.h"
 #include "planner/object/mesh_readers.h"
 #include "planner/object/text_scanner.h"
@@ -56,7 +57,7 @@ std::vector<int> ReadOffFacet(TextScanner& scanner, const OffHeader& header, lon
 
 PolygonSoup ReadOff(std::string_view text, const std::string& name) {
   PolygonSoup soup;
-  TextScanner scanner(text, name);
+  TextScanner scanner(TextOf(text, name), name);
   const OffHeader header = ReadHeader(scanner);
   for (long long v = 0; v < header.vertices; ++v) {
     Eigen::Vector3d& vertex = soup.vertices.emplace_back();

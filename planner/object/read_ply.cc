@@ -6,9 +6,12 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <set>
+#include <span>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/base/text_encoding.h"
 #include "planner/object/mesh_defect.h"
 #include "planner/object/mesh_readers.h"
 #include "planner/object/text_scanner.h"
@@ -251,24 +254,43 @@ long long ReadCount(ValueReader& values, const Property& property, const std::st
   return static_cast<long long>(count);
 }
 
-void ReadFacet(ValueReader& values, const Element& element, long long index, PolygonSoup& soup,
-               const std::string& name) {
+/// The vertex indices of a facet or of strips. @param lowest  the smallest index allowed.
+std::vector<int> ReadIndices(ValueReader& values, const Element& element, long long index,
+                             int lowest, const std::string& name) {
   const std::string what = Name(element, index);
-  std::vector<int> facet;
+  std::vector<int> indices;
   for (const Property& property : element.properties) {
     const bool wanted = IsVertexIndices(property);
     const long long count = property.count_type ? ReadCount(values, property, what, name) : 1;
     for (long long k = 0; k < count; ++k) {
       const double value = values.Read(property.type, what);
       if (!wanted) continue;
-      if (!(value >= 0 && value <= std::numeric_limits<int>::max())) {
+      if (!(value >= lowest && value <= std::numeric_limits<int>::max())) {
         throw MeshError(MeshDefect::kIndexOutOfRange, name + ": " + what + ": vertex index " +
                                                           FormatDouble(value) + " is out of range");
       }
-      facet.push_back(static_cast<int>(value));
+      indices.push_back(static_cast<int>(value));
     }
   }
-  soup.facets.push_back(std::move(facet));
+  return indices;
+}
+
+constexpr int kStripEnd = -1;
+
+/// Adds the triangles of strips: each vertex behind the second one makes a triangle with the two
+/// before it, and every second triangle is reversed. Triangles with a repeated vertex only lead
+/// from one part of a strip to another.
+void AddStrips(std::span<const int> indices, PolygonSoup& soup) {
+  std::size_t first = 0;  // of this strip
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const int c = indices[k];
+    if (c == kStripEnd) first = k + 1;
+    if (c == kStripEnd || k < first + 2) continue;
+    const int a = indices[k - 2], b = indices[k - 1];
+    if (a == b || b == c || c == a) continue;
+    const bool turned = (k - first) % 2 == 1;
+    soup.facets.push_back(turned ? std::vector{b, a, c} : std::vector{a, b, c});
+  }
 }
 
 void SkipRow(ValueReader& values, const Element& element, long long index,
@@ -280,44 +302,97 @@ void SkipRow(ValueReader& values, const Element& element, long long index,
   }
 }
 
+bool Has(const Element& element, std::string_view property) {
+  return std::ranges::find(element.properties, property, &Property::name) !=
+         element.properties.end();
+}
+
+bool IsSurface(const Element& element) {
+  return element.name == "face" || element.name == "tristrips";
+}
+
+bool HasFacets(const Element& element) { return IsSurface(element) && element.count > 0; }
+
+/// An element of another name may hold the surface: in lists of integers, in three integers a row,
+/// or, if nothing else does, in any list or integers. The element "camera" describes the scanner of
+/// a cloud.
+bool MayBeSurface(const Element& element, bool has_facets) {
+  if (element.count == 0 || element.name == "vertex" || IsSurface(element)) return false;
+  constexpr std::ptrdiff_t kCorners = 3;
+  const auto is_corner = [](const Property& p) { return !IsFloat(p.type) && p.name[0] == 'v'; };
+  if (has_facets) {
+    const auto is_list = [](const Property& p) { return p.count_type && !IsFloat(p.type); };
+    return std::ranges::any_of(element.properties, is_list) ||
+           std::ranges::count_if(element.properties, is_corner) >= kCorners;
+  }
+  const auto may_be_index = [](const Property& p) { return p.count_type || !IsFloat(p.type); };
+  return element.name != "camera" && std::ranges::any_of(element.properties, may_be_index);
+}
+
 /// Also keeps a declared number of rows from being counted through without reading a byte.
 void CheckElement(const Element& element, const std::string& name) {
-  const auto has = [&](std::string_view property) {
-    return std::ranges::any_of(element.properties,
-                               [&](const Property& p) { return p.name == property; });
-  };
-  if (element.properties.empty() && element.count > 0) {
-    throw InputError(name + ": element " + Quoted(element.name) + " has no properties");
+  const std::string what = name + ": element " + Quoted(element.name);
+  if (element.properties.empty() && element.count > 0)
+    throw InputError(what + " has no properties");
+  std::set<std::string> names;
+  for (const Property& property : element.properties) {
+    if (!names.insert(property.name).second) {
+      throw InputError(what + ": property " + Quoted(property.name) + " is repeated");
+    }
   }
-  if (element.name == "vertex" && !(has("x") && has("y") && has("z"))) {
-    throw InputError(name + ": element \"vertex\" lacks x, y or z");
+  if (element.name == "vertex" && !(Has(element, "x") && Has(element, "y") && Has(element, "z"))) {
+    throw InputError(what + " lacks x, y or z");
   }
-  if (element.name != "face") return;
+  if (!IsSurface(element)) return;
   const auto indices = std::ranges::find_if(element.properties, IsVertexIndices);
   if (indices == element.properties.end() || IsFloat(indices->type)) {
-    throw InputError(name + ": element \"face\" lacks an integer list vertex_indices");
+    throw InputError(what + " lacks an integer list vertex_indices");
+  }
+  if (std::ranges::count_if(element.properties, IsVertexIndices) > 1) {
+    throw InputError(what + " has two lists of vertex indices");
+  }
+}
+
+void CheckElements(const std::vector<Element>& elements, const std::string& name) {
+  const bool has_facets = std::ranges::any_of(elements, HasFacets);
+  std::set<std::string> names;
+  for (const Element& element : elements) {
+    if (!names.insert(element.name).second) {
+      throw InputError(name + ": element " + Quoted(element.name) + " is repeated");
+    }
+    CheckElement(element, name);
+    if (MayBeSurface(element, has_facets)) {
+      throw InputError(name + ": element " + Quoted(element.name) +
+                       ": not supported, expected the surface in \"face\" or \"tristrips\"");
+    }
   }
 }
 
 }  // namespace
 
 PolygonSoup ReadPly(std::string_view bytes, const std::string& name) {
+  bytes = TextOf(bytes, name);
   const Header header = HeaderReader(bytes, name).Read();
+  CheckElements(header.elements, name);
   PolygonSoup soup;
   ValueReader values(bytes.substr(header.body), header.format, name);
   for (const Element& element : header.elements) {
-    CheckElement(element, name);
     for (long long i = 0; i < element.count; ++i) {
       if (element.name == "vertex") {
         ReadVertex(values, element, i, soup, name);
       } else if (element.name == "face") {
-        ReadFacet(values, element, i, soup, name);
+        soup.facets.push_back(ReadIndices(values, element, i, 0, name));
+      } else if (element.name == "tristrips") {
+        AddStrips(ReadIndices(values, element, i, kStripEnd, name), soup);
       } else {
         SkipRow(values, element, i, name);
       }
     }
   }
   if (!values.AtEnd()) throw InputError(name + ": the file goes on behind the last element");
+  if (soup.facets.empty() && std::ranges::any_of(header.elements, HasFacets)) {
+    throw InputError(name + ": element \"tristrips\": there is no triangle in it");
+  }
   return soup;
 }
 

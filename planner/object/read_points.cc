@@ -10,6 +10,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/base/text_encoding.h"
 #include "planner/object/mesh_readers.h"
 #include "planner/object/text_scanner.h"
 
@@ -160,7 +161,7 @@ void ReadPcdBinary(std::string_view bytes, const std::vector<PcdField>& fields, 
 
 PolygonSoup ReadXyz(std::string_view text, const std::string& name) {
   PolygonSoup cloud;
-  TextScanner scanner(text, name);
+  TextScanner scanner(TextOf(text, name), name);
   while (const auto word = scanner.Next()) {
     const std::string what = "point " + std::to_string(cloud.vertices.size());
     Eigen::Vector3d point;
@@ -181,6 +182,7 @@ PolygonSoup ReadXyz(std::string_view text, const std::string& name) {
 }
 
 PolygonSoup ReadPcd(std::string_view bytes, const std::string& name) {
+  bytes = TextOf(bytes, name);
   const PcdHeader header = ReadPcdHeader(bytes, name);
   const std::vector<PcdField> fields = ReadFields(header, name);
   const std::size_t points = ReadSize(LineOf(header, "POINTS", 1, name)[0], "POINTS", name);

@@ -2,9 +2,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/base/text_encoding.h"
 #include "planner/object/mesh_readers.h"
 #include "planner/object/text_scanner.h"
 
@@ -27,9 +29,10 @@ PolygonSoup ReadText(std::string_view text, const std::string& name) {
   PolygonSoup soup;
   TextScanner scanner(text, name);
   while (const auto word = scanner.Next()) {
-    // Several solids may follow each other; names may be missing or of several words.
+    // Several solids may follow each other. Their names may be missing, have several words, or
+    // follow the keyword without a blank.
     const std::string keyword = LowerCase(*word);
-    if (keyword == "solid" || keyword == "endsolid") {
+    if (keyword.starts_with("solid") || keyword.starts_with("endsolid")) {
       scanner.SkipLine();
       continue;
     }
@@ -49,6 +52,13 @@ PolygonSoup ReadText(std::string_view text, const std::string& name) {
     AddTriangle(soup);
   }
   return soup;
+}
+
+/// @pre  the header is there.
+std::size_t DeclaredFacets(std::string_view bytes) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + kHeaderBytes - sizeof count, sizeof count);
+  return count;
 }
 
 PolygonSoup ReadBinary(std::string_view bytes, std::size_t count, const std::string& name) {
@@ -72,22 +82,35 @@ PolygonSoup ReadBinary(std::string_view bytes, std::size_t count, const std::str
   return soup;
 }
 
+/// The number of facets of a binary file, if the file has the size that its header declares. Zero
+/// bytes behind the last facet are padding.
+std::optional<std::size_t> BinaryFacets(std::string_view bytes) {
+  if (bytes.size() < kHeaderBytes) return std::nullopt;
+  const std::size_t end = kHeaderBytes + DeclaredFacets(bytes) * kFacetBytes;
+  if (bytes.size() < end) return std::nullopt;
+  const bool padded = bytes.find_first_not_of('\0', end) == std::string_view::npos;
+  return padded ? std::optional(DeclaredFacets(bytes)) : std::nullopt;
+}
+
+/// Binary headers may start with "solid" too, but only binary files have zero bytes.
+bool IsText(std::string_view text) {
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  return start != std::string_view::npos && LowerCase(text.substr(start, 5)) == "solid" &&
+         text.find('\0') == std::string_view::npos;
+}
+
 }  // namespace
 
 PolygonSoup ReadStl(std::string_view bytes, const std::string& name) {
-  // Binary headers may start with "solid" too: only the size tells for sure.
-  std::uint32_t count = 0;
-  if (bytes.size() >= kHeaderBytes) std::memcpy(&count, bytes.data() + 80, sizeof count);
-  const std::size_t expected = kHeaderBytes + std::size_t{count} * kFacetBytes;
-  if (bytes.size() == expected) return ReadBinary(bytes, count, name);
-  const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-  if (start != std::string_view::npos && LowerCase(bytes.substr(start, 5)) == "solid") {
-    return ReadText(bytes, name);
-  }
+  if (const auto facets = BinaryFacets(bytes)) return ReadBinary(bytes, *facets, name);
+  const std::string_view text = TextOf(bytes, name);
+  if (IsText(text)) return ReadText(text, name);
   if (bytes.size() < kHeaderBytes) throw InputError(name + ": header: not an STL file");
-  throw InputError(name + ": header: declares " + std::to_string(count) + " facets, " +
-                   std::to_string(expected) + " bytes, but the file has " +
-                   std::to_string(bytes.size()) + " bytes");
+  const std::size_t facets = DeclaredFacets(bytes);
+  throw InputError(name + ": size: wrong, expected " +
+                   std::to_string(kHeaderBytes + facets * kFacetBytes) + " bytes for " +
+                   std::to_string(facets) + " facets, found " + std::to_string(bytes.size()) +
+                   " bytes");
 }
 
 }  // namespace regrasp::object

@@ -1,11 +1,13 @@
 #include "planner/object/read_with_assimp.h"
 
 #include "planner/base/error.h"
+#include "planner/base/text_encoding.h"
 #include "planner/object/assimp_scene.h"
 #include "planner/object/limited_child.h"
 #include "planner/object/read_3mf.h"
+#include "planner/object/read_gltf.h"
 #include "planner/object/soup_bytes.h"
-#include "planner/object/text_scanner.h"
+#include "planner/object/surface_format.h"
 
 namespace regrasp::object {
 
@@ -20,18 +22,31 @@ std::string Cleaned(std::string message) {
   return message;
 }
 
+/// assimp chooses its reader by the ending of a name.
+PolygonSoup ReadInChild(std::string_view bytes, SurfaceFormat format) {
+  switch (format) {
+    case SurfaceFormat::k3mf:
+      return Read3mf(bytes);
+    case SurfaceFormat::kGltf:
+      return ReadGltf(bytes);
+    case SurfaceFormat::kCollada:
+      return ReadAssimpScene(TextOf(bytes, "document"), "object.dae");
+    case SurfaceFormat::kFbx:
+      return ReadAssimpScene(bytes, "object.fbx");
+    default:
+      throw InputError("format: not read in a child process");
+  }
+}
+
 }  // namespace
 
 PolygonSoup ReadWithAssimp(std::string_view bytes, const std::filesystem::path& path,
                            const AssimpLimits& limits) {
   const std::string name = path.string();
-  const ChildResult result = RunInLimitedChild(
-      [&] {
-        const bool package = LowerCase(path.extension().string()) == ".3mf";
-        return SoupToBytes(package ? Read3mf(bytes)
-                                   : ReadAssimpScene(bytes, path.filename().string()));
-      },
-      {limits.memory_bytes, limits.processor, limits.wall});
+  const SurfaceFormat format = FormatOf(path, bytes);
+  const ChildResult result =
+      RunInLimitedChild([&] { return SoupToBytes(ReadInChild(bytes, format)); },
+                        {limits.memory_bytes, limits.processor, limits.wall});
   switch (result.end) {
     case ChildEnd::kDone:
       break;

@@ -16,13 +16,14 @@ struct AssimpLimits {
   std::chrono::milliseconds wall{30'000};
 };
 
-/// Reads the bytes of any surface format that assimp knows (glTF, COLLADA, …), and of 3MF
-/// (Read3mf), in a child process.
+/// Reads the bytes of a format that takes a complex reader in a child process: glTF (ReadGltf), 3MF
+/// (Read3mf), COLLADA and FBX (ReadAssimpScene). Other formats are refused (FormatOf).
 ///
 /// assimp 5.2 crashes, hangs or exhausts memory on some hostile files: the child has limits of
 /// memory, processor and wall time, and what it sends back is checked. It is asked for nothing but
-/// the scene: meshes are placed by their nodes, points and lines are dropped. Coordinates are
-/// 32-bit floats there. The child opens no file: the surface is that of the bytes.
+/// the scene: meshes are placed by their nodes, points and lines are dropped. Coordinates of
+/// COLLADA and FBX are 32-bit floats there. The child opens no file: the surface is that of the
+/// bytes.
 /// @param path  where they come from: its ending tells the format, and messages name it.
 /// @throws InputError  the file cannot be read by assimp, or not within the limits, or its surface
 ///                     comes from other files.

@@ -1,5 +1,6 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/base/text_encoding.h"
 #include "planner/object/polygon_rings.h"
 #include "planner/object/text_scanner.h"
 
@@ -14,10 +15,8 @@ constexpr std::string_view kBlanks = " \t\r\n\v\f";
 /// Boost.Geometry reads WKT too, but follows the locale and says neither ring nor vertex.
 class WktReader {
  public:
-  WktReader(std::string_view text, const std::string& name) : rest_(text), name_(name) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
-  }
+  WktReader(std::string_view text, const std::string& name)
+      : rest_(TextOf(text, name)), name_(name) {}
 
   PolygonRings Read() {
     const std::string kind = LowerCase(Word());

@@ -5,6 +5,7 @@ import csv
 import json
 import math
 import os
+import re
 
 import xml.etree.ElementTree
 
@@ -537,6 +538,28 @@ class Gait(ProgramCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("0 of 90 degrees", done.stderr)
         self.assertFalse(os.path.exists(self.path("plan.json")))
+
+    def test_the_size_and_mass_are_told_before_the_search(self):
+        done = self.assert_done(*self.arguments("--turn", "z 9", "--reserve", "none"))
+        # A cube of 60 mm at a scale of 0.8.
+        self.assertEqual(done.stderr.splitlines()[0],
+                         "plan: cube.obj: 48 × 48 × 48 mm, 8.31 cm across, 111 g at the density of "
+                         "water")
+        self.assertEqual(done.stderr.count("across"), 1, done.stderr)
+        quiet = self.assert_done(*self.arguments("--turn", "z 9", "--reserve", "none", "--quiet"))
+        self.assertEqual(quiet.stderr, "")
+
+    def test_an_object_in_millimetres_is_warned_of_with_a_hand_too(self):
+        text = re.sub(rb"0\.03", b"30", self.read(self.model("cube.obj")))
+        self.write("cube_mm.obj", text.decode())
+        for more in ((), ("--quiet",)):
+            done = self.run_program("--object", "cube_mm.obj", "--mu", "0.8", "--hand",
+                                    self.hand("ring4"), "--turn", "z 90", "--output", "plan.json",
+                                    *more)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("plan: warning: the object is 104 m across, 2.16e+08 kg: millimetres? "
+                          "use --scale 0.001 (10.4 cm across)\n", done.stderr)
+            self.assertEqual("60000 × 60000 × 60000 mm" in done.stderr, not more, done.stderr)
 
     def test_no_plan_names_the_option_that_may_help(self):
         done = self.run_program("--object", self.model("cube.obj"), "--scale", "20", "--mu", "0.8",

@@ -47,6 +47,16 @@ TEST_F(LineInputTest, EveryLineIsAnEntryNumberedFromOne) {
   EXPECT_TRUE(All(LinesInput(Write("empty.jsonl", ""))).empty());
 }
 
+TEST_F(LineInputTest, AHeaderMayFollowAByteOrderMark) {
+  const std::string header = FormatHeader({"plans", 2, {1, 1}, std::string(64, 'a')});
+  const LinesInput input(Write("a.jsonl", "\xEF\xBB\xBF" + header + "one\ntwo\n"));
+  ASSERT_TRUE(input.header());
+  EXPECT_EQ(input.entries(), 2);
+  EXPECT_THAT(Refusal(std::string("\xFF\xFE{\0}\0\n\0", 8)),
+              HasSubstr("a.jsonl: line 1: text encoding: not supported, expected UTF-8, found "
+                        "UTF-16"));
+}
+
 TEST_F(LineInputTest, AShardKeepsTheNumbersOfTheWhole) {
   const auto path = Write("a.jsonl", "a\nb\nc\nd\ne\n");
   EXPECT_THAT(All(LinesInput(path, {1, 2})), ElementsAre(std::pair(1, "a"), std::pair(2, "b")));

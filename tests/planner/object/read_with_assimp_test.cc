@@ -14,11 +14,13 @@
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/project_path.h"
+#include "tests/planner/object/known_solid.h"
 
 namespace regrasp::object {
 namespace read_with_assimp_test {
 
 using Eigen::Vector3d;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -35,11 +37,6 @@ TEST(ReadWithAssimp, PlacesMeshesByTheirNodesAndTurnsMirroredOnes) {
   EXPECT_EQ(body.face_count(), 4);
   // Turned a quarter about z, then scaled by (2, 2, −2), then moved to x = 5.
   EXPECT_NEAR((body.mass_properties().centroid - Vector3d(4.5, 0.5, -0.5)).norm(), 0, 1e-6);
-}
-
-TEST(ReadWithAssimp, JoinsTheMeshesThatItMakesOfGroups) {
-  const Polyhedron body = Polyhedron::FromSoup(Read(kGood / "two_groups.obj"), "two_groups.obj");
-  EXPECT_EQ(body.vertices().size(), 4u);
 }
 
 TEST(ReadWithAssimp, GivesUpAtItsLimits) {
@@ -69,9 +66,9 @@ class FilesBesideTest : public FolderTest {};
 
 TEST_F(FilesBesideTest, ASurfaceThatComesFromAnotherFileIsRefused) {
   static_cast<void>(Write("body.bin", std::string(72, '\0')));
-  static_cast<void>(Write("body.obj", ReadFile(kGood / "split_vertices.obj")));
-  const std::string beside = (folder_ / "body.obj").string();
-  const std::string scene = "LWSC\n3\n\nLoadObject ";
+  KnownCollada scene;
+  scene.instance = "<instance_geometry url=\"body.dae#g\"/>";
+  static_cast<void>(Write("body.dae", KnownCollada().Text()));
   struct Case {
     std::string name, bytes, other;
   };
@@ -79,8 +76,7 @@ TEST_F(FilesBesideTest, ASurfaceThatComesFromAnotherFileIsRefused) {
       {"a.gltf", GltfWithBuffer("body.bin"), "body.bin"},
       {"b.gltf", GltfWithBuffer("missing.bin"), "missing.bin"},
       {"c.gltf", GltfWithBuffer("../c.gltf"), "../c.gltf"},
-      {"d.lws", scene + "body.obj\n", "body.obj"},
-      {"e.lws", scene + beside + "\n", "/"},
+      {"d.dae", scene.Text(), "body.dae#g"},
   };
   for (const auto& [name, bytes, other] : cases) {
     const fs::path path = Write(name, bytes);
@@ -89,7 +85,8 @@ TEST_F(FilesBesideTest, ASurfaceThatComesFromAnotherFileIsRefused) {
       ADD_FAILURE() << name << " was read";
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(),
-                  StartsWith(path.string() + ": its surface comes from another file, \"" + other));
+                  AllOf(StartsWith(path.string() + ": "),
+                        HasSubstr("its surface comes from another file, \"" + other)));
       EXPECT_THAT(error.what(), HasSubstr("convert it"));
     }
   }
@@ -99,8 +96,11 @@ TEST_F(FilesBesideTest, WhatDoesNotMatterForTheSurfaceMayBeMissing) {
   std::string textured = ReadFile(kGood / "placed.gltf");
   textured.insert(1, R"("images": [{"uri": "wood.png"}], )");
   EXPECT_EQ(Complaint(textured, folder_ / "textured.gltf"), "");
-  const std::string painted = "mtllib paint.mtl\n" + ReadFile(kGood / "two_groups.obj");
-  EXPECT_EQ(Complaint(painted, folder_ / "painted.obj"), "");
+  std::string painted = KnownCollada().Text();
+  painted.insert(painted.find("<library_geometries>"),
+                 "<library_images><image id=\"i\"><init_from>wood.png</init_from></image>"
+                 "</library_images>");
+  EXPECT_EQ(Complaint(painted, folder_ / "painted.dae"), "");
 }
 
 TEST_F(FilesBesideTest, AnObjectIsReadFromItsFileOnce) {

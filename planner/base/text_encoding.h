@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace regrasp {
+
+/// Return the text of a file without its UTF-8 byte-order mark.
+///
+/// Every reader of text calls this function first, so that all of them accept the same files. Text
+/// in UTF-16 or UTF-32 is recognised by its byte-order mark, or without one by the zero bytes in
+/// its first two characters. Other bytes that are not UTF-8 are left to the reader: comments and
+/// names in surface files may be in any 8-bit encoding.
+/// @param bytes  bytes of the file, or of its first line; must outlive the result.
+/// @param name   name of the file for messages.
+/// @returns the bytes behind the mark.
+/// @throws InputError  if the text is in UTF-16 or UTF-32.
+[[nodiscard]] std::string_view TextOf(std::string_view bytes, const std::string& name);
+
+}  // namespace regrasp
