@@ -11,7 +11,6 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 #include "planner/kinematics/geom_shape.h"
 #include "planner/kinematics/joint_relations.h"
 #include "planner/kinematics/model_names.h"
@@ -182,9 +181,9 @@ void CheckCollisionGeoms(const HandDescription& description, const CompiledModel
     const double most =
         ProtrusionOf({tip.centre, tip.radius}, shapes_of(where, tip.body));
     if (most <= kLargestProtrusion) continue;
-    throw InputError(file + ": " + where + ": the fingertip sphere reaches " + FormatLength(most) +
-                     " beyond the link of body " + tip.body + ", limit " +
-                     FormatLength(kLargestProtrusion));
+    const auto mm = [](double metres) { return FormatShort(1e3 * metres, 3) + " mm"; };
+    throw InputError(file + ": " + where + ": the fingertip sphere reaches " + mm(most) +
+                     " beyond the link of body " + tip.body + ", limit " + mm(kLargestProtrusion));
   }
 }
 

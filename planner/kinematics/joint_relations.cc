@@ -40,6 +40,9 @@ class RelationReader {
     for (int i = 0; i < model_.nu; ++i) {
       if (model_.actuator_trntype[i] == mjTRN_TENDON) ReadDrivenTendon(i);
     }
+    for (int tendon = 0; tendon < model_.ntendon; ++tendon) {
+      if (model_.tendon_limited[tendon] != 0) RefuseLimit(tendon);
+    }
     return std::move(relations_);
   }
 
@@ -71,6 +74,7 @@ class RelationReader {
   void ReadMimic(const Mimic& mimic);
   void ReadDrivenTendon(int actuator);
   void RefuseLoop(const std::string& source, int a, int b) const;
+  void RefuseLimit(int tendon) const;
   void RefuseSpatial(const std::string& source, int tendon) const;
   void AddTendon(int tendon, double factor, JointEquation& equation) const;
   void AddRelation(const JointEquation& equation, int leader, bool shares_actuator = false);
@@ -125,6 +129,23 @@ void RelationReader::RefuseSpatial(const std::string& source, int tendon) const 
   if (joints.empty()) return;
   Fail(Names(joints) + ": moved by a spatial tendon, expected joints that actuators or fixed " +
        "tendons move, found " + source);
+}
+
+/// A range of a sum of angles, which the limits of joints cannot represent.
+void RelationReader::RefuseLimit(int tendon) const {
+  const std::string source = "the range of " + TendonText(tendon);
+  if (!IsFixed(tendon)) {
+    RefuseSpatial(source, tendon);
+    return;
+  }
+  std::set<int> joints;
+  for (int i = 0; i < model_.tendon_num[tendon]; ++i) {
+    const int joint = model_.wrap_objid[model_.tendon_adr[tendon] + i];
+    if (IsOfFinger(joint)) joints.insert(joint);
+  }
+  if (joints.empty()) return;
+  Fail(Names(joints) + ": limited by a tendon, expected joints with limits of their own, found " +
+       source);
 }
 
 void RelationReader::ReadEquality(int equality) {

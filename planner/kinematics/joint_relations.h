@@ -29,8 +29,8 @@ struct JointRelation {
 /// @throws InputError  a finger has a joint that does not move as one joint of the finger commands:
 ///                     a constraint that is not linear, holds a joint at an angle, involves three
 ///                     joints, two fingers or a joint outside the fingers; a closed loop (connect,
-///                     weld); a spatial tendon with an actuator or an equality; a `<mimic>` of an
-///                     unknown joint. The message names the model's file and the joints.
+///                     weld); a spatial tendon with an actuator or an equality; a tendon with a
+///                     range; a `<mimic>` of an unknown joint. The message names the model's file and the joints.
 [[nodiscard]] std::vector<JointRelation> ReadJointRelations(
     const CompiledModel& compiled, const std::vector<std::vector<int>>& fingers);
 

@@ -157,6 +157,18 @@ TEST_F(JointRelationsTest, TendonsThatNoRelationRepresentsAreRefusedByName) {
   }
 }
 
+TEST_F(JointRelationsTest, LimitsOfTendonsAreRefusedByName) {
+  const auto tendon = [](const std::string& range, const std::string& second) {
+    return "<tendon><fixed name=\"t\" " + range + R"(><joint joint="f2" coef="0.007"/><joint joint=")" +
+           second + R"(" coef="-0.008"/></fixed></tendon>)";
+  };
+  EXPECT_THAT(Refusal(tendon("range=\"-0.001 0.001\"", "f3")),
+              HasSubstr("joints f2, f3: limited by a tendon, expected joints with limits of their "
+                        "own, found the range of tendon t"));
+  EXPECT_THAT(Refusal(tendon("range=\"-0.001 0.001\"", "knob1")), HasSubstr("joint f2: limited"));
+  EXPECT_EQ(Refusal(tendon("", "f3")), "taken") << "a tendon without a range imposes nothing";
+}
+
 TEST_F(JointRelationsTest, ClosedLoopsAreRefusedByName) {
   EXPECT_THAT(Refusal(R"(<equality><connect body1="fb" body2="knob" anchor="0 0 0"/></equality>)"),
               HasSubstr("joints f1, f2: part of a closed loop, expected fingers that are open "

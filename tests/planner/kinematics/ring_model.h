@@ -8,12 +8,12 @@ namespace regrasp::kinematics {
 
 /// What a test changes in a model of three fingers.
 struct RingParts {
-  std::string before;    ///< first elements of the model
-  std::string after;     ///< last elements of the model
+  std::string before = "";  ///< first elements of the model
+  std::string after = "";   ///< last elements of the model
   std::string palm = R"(<geom type="cylinder" size="0.07 0.01" pos="0 0 -0.02"/>)";
-  std::string joint3;    ///< attributes of the third joint of each finger
-  std::string geoms;     ///< attributes of all geoms of the fingers
-  std::string inside;    ///< elements of each fingertip's body
+  std::string joint3 = "";  ///< attributes of the third joint of each finger
+  std::string geoms = "";   ///< attributes of all geoms of the fingers
+  std::string inside = "";  ///< elements of each fingertip's body
 };
 
 /// A finger "fK" along z with joints fK1, fK2, fK3 that bends about y, of capsules 0.008 m in
