@@ -29,10 +29,10 @@ constexpr double kSameCoupling = 1e-9;
 
 /// Flags that change what is modelled; all others are accepted.
 constexpr std::pair<int, const char*> kPhysicsFlags[] = {
-    {mjDSBL_CONSTRAINT, "constraint"}, {mjDSBL_EQUALITY, "equality"},
+    {mjDSBL_CONSTRAINT, "constraint"},     {mjDSBL_EQUALITY, "equality"},
     {mjDSBL_FRICTIONLOSS, "frictionloss"}, {mjDSBL_LIMIT, "limit"},
-    {mjDSBL_CONTACT, "contact"},       {mjDSBL_PASSIVE, "passive"},
-    {mjDSBL_GRAVITY, "gravity"},       {mjDSBL_CLAMPCTRL, "clampctrl"},
+    {mjDSBL_CONTACT, "contact"},           {mjDSBL_PASSIVE, "passive"},
+    {mjDSBL_GRAVITY, "gravity"},           {mjDSBL_CLAMPCTRL, "clampctrl"},
     {mjDSBL_ACTUATION, "actuation"}};
 
 [[noreturn]] void RefuseModel(const CompiledModel& compiled, const std::string& what) {
@@ -49,10 +49,9 @@ void CheckOptions(const CompiledModel& compiled) {
   if ((options.enableflags & mjENBL_OVERRIDE) != 0) {
     RefuseModel(compiled, "<flag> override: not supported, expected \"disable\", found \"enable\"");
   }
-  const std::pair<const char*, double> kMedium[] = {
-      {"wind", VectorAt(options.wind, 0).norm()},
-      {"density", options.density},
-      {"viscosity", options.viscosity}};
+  const std::pair<const char*, double> kMedium[] = {{"wind", VectorAt(options.wind, 0).norm()},
+                                                    {"density", options.density},
+                                                    {"viscosity", options.viscosity}};
   for (const auto& [name, value] : kMedium) {
     if (value == 0) continue;
     RefuseModel(compiled, std::string("<option> ") + name + ": not supported, expected 0, found " +
@@ -178,8 +177,7 @@ void CheckCollisionGeoms(const HandDescription& description, const CompiledModel
   for (std::size_t i = 0; i < description.tips.size(); ++i) {
     const HandDescription::Tip& tip = description.tips[i];
     const std::string where = "/fingers/" + std::to_string(i) + "/tip";
-    const double most =
-        ProtrusionOf({tip.centre, tip.radius}, shapes_of(where, tip.body));
+    const double most = ProtrusionOf({tip.centre, tip.radius}, shapes_of(where, tip.body));
     if (most <= kLargestProtrusion) continue;
     const auto mm = [](double metres) { return FormatShort(1e3 * metres, 3) + " mm"; };
     throw InputError(file + ": " + where + ": the fingertip sphere reaches " + mm(most) +

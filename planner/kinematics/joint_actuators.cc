@@ -90,9 +90,9 @@ std::vector<std::string> ActuationWarnings(const HandModel& hand, const Compiled
         if (joint == finger.joints.end() || joint->drive != drive) continue;
         // Of a URDF the joint that leads gets the motor.
         if (compiled.text.root.name == "robot" && joint->follows) continue;
-        const bool stronger = strongest == nullptr || actuator.largest_torque == 0 ||
-                              (strongest->largest_torque > 0 &&
-                               actuator.largest_torque > strongest->largest_torque);
+        const bool stronger =
+            strongest == nullptr || actuator.largest_torque == 0 ||
+            (strongest->largest_torque > 0 && actuator.largest_torque > strongest->largest_torque);
         if (stronger) strongest = &actuator;
       }
       const std::string& name = LeadingJoint(finger, drive).name;

@@ -118,14 +118,16 @@ std::vector<int> RelationReader::BodiesOf(int tendon) const {
 void RelationReader::RefuseLoop(const std::string& source, int a, int b) const {
   const std::set<int> joints = FingerJointsBetween(a, b);
   if (joints.empty()) return;
-  Fail(Names(joints) + ": part of a closed loop, expected fingers that are open chains of joints, " +
-       "found " + source);
+  Fail(Names(joints) +
+       ": part of a closed loop, expected fingers that are open chains of joints, " + "found " +
+       source);
 }
 
 void RelationReader::RefuseSpatial(const std::string& source, int tendon) const {
   const std::vector<int> bodies = BodiesOf(tendon);
   std::set<int> joints;
-  for (std::size_t i = 1; i < bodies.size(); ++i) joints.merge(FingerJointsBetween(bodies[0], bodies[i]));
+  for (std::size_t i = 1; i < bodies.size(); ++i)
+    joints.merge(FingerJointsBetween(bodies[0], bodies[i]));
   if (joints.empty()) return;
   Fail(Names(joints) + ": moved by a spatial tendon, expected joints that actuators or fixed " +
        "tendons move, found " + source);
@@ -254,8 +256,7 @@ void RelationReader::ReadMimic(const Mimic& mimic) {
 /// coefficients.
 void RelationReader::ReadDrivenTendon(int actuator) {
   const int tendon = model_.actuator_trnid[2 * actuator];
-  const std::string name =
-      TendonText(tendon) + " of actuator " + ActuatorName(model_, actuator);
+  const std::string name = TendonText(tendon) + " of actuator " + ActuatorName(model_, actuator);
   if (!IsFixed(tendon)) {
     RefuseSpatial(name, tendon);
     return;

@@ -30,7 +30,8 @@ struct JointRelation {
 ///                     a constraint that is not linear, holds a joint at an angle, involves three
 ///                     joints, two fingers or a joint outside the fingers; a closed loop (connect,
 ///                     weld); a spatial tendon with an actuator or an equality; a tendon with a
-///                     range; a `<mimic>` of an unknown joint. The message names the model's file and the joints.
+///                     range; a `<mimic>` of an unknown joint. The message names the model's file
+///                     and the joints.
 [[nodiscard]] std::vector<JointRelation> ReadJointRelations(
     const CompiledModel& compiled, const std::vector<std::vector<int>>& fingers);
 

@@ -79,11 +79,11 @@ class LookDropper {
     const bool has_mass = !has_inertia && !IsZero(geom, default_class, "mass") &&
                           !IsZero(geom, default_class, "density");
     if (collides || has_mass) {
-      throw InputError(geom.file + ": line " + std::to_string(geom.line) + ": mesh " + *mesh + ": " +
-                       missing->second);
+      throw InputError(geom.file + ": line " + std::to_string(geom.line) + ": mesh " + *mesh +
+                       ": " + missing->second);
     }
-    text_.conversions.push_back({geom.file, geom.line, "geom", *mesh, "mesh",
-                                 "left out, a look: " + missing->second});
+    text_.conversions.push_back(
+        {geom.file, geom.line, "geom", *mesh, "mesh", "left out, a look: " + missing->second});
     return true;
   }
 

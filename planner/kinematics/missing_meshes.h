@@ -23,7 +23,8 @@ struct MeshPaths {
 
 /// Leave out the meshes of an MJCF model whose files are missing or empty, with the geoms that only
 /// show them: geoms that neither collide nor have a mass. Each is listed as a conversion.
-/// @throws InputError  a geom that collides, or that gives its body mass, has such a mesh. Names the
+/// @throws InputError  a geom that collides, or that gives its body mass, has such a mesh. Names
+/// the
 ///                     line and the file.
 void DropMissingLooks(const MeshPaths& paths, ModelText& text);
 

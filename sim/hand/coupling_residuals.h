@@ -19,9 +19,9 @@ class CouplingResiduals {
 
   /// How far a joint is from the angle that a coupling demands.
   struct Residual {
-    int joint = -1;         ///< joint of the model; -1 if nothing is coupled
-    double radians = 0;     ///< absolute value
-    std::string source;     ///< element that states the coupling, for messages
+    int joint = -1;      ///< joint of the model; -1 if nothing is coupled
+    double radians = 0;  ///< absolute value
+    std::string source;  ///< element that states the coupling, for messages
   };
   /// Return the largest residual in the joint positions of `data`.
   [[nodiscard]] Residual Largest(const mjData_& data) const;
@@ -38,8 +38,8 @@ class CouplingResiduals {
     std::string source;
   };
   void AddEqualities();
-  void AddRelation(const std::string& joint, const std::string& leader, double ratio,
-                   double offset, const std::string& source);
+  void AddRelation(const std::string& joint, const std::string& leader, double ratio, double offset,
+                   const std::string& source);
   void AddTendon(int tendon, double factor, Equation& equation) const;
 
   const mjModel_& model_;  ///< kept by the hand's file

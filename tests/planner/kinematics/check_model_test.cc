@@ -40,8 +40,9 @@ TEST_F(CheckModelTest, FlagsThatTurnOffPhysicsAreRefused) {
   }
   EXPECT_THAT(Refusal({.before = R"(<option><flag override="enable"/></option>)"}),
               HasSubstr("<flag> override: not supported"));
-  for (const std::string flag : {"warmstart=\"disable\"", "filterparent=\"disable\"",
-                                 "refsafe=\"disable\"", "energy=\"enable\"", "gravity=\"enable\""}) {
+  for (const std::string flag :
+       {"warmstart=\"disable\"", "filterparent=\"disable\"", "refsafe=\"disable\"",
+        "energy=\"enable\"", "gravity=\"enable\""}) {
     EXPECT_EQ(Refusal({.before = "<option><flag " + flag + "/></option>"}), "taken") << flag;
   }
 }
@@ -50,17 +51,19 @@ TEST_F(CheckModelTest, MediaThatPushTheObjectAreRefused) {
   EXPECT_THAT(Refusal({.before = R"(<option wind="0 0 5"/>)"}),
               HasSubstr("<option> wind: not supported, expected 0, found 5"));
   EXPECT_THAT(Refusal({.before = R"(<option density="1000"/>)"}), HasSubstr("<option> density"));
-  EXPECT_THAT(Refusal({.before = R"(<option viscosity="0.001"/>)"}), HasSubstr("<option> viscosity"));
+  EXPECT_THAT(Refusal({.before = R"(<option viscosity="0.001"/>)"}),
+              HasSubstr("<option> viscosity"));
   EXPECT_EQ(Refusal({.before = R"(<option timestep="0.001" cone="elliptic" impratio="10"
                                     gravity="0 0 -1" density="0"/>)"}),
             "taken");
 }
 
 TEST_F(CheckModelTest, ActuatorsThatMoveNoJointAreRefused) {
-  EXPECT_THAT(Refusal({.after = R"(<actuator><adhesion name="glue" body="fc" ctrlrange="0 1"/>
+  EXPECT_THAT(
+      Refusal({.after = R"(<actuator><adhesion name="glue" body="fc" ctrlrange="0 1"/>
                                    </actuator>)"}),
-              HasSubstr("glue: moves no joint, expected actuators of joints or fixed tendons, found "
-                        "adhesion of a body"));
+      HasSubstr("glue: moves no joint, expected actuators of joints or fixed tendons, found "
+                "adhesion of a body"));
   RingParts parts{.after = R"(<actuator><general name="push" site="s"/></actuator>)"};
   parts.palm += "<site name=\"s\"/>";
   EXPECT_THAT(Refusal(parts), HasSubstr("push: moves no joint"));
@@ -93,9 +96,10 @@ TEST_F(CheckModelTest, AFingertipSphereIsAtItsLink) {
   EXPECT_EQ(refusal({0, 0, 0.024}, 0.01), "taken");
   EXPECT_EQ(refusal({0, 0, 0.028}, 0.01), "taken");
   EXPECT_EQ(refusal({0, 0, 0.024}, 0.0145), "taken");
-  EXPECT_THAT(refusal({0, 0, 0.0642}, 0.01),
-              HasSubstr("/fingers/1/tip: the fingertip sphere reaches 40.2 mm beyond the link of body "
-                        "gc, limit 5 mm"));
+  EXPECT_THAT(
+      refusal({0, 0, 0.0642}, 0.01),
+      HasSubstr("/fingers/1/tip: the fingertip sphere reaches 40.2 mm beyond the link of body "
+                "gc, limit 5 mm"));
   EXPECT_THAT(refusal({0, 0.06, 0.024}, 0.01), HasSubstr("beyond the link of body gc"));
   EXPECT_THAT(refusal({0.016, 0, 0.024}, 0.01), HasSubstr("beyond the link of body gc"));
   EXPECT_THAT(refusal({0, 0, 0.024}, 0.04), HasSubstr("reaches 30 mm beyond"));
@@ -104,7 +108,9 @@ TEST_F(CheckModelTest, AFingertipSphereIsAtItsLink) {
 /// Where the marker is, is in the fingertip sphere: neither planner nor check keep it off objects.
 TEST_F(CheckModelTest, AMarkerInsideTheFingertipIsPartOfIt) {
   const auto shapes = [&](const std::string& inside) {
-    return InspectHand(Write("ring.xml", RingXml({.inside = inside}))).hand.fingers[0].shapes.size();
+    return InspectHand(Write("ring.xml", RingXml({.inside = inside})))
+        .hand.fingers[0]
+        .shapes.size();
   };
   const std::size_t plain = shapes("");
   EXPECT_EQ(shapes(R"(<body pos="0 0 0.034"><geom size="0.0002"/></body>)"), plain);

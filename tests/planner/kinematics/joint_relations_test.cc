@@ -67,9 +67,9 @@ TEST_F(JointRelationsTest, ARatioWithAConstant) {
 
 /// Constraints are between angles beyond the reference position.
 TEST_F(JointRelationsTest, ReferencePositionsAreAnOffset) {
-  ExpectOne(CouplingsOf(Equality(R"(joint1="f3" joint2="f2" polycoef="0.1 1.5 0 0 0")"),
-                        R"(ref="0.3")"),
-            1.5, 0.4);
+  ExpectOne(
+      CouplingsOf(Equality(R"(joint1="f3" joint2="f2" polycoef="0.1 1.5 0 0 0")"), R"(ref="0.3")"),
+      1.5, 0.4);
   ExpectOne(CouplingsOf(Equality(R"(joint1="f2" joint2="f3" polycoef="0 2 0 0 0")") +
                             R"(<actuator><motor joint="f2"/></actuator>)",
                         R"(ref="0.3")"),
@@ -103,7 +103,9 @@ TEST_F(JointRelationsTest, ChainsAreComposed) {
 
 TEST_F(JointRelationsTest, RelationsMustAgree) {
   const std::string once = R"(<joint joint1="f3" joint2="f2" polycoef="0 2 0 0 0"/>)";
-  const auto both = [&](const std::string& other) { return "<equality>" + once + other + "</equality>"; };
+  const auto both = [&](const std::string& other) {
+    return "<equality>" + once + other + "</equality>";
+  };
   EXPECT_EQ(Refusal(both(R"(<joint joint1="f2" joint2="f3" polycoef="0 0.5 0 0 0"/>)")), "taken");
   EXPECT_THAT(Refusal(both(R"(<joint joint1="f2" joint2="f3" polycoef="0 0.6 0 0 0"/>)")),
               HasSubstr("couples joints f2 and f3, expected one relation"));
@@ -159,8 +161,9 @@ TEST_F(JointRelationsTest, TendonsThatNoRelationRepresentsAreRefusedByName) {
 
 TEST_F(JointRelationsTest, LimitsOfTendonsAreRefusedByName) {
   const auto tendon = [](const std::string& range, const std::string& second) {
-    return "<tendon><fixed name=\"t\" " + range + R"(><joint joint="f2" coef="0.007"/><joint joint=")" +
-           second + R"(" coef="-0.008"/></fixed></tendon>)";
+    return "<tendon><fixed name=\"t\" " + range +
+           R"(><joint joint="f2" coef="0.007"/><joint joint=")" + second +
+           R"(" coef="-0.008"/></fixed></tendon>)";
   };
   EXPECT_THAT(Refusal(tendon("range=\"-0.001 0.001\"", "f3")),
               HasSubstr("joints f2, f3: limited by a tendon, expected joints with limits of their "
@@ -197,10 +200,12 @@ TEST_F(JointRelationsTest, AHandFileMustHaveTheCouplingsOfItsModel) {
   };
   EXPECT_EQ(read(), "taken");
   description.couplings[0].offset = 0;
-  EXPECT_THAT(read(), HasSubstr("expected ratio 1.06 and offset 0.2, found ratio 1.06 and offset 0"));
+  EXPECT_THAT(read(),
+              HasSubstr("expected ratio 1.06 and offset 0.2, found ratio 1.06 and offset 0"));
   description.couplings[0].offset = 0.2;
   description.couplings[0].ratio = 1;
-  EXPECT_THAT(read(), HasSubstr("hand.json: /couplings: joints f3 and f2 are coupled in the model"));
+  EXPECT_THAT(read(),
+              HasSubstr("hand.json: /couplings: joints f3 and f2 are coupled in the model"));
   description.couplings.clear();
   EXPECT_THAT(read(), HasSubstr("expected a coupling with ratio 1.06 and offset 0.2, found none"));
   description.couplings = {{"f3", "f2", 1.06, 0.2}, {"g33", "g2", 1, 0}};
@@ -256,8 +261,9 @@ TEST_F(JointRelationsTest, CoupledFingersMoveAsTheEngineHasThem) {
     mj_kinematics(&model, data.get());
     const int tip = mj_name2id(&model, mjOBJ_BODY, "fc");
     const int palm = mj_name2id(&model, mjOBJ_BODY, "palm");
-    const Eigen::Vector3d expected = PoseAt(data->xpos, data->xmat, palm).inverse() *
-                                     (PoseAt(data->xpos, data->xmat, tip) * Eigen::Vector3d(0, 0, 0.024));
+    const Eigen::Vector3d expected =
+        PoseAt(data->xpos, data->xmat, palm).inverse() *
+        (PoseAt(data->xpos, data->xmat, tip) * Eigen::Vector3d(0, 0, 0.024));
     EXPECT_LT((TipAt(finger, posture).centre - expected).norm(), 1e-9);
   }
 }
@@ -272,16 +278,18 @@ std::string RingUrdf(const std::string& limit, const std::string& mimic) {
                      length="0.02"/></geometry></collision></link>)";
   for (const std::string name : {"f", "g", "h"}) {
     std::string parent = "palm";
-    const std::string place = name == "f" ? "0.06 0 0" : name == "g" ? "-0.03 0.05 0" : "-0.03 -0.05 0";
+    const std::string place = name == "f"   ? "0.06 0 0"
+                              : name == "g" ? "-0.03 0.05 0"
+                                            : "-0.03 -0.05 0";
     for (const std::string part : {"1", "2", "3"}) {
       const std::string joint = name + part;
       text += "<link name=\"" + joint + "link\">" + inertial +
               R"(<collision><origin xyz="0 0 0.03"/><geometry><sphere radius="0.01"/></geometry>
               </collision></link><joint name=")" +
-              joint + "\" type=\"revolute\"><parent link=\"" + parent + "\"/><child link=\"" + joint +
-              "link\"/><origin xyz=\"" + (part == "1" ? place : "0 0 0.04") +
-              "\"/><axis xyz=\"0 1 0\"/><limit lower=\"-0.5\" upper=\"1.5\" velocity=\"6\" " + limit +
-              "/>" + (joint == "f3" ? mimic : "") + "</joint>";
+              joint + "\" type=\"revolute\"><parent link=\"" + parent + "\"/><child link=\"" +
+              joint + "link\"/><origin xyz=\"" + (part == "1" ? place : "0 0 0.04") +
+              "\"/><axis xyz=\"0 1 0\"/><limit lower=\"-0.5\" upper=\"1.5\" velocity=\"6\" " +
+              limit + "/>" + (joint == "f3" ? mimic : "") + "</joint>";
       parent = joint + "link";
     }
   }
@@ -297,8 +305,9 @@ TEST_F(JointRelationsTest, MimicsOfAUrdfAreCouplingsOrRefused) {
     }
     return "taken";
   };
-  const auto path = Write(
-      "ring.urdf", RingUrdf("effort=\"1\"", R"(<mimic joint="f2" multiplier="1.1169" offset="-0.15"/>)"));
+  const auto path =
+      Write("ring.urdf",
+            RingUrdf("effort=\"1\"", R"(<mimic joint="f2" multiplier="1.1169" offset="-0.15"/>)"));
   const InspectedHand inspected = InspectHand(path);
   ExpectOne(inspected.description.couplings, 1.1169, -0.15);
   EXPECT_THAT(InspectionText(inspected), HasSubstr("1.117 × f2 − 0.15 rad"));
@@ -315,8 +324,9 @@ TEST_F(JointRelationsTest, AnUnknownStrengthIsNoted) {
   const auto notes = [&](const std::string& limit) {
     return InspectHand(Write("ring.urdf", RingUrdf(limit, ""))).notes;
   };
-  const std::string unknown = "the largest torque of joints f1, f2, f3, g1, g2, g3 and 3 more is "
-                              "unknown and taken as unlimited";
+  const std::string unknown =
+      "the largest torque of joints f1, f2, f3, g1, g2, g3 and 3 more is "
+      "unknown and taken as unlimited";
   EXPECT_THAT(notes("effort=\"1\""), testing::Not(testing::Contains(unknown)));
   EXPECT_THAT(notes("effort=\" 1.0\""), testing::Not(testing::Contains(unknown)));
   EXPECT_THAT(notes("effort=\"0\""), testing::Contains(unknown));

@@ -56,8 +56,8 @@ std::string CoupleAll(const std::string& follower, const std::string& leader,
 
 /// All constraints of the scene, the model's and the file's, hold at the angles of the coupling.
 TEST_F(CoupledSceneTest, ConstraintsAreThoseOfTheCoupling) {
-  const kinematics::HandFile hand =
-      Hand({.after = CoupleAll("3", "2", "0.2 1.06 0 0 0") + Servos("12"), .joint3 = R"(ref="0.3")"});
+  const kinematics::HandFile hand = Hand(
+      {.after = CoupleAll("3", "2", "0.2 1.06 0 0 0") + Servos("12"), .joint3 = R"(ref="0.3")"});
   const kinematics::ModelPtr model =
       kinematics::CompileText(folder_ / "ring.xml", HandSceneText(hand, Cube(), 0.05, 0.1));
   EXPECT_EQ(model->neq, 6);
@@ -76,7 +76,8 @@ TEST_F(CoupledSceneTest, AFollowersOwnActuatorIsLeftOut) {
   const auto actuators = [&](const std::string& joints) {
     const kinematics::HandFile hand =
         Hand({.after = CoupleAll("3", "2", "0.2 1.06 0 0 0") + Servos(joints)});
-    return kinematics::CompileText(folder_ / "ring.xml", HandSceneText(hand, Cube(), 0.05, 0.1))->nu;
+    return kinematics::CompileText(folder_ / "ring.xml", HandSceneText(hand, Cube(), 0.05, 0.1))
+        ->nu;
   };
   EXPECT_EQ(actuators("123"), 6);
   EXPECT_EQ(actuators("12"), 6);
