@@ -40,7 +40,7 @@ class Hand(ProgramCase):
         done = self.assert_done("--model", "claw.xml", "--output", "hands/claw.json")
         for words in ("palm  palm", "up    +y of the palm", "implicitfast to implicit",
                       "inheritrange", "dampratio", "kv", "actuatorfrcrange", "autolimits",
-                      "claw.xml:2 ", "joint left_dip has no actuator"):
+                      "claw.xml:2 ", "left_dip, middle_dip, right_mcp, right_dip have no actuator"):
             self.assertIn(words, done.stdout)
         hand = json.loads(self.read("hands/claw.json"))
         self.assertEqual(hand["model"], "../claw.xml")
