@@ -226,6 +226,10 @@ FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoin
                                             .given_points = given ? &*given : nullptr},
                                            *result.plan);
   if (!finished.check.passed()) result.warnings.push_back(CheckerComplaint(finished.check));
+  if (hand_file) {
+    for (const std::string& warning : hand_file->warnings)
+      result.warnings.push_back(hand.hand + ": " + warning);
+  }
   result.warnings.push_back(plan::InventedContactsWarning(*object.object, finished.check.located));
   return finished;
 }

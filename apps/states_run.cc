@@ -62,6 +62,9 @@ StatesTask ReadStatesTask(const ValidateOptions& options, ProgressLine& progress
   const object::BodyMeasures body =
       sim::BodyOf(*task.object.object, task.request.scale, options.replay);
   task.doubts = {object::SizeWarning(body, task.request.scale), options.friction.warning()};
+  for (const std::string& warning : task.hand.warnings) {
+    task.doubts.push_back(options.hand + ": " + warning);
+  }
   task.states.mass_kg = body.mass_kg;
   task.states.squeeze_N = options.replay.squeeze_N;
   task.states.tolerance = options.tolerance;

@@ -141,6 +141,9 @@ class ValidateLines {
     }
     if (options.draws_frames(report.passed())) DrawFrames(line, task);
     Json json = report::ReportJson(report);
+    for (const std::string& warning : HandWarnings(options, task)) {
+      json["warnings"].push_back(warning);
+    }
     for (const std::string& warning : report.warnings()) json["warnings"].push_back(warning);
     return FormatRecord(line.entry, json);
   }

@@ -241,6 +241,9 @@ void Print(const ValidateOptions& options, const ValidateTask& task,
         UncheckedHandWarning(options, task.plan)}) {
     if (!warning.empty()) PrintMessage(kValidateName, "warning: " + warning);
   }
+  for (const std::string& warning : HandWarnings(options, task)) {
+    PrintMessage(kValidateName, "warning: " + warning);
+  }
   for (const std::string& warning : report.warnings()) {
     PrintMessage(kValidateName, "warning: " + warning);
   }

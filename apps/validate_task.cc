@@ -199,6 +199,15 @@ object::ObjectFile ReadGraspObject(const ValidateOptions& options, ProgressLine&
   return ReadRepaired(options.object_path, options.repair.Get(), reading);
 }
 
+std::vector<std::string> HandWarnings(const ValidateOptions& options, const ValidateTask& task) {
+  std::vector<std::string> warnings;
+  if (!task.hand) return warnings;
+  for (const std::string& warning : task.hand->warnings) {
+    warnings.push_back(options.hand + ": " + warning);
+  }
+  return warnings;
+}
+
 ValidateTask ReadTask(const ValidateOptions& options) {
   ProgressLine progress(options.quiet);
   const object::Reading reading = {progress.reporter(), {}};

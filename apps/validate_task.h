@@ -27,6 +27,10 @@ struct ValidateTask {
   std::optional<kinematics::HandFile> hand;  ///< of --hand
 };
 
+/// Return the warnings of the hand's file; empty without --hand.
+[[nodiscard]] std::vector<std::string> HandWarnings(const ValidateOptions& options,
+                                                    const ValidateTask& task);
+
 /// @throws InputError  an output is another file of the command line, or can't be written.
 void CheckOutputs(const ValidateOptions& options);
 

@@ -26,9 +26,9 @@ kinematics::Posture PostureOf(const kinematics::Finger& finger, const double* an
   std::vector<bool> known(static_cast<std::size_t>(finger.drives), false);
   for (std::size_t j = 0; j < finger.joints.size(); ++j) {
     const auto drive = static_cast<std::size_t>(finger.joints[j].drive);
-    if (known[drive] && finger.joints[j].ratio != 1) continue;
+    if (known[drive] && finger.joints[j].follows) continue;
     known[drive] = true;
-    posture[finger.joints[j].drive] = angles[j] / finger.joints[j].ratio;
+    posture[finger.joints[j].drive] = kinematics::DriveAngle(finger.joints[j], angles[j]);
   }
   return posture;
 }

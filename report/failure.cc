@@ -140,6 +140,12 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kTorqueLimit:
       return "a smaller --squeeze, a lighter object (--mass), or postures in which the finger has "
              "more strength";
+    case Reason::kCouplingViolated:
+      return "joint angles that keep the couplings of the hand's model; plan again with a hand "
+             "file "
+             "that hand --model writes";
+    case Reason::kTipPenetrates:
+      return "a smaller --squeeze";
     case Reason::kSimulationUnstable:
       return "another --squeeze or --mass, a smaller --shake, or the right --scale where the "
              "object is of no usual size";
@@ -226,6 +232,11 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
              "on all of the path; a tip that touches may be 0.3 mm in the surface";
     case Reason::kTorqueLimit:
       return "no actuator of the hand stands at the limit of its force for longer than 50 ms";
+    case Reason::kCouplingViolated:
+      return "coupled joints keep the relation that the hand's model gives them, in every state of "
+             "the plan to 1e-6 rad";
+    case Reason::kTipPenetrates:
+      return "no fingertip is inside the object";
     case Reason::kSimulationUnstable:
       return "the simulation came to no end, so nothing is known of the step";
     case Reason::kContactLost:

@@ -12,6 +12,8 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/kinematics/missing_meshes.h"
+#include "planner/kinematics/mjcf_defaults.h"
 #include "planner/kinematics/mujoco_schema.h"
 
 namespace regrasp::kinematics {
@@ -22,7 +24,6 @@ using Numbers = std::vector<double>;
 
 using Tags = std::vector<const char*>;
 
-constexpr char kMain[] = "main";
 /// Defaults of an actuator are those of all kinds.
 const Tags kActuatorTags = {"general", "motor",    "position", "velocity", "intvelocity",
                             "damper",  "cylinder", "muscle",   "adhesion"};
@@ -82,9 +83,10 @@ class MjcfConverter {
   void Convert() {
     ConvertSettings();
     ResolveFrames(text_.root);
+    const MjcfDefaults defaults(text_.root);
+    defaults_ = &defaults;
     for (const XmlElement& section : text_.root.children) {
-      if (section.name == "default") AddClasses(section, "");
-      if (section.name == "worldbody") AddJoints(section, kMain);
+      if (section.name == "worldbody") AddJoints(section, MjcfDefaults::kMain);
     }
     const bool lacks_autolimits = Setting("compiler", "autolimits").empty() && HasOpenLimits();
     for (XmlElement& section : text_.root.children) {
@@ -94,14 +96,13 @@ class MjcfConverter {
     Clean(text_.root, MujocoSchema());
     if (lost_actuators_) DropControls();
     if (lacks_autolimits) AddAutolimits();
-    ListMeshes();
+    const MeshPaths paths = {folder_ / Setting("compiler", "meshdir"),
+                             Setting("compiler", "strippath") == "true"};
+    DropMissingLooks(paths, text_);
+    ListMeshes(paths);
   }
 
  private:
-  struct DefaultClass {
-    std::string parent;
-    std::vector<const XmlElement*> elements;
-  };
   struct JointFacts {
     const XmlElement* element;
     std::string default_class;
@@ -122,10 +123,11 @@ class MjcfConverter {
   void AddAutolimits();
   void Rename(XmlElement& element, const char* from, const std::vector<const char*>& to);
   void ResolveFrames(XmlElement& element);
-  void AddClasses(const XmlElement& element, const std::string& parent);
   void AddJoints(const XmlElement& body, const std::string& inherited_class);
   const std::string* Effective(const XmlElement& element, const std::string& default_class,
-                               const Tags& tags, const std::string& attribute) const;
+                               const Tags& tags, const std::string& attribute) const {
+    return defaults_->Find(element, default_class, tags, attribute);
+  }
   Numbers EffectiveNumbers(const XmlElement& element, const std::string& default_class,
                            const Tags& tags, const std::string& attribute) const {
     const std::string* found = Effective(element, default_class, tags, attribute);
@@ -138,7 +140,7 @@ class MjcfConverter {
   void LimitForce(XmlElement& actuator, const std::string& default_class, const JointFacts& joint);
   void Clean(XmlElement& element, const SchemaElement& schema);
   void DropControls();
-  void ListMeshes();
+  void ListMeshes(const MeshPaths& paths);
   /// What comes last in the file counts, as in MuJoCo.
   std::string Setting(const std::string& section, const std::string& attribute) const {
     std::string value;
@@ -151,7 +153,7 @@ class MjcfConverter {
 
   fs::path folder_;
   ModelText& text_;
-  std::map<std::string, DefaultClass> classes_;
+  const MjcfDefaults* defaults_ = nullptr;  ///< until the text changes
   std::vector<JointFacts> joints_;
   std::set<const XmlElement*> limited_joints_;  ///< whose forces their actuators keep to
   int actuators_ = 0;                           ///< that the schema knows, so far
@@ -186,7 +188,7 @@ bool MjcfConverter::HasOpenLimits() const {
   for (const XmlElement& section : text_.root.children) {
     for (const XmlElement& element : section.children) {
       const std::string* own_class = element.Find("class");
-      const std::string default_class = own_class != nullptr ? *own_class : kMain;
+      const std::string default_class = own_class != nullptr ? *own_class : MjcfDefaults::kMain;
       if (section.name == "tendon" &&
           is_open(element, default_class, {"tendon"}, "range", "limited")) {
         return true;
@@ -233,17 +235,6 @@ void MjcfConverter::ResolveFrames(XmlElement& element) {
   }
 }
 
-void MjcfConverter::AddClasses(const XmlElement& element, const std::string& parent) {
-  const std::string* given = element.Find("class");
-  const std::string name = given != nullptr ? *given : parent.empty() ? kMain : parent;
-  DefaultClass& added = classes_[name];
-  added.elements.push_back(&element);
-  if (name != parent) added.parent = parent;
-  for (const XmlElement& child : element.children) {
-    if (child.name == "default") AddClasses(child, name);
-  }
-}
-
 void MjcfConverter::AddJoints(const XmlElement& body, const std::string& inherited_class) {
   const std::string* childclass = body.Find("childclass");
   const std::string default_class = childclass != nullptr ? *childclass : inherited_class;
@@ -255,32 +246,11 @@ void MjcfConverter::AddJoints(const XmlElement& body, const std::string& inherit
   }
 }
 
-/// An attribute of an element, or of its class, or of one above that.
-const std::string* MjcfConverter::Effective(const XmlElement& element,
-                                            const std::string& default_class, const Tags& tags,
-                                            const std::string& attribute) const {
-  if (const std::string* own = element.Find(attribute)) return own;
-  std::set<std::string> seen;  // classes that contain each other end too
-  for (std::string name = default_class; seen.insert(name).second;) {
-    const auto found = classes_.find(name);
-    if (found == classes_.end()) return nullptr;
-    for (const XmlElement* defaults : found->second.elements) {
-      for (const char* tag : tags) {
-        const XmlElement* tagged = defaults->Child(tag);
-        const std::string* value = tagged == nullptr ? nullptr : tagged->Find(attribute);
-        if (value != nullptr) return value;
-      }
-    }
-    name = found->second.parent;
-  }
-  return nullptr;
-}
-
 void MjcfConverter::ConvertActuator(XmlElement& actuator) {
   const SchemaElement* section = MujocoSchema().Child("mujoco", "actuator");
   if (section->Child("actuator", actuator.name) == nullptr) return;
   const std::string* own_class = actuator.Find("class");
-  const std::string default_class = own_class != nullptr ? *own_class : kMain;
+  const std::string default_class = own_class != nullptr ? *own_class : MjcfDefaults::kMain;
   const std::string tag = actuator.name;
   const std::string* dyntype = actuator.Find("dyntype");
   if (dyntype != nullptr && *dyntype == "filterexact") {
@@ -407,7 +377,12 @@ void MjcfConverter::Clean(XmlElement& element, const SchemaElement& schema) {
                        " and is part of the hand; write out what it stands for (newer versions "
                        "save it so: mj_saveLastXML)");
     }
-    if (known == nullptr || of_sites) {
+    if (element.name == "equality" && (known == nullptr || of_sites)) {
+      throw InputError(child.file + ": line " + std::to_string(child.line) + ": <" + child.name +
+                       (of_sites ? "> between sites" : ">") + " is not known to MuJoCo " +
+                       mj_versionString() + ", and joints would move without it");
+    }
+    if (known == nullptr) {
       Record(child, "", "left out: unknown here");
       if (element.name == "actuator") lost_actuators_ = true;
       continue;
@@ -432,16 +407,13 @@ void MjcfConverter::DropControls() {
   }
 }
 
-void MjcfConverter::ListMeshes() {
-  const fs::path meshes = folder_ / Setting("compiler", "meshdir");
+void MjcfConverter::ListMeshes(const MeshPaths& paths) {
   for (const XmlElement& section : text_.root.children) {
     if (section.name != "asset") continue;
     for (const XmlElement& asset : section.children) {
       const std::string* file = asset.Find("file");
       if (asset.name != "mesh" || file == nullptr) continue;
-      const fs::path name =
-          Setting("compiler", "strippath") == "true" ? fs::path(*file).filename() : fs::path(*file);
-      const fs::path path = meshes / name;
+      const fs::path path = paths.PathOf(*file);
       if (std::ranges::find(text_.meshes, path, &MeshFile::path) == text_.meshes.end()) {
         text_.meshes.push_back({path, ""});
       }

@@ -25,9 +25,10 @@ namespace regrasp::kinematics {
 ///
 /// Attributes are taken from the classes of defaults too. All else is left out: attributes,
 /// sensors, plugins, settings of the solver. Keyframes lose their controls where an actuator is
-/// left out.
+/// left out. Geoms that only show a mesh whose file is missing or empty are left out, too
+/// (missing_meshes.h).
 /// @throws InputError  replicate, attach, flexcomp: they are part of the hand, and cannot be
-///                     converted.
+///                     converted; a mesh that a geom needs is missing or empty.
 void ConvertMjcf(const std::filesystem::path& folder, ModelText& text);
 
 /// Writes the dampings of the actuators that `damping_ratios` names, in its order, N m s/rad.

@@ -7,6 +7,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/kinematics/missing_meshes.h"
 
 namespace regrasp::kinematics {
 namespace {
@@ -28,15 +29,42 @@ bool IsReadByMujoco(const fs::path& path) {
   return ending == ".stl" || ending == ".obj" || ending == ".msh";
 }
 
+/// Without the white space around it, which XML's numbers may have.
+std::string_view Trimmed(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  const std::size_t begin = text.find_first_not_of(kSpace);
+  if (begin == std::string_view::npos) return "";
+  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
+/// A number of a joint.
+/// @throws InputError  the attribute is not a finite number. Names the line, joint and attribute.
+double NumberOf(const XmlElement& element, const std::string& joint, const char* attribute,
+                double otherwise) {
+  const std::string* text = element.Find(attribute);
+  if (text == nullptr) return otherwise;
+  const std::optional<double> number = ParseDouble(Trimmed(*text));
+  if (number) return *number;
+  throw InputError(element.file + ": line " + std::to_string(element.line) + ": <" + element.name +
+                   "> of joint " + joint + ": " + attribute + ": expected a number, found \"" +
+                   *text + "\"");
+}
+
 class UrdfConverter {
  public:
-  UrdfConverter(fs::path folder, ModelText& text) : folder_(std::move(folder)), text_(text) {}
+  UrdfConverter(const fs::path& folder, ModelText& text)
+      : folder_(folder.empty() ? fs::path(".") : folder), text_(text) {}
 
   void Convert() {
     SetCompiler();
     for (XmlElement& element : text_.root.children) {
       if (element.name == "link") ConvertLink(element);
-      if (element.name == "joint") TakeMimic(element);
+      if (element.name == "joint") TakeJoint(element);
+      if (element.name == "loop_joint") {
+        throw InputError(element.file + ": line " + std::to_string(element.line) +
+                         ": <loop_joint>: closed loops are not supported, expected fingers that "
+                         "are open chains of joints");
+      }
     }
   }
 
@@ -51,7 +79,8 @@ class UrdfConverter {
   void SetCompiler();
   void ConvertLink(XmlElement& link);
   bool ConvertShape(const XmlElement& link, XmlElement& shape);
-  void TakeMimic(const XmlElement& joint);
+  void TakeJoint(const XmlElement& joint);
+  void TakeMimic(const XmlElement& mimic, const std::string& joint);
   fs::path Locate(const std::string& name) const;
   std::string Alias(const fs::path& path, const std::string& scale);
 
@@ -98,13 +127,14 @@ bool UrdfConverter::ConvertShape(const XmlElement& link, XmlElement& shape) {
       const std::string* name = mesh.Find("filename");
       if (mesh.name != "mesh" || name == nullptr) continue;
       const fs::path path = Locate(*name);
-      if (!IsReadByMujoco(path)) {
-        const std::string said = "MuJoCo reads STL, OBJ and MSH";
+      const std::string problem =
+          IsReadByMujoco(path) ? WhyMeshIsMissing(path) : "MuJoCo reads STL, OBJ and MSH";
+      if (!problem.empty()) {
         if (shape.name == "collision") {
           throw InputError(mesh.file + ": line " + std::to_string(mesh.line) + ": mesh " + *name +
-                           ": " + said);
+                           ": " + problem);
         }
-        Record(mesh, link, "filename", "left out, a look: " + said);
+        Record(mesh, link, "filename", "left out, a look: " + problem);
         return false;
       }
       const std::string* scale = mesh.Find("scale");
@@ -119,6 +149,7 @@ fs::path UrdfConverter::Locate(const std::string& name) const {
   if (name.starts_with(kFile)) return name.substr(sizeof kFile - 1);
   if (!name.starts_with(kPackage)) return folder_ / name;
   const fs::path in_packages = name.substr(sizeof kPackage - 1);
+  if (in_packages.empty()) return folder_;
   const fs::path package = *in_packages.begin();
   const fs::path in_package = in_packages.lexically_relative(package);
   const fs::path start = fs::absolute(folder_).lexically_normal();
@@ -141,16 +172,31 @@ std::string UrdfConverter::Alias(const fs::path& path, const std::string& scale)
   return alias;
 }
 
-void UrdfConverter::TakeMimic(const XmlElement& joint) {
-  const XmlElement* mimic = joint.Child("mimic");
+void UrdfConverter::TakeJoint(const XmlElement& joint) {
   const std::string* name = joint.Find("name");
-  const std::string* follows = mimic == nullptr ? nullptr : mimic->Find("joint");
-  if (name == nullptr || follows == nullptr) return;
-  const auto number = [&](const char* attribute, double otherwise) {
-    const std::string* text = mimic->Find(attribute);
-    return text == nullptr ? otherwise : ParseDouble(*text).value_or(otherwise);
-  };
-  text_.mimics.push_back({*name, *follows, number("multiplier", 1), number("offset", 0)});
+  const std::string* type = joint.Find("type");
+  if (name == nullptr || (type != nullptr && *type == "fixed")) return;
+  if (const XmlElement* limit = joint.Child("limit")) {
+    const double effort = NumberOf(*limit, *name, "effort", 0);
+    if (effort < 0) {
+      throw InputError(limit->file + ": line " + std::to_string(limit->line) +
+                       ": <limit> of joint " + *name +
+                       ": effort: expected a number of at least 0, found " + FormatShort(effort));
+    }
+    if (effort > 0) text_.efforts[*name] = effort;
+  }
+  if (const XmlElement* mimic = joint.Child("mimic")) TakeMimic(*mimic, *name);
+}
+
+void UrdfConverter::TakeMimic(const XmlElement& mimic, const std::string& joint) {
+  const std::string* follows = mimic.Find("joint");
+  if (follows == nullptr) {
+    throw InputError(mimic.file + ": line " + std::to_string(mimic.line) + ": <mimic> of joint " +
+                     joint + ": expected the attribute joint");
+  }
+  text_.mimics.push_back({joint, std::string(Trimmed(*follows)),
+                          NumberOf(mimic, joint, "multiplier", 1),
+                          NumberOf(mimic, joint, "offset", 0)});
 }
 
 }  // namespace

@@ -31,11 +31,13 @@ constexpr std::size_t kFewestDerived = 3;
 constexpr double kEndsAlike = 2e-3;
 /// A ball that ends so far inside the tip is doubtful, metres.
 constexpr double kDoubtfulGap = 1.5e-3;
+/// Geoms within a ball of this radius mark a place and are no fingertips, metres.
+constexpr double kMarkerRadius = 1e-3;
 constexpr double kSnap = 10 * std::numbers::pi / 180;
 constexpr double kSameWay = 45 * std::numbers::pi / 180;
 
 struct TipBody {
-  int body = 0;
+  int body = 0;  ///< first body of the link until the geom is chosen, then the geom's body
   std::vector<int> joints;  ///< from the palm
 };
 
@@ -53,7 +55,7 @@ class HandDeriver {
     FindTips();
     description.palm = BodyName(model_, palm_);
     from_world_ = PoseAt(rest_->xpos, rest_->xmat, palm_).inverse();
-    for (const TipBody& tip : tips_) AddTip(tip);
+    for (TipBody& tip : tips_) AddTip(tip);
     if (!not_round_.empty()) {
       Note("tips that are not very round, and how far inside them their balls end: " + not_round_);
     }
@@ -62,7 +64,7 @@ class HandDeriver {
     std::vector<std::vector<int>> joints;
     for (const TipBody& tip : tips_) joints.push_back(tip.joints);
     description.couplings = DeriveCouplings(compiled_, joints, derived_.notes);
-    NoteUnmoved();
+    NoteUnchecked();
     return std::move(derived_);
   }
 
@@ -73,15 +75,15 @@ class HandDeriver {
   void FindTips();
   std::vector<int> LeavesOfLargestTree() const;
   int LowestCommonAncestor(const std::vector<int>& bodies) const;
-  void AddTip(const TipBody& tip);
+  void AddTip(TipBody& tip);
   FittedBall Fit(const std::string& name, const ConvexShape& shape,
                  const TipDirections& directions);
-  int TipGeom(int body, const Vector3d& anchor) const;
+  int TipGeom(int link, const Vector3d& anchor) const;
   void NameFingers();
   std::string NameOfTip(int body) const;
   Vector3d Up();
   Vector3d Snapped(const Vector3d& direction) const;
-  void NoteUnmoved();
+  void NoteUnchecked();
   Isometry3d GeomPose(int geom) const {
     return from_world_ * PoseAt(rest_->geom_xpos, rest_->geom_xmat, geom);
   }
@@ -99,19 +101,20 @@ class HandDeriver {
   DerivedHand derived_;
 };
 
-/// Bodies that collide and have none below that does, of the tree that has most of them.
+/// The first bodies of links that collide and have none below that does, of the tree that has most
+/// of them.
 std::vector<int> HandDeriver::LeavesOfLargestTree() const {
   std::set<int> colliding;
   for (int geom = 0; geom < model_.ngeom; ++geom) {
-    if (Collides(model_, geom)) colliding.insert(model_.geom_bodyid[geom]);
+    if (Collides(model_, geom)) colliding.insert(LinkOf(model_, model_.geom_bodyid[geom]));
   }
   std::set<int> inner;
-  for (int body : colliding) {
-    while (body != kWorld) inner.insert(body = model_.body_parentid[body]);
+  for (int link : colliding) {
+    while (link != kWorld) inner.insert(link = LinkOf(model_, model_.body_parentid[link]));
   }
   std::map<int, std::vector<int>> leaves;
-  for (const int body : colliding) {
-    if (body != kWorld && !inner.contains(body)) leaves[model_.body_rootid[body]].push_back(body);
+  for (const int link : colliding) {
+    if (link != kWorld && !inner.contains(link)) leaves[model_.body_rootid[link]].push_back(link);
   }
   std::vector<int> most;
   for (const auto& [root, bodies] : leaves) {
@@ -161,37 +164,42 @@ void HandDeriver::FindTips() {
   }
 }
 
-/// The geom that reaches farthest from the last joint; a ball or capsule where others reach as far.
-int HandDeriver::TipGeom(int body, const Vector3d& anchor) const {
-  std::vector<std::pair<int, double>> ends;
-  double farthest = 0;
+/// The geom of a link that reaches farthest from the last joint. Of those that reach as far a ball
+/// or capsule is taken, the largest one; markers only if there is nothing else.
+int HandDeriver::TipGeom(int link, const Vector3d& anchor) const {
+  struct End {
+    int geom;
+    double reach;   ///< of its farthest point
+    double radius;  ///< of a ball or capsule, otherwise 0
+    bool is_marker;
+  };
+  std::vector<End> ends;
   for (int geom = 0; geom < model_.ngeom; ++geom) {
-    if (model_.geom_bodyid[geom] != body || !Collides(model_, geom)) continue;
+    const bool of_link = LinkOf(model_, model_.geom_bodyid[geom]) == link;
+    if (!of_link || !Collides(model_, geom)) continue;
     const ConvexShape shape = Moved(GeomPose(geom), ShapeOfGeom(model_, geom));
+    if (shape.points.empty()) continue;
     double end = 0;
     for (const Vector3d& point : shape.points) end = std::max(end, (point - anchor).norm());
-    ends.emplace_back(geom, end + shape.radius);
-    farthest = std::max(farthest, end + shape.radius);
+    ends.push_back({geom, end + shape.radius, shape.radius,
+                    collision::BallAround(shape).radius < kMarkerRadius});
   }
-  int best = ends.front().first;
-  const auto is_round = [&](int geom) {
-    return model_.geom_type[geom] == mjGEOM_SPHERE || model_.geom_type[geom] == mjGEOM_CAPSULE;
-  };
-  double best_end = -1;
-  for (const auto& [geom, end] : ends) {
-    const double counted = end + (is_round(geom) ? kEndsAlike : 0);
-    if (counted <= best_end) continue;
-    best_end = counted;
-    best = geom;
+  if (std::ranges::any_of(ends, [](const End& end) { return !end.is_marker; })) {
+    std::erase_if(ends, [](const End& end) { return end.is_marker; });
   }
-  return best;
+  if (ends.empty()) Fail("body " + BodyName(model_, link) + " has no geom with a convex shape");
+  const double farthest = std::ranges::max_element(ends, {}, &End::reach)->reach;
+  std::erase_if(ends, [&](const End& end) { return end.reach < farthest - kEndsAlike; });
+  const bool has_round = std::ranges::any_of(ends, [](const End& end) { return end.radius > 0; });
+  return std::ranges::max_element(ends, {}, has_round ? &End::radius : &End::reach)->geom;
 }
 
-void HandDeriver::AddTip(const TipBody& tip) {
+void HandDeriver::AddTip(TipBody& tip) {
   const int joint = tip.joints.back();
   const Vector3d anchor = from_world_ * VectorAt(rest_->xanchor, joint);
   const Vector3d hinge = (from_world_.linear() * VectorAt(rest_->xaxis, joint)).normalized();
   const int geom = TipGeom(tip.body, anchor);
+  tip.body = model_.geom_bodyid[geom];
   const ConvexShape shape = Moved(GeomPose(geom), ShapeOfGeom(model_, geom));
   // Where the farthest tenth of it is, across the hinge: along its hinge a joint may be anywhere.
   double farthest = 0;
@@ -215,6 +223,10 @@ void HandDeriver::AddTip(const TipBody& tip) {
   const auto rounded = [](double length) { return std::round(1e6 * length) / 1e6 + 0.0; };
   const Vector3d centre = (body.inverse() * fitted.ball.centre).unaryExpr(rounded);
   derived_.description.tips.push_back({name, name, centre, rounded(fitted.ball.radius)});
+  if (fitted.ball.radius < kMarkerRadius) {
+    Note("the fingertip sphere of body " + name + " has a radius of " +
+         FormatShort(1e3 * fitted.ball.radius) + " mm: doubtful");
+  }
 }
 
 FittedBall HandDeriver::Fit(const std::string& name, const ConvexShape& shape,
@@ -333,35 +345,22 @@ Vector3d HandDeriver::Up() {
   return up;
 }
 
-/// Joints that nothing moves, in models that have actuators.
-void HandDeriver::NoteUnmoved() {
-  if (model_.nu == 0) {
-    Note("the model has no actuators");
-    return;
-  }
-  std::set<std::string> moved;
-  for (int i = 0; i < model_.nu; ++i) {
-    const int type = model_.actuator_trntype[i];
-    if (type == mjTRN_JOINT || type == mjTRN_JOINTINPARENT) {
-      moved.insert(JointName(model_, model_.actuator_trnid[2 * i]));
-    }
-    // Of tendons over sites couplings say it.
-    if (type == mjTRN_TENDON) {
-      const int tendon = model_.actuator_trnid[2 * i];
-      const int first = model_.tendon_adr[tendon];
-      if (model_.wrap_type[first] != mjWRAP_JOINT) return;
-      for (int k = 0; k < model_.tendon_num[tendon]; ++k) {
-        moved.insert(JointName(model_, model_.wrap_objid[first + k]));
-      }
-    }
-  }
-  for (const auto& coupling : derived_.description.couplings) moved.insert(coupling.joint);
+/// Links that have geoms, none of which collides.
+void HandDeriver::NoteUnchecked() {
+  std::set<int> links;
   for (const TipBody& tip : tips_) {
-    for (const int joint : tip.joints) {
-      const std::string name = JointName(model_, joint);
-      if (!moved.contains(name)) Note("joint " + name + " has no actuator");
-    }
+    for (const int joint : tip.joints) links.insert(model_.jnt_bodyid[joint]);
   }
+  std::map<int, bool> collides;
+  for (int geom = 0; geom < model_.ngeom; ++geom) {
+    const int link = LinkOf(model_, model_.geom_bodyid[geom]);
+    if (links.contains(link)) collides[link] = collides[link] || Collides(model_, geom);
+  }
+  std::string names;
+  for (const auto& [link, any] : collides) {
+    if (!any) names += (names.empty() ? "" : ", ") + BodyName(model_, link);
+  }
+  if (!names.empty()) Note("links without a geom that collides, which nothing checks: " + names);
 }
 
 }  // namespace

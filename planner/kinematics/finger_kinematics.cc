@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 double AngleOf(const Joint& joint, const Posture& posture) {
-  return joint.ratio * posture[joint.drive];
+  return joint.ratio * posture[joint.drive] + joint.coupling_offset;
 }
 
 Eigen::Matrix3d TurnOf(const Joint& joint, const Posture& posture) {
@@ -18,6 +18,11 @@ Eigen::Matrix3d TurnOf(const Joint& joint, const Posture& posture) {
 }
 
 }  // namespace
+
+const Joint& LeadingJoint(const Finger& finger, int drive) {
+  const auto leads = [&](const Joint& joint) { return joint.drive == drive && !joint.follows; };
+  return *std::ranges::find_if(finger.joints, leads);
+}
 
 std::vector<double> JointAngles(const Finger& finger, const Posture& posture) {
   std::vector<double> angles;

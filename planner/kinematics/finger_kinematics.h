@@ -14,6 +14,14 @@ inline constexpr int kMostJoints = 8;
 /// The frames of a finger's joints, in the palm's frame, from the palm to the tip.
 using JointFrames = std::vector<Eigen::Isometry3d>;
 
+/// Return the angle of a joint's drive at which the joint has an angle, radians.
+[[nodiscard]] inline double DriveAngle(const Joint& joint, double angle) {
+  return (angle - joint.coupling_offset) / joint.ratio;
+}
+
+/// Return the joint whose angle is that of a drive; the other joints of the drive follow it.
+[[nodiscard]] const Joint& LeadingJoint(const Finger& finger, int drive);
+
 /// Angles of the joints of a posture, radians.
 [[nodiscard]] std::vector<double> JointAngles(const Finger& finger, const Posture& posture);
 

@@ -1,7 +1,10 @@
 #include "planner/kinematics/geom_shape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "planner/kinematics/model_names.h"
 
 namespace regrasp::kinematics {
 namespace {
@@ -10,6 +13,8 @@ using collision::ConvexShape;
 using Eigen::Vector3d;
 
 constexpr int kSides = 16;
+/// How far a marker may stick out of the fingertip sphere, metres.
+constexpr double kInsideFingertip = 5e-4;
 constexpr double kPi = std::numbers::pi;
 
 ConvexShape Box(const Vector3d& half) {
@@ -97,6 +102,20 @@ ConvexShape ShapeOfGeom(const mjModel& model, int geom) {
     default:
       return {};
   }
+}
+
+bool IsPartOfFingertip(const mjModel& model, const mjData& rest, int geom, int tip_body,
+                       const collision::Ball& sphere) {
+  const int body = model.geom_bodyid[geom];
+  if (body == tip_body) return true;
+  if (LinkOf(model, body) != LinkOf(model, tip_body)) return false;
+  const collision::ConvexShape shape = Moved(PoseAt(rest.xpos, rest.xmat, tip_body).inverse() *
+                                                 PoseAt(rest.geom_xpos, rest.geom_xmat, geom),
+                                             ShapeOfGeom(model, geom));
+  const double most = sphere.radius + kInsideFingertip - shape.radius;
+  return std::ranges::all_of(shape.points, [&](const Eigen::Vector3d& point) {
+    return (point - sphere.centre).norm() <= most;
+  });
 }
 
 }  // namespace regrasp::kinematics

@@ -41,6 +41,7 @@ HandDescription::Tip ParseTip(const JsonReader& json) {
 HandDescription::Coupling ParseCoupling(const JsonReader& json) {
   HandDescription::Coupling parsed{NonEmpty(json.Member("joint")), NonEmpty(json.Member("follows")),
                                    json.Member("ratio").Number()};
+  if (json.Has("offset")) parsed.offset = json.Member("offset").Number();
   if (parsed.ratio == 0) json.Member("ratio").Fail("expected a number other than 0");
   return parsed;
 }
@@ -97,8 +98,10 @@ std::string FormatHandDescription(const HandDescription& description) {
   if (!description.couplings.empty()) {
     json["couplings"] = Json::array();
     for (const HandDescription::Coupling& coupling : description.couplings) {
-      json["couplings"].push_back(
-          {{"joint", coupling.joint}, {"follows", coupling.follows}, {"ratio", coupling.ratio}});
+      Json written = {
+          {"joint", coupling.joint}, {"follows", coupling.follows}, {"ratio", coupling.ratio}};
+      if (coupling.offset != 0) written["offset"] = coupling.offset;
+      json["couplings"].push_back(std::move(written));
     }
   }
   return FormatJson(json);

@@ -16,11 +16,12 @@ struct HandDescription {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius = 0;
   };
-  /// The angle of `joint` is `ratio` times that of `follows`.
+  /// angle of `joint` = ratio · angle of `follows` + offset, radians.
   struct Coupling {
     std::string joint;
     std::string follows;
     double ratio = 1;
+    double offset = 0;
   };
 
   std::string name;

@@ -9,9 +9,11 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/kinematics/check_model.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/geom_shape.h"
 #include "planner/kinematics/hand_description.h"
+#include "planner/kinematics/joint_actuators.h"
 #include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 
@@ -42,6 +44,7 @@ class HandBuilder {
     hand_.name = description_.name;
     hand_.up = description_.up;
     for (int i = 0; i < static_cast<int>(description_.tips.size()); ++i) AddFinger(i);
+    ExpectCoupledJoints();
     for (int geom = 0; geom < model_.ngeom; ++geom) AddGeom(geom);
     for (int i = 0; i < static_cast<int>(hand_.fingers.size()); ++i) AddTipShape(i);
     FindIgnored();
@@ -72,7 +75,9 @@ class HandBuilder {
   static void SetTipAxis(Finger& finger);
   void AddJoints(int body, const std::string& where, Vector3d& last, Finger& finger);
   void Couple(const std::string& where, Finger& finger) const;
+  void ExpectCoupledJoints() const;
   void SetLimits(const std::string& where, Finger& finger) const;
+  bool IsPartOfTip(int geom) const;
   void AddGeom(int geom);
   void AddTipShape(int index);
   void FindIgnored();
@@ -91,7 +96,6 @@ class HandBuilder {
   Isometry3d from_world_;
   HandModel hand_;
   std::map<int, Place> places_;                 ///< of bodies between the palm and the tips
-  std::map<int, int> tip_bodies_;               ///< their fingers
   std::vector<std::vector<Vector3d>> anchors_;  ///< of joints at rest, by finger
 };
 
@@ -129,7 +133,6 @@ void HandBuilder::AddFinger(int index) {
   const Isometry3d pose = from_world_ * PoseAt(rest_->xpos, rest_->xmat, tip_body);
   finger.tip = {tip.body, pose * tip.centre - last, tip.radius, Vector3d::UnitZ()};
   SetTipAxis(finger);
-  tip_bodies_[tip_body] = index;
   hand_.fingers.push_back(std::move(finger));
 }
 
@@ -184,6 +187,24 @@ void HandBuilder::Couple(const std::string& where, Finger& finger) const {
     }
     joint.drive = leader->drive;
     joint.ratio = coupling->ratio;
+    joint.coupling_offset = coupling->offset;
+    joint.follows = true;
+  }
+}
+
+/// Every coupling must have an effect: a misspelt name would leave a joint free.
+void HandBuilder::ExpectCoupledJoints() const {
+  for (std::size_t i = 0; i < description_.couplings.size(); ++i) {
+    const std::string& name = description_.couplings[i].joint;
+    const std::string where = "/couplings/" + std::to_string(i) + "/joint";
+    const bool of_finger = std::ranges::any_of(hand_.fingers, [&](const Finger& finger) {
+      return std::ranges::find(finger.joints, name, &Joint::name) != finger.joints.end();
+    });
+    if (!of_finger) Fail(where, "expected a joint of a finger, found \"" + name + "\"");
+    for (std::size_t j = 0; j < i; ++j) {
+      if (description_.couplings[j].joint == name)
+        Fail(where, "joint " + name + " is coupled twice");
+    }
   }
 }
 
@@ -192,8 +213,8 @@ void HandBuilder::SetLimits(const std::string& where, Finger& finger) const {
   finger.lower = Eigen::VectorXd::Constant(finger.drives, -kTurn);
   finger.upper = Eigen::VectorXd::Constant(finger.drives, kTurn);
   for (const Joint& joint : finger.joints) {
-    const double a = joint.lower / joint.ratio;
-    const double b = joint.upper / joint.ratio;
+    const double a = DriveAngle(joint, joint.lower);
+    const double b = DriveAngle(joint, joint.upper);
     double& lower = finger.lower[joint.drive];
     double& upper = finger.upper[joint.drive];
     lower = std::max(lower, std::min(a, b));
@@ -210,12 +231,19 @@ HandBuilder::Place HandBuilder::PlaceOf(int body) const {
   return {};
 }
 
+bool HandBuilder::IsPartOfTip(int geom) const {
+  return std::ranges::any_of(description_.tips, [&](const HandDescription::Tip& tip) {
+    const int body = mj_name2id(&model_, mjOBJ_BODY, tip.body.c_str());
+    return IsPartOfFingertip(model_, *rest_, geom, body, {tip.centre, tip.radius});
+  });
+}
+
 void HandBuilder::AddGeom(int geom) {
   const int body = model_.geom_bodyid[geom];
   if (!Collides(model_, geom)) return;
   // Of another tree of bodies: a table, say.
   if (model_.body_rootid[body] != model_.body_rootid[palm_]) return;
-  if (tip_bodies_.contains(body)) return;
+  if (IsPartOfTip(geom)) return;
   ConvexShape shape = ShapeOfGeom(model_, geom);
   if (shape.points.empty()) return;
   const Place place = PlaceOf(body);
@@ -281,12 +309,16 @@ std::string Digest(const std::string& description, const ModelText& model) {
 
 HandModel BuildHand(const HandDescription& description, const CompiledModel& compiled,
                     const std::string& file) {
-  return HandBuilder(description, file, *compiled.model).Build();
+  CheckPhysics(compiled);
+  HandModel hand = HandBuilder(description, file, *compiled.model).Build();
+  CheckCouplings(hand, description.palm, compiled, file);
+  CheckCollisionGeoms(description, compiled, file);
+  return hand;
 }
 
 HandFile ReadHandFile(const fs::path& path) {
   const std::string ending = path.extension().string();
-  if (ending == ".xml" || ending == ".urdf" || ending == ".mjcf") {
+  if (ending == ".xml" || ending == ".urdf" || ending == ".mjcf" || ending == ".xacro") {
     throw InputError(path.string() + ": is a model, and no hand file; `hand --model " +
                      path.string() + " --output hand.json` makes one of it");
   }
@@ -298,6 +330,7 @@ HandFile ReadHandFile(const fs::path& path) {
   file.hand = BuildHand(file.description, *file.compiled, path.string());
   file.hand.file = path.filename().string();
   file.hand.sha256 = Digest(text, file.compiled->text);
+  file.warnings = ActuationWarnings(file.hand, *file.compiled);
   return file;
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "planner/kinematics/hand_description.h"
 #include "planner/kinematics/hand_model.h"
@@ -17,6 +18,7 @@ struct HandFile {
   /// Shared, as its type is not shown: whoever needs more than the hand takes it from there.
   std::shared_ptr<const CompiledModel> compiled;
   HandModel hand;
+  std::vector<std::string> warnings;  ///< ActuationWarnings (joint_actuators.h)
 };
 
 /// Reads a hand: a file `hand.json` (docs/formats.md) and the MJCF or URDF model beside it.
@@ -24,10 +26,12 @@ struct HandFile {
 /// Joints between the model's root and the palm stay as the model has them at rest. Colliding geoms
 /// become convex shapes: a box its eight corners, a mesh the hull of its vertices, a cylinder or an
 /// ellipsoid a polyhedron around it; those of the tip's body are replaced by a capsule from the
-/// body's origin to the ball.
+/// body's origin to the ball. Geoms of bodies fixed to the tip's body that lie inside the ball are
+/// part of the tip.
 /// @throws InputError  names the file, the element and what is wrong: the model cannot be compiled,
 ///                     a body or joint is not there, fingers share a joint, a joint is no hinge or
-///                     has no limits.
+///                     has no limits; the model's physics, couplings or collision geoms cannot be
+///                     represented (check_model.h).
 [[nodiscard]] HandFile ReadHandFile(const std::filesystem::path& path);
 
 /// The hand alone.

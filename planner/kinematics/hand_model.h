@@ -21,10 +21,12 @@ struct Joint {
   double rest = 0;                                  ///< angles as the model has them, radians
   double lower = 0;
   double upper = 0;
-  /// The drive that turns it, among those of the finger, and by how much for each radian of it:
-  /// coupled joints share one.
+  /// The drive that turns it, among those of the finger: coupled joints share one. The joint's
+  /// angle is `ratio` times the angle of the drive plus `coupling_offset`, radians.
   int drive = 0;
   double ratio = 1;
+  double coupling_offset = 0;
+  bool follows = false;  ///< whether it is coupled to the joint that the drive's angle is that of
 };
 
 /// A part of the hand that others can run into.

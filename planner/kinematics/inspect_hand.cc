@@ -23,31 +23,6 @@ namespace fs = std::filesystem;
 constexpr int kReachSteps = 4;  ///< of each drive, at first
 constexpr double kFinestStep = 1e-3;
 
-std::vector<JointActuator> ActuatorsOf(const mjModel& model) {
-  std::vector<JointActuator> actuators;
-  for (int i = 0; i < model.nu; ++i) {
-    const std::string name = ActuatorName(model, i);
-    const double force = model.actuator_forcelimited[i] != 0
-                             ? std::max(std::abs(model.actuator_forcerange[2 * i]),
-                                        std::abs(model.actuator_forcerange[2 * i + 1]))
-                             : 0;
-    const int target = model.actuator_trnid[2 * i];
-    const int type = model.actuator_trntype[i];
-    const double gear = std::abs(model.actuator_gear[std::ptrdiff_t{6} * i]);
-    if (type == mjTRN_JOINT || type == mjTRN_JOINTINPARENT) {
-      actuators.push_back({JointName(model, target), name, gear * force});
-    } else if (type == mjTRN_TENDON) {
-      const int first = model.tendon_adr[target];
-      for (int k = 0; k < model.tendon_num[target]; ++k) {
-        if (model.wrap_type[first + k] != mjWRAP_JOINT) continue;
-        actuators.push_back({JointName(model, model.wrap_objid[first + k]), name,
-                             gear * std::abs(model.wrap_prm[first + k]) * force});
-      }
-    }
-  }
-  return actuators;
-}
-
 /// "+x" of an axis, else numbers.
 std::string DirectionText(const Eigen::Vector3d& direction) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -88,11 +63,15 @@ std::string JointTable(const InspectedHand& inspected) {
       for (const JointActuator& actuator : inspected.actuators) {
         if (actuator.joint != joint.name) continue;
         mover = actuator.actuator;
-        if (actuator.largest_force > 0) force = FormatShort(actuator.largest_force, 3);
+        force = actuator.largest_torque > 0 ? FormatShort(actuator.largest_torque, 3) : "unknown";
       }
       for (const HandDescription::Coupling& coupling : inspected.description.couplings) {
         if (coupling.joint == joint.name) {
           mover = FormatShort(coupling.ratio) + " × " + coupling.follows;
+          if (coupling.offset != 0) {
+            mover += (coupling.offset < 0 ? " − " : " + ") +
+                     FormatShort(std::abs(coupling.offset)) + " rad";
+          }
         }
       }
       rows.push_back({finger.name, joint.name, FormatFixed(Degrees(joint.lower), 1),
@@ -152,7 +131,10 @@ InspectedHand InspectHand(const fs::path& path) {
   }
   inspected.hand = BuildHand(inspected.description, compiled, path.string());
   inspected.visuals = VisualsOf(compiled, inspected.description.palm, inspected.hand);
-  inspected.actuators = ActuatorsOf(*compiled.model);
+  inspected.actuators = ActuatorsOf(compiled);
+  for (std::string& warning : ActuationWarnings(inspected.hand, compiled)) {
+    inspected.notes.push_back(std::move(warning));
+  }
   inspected.conversions = std::move(compiled.text.conversions);
   return inspected;
 }

@@ -7,16 +7,10 @@
 #include "planner/kinematics/hand_description.h"
 #include "planner/kinematics/hand_model.h"
 #include "planner/kinematics/hand_visuals.h"
+#include "planner/kinematics/joint_actuators.h"
 #include "planner/kinematics/model_text.h"
 
 namespace regrasp::kinematics {
-
-/// What moves a joint.
-struct JointActuator {
-  std::string joint;
-  std::string actuator;
-  double largest_force = 0;  ///< N m at the joint; 0: not limited
-};
 
 /// A hand, and where what is known of it comes from.
 struct InspectedHand {
@@ -26,7 +20,7 @@ struct InspectedHand {
   std::vector<LinkVisual> visuals;  ///< at rest
   std::vector<JointActuator> actuators;
   std::vector<Conversion> conversions;
-  std::vector<std::string> notes;  ///< of a hand that was derived from a model
+  std::vector<std::string> notes;  ///< doubts of the derivation, and ActuationWarnings
 };
 
 /// Reads a file `hand.json`, or derives the hand of an MJCF or URDF model (derive_hand.h).

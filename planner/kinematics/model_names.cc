@@ -40,6 +40,13 @@ bool Collides(const mjModel& model, int geom) {
   return model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0;
 }
 
+int LinkOf(const mjModel& model, int body) {
+  while (model.body_jntnum[body] == 0 && model.body_parentid[body] > 0) {
+    body = model.body_parentid[body];
+  }
+  return body;
+}
+
 std::vector<int> JointsBetween(const mjModel& model, int above, int body) {
   std::vector<int> joints;
   for (; body != above && body > 0; body = model.body_parentid[body]) {

@@ -21,6 +21,10 @@ namespace regrasp::kinematics {
 /// Whether a geom takes part in collisions.
 [[nodiscard]] bool Collides(const mjModel& model, int geom);
 
+/// Return the first body of the link that a body is part of: bodies without a joint between them
+/// are one link. The first one has a joint, or the world as its parent.
+[[nodiscard]] int LinkOf(const mjModel& model, int body);
+
 /// The joints between a body and one above it, from the upper to the lower one.
 [[nodiscard]] std::vector<int> JointsBetween(const mjModel& model, int above, int body);
 

@@ -1,6 +1,7 @@
 #include "planner/kinematics/model_text.h"
 
 #include <algorithm>
+#include <set>
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
@@ -55,12 +56,46 @@ class Includer {
   std::vector<fs::path>& files_;
 };
 
+/// Prefixes of names of the xacro namespace, with the colon.
+using XacroPrefixes = std::set<std::string>;
+
+XacroPrefixes XacroPrefixesOf(const XmlElement& element, XacroPrefixes prefixes) {
+  constexpr std::string_view kDeclaration = "xmlns:";
+  for (const auto& [attribute, value] : element.attributes) {
+    if (!attribute.starts_with(kDeclaration)) continue;
+    if (value.ends_with("/xacro") || value.ends_with("/xacro/")) {
+      prefixes.insert(attribute.substr(kDeclaration.size()) + ":");
+    }
+  }
+  return prefixes;
+}
+
+/// A model whose macros are not expanded would lose fingers and numbers without a word.
+/// @throws InputError  names the first element of xacro, or the attribute with an expression.
+void RefuseXacro(const XmlElement& element, const XacroPrefixes& above) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(element.file + ": line " + std::to_string(element.line) + ": " + what +
+                     ": xacro is not expanded, expected URDF or MJCF; help: xacro " +
+                     fs::path(element.file).filename().string() + " > hand.urdf");
+  };
+  const XacroPrefixes prefixes = XacroPrefixesOf(element, above);
+  for (const std::string& prefix : prefixes) {
+    if (element.name.starts_with(prefix)) refuse("<" + element.name + ">");
+  }
+  for (const auto& [attribute, value] : element.attributes) {
+    if (value.find("${") == std::string::npos && value.find("$(") == std::string::npos) continue;
+    refuse("<" + element.name + "> " + attribute + "=\"" + value + "\"");
+  }
+  for (const XmlElement& child : element.children) RefuseXacro(child, prefixes);
+}
+
 }  // namespace
 
 ModelText ReadModelText(const fs::path& path) {
   ModelText text;
   text.root = ParseXml(ReadFile(path), path.string());
   text.files.push_back(path);
+  RefuseXacro(text.root, {"xacro:"});
   if (text.root.name == "mujoco") {
     Includer(path.parent_path(), text.files).Resolve(text.root);
     ConvertMjcf(path.parent_path(), text);

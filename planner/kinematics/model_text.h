@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,9 @@ struct ModelText {
   std::vector<Conversion> conversions;
   std::vector<MeshFile> meshes;  ///< in the order of the text, each once
   std::vector<Mimic> mimics;
+  /// Largest torque of each joint of a URDF, N m, by name; a joint without one, or with 0, is
+  /// absent.
+  std::map<std::string, double> efforts;
   std::vector<DampingRatio> damping_ratios;
 };
 
@@ -59,7 +63,8 @@ struct ModelText {
 /// moves and what it looks like is left out, and all of it is listed. A model that needs nothing of
 /// it stays word for word what it is, but for its layout.
 /// @throws InputError  names the file and line: no XML, neither MJCF nor URDF, an include that
-///                     leads to itself, an element that cannot be converted (replicate, attach).
+///                     leads to itself, an element that cannot be converted (replicate, attach),
+///                     xacro that is not expanded.
 [[nodiscard]] ModelText ReadModelText(const std::filesystem::path& path);
 
 }  // namespace regrasp::kinematics

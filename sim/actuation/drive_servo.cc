@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "planner/base/error.h"
+#include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::sim {
 namespace {
@@ -64,7 +65,8 @@ DriveActuator FindServo(const kinematics::Finger& finger, const std::vector<int>
     }
   }
   if (found.actuator < 0) {
-    throw InputError("no actuator of the hand's model turns joint " + finger.joints[drive].name);
+    throw InputError("no actuator of the hand's model moves joint " +
+                     kinematics::LeadingJoint(finger, drive).name);
   }
   const int a = found.actuator;
   const mjtNum* bias = model.actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;

@@ -51,7 +51,7 @@ Vector3d Limited(const Vector3d& vector, double most) {
 Posture PostureOf(const kinematics::Finger& finger, const std::vector<double>& angles) {
   Posture posture(finger.drives);
   for (std::size_t k = 0; k < angles.size(); ++k) {
-    posture[finger.joints[k].drive] = angles[k] / finger.joints[k].ratio;
+    posture[finger.joints[k].drive] = kinematics::DriveAngle(finger.joints[k], angles[k]);
   }
   return posture;
 }

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "planner/base/number.h"
+#include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::sim {
 namespace {
@@ -47,16 +49,48 @@ XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass
                                    {"conaffinity", "0"}})});
 }
 
-/// The largest torque of a joint by its URDF; 0 where it does not say.
-double EffortOf(const XmlElement& robot, const std::string& name) {
-  for (const XmlElement& joint : robot.children) {
-    const std::string* found = joint.name == "joint" ? joint.Find("name") : nullptr;
-    const XmlElement* limit = joint.Child("limit");
-    if (found == nullptr || *found != name || limit == nullptr) continue;
-    const std::string* effort = limit->Find("effort");
-    return effort == nullptr ? 0 : ParseDouble(*effort).value_or(0);
+/// The couplings of a finger as equality constraints, which are between angles beyond those of the
+/// reference position.
+void AddCouplings(const kinematics::Finger& finger, std::vector<XmlElement>& couplings) {
+  for (const kinematics::Joint& joint : finger.joints) {
+    if (!joint.follows) continue;
+    const kinematics::Joint& leader = kinematics::LeadingJoint(finger, joint.drive);
+    const double constant = joint.coupling_offset + joint.ratio * leader.rest - joint.rest;
+    couplings.push_back(
+        Element("joint", {{"joint1", joint.name},
+                          {"joint2", leader.name},
+                          {"polycoef", Numbers({constant, joint.ratio, 0, 0, 0})}}));
   }
-  return 0;
+}
+
+/// The joint that an actuator of MJCF moves; empty if it moves a tendon.
+std::string JointOf(const XmlElement& actuator) {
+  for (const char* attribute : {"joint", "jointinparent"}) {
+    if (const std::string* name = actuator.Find(attribute)) return *name;
+  }
+  return "";
+}
+
+/// An actuator of a joint that follows another one would fight its coupling: without a command it
+/// pulls to angle 0. It is left out if the other joint has an actuator of its own.
+void DropFollowersActuators(const kinematics::HandModel& hand, XmlElement& root) {
+  std::set<std::string> moved;
+  for (const XmlElement& section : root.children) {
+    if (section.name != "actuator") continue;
+    for (const XmlElement& actuator : section.children) moved.insert(JointOf(actuator));
+  }
+  std::set<std::string> dropped;
+  for (const kinematics::Finger& finger : hand.fingers) {
+    for (const kinematics::Joint& joint : finger.joints) {
+      const bool led = moved.contains(kinematics::LeadingJoint(finger, joint.drive).name);
+      if (joint.follows && led) dropped.insert(joint.name);
+    }
+  }
+  for (XmlElement& section : root.children) {
+    if (section.name != "actuator") continue;
+    std::erase_if(section.children,
+                  [&](const XmlElement& actuator) { return dropped.contains(JointOf(actuator)); });
+  }
 }
 
 /// A URDF has no actuators: each drive of a finger gets a motor, as strong as the joint may be.
@@ -66,13 +100,11 @@ kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
   std::vector<XmlElement> motors;
   for (const kinematics::Finger& finger : file.hand.fingers) {
     for (int drive = 0; drive < finger.drives; ++drive) {
-      const auto leads = std::ranges::find_if(finger.joints, [&](const kinematics::Joint& joint) {
-        return joint.drive == drive && joint.ratio == 1;
-      });
-      const std::string& name = leads->name;
+      const std::string& name = kinematics::LeadingJoint(finger, drive).name;
       XmlElement& motor = motors.emplace_back(Element("motor", {{"joint", name}}));
-      const double effort = EffortOf(urdf.root, name);
-      if (effort <= 0) continue;
+      const auto found = urdf.efforts.find(name);
+      if (found == urdf.efforts.end()) continue;
+      const double effort = found->second;
       motor.Set("forcelimited", "true");
       motor.Set("forcerange", Numbers({-effort, effort}));
     }
@@ -88,18 +120,14 @@ kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
   kinematics::ModelText text = file.compiled->text;
   if (text.root.name == "robot") text = UrdfWithMotors(file);
   XmlElement& root = text.root;
+  DropFollowersActuators(file.hand, root);
   std::erase_if(root.children, [](const XmlElement& child) {
     return child.name == "keyframe" || child.name == "size" || child.name == "sensor";
   });
   root.children.push_back(Element("size", {{"njmax", "600"}, {"nconmax", "150"}}));
   root.children.push_back(Element("worldbody", {}, {ObjectBody(solid, scale, mass)}));
   std::vector<XmlElement> couplings;
-  for (const auto& coupling : file.description.couplings) {
-    couplings.push_back(
-        Element("joint", {{"joint1", coupling.joint},
-                          {"joint2", coupling.follows},
-                          {"polycoef", "0 " + FormatDouble(coupling.ratio) + " 0 0 0"}}));
-  }
+  for (const kinematics::Finger& finger : file.hand.fingers) AddCouplings(finger, couplings);
   if (!couplings.empty()) root.children.push_back(Element("equality", {}, std::move(couplings)));
   return text;
 }

@@ -172,7 +172,8 @@ struct HandWorld::Impl {
     VectorXd count = VectorXd::Zero(chain.drives);
     for (std::size_t k = 0; k < chain.joints.size(); ++k) {
       const kinematics::Joint& joint = chain.joints[k];
-      sum[joint.drive] += data->qpos[model->jnt_qposadr[fingers[finger].joints[k]]] / joint.ratio;
+      const double angle = data->qpos[model->jnt_qposadr[fingers[finger].joints[k]]];
+      sum[joint.drive] += kinematics::DriveAngle(joint, angle);
       ++count[joint.drive];
     }
     return sum.cwiseQuotient(count);

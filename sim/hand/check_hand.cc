@@ -27,8 +27,9 @@ constexpr double kTipInMove = 1e-4;
 constexpr double kTipDepth = 3e-4;
 /// A finger that comes or goes may be as near as a touching one this far around its contact.
 constexpr double kApproach = 0.012;
-constexpr double kLimitSlack = 1e-9;  // radians
-constexpr double kSlack = 1e-6;       // of the clearance
+constexpr double kLimitSlack = 1e-9;    // radians
+constexpr double kSameCoupling = 1e-6;  // radians
+constexpr double kSlack = 1e-6;         // of the clearance
 /// What moves less than this between two samples and is not shown to be clear is not: metres.
 constexpr double kFinest = 1e-4;
 constexpr double kGoalPlace = 1e-6;
@@ -118,7 +119,7 @@ class Checker {
   /// Faults of shapes and beginnings.
   MaybeFault CheckShape(const HandState& state) const;
   MaybeFault CheckContinues(const plan::HandPath& path);
-  MaybeFault CheckLimits(const NamedPath& path, std::size_t index);
+  MaybeFault CheckJoints(const NamedPath& path, std::size_t index);
   MaybeFault CheckTips(const plan::FingerGrasp& grasp, const HandState& state, double tolerance,
                        const std::string& when);
   MaybeFault CheckRest();
@@ -198,7 +199,7 @@ MaybeFault Checker::CheckContinues(const plan::HandPath& path) {
   return std::nullopt;
 }
 
-MaybeFault Checker::CheckLimits(const NamedPath& path, std::size_t index) {
+MaybeFault Checker::CheckJoints(const NamedPath& path, std::size_t index) {
   const HandState& state = path.states[index];
   for (FingerIndex finger{0}; finger < finger_count(); ++finger) {
     const auto& joints = body_.hand().fingers[finger].joints;
@@ -209,7 +210,10 @@ MaybeFault Checker::CheckLimits(const NamedPath& path, std::size_t index) {
       return JointOutside(body_, state, finger, k, path.InState(index));
     }
   }
-  return std::nullopt;
+  body_.SetJoints(state.joints);
+  const auto uncoupled = body_.LargestCouplingResidual();
+  if (!uncoupled || uncoupled->radians <= kSameCoupling) return std::nullopt;
+  return JointUncoupled(body_, state, *uncoupled, kSameCoupling, path.InState(index));
 }
 
 MaybeFault Checker::CheckTips(const plan::FingerGrasp& grasp, const HandState& state,
@@ -228,7 +232,7 @@ MaybeFault Checker::CheckRest() {
   if (auto fault = CheckShape(state_)) return AtModelsRest(*fault);
   const plan::HandPath still = {state_, state_};
   const NamedPath path{still};
-  if (auto fault = CheckLimits(path, 0)) return fault;
+  if (auto fault = CheckJoints(path, 0)) return fault;
   if (auto fault = CheckTips(holding_, state_, kTipAtRest, "")) return fault;
   return CheckPath(path, 1, {state_, holding_}, {state_, holding_}, {});
 }
@@ -347,7 +351,7 @@ MaybeFault Checker::CheckMove(const plan::Move& move) {
   if (auto fault = CheckContinues(move.path)) return fault;
   const NamedPath path{move.path, "path"};
   for (std::size_t i = 0; i < move.path.size(); ++i) {
-    if (auto fault = CheckLimits(path, i)) return fault;
+    if (auto fault = CheckJoints(path, i)) return fault;
     const double tolerance = i + 1 == move.path.size() ? kTipAtRest : kTipInMove;
     if (auto fault = CheckTips(holding_, move.path[i], tolerance, path.InState(i))) return fault;
     if (i == 0) continue;
@@ -366,7 +370,7 @@ MaybeFault Checker::CheckFingersGo(const NamedPath& path, const plan::FingerGras
   if (auto fault = CheckContinues(states)) return fault;
   for (std::size_t i = 1; i < states.size(); ++i) {
     if (auto fault = CheckStaysPut(states[i], states[i - 1], "switch")) return fault;
-    if (auto fault = CheckLimits(path, i)) return fault;
+    if (auto fault = CheckJoints(path, i)) return fault;
     if (auto fault = CheckTips(still, states[i], kTipAtRest, path.InState(i))) return fault;
     if (auto fault = CheckPath(path, i, {states[i - 1], still}, {states[i], still}, moving)) {
       return fault;
@@ -396,7 +400,7 @@ MaybeFault Checker::CheckSlide(const NamedPath& path, const plan::FingerGrasp& f
   for (std::size_t i = 1; i < states.size(); ++i) {
     const Instant now = at(i);
     if (auto fault = CheckStaysPut(now.state, states[i - 1], "slide")) return fault;
-    if (auto fault = CheckLimits(path, i)) return fault;
+    if (auto fault = CheckJoints(path, i)) return fault;
     const double tolerance = i + 1 == states.size() ? kTipAtRest : kTipInMove;
     if (auto fault = CheckTips(now.holding, now.state, tolerance, path.InState(i))) return fault;
     if (auto fault = CheckPath(path, i, at(i - 1), now, {})) return fault;

@@ -18,7 +18,8 @@ struct HandCheckOptions {
 /// engine's kinematics, and the Frank-Wolfe method for what is near each other. Asked are:
 ///
 /// - states that follow each other without a jump, each with all joints of the hand;
-/// - joints within their limits;
+/// - joints within their limits, and coupled joints at what they are coupled to, to 1e-6 rad, in
+///   every state;
 /// - tips at the contacts of the fingers that hold: within 1e-6 m at rest, 1e-4 m in moves and
 ///   aligns; and ended there, those that are placed;
 /// - no link nearer to another one, to the palm or to the object than the clearance, everywhere

@@ -42,7 +42,8 @@ struct HandBody::Impl {
       : compiled(file.compiled),
         hand(file.hand),
         description(file.description),
-        model(compiled->model.get()) {}
+        model(compiled->model.get()),
+        couplings(file) {}
 
   std::shared_ptr<const kinematics::CompiledModel> compiled;
   kinematics::HandModel hand;
@@ -56,6 +57,7 @@ struct HandBody::Impl {
   std::vector<Shape> shapes;                ///< by part
   std::vector<std::vector<double>> levers;  ///< by part and joint
   std::set<std::pair<int, int>> may_touch;
+  CouplingResiduals couplings;
 
   [[nodiscard]] Isometry3d BodyPose(int body) const {
     const Isometry3d to_world =
@@ -87,12 +89,22 @@ struct HandBody::Impl {
     parts.push_back(part);
     shapes.push_back({body, std::move(points), radius});
   }
+  [[nodiscard]] bool IsPartOfTip(int geom) const {
+    for (std::size_t i = 0; i < tip_bodies.size(); ++i) {
+      const kinematics::HandDescription::Tip& tip = description.tips[i];
+      if (kinematics::IsPartOfFingertip(*model, *data, geom, tip_bodies[i],
+                                        {tip.centre, tip.radius})) {
+        return true;
+      }
+    }
+    return false;
+  }
   void AddParts() {
     for (int geom = 0; geom < model->ngeom; ++geom) {
       const int body = model->geom_bodyid[geom];
       const bool collides = model->geom_contype[geom] != 0 || model->geom_conaffinity[geom] != 0;
       if (!collides || model->body_rootid[body] != model->body_rootid[palm]) continue;
-      if (std::ranges::find(tip_bodies, body) != tip_bodies.end()) continue;
+      if (IsPartOfTip(geom)) continue;
       const collision::ConvexShape shape = kinematics::ShapeOfGeom(*model, geom);
       if (shape.points.empty()) continue;
       mjtNum matrix[9];
@@ -175,6 +187,17 @@ void HandBody::SetJoints(const std::vector<std::vector<double>>& joints) {
     }
   }
   mj_kinematics(impl_->model, impl_->data.get());
+}
+
+std::optional<HandBody::Uncoupled> HandBody::LargestCouplingResidual() const {
+  const CouplingResiduals::Residual found = impl_->couplings.Largest(*impl_->data);
+  for (FingerIndex finger{0}; finger < std::ssize(impl_->joint_ids); ++finger) {
+    const std::vector<int>& joints = impl_->joint_ids[finger];
+    const auto at = std::ranges::find(joints, found.joint);
+    if (at == joints.end()) continue;
+    return Uncoupled{finger, static_cast<int>(at - joints.begin()), found.radians, found.source};
+  }
+  return std::nullopt;
 }
 
 Solid HandBody::Place(int part) const {

@@ -2,11 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "planner/base/index.h"
 #include "planner/kinematics/hand_file.h"
+#include "sim/hand/coupling_residuals.h"
 #include "sim/hand/gap.h"
 
 namespace regrasp::sim {
@@ -35,6 +37,15 @@ class HandBody {
 
   /// @param joints  by finger, from the palm to the tip, as the model has them; as many as it has.
   void SetJoints(const std::vector<std::vector<double>>& joints);
+  /// How far a joint of a finger is from what it is coupled to.
+  struct Uncoupled {
+    FingerIndex finger;
+    int joint = 0;  ///< of the finger, from the palm on
+    double radians = 0;
+    std::string source;  ///< element that states the coupling, for messages
+  };
+  /// Return the largest residual of the couplings; none if no joint of a finger is coupled.
+  [[nodiscard]] std::optional<Uncoupled> LargestCouplingResidual() const;
   [[nodiscard]] Solid Place(int part) const;
   /// A point of a joint's hinge.
   [[nodiscard]] Eigen::Vector3d JointAnchor(FingerIndex finger, int joint) const;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 
 namespace regrasp::sim {
@@ -183,6 +184,20 @@ HandFinding JointOutside(HandBody& body, const HandState& state, FingerIndex fin
                    DegreesText(angle) + After(when) + ": " + DegreesText(std::abs(angle - limit)) +
                    (below ? " below" : " beyond") + "; its limits are " +
                    DegreesText(limits.lower) + " and " + DegreesText(limits.upper);
+  return finding;
+}
+
+HandFinding JointUncoupled(HandBody& body, const HandState& state,
+                           const HandBody::Uncoupled& uncoupled, double most,
+                           const std::string& when) {
+  const kinematics::Joint& joint = body.hand().fingers[uncoupled.finger].joints[uncoupled.joint];
+  const std::string off = FormatShort(Degrees(uncoupled.radians)) + "°";
+  HandFinding finding = AtJoint(Reason::kCouplingViolated, body, state, uncoupled.finger,
+                                uncoupled.joint, off + " off its coupling");
+  finding.detail = "joint " + joint.name + " of " + FingerText(body.hand(), uncoupled.finger) +
+                   " is at " + DegreesText(state.joints[uncoupled.finger][uncoupled.joint]) +
+                   After(when) + ": " + off + " from what its coupling demands (" +
+                   uncoupled.source + "), limit " + FormatShort(Degrees(most)) + "°";
   return finding;
 }
 

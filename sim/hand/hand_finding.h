@@ -43,6 +43,12 @@ struct HandFinding {
 [[nodiscard]] HandFinding JointOutside(HandBody& body, const plan::HandState& state,
                                        FingerIndex finger, int joint, const std::string& when);
 
+/// A joint that is not where its coupling has it.
+/// @param most  residual that is allowed, radians.
+[[nodiscard]] HandFinding JointUncoupled(HandBody& body, const plan::HandState& state,
+                                         const HandBody::Uncoupled& uncoupled, double most,
+                                         const std::string& when);
+
 /// A tip that is not where it touches its contact.
 /// @param expected   its centre there, in the palm's frame.
 /// @param tolerance  how far it may be away.

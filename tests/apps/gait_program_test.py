@@ -183,6 +183,67 @@ class Gait(ProgramCase):
         _, usual = self.validate(plan, *by_hand, "--no-frames")
         self.assertEqual(usual["settings"]["hand"]["tip"], "ball")
 
+    def changed_hand(self, *changes):
+        """ring4 with other text in its model."""
+        with open(self.hand("ring4").replace(".json", ".xml"), encoding="utf-8") as file:
+            model = file.read()
+        for old, text in changes:
+            self.assertIn(old, model)
+            model = model.replace(old, text)
+        self.write("ring4.xml", model)
+        with open(self.hand("ring4"), encoding="utf-8") as file:
+            self.write("ring4.json", file.read())
+
+    def test_what_a_verdict_cannot_rely_on_is_warned_of(self):
+        cube = ("--object", self.model("cube.obj"), "--hand", "ring4.json")
+        turn = ("--scale", "0.8", "--mu", "0.8", "--turn", "z 5", "--reserve", "none", "--output",
+                "plan.json")
+        for changes, words in (
+                ((), None),
+                (((' forcerange="-1.0 1.0"', ""),),
+                 "warning: ring4.json: the largest torque of joints finger0_joint0, "),
+                ((('<position name="finger2_motor3" joint="finger2_joint3"/>', ""),),
+                 "warning: ring4.json: joint finger2_joint3 has no actuator: plans are not "
+                 "simulated")):
+            self.changed_hand(*changes)
+            for program, done in (
+                    ("plan", self.assert_done(*cube, *turn)),
+                    ("validate", self.assert_done(*cube, "--plan", "plan.json", "--no-frames",
+                                                  "--replay", "points", program="validate"))):
+                with self.subTest(program=program, words=words):
+                    if words:
+                        self.assertIn(words, done.stderr)
+                    else:
+                        self.assertNotIn("warning", done.stderr)
+        done = self.run_program(*cube, "--plan", "plan.json", "--no-frames", program="validate")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("moves joint finger2_joint3", done.stderr)
+
+    def test_a_joint_off_its_coupling_fails(self):
+        """The model couples joints, and the plan is of free ones."""
+        plan = self.plan_in_hand()
+        follows = "".join(
+            f'<joint joint1="finger{i}_joint3" joint2="finger{i}_joint2" '
+            'polycoef="0.2 1.06 0 0 0"/>' for i in range(4))
+        self.changed_hand(("<actuator>", f"<equality>{follows}</equality><actuator>"))
+        self.assert_refused(2, "ring4.json: /couplings: joints finger0_joint3 and finger0_joint2",
+                            "--model", "ring4.json", program="hand")
+        self.assert_done("--model", "ring4.xml", "--output", "ring4.json", "--quiet",
+                         program="hand")
+        self.assert_done("--object", self.model("cube.obj"), "--hand", "ring4.json", "--scale",
+                         "0.8", "--mu", "0.8", "--turn", "z 5", "--reserve", "none", "--output",
+                         "coupled.json")
+        coupled = json.loads(self.read("coupled.json"))
+        points = ("--hand", "ring4.json", "--replay", "points", "--no-frames")
+        done, _ = self.validate(coupled, *points)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        plan["hand"]["sha256"] = coupled["hand"]["sha256"]
+        done, report = self.validate(plan, *points)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(report["steps"][0]["reason"], "coupling-violated")
+        for words in ("equality constraint of joint finger", "limit 5.73e-05°"):
+            self.assertIn(words, report["steps"][0]["detail"])
+
     def test_a_tip_without_collision_geometry_is_one_line(self):
         with open(self.hand("ring5").replace(".json", ".xml"), encoding="utf-8") as file:
             model = xml.etree.ElementTree.fromstring(file.read())
@@ -194,13 +255,9 @@ class Gait(ProgramCase):
         with open(self.hand("ring5"), encoding="utf-8") as file:
             self.write("hand.json", file.read())
         cube = ("--object", self.model("cube.obj"), "--hand", "hand.json")
-        self.assert_done(*cube, "--scale", "0.8333", "--mu", "0.8", "--turn", "z 20",
-                         "--output", "plan.json")
-        plan = ("--plan", "plan.json", "--no-frames")
-        self.assert_done(*cube, *plan, program="validate")
-        self.assert_refused(2, "ring5.xml: the tip link finger3_distal of finger 3 (finger3) has no "
-                            "collision geometry", *cube, *plan, "--tip", "geometry",
-                            program="validate")
+        self.assert_refused(2, "hand.json: /fingers/3/tip: body finger3_distal has no geom that "
+                            "collides", *cube, "--scale", "0.8333", "--mu", "0.8", "--turn",
+                            "z 20", "--output", "plan.json")
         self.assert_refused(2, "--tip does not go with --export-states", *cube, "--mu", "0.8",
                             "--export-states", "1", "--tip", "geometry", program="validate")
 

@@ -151,7 +151,7 @@ class SchemaTest(unittest.TestCase):
         hands = sorted(source("models/hands").glob("*.json"))
         self.expect_valid("hand", hands)
         hand = validate_schema.load(hands[0])
-        hand["couplings"] = [{"joint": "a", "follows": "b", "ratio": 1}]
+        hand["couplings"] = [{"joint": "a", "follows": "b", "ratio": 1, "offset": -0.1}]
         self.expect_refused("hand", hand, [
             (["format"], "regrasp-plan"),
             (["palm"], REMOVED),
@@ -162,6 +162,7 @@ class SchemaTest(unittest.TestCase):
             (["fingers", 0, "tip", "radius"], 0.2),
             (["fingers", 0, "tip", "centre"], REMOVED),
             (["couplings", 0, "ratio"], 0),
+            (["couplings", 0, "offset"], "0.1"),
             (["couplings", 0, "follows"], REMOVED),
         ])
 

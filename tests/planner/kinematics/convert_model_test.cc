@@ -142,6 +142,10 @@ TEST_F(ConvertModelTest, WhatIsPartOfTheHandIsRefusedInOneLine) {
          <replicate count="3"><geom size="0.1"/></replicate></worldbody></mujoco>)");
   EXPECT_THAT(refusal, HasSubstr("model.xml: line 2: <replicate> is not known to MuJoCo"));
   EXPECT_THAT(refusal, testing::Not(HasSubstr("\n")));
+  EXPECT_THAT(
+      Refusal(R"(<mujoco><worldbody><body><geom size="1"/><site name="a"/></body></worldbody>
+                         <equality><weld site1="a" site2="b"/></equality></mujoco>)"),
+      HasSubstr("line 2: <weld> between sites is not known to MuJoCo"));
   EXPECT_THAT(Refusal("<mujoco><worldbody>"), HasSubstr("line 1: "));
   EXPECT_THAT(Refusal("<sdf/>"), HasSubstr("expected a model as MJCF"));
   EXPECT_THAT(Refusal("<mujoco><include/></mujoco>"), HasSubstr("<include> names no file"));
@@ -208,6 +212,118 @@ TEST_F(ConvertModelTest, MimicsAreTaken) {
   ASSERT_EQ(compiled.text.mimics.size(), 1U);
   EXPECT_EQ(compiled.text.mimics[0].follows, "i");
   EXPECT_EQ(compiled.text.mimics[0].multiplier, 1.5);
+}
+
+/// A URDF of two links and a joint with what stands in it.
+std::string JointUrdf(const std::string& inside) {
+  return "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"><inertial><mass "
+         "value=\"1\"/><inertia "
+         "ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n<joint "
+         "name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 "
+         "1\"/>\n" +
+         inside + "</joint></robot>";
+}
+
+TEST_F(ConvertModelTest, NumbersOfJointsMayHaveASignAndSpaces) {
+  const CompiledModel compiled = Compile(JointUrdf(R"(<limit lower="0" upper="1" effort=" 1.5 "/>
+                   <mimic joint=" i" multiplier=" +1.1169 " offset=" -0.15"/>)"));
+  ASSERT_EQ(compiled.text.mimics.size(), 1U);
+  EXPECT_EQ(compiled.text.mimics[0].follows, "i");
+  EXPECT_EQ(compiled.text.mimics[0].multiplier, 1.1169);
+  EXPECT_EQ(compiled.text.mimics[0].offset, -0.15);
+  EXPECT_EQ(compiled.text.efforts.at("j"), 1.5);
+}
+
+TEST_F(ConvertModelTest, WhatIsNoNumberOfAJointIsRefused) {
+  for (const std::string wrong : {"", "1,1169", "abc", "nan", "1 2", "0x1"}) {
+    for (const std::string attribute : {"multiplier", "offset"}) {
+      EXPECT_THAT(Refusal(JointUrdf("<limit lower=\"0\" upper=\"1\"/><mimic joint=\"i\" " +
+                                    attribute + "=\"" + wrong + "\"/>")),
+                  HasSubstr("line 3: <mimic> of joint j: " + attribute +
+                            ": expected a number, found \"" + wrong + "\""));
+    }
+    EXPECT_THAT(Refusal(JointUrdf("<limit lower=\"0\" upper=\"1\" effort=\"" + wrong + "\"/>")),
+                HasSubstr("line 3: <limit> of joint j: effort: expected a number"));
+  }
+  EXPECT_THAT(Refusal(JointUrdf(R"(<limit lower="0" upper="1" effort="-1"/>)")),
+              HasSubstr("expected a number of at least 0, found -1"));
+  EXPECT_THAT(Refusal(JointUrdf(R"(<limit lower="0" upper="1"/><mimic multiplier="2"/>)")),
+              HasSubstr("<mimic> of joint j: expected the attribute joint"));
+}
+
+TEST_F(ConvertModelTest, AnEffortOfZeroOrNoneIsUnknown) {
+  for (const char* effort : {"", "effort=\"0\"", "effort=\" 0.0\""}) {
+    const CompiledModel compiled =
+        Compile(JointUrdf("<limit lower=\"0\" upper=\"1\" " + std::string(effort) + "/>"));
+    EXPECT_THAT(compiled.text.efforts, IsEmpty()) << effort;
+  }
+}
+
+TEST_F(ConvertModelTest, XacroThatIsNotExpandedIsRefused) {
+  const std::string declared = R"(<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">)";
+  const std::string other = R"(<robot name="r" xmlns:x="http://wiki.ros.org/xacro">)";
+  const std::string link = "<link name=\"a\"/></robot>";
+  EXPECT_THAT(Refusal(declared + "\n<xacro:property name=\"l\" value=\"1\"/>" + link),
+              HasSubstr("model.xml: line 2: <xacro:property>: xacro is not expanded"));
+  EXPECT_THAT(Refusal(other + "<link name=\"b\"/><x:finger/>" + link), HasSubstr("<x:finger>"));
+  EXPECT_THAT(Refusal(JointUrdf(R"(<limit lower="0" upper="${pi/2}"/>)")),
+              HasSubstr("<limit> upper=\"${pi/2}\": xacro is not expanded"));
+  EXPECT_THAT(Refusal("<robot name=\"$(arg name)\">" + link), HasSubstr("xacro is not expanded"));
+  EXPECT_EQ(Compile(declared + link).model->nbody, 2) << "the declaration alone is harmless";
+}
+
+TEST_F(ConvertModelTest, LooksThatAreMissingOrEmptyAreLeftOut) {
+  Write("empty.obj", "");
+  for (const std::string mesh :
+       {"nowhere.stl", "empty.obj", "package://no/nowhere.obj", "package://"}) {
+    const std::string geometry = "<geometry><mesh filename=\"" + mesh + "\"/></geometry>";
+    const CompiledModel compiled =
+        Compile("<robot name=\"r\"><link name=\"a\"><visual>" + geometry +
+                "</visual><collision><geometry><sphere "
+                "radius=\"1\"/></geometry></collision></link></robot>");
+    EXPECT_EQ(compiled.model->ngeom, 1);
+    EXPECT_THAT(Attributes(compiled.text), Contains("mesh filename"));
+    EXPECT_THAT(compiled.text.meshes, IsEmpty());
+    EXPECT_THAT(Refusal("<robot name=\"r\"><link name=\"a\"><collision>" + geometry +
+                        "</collision></link></robot>"),
+                HasSubstr("model.xml: line 1: mesh " + mesh));
+  }
+}
+
+TEST_F(ConvertModelTest, LooksOfMjcfThatAreMissingOrEmptyAreLeftOut) {
+  Write("parts/empty.obj", "");
+  const auto model = [](const std::string& geom, const std::string& inertial) {
+    return R"(<mujoco><compiler meshdir="parts"/><default><default class="look"><geom type="mesh"
+        contype="0" conaffinity="0" density="0"/></default></default><asset><mesh name="n"
+        file="nowhere.stl"/><mesh file="empty.obj"/></asset><worldbody><body childclass="look">)" +
+           inertial + "<geom class=\"main\" type=\"sphere\" size=\"1\"/><geom type=\"mesh\" " +
+           geom + "/></body></worldbody></mujoco>";
+  };
+  const std::string inertial = R"(<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)";
+  for (const std::string mesh : {"mesh=\"n\"", "mesh=\"empty\""}) {
+    const CompiledModel compiled = Compile(model(mesh, ""));
+    EXPECT_EQ(compiled.model->ngeom, 1);
+    EXPECT_EQ(compiled.model->nmesh, 0);
+    EXPECT_THAT(Attributes(compiled.text), Contains("geom mesh"));
+    EXPECT_THAT(Refusal(model(mesh + " contype=\"1\"", "")), HasSubstr("mesh " + mesh.substr(6, 1)))
+        << "it collides";
+    EXPECT_THAT(Refusal(model(mesh + " density=\"1000\"", "")), HasSubstr("model.xml: line "))
+        << "it has a mass";
+    EXPECT_EQ(Compile(model(mesh + " density=\"1000\"", inertial)).model->ngeom, 1);
+  }
+}
+
+TEST_F(ConvertModelTest, PackagesAreFoundFromTheCurrentFolder) {
+  Write("hand/part.obj", kTetrahedron);
+  Write("hand/urdf/model.urdf",
+        R"(<robot name="r"><link name="a"><collision><geometry>
+           <mesh filename="package://hand/part.obj"/></geometry></collision></link></robot>)");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_ / "hand/urdf");
+  int geoms = 0;
+  EXPECT_NO_THROW(geoms = CompileModel("model.urdf").model->ngeom);
+  fs::current_path(before);
+  EXPECT_EQ(geoms, 1);
 }
 
 TEST(MujocoSchemaTest, KnowsWhatMayStandWhere) {

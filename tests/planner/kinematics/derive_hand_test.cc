@@ -74,37 +74,37 @@ TEST_F(DeriveHandTest, FindsPalmTipsBallsNamesAndUp) {
   }
   EXPECT_THAT(names, ElementsAre("ff", "mf", "rf", "th"));
   EXPECT_THAT(hand.couplings, IsEmpty());
-  EXPECT_THAT(derived.notes, ElementsAre("the model has no actuators"));
+  EXPECT_THAT(derived.notes, IsEmpty());
 }
 
 TEST_F(DeriveHandTest, ALinkBesideAFingerIsNoFinger) {
   const DerivedHand derived =
       Derive(Hand("",
-                  "<body name=\"sensor\" pos=\"0.02 0 0\"><geom size=\"0.003\"/></body>"
+                  "<body name=\"sensor\" pos=\"0.02 0 0\"><joint name=\"press\" range=\"0 1\"/>"
+                  "<geom size=\"0.003\"/></body>"
                   "<body name=\"nail\" pos=\"0 0 0.02\"><joint name=\"loose\" range=\"0 10\"/>"
                   "<geom size=\"0.003\"/></body>"));
   ASSERT_EQ(derived.description.tips.size(), 4U);
-  EXPECT_EQ(derived.description.tips[0].body, "nail") << "the longest chain";
-  EXPECT_THAT(derived.notes, Contains(HasSubstr("body sensor is no fingertip here")));
+  EXPECT_EQ(derived.description.tips[0].body, "sensor") << "the first of equal chains";
+  EXPECT_THAT(derived.notes, Contains(HasSubstr("body nail is no fingertip here")));
 }
 
 TEST_F(DeriveHandTest, EqualitiesCoupleAndTheJointWithAnActuatorLeads) {
   const DerivedHand derived = Derive(Hand(
       R"(<equality><joint joint1="ff1" joint2="ff2" polycoef="0 1.25 0 0 0"/>
          <joint joint1="mf2" joint2="mf1" polycoef="0 0.5 0 0 0"/>
-         <joint joint1="rf2" joint2="rf1" polycoef="0.1 0.5 0 0 0"/>
-         <joint joint1="th2" joint2="rf1"/></equality>
+         <joint joint1="rf2" joint2="rf1" polycoef="0.1 0.5 0 0 0"/></equality>
          <actuator><position joint="ff1"/><position joint="mf1"/></actuator>)"));
   const auto& couplings = derived.description.couplings;
-  ASSERT_EQ(couplings.size(), 2U);
+  ASSERT_EQ(couplings.size(), 3U);
   EXPECT_EQ(couplings[0].joint, "ff2");
   EXPECT_EQ(couplings[0].follows, "ff1");
   EXPECT_NEAR(couplings[0].ratio, 0.8, 1e-12);
   EXPECT_EQ(couplings[1].joint, "mf2");
   EXPECT_EQ(couplings[1].ratio, 0.5);
-  EXPECT_THAT(derived.notes, Contains(HasSubstr("joint rf2 is no ratio")));
-  EXPECT_THAT(derived.notes, Contains(HasSubstr("of two fingers")));
-  EXPECT_THAT(derived.notes, Contains("joint rf1 has no actuator"));
+  EXPECT_EQ(couplings[2].joint, "rf2");
+  EXPECT_EQ(couplings[2].ratio, 0.5);
+  EXPECT_NEAR(couplings[2].offset, 0.1, 1e-12);
 }
 
 TEST_F(DeriveHandTest, ATendonOfOneActuatorCouplesWhatItPulls) {
@@ -117,6 +117,22 @@ TEST_F(DeriveHandTest, ATendonOfOneActuatorCouplesWhatItPulls) {
   EXPECT_EQ(couplings[0].follows, "ff1");
   EXPECT_EQ(couplings[0].ratio, 0.5);
   EXPECT_THAT(derived.notes, Contains(HasSubstr("share an actuator by a tendon")));
+}
+
+/// Bodies without a joint between them are one link, wherever on it a marker is.
+TEST_F(DeriveHandTest, AMarkerFixedToALinkIsNoFingertip) {
+  for (const std::string place : {"0.02", "0.0265", "0.0275"}) {
+    const DerivedHand derived = Derive(
+        Hand("", "<body name=\"mark\" pos=\"0 0 " + place + "\"><geom size=\"0.0002\"/></body>"));
+    const HandDescription::Tip& tip = derived.description.tips[0];
+    EXPECT_EQ(tip.body, "rh_ffdistal");
+    EXPECT_EQ(tip.name, "ff");
+    EXPECT_EQ(tip.radius, 0.007);
+  }
+  const DerivedHand pad =
+      Derive(Hand("", "<body name=\"pad\" pos=\"0 0 0.03\"><geom size=\"0.005\"/></body>"));
+  EXPECT_EQ(pad.description.tips[0].body, "pad") << "a part that reaches farther is the tip";
+  EXPECT_EQ(pad.description.tips[0].radius, 0.005);
 }
 
 TEST_F(DeriveHandTest, WhatIsNoHandIsRefused) {

@@ -15,7 +15,8 @@ Json GoodJson() {
     {"name": "a", "tip": {"body": "tip_a", "centre": [0, 0, 0.01], "radius": 0.01}},
     {"name": "b", "tip": {"body": "tip_b", "centre": [0, 0, 0.01], "radius": 0.01}},
     {"name": "c", "tip": {"body": "tip_c", "centre": [0, 0, 0.01], "radius": 0.01}}],
-    "couplings": [{"joint": "a2", "follows": "a1", "ratio": 0.5}]})",
+    "couplings": [{"joint": "a2", "follows": "a1", "ratio": 0.5},
+                  {"joint": "b2", "follows": "b1", "ratio": 2, "offset": -0.15}]})",
                    "good");
 }
 
@@ -25,6 +26,8 @@ TEST(HandDescriptionTest, WhatIsWrittenIsReadAgain) {
   EXPECT_EQ(description.up, Eigen::Vector3d::UnitZ());
   EXPECT_EQ(description.tips.size(), 3U);
   EXPECT_EQ(description.couplings.front().ratio, 0.5);
+  EXPECT_EQ(description.couplings.front().offset, 0);
+  EXPECT_EQ(description.couplings.back().offset, -0.15);
   const std::string text = FormatHandDescription(description);
   EXPECT_EQ(FormatHandDescription(ParseHandDescription(text, "again")), text);
 }
@@ -47,6 +50,7 @@ TEST(HandDescriptionTest, WhatIsWrongIsNamed) {
                [](Json& json) { json["fingers"][0]["tip"]["radius"] = 0; });
   expect_fails("/up: expected a direction", [](Json& json) { json["up"] = {0, 0, 0}; });
   expect_fails("/couplings/0/ratio", [](Json& json) { json["couplings"][0]["ratio"] = 0; });
+  expect_fails("/couplings/1/offset", [](Json& json) { json["couplings"][1]["offset"] = "x"; });
   expect_fails("/palm", [](Json& json) { json["palm"] = ""; });
   expect_fails("format", [](Json& json) { json["format"] = "regrasp-plan"; });
 }

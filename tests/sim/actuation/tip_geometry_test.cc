@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
+#include "planner/kinematics/mujoco_model.h"
 #include "planner/plan/locate.h"
 #include "sim/actuation/hand_replay.h"
 #include "tests/fixtures/project_path.h"
@@ -44,10 +46,12 @@ kinematics::HandFile HandWithTips(const std::string& tip, const std::string& cap
   };
   replace(R"(type="sphere" size="0.01" pos="0 0 0.024")", tip);
   replace(R"(type="capsule" size="0.008" fromto="0 0 0 0 0 0.024")", capsule);
-  const std::string folder = testing::TempDir();
-  WriteFile(folder + "ring5.xml", model);
-  WriteFile(folder + "tips.json", ReadFile(ProjectPath("models/hands/ring5.json")));
-  return kinematics::ReadHandFile(folder + "tips.json");
+  const std::string path = testing::TempDir() + "ring5.xml";
+  WriteFile(path, model);
+  // Not read as a hand's file, whose balls must be at its tips.
+  kinematics::HandFile file = kinematics::ReadHandFile(ProjectPath("models/hands/ring5.json"));
+  file.compiled = std::make_shared<const kinematics::CompiledModel>(kinematics::CompileModel(path));
+  return file;
 }
 
 constexpr char kBall[] = R"(type="sphere" size="0.01" pos="0 0 0.024")";

@@ -10,6 +10,8 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/base/json.h"
 #include "planner/base/quantity_text.h"
 #include "planner/base/random.h"
 #include "planner/collision/convex_shape.h"
@@ -18,6 +20,7 @@
 #include "planner/plan/locate.h"
 #include "planner/plan/plan_io.h"
 #include "sim/hand/gap.h"
+#include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
@@ -133,6 +136,68 @@ TEST(CheckHandTest, APlanOfTheSearchPasses) {
                   << fault.detail;
   }
   EXPECT_TRUE(plan::CheckPlan(Cube(), GoodPlan()).passed());
+}
+
+/// The ring hand with joint 3 of each finger coupled to joint 2 by its model.
+class CoupledHandTest : public FolderTest {
+ protected:
+  CoupledHandTest() {
+    std::string model = ReadFile(ProjectPath("models/hands/ring4.xml"));
+    std::string equalities = "<equality>";
+    Json hand = ParseJson(ReadFile(kHand), kHand);
+    for (int finger = 0; finger < 4; ++finger) {
+      const std::string joint = "finger" + std::to_string(finger) + "_joint";
+      equalities += "<joint joint1=\"" + joint + "3\" joint2=\"" + joint +
+                    "2\" polycoef=\"0.2 1.06 0 0 0\"/>";
+      hand["couplings"].push_back(
+          {{"joint", joint + "3"}, {"follows", joint + "2"}, {"ratio", 1.06}, {"offset", 0.2}});
+    }
+    model.insert(model.rfind("</mujoco>"), equalities + "</equality>");
+    Write("ring4.xml", model);
+    file_ = kinematics::ReadHandFile(Write("ring4.json", FormatJson(hand)));
+  }
+  kinematics::HandFile file_;
+};
+
+TEST_F(CoupledHandTest, APlanOfTheSearchKeepsTheCouplings) {
+  gait::GaitRequest request = RequestForTheCube();
+  request.hand = &file_.hand;
+  request.reserve = gait::Reserve::kNone;
+  request.turn = {Vector3d::UnitZ(), Radians(10)};
+  const gait::GaitResult found = gait::FindGait(request);
+  ASSERT_TRUE(found.gait) << found.message;
+  const plan::Plan plan =
+      plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+  for (const std::vector<double>& joints : plan.hand->initial.joints) {
+    EXPECT_NEAR(joints[3], 0.2 + 1.06 * joints[2], 1e-9);
+  }
+  for (const plan::HandFault& fault : CheckHand(file_, Cube(), plan)) {
+    ADD_FAILURE() << ReasonName(fault.reason) << ": " << fault.detail;
+  }
+}
+
+/// A plan of the hand with free joints.
+TEST_F(CoupledHandTest, AJointOffItsCouplingIsNamed) {
+  plan::Plan plan = GoodPlan();
+  plan.hand->sha256 = file_.hand.sha256;
+  const auto expect_fails = [&](const std::string& source) {
+    const auto faults = CheckHand(file_, Cube(), plan);
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].reason, Reason::kCouplingViolated);
+    EXPECT_THAT(faults[0].detail, testing::HasSubstr(source));
+    EXPECT_THAT(faults[0].detail, testing::HasSubstr("_joint3 of finger "));
+    ASSERT_EQ(faults[0].fault.fingers.size(), 1U);
+  };
+  expect_fails("equality constraint of joint finger");
+  file_.description.couplings.clear();
+  expect_fails("equality constraint of joint finger");
+  kinematics::HandFile free = kinematics::ReadHandFile(kHand);
+  plan.hand->sha256 = free.hand.sha256;
+  EXPECT_TRUE(CheckHand(free, Cube(), plan).empty());
+  // A coupling that the file alone has.
+  file_ = free;
+  file_.description.couplings = {{"finger2_joint3", "finger2_joint2", 1, 0}};
+  expect_fails("coupling of joint finger2_joint3 in the hand's file");
 }
 
 TEST(CheckHandTest, AFileReadAgainPassesToo) {

@@ -1,0 +1,188 @@
+#include "planner/kinematics/check_model.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/kinematics/geom_shape.h"
+#include "planner/kinematics/joint_relations.h"
+#include "planner/kinematics/model_names.h"
+#include "planner/kinematics/mujoco_model.h"
+
+namespace regrasp::kinematics {
+namespace {
+
+using collision::ConvexShape;
+using Eigen::Vector3d;
+
+/// Farthest that a fingertip sphere may reach beyond its link, metres: a soft cover, for example.
+constexpr double kLargestProtrusion = 5e-3;
+constexpr int kDirections = 1000;
+constexpr double kSameCoupling = 1e-9;
+
+/// Flags that change what is modelled; all others are accepted.
+constexpr std::pair<int, const char*> kPhysicsFlags[] = {
+    {mjDSBL_CONSTRAINT, "constraint"},     {mjDSBL_EQUALITY, "equality"},
+    {mjDSBL_FRICTIONLOSS, "frictionloss"}, {mjDSBL_LIMIT, "limit"},
+    {mjDSBL_CONTACT, "contact"},           {mjDSBL_PASSIVE, "passive"},
+    {mjDSBL_GRAVITY, "gravity"},           {mjDSBL_CLAMPCTRL, "clampctrl"},
+    {mjDSBL_ACTUATION, "actuation"}};
+
+[[noreturn]] void RefuseModel(const CompiledModel& compiled, const std::string& what) {
+  throw InputError(compiled.text.files.front().string() + ": " + what);
+}
+
+void CheckOptions(const CompiledModel& compiled) {
+  const mjOption& options = compiled.model->opt;
+  for (const auto& [bit, name] : kPhysicsFlags) {
+    if ((options.disableflags & bit) == 0) continue;
+    RefuseModel(compiled, std::string("<flag> ") + name +
+                              ": not supported, expected \"enable\", found \"disable\"");
+  }
+  if ((options.enableflags & mjENBL_OVERRIDE) != 0) {
+    RefuseModel(compiled, "<flag> override: not supported, expected \"disable\", found \"enable\"");
+  }
+  const std::pair<const char*, double> kMedium[] = {{"wind", VectorAt(options.wind, 0).norm()},
+                                                    {"density", options.density},
+                                                    {"viscosity", options.viscosity}};
+  for (const auto& [name, value] : kMedium) {
+    if (value == 0) continue;
+    RefuseModel(compiled, std::string("<option> ") + name + ": not supported, expected 0, found " +
+                              FormatShort(value));
+  }
+}
+
+void CheckActuators(const CompiledModel& compiled) {
+  const mjModel& model = *compiled.model;
+  for (int i = 0; i < model.nu; ++i) {
+    const int type = model.actuator_trntype[i];
+    if (type == mjTRN_JOINT || type == mjTRN_JOINTINPARENT || type == mjTRN_TENDON) continue;
+    const char* found = type == mjTRN_BODY          ? "adhesion of a body"
+                        : type == mjTRN_SLIDERCRANK ? "a slider-crank"
+                                                    : "a force at a site";
+    RefuseModel(compiled, ActuatorName(model, i) +
+                              ": moves no joint, expected actuators of joints or fixed tendons, "
+                              "found " +
+                              found);
+  }
+}
+
+/// Directions spread evenly over the unit sphere.
+std::vector<Vector3d> EvenDirections() {
+  const double turn = std::numbers::pi * (3 - std::sqrt(5.0));
+  std::vector<Vector3d> directions;
+  for (int i = 0; i < kDirections; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kDirections;
+    const double across = std::sqrt(1 - z * z);
+    directions.emplace_back(across * std::cos(turn * i), across * std::sin(turn * i), z);
+  }
+  return directions;
+}
+
+/// The colliding geoms of a link in the frame of one of its bodies.
+std::vector<ConvexShape> ShapesOfLink(const mjModel& model, const mjData& rest, int body) {
+  const Eigen::Isometry3d to_body = PoseAt(rest.xpos, rest.xmat, body).inverse();
+  std::vector<ConvexShape> shapes;
+  for (int geom = 0; geom < model.ngeom; ++geom) {
+    if (!Collides(model, geom)) continue;
+    if (LinkOf(model, model.geom_bodyid[geom]) != LinkOf(model, body)) continue;
+    ConvexShape shape = ShapeOfGeom(model, geom);
+    if (shape.points.empty()) continue;
+    shapes.push_back(Moved(to_body * PoseAt(rest.geom_xpos, rest.geom_xmat, geom), shape));
+  }
+  return shapes;
+}
+
+/// How far a sphere reaches beyond the convex hull of shapes, metres: by support functions.
+double ProtrusionOf(const collision::Ball& sphere, const std::vector<ConvexShape>& shapes) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Vector3d& direction : EvenDirections()) {
+    double support = -std::numeric_limits<double>::infinity();
+    for (const ConvexShape& shape : shapes) {
+      for (const Vector3d& point : shape.points) {
+        support = std::max(support, direction.dot(point) + shape.radius);
+      }
+    }
+    most = std::max(most, direction.dot(sphere.centre) + sphere.radius - support);
+  }
+  return most;
+}
+
+std::string RelationText(const JointRelation& relation) {
+  return "ratio " + FormatShort(relation.ratio) + " and offset " + FormatShort(relation.offset);
+}
+
+}  // namespace
+
+void CheckPhysics(const CompiledModel& compiled) {
+  CheckOptions(compiled);
+  CheckActuators(compiled);
+}
+
+void CheckCouplings(const HandModel& hand, const std::string& palm, const CompiledModel& compiled,
+                    const std::string& file) {
+  const mjModel& model = *compiled.model;
+  std::vector<std::vector<int>> fingers;
+  std::vector<std::pair<int, const Joint*>> joints;
+  const int palm_body = mj_name2id(&model, mjOBJ_BODY, palm.c_str());
+  for (const Finger& finger : hand.fingers) {
+    const int tip = mj_name2id(&model, mjOBJ_BODY, finger.tip.body.c_str());
+    fingers.push_back(JointsBetween(model, palm_body, tip));
+    for (std::size_t k = 0; k < finger.joints.size(); ++k) {
+      joints.emplace_back(fingers.back()[k], &finger.joints[k]);
+    }
+  }
+  const auto find = [&](int id) -> const Joint& {
+    return *std::ranges::find(joints, id, &std::pair<int, const Joint*>::first)->second;
+  };
+  for (const JointRelation& relation : ReadJointRelations(compiled, fingers)) {
+    const Joint& joint = find(relation.joint);
+    const Joint& leader = find(relation.leader);
+    const std::string what = file + ": /couplings: joints " + joint.name + " and " + leader.name +
+                             " are coupled in the model (" + relation.source + "), expected ";
+    const std::string help = "; help: write the hand's file again with hand --model";
+    if (joint.drive != leader.drive) {
+      throw InputError(what + "a coupling with " + RelationText(relation) + ", found none" + help);
+    }
+    const double ratio = joint.ratio / leader.ratio;
+    const double offset = joint.coupling_offset - ratio * leader.coupling_offset;
+    const bool agrees = std::abs(ratio - relation.ratio) <= kSameCoupling * std::abs(ratio) &&
+                        std::abs(offset - relation.offset) <= kSameCoupling;
+    if (agrees || relation.shares_actuator) continue;
+    throw InputError(what + RelationText(relation) + ", found ratio " + FormatShort(ratio) +
+                     " and offset " + FormatShort(offset) + help);
+  }
+}
+
+void CheckCollisionGeoms(const HandDescription& description, const CompiledModel& compiled,
+                         const std::string& file) {
+  const mjModel& model = *compiled.model;
+  const DataPtr rest = AtRest(model);
+  const auto shapes_of = [&](const std::string& where, const std::string& body) {
+    const int id = mj_name2id(&model, mjOBJ_BODY, body.c_str());
+    std::vector<ConvexShape> shapes = ShapesOfLink(model, *rest, id);
+    if (!shapes.empty()) return shapes;
+    throw InputError(file + ": " + where + ": body " + body +
+                     " has no geom that collides, expected at least one with contype or "
+                     "conaffinity other than 0");
+  };
+  static_cast<void>(shapes_of("/palm", description.palm));
+  for (std::size_t i = 0; i < description.tips.size(); ++i) {
+    const HandDescription::Tip& tip = description.tips[i];
+    const std::string where = "/fingers/" + std::to_string(i) + "/tip";
+    const double most = ProtrusionOf({tip.centre, tip.radius}, shapes_of(where, tip.body));
+    if (most <= kLargestProtrusion) continue;
+    const auto mm = [](double metres) { return FormatShort(1e3 * metres, 3) + " mm"; };
+    throw InputError(file + ": " + where + ": the fingertip sphere reaches " + mm(most) +
+                     " beyond the link of body " + tip.body + ", limit " + mm(kLargestProtrusion));
+  }
+}
+
+}  // namespace regrasp::kinematics

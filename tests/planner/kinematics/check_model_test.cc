@@ -1,0 +1,121 @@
+#include "planner/kinematics/check_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/base/error.h"
+#include "planner/kinematics/hand_file.h"
+#include "planner/kinematics/inspect_hand.h"
+#include "tests/fixtures/folder_test.h"
+#include "tests/planner/kinematics/ring_model.h"
+
+namespace regrasp::kinematics {
+namespace check_model_test {
+
+using testing::HasSubstr;
+
+class CheckModelTest : public FolderTest {
+ protected:
+  std::string Refusal(const RingParts& parts) const {
+    return RefusalOf(Write("ring.xml", RingXml(parts)));
+  }
+  static std::string RefusalOf(const std::filesystem::path& path) {
+    try {
+      (void)InspectHand(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  }
+  std::string FileRefusal(const HandDescription& description) const {
+    return RefusalOf(Write("hand.json", FormatHandDescription(description)));
+  }
+};
+
+TEST_F(CheckModelTest, FlagsThatTurnOffPhysicsAreRefused) {
+  for (const std::string flag : {"constraint", "equality", "frictionloss", "limit", "contact",
+                                 "passive", "gravity", "clampctrl", "actuation"}) {
+    EXPECT_THAT(Refusal({.before = "<option><flag " + flag + "=\"disable\"/></option>"}),
+                HasSubstr("ring.xml: <flag> " + flag + ": not supported"));
+  }
+  EXPECT_THAT(Refusal({.before = R"(<option><flag override="enable"/></option>)"}),
+              HasSubstr("<flag> override: not supported"));
+  for (const std::string flag :
+       {"warmstart=\"disable\"", "filterparent=\"disable\"", "refsafe=\"disable\"",
+        "energy=\"enable\"", "gravity=\"enable\""}) {
+    EXPECT_EQ(Refusal({.before = "<option><flag " + flag + "/></option>"}), "taken") << flag;
+  }
+}
+
+TEST_F(CheckModelTest, MediaThatPushTheObjectAreRefused) {
+  EXPECT_THAT(Refusal({.before = R"(<option wind="0 0 5"/>)"}),
+              HasSubstr("<option> wind: not supported, expected 0, found 5"));
+  EXPECT_THAT(Refusal({.before = R"(<option density="1000"/>)"}), HasSubstr("<option> density"));
+  EXPECT_THAT(Refusal({.before = R"(<option viscosity="0.001"/>)"}),
+              HasSubstr("<option> viscosity"));
+  EXPECT_EQ(Refusal({.before = R"(<option timestep="0.001" cone="elliptic" impratio="10"
+                                    gravity="0 0 -1" density="0"/>)"}),
+            "taken");
+}
+
+TEST_F(CheckModelTest, ActuatorsThatMoveNoJointAreRefused) {
+  EXPECT_THAT(
+      Refusal({.after = R"(<actuator><adhesion name="glue" body="fc" ctrlrange="0 1"/>
+                                   </actuator>)"}),
+      HasSubstr("glue: moves no joint, expected actuators of joints or fixed tendons, found "
+                "adhesion of a body"));
+  RingParts parts{.after = R"(<actuator><general name="push" site="s"/></actuator>)"};
+  parts.palm += "<site name=\"s\"/>";
+  EXPECT_THAT(Refusal(parts), HasSubstr("push: moves no joint"));
+  EXPECT_EQ(Refusal({.after = R"(<actuator><motor joint="f1"/></actuator>)"}), "taken");
+}
+
+TEST_F(CheckModelTest, PalmAndFingertipsNeedCollisionGeoms) {
+  const std::filesystem::path path = Write("ring.xml", RingXml());
+  HandDescription description = InspectHand(path).description;
+  EXPECT_EQ(FileRefusal(description), "taken");
+  const std::string off = R"(contype="0" conaffinity="0")";
+  Write("ring.xml", RingXml({.geoms = off}));
+  EXPECT_THAT(FileRefusal(description),
+              HasSubstr("hand.json: /fingers/0/tip: body fc has no geom that collides"));
+  EXPECT_THAT(RefusalOf(path), HasSubstr("found 0 fingers"));
+  Write("ring.xml", RingXml({.palm = R"(<geom type="cylinder" size="0.07 0.01" )" + off + "/>"}));
+  EXPECT_THAT(FileRefusal(description), HasSubstr("/palm: body palm has no geom that collides"));
+  EXPECT_THAT(RefusalOf(path), HasSubstr("/palm: body palm has no geom that collides"));
+  Write("ring.xml", RingXml({.palm = R"(<body name="shell"><geom size="0.02"/></body>)"}));
+  EXPECT_EQ(FileRefusal(description), "taken") << "a body fixed to the palm is part of it";
+}
+
+TEST_F(CheckModelTest, AFingertipSphereIsAtItsLink) {
+  HandDescription description = InspectHand(Write("ring.xml", RingXml())).description;
+  const auto refusal = [&](const Eigen::Vector3d& centre, double radius) {
+    description.tips[1].centre = centre;
+    description.tips[1].radius = radius;
+    return FileRefusal(description);
+  };
+  EXPECT_EQ(refusal({0, 0, 0.024}, 0.01), "taken");
+  EXPECT_EQ(refusal({0, 0, 0.028}, 0.01), "taken");
+  EXPECT_EQ(refusal({0, 0, 0.024}, 0.0145), "taken");
+  EXPECT_THAT(
+      refusal({0, 0, 0.0642}, 0.01),
+      HasSubstr("/fingers/1/tip: the fingertip sphere reaches 40.2 mm beyond the link of body "
+                "gc, limit 5 mm"));
+  EXPECT_THAT(refusal({0, 0.06, 0.024}, 0.01), HasSubstr("beyond the link of body gc"));
+  EXPECT_THAT(refusal({0.016, 0, 0.024}, 0.01), HasSubstr("beyond the link of body gc"));
+  EXPECT_THAT(refusal({0, 0, 0.024}, 0.04), HasSubstr("reaches 30 mm beyond"));
+}
+
+/// Where the marker is, is in the fingertip sphere: neither planner nor check keep it off objects.
+TEST_F(CheckModelTest, AMarkerInsideTheFingertipIsPartOfIt) {
+  const auto shapes = [&](const std::string& inside) {
+    return InspectHand(Write("ring.xml", RingXml({.inside = inside})))
+        .hand.fingers[0]
+        .shapes.size();
+  };
+  const std::size_t plain = shapes("");
+  EXPECT_EQ(shapes(R"(<body pos="0 0 0.034"><geom size="0.0002"/></body>)"), plain);
+  EXPECT_EQ(shapes(R"(<body pos="0.02 0 0.01"><geom size="0.002"/></body>)"), plain + 1);
+}
+
+}  // namespace check_model_test
+}  // namespace regrasp::kinematics
