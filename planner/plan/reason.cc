@@ -40,6 +40,10 @@ std::string_view ReasonName(Reason reason) {
       return "hand-collides";
     case Reason::kTorqueLimit:
       return "torque-limit";
+    case Reason::kCouplingViolated:
+      return "coupling-violated";
+    case Reason::kTipPenetrates:
+      return "tip-penetrates";
     case Reason::kSimulationUnstable:
       return "simulation-unstable";
     case Reason::kContactLost:

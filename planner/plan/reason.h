@@ -31,6 +31,8 @@ enum class Reason {
   kJointLimit,
   kHandCollides,
   kTorqueLimit,
+  kCouplingViolated,
+  kTipPenetrates,
   kSimulationUnstable,
   kContactLost,
   kSlipped,

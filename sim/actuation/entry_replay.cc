@@ -192,10 +192,12 @@ void EntryReplay::TakeHold() {
   if (judge_.breach()) throw StepFails();
   // Something holds the object until the fingers do.
   world_.PinObject(true);
+  judge_.SetSettling(true);
   control_.SetFeedback(false);
   const Hold all = {holding_};
   Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
   world_.PinObject(false);
+  judge_.SetSettling(false);
   control_.SetFeedback(true);
   for (const FingerIndex f : holding_) judge_.SetHolding(f, true);
 }
@@ -335,7 +337,9 @@ void EntryReplay::Descend(const HandState& end, std::vector<Coming>& coming) {
   }
   for (const Coming& finger : coming) {
     if (!finger.down) control_.Attach(finger.finger);
+    judge_.WatchPlaced(finger.finger);
   }
+  if (judge_.breach()) throw StepFails();
 }
 
 void EntryReplay::ReleaseFingers(const plan::Switch& change) {
@@ -360,6 +364,7 @@ void EntryReplay::Rest() {
   Run(kSettle, [](double) {});
   judge_.SetPhase("at rest");
   judge_.WatchRest(state_.pose);
+  judge_.MeasureCovered();
   if (judge_.breach()) throw StepFails();
 }
 

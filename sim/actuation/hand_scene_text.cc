@@ -1,12 +1,16 @@
 #include "sim/actuation/hand_scene_text.h"
 
+#include <mujoco/mujoco.h>
+
 #include <algorithm>
+#include <cstddef>
 #include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "planner/base/number.h"
+#include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::sim {
 namespace {
@@ -49,12 +53,18 @@ XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass
 
 /// The largest torque of a joint by its URDF; 0 where it does not say.
 double EffortOf(const XmlElement& robot, const std::string& name) {
+  const auto number = [](const std::string& attribute) {
+    const auto begin = attribute.find_first_not_of(" \t\r\n");
+    if (begin == std::string::npos) return 0.0;
+    const auto end = attribute.find_last_not_of(" \t\r\n");
+    return ParseDouble(attribute.substr(begin, end - begin + 1)).value_or(0);
+  };
   for (const XmlElement& joint : robot.children) {
     const std::string* found = joint.name == "joint" ? joint.Find("name") : nullptr;
     const XmlElement* limit = joint.Child("limit");
     if (found == nullptr || *found != name || limit == nullptr) continue;
     const std::string* effort = limit->Find("effort");
-    return effort == nullptr ? 0 : ParseDouble(*effort).value_or(0);
+    return effort == nullptr ? 0 : number(*effort);
   }
   return 0;
 }
@@ -81,6 +91,46 @@ kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
   return text;
 }
 
+/// `count` numbers of the row `index` of an array of the model.
+std::string Row(const mjtNum* values, int index, int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    text += (i > 0 ? " " : "") + FormatDouble(values[std::ptrdiff_t{count} * index + i]);
+  }
+  return text;
+}
+
+/// Write the inertia of every body as the hand's model has it, in the order of its bodies.
+void WriteInertias(const mjModel& model, XmlElement& element, int& last) {
+  for (XmlElement& child : element.children) {
+    if (child.name != "body" || ++last >= model.nbody) continue;
+    const int body = last;
+    std::erase_if(child.children, [](const XmlElement& part) { return part.name == "inertial"; });
+    if (model.body_mass[body] > 0) {
+      child.children.insert(
+          child.children.begin(),
+          Element("inertial", {{"pos", Row(model.body_ipos, body, 3)},
+                               {"quat", Row(model.body_iquat, body, 4)},
+                               {"mass", FormatDouble(model.body_mass[body])},
+                               {"diaginertia", Row(model.body_inertia, body, 3)}}));
+    }
+    WriteInertias(model, child, last);
+  }
+}
+
+/// A compiler that derives masses, or scales them, would do so with the object as well.
+void FixMasses(const mjModel& model, XmlElement& root) {
+  int last = 0;
+  for (XmlElement& section : root.children) {
+    if (section.name == "worldbody") WriteInertias(model, section, last);
+    if (section.name != "compiler") continue;
+    for (const char* derives :
+         {"inertiafromgeom", "settotalmass", "boundmass", "boundinertia", "balanceinertia"}) {
+      section.Remove(derives);
+    }
+  }
+}
+
 }  // namespace
 
 kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
@@ -88,6 +138,7 @@ kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
   kinematics::ModelText text = file.compiled->text;
   if (text.root.name == "robot") text = UrdfWithMotors(file);
   XmlElement& root = text.root;
+  FixMasses(*file.compiled->model, root);
   std::erase_if(root.children, [](const XmlElement& child) {
     return child.name == "keyframe" || child.name == "size" || child.name == "sensor";
   });
