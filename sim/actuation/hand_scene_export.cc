@@ -141,6 +141,7 @@ class SceneWriter {
         element.Set("contype", "0");
         element.Set("conaffinity", "0");
       } else if (element.name == "body" && name != nullptr) {
+        if (*name == kHandSceneObject) element.children.push_back(OriginSite());
         AddTip(*name, element);
       }
     });
@@ -165,6 +166,12 @@ class SceneWriter {
                                  {"contype", "0"},
                                  {"conaffinity", "0"}}));
     }
+  }
+
+  /// The origin of the object's file, in the frame of the object's body, which is at its centroid.
+  [[nodiscard]] XmlElement OriginSite() const {
+    const Eigen::Vector3d origin = -scale_ * solid_.mass_properties().centroid;
+    return ExportElement("site", {{"name", kSceneOrigin}, {"pos", NumbersText(origin.data(), 3)}});
   }
 
   /// About the object's centroid, in metres.

@@ -11,6 +11,7 @@
 
 #include "planner/base/number.h"
 #include "planner/kinematics/mujoco_model.h"
+#include "sim/actuation/model_numbers.h"
 
 namespace regrasp::sim {
 namespace {
@@ -91,13 +92,9 @@ kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
   return text;
 }
 
-/// `count` numbers of the row `index` of an array of the model.
-std::string Row(const mjtNum* values, int index, int count) {
-  std::string text;
-  for (int i = 0; i < count; ++i) {
-    text += (i > 0 ? " " : "") + FormatDouble(values[std::ptrdiff_t{count} * index + i]);
-  }
-  return text;
+/// `count` numbers of a body.
+std::string BodyNumbers(const mjtNum* values, int body, int count) {
+  return NumbersText(values + std::ptrdiff_t{count} * body, count);
 }
 
 /// Write the inertia of every body as the hand's model has it, in the order of its bodies.
@@ -109,10 +106,10 @@ void WriteInertias(const mjModel& model, XmlElement& element, int& last) {
     if (model.body_mass[body] > 0) {
       child.children.insert(
           child.children.begin(),
-          Element("inertial", {{"pos", Row(model.body_ipos, body, 3)},
-                               {"quat", Row(model.body_iquat, body, 4)},
+          Element("inertial", {{"pos", BodyNumbers(model.body_ipos, body, 3)},
+                               {"quat", BodyNumbers(model.body_iquat, body, 4)},
                                {"mass", FormatDouble(model.body_mass[body])},
-                               {"diaginertia", Row(model.body_inertia, body, 3)}}));
+                               {"diaginertia", BodyNumbers(model.body_inertia, body, 3)}}));
     }
     WriteInertias(model, child, last);
   }

@@ -13,7 +13,7 @@ EMPTY_CELL = (238, 240, 244)
 
 # Nothing, and what only plans for a hand fail for: gait_program_test.py has their frames.
 OF_HANDS = (None, "hand-jumps", "tip-off-contact", "joint-limit", "hand-collides",
-            "torque-limit")
+            "torque-limit", "coupling-violated", "tip-penetrates")
 
 
 class FailingFrames(ProgramCase):

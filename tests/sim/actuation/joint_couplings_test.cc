@@ -169,7 +169,7 @@ TEST_F(JointCouplingsTest, TheExportedSceneHoldsCoupledFingersInStockMuJoCo) {
     keys.push_back({"rest " + std::to_string(entry), world.time(), world.Save().engine.qpos,
                     world.controls()});
   };
-  ReplayHand(hand, solid(), PlanFor(hand), Options(), observer, 1);
+  static_cast<void>(ReplayHand(hand, solid(), PlanFor(hand), Options(), observer, 1));
   ASSERT_EQ(keys.size(), 1U);
   const mujoco::ModelPtr model = LoadStockScene(
       ExportHandScene(hand, solid(), kScale, {.mu = kMu, .mass_kg = kMass}, keys), folder_);
