@@ -197,7 +197,6 @@ void EntryReplay::TakeHold() {
   const Hold all = {holding_};
   Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
   world_.PinObject(false);
-  judge_.SetSettling(false);
   control_.SetFeedback(true);
   for (const FingerIndex f : holding_) judge_.SetHolding(f, true);
 }
@@ -363,8 +362,9 @@ void EntryReplay::Rest() {
   judge_.SetPhase("coming to rest");
   Run(kSettle, [](double) {});
   judge_.SetPhase("at rest");
+  judge_.SetSettling(false);
   judge_.WatchRest(state_.pose);
-  judge_.MeasureCovered();
+  judge_.WatchTipsAtRest();
   if (judge_.breach()) throw StepFails();
 }
 

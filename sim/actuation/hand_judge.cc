@@ -8,7 +8,6 @@
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "planner/kinematics/finger_kinematics.h"
-#include "sim/actuation/penetration.h"
 #include "sim/hand/hand_finding.h"
 
 namespace regrasp::sim {
@@ -35,7 +34,7 @@ constexpr double kDeepestMeasured = 0.02;
 HandJudge::HandJudge(const HandWorld& world, const object::Polyhedron& solid, double scale,
                      const HandTolerance& tolerance)
     : world_(world),
-      surface_(std::make_shared<const collision::SurfaceTree>(solid, scale)),
+      object_(std::make_shared<const Penetration>(solid, scale)),
       tolerance_(tolerance) {
   for (const kinematics::Finger& finger : world.hand().fingers) {
     fingers_.push_back({});
@@ -262,7 +261,7 @@ void HandJudge::WatchLinks() {
   const std::vector<HandLinks::Placed> placed = PlaceLinks();
   for (const HandLinks::Placed& one : placed) {
     if (one.link->kind != HandLinks::Kind::kLink ||
-        surface_->IsApart(collision::Moved(to_object, one.shape), 0)) {
+        object_->surface().IsApart(collision::Moved(to_object, one.shape), 0)) {
       continue;
     }
     Fail(Reason::kHandCollides, LinkText(one) + " touches the object", MarksOf({&one}));
@@ -303,8 +302,8 @@ void HandJudge::WatchDepth(FingerIndex f, const collision::ConvexShape& shape, d
                            const std::string& what) {
   const collision::ConvexShape placed = collision::Moved(world_.object_pose().inverse(), shape);
   const Vector3d outward = -world_.touch(f).inward_O;
-  if (!IsDeeperThan(*surface_, placed, allowed, outward)) return;
-  const double depth = DepthIn(*surface_, placed, allowed + kDeepestMeasured, outward);
+  if (!object_->IsDeeper(placed, allowed, outward)) return;
+  const double depth = object_->Depth(placed, allowed + kDeepestMeasured, outward);
   const std::string text = FormatLength(depth);
   const int joints = static_cast<int>(world_.hand().fingers[f].joints.size());
   Fail(Reason::kTipPenetrates,
@@ -313,14 +312,16 @@ void HandJudge::WatchDepth(FingerIndex f, const collision::ConvexShape& shape, d
        {text + " inside", {f}, {{f, joints}}, world_.tip(f)});
 }
 
-void HandJudge::MeasureCovered() {
+void HandJudge::WatchTipsAtRest() {
+  const std::vector<HandLinks::Placed> placed = PlaceLinks();
+  WatchTips(placed);
   if (world_.tip_shape() != TipShape::kBall) return;
   const Isometry3d to_object = world_.object_pose().inverse();
-  for (const HandLinks::Placed& one : PlaceLinks()) {
+  for (const HandLinks::Placed& one : placed) {
     if (one.link->kind != HandLinks::Kind::kCovered) continue;
     const Vector3d outward = -world_.touch(one.link->finger).inward_O;
     const double depth =
-        DepthIn(*surface_, collision::Moved(to_object, one.shape), kDeepestMeasured, outward);
+        object_->Depth(collision::Moved(to_object, one.shape), kDeepestMeasured, outward);
     measures_.covered_depth_m = std::max(measures_.covered_depth_m, depth);
   }
 }

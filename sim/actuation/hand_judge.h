@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/collision/surface_tree.h"
 #include "planner/plan/reason.h"
 #include "sim/actuation/hand_world.h"
+#include "sim/actuation/penetration.h"
 #include "sim/scene/measured.h"
 #include "sim/scene/settings.h"
 
@@ -49,10 +49,12 @@ class HandJudge {
   void WatchRest(const Eigen::Isometry3d& planned);
   /// A finger that is placed is to be near the object now.
   void WatchPlaced(FingerIndex finger);
-  /// While on, the model's own tips may be in the object: they are pushed out of it.
+  /// While on, from the start to the first rest, the model's own tips may be in the object: they
+  /// are pushed out of it.
   void SetSettling(bool on) { settling_ = on; }
-  /// Measure how deep collision geometry of fingertips is in the object that spheres stand for.
-  void MeasureCovered();
+  /// The object is at rest: no tip may be too deep in it, and how deep collision geometry is that
+  /// spheres stand for is measured.
+  void WatchTipsAtRest();
 
   [[nodiscard]] const std::optional<HandBreach>& breach() const { return breach_; }
   [[nodiscard]] const HandMeasures& measures() const { return measures_; }
@@ -93,7 +95,7 @@ class HandJudge {
   [[nodiscard]] Marks MarksOfJoint(FingerIndex finger, int joint, std::string number) const;
 
   const HandWorld& world_;
-  std::shared_ptr<const collision::SurfaceTree> surface_;  ///< which copies share
+  std::shared_ptr<const Penetration> object_;  ///< which copies share
   HandTolerance tolerance_;
   std::string phase_;
   std::optional<plan::FaultPush> push_;

@@ -12,6 +12,7 @@
 #include "planner/base/number.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/model_numbers.h"
+#include "sim/actuation/tip_contact.h"
 
 namespace regrasp::sim {
 namespace {
@@ -146,6 +147,9 @@ kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
     couplings.push_back(
         Element("joint", {{"joint1", coupling.joint},
                           {"joint2", coupling.follows},
+                          // A linkage is hard: as hard as contacts are (tip_contact.h).
+                          {"solref", FormatDouble(kTipContactTime) + " 1"},
+                          {"solimp", NumbersText({kTipImpedance.begin(), kTipImpedance.end()})},
                           {"polycoef", "0 " + FormatDouble(coupling.ratio) + " 0 0 0"}}));
   }
   if (!couplings.empty()) root.children.push_back(Element("equality", {}, std::move(couplings)));

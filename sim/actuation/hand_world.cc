@@ -365,21 +365,6 @@ bool HandWorld::is_control_at_limit(FingerIndex finger, int drive) const {
   return range && (control <= range->front() || control >= range->back());
 }
 
-std::array<double, 2> HandWorld::TorqueRangeOfControl(FingerIndex finger, int drive) const {
-  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-  const DriveActuator& found = impl_->fingers[finger].drives[drive];
-  if (!found.servo.control_range) return {-kNoLimit, kNoLimit};
-  const int a = found.actuator;
-  const double gain = impl_->model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a];
-  const mjtNum* bias = impl_->model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
-  const auto torque = [&](double control) {
-    return found.moment * (gain * control + bias[0] + bias[1] * impl_->data->actuator_length[a]);
-  };
-  const auto [least, most] = std::minmax(
-      {torque(found.servo.control_range->front()), torque(found.servo.control_range->back())});
-  return {least, most};
-}
-
 std::vector<DriveLimits> HandWorld::limits() const {
   std::vector<DriveLimits> limits;
   for (FingerIndex f{0}; f < std::ssize(impl_->fingers); ++f) {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -108,9 +107,6 @@ class HandWorld {
   [[nodiscard]] double torque(FingerIndex finger, int drive) const;
   /// Whether the control of the drive is at an end of its range (`ctrlrange`).
   [[nodiscard]] bool is_control_at_limit(FingerIndex finger, int drive) const;
-  /// The least and the largest torque of a drive that its control's range allows in the present
-  /// posture at rest, N m; infinite if it has no range.
-  [[nodiscard]] std::array<double, 2> TorqueRangeOfControl(FingerIndex finger, int drive) const;
   /// The limits of all drives, by finger.
   [[nodiscard]] std::vector<DriveLimits> limits() const;
   /// The coupling of joints that is farthest off, as the model has them as constraints.

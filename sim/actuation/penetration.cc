@@ -1,14 +1,15 @@
 #include "sim/actuation/penetration.h"
 
-#include <Eigen/Geometry>
-#include <vector>
+#include <cmath>
+#include <numbers>
 
 namespace regrasp::sim {
 namespace {
 
+using collision::ConvexShape;
 using Eigen::Vector3d;
 
-/// Resolution of DepthIn, metres.
+/// Resolution of Depth, metres.
 constexpr double kDepthStep = 5e-5;
 
 /// The directions from the middle of a cube to its faces, edges and corners.
@@ -27,31 +28,62 @@ const std::vector<Vector3d>& SpreadDirections() {
   return directions;
 }
 
-bool IsOutAfter(const collision::SurfaceTree& surface, const collision::ConvexShape& shape,
-                const Vector3d& way) {
-  return surface.IsApart(collision::Moved(Eigen::Isometry3d(Eigen::Translation3d(way)), shape), 0);
+ConvexShape Translated(const ConvexShape& shape, const Vector3d& way) {
+  return collision::Moved(Eigen::Isometry3d(Eigen::Translation3d(way)), shape);
+}
+
+/// The solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983).
+double SolidAngle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const double la = a.norm();
+  const double lb = b.norm();
+  const double lc = c.norm();
+  const double below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+  return 2 * std::atan2(a.dot(b.cross(c)), below);
 }
 
 }  // namespace
 
-bool IsDeeperThan(const collision::SurfaceTree& surface, const collision::ConvexShape& shape,
-                  double depth, const Vector3d& outward) {
-  if (surface.IsApart(shape, 0)) return false;
-  if (outward != Vector3d::Zero() && IsOutAfter(surface, shape, depth * outward)) return false;
+Penetration::Penetration(const object::Polyhedron& solid, double scale) : surface_(solid, scale) {
+  for (const auto& [a, b, c] : solid.triangles()) {
+    triangles_.push_back(
+        {scale * solid.vertices()[a], scale * solid.vertices()[b], scale * solid.vertices()[c]});
+  }
+  for (const Vector3d& vertex : solid.vertices()) box_.extend(scale * vertex);
+}
+
+bool Penetration::Contains(const Vector3d& point) const {
+  if (!box_.contains(point)) return false;
+  double angle = 0;
+  for (const auto& [a, b, c] : triangles_) angle += SolidAngle(a - point, b - point, c - point);
+  return std::abs(angle) > 2 * std::numbers::pi;
+}
+
+bool Penetration::IsOutAfter(const ConvexShape& shape, const Vector3d& way) const {
+  const ConvexShape moved = Translated(shape, way);
+  return surface_.IsApart(moved, 0) && !Contains(moved.points.front());
+}
+
+bool Penetration::IsDeeper(const ConvexShape& shape, double depth, const Vector3d& outward) const {
+  const bool is_near = outward != Vector3d::Zero();
+  if (surface_.IsApart(shape, 0)) {
+    // Wholly inside it is far from the surface, too.
+    if (is_near || !Contains(shape.points.front())) return false;
+  } else if (is_near && surface_.IsApart(Translated(shape, depth * outward), 0)) {
+    return false;
+  }
   for (const Vector3d& direction : SpreadDirections()) {
-    if (IsOutAfter(surface, shape, depth * direction)) return false;
+    if (IsOutAfter(shape, depth * direction)) return false;
   }
   return true;
 }
 
-double DepthIn(const collision::SurfaceTree& surface, const collision::ConvexShape& shape,
-               double most, const Vector3d& outward) {
-  if (surface.IsApart(shape, 0)) return 0;
+double Penetration::Depth(const ConvexShape& shape, double most, const Vector3d& outward) const {
+  if (!IsDeeper(shape, 0, outward)) return 0;
   double low = 0;
   double high = most;
   while (high - low > kDepthStep) {
     const double middle = (low + high) / 2;
-    (IsDeeperThan(surface, shape, middle, outward) ? low : high) = middle;
+    (IsDeeper(shape, middle, outward) ? low : high) = middle;
   }
   return high;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "planner/grasp/grasp_forces.h"
@@ -32,14 +31,6 @@ std::vector<PlannedRest> RestsOf(const plan::Plan& plan, int entries) {
   return rests;
 }
 
-/// A torque over the one that the range of the control allows in its direction.
-double ControlShare(const HandWorld& world, FingerIndex finger, int drive, double torque) {
-  const auto [least, most] = world.TorqueRangeOfControl(finger, drive);
-  const double allowed = torque < 0 ? -least : most;
-  if (allowed > 0) return std::abs(torque) / allowed;
-  return torque == 0 ? 0 : std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
 
 double MostSqueeze(double weight) { return std::max(kMostWeights * weight, kEnough); }
@@ -61,8 +52,7 @@ double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double sca
       const Eigen::VectorXd torques = world.BalancingTorques(f, pose * (scale * grasp[i].contact.p),
                                                              pose.linear() * forces.forces[i]);
       for (int drive = 0; drive < torques.size(); ++drive) {
-        most_load = std::max({most_load, std::abs(torques[drive]) / world.servo(f, drive).limit,
-                              kTorqueShare * ControlShare(world, f, drive, torques[drive])});
+        most_load = std::max(most_load, std::abs(torques[drive]) / world.servo(f, drive).limit);
       }
     }
     return most_load;

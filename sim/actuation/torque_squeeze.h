@@ -7,8 +7,8 @@
 namespace regrasp::sim {
 
 /// The sum of the normal forces with which a hand holds an object, newtons: as much as
-/// kTorqueShare of the limits of its actuators and the ranges of their controls allow in every rest
-/// of the plan, and no more than kMostWeights, or kEnough where that is more.
+/// kTorqueShare of the limits of its actuators allow in every rest of the plan, and no more than
+/// kMostWeights, or kEnough where that is more.
 /// @param world    its hand and object are moved to the rests.
 /// @param entries  how many of the plan count, the hold first.
 [[nodiscard]] double TorqueSqueeze(HandWorld& world, const object::Polyhedron& solid,

@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
-#include "planner/collision/surface_tree.h"
 #include "sim/actuation/hand_judge.h"
 #include "sim/actuation/hand_replay.h"
 #include "tests/sim/actuation/edited_hand.h"
@@ -34,7 +35,7 @@ class PenetrationTest : public EditedHandTest {
 };
 
 TEST_F(PenetrationTest, ShapesAreAsDeepAsTheyAre) {
-  const collision::SurfaceTree cube(solid(), kScale);
+  const Penetration cube(solid(), kScale);
   constexpr double kRadius = 0.01;
   constexpr double kMost = 0.02;
   for (const double depth : {2e-4, 1e-3, 5e-3, 1.2e-2}) {
@@ -44,15 +45,20 @@ TEST_F(PenetrationTest, ShapesAreAsDeepAsTheyAre) {
                           0};
     for (const ConvexShape& shape : {ball, box}) {
       for (const Vector3d& outward : {Vector3d(1, 0, 0), Vector3d(0, 0, 0)}) {
-        EXPECT_TRUE(IsDeeperThan(cube, shape, 0.99 * depth, outward));
-        EXPECT_FALSE(IsDeeperThan(cube, shape, 1.01 * depth, outward));
-        EXPECT_NEAR(DepthIn(cube, shape, kMost, outward), depth, 6e-5);
+        EXPECT_TRUE(cube.IsDeeper(shape, 0.99 * depth, outward));
+        EXPECT_FALSE(cube.IsDeeper(shape, 1.01 * depth, outward));
+        EXPECT_NEAR(cube.Depth(shape, kMost, outward), depth, 6e-5);
       }
     }
   }
+  // Wholly inside, far from the surface.
+  const ConvexShape inside{{Vector3d(0.001, 0, 0)}, 0.002};
+  EXPECT_TRUE(cube.IsDeeper(inside, 0.02, Vector3d::Zero()));
+  EXPECT_TRUE(cube.Contains(Vector3d(kHalf - 1e-6, 0, 0)));
+  EXPECT_FALSE(cube.Contains(Vector3d(kHalf + 1e-6, 0, 0)));
   const ConvexShape apart{{Vector3d(kHalf + 1.01 * kRadius, 0, 0)}, kRadius};
-  EXPECT_FALSE(IsDeeperThan(cube, apart, 0, Vector3d::Zero()));
-  EXPECT_EQ(DepthIn(cube, apart, kMost, Vector3d::Zero()), 0);
+  EXPECT_FALSE(cube.IsDeeper(apart, 0, Vector3d::Zero()));
+  EXPECT_EQ(cube.Depth(apart, kMost, Vector3d::Zero()), 0);
 }
 
 TEST_F(PenetrationTest, AFingertipThatIsTooDeepInTheObjectIsNamed) {
@@ -99,23 +105,34 @@ TEST_F(PenetrationTest, GeometryOfAFingertipIsCheckedAgainstTheObject) {
 }
 
 TEST_F(PenetrationTest, GeometryOfAFingertipIsCheckedAgainstOtherLinks) {
-  const plan::Plan plan = PlanFor(HandWith({}));
-  HandReplayOptions options;
-  options.half_angle = std::atan(kMu);
-  options.mass_kg = kMass;
-  // A plate on the back of a fingertip, away from the object, that reaches to the next fingers.
-  const auto replay = [&](const std::string& half_width) {
-    const kinematics::HandFile hand =
-        HandWith({{"<geom name=\"finger0_tip\"",
-                   "<geom type=\"box\" size=\"0.001 " + half_width +
-                       " 0.001\" pos=\"0.007 0 0.012\"/><geom name=\"finger0_tip\""}});
-    return ReplayHand(hand, solid(), plan, options).steps.back();
+  const kinematics::HandFile plain = HandWith({});
+  // A rod to the side, which meets the next finger when this one bends.
+  const kinematics::HandFile with_rod =
+      HandWith({{"<geom name=\"finger0_tip\"",
+                 "<geom type=\"capsule\" size=\"0.004\" fromto=\"0 0 0.012 0 0.055 0.012\"/>"
+                 "<geom name=\"finger0_tip\""}});
+  const auto collisions = [&](const kinematics::HandFile& hand) {
+    HandWorld world(hand, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
+    std::vector<std::string> details;
+    for (double angle = 0; angle < 1.2; angle += 0.1) {
+      plan::HandState state;
+      state.pose = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 1));  // out of the way
+      state.joints.assign(5, std::vector<double>(4, 0));
+      state.joints[0][1] = angle;
+      world.Place(state);
+      HandJudge judge(world, solid(), kScale, {});
+      judge.Start();
+      judge.Watch(state.pose);
+      if (!judge.breach()) continue;
+      EXPECT_EQ(judge.breach()->reason, Reason::kHandCollides);
+      details.push_back(judge.breach()->detail);
+    }
+    return details;
   };
-  EXPECT_EQ(replay("0.001").reason, Reason::kNone);
-  const StepReplay wide = replay("0.055");
-  EXPECT_EQ(wide.reason, Reason::kHandCollides) << wide.detail;
-  EXPECT_THAT(wide.detail, HasSubstr("finger0_distal of finger 0"));
-  EXPECT_THAT(wide.detail, testing::Not(HasSubstr("object")));
+  EXPECT_THAT(collisions(plain), testing::IsEmpty());
+  const std::vector<std::string> found = collisions(with_rod);
+  EXPECT_THAT(found, testing::Not(testing::IsEmpty()));
+  EXPECT_THAT(found, testing::Each(HasSubstr("touches finger0_distal of finger 0 (finger0)")));
 }
 
 }  // namespace penetration_test
