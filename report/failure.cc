@@ -141,11 +141,14 @@ std::string MendOf(const ReportStep& step, const Report& report) {
       return "a smaller --squeeze, a lighter object (--mass), or postures in which the finger has "
              "more strength";
     case Reason::kCouplingViolated:
-      return "joint angles that keep the couplings of the hand's model; plan again with a hand "
-             "file "
-             "that hand --model writes";
+      return step.fault().hand
+                 ? "joint angles that keep the couplings of the hand's model; plan again with a "
+                   "hand file that hand --model writes"
+                 : "a model whose coupling is as hard as that of the real hand (solref and solimp "
+                   "of its equality), a smaller --squeeze, or a plan whose states keep the coupling";
     case Reason::kTipPenetrates:
-      return "a smaller --squeeze";
+      return "a fingertip sphere that the model's geometry is inside (hand --model fits one), or a "
+             "plan with a larger margin";
     case Reason::kSimulationUnstable:
       return "another --squeeze or --mass, a smaller --shake, or the right --scale where the "
              "object is of no usual size";
@@ -182,6 +185,19 @@ std::string ToleranceText(const Report& report) {
   return "up to " + FormatLength(report.settings->tolerance * report.settings->diameter_m) +
          ", --tolerance " + FormatShort(report.settings->tolerance) +
          " of the object's diameter, counts as standing still";
+}
+
+sim::HandTolerance HandToleranceOf(const Report& report) {
+  return report.settings && report.settings->hand ? report.settings->hand->tolerance
+                                                  : sim::HandTolerance();
+}
+
+std::string JointToleranceText(const Report& report) {
+  return FormatDegrees(Degrees(HandToleranceOf(report).joint_rad));
+}
+
+std::string DepthToleranceText(const Report& report) {
+  return FormatLength(HandToleranceOf(report).depth_m);
 }
 
 /// What a step breaks. @param hand  the fault is of the plan's hand.
@@ -233,10 +249,14 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
     case Reason::kTorqueLimit:
       return "no actuator of the hand stands at the limit of its force for longer than 50 ms";
     case Reason::kCouplingViolated:
-      return "coupled joints keep the relation that the hand's model gives them, in every state of "
-             "the plan to 1e-6 rad";
+      return hand ? "coupled joints keep the relation that the hand's model gives them, in every "
+                    "state of the plan to 1e-6 rad"
+                  : "joints that the hand couples stay within " + JointToleranceText(report) +
+                        " of their coupling";
     case Reason::kTipPenetrates:
-      return "no fingertip is inside the object";
+      return "a fingertip is no deeper in the object than " + DepthToleranceText(report) +
+             ", and its collision geometry, if its sphere stands for it, no deeper than half the "
+             "sphere's radius";
     case Reason::kSimulationUnstable:
       return "the simulation came to no end, so nothing is known of the step";
     case Reason::kContactLost:

@@ -8,6 +8,7 @@
 #include "planner/certificate/align_certificate.h"
 #include "planner/certificate/plan_proof.h"
 #include "planner/object/polygon.h"
+#include "report/hand_limits.h"
 #include "sim/measure/weakest_finger.h"
 #include "sim/scene/scaling.h"
 
@@ -165,6 +166,7 @@ std::vector<std::string> Report::warnings() const {
       warnings.push_back(name + ": the plan's certificate does not hold: " + step.certificate->why);
     }
   }
+  AddHandWarnings(*this, warnings);
   return warnings;
 }
 

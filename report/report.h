@@ -111,7 +111,8 @@ struct Report {
   /// ones; not valid where no step has one.
   [[nodiscard]] plan::EntryIndex weakest_finger_step() const;
   /// For people, without a verdict: each switch whose contact region is smaller than claimed, each
-  /// align whose certificate does not hold.
+  /// align whose certificate does not hold; of a replay by a hand what its verdict takes for
+  /// granted (hand_limits.h).
   [[nodiscard]] std::vector<std::string> warnings() const;
 };
 

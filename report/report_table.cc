@@ -8,6 +8,7 @@
 #include "planner/base/text_table.h"
 #include "planner/grasp/quality.h"
 #include "report/failure.h"
+#include "report/hand_limits.h"
 #include "report/report.h"
 #include "report/squeeze_text.h"
 #include "report/stress_table.h"
@@ -147,7 +148,10 @@ std::string FormatBody(const Report& report) {
               ? "contacts: at given points, at most " +
                     FormatLength(*report.farthest_from_points * report.scale) + " off\n"
               : "") +
-         (report.settings ? "squeeze: " + SqueezeText(*report.settings) + "\n" : "");
+         (report.settings ? "squeeze: " + SqueezeText(*report.settings) + "\n" : "") +
+         (report.settings && report.settings->hand
+              ? "limits: " + LimitsText(report.settings->hand->limits) + "\n"
+              : "");
 }
 
 std::string FormatVerdict(const Report& report) {

@@ -1,6 +1,8 @@
 #include "report/simulation_json.h"
 
+#include <cmath>
 #include <set>
+#include <vector>
 
 #include "planner/base/angle.h"
 #include "report/json_values.h"
@@ -48,7 +50,26 @@ Json HandJson(const sim::HandMeasures& measures) {
           {"rest_rotation_deg", Degrees(measures.rest_off_rad)},
           {"roll_m", measures.roll_m},
           {"torque_share", measures.torque_share},
+          {"torque_Nm", measures.torque_Nm},
+          {"control_limit_s", measures.control_limit_s},
+          {"coupling_deg", Degrees(measures.coupling_rad)},
+          {"tip_depth_m", measures.tip_depth_m},
+          {"covered_depth_m", measures.covered_depth_m},
           {"simulated_s", measures.simulated_s}};
+}
+
+Json LimitsJson(const std::vector<sim::DriveLimits>& limits) {
+  Json json = Json::array();
+  for (const sim::DriveLimits& limit : limits) {
+    json.push_back(
+        {{"finger", int{limit.finger}},
+         {"joint", limit.joint},
+         {"actuator", limit.actuator},
+         {"torque_Nm", std::isfinite(limit.torque_Nm) ? Json(limit.torque_Nm) : Json(nullptr)},
+         {"control", OrNull(limit.control)},
+         {"range_deg", {Degrees(limit.lower_rad), Degrees(limit.upper_rad)}}});
+  }
+  return json;
 }
 
 }  // namespace
@@ -98,10 +119,13 @@ Json HandSettingsJson(const sim::HandReplaySettings& settings) {
           {"slip_m", settings.tolerance.slip_m},
           {"lost_s", settings.tolerance.lost_s},
           {"limit_s", settings.tolerance.limit_s},
+          {"joint_deg", Degrees(settings.tolerance.joint_rad)},
+          {"depth_m", settings.tolerance.depth_m},
           {"feedback", settings.feedback ? "pose" : "none"},
           {"tip", settings.tip == sim::TipShape::kBall ? "ball" : "geometry"},
           {"servo_stiffness_Nm_rad", {settings.least_stiffness, settings.largest_stiffness}},
-          {"derived_servos", settings.derived_servos}};
+          {"derived_servos", settings.derived_servos},
+          {"limits", LimitsJson(settings.limits)}};
 }
 
 Json SimulationJson(const sim::StepReplay& replay) {

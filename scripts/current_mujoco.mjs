@@ -13,6 +13,7 @@ const times = ([a, b, c, d], [e, f, g, h]) => [
   a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g,
   a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e];
 const turned = (by, v) => times(times(by, [0, ...v]), conjugate(by)).slice(1);
+const plus = (a, b) => a.map((value, i) => value + b[i]);
 const minus = (a, b) => a.map((value, i) => value - b[i]);
 
 /** How far a pose (place, quaternion) is from another one: millimetres and degrees. */
@@ -40,7 +41,12 @@ const data = new mujoco.MjData(model);
 const FREE = 0;
 const joint = Array.from(model.jnt_type).indexOf(FREE);
 const objectAt = model.jnt_qposadr[joint];
+/** The pose of the object's body: its centroid, with the axes of the object's file. */
 const objectPose = () => Array.from(data.qpos.slice(objectAt, objectAt + 7));
+// The trajectory has the origin of the object's file, which is the one site of the body.
+const site = Array.from(model.site_bodyid).indexOf(model.jnt_bodyid[joint]);
+if (site < 0) throw new Error('scene/scene.xml: the object has no site at its origin');
+const centroid = Array.from(model.site_pos.slice(3 * site, 3 * site + 3)).map((x) => -x);
 
 function start(keyframe) {
   mujoco.mj_resetDataKeyframe(model, data, keyframe);
@@ -69,7 +75,10 @@ function followTrajectory() {
   const samples = rows.map((row) => row.map(Number));
   start(0);
   let at = samples.findIndex((sample) => sample[0] >= data.time - 1e-9);
-  const poseOf = (sample) => sample.slice(object, object + 7);
+  const poseOf = (sample) => {
+    const turn = sample.slice(object + 3, object + 7);
+    return [...plus(sample.slice(object, object + 3), turned(turn, centroid)), ...turn];
+  };
   // The trajectory's poses are in the palm's frame.
   const first = objectPose();
   const firstInPalm = poseOf(samples[at]);

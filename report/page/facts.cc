@@ -5,6 +5,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/quantity_text.h"
+#include "report/hand_limits.h"
 #include "report/page/fact_list.h"
 #include "report/page/quantity.h"
 #include "report/page/step_text.h"
@@ -53,6 +54,7 @@ void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
                                 : "the model's own collision geometry");
     facts.Add("Tolerance", LengthText(tolerance.length_m) + ", " +
                                FormatDegrees(Degrees(tolerance.angle_rad)) + " off the plan");
+    facts.Add("Limits", LimitsText(settings.hand->limits));
     return;
   }
   facts.Add("Tolerance", LengthText(settings.tolerance * settings.diameter_m));

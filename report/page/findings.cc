@@ -148,11 +148,39 @@ std::vector<Element> Stress(const Report& report) {
   return found;
 }
 
+Element LimitsRow(const sim::DriveLimits& limit) {
+  Element row("tr", {}, NumberCell(std::to_string(limit.finger)));
+  row.Add(Element("td", {}, limit.joint));
+  row.Add(Element("td", {}, limit.actuator));
+  row.Add(NumberCell(std::isfinite(limit.torque_Nm) ? NumberText(limit.torque_Nm) : "unknown"));
+  row.Add(NumberCell(limit.control ? NumberText(limit.control->front()) + " to " +
+                                         NumberText(limit.control->back())
+                                   : "none"));
+  row.Add(NumberCell(FormatDegrees(Degrees(limit.lower_rad)) + " to " +
+                     FormatDegrees(Degrees(limit.upper_rad))));
+  return row;
+}
+
+/// The limits that a replay by a hand relies on.
+std::vector<Element> Limits(const Report& report) {
+  if (!report.settings || !report.settings->hand) return {};
+  const std::vector<sim::DriveLimits>& limits = report.settings->hand->limits;
+  if (limits.empty()) return {};
+  std::vector<Element> rows;
+  for (const sim::DriveLimits& limit : limits) rows.push_back(LimitsRow(limit));
+  return {Element("h2", {}, "Limits that the verdict relies on"),
+          ScrolledTable(HeadCells({"Finger", "Joint", "Actuator", "Torque, N·m", "Control range",
+                                   "Joint range"}),
+                        rows),
+          Note("As the hand's model gives them. If it gives no force limit, the replay takes the "
+               "actuator's strength as unlimited. A control is kept in its range.")};
+}
+
 }  // namespace
 
 std::vector<Element> MakeFindings(const Report& report) {
   std::vector<Element> findings = Disagreements(report);
-  for (const auto& part : {WhatItTakes(report), Stress(report)}) {
+  for (const auto& part : {WhatItTakes(report), Stress(report), Limits(report)}) {
     findings.insert(findings.end(), part.begin(), part.end());
   }
   return findings;

@@ -89,10 +89,13 @@ DriveActuator FindServo(const kinematics::Finger& finger, const std::vector<int>
     const double gain = std::abs(model.actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a]);
     limit = std::min(limit, gain * std::min(-control[0], control[1]));
   }
-  if (!servo) MakeServo(found, model);
-  // What is asked of a servo is a torque: its limit is that of its force, wherever the angle is
-  // that it would have to steer for.
-  model.actuator_ctrllimited[a] = 0;
+  if (!servo) {
+    MakeServo(found, model);
+    model.actuator_ctrllimited[a] = 0;
+  } else if (model.actuator_ctrllimited[a] != 0) {
+    const mjtNum* control = model.actuator_ctrlrange + std::ptrdiff_t{2} * a;
+    law.control_range = {control[0], control[1]};
+  }
   if (std::isfinite(limit)) {
     limit *= force_factor;
     range[0] = -limit;

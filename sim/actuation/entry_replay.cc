@@ -192,6 +192,7 @@ void EntryReplay::TakeHold() {
   if (judge_.breach()) throw StepFails();
   // Something holds the object until the fingers do.
   world_.PinObject(true);
+  judge_.SetSettling(true);
   control_.SetFeedback(false);
   const Hold all = {holding_};
   Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
@@ -335,7 +336,9 @@ void EntryReplay::Descend(const HandState& end, std::vector<Coming>& coming) {
   }
   for (const Coming& finger : coming) {
     if (!finger.down) control_.Attach(finger.finger);
+    judge_.WatchPlaced(finger.finger);
   }
+  if (judge_.breach()) throw StepFails();
 }
 
 void EntryReplay::ReleaseFingers(const plan::Switch& change) {
@@ -359,7 +362,9 @@ void EntryReplay::Rest() {
   judge_.SetPhase("coming to rest");
   Run(kSettle, [](double) {});
   judge_.SetPhase("at rest");
+  judge_.SetSettling(false);
   judge_.WatchRest(state_.pose);
+  judge_.WatchTipsAtRest();
   if (judge_.breach()) throw StepFails();
 }
 

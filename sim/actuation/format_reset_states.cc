@@ -114,8 +114,8 @@ void AddFallen(const DrawnStates& drawn, std::vector<NpzArray>& arrays) {
   Values fallen;
   for (const plan::Reason reason :
        {plan::Reason::kContactLost, plan::Reason::kSlipped, plan::Reason::kObjectMoved,
-        plan::Reason::kHandCollides, plan::Reason::kTorqueLimit,
-        plan::Reason::kSimulationUnstable}) {
+        plan::Reason::kHandCollides, plan::Reason::kTorqueLimit, plan::Reason::kSimulationUnstable,
+        plan::Reason::kJointLimit, plan::Reason::kCouplingViolated, plan::Reason::kTipPenetrates}) {
     const auto found = drawn.fallen.find(reason);
     reasons.emplace_back(plan::ReasonName(reason));
     fallen.push_back(found == drawn.fallen.end() ? 0 : static_cast<double>(found->second));

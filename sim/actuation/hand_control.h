@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "planner/grasp/grasp_forces.h"
@@ -82,7 +83,7 @@ class HandControl {
   void LeadAlongSurface(FingerIndex finger, const Eigen::Vector3d& centre_O);
   /// How well the others balance the fingers of a hold that slide, with the contacts as they are
   /// and with those that slide at the end of their ways: the smaller margin (grasp::SlidingNormal).
-  [[nodiscard]] double SlidingMargin(const Hold& hold, const plan::FingerGrasp& end) const;
+  [[nodiscard]] double SlidingMargin(const Hold& all, const plan::FingerGrasp& end) const;
   /// It follows the planned joints from now on; what it is off them now it is all along, until
   /// LetOffsetGo.
   void Detach(FingerIndex finger);
@@ -126,10 +127,14 @@ class HandControl {
 
   void Measure();
   void PlanForces();
+  /// Where a finger touches, or did while the object was near; not known if it never did.
+  [[nodiscard]] std::optional<TipTouch> KnownTouch(FingerIndex finger) const;
+  /// The fingers of a hold whose contacts are known.
+  [[nodiscard]] Hold WithContacts(const Hold& hold) const;
   [[nodiscard]] grasp::Grasp ContactsOf(const std::vector<FingerIndex>& fingers) const;
   [[nodiscard]] grasp::GraspForces PlannedForces(const grasp::Grasp& contacts,
                                                  const Hold& hold) const;
-  [[nodiscard]] std::vector<Eigen::Vector3d> ForcesOf(const Hold& hold) const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> ForcesOf(const Hold& all) const;
   [[nodiscard]] kinematics::Posture PlannedPosture(FingerIndex finger) const;
   [[nodiscard]] Eigen::VectorXd TorquesOf(FingerIndex finger) const;
   void FollowTip(FingerIndex finger);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
@@ -22,24 +23,33 @@ constexpr int kLinkSteps = 10;
 constexpr double kNoForce = 1e-3;
 /// Of a limit: no actuator gives more.
 constexpr double kAtLimit = 0.999;
+/// Allowed depth of a fingertip's own geometry where its sphere stands for it, of the radius: the
+/// sphere is fitted into the geometry.
+constexpr double kCoveredDepth = 0.5;
+/// Beyond what is allowed no depth is measured, metres.
+constexpr double kDeepestMeasured = 0.02;
 
 }  // namespace
 
 HandJudge::HandJudge(const HandWorld& world, const object::Polyhedron& solid, double scale,
                      const HandTolerance& tolerance)
     : world_(world),
-      surface_(std::make_shared<const collision::SurfaceTree>(solid, scale)),
+      object_(std::make_shared<const Penetration>(solid, scale)),
       tolerance_(tolerance) {
   for (const kinematics::Finger& finger : world.hand().fingers) {
     fingers_.push_back({});
     fingers_.back().at_limit.assign(finger.drives, 0);
+    fingers_.back().control_limit.assign(finger.drives, 0);
   }
 }
 
 void HandJudge::Start() {
   measures_ = {};
   breach_.reset();
-  for (Finger& finger : fingers_) std::ranges::fill(finger.at_limit, 0);
+  for (Finger& finger : fingers_) {
+    std::ranges::fill(finger.at_limit, 0);
+    std::ranges::fill(finger.control_limit, 0);
+  }
 }
 
 void HandJudge::CopyState(const HandJudge& other) {
@@ -49,6 +59,7 @@ void HandJudge::CopyState(const HandJudge& other) {
   measures_ = other.measures_;
   breach_ = other.breach_;
   steps_ = other.steps_;
+  settling_ = other.settling_;
 }
 
 void HandJudge::WatchContacts(const plan::FingerGrasp& grasp, double scale, double known_off) {
@@ -122,6 +133,9 @@ void HandJudge::WatchContact(FingerIndex f) {
   const double dt = world_.timestep();
   const TipTouch touch = world_.touch(f);
   state.without_force = touch.force.norm() > kNoForce ? 0 : state.without_force + dt;
+  if (std::isfinite(touch.gap) && !settling_) {
+    measures_.tip_depth_m = std::max(measures_.tip_depth_m, -touch.gap);
+  }
   double slip = 0;
   if (state.slides_to_O) {
     const Vector3d off = world_.object_pose().inverse() * world_.tip(f) - *state.slides_to_O;
@@ -160,61 +174,78 @@ void HandJudge::WatchActuators(FingerIndex f) {
   Finger& state = fingers_[f];
   const double dt = world_.timestep();
   for (std::size_t drive = 0; drive < state.at_limit.size(); ++drive) {
-    const double share = world_.load_share(f, static_cast<int>(drive));
+    const int d = static_cast<int>(drive);
+    const double share = world_.load_share(f, d);
     measures_.torque_share = std::max(measures_.torque_share, share);
+    measures_.torque_Nm = std::max(measures_.torque_Nm, std::abs(world_.torque(f, d)));
+    if (world_.is_control_at_limit(f, d)) state.control_limit[drive] += dt;
+    measures_.control_limit_s = std::max(measures_.control_limit_s, state.control_limit[drive]);
     double& seconds = state.at_limit[drive];
     seconds = share >= kAtLimit ? seconds + dt : 0;
     if (seconds <= tolerance_.limit_s) continue;
     const kinematics::Finger& chain = world_.hand().fingers[f];
     const auto joint =
         std::ranges::find(chain.joints, static_cast<int>(drive), &kinematics::Joint::drive);
-    const int number = static_cast<int>(joint - chain.joints.begin());
+    const std::string limit = FormatShort(world_.servo(f, d).limit, 3) + " N·m";
     Fail(Reason::kTorqueLimit,
          "the actuator of joint " + joint->name + " of " + FingerText(world_.hand(), f) +
-             " is at its limit of " +
-             FormatShort(world_.servo(f, static_cast<int>(drive)).limit, 3) +
-             " N·m for longer than " + FormatShort(1e3 * tolerance_.limit_s) + " ms",
-         {FormatShort(world_.servo(f, static_cast<int>(drive)).limit, 3) + " N·m",
+             " is at its limit of " + limit + " for longer than " +
+             FormatShort(1e3 * tolerance_.limit_s) + " ms",
+         MarksOfJoint(f, static_cast<int>(joint - chain.joints.begin()), limit));
+  }
+}
+
+HandJudge::Marks HandJudge::MarksOfJoint(FingerIndex f, int joint, std::string number) const {
+  const kinematics::Finger& chain = world_.hand().fingers[f];
+  return {std::move(number),
           {f},
-          {{f, number + 1}},
-          kinematics::FramesOf(chain, world_.posture(f))[number].translation()});
+          {{f, joint + 1}},
+          kinematics::FramesOf(chain, world_.posture(f))[joint].translation()};
+}
+
+void HandJudge::WatchJoints(FingerIndex f) {
+  const kinematics::Finger& chain = world_.hand().fingers[f];
+  const std::vector<double> angles = world_.joint_angles_of(f);
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    const kinematics::Joint& joint = chain.joints[k];
+    const double outside = std::max(joint.lower - angles[k], angles[k] - joint.upper);
+    if (outside <= tolerance_.joint_rad) continue;
+    const std::string number = FormatDegrees(Degrees(outside));
+    Fail(Reason::kJointLimit,
+         "joint " + joint.name + " of " + FingerText(world_.hand(), f) + " is " + number +
+             " outside its range, limit " + FormatDegrees(Degrees(tolerance_.joint_rad)) + ",",
+         MarksOfJoint(f, static_cast<int>(k), number + " outside"));
   }
 }
 
-std::vector<HandJudge::PlacedLink> HandJudge::PlaceLinks() const {
-  const kinematics::HandModel& hand = world_.hand();
-  std::vector<PlacedLink> placed;
-  const auto add = [&](FingerIndex f, int index, const kinematics::LinkShape& link,
-                       const Isometry3d& pose) {
-    PlacedLink& one = placed.emplace_back();
-    one.part = {f, index};
-    one.link = &link;
-    one.shape = collision::Moved(pose, link.shape);
-    one.ball = collision::BallAround(one.shape);
-  };
-  for (std::size_t i = 0; i < hand.palm.size(); ++i) {
-    add({}, static_cast<int>(i), hand.palm[i], Isometry3d::Identity());
-  }
-  for (FingerIndex f{0}; f < std::ssize(hand.fingers); ++f) {
-    const kinematics::JointFrames frames = kinematics::FramesOf(hand.fingers[f], world_.posture(f));
-    const std::vector<kinematics::LinkShape>& links = hand.fingers[f].shapes;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      add(f, static_cast<int>(i), links[i], frames[links[i].after - 1]);
-    }
-  }
-  return placed;
+void HandJudge::WatchCouplings() {
+  const auto [equality, residual] = world_.largest_coupling_residual();
+  measures_.coupling_rad = std::max(measures_.coupling_rad, residual);
+  if (equality < 0 || residual <= tolerance_.joint_rad) return;
+  const std::string number = FormatDegrees(Degrees(residual)) + " off";
+  const auto [finger, joint] = world_.JointOfCoupling(equality);
+  Fail(Reason::kCouplingViolated,
+       world_.CouplingText(equality) + " is " + FormatDegrees(Degrees(residual)) +
+           " off its coupling, limit " + FormatDegrees(Degrees(tolerance_.joint_rad)) + ",",
+       finger.valid() ? MarksOfJoint(finger, joint, number) : Marks{number});
 }
 
-std::string HandJudge::LinkText(const PlacedLink& placed) const {
-  return placed.link->link + " of " +
-         (placed.part.finger.valid() ? FingerText(world_.hand(), placed.part.finger) : "the palm");
+std::vector<HandLinks::Placed> HandJudge::PlaceLinks() const {
+  std::vector<kinematics::Posture> postures;
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) postures.push_back(world_.posture(f));
+  return world_.links().Place(world_.hand(), postures);
 }
 
-HandJudge::Marks HandJudge::MarksOf(std::initializer_list<const PlacedLink*> links) {
+std::string HandJudge::LinkText(const HandLinks::Placed& placed) const {
+  const FingerIndex f = placed.link->finger;
+  return placed.link->body + " of " + (f.valid() ? FingerText(world_.hand(), f) : "the palm");
+}
+
+HandJudge::Marks HandJudge::MarksOf(std::initializer_list<const HandLinks::Placed*> links) {
   Marks marks{"touch"};
   Vector3d sum = Vector3d::Zero();
-  for (const PlacedLink* placed : links) {
-    const FingerIndex f = placed->part.finger;
+  for (const HandLinks::Placed* placed : links) {
+    const FingerIndex f = placed->link->finger;
     marks.links.push_back({f, placed->link->after});
     sum += placed->ball.centre;
     if (f.valid() && std::ranges::find(marks.fingers, f) == marks.fingers.end()) {
@@ -227,33 +258,89 @@ HandJudge::Marks HandJudge::MarksOf(std::initializer_list<const PlacedLink*> lin
 
 void HandJudge::WatchLinks() {
   const Isometry3d to_object = world_.object_pose().inverse();
-  const std::vector<PlacedLink> placed = PlaceLinks();
-  for (const PlacedLink& link : placed) {
-    if (link.link->is_tip || surface_->IsApart(collision::Moved(to_object, link.shape), 0))
+  const std::vector<HandLinks::Placed> placed = PlaceLinks();
+  for (const HandLinks::Placed& one : placed) {
+    if (one.link->kind != HandLinks::Kind::kLink ||
+        object_->surface().IsApart(collision::Moved(to_object, one.shape), 0)) {
       continue;
-    Fail(Reason::kHandCollides, LinkText(link) + " touches the object", MarksOf({&link}));
+    }
+    Fail(Reason::kHandCollides, LinkText(one) + " touches the object", MarksOf({&one}));
   }
   for (auto a = placed.begin(); a != placed.end(); ++a) {
     for (auto b = a + 1; b != placed.end(); ++b) {
       const double near = a->ball.radius + b->ball.radius;
       if ((a->ball.centre - b->ball.centre).squaredNorm() > near * near) continue;
-      if (MayTouch(a->part, b->part) || collision::AreApart(a->shape, b->shape, 0)) continue;
+      if (world_.links().MayTouch(*a, *b) || collision::AreApart(a->shape, b->shape, 0)) continue;
       Fail(Reason::kHandCollides, LinkText(*a) + " touches " + LinkText(*b), MarksOf({&*a, &*b}));
+    }
+  }
+  WatchTips(placed);
+}
+
+void HandJudge::WatchTips(const std::vector<HandLinks::Placed>& placed) {
+  const bool is_ball = world_.tip_shape() == TipShape::kBall;
+  if (is_ball) {
+    for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
+      const double radius = world_.hand().fingers[f].tip.radius;
+      WatchDepth(f, {{world_.tip(f)}, radius}, tolerance_.depth_m, "the fingertip sphere");
+    }
+  }
+  for (const HandLinks::Placed& one : placed) {
+    if (one.link->kind != HandLinks::Kind::kCovered) continue;
+    const FingerIndex f = one.link->finger;
+    if (is_ball) {
+      const double allowed = kCoveredDepth * world_.hand().fingers[f].tip.radius;
+      WatchDepth(f, one.shape, std::max(allowed, tolerance_.depth_m),
+                 "the collision geometry of body " + one.link->body);
+    } else if (!settling_) {
+      WatchDepth(f, one.shape, tolerance_.depth_m, "body " + one.link->body);
     }
   }
 }
 
-bool HandJudge::MayTouch(const kinematics::HandModel::Part& a,
-                         const kinematics::HandModel::Part& b) const {
-  const std::pair<kinematics::HandModel::Part, kinematics::HandModel::Part> pair =
-      std::minmax(a, b);
-  return std::ranges::binary_search(world_.hand().ignored, pair);
+void HandJudge::WatchDepth(FingerIndex f, const collision::ConvexShape& shape, double allowed,
+                           const std::string& what) {
+  const collision::ConvexShape placed = collision::Moved(world_.object_pose().inverse(), shape);
+  const Vector3d outward = -world_.touch(f).inward_O;
+  if (!object_->IsDeeper(placed, allowed, outward)) return;
+  const double depth = object_->Depth(placed, allowed + kDeepestMeasured, outward);
+  const std::string text = FormatLength(depth);
+  const int joints = static_cast<int>(world_.hand().fingers[f].joints.size());
+  Fail(Reason::kTipPenetrates,
+       what + " of " + FingerText(world_.hand(), f) + " is " + text + " inside the object, limit " +
+           FormatLength(allowed) + ",",
+       {text + " inside", {f}, {{f, joints}}, world_.tip(f)});
+}
+
+void HandJudge::WatchTipsAtRest() {
+  const std::vector<HandLinks::Placed> placed = PlaceLinks();
+  WatchTips(placed);
+  if (world_.tip_shape() != TipShape::kBall) return;
+  const Isometry3d to_object = world_.object_pose().inverse();
+  for (const HandLinks::Placed& one : placed) {
+    if (one.link->kind != HandLinks::Kind::kCovered) continue;
+    const Vector3d outward = -world_.touch(one.link->finger).inward_O;
+    const double depth =
+        object_->Depth(collision::Moved(to_object, one.shape), kDeepestMeasured, outward);
+    measures_.covered_depth_m = std::max(measures_.covered_depth_m, depth);
+  }
+}
+
+void HandJudge::WatchPlaced(FingerIndex f) {
+  if (std::isfinite(world_.touch(f).gap)) return;
+  const int joints = static_cast<int>(world_.hand().fingers[f].joints.size());
+  Fail(Reason::kContactLost, FingerText(world_.hand(), f) + " has not reached the object",
+       {"not reached", {f}, {{f, joints}}, world_.tip(f)});
 }
 
 void HandJudge::Watch(const Isometry3d& planned) {
   measures_.simulated_s += world_.timestep();
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) WatchFinger(f);
-  if (steps_++ % kLinkSteps == 0) WatchLinks();
+  WatchCouplings();
+  if (steps_++ % kLinkSteps == 0) {
+    for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) WatchJoints(f);
+    WatchLinks();
+  }
   WatchObject(planned, 1, measures_.off_m, measures_.off_rad);
 }
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/collision/surface_tree.h"
 #include "planner/plan/reason.h"
 #include "sim/actuation/hand_world.h"
+#include "sim/actuation/penetration.h"
 #include "sim/scene/measured.h"
 #include "sim/scene/settings.h"
 
@@ -47,6 +47,14 @@ class HandJudge {
   void Watch(const Eigen::Isometry3d& planned);
   /// The object is at rest and should be there.
   void WatchRest(const Eigen::Isometry3d& planned);
+  /// A finger that is placed is to be near the object now.
+  void WatchPlaced(FingerIndex finger);
+  /// While on, from the start to the first rest, the model's own tips may be in the object: they
+  /// are pushed out of it.
+  void SetSettling(bool on) { settling_ = on; }
+  /// The object is at rest: no tip may be too deep in it, and how deep collision geometry is that
+  /// spheres stand for is measured.
+  void WatchTipsAtRest();
 
   [[nodiscard]] const std::optional<HandBreach>& breach() const { return breach_; }
   [[nodiscard]] const HandMeasures& measures() const { return measures_; }
@@ -58,13 +66,20 @@ class HandJudge {
     double without_force = 0;
     Eigen::Vector3d slip = Eigen::Vector3d::Zero();
     Eigen::Vector3d first_O = Eigen::Vector3d::Zero();
-    std::vector<double> at_limit;  ///< seconds, by drive
+    std::vector<double> at_limit;       ///< seconds without a break, by drive
+    std::vector<double> control_limit;  ///< seconds in this step, of its control
   };
   void WatchObject(const Eigen::Isometry3d& planned, double share, double& off_m, double& off_rad);
   void WatchFinger(FingerIndex finger);
   void WatchContact(FingerIndex finger);
   void WatchActuators(FingerIndex finger);
   void WatchLinks();
+  void WatchJoints(FingerIndex finger);
+  void WatchCouplings();
+  void WatchTips(const std::vector<HandLinks::Placed>& placed);
+  /// What of a finger must not be deeper in the object than `allowed`, in the palm's frame.
+  void WatchDepth(FingerIndex finger, const collision::ConvexShape& shape, double allowed,
+                  const std::string& what);
   /// What is drawn of a breach.
   struct Marks {
     std::string number;
@@ -74,21 +89,13 @@ class HandJudge {
     std::optional<Eigen::Isometry3d> pose = std::nullopt;  ///< where the object should be
   };
   void Fail(plan::Reason reason, const std::string& what, Marks marks);
-  struct PlacedLink {
-    kinematics::HandModel::Part part;
-    const kinematics::LinkShape* link = nullptr;
-    collision::ConvexShape shape;  ///< in the palm's frame
-    collision::Ball ball;          ///< around it
-  };
-  [[nodiscard]] std::vector<PlacedLink> PlaceLinks() const;
-  [[nodiscard]] std::string LinkText(const PlacedLink& placed) const;
-  [[nodiscard]] static Marks MarksOf(std::initializer_list<const PlacedLink*> links);
-  /// Near each other by construction.
-  [[nodiscard]] bool MayTouch(const kinematics::HandModel::Part& a,
-                              const kinematics::HandModel::Part& b) const;
+  [[nodiscard]] std::vector<HandLinks::Placed> PlaceLinks() const;
+  [[nodiscard]] std::string LinkText(const HandLinks::Placed& placed) const;
+  [[nodiscard]] static Marks MarksOf(std::initializer_list<const HandLinks::Placed*> links);
+  [[nodiscard]] Marks MarksOfJoint(FingerIndex finger, int joint, std::string number) const;
 
   const HandWorld& world_;
-  std::shared_ptr<const collision::SurfaceTree> surface_;  ///< which copies share
+  std::shared_ptr<const Penetration> object_;  ///< which copies share
   HandTolerance tolerance_;
   std::string phase_;
   std::optional<plan::FaultPush> push_;
@@ -96,6 +103,7 @@ class HandJudge {
   HandMeasures measures_;
   std::optional<HandBreach> breach_;
   int steps_ = 0;
+  bool settling_ = false;
 };
 
 }  // namespace regrasp::sim

@@ -57,6 +57,7 @@ ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& soli
   hand.tolerance = options.tolerance;
   hand.feedback = options.feedback;
   hand.tip = options.tip;
+  hand.limits = world.limits();
   hand.least_stiffness = std::numeric_limits<double>::infinity();
   for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
     for (int drive = 0; drive < world.hand().fingers[f].drives; ++drive) {

@@ -13,6 +13,7 @@
 #include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/hand_scene_text.h"
+#include "sim/actuation/model_numbers.h"
 #include "sim/actuation/tip_contact.h"
 
 namespace regrasp::sim {
@@ -22,16 +23,6 @@ using kinematics::XmlElement;
 
 constexpr const char* kMeshPrefix = "mesh_";
 constexpr const char* kTipPrefix = "regrasp_tip_";
-
-/// Enough digits that a simulation goes on from a keyframe as it would have.
-std::string NumbersText(const mjtNum* values, int count) {
-  std::string text;
-  for (int i = 0; i < count; ++i) text += (i > 0 ? " " : "") + FormatDouble(values[i]);
-  return text;
-}
-std::string NumbersText(const std::vector<double>& values) {
-  return NumbersText(values.data(), static_cast<int>(values.size()));
-}
 
 XmlElement ExportElement(std::string name,
                          std::vector<std::pair<std::string, std::string>> attributes) {
@@ -74,8 +65,8 @@ class SceneWriter {
     });
     std::vector<SceneFile> files = TakeMeshes();
     SetOptions(Section(root, "option"));
+    WriteModelNumbers(world_.model(), root);
     SetBodies();
-    SetActuators(Section(root, "actuator"));
     SetContacts(Section(root, "contact"));
     XmlElement& frames = Section(root, "keyframe");
     for (const SceneKey& key : keys) {
@@ -126,17 +117,19 @@ class SceneWriter {
     return mesh == text_.meshes.end() ? std::filesystem::path(named) : mesh->path;
   }
 
+  /// The options that the replay does not leave at their defaults (SetReplayOptions).
   void SetOptions(XmlElement& option) const {
     const mjOption& opt = world_.model().opt;
     option.attributes = {{"timestep", FormatDouble(opt.timestep)},
                          {"gravity", NumbersText(opt.gravity, 3)},
                          {"cone", "elliptic"},
-                         {"impratio", FormatDouble(opt.impratio)}};
+                         {"impratio", FormatDouble(opt.impratio)},
+                         {"tolerance", FormatDouble(opt.tolerance)},
+                         {"integrator", opt.integrator == mjINT_IMPLICIT ? "implicit" : "Euler"}};
     option.children.clear();
   }
 
   void SetBodies() {
-    const mjModel& model = world_.model();
     Section(text_.root, "asset").children.push_back(ObjectMesh());
     ForEach(text_.root, [&](XmlElement& element) {
       const std::string* name = element.Find("name");
@@ -147,12 +140,8 @@ class SceneWriter {
         // Only tips touch anything, and only the object: SetContacts.
         element.Set("contype", "0");
         element.Set("conaffinity", "0");
-      } else if (element.name == "joint" && name != nullptr) {
-        const int joint = mj_name2id(&model, mjOBJ_JOINT, name->c_str());
-        if (joint >= 0 && element.Find("joint1") == nullptr) {
-          element.Set("armature", FormatDouble(model.dof_armature[model.jnt_dofadr[joint]]));
-        }
       } else if (element.name == "body" && name != nullptr) {
+        if (*name == kHandSceneObject) element.children.push_back(OriginSite());
         AddTip(*name, element);
       }
     });
@@ -177,6 +166,12 @@ class SceneWriter {
                                  {"contype", "0"},
                                  {"conaffinity", "0"}}));
     }
+  }
+
+  /// The origin of the object's file, in the frame of the object's body, which is at its centroid.
+  [[nodiscard]] XmlElement OriginSite() const {
+    const Eigen::Vector3d origin = -scale_ * solid_.mass_properties().centroid;
+    return ExportElement("site", {{"name", kSceneOrigin}, {"pos", NumbersText(origin.data(), 3)}});
   }
 
   /// About the object's centroid, in metres.
@@ -210,25 +205,6 @@ class SceneWriter {
           child.Set("name", kTipPrefix + std::to_string(tips_.size()));
         }
         tips_.push_back(*child.Find("name"));
-      }
-    }
-  }
-
-  void SetActuators(XmlElement& section) const {
-    const mjModel& model = world_.model();
-    for (std::size_t i = 0; i < section.children.size(); ++i) {
-      const auto a = static_cast<std::ptrdiff_t>(i);
-      XmlElement& actuator = section.children[i];
-      actuator.Set("gainprm", NumbersText(model.actuator_gainprm + mjNGAIN * a, 3));
-      actuator.Set("biasprm", NumbersText(model.actuator_biasprm + mjNBIAS * a, 3));
-      if (model.actuator_biastype[a] == mjBIAS_AFFINE) actuator.Set("biastype", "affine");
-      if (model.actuator_ctrllimited[a] == 0) {
-        actuator.Remove("ctrlrange");
-        actuator.Set("ctrllimited", "false");
-      }
-      if (model.actuator_forcelimited[a] != 0) {
-        actuator.Set("forcelimited", "true");
-        actuator.Set("forcerange", NumbersText(model.actuator_forcerange + 2 * a, 2));
       }
     }
   }

@@ -25,6 +25,8 @@ struct SceneFile {
 };
 
 inline constexpr const char* kSceneName = "scene.xml";
+/// The site of the object's body that is the origin of the object's file.
+inline constexpr const char* kSceneOrigin = "regrasp_object_origin";
 
 /// Whether a scene may have a file of this name.
 [[nodiscard]] bool IsSceneFile(const std::string& name);

@@ -1,6 +1,9 @@
 #include "sim/actuation/hand_scene_text.h"
 
+#include <mujoco/mujoco.h>
+
 #include <algorithm>
+#include <cstddef>
 #include <initializer_list>
 #include <set>
 #include <string>
@@ -9,6 +12,9 @@
 
 #include "planner/base/number.h"
 #include "planner/kinematics/finger_kinematics.h"
+#include "planner/kinematics/mujoco_model.h"
+#include "sim/actuation/model_numbers.h"
+#include "sim/actuation/tip_contact.h"
 
 namespace regrasp::sim {
 namespace {
@@ -59,6 +65,9 @@ void AddCouplings(const kinematics::Finger& finger, std::vector<XmlElement>& cou
     couplings.push_back(
         Element("joint", {{"joint1", joint.name},
                           {"joint2", leader.name},
+                          // A linkage is hard: as hard as contacts are (tip_contact.h).
+                          {"solref", FormatDouble(kTipContactTime) + " 1"},
+                          {"solimp", NumbersText({kTipImpedance.begin(), kTipImpedance.end()})},
                           {"polycoef", Numbers({constant, joint.ratio, 0, 0, 0})}}));
   }
 }
@@ -113,6 +122,42 @@ kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
   return text;
 }
 
+/// `count` numbers of a body.
+std::string BodyNumbers(const mjtNum* values, int body, int count) {
+  return NumbersText(values + std::ptrdiff_t{count} * body, count);
+}
+
+/// Write the inertia of every body as the hand's model has it, in the order of its bodies.
+void WriteInertias(const mjModel& model, XmlElement& element, int& last) {
+  for (XmlElement& child : element.children) {
+    if (child.name != "body" || ++last >= model.nbody) continue;
+    const int body = last;
+    std::erase_if(child.children, [](const XmlElement& part) { return part.name == "inertial"; });
+    if (model.body_mass[body] > 0) {
+      child.children.insert(
+          child.children.begin(),
+          Element("inertial", {{"pos", BodyNumbers(model.body_ipos, body, 3)},
+                               {"quat", BodyNumbers(model.body_iquat, body, 4)},
+                               {"mass", FormatDouble(model.body_mass[body])},
+                               {"diaginertia", BodyNumbers(model.body_inertia, body, 3)}}));
+    }
+    WriteInertias(model, child, last);
+  }
+}
+
+/// A compiler that derives masses, or scales them, would do so with the object as well.
+void FixMasses(const mjModel& model, XmlElement& root) {
+  int last = 0;
+  for (XmlElement& section : root.children) {
+    if (section.name == "worldbody") WriteInertias(model, section, last);
+    if (section.name != "compiler") continue;
+    for (const char* derives :
+         {"inertiafromgeom", "settotalmass", "boundmass", "boundinertia", "balanceinertia"}) {
+      section.Remove(derives);
+    }
+  }
+}
+
 }  // namespace
 
 kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
@@ -121,6 +166,7 @@ kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
   if (text.root.name == "robot") text = UrdfWithMotors(file);
   XmlElement& root = text.root;
   DropFollowersActuators(file.hand, root);
+  FixMasses(*file.compiled->model, root);
   std::erase_if(root.children, [](const XmlElement& child) {
     return child.name == "keyframe" || child.name == "size" || child.name == "sensor";
   });

@@ -10,11 +10,13 @@
 #include <utility>
 
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/drive_servo.h"
 #include "sim/actuation/hand_scene_text.h"
+#include "sim/actuation/scene_model.h"
 #include "sim/actuation/tip_contact.h"
 #include "sim/actuation/tip_surface.h"
 #include "sim/scene/engine_hooks.h"
@@ -27,23 +29,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using kinematics::VectorAt;
 
-constexpr double kTimestep = 1e-3;
-/// Friction of tips is ten times as hard as the normal, so that what sticks creeps little.
-constexpr double kFrictionHardness = 100;
-/// What holds joints of no finger.
-constexpr double kFrozen = 1e3;
-/// What is deeper in the object is pushed out as if it were this deep, or tips that overlap it
-/// where their balls do not were thrown off, metres: five times what presses at rest.
-constexpr double kDeepestContact = 3e-4;
-
 Isometry3d PoseAt(const mjData& data, int body) {
   return kinematics::PoseAt(data.xpos, data.xmat, body);
-}
-
-/// Two directions at right angles to a unit vector and to each other.
-std::pair<Vector3d, Vector3d> Tangents(const Vector3d& normal) {
-  const Vector3d first = normal.unitOrthogonal();
-  return {first, normal.cross(first)};
 }
 
 /// Room for as many contacts, and for the rows of constraints that these, both ends of every range,
@@ -69,6 +56,7 @@ struct HandWorld::Impl {
 
   EngineHooks hooks;
   kinematics::HandModel hand;
+  HandLinks links;
   TipSurface surface;
   HandWorldOptions options;
   kinematics::ModelPtr model;
@@ -79,10 +67,11 @@ struct HandWorld::Impl {
   std::vector<FingerState> fingers;
   std::vector<int> frozen;  ///< joints
   bool pinned = false;      ///< the object
+  std::optional<JointCouplings> couplings;
 
   Impl(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
        const HandWorldOptions& given)
-      : hand(file.hand), surface(file, given.tip, solid, scale), options(given) {
+      : hand(file.hand), links(file), surface(file, given.tip, solid, scale), options(given) {
     model = kinematics::CompileText(file.compiled->text.files.front(),
                                     HandSceneText(file, solid, scale, options.mass_kg));
     SetRoom(surface.most_contacts(), *model);
@@ -90,13 +79,13 @@ struct HandWorld::Impl {
     if (!data) throw EnvironmentError("MuJoCo has no memory for a hand");
     centroid = scale * solid.mass_properties().centroid;
     FindParts(file);
-    Freeze();
+    CheckObjectMass(file);
+    FindFrozen();
+    FreezeJoints(frozen, *model);
     FindServos();
-    model->opt.timestep = kTimestep;
-    model->opt.cone = mjCONE_ELLIPTIC;
-    model->opt.impratio = kFrictionHardness;
-    const Vector3d gravity = -options.gravity_m_s2 * (palm.linear() * hand.up);
-    std::copy_n(gravity.data(), 3, model->opt.gravity);
+    UpdateConstants(*model, *data);
+    SetReplayOptions(-options.gravity_m_s2 * (palm.linear() * hand.up), frozen, *model);
+    couplings.emplace(*model);
     // Links that touch anything are a failure and not a matter of forces: HandJudge looks. The
     // engine looks at pairs that are named, of which there are none.
     model->opt.collision = mjCOL_PAIR;
@@ -130,20 +119,29 @@ struct HandWorld::Impl {
     }
   }
 
+  /// The object weighs what it should, whatever the hand's model does with masses.
+  void CheckObjectMass(const kinematics::HandFile& file) const {
+    constexpr double kTolerance = 1e-9;
+    const double mass = model->body_mass[object_body];
+    if (std::abs(mass - options.mass_kg) <= kTolerance * options.mass_kg) return;
+    throw InputError(file.description.model +
+                     ": the model's compiler settings change the mass of the object, expected " +
+                     FormatShort(options.mass_kg) + " kg, found " + FormatShort(mass) + " kg");
+  }
+
   /// A hinge or a slide.
   [[nodiscard]] bool IsScalar(int joint) const {
     return model->jnt_type[joint] == mjJNT_HINGE || model->jnt_type[joint] == mjJNT_SLIDE;
   }
 
-  void Freeze() {
+  /// Joints of no finger.
+  void FindFrozen() {
     for (int joint = 0; joint < model->njnt; ++joint) {
       const bool of_finger = std::ranges::any_of(fingers, [&](const FingerState& finger) {
         return std::ranges::find(finger.joints, joint) != finger.joints.end();
       });
       if (of_finger || model->jnt_bodyid[joint] == object_body) continue;
-      if (!IsScalar(joint)) continue;
-      frozen.push_back(joint);
-      model->dof_armature[model->jnt_dofadr[joint]] += kFrozen;
+      if (IsScalar(joint)) frozen.push_back(joint);
     }
   }
 
@@ -200,56 +198,16 @@ struct HandWorld::Impl {
     for (FingerIndex finger{0}; finger < std::ssize(fingers); ++finger) {
       const Isometry3d link = PoseAt(*data, fingers[finger].tip_body);
       for (const auto& contact : surface.FindContacts(finger, link, to_object)) {
-        AddContact(finger, contact, pose);
+        mjContact made = MakeTipContact(contact, pose, options.mu);
+        made.geom1 = object_geom;
+        made.geom2 = fingers[finger].tip_geom;
+        mj_addContact(model.get(), data.get(), &made);
       }
     }
   }
 
-  void AddContact(FingerIndex finger, const collision::SurfaceContact& touching,
-                  const Isometry3d& pose) {
-    mjContact contact = {};
-    contact.dist = std::max(touching.gap, -kDeepestContact);
-    const Vector3d normal = pose.linear() * touching.outward;
-    const Vector3d at = pose * touching.point + contact.dist / 2 * normal;
-    const auto [first, second] = Tangents(normal);
-    std::copy_n(at.data(), 3, contact.pos);
-    std::copy_n(normal.data(), 3, contact.frame);
-    std::copy_n(first.data(), 3, contact.frame + 3);
-    std::copy_n(second.data(), 3, contact.frame + 6);
-    contact.friction[0] = contact.friction[1] = options.mu;
-    contact.friction[2] = contact.friction[3] = contact.friction[4] = mjMINMU;
-    contact.solref[0] = kTipContactTime;
-    contact.solref[1] = 1;
-    std::ranges::copy(kTipImpedance, contact.solimp);
-    contact.dim = 3;
-    contact.efc_address = -1;  // it has no force before a step
-    contact.geom1 = object_geom;
-    contact.geom2 = fingers[finger].tip_geom;
-    mj_addContact(model.get(), data.get(), &contact);
-  }
-
-  /// The contacts of a tip as one, in the engine's world.
-  struct ContactSum {
-    Vector3d force = Vector3d::Zero();   ///< on the object
-    double pressing = 0;                 ///< sum of the normal forces
-    Vector3d point = Vector3d::Zero();   ///< of the surface, times `pressing`; so the next
-    Vector3d normal = Vector3d::Zero();  ///< outward
-  };
   [[nodiscard]] ContactSum SumContacts(FingerIndex finger) const {
-    ContactSum sum;
-    for (int i = 0; i < data->ncon; ++i) {
-      const mjContact& contact = data->contact[i];
-      if (contact.geom1 != object_geom || contact.geom2 != fingers[finger].tip_geom) continue;
-      mjtNum local[6];
-      mj_contactForce(model.get(), data.get(), i, local);
-      // The engine gives the force on the second geom.
-      for (int k = 0; k < 3; ++k) sum.force -= local[k] * VectorAt(contact.frame, k);
-      const Vector3d normal = VectorAt(contact.frame, 0);
-      sum.pressing += local[0];
-      sum.point += local[0] * (VectorAt(contact.pos, 0) - contact.dist / 2 * normal);
-      sum.normal += local[0] * normal;
-    }
-    return sum;
+    return SumTipContacts(*model, *data, object_geom, fingers[finger].tip_geom);
   }
 };
 
@@ -289,13 +247,18 @@ void HandWorld::Place(const plan::HandState& state) {
 
 plan::HandState HandWorld::state() const {
   plan::HandState state{object_pose(), {}};
-  for (const Impl::FingerState& finger : impl_->fingers) {
-    state.joints.emplace_back();
-    for (const int joint : finger.joints) {
-      state.joints.back().push_back(impl_->data->qpos[impl_->model->jnt_qposadr[joint]]);
-    }
+  for (FingerIndex f{0}; f < std::ssize(impl_->fingers); ++f) {
+    state.joints.push_back(joint_angles_of(f));
   }
   return state;
+}
+
+std::vector<double> HandWorld::joint_angles_of(FingerIndex finger) const {
+  std::vector<double> angles;
+  for (const int joint : impl_->fingers[finger].joints) {
+    angles.push_back(impl_->data->qpos[impl_->model->jnt_qposadr[joint]]);
+  }
+  return angles;
 }
 
 Isometry3d HandWorld::object_pose() const { return impl_->palm.inverse() * impl_->ObjectInWorld(); }
@@ -323,11 +286,13 @@ TipTouch HandWorld::touch(FingerIndex finger) const {
   touch.point_O = near->point;
   touch.inward_O = -near->outward;
   touch.gap = near->gap;
-  const Impl::ContactSum sum = impl.SumContacts(finger);
+  const ContactSum sum = impl.SumContacts(finger);
   touch.force = impl.palm.linear().transpose() * sum.force;
-  if (impl.options.tip == TipShape::kGeometry && sum.pressing > 0) {
+  const Vector3d mean = (pose.linear().transpose() * sum.normal).stableNormalized();
+  // Forces on both sides of a tip have no common normal: the nearest point is the contact then.
+  if (impl.options.tip == TipShape::kGeometry && sum.pressing > 0 && mean != Vector3d::Zero()) {
     touch.point_O = pose.inverse() * (sum.point / sum.pressing);
-    touch.inward_O = -(pose.linear().transpose() * sum.normal).stableNormalized();
+    touch.inward_O = -mean;
   }
   const Vector3d at = pose * touch.point_O;
   const Vector3d speed =
@@ -389,6 +354,53 @@ double HandWorld::load_share(FingerIndex finger, int drive) const {
   return std::abs(impl_->data->actuator_force[found.actuator] * found.moment) / found.servo.limit;
 }
 
+double HandWorld::torque(FingerIndex finger, int drive) const {
+  const DriveActuator& found = impl_->fingers[finger].drives[drive];
+  return impl_->data->actuator_force[found.actuator] * found.moment;
+}
+
+bool HandWorld::is_control_at_limit(FingerIndex finger, int drive) const {
+  const DriveActuator& found = impl_->fingers[finger].drives[drive];
+  const auto& range = found.servo.control_range;
+  const double control = impl_->data->ctrl[found.actuator];
+  return range && (control <= range->front() || control >= range->back());
+}
+
+std::vector<DriveLimits> HandWorld::limits() const {
+  std::vector<DriveLimits> limits;
+  for (FingerIndex f{0}; f < std::ssize(impl_->fingers); ++f) {
+    const kinematics::Finger& chain = impl_->hand.fingers[f];
+    for (int drive = 0; drive < chain.drives; ++drive) {
+      const DriveActuator& found = impl_->fingers[f].drives[drive];
+      const auto joint = std::ranges::find(chain.joints, drive, &kinematics::Joint::drive);
+      limits.push_back({f, joint->name, kinematics::ActuatorName(*impl_->model, found.actuator),
+                        found.servo.limit, found.servo.control_range, joint->lower, joint->upper});
+    }
+  }
+  return limits;
+}
+
+JointCouplings::Residual HandWorld::largest_coupling_residual() const {
+  return impl_->couplings->Largest(*impl_->model, *impl_->data);
+}
+
+std::string HandWorld::CouplingText(int equality) const {
+  return impl_->couplings->TextOf(*impl_->model, equality);
+}
+
+std::pair<FingerIndex, int> HandWorld::JointOfCoupling(int equality) const {
+  const int joint = impl_->couplings->JointOf(*impl_->model, equality);
+  for (FingerIndex f{0}; f < std::ssize(impl_->fingers); ++f) {
+    const std::vector<int>& joints = impl_->fingers[f].joints;
+    const auto at = std::ranges::find(joints, joint);
+    if (at != joints.end()) return {f, static_cast<int>(at - joints.begin())};
+  }
+  return {FingerIndex(), -1};
+}
+
+const HandLinks& HandWorld::links() const { return impl_->links; }
+TipShape HandWorld::tip_shape() const { return impl_->options.tip; }
+
 VectorXd HandWorld::BalancingTorques(FingerIndex finger, const Vector3d& at,
                                      const Vector3d& force) const {
   const Impl& impl = *impl_;
@@ -420,7 +432,10 @@ void HandWorld::Command(FingerIndex finger, const kinematics::Posture& target,
     const double off = (target[drive] - now[drive]) * found.moment;
     const double force = torques[drive] / found.moment;
     const mjtNum* bias = impl.model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
-    impl.data->ctrl[a] = (force - bias[0] - bias[1] * (length + off)) / gain;
+    const double control = (force - bias[0] - bias[1] * (length + off)) / gain;
+    const auto& range = found.servo.control_range;
+    // As the model's own range has it, also in what is recorded.
+    impl.data->ctrl[a] = range ? std::clamp(control, range->front(), range->back()) : control;
   }
 }
 

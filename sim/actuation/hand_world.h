@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planner/collision/ball_contact.h"
@@ -13,6 +14,8 @@
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
 #include "sim/actuation/drive_servo.h"
+#include "sim/actuation/hand_links.h"
+#include "sim/actuation/joint_couplings.h"
 #include "sim/scene/engine_state.h"
 #include "sim/scene/settings.h"
 
@@ -75,6 +78,8 @@ class HandWorld {
   [[nodiscard]] plan::HandState state() const;
   [[nodiscard]] Eigen::Isometry3d object_pose() const;
   [[nodiscard]] kinematics::Posture posture(FingerIndex finger) const;
+  /// Angles of the finger's joints, coupled ones too, radians.
+  [[nodiscard]] std::vector<double> joint_angles_of(FingerIndex finger) const;
   /// As the hand's sensors have it.
   [[nodiscard]] kinematics::Posture measured_posture(FingerIndex finger) const;
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
@@ -98,6 +103,22 @@ class HandWorld {
   [[nodiscard]] std::vector<double> joint_angles() const;
   /// What the actuator of a drive does now, over its limit; 0 where it has none.
   [[nodiscard]] double load_share(FingerIndex finger, int drive) const;
+  /// Torque of the actuator about the drive now, N m.
+  [[nodiscard]] double torque(FingerIndex finger, int drive) const;
+  /// Whether the control of the drive is at an end of its range (`ctrlrange`).
+  [[nodiscard]] bool is_control_at_limit(FingerIndex finger, int drive) const;
+  /// The limits of all drives, by finger.
+  [[nodiscard]] std::vector<DriveLimits> limits() const;
+  /// The coupling of joints that is farthest off, as the model has them as constraints.
+  [[nodiscard]] JointCouplings::Residual largest_coupling_residual() const;
+  /// "joint ffj1, which is coupled to ffj2,".
+  [[nodiscard]] std::string CouplingText(int equality) const;
+  /// The finger of a coupling's first joint and the joint's place in it; not valid and −1 if it is
+  /// a joint of no finger.
+  [[nodiscard]] std::pair<FingerIndex, int> JointOfCoupling(int equality) const;
+  /// All links of the hand, collision geometry of its fingertips included.
+  [[nodiscard]] const HandLinks& links() const;
+  [[nodiscard]] TipShape tip_shape() const;
   /// The torques of the drives with which a force at the tip's contact and the weight of the links
   /// balance.
   /// @param force  of the tip on the object.

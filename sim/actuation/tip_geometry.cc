@@ -23,14 +23,18 @@ Eigen::Isometry3d PoseInBody(const mjModel& model, int geom) {
   return kinematics::PoseAt(model.geom_pos + std::ptrdiff_t{3} * geom, matrix, 0);
 }
 
-/// The points that are farthest in some direction, of many that are spread evenly: what the hull of
-/// all reaches beyond theirs is less than a thousandth of its size.
-std::vector<Vector3d> Outermost(const std::vector<Vector3d>& points) {
-  constexpr int kDirections = 2000;
+/// Directions for the points of tips that touch the object: what the hull of all points reaches
+/// beyond those found is less than a thousandth of its size.
+constexpr int kManyDirections = 2000;
+/// Directions for shapes that are checked for collisions: less than half a hundredth.
+constexpr int kSomeDirections = 500;
+
+/// The points that are farthest in some direction, of `directions` that are spread evenly.
+std::vector<Vector3d> Outermost(const std::vector<Vector3d>& points, int directions) {
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
   std::set<std::size_t> kept;
-  for (int i = 0; i < kDirections; ++i) {
-    const double z = 1 - (2.0 * i + 1) / kDirections;
+  for (int i = 0; i < directions; ++i) {
+    const double z = 1 - (2.0 * i + 1) / directions;
     const double r = std::sqrt(1 - z * z);
     const Vector3d direction(r * std::cos(golden * i), r * std::sin(golden * i), z);
     std::size_t best = 0;
@@ -44,22 +48,35 @@ std::vector<Vector3d> Outermost(const std::vector<Vector3d>& points) {
   return outermost;
 }
 
-TipShapes GeometryOf(const mjModel& model, const std::string& link) {
+std::vector<collision::ConvexShape> ShapesOf(const mjModel& model, const std::string& link,
+                                             int directions) {
   const int body = mj_name2id(&model, mjOBJ_BODY, link.c_str());
-  TipShapes shapes;
+  std::vector<collision::ConvexShape> shapes;
   for (int geom = 0; geom < model.ngeom; ++geom) {
     if (model.geom_bodyid[geom] != body || !kinematics::Collides(model, geom)) continue;
     collision::ConvexShape shape =
         collision::Moved(PoseInBody(model, geom), kinematics::ShapeOfGeom(model, geom));
     if (shape.points.empty()) continue;
-    if (shape.radius == 0) shape.radius = kTipSkin;
-    shape.points = Outermost(shape.points);
+    shape.points = Outermost(shape.points, directions);
     shapes.push_back(std::move(shape));
   }
   return shapes;
 }
 
+TipShapes GeometryOf(const mjModel& model, const std::string& link) {
+  TipShapes shapes = ShapesOf(model, link, kManyDirections);
+  for (collision::ConvexShape& shape : shapes) {
+    if (shape.radius == 0) shape.radius = kTipSkin;
+  }
+  return shapes;
+}
+
 }  // namespace
+
+std::vector<collision::ConvexShape> CollisionShapesOf(const mjModel& model,
+                                                      const std::string& body) {
+  return ShapesOf(model, body, kSomeDirections);
+}
 
 std::vector<TipShapes> TipShapesOf(const kinematics::HandFile& file, TipShape tip) {
   std::vector<TipShapes> tips;

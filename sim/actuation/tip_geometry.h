@@ -1,10 +1,13 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "planner/collision/convex_shape.h"
 #include "planner/kinematics/hand_file.h"
 #include "sim/scene/settings.h"
+
+struct mjModel_;
 
 namespace regrasp::sim {
 
@@ -16,6 +19,11 @@ using TipShapes = std::vector<collision::ConvexShape>;
 /// gets one of kTipSkin, in which its contacts are found.
 /// @throws InputError  a tip's link has no such geom: names the model's file, the link and finger.
 [[nodiscard]] std::vector<TipShapes> TipShapesOf(const kinematics::HandFile& file, TipShape tip);
+
+/// Return the collision geometry of a body as convex shapes in the body's frame, metres: the shapes
+/// of its geoms (kinematics::ShapeOfGeom), of meshes a hull of at most 500 points.
+[[nodiscard]] std::vector<collision::ConvexShape> CollisionShapesOf(const mjModel_& model,
+                                                                    const std::string& body);
 
 inline constexpr double kTipSkin = 2e-4;  ///< metres: thrice as deep as tips press at rest
 

@@ -48,10 +48,16 @@ struct HandMeasures {
   double off_rad = 0;     ///< the same of its orientation
   double rest_off_m = 0;  ///< at rest after the step
   double rest_off_rad = 0;
-  double slip_m = 0;        ///< largest slide of a holding tip
-  double roll_m = 0;        ///< largest way of a contact on the object while its finger holds
-  double torque_share = 0;  ///< largest torque of an actuator over its limit
-  double simulated_s = 0;   ///< without the shakes
+  double slip_m = 0;           ///< largest slide of a holding tip
+  double roll_m = 0;           ///< largest way of a contact on the object while its finger holds
+  double torque_share = 0;     ///< largest torque of an actuator over its limit
+  double torque_Nm = 0;        ///< largest torque about an independent joint
+  double control_limit_s = 0;  ///< longest total time of a control at an end of its range
+  double coupling_rad = 0;     ///< largest residual of a coupling of joints
+  double tip_depth_m = 0;      ///< largest depth in the object of what touches it
+  /// Largest depth at rest of the model's collision geometry of a fingertip that a sphere replaces.
+  double covered_depth_m = 0;
+  double simulated_s = 0;  ///< without the shakes
 };
 
 /// A finger of a grasp, by its number in the hand, and what it needs of its own friction.

@@ -1,6 +1,12 @@
 #pragma once
 
+#include <array>
+#include <limits>
 #include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/base/index.h"
 
 namespace regrasp::sim {
 
@@ -72,6 +78,20 @@ struct HandTolerance {
   double slip_m = 1e-3;       ///< of a holding tip along the surface
   double lost_s = 0.02;       ///< of a holding tip without a force
   double limit_s = 0.05;      ///< of an actuator at the limit of its force
+  double joint_rad = 0.0175;  ///< of a joint outside its range, or off its coupling: 1°
+  double depth_m = 5e-4;      ///< of a fingertip in the object
+};
+
+/// The limits of the hand's model that a verdict relies on, for one independent joint.
+struct DriveLimits {
+  FingerIndex finger = {};
+  std::string joint;
+  std::string actuator;
+  double torque_Nm = std::numeric_limits<double>::infinity();  ///< infinite if the model has none
+  /// Range of the actuator's control in the model's units; none if the model has none.
+  std::optional<std::array<double, 2>> control = std::nullopt;
+  double lower_rad = 0;  ///< range of the joint
+  double upper_rad = 0;
 };
 
 /// What a replay by a hand ran with beside the rest.
@@ -82,6 +102,7 @@ struct HandReplaySettings {
   double least_stiffness = 0;    ///< of the servos of joints, N m / rad
   double largest_stiffness = 0;  ///< the same
   bool derived_servos = false;   ///< some actuators of the model are no servos: they are made so
+  std::vector<DriveLimits> limits = {};  ///< by finger and independent joint
 };
 
 /// The values that the replay ran with.

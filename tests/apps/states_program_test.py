@@ -33,7 +33,7 @@ class States(ProgramCase):
         self.assertEqual((states["object"], states["hand"]), ("cube.obj", "ring5.json"))
         self.assertAlmostEqual(states["mu"], 0.8)
         self.assertEqual((states["scale"], states["seed"], states["held_s"]), (0.8333, "3", 1))
-        self.assertEqual((states["tolerance_m"], len(states["fallen"])), (1e-3, 6))
+        self.assertEqual((states["tolerance_m"], len(states["fallen"])), (1e-3, 9))
         self.assertAlmostEqual(states["gravity"][2], -GRAVITY)
         for state in range(6):
             self.check_state({name: states[name][state] for name in PER_STATE}, states)

@@ -23,7 +23,9 @@ HandTolerance AnyTolerance() {
           .at_rest = 1,
           .slip_m = kAnything,
           .lost_s = kAnything,
-          .limit_s = kAnything};
+          .limit_s = kAnything,
+          .joint_rad = kAnything,
+          .depth_m = kAnything};
 }
 
 /// Of what was measured. Replays are the same until one of them ends: any share decides.

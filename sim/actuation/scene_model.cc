@@ -1,0 +1,43 @@
+#include "sim/actuation/scene_model.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+
+namespace regrasp::sim {
+namespace {
+
+constexpr double kTimestep = 1e-3;
+/// Friction of tips is ten times as hard as the normal, so that what sticks creeps little.
+constexpr double kFrictionHardness = 100;
+/// Armature of frozen joints, kg m².
+constexpr double kFrozenArmature = 1e3;
+
+}  // namespace
+
+void FreezeJoints(const std::vector<int>& joints, mjModel& model) {
+  for (const int joint : joints) model.dof_armature[model.jnt_dofadr[joint]] += kFrozenArmature;
+}
+
+void SetReplayOptions(const Eigen::Vector3d& gravity, const std::vector<int>& frozen,
+                      mjModel& model) {
+  const bool implicit = model.opt.integrator == mjINT_IMPLICIT;
+  mj_defaultOption(&model.opt);
+  model.opt.integrator = implicit ? mjINT_IMPLICIT : mjINT_EULER;
+  model.opt.timestep = kTimestep;
+  model.opt.cone = mjCONE_ELLIPTIC;
+  model.opt.impratio = kFrictionHardness;
+  std::copy_n(gravity.data(), 3, model.opt.gravity);
+  // The solver ends at a tolerance over the mean inertia, in which frozen joints would be all.
+  const double mean = model.stat.meaninertia;
+  const double moving = mean - kFrozenArmature * static_cast<double>(frozen.size()) / model.nv;
+  if (!frozen.empty() && mean > 0) model.opt.tolerance *= std::max(moving, mjMINVAL) / mean;
+}
+
+void UpdateConstants(mjModel& model, mjData& data) {
+  mj_setConst(&model, &data);
+  mj_resetData(&model, &data);
+  mj_forward(&model, &data);
+}
+
+}  // namespace regrasp::sim

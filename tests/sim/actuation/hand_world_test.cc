@@ -1,0 +1,278 @@
+#include "sim/actuation/hand_world.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "planner/base/number.h"
+#include "planner/mujoco/handles.h"
+#include "planner/plan/hand_path.h"
+#include "sim/actuation/hand_control.h"
+#include "sim/actuation/hand_replay.h"
+#include "sim/actuation/hand_scene_export.h"
+#include "tests/sim/actuation/edited_hand.h"
+#include "tests/sim/actuation/model_fields.h"
+#include "tests/sim/actuation/stock_scene.h"
+
+namespace regrasp::sim {
+namespace hand_world_test {
+
+using plan::Reason;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr char kOptions[] = R"(<option timestep="0.001" cone="elliptic"/>)";
+/// Each of them would falsify a verdict.
+constexpr char kOtherOptions[] =
+    R"(<option timestep="0.004" gravity="0 0 9" wind="1 2 3" density="1000" viscosity="5"
+       cone="pyramidal" impratio="1" iterations="1" tolerance="1" solver="CG" o_margin="1">
+       <flag gravity="disable" limit="disable" equality="disable" contact="disable"
+       clampctrl="disable" passive="disable" override="enable"/></option>)";
+
+class HandWorldTest : public EditedHandTest {
+ protected:
+  [[nodiscard]] HandReplayOptions Options() const {
+    HandReplayOptions options;
+    options.half_angle = std::atan(kMu);
+    options.mass_kg = kMass;
+    return options;
+  }
+  [[nodiscard]] HandWorldOptions WorldOptions() const { return {.mu = kMu, .mass_kg = kMass}; }
+  [[nodiscard]] kinematics::HandFile HandWithOtherOptions() const {
+    return WithModel(HandWith({}), Edited(RingText(), {{kOptions, kOtherOptions}}));
+  }
+};
+
+TEST_F(HandWorldTest, OptionsOfTheHandsModelDoNotDecide) {
+  const HandWorld plain(HandWith({}), solid(), kScale, WorldOptions());
+  const HandWorld other(HandWithOtherOptions(), solid(), kScale, WorldOptions());
+  EXPECT_THAT(DifferentOptions(plain.model().opt, other.model().opt, 0), IsEmpty());
+  EXPECT_THAT(DifferentFields(plain.model(), other.model(), 0), IsEmpty());
+  EXPECT_NEAR(other.model().opt.gravity[2], -9.81, 1e-12);
+}
+
+TEST_F(HandWorldTest, TheObjectWeighsWhatItShouldWhateverTheModelDoesWithMasses) {
+  const kinematics::HandFile scaled =
+      WithModel(HandWith({}), Edited(RingText(), {{R"(autolimits="true"/>)",
+                                                   R"(autolimits="true" settotalmass="0.5"/>)"}}));
+  const mjModel& hand = *scaled.compiled->model;
+  const HandWorld world(scaled, solid(), kScale, WorldOptions());
+  const mjModel& model = world.model();
+  const int object = mj_name2id(&model, mjOBJ_BODY, "regrasp_object");
+  EXPECT_NEAR(model.body_mass[object], kMass, 1e-12);
+  ASSERT_EQ(model.nbody, hand.nbody + 1);
+  for (int body = 1; body < hand.nbody; ++body) {
+    EXPECT_NEAR(model.body_mass[body], hand.body_mass[body], 1e-12 * hand.body_mass[body]);
+    EXPECT_NEAR(model.body_inertia[3 * body], hand.body_inertia[3 * body],
+                1e-9 * hand.body_inertia[3 * body]);
+  }
+}
+
+/// But for what collides, which differs as documented: meshes, pairs, names, keyframes.
+TEST_F(HandWorldTest, TheExportedSceneIsTheModelOfTheReplay) {
+  for (const kinematics::HandFile& hand :
+       {HandWith({}), CoupledHand(), HandOnWrist(), HandWithOtherOptions()}) {
+    const HandWorld world(hand, solid(), kScale, WorldOptions());
+    const mujoco::ModelPtr scene =
+        LoadStockScene(ExportHandScene(hand, solid(), kScale, WorldOptions(), {}), folder_);
+    EXPECT_THAT(DifferentOptions(world.model().opt, scene->opt, 1e-12), ElementsAre("collision"));
+    EXPECT_THAT(
+        DifferentFields(world.model(), *scene, 1e-9,
+                        {"qpos", "body_pos", "body_quat", "body_ipos", "body_iquat", "body_mass",
+                         "body_inertia", "body_invweight0", "body_subtreemass", "jnt_", "dof_",
+                         "eq_", "tendon_", "wrap_", "actuator_", "stat.meaninertia"}),
+        IsEmpty());
+    // Another mass, gravity or servo is seen.
+    scene->body_mass[1] *= 1.001;
+    scene->opt.gravity[2] = 0;
+    scene->actuator_gainprm[0] *= 1.001;
+    EXPECT_THAT(DifferentOptions(world.model().opt, scene->opt, 1e-12),
+                ElementsAre("collision", "gravity"));
+    EXPECT_THAT(DifferentFields(world.model(), *scene, 1e-9, {"body_mass", "actuator_gainprm"}),
+                ElementsAre("body_mass", "actuator_gainprm"));
+  }
+}
+
+/// The range of each actuator's control.
+std::vector<Edit> WithControlRanges(
+    const std::function<std::array<double, 2>(int finger, int joint)>& range) {
+  std::vector<Edit> edits;
+  for (int f = 0; f < 5; ++f) {
+    for (int k = 0; k < 4; ++k) {
+      const std::string joint =
+          "joint=\"finger" + std::to_string(f) + "_joint" + std::to_string(k) + "\"/>";
+      const auto [lower, upper] = range(f, k);
+      edits.push_back({joint, joint.substr(0, joint.size() - 2) + " ctrlrange=\"" +
+                                  FormatDouble(lower) + " " + FormatDouble(upper) + "\"/>"});
+    }
+  }
+  return edits;
+}
+
+/// The largest that a control of an actuator is outside a range.
+double LargestOutside(const HandWorld& world,
+                      const std::function<std::array<double, 2>(int finger, int joint)>& range) {
+  double largest = 0;
+  const std::vector<double> controls = world.controls();
+  for (std::size_t i = 0; i < controls.size(); ++i) {
+    const auto [lower, upper] = range(static_cast<int>(i) / 4, static_cast<int>(i) % 4);
+    largest = std::max({largest, lower - controls[i], controls[i] - upper});
+  }
+  return largest;
+}
+
+TEST_F(HandWorldTest, ControlsStayInTheRangesOfTheModel) {
+  const kinematics::HandFile plain = HandWith({});
+  const plan::Plan plan = PlanFor(plain);
+  // As far as the plan's joints go: a servo presses by a control beyond where its joint is.
+  const auto narrow = [&](int f, int k) {
+    std::array<double, 2> range = {plan.hand->initial.joints[f][k],
+                                   plan.hand->initial.joints[f][k]};
+    for (const plan::Step& step : plan.steps) {
+      for (const plan::HandPath* path : plan::PathsOf(step)) {
+        for (const plan::HandState& state : *path) {
+          range[0] = std::min(range[0], state.joints[f][k]);
+          range[1] = std::max(range[1], state.joints[f][k]);
+        }
+      }
+    }
+    return std::array<double, 2>{range[0] - 0.05, range[1] + 0.05};
+  };
+  double outside = 0;
+  HandReplayObserver observer;
+  observer.on_step = [&](const HandWorld& world) {
+    outside = std::max(outside, LargestOutside(world, narrow));
+  };
+  const ReplayResult free = ReplayHand(plain, solid(), plan, Options(), observer);
+  EXPECT_EQ(free.steps.back().reason, Reason::kNone) << free.steps.back().detail;
+  EXPECT_FALSE(free.settings.hand->limits.front().control);
+  EXPECT_GT(outside, 0.01);
+  outside = 0;
+  const kinematics::HandFile limited = HandWith(WithControlRanges(narrow));
+  const ReplayResult result = ReplayHand(limited, solid(), plan, Options(), observer);
+  EXPECT_LE(outside, 1e-12);
+  ASSERT_TRUE(result.settings.hand->limits.front().control);
+  EXPECT_NEAR(result.settings.hand->limits.front().control->front(), narrow(0, 0)[0], 1e-12);
+  // It cannot press as hard as without the ranges: controls are at their ends.
+  double at_limit = 0;
+  for (const StepReplay& step : result.steps) {
+    at_limit = std::max(at_limit, step.hand->control_limit_s);
+  }
+  EXPECT_GT(at_limit, 0.05);
+  for (const StepReplay& step : free.steps) EXPECT_EQ(step.hand->control_limit_s, 0);
+}
+
+TEST_F(HandWorldTest, WideRangesOfControlsChangeNothing) {
+  const kinematics::HandFile plain = HandWith({});
+  const plan::Plan plan = PlanFor(plain);
+  const auto wide = [](int, int) { return std::array<double, 2>{-9, 9}; };
+  const ReplayResult a = ReplayHand(plain, solid(), plan, Options());
+  const ReplayResult b = ReplayHand(HandWith(WithControlRanges(wide)), solid(), plan, Options());
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  EXPECT_EQ(a.settings.squeeze_N, b.settings.squeeze_N);
+  for (std::size_t i = 0; i < a.steps.size(); ++i) {
+    EXPECT_EQ(b.steps[i].reason, Reason::kNone) << b.steps[i].detail;
+    EXPECT_EQ(a.steps[i].displacement_m, b.steps[i].displacement_m);
+  }
+}
+
+TEST_F(HandWorldTest, LimitsAreThoseOfTheModel) {
+  const HandWorld plain(HandWith({}), solid(), kScale, WorldOptions());
+  ASSERT_EQ(plain.limits().size(), 20U);
+  for (const DriveLimits& limit : plain.limits()) EXPECT_EQ(limit.torque_Nm, 1);
+  const DriveLimits last = plain.limits().back();
+  EXPECT_EQ(last.finger, FingerIndex(4));
+  EXPECT_EQ(last.joint, "finger4_joint3");
+  EXPECT_EQ(last.actuator, "finger4_motor3");
+  EXPECT_NEAR(last.upper_rad, 1.5708, 1e-4);
+  const HandWorld strong(HandWith({{" forcerange=\"-1.0 1.0\"", ""}}), solid(), kScale,
+                         WorldOptions());
+  for (const DriveLimits& limit : strong.limits()) {
+    EXPECT_EQ(limit.torque_Nm, std::numeric_limits<double>::infinity());
+  }
+  const HandWorld coupled(CoupledHand(), solid(), kScale, WorldOptions());
+  EXPECT_EQ(coupled.limits().size(), 15U);
+}
+
+/// Two fingers of two joints each, as a URDF has them.
+std::string UrdfText(const std::string& effort) {
+  const std::string inertial =
+      R"(<inertial><mass value="0.02"/><inertia ixx="1e-5" iyy="1e-5" izz="1e-5" ixy="0" ixz="0"
+         iyz="0"/></inertial>)";
+  const auto link = [&](const std::string& name, const std::string& z, const std::string& radius) {
+    return "<link name=\"" + name + "\">" + inertial + "<collision><origin xyz=\"0 0 " + z +
+           "\"/><geometry><sphere radius=\"" + radius + "\"/></geometry></collision></link>";
+  };
+  const auto joint = [&](const std::string& name, const std::string& parent,
+                         const std::string& child, const std::string& origin) {
+    return "<joint name=\"" + name + "\" type=\"revolute\"><parent link=\"" + parent +
+           "\"/><child link=\"" + child + "\"/><origin xyz=\"" + origin +
+           "\"/><axis xyz=\"0 1 0\"/><limit lower=\"-1\" upper=\"1\" velocity=\"1\" effort=\"" +
+           effort + "\"/></joint>";
+  };
+  std::string text = "<robot name=\"two\">" + link("palm", "-0.03", "0.02");
+  for (const std::string finger : {"a", "b"}) {
+    const std::string x = finger == "a" ? "0.06" : "-0.06";
+    text += link(finger + "_near", "0.02", "0.01") + link(finger + "_tip", "0.03", "0.01") +
+            joint(finger + "_1", "palm", finger + "_near", x + " 0 0") +
+            joint(finger + "_2", finger + "_near", finger + "_tip", "0 0 0.04");
+  }
+  return text + "</robot>";
+}
+
+TEST_F(HandWorldTest, TheStrengthOfAUrdfsJointsIsItsEffort) {
+  const auto path =
+      Write("two.json",
+            R"({"format": "regrasp-hand", "version": 1, "name": "two", "model": "two.urdf",
+          "palm": "palm", "up": [0, 0, 1], "fingers": [
+          {"name": "a", "tip": {"body": "a_tip", "centre": [0, 0, 0.03], "radius": 0.01}},
+          {"name": "b", "tip": {"body": "b_tip", "centre": [0, 0, 0.03], "radius": 0.01}}]})");
+  for (const std::string effort : {"0.75", " 0.75", "\t0.75 "}) {
+    static_cast<void>(Write("two.urdf", UrdfText(effort)));
+    const HandWorld world(kinematics::ReadHandFile(path), solid(), kScale, WorldOptions());
+    ASSERT_EQ(world.limits().size(), 4U);
+    for (const DriveLimits& limit : world.limits()) EXPECT_EQ(limit.torque_Nm, 0.75) << effort;
+  }
+}
+
+/// A finger that never came to the object has no contact to press at.
+TEST_F(HandWorldTest, AControllerOfFingersFarFromTheObjectAsksForNoForce) {
+  const kinematics::HandFile hand = HandWith({});
+  const plan::Plan plan = PlanFor(hand);
+  for (const bool far : {true, false}) {
+    HandWorld world(hand, solid(), kScale, WorldOptions());
+    plan::HandState state = plan.hand->initial;
+    if (far) state.pose.translation().z() += 1;
+    world.Place(state);
+    HandControl control(world, solid(), kScale, {std::atan(kMu), 5, 1.2, true});
+    Hold hold;
+    for (const plan::FingerContact& held : plan.initial) {
+      control.Attach(held.finger);
+      hold.fingers.push_back(held.finger);
+    }
+    control.SetHolding({hold, hold, 1, 1});
+    for (int i = 0; i < 20; ++i) control.Step();
+    double force = 0;
+    for (const FingerIndex f : hold.fingers) force += control.force(f).norm();
+    EXPECT_EQ(force > 0, !far);
+  }
+}
+
+/// The arms are too heavy to follow: it fails, by name.
+TEST_F(HandWorldTest, AHandThatCannotFollowFailsWithAReason) {
+  const kinematics::HandFile heavy = HandWith({{"armature=\"0.001\"", "armature=\"10\""}});
+  const plan::Plan plan = PlanFor(heavy, 1.2);
+  const ReplayResult result = ReplayHand(heavy, solid(), plan, Options());
+  EXPECT_NE(result.steps.back().reason, Reason::kNone);
+  EXPECT_FALSE(result.steps.back().detail.empty());
+}
+
+}  // namespace hand_world_test
+}  // namespace regrasp::sim
