@@ -270,7 +270,8 @@ ValidationRun RunValidation(const ValidateOptions& options) {
                             {report.object_file, report.object_sha256},
                             options.start.empty() ? "" : Sha256(task.start_text),
                             options.goal.empty() ? "" : Sha256(task.goal_text),
-                            options.hand.empty() ? "" : Sha256(ReadFile(options.hand))};
+                            task.hand ? task.hand->hand.sha256 : "",
+                            RepairInput(options, task.file_text)};
   report.run = report::RunRecord{RunDigest(options, inputs),
                                  {},
                                  std::string(kValidateName) + " " + ProgramVersion(),

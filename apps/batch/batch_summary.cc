@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/base/number.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/text_table.h"
 #include "report/json_values.h"
 #include "report/junit.h"
@@ -12,7 +12,6 @@ namespace regrasp::apps {
 namespace {
 
 constexpr char kNothing[] = "-";
-constexpr int kAngleDecimals = 2;
 
 long Count(const BatchSummary& summary, PlanVerdict verdict) {
   return std::ranges::count(summary.plans, verdict, &PlanOutcome::verdict);
@@ -53,7 +52,7 @@ TextRow MakeRow(const PlanOutcome& plan) {
     row[2] = std::to_string(report.entries.size() - 1);
     if (report.weakest_step) row[3] = std::to_string(*report.weakest_step);
     if (report.required_half_angle_deg) {
-      row[4] = FormatFixed(*report.required_half_angle_deg, kAngleDecimals);
+      row[4] = FormatRequiredDegrees(*report.required_half_angle_deg);
     }
     const std::optional<int> failed = report.failed_step();
     if (failed) row[5] = ReasonOf(plan) + " in step " + std::to_string(*failed);

@@ -13,6 +13,7 @@
 #include "render/frames/frame_sequence.h"
 #include "render/frames/replay_animation.h"
 #include "render/picture/caption.h"
+#include "report/trials_report.h"
 
 namespace regrasp::report {
 
@@ -49,9 +50,11 @@ render::SheetLabel MakeLabel(const ReportStep& step) {
 render::SheetLabel MakeHeading(const Report& report) {
   const auto failed = std::ranges::find_if(report.steps, Failed);
   if (failed == report.steps.end()) {
+    if (!report.passed()) return {"FAIL: " + TrialsFailureText(*report.trials), "", kBad};
     const auto steps = report.steps.size() - 1;
-    if (steps == 0) return {"PASS: the hold stands", "", kGood};
-    return {"PASS: the hold and " +
+    const std::string trials = report.trials ? " " + TrialsPassText(*report.trials) : "";
+    if (steps == 0) return {"PASS" + trials + ": the hold stands", "", kGood};
+    return {"PASS" + trials + ": the hold and " +
                 (steps == 1 ? "the step" : "all " + std::to_string(steps) + " steps") + " stand",
             "", kGood};
   }
@@ -144,7 +147,7 @@ render::FrameRenderer MakeRenderer(const object::Object& object, const Report& r
     options.body.thickness = report.settings->thickness_m / report.settings->diameter_m;
   }
   options.finger_radius = report.finger_radius;
-  options.has_heading = !report.passed();
+  options.has_heading = !report.steps_passed();
   return {object, report.scale, report.half_angle, snapshots, options};
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/quantity_text.h"
 
 namespace regrasp::sim {
@@ -80,9 +81,10 @@ HandFinding Collision(const HandBody& body, const HandState& state, const std::v
 }
 
 /// "a comes within 0.3 mm of b", "a goes 3.2 mm into b".
-std::string NearText(const std::string& a, const std::string& b, double gap) {
-  if (gap < 0) return a + " goes " + FormatLength(-gap) + " into " + b;
-  return a + " comes within " + FormatLength(gap) + " of " + b;
+/// @param needed  gap that would do, metres; never shown equal to `gap`.
+std::string NearText(const std::string& a, const std::string& b, double gap, double needed) {
+  if (gap < 0) return a + " goes " + FormatLengthWithLimit(-gap, -needed).value + " into " + b;
+  return a + " comes within " + FormatLengthWithLimit(gap, needed).value + " of " + b;
 }
 
 /// Evenly over the sphere (a spiral by the golden angle).
@@ -192,10 +194,11 @@ HandFinding TipOff(HandBody& body, const HandState& state, FingerIndex finger,
   const kinematics::Finger& of = body.hand().fingers[finger];
   const Vector3d found = body.TipCentre(finger);
   const double off = (found - expected).norm();
+  const auto [value, limit] = FormatLengthWithLimit(off, tolerance);
   HandFinding finding{Reason::kTipOffContact, "", {.fingers = {finger}}};
-  finding.detail = "the tip of " + FingerText(body.hand(), finger) + " is " + FormatLength(off) +
-                   " from where it touches its contact" + After(when) + "; up to " +
-                   FormatLength(tolerance) + " is taken";
+  finding.detail = "the tip of " + FingerText(body.hand(), finger) + " is " + value +
+                   " from where it touches its contact" + After(when) + "; up to " + limit +
+                   " is taken";
   plan::HandFaultPlace& place = finding.fault.hand.emplace();
   place.state = state;
   place.links = {{finger, static_cast<int>(of.joints.size())}};
@@ -227,7 +230,8 @@ HandFinding PartsCollide(HandBody& body, const HandState& state, int a, int b, d
     nearness.gap = -FreeingDistance(first, {&second, 1}, AllDirections());
   }
   HandFinding finding = Collision(body, state, {a, b}, nearness);
-  finding.detail = NearText(PartText(body, a), PartText(body, b), nearness.gap) + After(when) +
+  finding.detail = NearText(PartText(body, a), PartText(body, b), nearness.gap, clearance) +
+                   After(when) +
                    "; the clearance is " + FormatLength(clearance);
   return finding;
 }
@@ -242,7 +246,8 @@ HandFinding PartMeetsObject(HandBody& body, const HandState& state, int part,
   if (nearness.gap < 0 && !ways.empty()) nearness.gap = -FreeingDistance(solid, surface, ways);
   nearness.at = state.pose * nearness.at;
   HandFinding finding = Collision(body, state, {part}, nearness);
-  finding.detail = NearText(PartText(body, part), "the object", nearness.gap) + After(when) + "; " +
+  finding.detail = NearText(PartText(body, part), "the object", nearness.gap, needed) +
+                   After(when) + "; " +
                    (needed < 0 ? "a tip that touches may be " + FormatLength(-needed) + " in it"
                                : "the clearance is " + FormatLength(needed));
   return finding;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "planner/criteria/clearance.h"
@@ -222,12 +223,12 @@ Disagreement ExplainAnalysis(const ExaminedStep& step) {
     return {.cause = Cause::kNotSimulated,
             .text = "the replay goes by the normals of facets, not by those of patches"};
   }
+  const LimitText text = FormatRequiredDegrees(Degrees(required), Degrees(half_angle));
   const bool near = step.settings.mu >= kNearCritical * std::tan(required);
   return {.cause = near ? Cause::kCriticalFriction : Cause::kUnknown,
           .text = std::string(near ? "the friction is hardly below the critical one"
                                    : "no cause found") +
-                  ": half-angle " + FormatDegrees(Degrees(half_angle)) + ", required " +
-                  FormatDegrees(Degrees(required)),
+                  ": half-angle " + text.limit + "°, required " + text.value + "°",
           .values = {{"half_angle_deg", Degrees(half_angle)},
                      {"required_half_angle_deg", Degrees(required)}}};
 }
