@@ -15,6 +15,7 @@
 #include "apps/lines_run.h"
 #include "apps/nearest_word.h"
 #include "apps/output_files.h"
+#include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/repair_module.h"
 #include "planner/base/deadline.h"
@@ -74,15 +75,18 @@ void RefuseMisspelt(const plan::JsonReader& reader, const Json& object,
 Query ReadQuery(const Line& line, const PlanProgram& program) {
   const Json json = ParseJson(line.text, line.name);
   const plan::JsonReader root(json, line.name);
-  if (!json.is_object()) root.Fail("expected an object, found " + root.Quoted());
+  if (!json.is_object()) root.Fail("expected a JSON object, found " + root.Quoted());
   RefuseMisspelt(root, json,
                  {"object", "friction", "scale", "seed", "min_quality", "start", "goal"});
   Query query{"", "", program};
   if (root.Has("object")) {
     const plan::JsonReader object = root.Member("object");
-    if (json.at("object").is_object()) {
-      RefuseMisspelt(object, json.at("object"), {"file", "sha256"});
+    if (!json.at("object").is_object()) {
+      object.Fail("expected a JSON object that names the file, found " + object.Quoted() +
+                  "; help: write {\"object\": {\"file\": " +
+                  (json.at("object").is_string() ? object.Quoted() : "\"cube.obj\"") + "}}");
     }
+    RefuseMisspelt(object, json.at("object"), {"file", "sha256"});
     query.object_name = object.Member("file").String();
     if (object.Has("sha256")) query.object_sha256 = object.Member("sha256").String();
   }
@@ -157,7 +161,8 @@ class PlanLines {
     CheckOutputsWritable(outputs);
   }
 
-  /// A start or goal is not given, a word, or the path and the bytes of a file: all of these differ.
+  /// A start or goal is not given, a word, or the path and the bytes of a file: all of these
+  /// differ.
   static void AddEnd(const PlanEnd& end, InputsDigest& digest) {
     if (!end.given()) {
       digest.AddAbsent(end.option);
@@ -165,8 +170,7 @@ class PlanLines {
       digest.Add(end.option, end.value);
     }
     std::error_code error;
-    const bool file =
-        end.given() && !end.is_random() && std::filesystem::exists(end.value, error);
+    const bool file = end.given() && !end.is_random() && std::filesystem::exists(end.value, error);
     if (file) digest.Add("sha256", Sha256(ReadFile(end.value)));
   }
 
@@ -178,7 +182,8 @@ class PlanLines {
     AddEnd(program_.start, digest);
     AddEnd(program_.goal, digest);
     if (program_.hand_file) {
-      digest.Add("hand", program_.hand_file->hand.file).Add("sha256", program_.hand_file->hand.sha256);
+      digest.Add("hand", program_.hand_file->hand.file)
+          .Add("sha256", program_.hand_file->hand.sha256);
     } else {
       digest.AddAbsent("hand");
     }
@@ -214,8 +219,9 @@ class PlanLines {
         shelf_.Get(common.object, [&] { return common.ReadObjectFile(kPlanName); });
     if (!query.object_sha256.empty() && object->sha256 != query.object_sha256 &&
         !(object->repair && object->repair->sha256 == query.object_sha256)) {
-      throw InputError(line.name + ": /object/sha256: the query is for an object with digest " +
-                       query.object_sha256 + ", but " + common.object + " has " + object->sha256);
+      throw InputError(line.name + ": /object/sha256: the query is for another file, expected " +
+                       DescribeFile(query.object_name, query.object_sha256) + ", found " +
+                       DescribeFile(common.object, object->sha256));
     }
     return object;
   }

@@ -39,8 +39,8 @@ struct RunInputs {
 /// Start a digest with the program's build and the engines.
 [[nodiscard]] InputsDigest BuildDigest();
 
-/// Return a SHA-256 over all that the results of a validation depend on: the program's build and the
-/// engines, the bytes and names of plan (or grasp) and object, the bytes of --start, --goal and
+/// Return a SHA-256 over all that the results of a validation depend on: the program's build and
+/// the engines, the bytes and names of plan (or grasp) and object, the bytes of --start, --goal and
 /// --hand with its model and meshes, and every other option as it was typed. Two runs with the same
 /// digest write the same bytes.
 [[nodiscard]] std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs);

@@ -202,8 +202,8 @@ class Batch {
     } else if (exit.code == kExitDone || exit.code == kExitNegative || exit.code == kExitKept) {
       TakeReport(exit.code == kExitKept, outcome);
       // A run that reuses results hides no failure.
-      const std::string why = outcome.kept ? FailureLine(*outcome.report) : "";
-      if (!why.empty()) lines.push_back(why);
+      const auto failure = outcome.kept ? outcome.report->failure() : std::nullopt;
+      if (failure) lines.push_back(failure->line());
     }
     if (!outcome.report && outcome.message.empty()) {
       outcome.message = "ended with exit code " + std::to_string(exit.code);

@@ -244,11 +244,13 @@ void Print(const ValidateOptions& options, const ValidateTask& task,
   for (const std::string& warning : report.warnings()) {
     PrintMessage(kValidateName, "warning: " + warning);
   }
+  if (!options.quiet && options.trials.count > 0 && !report.trials) {
+    PrintMessage(kValidateName, "no trials: the replay without noise does not pass");
+  }
   if (!options.quiet && options.json != kStandardStream) {
     PrintTable(report::FormatReportTable(report), FilesText(folder, report));
   } else if (const auto failure = report::DescribeFailure(report)) {
-    PrintError(kValidateName, failure->headline() + "; why: " + failure->why +
-                                  "; what would mend it: " + failure->mend);
+    PrintError(kValidateName, failure->line());
   }
 }
 

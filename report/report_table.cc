@@ -127,7 +127,8 @@ std::string FormatWeakestFinger(const Report& report) {
          NeedText(need.friction, report.half_angle, "");
 }
 
-/// What is weakest in a plan whose steps pass. One that fails has something weaker, which is told first.
+/// What is weakest in a plan whose steps pass. One that fails has something weaker, which is told
+/// first.
 std::string FormatWeakestOfPlan(const Report& report) {
   return report.steps_passed() ? FormatWeakest(report) + FormatWeakestFinger(report) : "";
 }

@@ -45,8 +45,8 @@ Json TrialsJson(const sim::TrialSummary& summary) {
 }
 
 std::string TrialsPassText(const sim::TrialSummary& summary) {
-  return "in " + std::to_string(summary.passed) + " of " +
-         std::to_string(summary.options.count) + " trials";
+  return "in " + std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
+         " trials";
 }
 
 std::string TrialsRequiredText(const sim::TrialSummary& summary) {
@@ -61,8 +61,8 @@ std::string TrialsShareText(const sim::TrialSummary& summary) {
   return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
          " pass: " + TrialPercent(summary.share()) + " %, with " +
          TrialPercent(sim::kTrialConfidence) + " % confidence between " +
-         TrialPercent(interval.lower) + " and " + TrialPercent(interval.upper) +
-         " %; required " + TrialPercent(summary.options.min_pass_rate) + " %";
+         TrialPercent(interval.lower) + " and " + TrialPercent(interval.upper) + " %; required " +
+         TrialPercent(summary.options.min_pass_rate) + " %";
 }
 
 std::string TrialsFailureText(const sim::TrialSummary& summary) {

@@ -19,6 +19,8 @@ std::optional<std::string_view> EarlierLines::Next() {
   while (std::getline(stream_, line_) && !stream_.eof()) {
     const std::optional<std::int64_t> entry = EntryOf(line_);
     if (!entry || *entry <= entry_) continue;
+    // An edited number would hide all entries up to it.
+    if (*entry != entry_ + 1 && !SealedInputs(line_)) continue;
     entry_ = *entry;
     return line_;
   }

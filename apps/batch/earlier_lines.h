@@ -12,7 +12,8 @@ namespace regrasp::apps {
 /// The entries in a file of lines that an earlier run left, read once as a stream.
 ///
 /// The file may be anything: missing, cut, edited, of other entries. Lines that are not whole or do
-/// not begin as those of an entry are skipped, and entries that do not ascend.
+/// not begin as those of an entry are skipped, and entries that do not ascend. Lines without a seal
+/// (SealRecord) may be skipped.
 class EarlierLines {
  public:
   /// No entries.

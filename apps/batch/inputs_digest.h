@@ -43,8 +43,8 @@ struct ObjectOfLine {
 };
 
 /// Return the digest of all that the result of a line depends on: what the run has in common, the
-/// number of the entry, the bytes of the line, and name and bytes of the object's file that `finder`
-/// finds now.
+/// number of the entry, the bytes of the line, and name and bytes of the object's file that
+/// `finder` finds now.
 /// @param common  digest of the options, the program's build and all files that every line uses.
 /// @param object  what the line says of its object; none: it cannot be read, or has no object.
 [[nodiscard]] std::string EntryDigest(const std::string& common, const Line& line,

@@ -105,8 +105,9 @@ void LinesOutput::TakePart(bool fresh) {
   }
   // A process that was killed at once has left nothing, or a beginning.
   const bool begins = expected.starts_with(found);
-  const bool ours = begins || ParseHeader(found.substr(0, found.find('\n')),
-                                          part_.string() + ": line 1").has_value();
+  const bool ours =
+      begins ||
+      ParseHeader(found.substr(0, found.find('\n')), part_.string() + ": line 1").has_value();
   if (!ours || (!fresh && !begins)) {
     throw InputError(part_.string() + ": line 1: " +
                      (ours ? "is the part of a run with other input, other options or another "
@@ -191,7 +192,8 @@ void LinesOutput::SetRestAside(std::int64_t begin) {
   EarlierLines last(part_, begin), older(rest_);
   if (!last.Next()) return;
   const fs::path aside = rest_.string() + ".new";
-  Descriptor file(open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, kNewMode));
+  Descriptor file(
+      open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, kNewMode));
   if (file.get() < 0) FailWith(std::strerror(errno));
   EarlierLines lines(part_, begin);
   while (const auto line = lines.Next()) WriteAll(file.get(), std::string(*line) + "\n");

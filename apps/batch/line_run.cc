@@ -72,8 +72,8 @@ class LineRun {
   /// Keeps the results of an earlier run from the first entry on, up to one that is not reused.
   void KeepResults() {
     for (std::optional<Line> line = Get(); line; line = Get()) {
-      const bool kept = output_.KeepNext(
-          [&](std::string_view record) { return IsReusable(*line, record); });
+      const bool kept =
+          output_.KeepNext([&](std::string_view record) { return IsReusable(*line, record); });
       if (!kept) {
         waiting_ = std::move(line);
         return;

@@ -38,9 +38,9 @@ struct LineRunOptions {
   std::function<void()> on_progress;  ///< called whenever entries were appended
 };
 
-/// Works on all entries of the input that have no result of an earlier run with the same inputs, and
-/// writes all results in order. An entry whose process crashes or takes too long becomes an error
-/// and stops no other.
+/// Works on all entries of the input that have no result of an earlier run with the same inputs,
+/// and writes all results in order. An entry whose process crashes or takes too long becomes an
+/// error and stops no other.
 ///
 /// The same input gives the same bytes, whatever the number of jobs and wherever an earlier run was
 /// stopped. Memory grows with the jobs, not with the input: who is far ahead of a slow entry waits.

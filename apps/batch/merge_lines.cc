@@ -123,8 +123,9 @@ void AppendShards(const std::vector<ShardFile>& shards, LinesOutput& merged) {
     const EntryRange range = shard.header.range();
     for (std::int64_t entry = range.first; entry <= range.last; ++entry) {
       const std::string line = reader.Get(entry);
-      keeps = keeps && merged.KeepNext(
-                           [&line](std::string_view there) { return line == std::string(there) + "\n"; });
+      keeps = keeps && merged.KeepNext([&line](std::string_view there) {
+        return line == std::string(there) + "\n";
+      });
       if (!keeps) lines += line;
       if (lines.size() < kPiece) continue;
       merged.Append(lines);

@@ -27,8 +27,8 @@ struct LimitText {
 /// All programs, pages and pictures show required friction angles by this function.
 [[nodiscard]] std::string FormatRequiredDegrees(double degrees);
 
-/// The same with the angle that there is: both with as many more decimals as it takes that the texts
-/// are ordered as the numbers are.
+/// The same with the angle that there is: both with as many more decimals as it takes that the
+/// texts are ordered as the numbers are.
 [[nodiscard]] LimitText FormatRequiredDegrees(double required, double available);
 
 }  // namespace regrasp

@@ -288,7 +288,8 @@ std::string UnprovedText(const motion::PathForceClosure& path, const std::string
   }
   return "force closure is not proved near " + at + ": of " + std::to_string(path.undecided) +
          " pieces, a millionth of it each, neither a proof nor a loss is found" +
-         (required ? "; all of it surely holds only from " + FormatRequiredDegrees(Degrees(required->upper)) + "°"
+         (required ? "; all of it surely holds only from " +
+                         FormatRequiredDegrees(Degrees(required->upper)) + "°"
                    : "");
 }
 

@@ -25,8 +25,8 @@ constexpr char kLong[] = "digest";
 void AddGrasp(const Report& report, FactList& facts) {
   const GraspReport& grasp = *report.grasp;
   const std::optional<grasp::RequiredHalfAngle>& required = report.steps.front().check.required;
-  facts.Add("Needs", required ? FormatRequiredDegrees(Degrees(required->upper)) + "°"
-                                 : "none is enough");
+  facts.Add("Needs",
+            required ? FormatRequiredDegrees(Degrees(required->upper)) + "°" : "none is enough");
   if (grasp.fingers.empty()) return;
   facts.Add("Quality ε", grasp::QualityText(grasp.quality, kQualityDigits));
   facts.Add("Weakest", "finger " + std::to_string(grasp::WeakestFinger(grasp.fingers)));

@@ -111,9 +111,9 @@ void HandJudge::WatchObject(const Isometry3d& planned, double share, double& off
   const bool by_length = off / most_m >= turned / most_rad;
   const std::string number =
       by_length ? FormatLength(off, 2) + " off" : FormatDegrees(Degrees(turned)) + " off";
-  const auto [value, limit] =
-      by_length ? FormatLengthWithLimit(off, most_m)
-                : FormatDegreesWithLimit(Degrees(turned), Degrees(most_rad));
+  const auto [value, limit] = by_length
+                                  ? FormatLengthWithLimit(off, most_m)
+                                  : FormatDegreesWithLimit(Degrees(turned), Degrees(most_rad));
   Fail(Reason::kObjectMoved,
        "the object is " + value + " from where the plan has it, of " + limit + " allowed",
        {.number = number, .pose = planned});

@@ -46,8 +46,8 @@ class MotionMonitor {
 
   /// kNone, or the first of contact-lost, slipped and object-moved that applies.
   [[nodiscard]] plan::Reason reason() const;
-  /// What the reason is, with its largest number so far and when it was seen first: "finger 2 slipped by
-  /// 300 µm during the align"; empty where there is none.
+  /// What the reason is, with its largest number so far and when it was seen first: "finger 2
+  /// slipped by 300 µm during the align"; empty where there is none.
   [[nodiscard]] std::string detail() const;
   /// The finger that lost its contact or slipped first; not valid where the reason is another.
   [[nodiscard]] FingerIndex finger() const;

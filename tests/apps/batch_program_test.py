@@ -729,7 +729,7 @@ class Batch(ProgramCase):
                 self.assert_refused(2, words, *arguments)
                 refused += 1
         os.mkdir(self.path("nothing"))
-        self.assert_refused(2, "holds no plan", *models, "--plan", "nothing")
+        self.assert_refused(2, "nothing: no plan found", *models, "--plan", "nothing")
         self.assertGreater(refused, 10)
 
     def test_says_when_the_folder_cannot_be_written(self):

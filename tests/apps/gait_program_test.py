@@ -483,6 +483,11 @@ class Gait(ProgramCase):
                             "--planner", "gait", "--start", "random", "--goal", "random")
         self.assert_refused(2, "--start is required", "--object", self.model("cube.obj"), "--mu",
                             "0.5", "--output", "plan.json")
+        for option, value in (("--turn", "z 90"), ("--goal-pose", "0 0 0.1 1 0 0 0"),
+                              ("--start-pose", "0 0 0.1 1 0 0 0"), ("--clearance", "0.002"),
+                              ("--reserve", "none")):
+            self.assert_refused(2, f"{option} requires --hand", "--object", self.model("cube.obj"),
+                                "--mu", "0.5", "--output", "plan.json", option, value)
         self.assert_refused(2, "no planar objects", "--object", self.model("square.wkt"), "--mu",
                             "0.5", "--output", "plan.json", "--hand", self.hand("ring4"), "--turn",
                             "z 90")
@@ -526,7 +531,8 @@ class Gait(ProgramCase):
 
     def test_another_hand_is_refused(self):
         self.write_json("plan.json", self.plan_in_hand())
-        self.assert_refused(2, "the plan was made for a hand with digest", "--object",
+        self.assert_refused(2, "--hand: the plan is for another hand, expected ring4.json (hand ring4), "
+                            "found ring5.json (hand ring5)", "--object",
                             self.model("cube.obj"), "--plan", "plan.json", "--hand",
                             self.hand("ring5"), program="validate")
 
