@@ -22,6 +22,7 @@
 #include "apps/validate_task.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/base/number.h"
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan_io.h"
 #include "report/failure.h"
@@ -64,7 +65,7 @@ class ValidateLines {
     if (!options_.start.empty()) shared_.start_text = ReadFile(options_.start);
     if (!options_.goal.empty()) shared_.goal_text = ReadFile(options_.goal);
     if (!options_.hand.empty()) shared_.hand = kinematics::ReadHandFile(options_.hand);
-    common_ = Digest("");
+    common_ = DigestOf(options_, "", "");
     run.shard = options_.shard;
     run.digest = [this](const std::string& source) { return Digest(source); };
     run.jobs = options_.jobs;
@@ -103,16 +104,23 @@ class ValidateLines {
     CheckOutputsWritable(outputs);
   }
 
+  /// Digest of all that the lines of the output come from.
   /// @param source  identity of the input's lines.
   [[nodiscard]] std::string Digest(const std::string& source) const {
     ValidateOptions options = options_;
+    // A limit changes which entries are errors.
     if (options.time_limit_s) {
-      options.given.emplace_back("--time-limit",
-                                 std::vector{std::to_string(*options.time_limit_s)});
+      options.given.emplace_back("--time-limit", std::vector{FormatDouble(*options.time_limit_s)});
     }
-    const bool one = !objects_.finder.is_folder() && !source.empty();
+    const bool one = !objects_.finder.is_folder();
+    return DigestOf(options, source, one ? Sha256(ReadFile(options.object_path)) : "");
+  }
+
+  /// @param object_sha256  of the object of all lines; empty: each names its own.
+  [[nodiscard]] std::string DigestOf(const ValidateOptions& options, const std::string& source,
+                                     const std::string& object_sha256) const {
     return RunDigest(options, {{"", source},
-                               {"", one ? Sha256(ReadFile(options.object_path)) : ""},
+                               {"", object_sha256},
                                options.start.empty() ? "" : Sha256(shared_.start_text),
                                options.goal.empty() ? "" : Sha256(shared_.goal_text),
                                shared_.hand ? shared_.hand->hand.sha256 : ""});
@@ -133,7 +141,8 @@ class ValidateLines {
   /// What the child that made a record printed.
   static std::vector<std::string> MessagesOf(const Line& line, std::string_view record) {
     const auto outcome = OutcomeOf(record, line.entry);
-    if (outcome != Outcome::kFail && outcome != Outcome::kPass) return {};
+    const bool trials = record.find(R"("trials":{)") != std::string_view::npos;
+    if (outcome != Outcome::kFail && (outcome != Outcome::kPass || !trials)) return {};
     const ReportSummary report = SummarizeReport(ParseJson(record, line.name), line.name);
     const std::string said = report.headline();
     return said.empty() ? std::vector<std::string>{} : std::vector{line.name + ": " + said};

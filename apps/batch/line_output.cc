@@ -77,6 +77,10 @@ bool LinesOutput::HoldPart() {
   if (!Lock(file_.get())) FailWith("another process writes it");
   // The process that was waited for may have put it in its place.
   struct stat held, there;
+  // Of a pipe no read would return.
+  if (fstat(file_.get(), &held) == 0 && !S_ISREG(held.st_mode)) {
+    throw InputError(part_.string() + ": is in the way, expected a regular file or none");
+  }
   return fstat(file_.get(), &held) == 0 && lstat(part_.c_str(), &there) == 0 &&
          held.st_dev == there.st_dev && held.st_ino == there.st_ino;
 }

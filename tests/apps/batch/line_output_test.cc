@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -136,6 +137,15 @@ TEST_F(LineOutputTest, APartOfAnotherRunOrOfSomebodyElseIsNotTouched) {
   EXPECT_THAT(Refusal<InputError>(header_), HasSubstr("no run of this program has left it"));
   EXPECT_THROW(LinesOutput(path_, header_, true), InputError);
   EXPECT_EQ(ReadFile(part_), "my own notes\n");
+}
+
+TEST_F(LineOutputTest, APipeInTheWayIsRefusedUnread) {
+  ASSERT_EQ(mkfifo(part_.c_str(), 0600), 0);
+  EXPECT_THAT(Refusal<InputError>(header_), HasSubstr("plans.jsonl.part: is in the way"));
+  fs::remove(part_);
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  LinesOutput output(path_, header_, false);
+  EXPECT_FALSE(output.FindEarlier(1, [](std::string_view /*line*/) { return true; }));
 }
 
 TEST_F(LineOutputTest, OneProcessAtATimeWritesIt) {

@@ -91,7 +91,8 @@ class LineReuseTest : public FolderTest {
 
   [[nodiscard]] std::string Work(const Line& line) const {
     const auto state = StateOf(line.text);
-    if (!state) return FormatNoResult(line.entry, Outcome::kBadInput, "run " + std::to_string(run_));
+    if (!state)
+      return FormatNoResult(line.entry, Outcome::kBadInput, "run " + std::to_string(run_));
     return FormatRecord(line.entry, {{"format", "regrasp-report"},
                                      {"version", 1},
                                      {"verdict", "pass"},
@@ -154,7 +155,8 @@ class LineReuseTest : public FolderTest {
   void EditResult() {
     std::string whole = ReadFile(Out());
     std::vector<std::size_t> begins = {0};
-    for (std::size_t end = whole.find('\n'); end + 1 < whole.size(); end = whole.find('\n', end + 1)) {
+    for (std::size_t end = whole.find('\n'); end + 1 < whole.size();
+         end = whole.find('\n', end + 1)) {
       begins.push_back(end + 1);
     }
     const int entry = Draw(static_cast<int>(begins.size()));
