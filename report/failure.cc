@@ -291,6 +291,21 @@ std::string VerdictHeadline(const Report& report) {
   return some ? "pass " + TrialsPassText(*report.trials) : "";
 }
 
+std::string HeadingText(const Report& report) {
+  if (const auto failure = DescribeFailure(report)) {
+    const std::string where = !failure->entry.valid() ? "FAIL"
+                              : failure->entry == 0
+                                  ? "FAIL at the hold"
+                                  : "FAIL at step " + std::to_string(failure->entry);
+    return where + ": " + failure->what;
+  }
+  const std::size_t steps = report.steps.size() - 1;
+  const std::string pass = report.trials ? "PASS " + TrialsPassText(*report.trials) : "PASS";
+  if (steps == 0) return pass + ": the hold stands";
+  return pass + ": the hold and " +
+         (steps == 1 ? "the step" : "all " + std::to_string(steps) + " steps") + " stand";
+}
+
 std::string FormatFailure(const Report& report) {
   const auto failure = DescribeFailure(report);
   if (!failure) return "";

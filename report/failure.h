@@ -34,6 +34,10 @@ struct Failure {
 /// 14 of 20 trials" if some trials fail; otherwise empty.
 [[nodiscard]] std::string VerdictHeadline(const Report& report);
 
+/// Return the heading of the overview image: "PASS in 14 of 20 trials: the hold and all 3 steps
+/// stand", "FAIL at step 2: finger 2 slipped by …", "FAIL: 6 of 20 trials with noise fail: …".
+[[nodiscard]] std::string HeadingText(const Report& report);
+
 /// Three lines: what, why, what would mend it; empty where nothing fails.
 [[nodiscard]] std::string FormatFailure(const Report& report);
 

@@ -13,7 +13,7 @@
 #include "render/frames/frame_sequence.h"
 #include "render/frames/replay_animation.h"
 #include "render/picture/caption.h"
-#include "report/trials_report.h"
+#include "report/failure.h"
 
 namespace regrasp::report {
 
@@ -48,20 +48,7 @@ render::SheetLabel MakeLabel(const ReportStep& step) {
 
 /// The verdict in a line.
 render::SheetLabel MakeHeading(const Report& report) {
-  const auto failed = std::ranges::find_if(report.steps, Failed);
-  if (failed == report.steps.end()) {
-    if (!report.passed()) return {"FAIL: " + TrialsFailureText(*report.trials), "", kBad};
-    const auto steps = report.steps.size() - 1;
-    const std::string trials = report.trials ? " " + TrialsPassText(*report.trials) : "";
-    if (steps == 0) return {"PASS" + trials + ": the hold stands", "", kGood};
-    return {"PASS" + trials + ": the hold and " +
-                (steps == 1 ? "the step" : "all " + std::to_string(steps) + " steps") + " stand",
-            "", kGood};
-  }
-  const int index = failed->check.index;
-  return {"FAIL at " + (index == 0 ? "the hold" : "step " + std::to_string(index)) + ": " +
-              failed->detail(),
-          "", kBad};
+  return {HeadingText(report), "", report.passed() ? kGood : kBad};
 }
 
 /// An entry that has a frame: what it shows, and what is wrong where it failed.

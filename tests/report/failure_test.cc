@@ -70,10 +70,15 @@ TEST(Failure, OfAPlanWhoseStepsPassAreTheTrialsThatFail) {
   EXPECT_EQ(failure->why, "14 of 20 trials pass (70 %), and --min-pass-rate requires 100 %");
   EXPECT_THAT(failure->mend, Not(HasSubstr("--min-pass-rate"))) << "loosens the test";
   EXPECT_EQ(VerdictHeadline(report), failure->headline());
+  EXPECT_EQ(HeadingText(report),
+            "FAIL: 6 of 20 trials with noise fail: 6 slipped; first in step 1: 6");
   trials.options.min_pass_rate = 0.7;
   EXPECT_TRUE(report.passed());
   EXPECT_FALSE(DescribeFailure(report));
   EXPECT_EQ(VerdictHeadline(report), "pass in 14 of 20 trials");
+  EXPECT_EQ(HeadingText(report), "PASS in 14 of 20 trials: the hold and the step stand");
+  report.trials.reset();
+  EXPECT_EQ(HeadingText(report), "PASS: the hold and the step stand");
 }
 
 TEST(Failure, NamesTheRequiredFrictionOnceAndInTheSameDigits) {
