@@ -196,6 +196,22 @@ class Lines(ProgramCase):
         self.write("plans.jsonl", whole.replace(b"\n", b"\r\n"))
         check(12, "12 pass")
 
+    def test_another_build_reuses_nothing(self):
+        self.write_lines("queries.jsonl", self.queries(3))
+        self.plan("plans.jsonl")
+        self.validate("plans.jsonl", "out")
+        with open(os.path.join(program_case.ARGUMENTS.programs, "validate"), "rb") as file:
+            program = bytearray(file.read())
+        # The first byte of the build id, behind its note's header: sizes, type and owner.
+        program[program.index(b"\x04\0\0\0\x14\0\0\0\x03\0\0\0GNU\0") + 16] ^= 1
+        os.chmod(self.write("validate", bytes(program)), 0o755)
+        for kept in (False, True):
+            done = subprocess.run(
+                [self.path("validate"), "--object", self.model(""), "--plan", "plans.jsonl", "--out",
+                 "out"], cwd=self.folder, capture_output=True, text=True, check=True,
+                timeout=program_case.HANG_SECONDS)
+            self.assertEqual("3 kept" in done.stderr, kept, done.stderr)
+
     def test_results_that_were_edited_are_made_again(self):
         self.write_lines("queries.jsonl", self.queries(6))
         self.plan("plans.jsonl")
