@@ -11,7 +11,7 @@ namespace {
 
 /// Enough to tell any two doubles apart.
 constexpr int kMostDigits = 17;
-constexpr int kMostDecimals = 15;
+constexpr int kMostDecimals = 30;
 constexpr int kUsualDecimals = 2;
 /// Degrees; bounds on required angles are about 6e-8° apart.
 constexpr double kBoundSlack = 1e-6;
