@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "planner/base/file.h"
 #include "planner/base/hexadecimal.h"
 
 namespace regrasp::apps {
@@ -52,7 +53,8 @@ int TakeProgram(dl_phdr_info* object, std::size_t /*size*/, void* id) {
 std::string BuildId() {
   std::string id;
   dl_iterate_phdr(TakeProgram, &id);
-  return id;
+  // Builds must not be taken for one another.
+  return id.empty() ? Sha256(ReadFile("/proc/self/exe")) : id;
 }
 
 }  // namespace regrasp::apps

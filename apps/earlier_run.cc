@@ -37,7 +37,8 @@ std::string DigestOfNow(const ValidateOptions& options) {
                     {fs::path(object_path).filename().string(), Sha256(ReadFile(object_path))},
                     digest_of(options.start),
                     digest_of(options.goal),
-                    digest_of(options.hand)});
+                    HandInput(options),
+                    RepairInput(options, plan)});
 }
 
 bool IsFile(const fs::path& path) {

@@ -111,7 +111,7 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
   for (const auto& [option, value] :
        {std::pair("--turn", turn), {"--start-pose", start_pose}, {"--goal-pose", goal_pose}}) {
     if (given() || value.empty()) continue;
-    throw InputError(std::string(option) + ": --hand says which hand is to move the object");
+    throw InputError(std::string(option) + " requires --hand");
   }
   if (!given()) return;
   const bool moves = !turn.empty() || !goal_pose.empty();

@@ -9,12 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "apps/batch/inputs_digest.h"
 #include "apps/batch/object_shelf.h"
 #include "apps/build_id.h"
 #include "apps/lines_run.h"
 #include "apps/nearest_word.h"
 #include "apps/output_files.h"
+#include "apps/plan_object.h"
 #include "apps/program.h"
+#include "apps/repair_module.h"
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
@@ -72,15 +75,18 @@ void RefuseMisspelt(const plan::JsonReader& reader, const Json& object,
 Query ReadQuery(const Line& line, const PlanProgram& program) {
   const Json json = ParseJson(line.text, line.name);
   const plan::JsonReader root(json, line.name);
-  if (!json.is_object()) root.Fail("expected an object, found " + root.Quoted());
+  if (!json.is_object()) root.Fail("expected a JSON object, found " + root.Quoted());
   RefuseMisspelt(root, json,
                  {"object", "friction", "scale", "seed", "min_quality", "start", "goal"});
   Query query{"", "", program};
   if (root.Has("object")) {
     const plan::JsonReader object = root.Member("object");
-    if (json.at("object").is_object()) {
-      RefuseMisspelt(object, json.at("object"), {"file", "sha256"});
+    if (!json.at("object").is_object()) {
+      object.Fail("expected a JSON object that names the file, found " + object.Quoted() +
+                  "; help: write {\"object\": {\"file\": " +
+                  (json.at("object").is_string() ? object.Quoted() : "\"cube.obj\"") + "}}");
     }
+    RefuseMisspelt(object, json.at("object"), {"file", "sha256"});
     query.object_name = object.Member("file").String();
     if (object.Has("sha256")) query.object_sha256 = object.Member("sha256").String();
   }
@@ -128,6 +134,10 @@ class PlanLines {
     run.work.work = [this](const Line& line) {
       return GuardLine(line, [&] { return PlanLine(line); });
     };
+    common_ = Common().Finish();
+    run.work.inputs = [this](const Line& line) {
+      return EntryDigest(common_, line, ObjectOf(line), finder_);
+    };
     return RunLinesFile(run);
   }
 
@@ -151,21 +161,52 @@ class PlanLines {
     CheckOutputsWritable(outputs);
   }
 
+  /// A start or goal is not given, a word, or the path and the bytes of a file: all of these
+  /// differ.
+  static void AddEnd(const PlanEnd& end, InputsDigest& digest) {
+    if (!end.given()) {
+      digest.AddAbsent(end.option);
+    } else {
+      digest.Add(end.option, end.value);
+    }
+    std::error_code error;
+    const bool file = end.given() && !end.is_random() && std::filesystem::exists(end.value, error);
+    if (file) digest.Add("sha256", Sha256(ReadFile(end.value)));
+  }
+
+  /// All that the results of all queries depend on.
+  [[nodiscard]] InputsDigest Common() const {
+    InputsDigest digest;
+    digest.Add("version", ProgramVersion()).Add("build", BuildId());
+    digest.Add("engine", sim::EngineVersion());
+    AddEnd(program_.start, digest);
+    AddEnd(program_.goal, digest);
+    if (program_.hand_file) {
+      digest.Add("hand", program_.hand_file->hand.file)
+          .Add("sha256", program_.hand_file->hand.sha256);
+    } else {
+      digest.AddAbsent("hand");
+    }
+    if (program_.common.repair.wanted()) digest.Add("repair", RepairModuleDigest());
+    digest.Add("options", program_.given);
+    return digest;
+  }
+
   [[nodiscard]] std::string Digest(const std::string& source) const {
-    const auto digest_of = [](const PlanEnd& end) {
-      return end.is_random() || !end.given() ? "" : Sha256(ReadFile(end.value));
-    };
-    const Json json = {
-        {"version", ProgramVersion()},
-        {"build", BuildId()},
-        {"engine", sim::EngineVersion()},
-        {"source", source},
-        {"object", finder_.is_folder() ? "" : Sha256(ReadFile(program_.common.object))},
-        {"start", digest_of(program_.start)},
-        {"goal", digest_of(program_.goal)},
-        {"hand", program_.hand.given() ? Sha256(ReadFile(program_.hand.hand)) : ""},
-        {"options", program_.given}};
-    return Sha256(json.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace));
+    InputsDigest digest = Common();
+    digest.Add("source", source);
+    if (finder_.is_folder()) return digest.AddAbsent("object").Finish();
+    return digest.Add("object", Sha256(ReadFile(program_.common.object))).Finish();
+  }
+
+  /// What a query says of its object; none if it is a bad one.
+  [[nodiscard]] std::optional<ObjectOfLine> ObjectOf(const Line& line) const {
+    try {
+      const Query query = ReadQuery(line, program_);
+      return ObjectOfLine{query.object_name, query.object_sha256};
+    } catch (const InputError&) {
+      return std::nullopt;  // the child reports it
+    }
   }
 
   /// The object of a query, whose program then names its file.
@@ -178,8 +219,9 @@ class PlanLines {
         shelf_.Get(common.object, [&] { return common.ReadObjectFile(kPlanName); });
     if (!query.object_sha256.empty() && object->sha256 != query.object_sha256 &&
         !(object->repair && object->repair->sha256 == query.object_sha256)) {
-      throw InputError(line.name + ": /object/sha256: the query is for an object with digest " +
-                       query.object_sha256 + ", but " + common.object + " has " + object->sha256);
+      throw InputError(line.name + ": /object/sha256: the query is for another file, expected " +
+                       DescribeFile(query.object_name, query.object_sha256) + ", found " +
+                       DescribeFile(common.object, object->sha256));
     }
     return object;
   }
@@ -214,6 +256,7 @@ class PlanLines {
   PlanProgram program_;
   ObjectFinder finder_;
   ObjectShelf shelf_;
+  std::string common_;  ///< digest of all that the results of all queries depend on
 };
 
 }  // namespace

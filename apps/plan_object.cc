@@ -24,11 +24,18 @@ std::string WrongObject(const plan::Plan& plan, const object::ObjectFile& object
            plan.repair->sha256 + ", but this version makes one with " + object.repair->sha256 +
            " of " + given.object_path;
   }
-  return given.plan_path + ": /object/sha256: the plan was made for an object with digest " +
-         plan.object_sha256 + ", but " + given.object_path + " has " + object.sha256;
+  return given.plan_path + ": /object/sha256: the plan is for another object file, expected " +
+         DescribeFile(plan.object_file, plan.object_sha256) + ", found " +
+         DescribeFile(given.object_path, object.sha256);
 }
 
 }  // namespace
+
+std::string DescribeFile(const std::string& name, const std::string& sha256) {
+  constexpr std::size_t kShown = 12;
+  return (name.empty() ? "a file" : name) + " (SHA-256 " + sha256.substr(0, kShown) +
+         (sha256.size() > kShown ? "…)" : ")");
+}
 
 object::ObjectFile ReadObjectOf(const plan::Plan& plan, const std::string& path,
                                 const object::Reading& asked) {

@@ -9,6 +9,9 @@
 
 namespace regrasp::apps {
 
+/// Return how messages tell a file by its content: "cube.obj (SHA-256 3f2a91c0d4e7…)".
+[[nodiscard]] std::string DescribeFile(const std::string& name, const std::string& sha256);
+
 /// How the programs that read a plan were given it and its object.
 struct PlanAndObject {
   std::string plan_path;

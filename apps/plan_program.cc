@@ -235,6 +235,10 @@ FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoin
 }
 
 void PlanProgram::Finish(const CLI::App& app) {
+  for (const char* name : {"--turn", "--start-pose", "--goal-pose", "--clearance", "--reserve"}) {
+    if (app.count(name) > 0 && !hand.given())
+      throw InputError(std::string(name) + " requires --hand");
+  }
   if (batch.empty()) {
     for (const char* name : {"--shard", "--fresh"}) {
       if (app.count(name) > 0) throw InputError(std::string(name) + " goes with --batch");

@@ -1,8 +1,11 @@
 #include "apps/repair_module.h"
 
+#include <algorithm>
 #include <system_error>
+#include <vector>
 
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/shared_library.h"
 
 namespace regrasp::apps {
@@ -10,18 +13,18 @@ namespace regrasp::apps {
 namespace {
 
 /// Beside the program in a build folder, REGRASP_MODULES relative to it if installed.
-SharedLibrary LoadModule() {
+std::vector<std::string> ModulePlaces() {
   std::error_code unknown;
   const std::filesystem::path folder =
       std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
   constexpr char kFile[] = "regrasp_repair.so";
-  return SharedLibrary({folder / kFile, folder / REGRASP_MODULES / kFile});
+  return {folder / kFile, folder / REGRASP_MODULES / kFile};
 }
 
 const RepairFunctions& Functions() {
   static const RepairFunctions functions = [] {
     const RepairFunctions* (*entry)() = nullptr;
-    LoadModule().Find(kRepairEntry, entry);
+    SharedLibrary(ModulePlaces()).Find(kRepairEntry, entry);
     return *entry();
   }();
   return functions;
@@ -48,6 +51,18 @@ std::string RepairHint(const std::filesystem::path& path, const object::Reading&
     return "; the program repair may make a solid of it";
   }
   return Functions().repair_hint(path, reading);
+}
+
+const std::string& RepairModuleDigest() {
+  static const std::string digest = [] {
+    const std::vector<std::string> places = ModulePlaces();
+    const auto found = std::ranges::find_if(places, [](const std::string& place) {
+      std::error_code error;
+      return std::filesystem::is_regular_file(place, error);
+    });
+    return found == places.end() ? "missing" : Sha256(ReadFile(*found));
+  }();
+  return digest;
 }
 
 }  // namespace regrasp::apps

@@ -32,4 +32,8 @@ inline constexpr char kRepairEntry[] = "regrasp_repair_functions";
 [[nodiscard]] std::string RepairHint(const std::filesystem::path& path,
                                      const object::Reading& reading);
 
+/// Return the SHA-256 of the module's file, which is a part of the program's build; "missing" if it
+/// is not installed.
+[[nodiscard]] const std::string& RepairModuleDigest();
+
 }  // namespace regrasp::apps

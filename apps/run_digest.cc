@@ -5,22 +5,14 @@
 
 #include "apps/build_id.h"
 #include "apps/program.h"
+#include "apps/repair_module.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
-#include "planner/base/json.h"
-#include "report/json_values.h"
+#include "planner/kinematics/hand_file.h"
 #include "sim/ode/ode_engine.h"
 #include "sim/scene/mujoco_engine.h"
 
 namespace regrasp::apps {
-
-namespace {
-
-Json FileJson(const report::FileDigest& file) {
-  return {{"file", file.name}, {"sha256", file.sha256}};
-}
-
-}  // namespace
 
 std::string ObjectPathOf(const ValidateOptions& options, const std::string& named_by_plan) {
   namespace fs = std::filesystem;
@@ -51,19 +43,36 @@ std::string CommandText(const ValidateOptions& options, const RunInputs& inputs)
   return text;
 }
 
+std::string RepairInput(const ValidateOptions& options, const std::string& plan_text) {
+  // A plan that only mentions the word depends on one input more than it must.
+  const bool repaired = plan_text.find("\"repair\"") != std::string::npos;
+  return options.repair.wanted() || repaired ? RepairModuleDigest() : "";
+}
+
+std::string HandInput(const ValidateOptions& options) {
+  if (options.hand.empty()) return "";
+  if (!options.hand_sha256.empty()) return options.hand_sha256;
+  return kinematics::ReadHand(options.hand).sha256;
+}
+
+InputsDigest BuildDigest() {
+  InputsDigest digest;
+  digest.Add("version", ProgramVersion()).Add("build", BuildId());
+  digest.Add("engine", sim::EngineVersion()).Add("second_engine", sim::OdeVersion());
+  return digest;
+}
+
 std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs) {
-  const Json json = {{"version", ProgramVersion()},
-                     {"build", BuildId()},
-                     {"engine", sim::EngineVersion()},
-                     {"second_engine", sim::OdeVersion()},
-                     {"input", FileJson(inputs.input)},
-                     {"object", FileJson(inputs.object)},
-                     {"start", report::TextOrNull(inputs.start_sha256)},
-                     {"goal", report::TextOrNull(inputs.goal_sha256)},
-                     {"hand", report::TextOrNull(inputs.hand_sha256)},
-                     {"options", options.given}};
-  // File names and values may be any bytes.
-  return Sha256(json.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace));
+  InputsDigest digest = BuildDigest();
+  digest.Add("input", inputs.input.name).Add("sha256", inputs.input.sha256);
+  digest.Add("object", inputs.object.name).Add("sha256", inputs.object.sha256);
+  for (const auto& [name, sha256] : {std::pair("start", &inputs.start_sha256),
+                                     {"goal", &inputs.goal_sha256},
+                                     {"hand", &inputs.hand_sha256},
+                                     {"repair", &inputs.repair_sha256}}) {
+    sha256->empty() ? digest.AddAbsent(name) : digest.Add(name, *sha256);
+  }
+  return digest.Add("options", options.given).Finish();
 }
 
 }  // namespace regrasp::apps

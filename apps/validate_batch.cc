@@ -19,6 +19,7 @@
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "apps/run_digest.h"
 #include "apps/validate_run.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
@@ -200,6 +201,9 @@ class Batch {
       outcome.verdict = PlanVerdict::kBadInput;
     } else if (exit.code == kExitDone || exit.code == kExitNegative || exit.code == kExitKept) {
       TakeReport(exit.code == kExitKept, outcome);
+      // A run that reuses results hides no failure.
+      const auto failure = outcome.kept ? outcome.report->failure() : std::nullopt;
+      if (failure) lines.push_back(failure->line());
     }
     if (!outcome.report && outcome.message.empty()) {
       outcome.message = "ended with exit code " + std::to_string(exit.code);
@@ -255,7 +259,13 @@ class Batch {
 
 }  // namespace
 
-int RunBatch(const ValidateOptions& options) {
+int RunBatch(const ValidateOptions& given) {
+  ValidateOptions options = given;
+  try {
+    options.hand_sha256 = HandInput(given);  // once for all plans
+  } catch (const InputError&) {
+    // The run of each plan reports it.
+  }
   int exit_code = 0;
   int stop = 0;
   {

@@ -8,8 +8,12 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
+#include "apps/batch/inputs_digest.h"
 #include "apps/batch/object_shelf.h"
+#include "apps/batch/report_summary.h"
+#include "apps/earlier_run.h"
 #include "apps/lines_run.h"
 #include "apps/output_files.h"
 #include "apps/run_digest.h"
@@ -18,6 +22,7 @@
 #include "apps/validate_task.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/base/number.h"
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan_io.h"
 #include "report/failure.h"
@@ -60,6 +65,7 @@ class ValidateLines {
     if (!options_.start.empty()) shared_.start_text = ReadFile(options_.start);
     if (!options_.goal.empty()) shared_.goal_text = ReadFile(options_.goal);
     if (!options_.hand.empty()) shared_.hand = kinematics::ReadHandFile(options_.hand);
+    common_ = DigestOf(options_, "", "");
     run.shard = options_.shard;
     run.digest = [this](const std::string& source) { return Digest(source); };
     run.jobs = options_.jobs;
@@ -71,6 +77,13 @@ class ValidateLines {
     run.work.work = [this](const Line& line) {
       return GuardLine(line, [&] { return ValidateLine(line); });
     };
+    run.work.inputs = [this](const Line& line) {
+      return EntryDigest(common_, line, ObjectOf(line), objects_.finder);
+    };
+    run.work.complete = [this](const Line& line, std::string_view record) {
+      return HasFrames(line, record);
+    };
+    run.work.messages = MessagesOf;
     return RunLinesFile(run);
   }
 
@@ -91,21 +104,64 @@ class ValidateLines {
     CheckOutputsWritable(outputs);
   }
 
+  /// Digest of all that the lines of the output come from.
+  /// @param source  identity of the input's lines.
   [[nodiscard]] std::string Digest(const std::string& source) const {
-    const auto digest_of = [](const std::string& path) {
-      return path.empty() ? "" : Sha256(ReadFile(path));
-    };
     ValidateOptions options = options_;
+    // A limit changes which entries are errors.
     if (options.time_limit_s) {
-      options.given.emplace_back("--time-limit",
-                                 std::vector{std::to_string(*options.time_limit_s)});
+      options.given.emplace_back("--time-limit", std::vector{FormatDouble(*options.time_limit_s)});
     }
     const bool one = !objects_.finder.is_folder();
+    return DigestOf(options, source, one ? Sha256(ReadFile(options.object_path)) : "");
+  }
+
+  /// @param object_sha256  of the object of all lines; empty: each names its own.
+  [[nodiscard]] std::string DigestOf(const ValidateOptions& options, const std::string& source,
+                                     const std::string& object_sha256) const {
     return RunDigest(options, {{"", source},
-                               {"", one ? Sha256(ReadFile(options.object_path)) : ""},
-                               digest_of(options.start),
-                               digest_of(options.goal),
-                               digest_of(options.hand)});
+                               {"", object_sha256},
+                               options.start.empty() ? "" : Sha256(shared_.start_text),
+                               options.goal.empty() ? "" : Sha256(shared_.goal_text),
+                               shared_.hand ? shared_.hand->hand.sha256 : ""});
+  }
+
+  /// What a line says of its object; none if it is not a plan.
+  [[nodiscard]] std::optional<ObjectOfLine> ObjectOf(const Line& line) const {
+    try {
+      const Json json = ParseJson(line.text, line.name);
+      const plan::JsonReader object = plan::JsonReader(json, line.name).Member("object");
+      return ObjectOfLine{object.Member("file").String(), object.Member("sha256").String(),
+                          RepairInput(options_, line.text)};
+    } catch (const InputError&) {
+      return std::nullopt;  // the child reports it
+    }
+  }
+
+  /// What the child that made a record printed.
+  static std::vector<std::string> MessagesOf(const Line& line, std::string_view record) {
+    const auto outcome = OutcomeOf(record, line.entry);
+    const bool trials = record.find(R"("trials":{)") != std::string_view::npos;
+    if (outcome != Outcome::kFail && (outcome != Outcome::kPass || !trials)) return {};
+    const ReportSummary report = SummarizeReport(ParseJson(record, line.name), line.name);
+    const std::string said = report.headline();
+    return said.empty() ? std::vector<std::string>{} : std::vector{line.name + ": " + said};
+  }
+
+  /// Whether the frames that a record comes with are still there.
+  [[nodiscard]] bool HasFrames(const Line& line, std::string_view record) {
+    const auto outcome = OutcomeOf(record, line.entry);
+    if (outcome != Outcome::kFail && outcome != Outcome::kPass) return true;
+    if (!options_.draws_frames(outcome == Outcome::kPass)) return true;
+    ValidateOptions options = FramesOptions(line.entry);
+    const auto object = ObjectOf(line);
+    if (!object) return false;
+    try {
+      options.object_path = objects_.finder.Find(object->name, object->sha256, line.name);
+    } catch (const InputError&) {
+      return false;
+    }
+    return HasSameRun(options);
   }
 
   /// The options by which messages call the plan of a line.
@@ -136,9 +192,8 @@ class ValidateLines {
     report::Report report = JudgeTask(options, task, samples);
     report.plan_file = "query " + std::to_string(line.entry);
     report.plan_sha256 = Sha256(line.text);
-    if (const auto failure = report::DescribeFailure(report)) {
-      std::cerr << line.name + ": " + failure->headline() + "\n";
-    }
+    const std::string said = report::VerdictHeadline(report);
+    if (!said.empty()) std::cerr << line.name + ": " + said + "\n";
     if (options.draws_frames(report.passed())) DrawFrames(line, task);
     Json json = report::ReportJson(report);
     for (const std::string& warning : HandWarnings(options, task)) {
@@ -158,18 +213,25 @@ class ValidateLines {
     return std::nullopt;
   }
 
-  /// A validation of its own, which is the same once more.
-  void DrawFrames(const Line& line, const ValidateTask& task) {
-    const std::string number = std::to_string(line.entry);
+  /// The options of the validation that draws the frames of an entry, all but the object.
+  [[nodiscard]] ValidateOptions FramesOptions(std::int64_t entry) const {
+    const std::string number = std::to_string(entry);
     ValidateOptions options = options_;
     options.out =
         (folder_ / (std::string(kDigits - std::min(kDigits, number.size()), '0') + number))
             .string();
     options.plan_path = (fs::path(options.out) / "plan.json").string();
-    options.object_path =
-        objects_.finder.Find(task.plan.object_file, task.plan.object_sha256, line.name);
     options.workers = std::max(1, options.workers / options.jobs);
     options.silent = true;
+    if (shared_.hand) options.hand_sha256 = shared_.hand->hand.sha256;
+    return options;
+  }
+
+  /// A validation of its own, which is the same once more.
+  void DrawFrames(const Line& line, const ValidateTask& task) {
+    ValidateOptions options = FramesOptions(line.entry);
+    options.object_path =
+        objects_.finder.Find(task.plan.object_file, task.plan.object_sha256, line.name);
     fs::create_directories(options.out);
     WriteFile(options.plan_path, plan::FormatPlan(task.plan));
     static_cast<void>(RunValidation(options));
@@ -179,6 +241,7 @@ class ValidateLines {
   PlanObjects objects_;
   fs::path folder_;
   ValidateTask shared_;  ///< what all plans have in common
+  std::string common_;   ///< digest of all that the results of all lines depend on
 };
 
 }  // namespace

@@ -234,9 +234,15 @@ void AddTrialOptions(CLI::App& app, ValidateOptions& options) {
   const NumberRange share{0, sim::kMostError};
   CLI::Option* trials =
       AddInteger(app, "--trials", options.trials.count, 1, kMostTrials,
-                 "Repeat the replay so often with noise: contacts off where fingers are put, "
-                 "friction and mass other than the hand believes; the report gives the share that "
-                 "passes. The verdict is that of the replay without noise");
+                 "Repeat the replay N times with noise in contacts, friction and mass. The plan "
+                 "passes if the replay without noise does and --min-pass-rate of the trials do; "
+                 "the verdict names how many");
+  AddNumber(app, "--min-pass-rate", options.trials.min_pass_rate,
+            {.lower = 0, .upper = 1, .lower_included = false},
+            "Smallest share of the trials that must pass for the plan to pass, in (0, 1] (default "
+            "1: all of them)",
+            "RATE")
+      ->needs(trials);
   AddSeed(app, options.trials.seed,
           "Seed of the noise, or of what --export-states draws (default 0)");
   AddNumber(app, "--position-noise", options.trials.position_noise, share,

@@ -46,7 +46,8 @@ struct ValidateOptions {
   std::string trajectory;
   std::string start;
   std::string goal;
-  std::string hand;  ///< of a plan for a hand: its file; empty: the hand is not checked
+  std::string hand;         ///< of a plan for a hand: its file; empty: the hand is not checked
+  std::string hand_sha256;  ///< of `hand` with its model; empty: not known yet (HandInput)
   double clearance_m = sim::HandCheckOptions().clearance_m;
   bool replay_by_hand = false;  ///< on the hand's own model, not by ideal fingers
   bool feedback = true;         ///< of that replay: joint targets follow the object's pose

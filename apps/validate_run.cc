@@ -247,11 +247,13 @@ void Print(const ValidateOptions& options, const ValidateTask& task,
   for (const std::string& warning : report.warnings()) {
     PrintMessage(kValidateName, "warning: " + warning);
   }
+  if (!options.quiet && options.trials.count > 0 && !report.trials) {
+    PrintMessage(kValidateName, "no trials: the replay without noise does not pass");
+  }
   if (!options.quiet && options.json != kStandardStream) {
     PrintTable(report::FormatReportTable(report), FilesText(folder, report));
   } else if (const auto failure = report::DescribeFailure(report)) {
-    PrintError(kValidateName, failure->headline() + "; why: " + failure->why +
-                                  "; what would mend it: " + failure->mend);
+    PrintError(kValidateName, failure->line());
   }
 }
 
@@ -273,7 +275,8 @@ ValidationRun RunValidation(const ValidateOptions& options) {
                             {report.object_file, report.object_sha256},
                             options.start.empty() ? "" : Sha256(task.start_text),
                             options.goal.empty() ? "" : Sha256(task.goal_text),
-                            options.hand.empty() ? "" : Sha256(ReadFile(options.hand))};
+                            task.hand ? task.hand->hand.sha256 : "",
+                            RepairInput(options, task.file_text)};
   report.run = report::RunRecord{RunDigest(options, inputs),
                                  {},
                                  std::string(kValidateName) + " " + ProgramVersion(),

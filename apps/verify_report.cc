@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/plan_object.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/json.h"
@@ -21,9 +22,11 @@ constexpr double kSameFriction = 1e-12;
 
 void ExpectDigest(const plan::JsonReader& json, const std::string& sha256, const char* what) {
   const plan::JsonReader digest = json.Member("sha256");
-  if (digest.String() != sha256) {
-    digest.Fail(std::string("the report is about another ") + what + ", " + digest.Quoted());
-  }
+  if (digest.String() == sha256) return;
+  const std::string file = json.Has("file") ? json.Member("file").String() : "";
+  digest.Fail(std::string("the report is about another ") + what + ", expected " +
+              DescribeFile(file, digest.String()) + ", found SHA-256 " + sha256.substr(0, 12) +
+              "…");
 }
 
 /// The proofs of the first entries; what follows a failed one has none.

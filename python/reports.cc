@@ -142,7 +142,7 @@ PythonReport ValidatePlan(const PythonObject& object, const std::string& text,
 std::optional<std::string> FailureOf(const PythonReport& of) {
   const auto failed = report::DescribeFailure(of.report);
   if (!failed) return std::nullopt;
-  return failed->headline() + "; why: " + failed->why + "; what would mend it: " + failed->mend;
+  return failed->line();
 }
 
 py::array_t<std::uint8_t> ArrayOf(const render::Image& image) {
@@ -189,9 +189,11 @@ void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::st
       plan.repair && !object.file.repair && plan.repair->sha256 == object.file.sha256;
   if (!repaired &&
       (plan.object_sha256 != object.file.sha256 || plan.repair != object.file.repair)) {
-    throw InputError(name + ": /object/sha256: the plan was made for " + plan.object_file +
-                     " with digest " + plan.object_sha256 + ", but " + object.file.file + " has " +
-                     object.file.sha256);
+    constexpr std::size_t kShown = 12;
+    throw InputError(name + ": /object/sha256: the plan is for another object file, expected " +
+                     plan.object_file + " (SHA-256 " + plan.object_sha256.substr(0, kShown) +
+                     "…), found " + object.file.file + " (SHA-256 " +
+                     object.file.sha256.substr(0, kShown) + "…)");
   }
   if (plan.at_given_points) {
     throw InputError(name + ": its contacts are at points of " + plan.object_file +

@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "planner/object/given_points.h"
 #include "planner/object/object.h"
 #include "planner/plan/locate.h"
+#include "report/trials_report.h"
 
 namespace regrasp::report {
 
@@ -17,29 +19,28 @@ namespace {
 using plan::Reason;
 using sim::Cause;
 
-/// Frictions that are asked for are rounded up to hundredths of a degree, and to thousandths.
-constexpr double kDegreeSteps = 100;
+/// Coefficients of friction that are required are rounded up to thousandths.
 constexpr double kMuSteps = 1000;
 
-double RoundUp(double value, double steps) { return std::ceil(value * steps) / steps; }
-
-double AskedDegrees(const grasp::RequiredHalfAngle& required) {
-  return RoundUp(Degrees(required.upper), kDegreeSteps);
+/// The friction angle that is enough, degrees, as the detail of the failure has it.
+std::string RequiredText(const ReportStep& step, const Report& report) {
+  return FormatRequiredDegrees(Degrees(step.check.required->upper), Degrees(report.half_angle))
+      .value;
 }
 
-/// " 7.34" where an angle is known that serves.
-std::string DegreesAsked(const ReportStep& step) {
-  return step.check.required ? " " + FormatShort(AskedDegrees(*step.check.required)) : "";
+/// " 7.34" if an angle is known that is enough.
+std::string DegreesAsked(const ReportStep& step, const Report& report) {
+  return step.check.required ? " " + RequiredText(step, report) : "";
 }
 
-std::string MendFriction(const ReportStep& step) {
+std::string MendFriction(const ReportStep& step, const Report& report) {
   const std::string other =
       "plan for more to spare (plan --optimize margin, or plan at less "
       "friction than is checked)";
   if (!step.check.required) return "other contacts, as no friction is sure to be enough: " + other;
-  const double degrees = AskedDegrees(*step.check.required);
-  const double mu = RoundUp(std::tan(Radians(degrees)), kMuSteps);
-  return "fingertips with more friction (--friction-angle " + FormatShort(degrees) + " or --mu " +
+  const std::string degrees = RequiredText(step, report);
+  const double mu = std::ceil(std::tan(Radians(*ParseDouble(degrees))) * kMuSteps) / kMuSteps;
+  return "fingertips with more friction (--friction-angle " + degrees + " or --mu " +
          FormatShort(mu) + "; to stand the shake may take a little more), or " + other;
 }
 
@@ -117,9 +118,9 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kLeavesFace:
       return "a waypoint at each border that a finger crosses";
     case Reason::kNotForceClosure:
-      return MendFriction(step);
+      return MendFriction(step, report);
     case Reason::kNotProved:
-      return "a little more friction (--friction-angle" + DegreesAsked(step) +
+      return "a little more friction (--friction-angle" + DegreesAsked(step, report) +
              "), waypoints in between, or --allow-undecided where the pieces without a proof are "
              "few";
     case Reason::kUnreachable:
@@ -176,13 +177,17 @@ std::string HandToleranceText(const sim::HandTolerance& tolerance) {
          FormatLength(tolerance.slip_m);
 }
 
+/// Significant digits of a limit that stands beside a value that exceeds it.
+constexpr int kLimitDigits = 6;
+
 /// How much may move or slip.
 std::string ToleranceText(const Report& report) {
   if (report.settings && report.settings->hand) {
     return HandToleranceText(report.settings->hand->tolerance);
   }
   if (!report.settings) return "more than the --tolerance of the object's diameter";
-  return "up to " + FormatLength(report.settings->tolerance * report.settings->diameter_m) +
+  return "up to " +
+         FormatLength(report.settings->tolerance * report.settings->diameter_m, kLimitDigits) +
          ", --tolerance " + FormatShort(report.settings->tolerance) +
          " of the object's diameter, counts as standing still";
 }
@@ -285,16 +290,51 @@ std::string WhyOf(const ReportStep& step, const Report& report) {
 }  // namespace
 
 std::string Failure::headline() const {
+  if (!entry.valid()) return reason + (what.empty() ? "" : ": " + what);
   return "step " + std::to_string(entry) + " (" + kind + ") fails: " + reason +
          (what.empty() ? "" : ": " + what);
 }
 
+std::string Failure::line() const {
+  return headline() + "; why: " + why + "; what would mend it: " + mend;
+}
+
 std::optional<Failure> DescribeFailure(const Report& report) {
   const auto failed = std::ranges::find(report.steps, Verdict::kFail, &ReportStep::verdict);
-  if (failed == report.steps.end()) return std::nullopt;
+  if (failed == report.steps.end()) {
+    if (report.passed()) return std::nullopt;
+    return Failure{plan::EntryIndex(),
+                   "trials",
+                   kTrialsFailed,
+                   TrialsFailureText(*report.trials),
+                   TrialsRequiredText(*report.trials),
+                   "a plan with larger friction margins (plan --optimize margin, or plan at less "
+                   "friction than is checked), or smaller errors of the real hand and object"};
+  }
   return Failure{
       failed->check.index, failed->check.kind,     std::string(plan::ReasonName(failed->reason())),
       failed->detail(),    WhyOf(*failed, report), MendOf(*failed, report)};
+}
+
+std::string VerdictHeadline(const Report& report) {
+  if (const auto failure = DescribeFailure(report)) return failure->headline();
+  const bool some = report.trials && report.trials->passed < report.trials->options.count;
+  return some ? "pass " + TrialsPassText(*report.trials) : "";
+}
+
+std::string HeadingText(const Report& report) {
+  if (const auto failure = DescribeFailure(report)) {
+    const std::string where = !failure->entry.valid() ? "FAIL"
+                              : failure->entry == 0
+                                  ? "FAIL at the hold"
+                                  : "FAIL at step " + std::to_string(failure->entry);
+    return where + ": " + failure->what;
+  }
+  const std::size_t steps = report.steps.size() - 1;
+  const std::string pass = report.trials ? "PASS " + TrialsPassText(*report.trials) : "PASS";
+  if (steps == 0) return pass + ": the hold stands";
+  return pass + ": the hold and " +
+         (steps == 1 ? "the step" : "all " + std::to_string(steps) + " steps") + " stand";
 }
 
 std::string FormatFailure(const Report& report) {

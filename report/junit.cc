@@ -86,6 +86,14 @@ JunitSuite MakeJunitSuite(const Report& report, const std::filesystem::path& fol
          .text = JunitText(step.detail(), failed ? failure->why : "", failed ? failure->mend : ""),
          .picture = step.frame.empty() ? "" : (folder / step.frame).string()});
   }
+  if (report.trials) {
+    const bool enough = report.trials->enough();
+    suite.cases.push_back(
+        {.name = "trials",
+         .outcome = enough ? JunitOutcome::kPassed : JunitOutcome::kFailed,
+         .message = enough ? "" : kTrialsFailed,
+         .text = failure ? JunitText(failure->what, failure->why, failure->mend) : ""});
+  }
   return suite;
 }
 

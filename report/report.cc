@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/certificate/plan_proof.h"
@@ -125,7 +126,9 @@ Verdict ReportStep::verdict() const {
   return reason() == plan::Reason::kNone ? Verdict::kPass : Verdict::kFail;
 }
 
-bool Report::passed() const {
+bool Report::passed() const { return steps_passed() && (!trials || trials->enough()); }
+
+bool Report::steps_passed() const {
   return std::all_of(steps.begin(), steps.end(),
                      [](const ReportStep& step) { return step.verdict() == Verdict::kPass; });
 }
@@ -158,9 +161,10 @@ std::vector<std::string> Report::warnings() const {
   for (const ReportStep& step : steps) {
     const std::string name = "step " + std::to_string(step.check.index);
     if (step.region && !step.region->holds) {
-      warnings.push_back(name + ": the plan claims a contact region of " +
-                         FormatShort(*step.region->claimed) + ", but it is " +
-                         FormatShort(step.region->half_width));
+      const auto [width, claimed] =
+          FormatWithLimit(step.region->half_width, *step.region->claimed, 4);
+      warnings.push_back(name + ": the plan claims a contact region of " + claimed +
+                         ", but it is " + width);
     }
     if (step.certificate && !step.certificate->proves()) {
       warnings.push_back(name + ": the plan's certificate does not hold: " + step.certificate->why);

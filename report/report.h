@@ -96,12 +96,15 @@ struct Report {
   std::vector<ReportStep> steps;
   /// Of a single grasp instead of a plan: the only entry is its hold.
   std::optional<GraspReport> grasp = std::nullopt;
-  /// Repeats with noise, where they were asked for and the nominal replay passes. They do not
-  /// change the verdict.
+  /// Trials with noise, if they were requested and the replay without noise passes. The plan passes
+  /// if enough of them do.
   std::optional<sim::TrialSummary> trials = std::nullopt;
   std::optional<RunRecord> run = std::nullopt;  ///< none: not told
 
+  /// Whether all steps pass, and enough trials if there are any.
   [[nodiscard]] bool passed() const;
+  /// Whether all steps pass in the analysis and the replay without noise.
+  [[nodiscard]] bool steps_passed() const;
   /// The step with the smallest margin to its required half-angle, the first of equal ones; not
   /// valid where no step has one.
   [[nodiscard]] plan::EntryIndex weakest_step() const;
@@ -162,7 +165,8 @@ void AddProofs(const plan::Plan& located, Report& report);
 
 /// A readable table: a line per step with required half-angle, displacement, slip and verdict, and
 /// the contact region in plans where a step has one, and the verdict. A plan that fails says first
-/// what failed, why and what would mend it (failure.h); one that passes says what is weakest.
+/// what failed, why and what would mend it (failure.h); one that passes says what is weakest. With
+/// trials the verdict names how many passed.
 [[nodiscard]] std::string FormatReportTable(const Report& report);
 
 }  // namespace regrasp::report

@@ -193,9 +193,11 @@ Json ReportJson(const Report& report) {
   json["steps"] = Json::array();
   for (const ReportStep& step : report.steps) json["steps"].push_back(MakeStep(step, report));
   if (const auto failure = DescribeFailure(report)) {
-    Json& step = json["steps"][failure->entry];
-    step["why"] = failure->why;
-    step["mend"] = failure->mend;
+    const bool in_step = failure->entry.valid();
+    Json& failed = in_step ? json["steps"][failure->entry] : json["trials"];
+    if (!in_step) failed["detail"] = failure->what;
+    failed["why"] = failure->why;
+    failed["mend"] = failure->mend;
   }
   return json;
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "planner/base/text_table.h"
@@ -19,8 +20,7 @@ namespace regrasp::report {
 
 namespace {
 
-/// Angles to a hundredth of a degree, lengths to two significant digits.
-constexpr int kAngleDecimals = 2;
+/// Lengths to two significant digits.
 constexpr int kLengthDigits = 2;
 
 constexpr char kNothing[] = "-";
@@ -28,7 +28,7 @@ constexpr char kNothing[] = "-";
 std::string RequiredAngle(const ReportStep& step) {
   if (step.check.skipped) return kNothing;
   if (!step.check.required) return "none";
-  return FormatFixed(Degrees(step.check.required->upper), kAngleDecimals);
+  return FormatRequiredDegrees(Degrees(step.check.required->upper));
 }
 
 /// Which columns a table has beside those that it always has.
@@ -72,10 +72,10 @@ std::string FormatWeakest(const Report& report) {
 /// What a finger needs, or the others without it.
 std::string NeedText(const grasp::FingerFriction& finger, double half_angle,
                      const std::string& what) {
-  const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
-  return (finger.needed ? ", which alone needs " + what + degrees(finger.required)
-                        : ", without which the others need " + what + degrees(*finger.without)) +
-         " of " + degrees(half_angle) + " degrees\n";
+  const auto [needed, available] = FormatRequiredDegrees(
+      Degrees(finger.needed ? finger.required : *finger.without), Degrees(half_angle));
+  return (finger.needed ? ", which alone needs " : ", without which the others need ") + what +
+         needed + " of " + available + " degrees\n";
 }
 
 /// Quality and weakest finger of a single grasp.
@@ -128,9 +128,10 @@ std::string FormatWeakestFinger(const Report& report) {
          NeedText(need.friction, report.half_angle, "");
 }
 
-/// What is weakest in a plan that passes. One that fails has something weaker, which is told first.
+/// What is weakest in a plan whose steps pass. One that fails has something weaker, which is told
+/// first.
 std::string FormatWeakestOfPlan(const Report& report) {
-  return report.passed() ? FormatWeakest(report) + FormatWeakestFinger(report) : "";
+  return report.steps_passed() ? FormatWeakest(report) + FormatWeakestFinger(report) : "";
 }
 
 std::string FormatUndecided(const Report& report) {
@@ -156,7 +157,8 @@ std::string FormatBody(const Report& report) {
 
 std::string FormatVerdict(const Report& report) {
   const auto failure = DescribeFailure(report);
-  return "verdict: " + (failure ? "fail, " + failure->headline() : "pass") + "\n";
+  const std::string trials = report.trials ? " " + TrialsPassText(*report.trials) : "";
+  return "verdict: " + (failure ? "fail, " + failure->headline() : "pass" + trials) + "\n";
 }
 
 std::string FormatTrials(const Report& report) {

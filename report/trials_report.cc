@@ -1,7 +1,10 @@
 #include "report/trials_report.h"
 
+#include <utility>
+
 #include "planner/base/angle.h"
 #include "planner/base/binomial.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 
 namespace regrasp::report {
@@ -29,7 +32,9 @@ Json TrialsJson(const sim::TrialSummary& summary) {
                {"position_noise", summary.options.position_noise},
                {"friction_error", summary.options.friction_error},
                {"mass_error", summary.options.mass_error},
+               {"min_pass_rate", summary.options.min_pass_rate},
                {"passed", summary.passed},
+               {"verdict", summary.enough() ? "pass" : "fail"},
                {"share", summary.share()},
                {"confidence", sim::kTrialConfidence},
                {"interval", {interval.lower, interval.upper}},
@@ -39,18 +44,35 @@ Json TrialsJson(const sim::TrialSummary& summary) {
   return json;
 }
 
+std::string TrialsPassText(const sim::TrialSummary& summary) {
+  return "in " + std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
+         " trials";
+}
+
+std::string TrialsRequiredText(const sim::TrialSummary& summary) {
+  const auto [share, required] =
+      FormatWithLimit(100 * summary.share(), 100 * summary.options.min_pass_rate, kPercentDigits);
+  return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
+         " trials pass (" + share + " %), and --min-pass-rate requires " + required + " %";
+}
+
 std::string TrialsShareText(const sim::TrialSummary& summary) {
   const ShareInterval interval = summary.interval();
   return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
          " pass: " + TrialPercent(summary.share()) + " %, with " +
          TrialPercent(sim::kTrialConfidence) + " % confidence between " +
-         TrialPercent(interval.lower) + " and " + TrialPercent(interval.upper) + " %";
+         TrialPercent(interval.lower) + " and " + TrialPercent(interval.upper) + " %; required " +
+         TrialPercent(summary.options.min_pass_rate) + " %";
 }
 
 std::string TrialsFailureText(const sim::TrialSummary& summary) {
-  std::string text;
+  const int failed = summary.options.count - summary.passed;
+  if (failed == 0) return "";
+  std::string text = std::to_string(failed) + " of " + std::to_string(summary.options.count) +
+                     " trials with noise fail";
+  const char* between = ": ";
   for (const auto& [reason, count] : summary.reasons) {
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " +
+    text += std::exchange(between, ", ") + std::to_string(count) + " " +
             std::string(plan::ReasonName(reason));
   }
   const char* before = "; first in ";

@@ -35,23 +35,26 @@ std::string StepCount(const ReportSummary& report) {
 /// What became of the plan.
 std::string Statement(const PlanOutcome& plan) {
   if (!plan.report) return plan.message;
-  const auto failed = plan.report->failed_step();
-  if (!failed) {
+  const auto failure = plan.report->failure();
+  if (!failure) {
     const std::size_t steps = plan.report->entries.size() - 1;
     return steps == 0 ? "The hold stands." : "The hold and " + StepCount(*plan.report) + " stand.";
   }
-  const ReportSummary::Entry& entry = plan.report->entries[*failed];
   const std::string where =
-      *failed == 0 ? "The hold" : "Step " + std::to_string(*failed) + " (" + entry.kind + ")";
-  return where + ": " + entry.reason + "." +
-         (entry.detail.empty() ? "" : " " + report::Capitalized(entry.detail) + ".") +
-         report::WhyAndMend(entry.why, entry.mend);
+      !failure->entry.valid() ? "Trials"
+      : failure->entry == 0   ? "The hold"
+                            : "Step " + std::to_string(failure->entry) + " (" + failure->kind + ")";
+  return where + ": " + failure->reason + "." +
+         (failure->what.empty() ? "" : " " + report::Capitalized(failure->what) + ".") +
+         report::WhyAndMend(failure->why, failure->mend);
 }
 
 std::string VerdictWord(const PlanOutcome& plan) {
   switch (plan.verdict) {
-    case PlanVerdict::kPass:
-      return "Pass";
+    case PlanVerdict::kPass: {
+      const std::string trials = plan.report ? plan.report->extent() : "";
+      return trials.empty() ? "Pass" : "Pass " + trials;
+    }
     case PlanVerdict::kFail:
       return "Fail";
     case PlanVerdict::kBadInput:

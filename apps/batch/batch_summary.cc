@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/base/number.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/text_table.h"
 #include "report/json_values.h"
 #include "report/junit.h"
@@ -12,7 +12,6 @@ namespace regrasp::apps {
 namespace {
 
 constexpr char kNothing[] = "-";
-constexpr int kAngleDecimals = 2;
 
 long Count(const BatchSummary& summary, PlanVerdict verdict) {
   return std::ranges::count(summary.plans, verdict, &PlanOutcome::verdict);
@@ -20,8 +19,23 @@ long Count(const BatchSummary& summary, PlanVerdict verdict) {
 
 /// Why the plan did not pass, in a word.
 std::string ReasonOf(const PlanOutcome& plan) {
-  const std::optional<int> failed = plan.report ? plan.report->failed_step() : std::nullopt;
-  return failed ? plan.report->entries[*failed].reason : "";
+  const auto failure = plan.report ? plan.report->failure() : std::nullopt;
+  return failure ? failure->reason : "";
+}
+
+/// Why the plan did not pass, or in how many trials it did.
+std::string ReasonCell(const ReportSummary& report) {
+  const auto failure = report.failure();
+  const std::string trials = report.extent();
+  if (!failure) return trials.empty() ? "" : "passes " + trials;
+  if (failure->entry.valid()) {
+    return failure->reason + " in step " + std::to_string(failure->entry);
+  }
+  return failure->reason + ": passes " + trials;
+}
+
+Json TrialsJson(const ReportSummary::Trials& trials) {
+  return {{"count", trials.count}, {"passed", trials.passed}};
 }
 
 Json PlanJson(const PlanOutcome& plan) {
@@ -41,6 +55,7 @@ Json PlanJson(const PlanOutcome& plan) {
   json["required_half_angle_deg"] = report::OrNull(plan.report->required_half_angle_deg);
   json["failed_step"] = report::OrNull(plan.report->failed_step());
   json["report"] = plan.name + "/report.json";
+  if (plan.report->trials) json["trials"] = TrialsJson(*plan.report->trials);
   return json;
 }
 
@@ -53,13 +68,18 @@ TextRow MakeRow(const PlanOutcome& plan) {
     row[2] = std::to_string(report.entries.size() - 1);
     if (report.weakest_step) row[3] = std::to_string(*report.weakest_step);
     if (report.required_half_angle_deg) {
-      row[4] = FormatFixed(*report.required_half_angle_deg, kAngleDecimals);
+      row[4] = FormatRequiredDegrees(*report.required_half_angle_deg);
     }
-    const std::optional<int> failed = report.failed_step();
-    if (failed) row[5] = ReasonOf(plan) + " in step " + std::to_string(*failed);
+    row[5] = ReasonCell(report);
   }
   if (row.back().empty()) row.back() = kNothing;
   return row;
+}
+
+/// Whether a plan passes although some of its trials fail.
+bool PassesInPart(const PlanOutcome& plan) {
+  return plan.verdict == PlanVerdict::kPass && plan.report && plan.report->trials &&
+         plan.report->trials->passed < plan.report->trials->count;
 }
 
 std::string FormatCounts(const BatchSummary& summary) {
@@ -85,6 +105,15 @@ report::JunitSuite MakeSuite(const PlanOutcome& plan, const std::filesystem::pat
          .message = entry.reason,
          .text = report::JunitText(entry.detail, entry.why, entry.mend),
          .picture = entry.frame.empty() ? "" : (folder / plan.name / entry.frame).string()});
+  }
+  if (plan.report->trials) {
+    const auto failure = plan.report->failure();
+    const bool enough = !failure || failure->entry.valid();
+    suite.cases.push_back(
+        {.name = "trials",
+         .outcome = enough ? report::JunitOutcome::kPassed : report::JunitOutcome::kFailed,
+         .message = enough ? "" : failure->reason,
+         .text = enough ? "" : report::JunitText(failure->what, failure->why, failure->mend)});
   }
   report::SetCaseTimes(plan.entry_seconds, suite);
   return suite;
@@ -113,6 +142,9 @@ std::string CountsText(const BatchSummary& summary) {
     text += (text.empty() ? "" : ", ") + std::to_string(Count(summary, verdict)) + " " +
             std::string(PlanVerdictName(verdict));
   }
+  // No count of passes hides trials that failed.
+  const long partly = std::ranges::count_if(summary.plans, PassesInPart);
+  if (partly > 0) text += "; " + std::to_string(partly) + " pass in a part of their trials only";
   return text;
 }
 

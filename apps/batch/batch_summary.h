@@ -38,7 +38,7 @@ struct BatchSummary {
   [[nodiscard]] PlanVerdict verdict() const;
 };
 
-/// "31 pass, 2 fail, 0 bad-input, 0 error".
+/// "31 pass, 2 fail, 0 bad-input, 0 error", and how many pass although some of their trials fail.
 [[nodiscard]] std::string CountsText(const BatchSummary& summary);
 
 /// The text of summary.json. The same plans give the same bytes, whatever was kept and however

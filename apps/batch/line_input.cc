@@ -94,6 +94,7 @@ std::string LinesInput::Get() {
                      ": the file was changed while it was read");
   }
   ++next_line_;
+  if (text.ends_with('\r')) text.pop_back();
   return text;
 }
 

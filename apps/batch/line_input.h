@@ -16,9 +16,10 @@ inline constexpr std::size_t kMostLineBytes = std::size_t{1} << 28;
 
 /// An entry of a file of lines.
 struct Line {
-  std::int64_t entry = 0;  ///< its number
-  std::string name;        ///< how messages call it: "plans.jsonl: line 18"
-  std::string text;        ///< without its end
+  std::int64_t entry = 0;   ///< its number
+  std::string name;         ///< how messages call it: "plans.jsonl: line 18"
+  std::string text;         ///< without its end, "\n" or "\r\n"
+  std::string inputs = {};  ///< digest of all that its result depends on; empty: never reused
 };
 
 /// A file of JSON Lines that is read as a stream: an entry a line, numbered from 1. It may have

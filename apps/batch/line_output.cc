@@ -30,6 +30,9 @@ namespace {
 constexpr std::chrono::milliseconds kPatience{2000};
 constexpr std::chrono::milliseconds kBetweenTries{20};
 
+/// Bytes that are copied at a time.
+constexpr std::int64_t kPieceBytes = std::int64_t{1} << 22;
+
 /// Of a new file, less the process's umask.
 constexpr mode_t kNewMode = 0666;
 
@@ -55,33 +58,15 @@ std::string FirstLine(const fs::path& path) {
 
 }  // namespace
 
-LinesSurvey SurveyLines(const fs::path& path, const LinesHeader& header) {
-  LinesSurvey survey;
-  std::ifstream stream(path, std::ios::binary);
-  std::string line;
-  std::getline(stream, line);
-  survey.bytes = static_cast<std::int64_t>(line.size()) + 1;
-  const EntryRange range = header.range();
-  while (survey.entries < range.count() && std::getline(stream, line) && !stream.eof()) {
-    const auto outcome = OutcomeOf(line, range.first + survey.entries);
-    if (!outcome) break;
-    ++survey.tally[*outcome];
-    ++survey.entries;
-    survey.bytes += static_cast<std::int64_t>(line.size()) + 1;
-  }
-  std::error_code error;
-  survey.more = static_cast<std::int64_t>(fs::file_size(path, error)) != survey.bytes;
-  return survey;
-}
-
 LinesOutput::LinesOutput(fs::path path, const LinesHeader& header, bool fresh)
     : path_(EndOfLinks(path)),
       part_(path_.string() + kPartEnding),
+      rest_(part_.string() + kRestEnding),
       header_(header),
       file_(-1),
       next_(header.range().first) {
   do {
-    if (!fresh && TakeWhole()) return;
+    if (!fresh && OpenWhole()) return;
   } while (!HoldPart());
   TakePart(fresh);
 }
@@ -90,49 +75,149 @@ bool LinesOutput::HoldPart() {
   file_ = Descriptor(open(part_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kNewMode));
   if (file_.get() < 0) FailWith(std::strerror(errno));
   if (!Lock(file_.get())) FailWith("another process writes it");
-  // The one that was waited for may have put it in its place.
+  // The process that was waited for may have put it in its place.
   struct stat held, there;
+  // Of a pipe no read would return.
+  if (fstat(file_.get(), &held) == 0 && !S_ISREG(held.st_mode)) {
+    throw InputError(part_.string() + ": is in the way, expected a regular file or none");
+  }
   return fstat(file_.get(), &held) == 0 && lstat(part_.c_str(), &there) == 0 &&
          held.st_dev == there.st_dev && held.st_ino == there.st_ino;
 }
 
-bool LinesOutput::TakeWhole() {
+bool LinesOutput::OpenWhole() {
   std::error_code error;
   if (!fs::is_regular_file(path_, error) || FirstLine(path_) != FormatHeader(header_)) return false;
-  LinesSurvey survey = SurveyLines(path_, header_);
-  // A file that was cut or edited is made again.
-  if (survey.entries != header_.range().count() || survey.more) return false;
-  tally_ = std::move(survey.tally);
-  kept_ = survey.entries;
-  next_ += kept_;
+  kept_in_ = Kept::kWhole;
+  kept_bytes_ = static_cast<std::int64_t>(FormatHeader(header_).size());
+  keeping_.open(path_, std::ios::binary);
+  keeping_.seekg(kept_bytes_);
   return true;
 }
 
 void LinesOutput::TakePart(bool fresh) {
   const std::string expected = FormatHeader(header_);
   const std::string found = FirstLine(part_);
+  const bool same = found == expected;
+  const auto kept = static_cast<std::int64_t>(expected.size());
+  if (!fresh && same && kept_in_ == Kept::kNowhere) {
+    kept_in_ = Kept::kPart;
+    kept_bytes_ = kept;
+    keeping_.open(part_, std::ios::binary);
+    keeping_.seekg(kept);
+    return;
+  }
   // A process that was killed at once has left nothing, or a beginning.
-  if (!fresh && found == expected) {
-    LinesSurvey survey = SurveyLines(part_, header_);
-    tally_ = std::move(survey.tally);
-    kept_ = survey.entries;
-    next_ += kept_;
-    if (ftruncate(file_.get(), survey.bytes) != 0) FailWith(std::strerror(errno));
-  } else {
-    const bool ours =
-        expected.starts_with(found) ||
-        ParseHeader(found.substr(0, found.find('\n')), part_.string() + ": line 1").has_value();
-    if (!ours || (!fresh && !expected.starts_with(found))) {
-      throw InputError(part_.string() + ": line 1: " +
-                       (ours ? "is the part of a run with other input, other options or another "
-                               "build, which was stopped; --fresh throws it away"
-                             : "is in the way, and no run of this program has left it") +
-                       "; or give another output");
+  const bool begins = expected.starts_with(found);
+  const bool ours =
+      begins ||
+      ParseHeader(found.substr(0, found.find('\n')), part_.string() + ": line 1").has_value();
+  if (!ours || (!fresh && !begins)) {
+    throw InputError(part_.string() + ": line 1: " +
+                     (ours ? "is the part of a run with other input, other options or another "
+                             "build, which was stopped; --fresh throws it away"
+                           : "is in the way, and no run of this program has left it") +
+                     "; or give another output");
+  }
+  if (fresh) {
+    unlink(rest_.c_str());
+  } else if (same) {
+    SetRestAside(kept);
+  }
+  BeginPart();
+  if (kept_in_ == Kept::kNowhere && !fresh) {
+    earlier_.emplace_back(rest_);
+    earlier_.emplace_back(path_);
+  }
+}
+
+void LinesOutput::BeginPart() {
+  if (ftruncate(file_.get(), 0) != 0 || lseek(file_.get(), 0, SEEK_SET) < 0) {
+    FailWith(std::strerror(errno));
+  }
+  WriteAll(file_.get(), FormatHeader(header_));
+}
+
+bool LinesOutput::KeepNext(const Accept& accept) {
+  if (kept_in_ == Kept::kNowhere) return false;
+  std::string line;
+  if (next_ <= header_.range().last && std::getline(keeping_, line) && !keeping_.eof() &&
+      OutcomeOf(line, next_) && accept(line)) {
+    Count(line);
+    ++kept_;
+    kept_bytes_ += static_cast<std::int64_t>(line.size()) + 1;
+    return true;
+  }
+  EndKeeping();
+  return false;
+}
+
+void LinesOutput::EndKeeping() {
+  if (kept_in_ == Kept::kNowhere) return;
+  std::int64_t begin = 0;
+  if (kept_in_ == Kept::kWhole) {
+    while (!HoldPart()) {
     }
-    if (ftruncate(file_.get(), 0) != 0) FailWith(std::strerror(errno));
-    WriteAll(file_.get(), expected);
+    TakePart(/*fresh=*/false);
+    CopyWhole();
+    begin = kept_bytes_;
+  } else {
+    SetRestAside(kept_bytes_);
+    if (ftruncate(file_.get(), kept_bytes_) != 0) FailWith(std::strerror(errno));
   }
   if (lseek(file_.get(), 0, SEEK_END) < 0) FailWith(std::strerror(errno));
+  keeping_.close();
+  kept_in_ = Kept::kNowhere;
+  earlier_.emplace_back(rest_);
+  earlier_.emplace_back(path_, begin);
+}
+
+/// From the file that was read, although another process may have replaced it since.
+void LinesOutput::CopyWhole() {
+  keeping_.clear();
+  keeping_.seekg(0);
+  std::int64_t left = kept_bytes_;
+  std::string piece(static_cast<std::size_t>(std::min(left, kPieceBytes)), '\0');
+  if (ftruncate(file_.get(), 0) != 0 || lseek(file_.get(), 0, SEEK_SET) < 0) {
+    FailWith(std::strerror(errno));
+  }
+  while (left > 0) {
+    piece.resize(static_cast<std::size_t>(std::min(left, kPieceBytes)));
+    if (!keeping_.read(piece.data(), static_cast<std::streamsize>(piece.size()))) {
+      FailWith(path_.string() + " was changed meanwhile");
+    }
+    WriteAll(file_.get(), piece);
+    left -= static_cast<std::int64_t>(piece.size());
+  }
+}
+
+/// The entries of the part behind `begin`, and those of an older rest that follow them.
+void LinesOutput::SetRestAside(std::int64_t begin) {
+  EarlierLines last(part_, begin), older(rest_);
+  if (!last.Next()) return;
+  const fs::path aside = rest_.string() + ".new";
+  Descriptor file(
+      open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, kNewMode));
+  if (file.get() < 0) FailWith(std::strerror(errno));
+  EarlierLines lines(part_, begin);
+  while (const auto line = lines.Next()) WriteAll(file.get(), std::string(*line) + "\n");
+  while (const auto line = older.Next()) {
+    if (older.entry() > lines.entry()) WriteAll(file.get(), std::string(*line) + "\n");
+  }
+  if (fsync(file.get()) != 0 || rename(aside.c_str(), rest_.c_str()) != 0) {
+    FailWith(std::strerror(errno));
+  }
+}
+
+std::optional<std::string> LinesOutput::FindEarlier(std::int64_t entry, const Accept& accept) {
+  EndKeeping();
+  for (EarlierLines& lines : earlier_) {
+    const auto line = lines.Find(entry);
+    if (!line || !OutcomeOf(*line, entry) || !accept(*line)) continue;
+    ++kept_;
+    return std::string(*line);
+  }
+  return std::nullopt;
 }
 
 void LinesOutput::Count(std::string_view line) {
@@ -143,6 +228,7 @@ void LinesOutput::Count(std::string_view line) {
 }
 
 void LinesOutput::Append(std::string_view lines) {
+  EndKeeping();
   for (std::size_t begin = 0; begin < lines.size();) {
     const std::size_t end = lines.find('\n', begin);
     Count(lines.substr(begin, end - begin));
@@ -157,14 +243,23 @@ void LinesOutput::Append(std::string_view lines) {
 }
 
 void LinesOutput::Finish() {
-  if (file_.get() < 0) return;  // it is there already
+  if (kept_in_ == Kept::kWhole) {
+    std::error_code error;
+    const bool whole = next_ > header_.range().last &&
+                       static_cast<std::int64_t>(fs::file_size(path_, error)) == kept_bytes_;
+    if (whole && !error) return;  // it is there already
+  }
+  EndKeeping();
   if (fsync(file_.get()) != 0 || rename(part_.c_str(), path_.c_str()) != 0) {
     FailWith(std::strerror(errno));
   }
+  unlink(rest_.c_str());
 }
 
 void LinesOutput::Discard() {
-  if (file_.get() >= 0) unlink(part_.c_str());
+  if (file_.get() < 0) return;
+  unlink(part_.c_str());
+  unlink(rest_.c_str());
 }
 
 void LinesOutput::FailWith(const std::string& what) const {

@@ -6,6 +6,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/text_encoding.h"
+#include "planner/base/file.h"
 #include "planner/plan/json_reader.h"
 
 namespace regrasp::apps {
@@ -29,6 +30,12 @@ constexpr std::array<std::pair<std::string_view, Outcome>, 6> kBeginnings = {{
 std::string OnOneLine(const Json& json) {
   return json.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
 }
+
+/// Number of hexadecimal digits of a SHA-256.
+constexpr std::size_t kDigestDigits = 64;
+constexpr std::string_view kInputsMember = R"(,"inputs_sha256":")";
+constexpr std::string_view kLineMember = R"(","line_sha256":")";
+constexpr std::string_view kSealEnd = R"("})";
 
 std::string RecordBeginning(std::int64_t entry) {
   return R"({"query":)" + std::to_string(entry) + ",";
@@ -131,6 +138,41 @@ std::optional<Outcome> OutcomeOf(std::string_view line, std::int64_t entry) {
     if (line.starts_with(begins)) return outcome;
   }
   return std::nullopt;
+}
+
+std::optional<std::int64_t> EntryOf(std::string_view line) {
+  constexpr std::string_view kBegin = R"({"query":)";
+  if (!line.starts_with(kBegin)) return std::nullopt;
+  std::int64_t entry = 0;
+  const char* end = line.data() + line.size();
+  const auto [stop, error] = std::from_chars(line.data() + kBegin.size(), end, entry);
+  if (error != std::errc() || stop == end || *stop != ',') return std::nullopt;
+  return entry;
+}
+
+std::string SealRecord(const std::string& record, std::int64_t entry, const std::string& inputs) {
+  const std::optional<Outcome> outcome = OutcomeOf(record, entry);
+  if (!outcome || outcome == Outcome::kBadInput || outcome == Outcome::kError) return record;
+  std::string sealed = record.substr(0, record.size() - 1);
+  sealed.append(kInputsMember).append(inputs);
+  const std::string digest = Sha256(sealed);
+  return sealed.append(kLineMember).append(digest).append(kSealEnd);
+}
+
+std::optional<std::string_view> SealedInputs(std::string_view line) {
+  constexpr std::size_t kLineSeal = kLineMember.size() + kDigestDigits + kSealEnd.size();
+  constexpr std::size_t kSeal = kInputsMember.size() + kDigestDigits + kLineSeal;
+  if (line.size() < kSeal) return std::nullopt;
+  const std::string_view sealed = line.substr(0, line.size() - kLineSeal);
+  const std::string_view end = line.substr(sealed.size());
+  const std::string_view inputs = sealed.substr(sealed.size() - kDigestDigits);
+  const std::string_view before = sealed.substr(0, sealed.size() - kDigestDigits);
+  if (!before.ends_with(kInputsMember) || !end.starts_with(kLineMember) ||
+      !end.ends_with(kSealEnd)) {
+    return std::nullopt;
+  }
+  if (end.substr(kLineMember.size(), kDigestDigits) != Sha256(sealed)) return std::nullopt;
+  return inputs;
 }
 
 std::string TallyText(const Tally& tally) {

@@ -85,6 +85,25 @@ enum class Outcome {
 /// @returns none where it is not the whole line of this entry.
 [[nodiscard]] std::optional<Outcome> OutcomeOf(std::string_view line, std::int64_t entry);
 
+/// The number of the entry whose line begins so; none if it is not a line of an entry.
+[[nodiscard]] std::optional<std::int64_t> EntryOf(std::string_view line);
+
+/// Add two digests to the end of a record: `inputs_sha256`, of all that the result depends on, and
+/// `line_sha256`, of the line before it. The first tells whether a later run may reuse the result,
+/// the second whether the line is as it was written. Anyone who edits a line can seal it again: it
+/// is not a signature.
+///
+/// A record of bad input or of an error stays as it is, so that no run ever reuses it: its cause
+/// may lie outside the inputs.
+/// @param record  the whole line of the entry, without its end.
+/// @param inputs  64 hexadecimal digits.
+[[nodiscard]] std::string SealRecord(const std::string& record, std::int64_t entry,
+                                     const std::string& inputs);
+
+/// The digest of the inputs in a line that SealRecord has written; none if the line has no seal or
+/// was edited since.
+[[nodiscard]] std::optional<std::string_view> SealedInputs(std::string_view line);
+
 /// How many entries came to what.
 using Tally = std::map<Outcome, std::int64_t>;
 

@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "apps/batch/line_records.h"
 #include "apps/batch/process_pool.h"
+#include "planner/base/error.h"
 #include "planner/base/number.h"
 
 namespace regrasp::apps {
@@ -31,6 +33,9 @@ constexpr int kLargestChunk = 64;
 
 /// How far ahead of the output children may be, in entries a job: their results wait in memory.
 constexpr int kMostAhead = 2048;
+
+/// Entries that are kept from one report of progress to the next.
+constexpr std::int64_t kToldEvery = 1024;
 
 /// Groups that are remembered; to forget one costs time alone.
 constexpr std::size_t kMostGroups = 4096;
@@ -51,11 +56,10 @@ class LineRun {
  public:
   LineRun(LinesInput& input, LinesOutput& output, const LineWork& work,
           const LineRunOptions& options)
-      : input_(input), output_(output), work_(work), options_(options) {
-    input_.SkipTo(output_.next());
-  }
+      : input_(input), output_(output), work_(work), options_(options) {}
 
   int Run() {
+    KeepResults();
     PoolOptions pool;
     pool.jobs = options_.jobs;
     pool.most_output = std::numeric_limits<std::size_t>::max();
@@ -65,6 +69,40 @@ class LineRun {
   }
 
  private:
+  /// Keeps the results of an earlier run from the first entry on, up to one that is not reused.
+  void KeepResults() {
+    for (std::optional<Line> line = Get(); line; line = Get()) {
+      const bool kept =
+          output_.KeepNext([&](std::string_view record) { return IsReusable(*line, record); });
+      if (!kept) {
+        waiting_ = std::move(line);
+        return;
+      }
+      if (line->entry % kToldEvery == 0) options_.on_progress();
+    }
+  }
+
+  /// The next line with the digest of its inputs.
+  std::optional<Line> Get() {
+    if (waiting_) return std::exchange(waiting_, std::nullopt);
+    std::optional<Line> line = input_.Next();
+    if (line && work_.inputs) line->inputs = work_.inputs(*line);
+    return line;
+  }
+
+  /// Messages of a record that is reused are repeated: whoever reads them sees no difference.
+  [[nodiscard]] bool IsReusable(const Line& line, std::string_view record) const {
+    if (line.inputs.empty() || SealedInputs(record) != line.inputs) return false;
+    if (work_.complete && !work_.complete(line, record)) return false;
+    if (!work_.messages) return true;
+    try {
+      for (const std::string& message : work_.messages(line, record)) options_.on_message(message);
+    } catch (const InputError&) {
+      return false;  // somebody edited and sealed it
+    }
+    return true;
+  }
+
   /// A chunk that has to be begun, under a number.
   std::optional<int> Next() {
     Chunk chunk;
@@ -73,8 +111,12 @@ class LineRun {
       again_.pop_front();
     } else {
       const std::int64_t ahead = std::int64_t{kMostAhead} * options_.jobs;
-      if (read_to_ >= output_.next() + ahead) return std::nullopt;
-      chunk = Read();
+      bool more = true;
+      while (more && chunk.empty()) {
+        if (read_to_ >= output_.next() + ahead) return std::nullopt;
+        more = Read(chunk, output_.next() + ahead);
+        AppendFinished();
+      }
       if (chunk.empty()) return std::nullopt;
       Prepare(chunk);
     }
@@ -82,17 +124,27 @@ class LineRun {
     return task_++;
   }
 
-  Chunk Read() {
-    Chunk chunk;
+  /// Reads lines to work on, and finishes those on the way that an earlier run has done.
+  /// @param last  entry to read up to.
+  /// @returns false at the end of the input.
+  bool Read(Chunk& chunk, std::int64_t last) {
     // By the clock of a process a limit is that of one entry.
     const int most = options_.time_limit_s ? 1 : chunk_size_;
-    while (static_cast<int>(chunk.size()) < most) {
-      std::optional<Line> line = input_.Next();
-      if (!line) break;
+    while (static_cast<int>(chunk.size()) < most && read_to_ < last) {
+      std::optional<Line> line = Get();
+      if (!line) return false;
       read_to_ = line->entry;
-      chunk.push_back(std::move(*line));
+      const auto earlier = output_.FindEarlier(
+          line->entry, [&](std::string_view record) { return IsReusable(*line, record); });
+      if (earlier) {
+        // A chunk has neighbours only, whose results are appended together.
+        finished_[line->entry] = *earlier + "\n";
+        if (!chunk.empty()) return true;
+      } else {
+        chunk.push_back(std::move(*line));
+      }
     }
-    return chunk;
+    return true;
   }
 
   void Prepare(const Chunk& chunk) {
@@ -109,7 +161,10 @@ class LineRun {
     mallopt(M_MMAP_THRESHOLD, kKeptBytes);
     mallopt(M_TRIM_THRESHOLD, kKeptBytes);
     for (const Line& line : running_.at(task).chunk) {
-      std::cout << work_.work(line) << '\n' << std::flush;
+      const std::string record = work_.work(line);
+      std::cout << (line.inputs.empty() ? record : SealRecord(record, line.entry, line.inputs))
+                << '\n'
+                << std::flush;
     }
     return 0;
   }
@@ -183,6 +238,7 @@ class LineRun {
   std::int64_t read_to_ = 0;
   int chunk_size_ = kFirstChunk;
   std::map<int, Running> running_;
+  std::optional<Line> waiting_;                   ///< the first one that is not kept
   std::deque<Chunk> again_;                       ///< rests of chunks whose process ended early
   std::map<std::int64_t, std::string> finished_;  ///< lines that wait for others, by first entry
   std::set<std::string> groups_;                  ///< that were prepared

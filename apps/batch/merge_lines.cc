@@ -114,16 +114,19 @@ class ShardReader {
   std::int64_t line_ = 1;
 };
 
-/// Those entries that are not there yet; all are looked at.
+/// Entries whose lines are there already stay; all are read.
 void AppendShards(const std::vector<ShardFile>& shards, LinesOutput& merged) {
-  const std::int64_t kept_to = merged.next();
   std::string lines;
+  bool keeps = true;
   for (const ShardFile& shard : shards) {
     ShardReader reader(shard);
     const EntryRange range = shard.header.range();
     for (std::int64_t entry = range.first; entry <= range.last; ++entry) {
       const std::string line = reader.Get(entry);
-      if (entry >= kept_to) lines += line;
+      keeps = keeps && merged.KeepNext([&line](std::string_view there) {
+        return line == std::string(there) + "\n";
+      });
+      if (!keeps) lines += line;
       if (lines.size() < kPiece) continue;
       merged.Append(lines);
       lines.clear();

@@ -55,9 +55,9 @@ std::string ObjectFinder::Find(const std::string& name, const std::string& sha25
 }
 
 const std::string& ObjectFinder::DigestOf(const std::string& file) {
-  const auto [place, is_new] = digests_.try_emplace(file);
-  if (is_new) place->second = Sha256(ReadFile(file));
-  return place->second;
+  const auto known = digests_.find(file);
+  if (known != digests_.end()) return known->second;
+  return digests_[file] = Sha256(ReadFile(file));
 }
 
 std::string ObjectFinder::FindByDigest(const std::string& sha256) {

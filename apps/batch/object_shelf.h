@@ -52,8 +52,11 @@ class ObjectFinder {
 
   [[nodiscard]] bool is_folder() const { return is_folder_; }
 
- private:
+  /// Return the SHA-256 of a file, computed once.
+  /// @throws InputError  it cannot be read.
   [[nodiscard]] const std::string& DigestOf(const std::string& file);
+
+ private:
   [[nodiscard]] std::string FindByDigest(const std::string& sha256);
 
   std::string path_;

@@ -39,6 +39,75 @@ std::string WhyNoPlan(const fs::path& path) {
   }
 }
 
+/// Files below a folder that are counted at most; a message needs no more.
+constexpr int kMostBelow = 1000;
+
+bool IsPlan(const fs::path& path) {
+  std::error_code error;
+  if (path.extension() != kSuffix || !fs::is_regular_file(path, error)) return false;
+  if (fs::file_size(path, error) > kMostLookedAtBytes) return true;
+  try {
+    const Json json = ParseJson(ReadFile(path), path.string());
+    return json.is_object() && json.value("format", Json()) == kPlanFormat;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+int CountPlansBelow(const fs::path& folder) {
+  int files = 0, plans = 0;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end;
+       !error && entry != end && files < kMostBelow; entry.increment(error)) {
+    ++files;
+    if (IsPlan(entry->path())) ++plans;
+  }
+  return plans;
+}
+
+std::string CountText(int plans) {
+  return std::to_string(plans) + (plans == 1 ? " plan" : " plans");
+}
+
+/// Subfolders are not searched: what stands in them is named, with its numbers.
+void SkipSubfolders(const fs::path& folder, PlanLibrary& library) {
+  std::vector<fs::path> subfolders;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const bool own = entry->is_directory(error) && !entry->is_symlink(error);
+    if (own && entry->path().extension() != kSuffix) subfolders.push_back(entry->path());
+  }
+  std::ranges::sort(subfolders);
+  for (const fs::path& subfolder : subfolders) {
+    const int plans = CountPlansBelow(subfolder);
+    if (plans == 0) continue;
+    library.skipped.push_back(
+        {subfolder.filename().string() + "/",
+         "is a subfolder with " + CountText(plans) + "; subfolders are not searched"});
+  }
+}
+
+/// Why a folder has no plan, and where there are some.
+std::string NoPlanText(const fs::path& folder) {
+  PlanLibrary below;
+  SkipSubfolders(folder, below);
+  std::string text =
+      folder.string() + ": no plan found, expected *.json files with the format " + kPlanFormat;
+  for (const SkippedFile& file : below.skipped) text += "; " + file.file + " " + file.why;
+  std::error_code error;
+  if (!below.skipped.empty()) {
+    text += "; help: give --plan " + (folder / fs::path(below.skipped.front().file)).string();
+  } else {
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (entry->path().extension() != ".jsonl") continue;
+      return text + "; help: give --plan " + entry->path().string();
+    }
+  }
+  return text;
+}
+
 void AddFolder(const fs::path& folder, PlanLibrary& library) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -57,7 +126,8 @@ void AddFolder(const fs::path& folder, PlanLibrary& library) {
       library.skipped.push_back({file.filename().string(), why});
     }
   }
-  if (library.plans.size() == before) throw InputError(folder.string() + ": holds no plan");
+  if (library.plans.size() == before) throw InputError(NoPlanText(folder));
+  SkipSubfolders(folder, library);
 }
 
 void CheckNames(const PlanLibrary& library) {

@@ -38,6 +38,17 @@ void ReadSubject(const plan::JsonReader& root, ReportSummary& summary) {
   }
 }
 
+ReportSummary::Trials ReadTrials(const plan::JsonReader& trials) {
+  constexpr int kMost = 1'000'000'000;
+  ReportSummary::Trials read;
+  read.count = trials.Member("count").Integer(1, kMost);
+  read.passed = trials.Member("passed").Integer(0, read.count);
+  read.detail = TextOrNothing(trials, "detail");
+  read.why = TextOrNothing(trials, "why");
+  read.mend = TextOrNothing(trials, "mend");
+  return read;
+}
+
 void ReadRun(const plan::JsonReader& run, ReportSummary& summary) {
   summary.run = run.Member("sha256").String();
   if (!run.Has("files")) return;
@@ -54,6 +65,28 @@ std::optional<int> ReportSummary::failed_step() const {
   return static_cast<int>(failed - entries.begin());
 }
 
+std::optional<report::Failure> ReportSummary::failure() const {
+  if (const std::optional<int> step = failed_step()) {
+    const Entry& entry = entries[*step];
+    return report::Failure{
+        plan::EntryIndex(*step), entry.kind, entry.reason, entry.detail, entry.why, entry.mend};
+  }
+  if (passed || !trials) return std::nullopt;
+  return report::Failure{plan::EntryIndex(), "trials",    report::kTrialsFailed,
+                         trials->detail,     trials->why, trials->mend};
+}
+
+std::string ReportSummary::extent() const {
+  if (!trials) return "";
+  return "in " + std::to_string(trials->passed) + " of " + std::to_string(trials->count) +
+         " trials";
+}
+
+std::string ReportSummary::headline() const {
+  if (const auto failed = failure()) return failed->headline();
+  return trials && trials->passed < trials->count ? "pass " + extent() : "";
+}
+
 ReportSummary SummarizeReport(const Json& json, const std::string& name) {
   const plan::JsonReader root(json, name);
   root.ExpectFormat("regrasp-report");
@@ -61,6 +94,7 @@ ReportSummary SummarizeReport(const Json& json, const std::string& name) {
   summary.passed = root.Member("verdict").OneOf({"pass", "fail"}) == "pass";
   ReadSubject(root, summary);
   if (root.Has("run")) ReadRun(root.Member("run"), summary);
+  if (root.Has("trials")) summary.trials = ReadTrials(root.Member("trials"));
   const plan::JsonReader list = root.Member("steps");
   const std::vector<plan::JsonReader> steps = list.Elements();
   if (steps.empty()) list.Fail("is empty");

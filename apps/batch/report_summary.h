@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/base/json.h"
+#include "report/failure.h"
 #include "report/report.h"
 
 namespace regrasp::apps {
@@ -18,6 +19,12 @@ struct ReportSummary {
     std::string frame;                ///< empty where there is none
     std::string why = {}, mend = {};  ///< of the one that failed
   };
+  /// Repeats of the replay with noise.
+  struct Trials {
+    int count = 0;
+    int passed = 0;
+    std::string detail = {}, why = {}, mend = {};  ///< if too few passed
+  };
   bool passed = false;
   std::string object;                    ///< the name of its file
   std::string size;                      ///< "10.4 cm across, 216 g"
@@ -28,9 +35,16 @@ struct ReportSummary {
   std::vector<Entry> entries;
   std::optional<int> weakest_step;
   std::optional<double> required_half_angle_deg;  ///< of the weakest step
+  std::optional<Trials> trials = std::nullopt;
 
   /// The index of the entry that failed; none where all passed.
   [[nodiscard]] std::optional<int> failed_step() const;
+  /// How the plan fails, in the words of the validation that wrote the report; none if it passes.
+  [[nodiscard]] std::optional<report::Failure> failure() const;
+  /// "in 14 of 20 trials", behind "pass"; empty without trials.
+  [[nodiscard]] std::string extent() const;
+  /// The verdict in a line if it is more than "pass" (report::VerdictHeadline).
+  [[nodiscard]] std::string headline() const;
 };
 
 /// @param name  how messages call the report.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/object/mesh_defect.h"
 
@@ -149,10 +150,11 @@ namespace {
 /// @throws MeshError  the polygon is not one of a solid's surface.
 void CheckCut(const PolygonCut& cut, double diameter, const std::string& facet) {
   if (cut.off_plane > kBentTolerance * diameter) {
-    throw MeshError(MeshDefect::kNotPlanar,
-                    facet + ": not planar: a corner lies " + FormatShort(cut.off_plane) +
-                        " off its plane, " + FormatShort(cut.off_plane / diameter) +
-                        " of the object's diameter (at most " + FormatShort(kBentTolerance) + ")");
+    const auto [off, most] = FormatWithLimit(cut.off_plane / diameter, kBentTolerance, 4);
+    throw MeshError(MeshDefect::kNotPlanar, facet + ": not planar: a corner lies " +
+                                                FormatShort(cut.off_plane) + " off its plane, " +
+                                                off + " of the object's diameter (at most " + most +
+                                                ")");
   }
   if (!cut.defect) return;
   throw MeshError(*cut.defect, facet + (*cut.defect == MeshDefect::kDegenerateFacet

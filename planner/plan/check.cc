@@ -5,6 +5,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "planner/object/given_points.h"
@@ -15,9 +16,6 @@
 namespace regrasp::plan {
 
 namespace {
-
-/// Angles for people are told to a hundredth of a degree.
-constexpr int kAngleDecimals = 2;
 
 bool Passed(const StepCheck& check) { return !check.skipped && check.reason == Reason::kNone; }
 
@@ -166,10 +164,10 @@ EntryIndex WeakestStep(const std::vector<StepCheck>& steps) {
 std::string WeakestStepText(const std::vector<StepCheck>& steps, double half_angle) {
   const EntryIndex weakest = WeakestStep(steps);
   if (!weakest.valid()) return "";
-  const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
+  const auto [needed, available] =
+      FormatRequiredDegrees(Degrees(steps[weakest].required->upper), Degrees(half_angle));
   return "step " + std::to_string(weakest) + " (" + steps[weakest].kind +
-         "), which needs a friction half-angle of " + degrees(steps[weakest].required->upper) +
-         " of " + degrees(half_angle) + " degrees";
+         "), which needs a friction half-angle of " + needed + " of " + available + " degrees";
 }
 
 bool PlanCheck::passed() const { return !steps.empty() && std::ranges::all_of(steps, Passed); }

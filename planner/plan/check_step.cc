@@ -4,6 +4,7 @@
 #include <set>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "planner/grasp/angle_between.h"
@@ -115,9 +116,10 @@ std::optional<grasp::RequiredHalfAngle> Larger(const std::optional<grasp::Requir
 std::string AngleNeeded(const CheckContext& context,
                         const std::optional<grasp::RequiredHalfAngle>& required) {
   if (!required) return "is not force closure, and would be at no friction";
-  return "is not force closure: it needs a friction half-angle of " +
-         FormatDegrees(Degrees(required->upper)) + ", and has " +
-         FormatDegrees(Degrees(context.half_angle));
+  const auto [needed, available] =
+      FormatRequiredDegrees(Degrees(required->upper), Degrees(context.half_angle));
+  return "is not force closure: it needs a friction half-angle of " + needed + "°, and has " +
+         available + "°";
 }
 
 /// @param grasp  that is not force closure, or not proved to be.
@@ -286,7 +288,8 @@ std::string UnprovedText(const motion::PathForceClosure& path, const std::string
   }
   return "force closure is not proved near " + at + ": of " + std::to_string(path.undecided) +
          " pieces, a millionth of it each, neither a proof nor a loss is found" +
-         (required ? "; all of it surely holds only from " + FormatDegrees(Degrees(required->upper))
+         (required ? "; all of it surely holds only from " +
+                         FormatRequiredDegrees(Degrees(required->upper)) + "°"
                    : "");
 }
 

@@ -28,22 +28,22 @@ void JsonReader::FailType(const char* expected) const {
 }
 
 std::string JsonReader::Quoted() const {
-  if (value_.is_object()) return "an object";
-  if (value_.is_array()) return "an array";
+  if (value_.is_object()) return "a JSON object";
+  if (value_.is_array()) return "a JSON array";
   std::string text = value_.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace);
   if (text.size() > kLongestQuote) text = text.substr(0, kLongestQuote) + "...";
   return text;
 }
 
 JsonReader JsonReader::Member(const char* key) const {
-  if (!value_.is_object()) FailType("an object");
+  if (!value_.is_object()) FailType("a JSON object");
   const auto member = value_.find(key);
   if (member == value_.end()) Fail(std::string("\"") + key + "\" is missing");
   return {*member, file_, pointer_ + "/" + key};
 }
 
 std::vector<JsonReader> JsonReader::Elements() const {
-  if (!value_.is_array()) FailType("an array");
+  if (!value_.is_array()) FailType("a JSON array");
   std::vector<JsonReader> elements;
   elements.reserve(value_.size());
   for (std::size_t i = 0; i < value_.size(); ++i) {

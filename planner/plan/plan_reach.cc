@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 
@@ -24,11 +25,11 @@ double CentreDistance(const grasp::Contact& a, const grasp::Contact& b, double r
 /// @param grasp  at that instant.
 Obstacle Overlap(const FingerContact& a, const FingerContact& b, const FingerGrasp& grasp,
                  double radius) {
+  const auto [apart, needed] =
+      FormatWithLimit(CentreDistance(a.contact, b.contact, radius), 2 * radius, 4);
   return {"fingers " + std::to_string(a.finger) + " and " + std::to_string(b.finger) +
-              " overlap: their centres are " +
-              FormatShort(CentreDistance(a.contact, b.contact, radius)) +
-              " apart, and two fingers of radius " + FormatShort(radius) + " need " +
-              FormatShort(2 * radius) + " (units of the object's file)",
+              " overlap: their centres are " + apart + " apart, and two fingers of radius " +
+              FormatShort(radius) + " need " + needed + " (units of the object's file)",
           {.fingers = {a.finger, b.finger}, .grasp = grasp, .finger_radius = radius}};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/grasp/soft_contacts.h"
@@ -53,9 +54,10 @@ std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
     }
   }
   for (const auto& [unmet, step] : weakest) {
+    const auto [reached, asked] = FormatWithLimit(unmet.reached, unmet.asked, 4);
     warnings.push_back("the sequence passes grasps below the " + std::string(unmet.name) + " " +
-                       FormatShort(unmet.asked) + " that was asked for; the weakest is " +
-                       name(step) + " with " + FormatShort(unmet.reached));
+                       asked + " that was asked for; the weakest is " + name(step) + " with " +
+                       reached);
   }
   return warnings;
 }

@@ -7,6 +7,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/memory.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
@@ -27,11 +28,6 @@ using Kind = GraspChoice::Kind;
 using Status = PlanResult::Status;
 
 /// Rounded up to a hundredth of a degree: with that much friction the grasp is force closure.
-std::string NeededDegrees(const grasp::RequiredHalfAngle& required) {
-  constexpr double kSteps = 100;
-  return FormatDouble(std::ceil(Degrees(required.upper) * kSteps) / kSteps) + "°";
-}
-
 std::optional<std::pair<int, int>> ContactsAtSamePoint(const grasp::Grasp& grasp,
                                                        double same_point) {
   for (std::size_t i = 0; i < grasp.size(); ++i) {
@@ -115,10 +111,14 @@ class GraspResolver {
     const grasp::SoftContacts felt(grasp, evaluator_.torsion());
     if (grasp::IsForceClosure(felt.view(), evaluator_.frame(), half_angle)) return;
     const auto required = grasp::ComputeRequiredHalfAngle(felt.view(), evaluator_.frame());
-    refuse("not force closure: " +
-           (required ? "needs a friction half-angle of " + NeededDegrees(*required)
-                     : std::string("no friction half-angle below 90° is enough")) +
-           ", given " + FormatShort(Degrees(half_angle)) + "°");
+    if (!required) {
+      refuse("not force closure: no friction half-angle below 90° is enough, given " +
+             FormatShort(Degrees(half_angle)) + "°");
+    }
+    const auto [needed, given] =
+        FormatRequiredDegrees(Degrees(required->upper), Degrees(half_angle));
+    refuse("not force closure: needs a friction half-angle of " + needed + "°, given " + given +
+           "°");
   }
 
   const Planner& planner_;

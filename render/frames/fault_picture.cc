@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/quantity_text.h"
 #include "planner/grasp/angle_between.h"
 
@@ -191,7 +192,7 @@ class FaultSketch {
     for (const plan::FingerContact& held : fault_.grasp) {
       const Vector3d apex = Place(held.contact.p);
       if (!IsNear(apex) || picture_.marks.cones.size() > picture_.snapshot.fingers.size()) continue;
-      const std::string text = "needs " + FormatDegrees(Degrees(*fault_.required));
+      const std::string text = "needs " + FormatRequiredDegrees(Degrees(*fault_.required)) + "°";
       picture_.marks.cones.push_back({apex, Direction(held.contact.n), *fault_.required,
                                       picture_.marks.cones.empty() ? text : ""});
     }

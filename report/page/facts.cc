@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/quantity_text.h"
 #include "report/hand_limits.h"
 #include "report/page/fact_list.h"
@@ -25,7 +26,8 @@ constexpr char kLong[] = "digest";
 void AddGrasp(const Report& report, FactList& facts) {
   const GraspReport& grasp = *report.grasp;
   const std::optional<grasp::RequiredHalfAngle>& required = report.steps.front().check.required;
-  facts.Add("Needs", required ? FormatDegrees(Degrees(required->upper)) : "none is enough");
+  facts.Add("Needs",
+            required ? FormatRequiredDegrees(Degrees(required->upper)) + "°" : "none is enough");
   if (grasp.fingers.empty()) return;
   facts.Add("Quality ε", grasp::QualityText(grasp.quality, kQualityDigits));
   facts.Add("Weakest", "finger " + std::to_string(grasp::WeakestFinger(grasp.fingers)));
@@ -77,7 +79,7 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
   }
   if (report.grasp) AddGrasp(report, facts);
   const plan::EntryIndex weakest = report.weakest_step();
-  if (weakest.valid() && !report.grasp && report.passed()) {
+  if (weakest.valid() && !report.grasp && report.steps_passed()) {
     facts.Add("Weakest", StepName(weakest) + ", " +
                              FormatDegrees(measures[weakest].margin_deg.value_or(0)) + " to spare");
   }

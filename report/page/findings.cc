@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/quantity_text.h"
 #include "report/page/quantity.h"
 #include "report/page/step_plot.h"
@@ -73,7 +74,8 @@ Element RequirementsRow(const ReportStep& step, bool both) {
   Element row("tr");
   row.Add(NumberCell(std::to_string(step.check.index)));
   row.Add(NumberCell(need ? std::to_string(need->finger) : kNoFinding));
-  row.Add(NumberCell(need ? FormatDegrees(Degrees(need->friction.required)) : kNoFinding));
+  row.Add(NumberCell(need ? FormatRequiredDegrees(Degrees(need->friction.required)) + "°"
+                          : kNoFinding));
   row.Add(NumberCell(Margin(step.replay->rest_margins)));
   row.Add(NumberCell(Margin(step.replay->shake_margins)));
   if (both)

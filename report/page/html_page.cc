@@ -31,12 +31,14 @@ std::string FormatHtmlPage(std::string_view title, const std::vector<Element>& p
 }
 
 Element PageHeader(std::string_view kind, std::string_view subject, bool passed,
-                   std::string_view statement) {
-  return Element("header", {},
-                 std::vector<Element>{
-                     Element("p", {{"class", "kicker"}}, kind), Element("h1", {}, subject),
-                     Element("p", {{"class", passed ? "verdict pass" : "verdict fail"}},
-                             Element("strong", {}, passed ? "Pass" : "Fail"), " ", statement)});
+                   std::string_view statement, std::string_view extent) {
+  const std::string verdict =
+      (passed ? "Pass" : "Fail") + (extent.empty() ? "" : " " + std::string(extent));
+  return Element(
+      "header", {},
+      std::vector<Element>{Element("p", {{"class", "kicker"}}, kind), Element("h1", {}, subject),
+                           Element("p", {{"class", passed ? "verdict pass" : "verdict fail"}},
+                                   Element("strong", {}, verdict), " ", statement)});
 }
 
 }  // namespace regrasp::report

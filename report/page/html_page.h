@@ -22,7 +22,8 @@ enum class PictureSource {
 
 /// A page's first lines: what it is in small letters, its subject, and the verdict with what it
 /// says in words.
+/// @param extent  text behind "Pass" or "Fail", as "in 14 of 20 trials"; may be empty.
 [[nodiscard]] Element PageHeader(std::string_view kind, std::string_view subject, bool passed,
-                                 std::string_view statement);
+                                 std::string_view statement, std::string_view extent = "");
 
 }  // namespace regrasp::report

@@ -19,6 +19,7 @@
 #include "report/page/step_table.h"
 #include "report/page/step_text.h"
 #include "report/page/table.h"
+#include "report/trials_report.h"
 
 namespace regrasp::report {
 
@@ -46,7 +47,10 @@ class Page {
           MakeFindings(report_), Replay(), Frames()}) {
       all.insert(all.end(), parts.begin(), parts.end());
     }
-    return FormatHtmlPage((report_.passed() ? "Pass: " : "Fail: ") + report_.plan_file, all);
+    const std::string extent = Extent();
+    return FormatHtmlPage((report_.passed() ? "Pass" : "Fail") +
+                              (extent.empty() ? "" : " " + extent) + ": " + report_.plan_file,
+                          all);
   }
 
  private:
@@ -54,12 +58,29 @@ class Page {
 
   [[nodiscard]] Element Header() const {
     return PageHeader(report_.grasp ? "Validation of a grasp" : "Validation of a regrasp plan",
-                      report_.plan_file, report_.passed(), Statement());
+                      report_.plan_file, report_.passed(), Statement(), Extent());
+  }
+
+  /// How many trials the verdict is about; empty without trials.
+  [[nodiscard]] std::string Extent() const {
+    if (!report_.trials) return "";
+    const sim::TrialSummary& trials = *report_.trials;
+    const int failed = trials.options.count - trials.passed;
+    return report_.passed() ? TrialsPassText(trials)
+                            : "in " + std::to_string(failed) + " of " +
+                                  std::to_string(trials.options.count) + " trials";
   }
 
   /// What the verdict says, in words.
   [[nodiscard]] std::string Statement() const {
     if (failed_) return FailureStatement();
+    const auto failure = DescribeFailure(report_);
+    if (!failure) return StepsStatement();
+    return Capitalized(failure->what) + "." + WhyAndMend(failure->why, failure->mend) +
+           " Without noise: " + StepsStatement();
+  }
+
+  [[nodiscard]] std::string StepsStatement() const {
     const sim::ReplaySettings& settings = *report_.settings;
     const std::string what =
         " with " + FormatDegrees(Degrees(report_.half_angle)) +

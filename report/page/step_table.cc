@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/quantity_text.h"
 #include "report/page/quantity.h"
 #include "report/page/step_text.h"
@@ -20,7 +21,7 @@ std::string DegreesOr(const std::optional<double>& radians, const char* otherwis
 
 std::string Required(const plan::StepCheck& check) {
   if (check.skipped) return kNoStepValue;
-  if (check.required) return FormatDegrees(Degrees(check.required->upper));
+  if (check.required) return FormatRequiredDegrees(Degrees(check.required->upper)) + "°";
   const bool decided =
       check.reason == plan::Reason::kNotForceClosure || check.reason == plan::Reason::kNotProved;
   return decided ? "none" : kNoStepValue;
@@ -76,7 +77,7 @@ std::vector<Element> MakeFingerTable(const Report& report) {
   for (std::size_t i = 0; i < report.grasp->fingers.size(); ++i) {
     const grasp::FingerFriction& finger = report.grasp->fingers[i];
     rows.emplace_back("tr", Attributes(), NumberCell(std::to_string(i)),
-                      NumberCell(FormatDegrees(Degrees(finger.required))),
+                      NumberCell(FormatRequiredDegrees(Degrees(finger.required)) + "°"),
                       NumberCell(FormatDegrees(Degrees(report.half_angle - finger.required))),
                       NumberCell(DegreesOr(finger.without, "none")));
   }

@@ -13,6 +13,7 @@
 #include "render/frames/frame_sequence.h"
 #include "render/frames/replay_animation.h"
 #include "render/picture/caption.h"
+#include "report/failure.h"
 
 namespace regrasp::report {
 
@@ -47,18 +48,7 @@ render::SheetLabel MakeLabel(const ReportStep& step) {
 
 /// The verdict in a line.
 render::SheetLabel MakeHeading(const Report& report) {
-  const auto failed = std::ranges::find_if(report.steps, Failed);
-  if (failed == report.steps.end()) {
-    const auto steps = report.steps.size() - 1;
-    if (steps == 0) return {"PASS: the hold stands", "", kGood};
-    return {"PASS: the hold and " +
-                (steps == 1 ? "the step" : "all " + std::to_string(steps) + " steps") + " stand",
-            "", kGood};
-  }
-  const int index = failed->check.index;
-  return {"FAIL at " + (index == 0 ? "the hold" : "step " + std::to_string(index)) + ": " +
-              failed->detail(),
-          "", kBad};
+  return {HeadingText(report), "", report.passed() ? kGood : kBad};
 }
 
 /// An entry that has a frame: what it shows, and what is wrong where it failed.
@@ -144,7 +134,7 @@ render::FrameRenderer MakeRenderer(const object::Object& object, const Report& r
     options.body.thickness = report.settings->thickness_m / report.settings->diameter_m;
   }
   options.finger_radius = report.finger_radius;
-  options.has_heading = !report.passed();
+  options.has_heading = !report.steps_passed();
   return {object, report.scale, report.half_angle, snapshots, options};
 }
 

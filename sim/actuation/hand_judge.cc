@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "planner/kinematics/finger_kinematics.h"
@@ -121,10 +122,11 @@ void HandJudge::WatchObject(const Isometry3d& planned, double share, double& off
   const bool by_length = off / most_m >= turned / most_rad;
   const std::string number =
       by_length ? FormatLength(off, 2) + " off" : FormatDegrees(Degrees(turned)) + " off";
-  const std::string limit = by_length ? FormatLength(most_m) : FormatDegrees(Degrees(most_rad));
+  const auto [value, limit] = by_length
+                                  ? FormatLengthWithLimit(off, most_m)
+                                  : FormatDegreesWithLimit(Degrees(turned), Degrees(most_rad));
   Fail(Reason::kObjectMoved,
-       "the object is " + (by_length ? FormatLength(off) : FormatDegrees(Degrees(turned))) +
-           " from where the plan has it, of " + limit + " allowed",
+       "the object is " + value + " from where the plan has it, of " + limit + " allowed",
        {.number = number, .pose = planned});
 }
 
@@ -156,11 +158,10 @@ void HandJudge::WatchContact(FingerIndex f) {
          {"no force", {f}, {{f, joints}}, world_.tip(f)});
   } else {
     const std::string how = state.slides_to_O ? " off its way" : " slipped";
+    const auto [value, limit] = FormatLengthWithLimit(slip, tolerance_.slip_m);
     Fail(Reason::kSlipped,
-         name +
-             (state.slides_to_O ? " is " + FormatLength(slip) + " off its way"
-                                : " slipped by " + FormatLength(slip)) +
-             ", of " + FormatLength(tolerance_.slip_m) + " allowed,",
+         name + (state.slides_to_O ? " is " + value + " off its way" : " slipped by " + value) +
+             ", of " + limit + " allowed,",
          {FormatLength(slip, 2) + how, {f}, {{f, joints}}, world_.tip(f)});
   }
 }

@@ -462,6 +462,21 @@ MaybeFault Checker::CheckGoal() const {
   return GoalMissed(state_, goal);
 }
 
+/// Tells two hands apart by what they are called, and only if that is the same by their digests.
+std::string OtherHand(const kinematics::HandModel& found, const plan::HandUse& expected) {
+  constexpr std::size_t kShown = 12;
+  const auto describe = [](const std::string& name, const std::string& file) {
+    return file + " (hand " + name + ")";
+  };
+  if (found.name != expected.name || found.file != expected.file) {
+    return "the plan is for another hand, expected " + describe(expected.name, expected.file) +
+           ", found " + describe(found.name, found.file);
+  }
+  return "the plan is for another version of " + describe(found.name, found.file) +
+         ": the hand file, its model or a mesh differs, expected SHA-256 " +
+         expected.sha256.substr(0, kShown) + "…, found " + found.sha256.substr(0, kShown) + "…";
+}
+
 }  // namespace
 
 std::vector<plan::HandFault> CheckHand(const kinematics::HandFile& file,
@@ -471,8 +486,7 @@ std::vector<plan::HandFault> CheckHand(const kinematics::HandFile& file,
     throw InputError("--hand: the plan is for fingers without a hand; leave --hand out");
   }
   if (plan.hand->sha256 != file.hand.sha256) {
-    throw InputError(file.hand.file + ": has digest " + file.hand.sha256 +
-                     ", the plan was made for a hand with digest " + plan.hand->sha256);
+    throw InputError("--hand: " + OtherHand(file.hand, *plan.hand));
   }
   HandBody body(file);
   return Checker(body, solid, plan, options).Check();

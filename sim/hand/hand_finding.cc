@@ -7,6 +7,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/quantity_text.h"
 
 namespace regrasp::sim {
@@ -81,9 +82,16 @@ HandFinding Collision(const HandBody& body, const HandState& state, const std::v
 }
 
 /// "a comes within 0.3 mm of b", "a goes 3.2 mm into b".
-std::string NearText(const std::string& a, const std::string& b, double gap) {
-  if (gap < 0) return a + " goes " + FormatLength(-gap) + " into " + b;
-  return a + " comes within " + FormatLength(gap) + " of " + b;
+std::string NearText(const std::string& a, const std::string& b, double gap,
+                     const LimitText& text) {
+  if (gap < 0) return a + " goes " + text.value + " into " + b;
+  return a + " comes within " + text.value + " of " + b;
+}
+
+/// Sizes of a gap and of the one that is needed, metres; those below 0 are depths.
+LimitText GapText(double gap, double needed) {
+  if ((gap < 0) == (needed < 0)) return FormatLengthWithLimit(std::abs(gap), std::abs(needed));
+  return {FormatLength(std::abs(gap)), FormatLength(std::abs(needed))};
 }
 
 /// Evenly over the sphere (a spiral by the golden angle).
@@ -164,11 +172,12 @@ HandFinding GoalMissed(const HandState& last, const Isometry3d& goal) {
 HandFinding JointJumps(HandBody& body, const HandState& now, FingerIndex finger, int joint,
                        double before) {
   const double angle = now.joints[finger][joint];
-  const std::string jump = DegreesText(std::abs(angle - before));
+  const std::string jump = FormatDegreesWithLimit(Degrees(std::abs(angle - before)), 0).value;
+  const LimitText text = FormatDegreesWithLimit(Degrees(angle), Degrees(before));
   HandFinding finding = AtJoint(Reason::kHandJumps, body, now, finger, joint, jump + " off");
   finding.detail = "joint " + body.hand().fingers[finger].joints[joint].name + " of " +
-                   FingerText(body.hand(), finger) + " begins the step at " + DegreesText(angle) +
-                   ", " + jump + " from where it was (" + DegreesText(before) + ")";
+                   FingerText(body.hand(), finger) + " begins the step at " + text.value + ", " +
+                   jump + " from where it was (" + text.limit + ")";
   return finding;
 }
 
@@ -178,12 +187,14 @@ HandFinding JointOutside(HandBody& body, const HandState& state, FingerIndex fin
   const double angle = state.joints[finger][joint];
   const bool below = angle < limits.lower;
   const double limit = below ? limits.lower : limits.upper;
+  const LimitText text = FormatDegreesWithLimit(Degrees(angle), Degrees(limit));
+  const LimitText off = FormatDegreesWithLimit(Degrees(std::abs(angle - limit)), 0);
   HandFinding finding = AtJoint(Reason::kJointLimit, body, state, finger, joint,
-                                DegreesText(angle) + ", limit " + DegreesText(limit));
+                                text.value + ", limit " + text.limit);
   finding.detail = "joint " + limits.name + " of " + FingerText(body.hand(), finger) + " is at " +
-                   DegreesText(angle) + After(when) + ": " + DegreesText(std::abs(angle - limit)) +
-                   (below ? " below" : " beyond") + "; its limits are " +
-                   DegreesText(limits.lower) + " and " + DegreesText(limits.upper);
+                   text.value + After(when) + ": " + off.value + (below ? " below" : " beyond") +
+                   "; its limits are " + (below ? text.limit : DegreesText(limits.lower)) +
+                   " and " + (below ? DegreesText(limits.upper) : text.limit);
   return finding;
 }
 
@@ -207,10 +218,11 @@ HandFinding TipOff(HandBody& body, const HandState& state, FingerIndex finger,
   const kinematics::Finger& of = body.hand().fingers[finger];
   const Vector3d found = body.TipCentre(finger);
   const double off = (found - expected).norm();
+  const auto [value, limit] = FormatLengthWithLimit(off, tolerance);
   HandFinding finding{Reason::kTipOffContact, "", {.fingers = {finger}}};
-  finding.detail = "the tip of " + FingerText(body.hand(), finger) + " is " + FormatLength(off) +
-                   " from where it touches its contact" + After(when) + "; up to " +
-                   FormatLength(tolerance) + " is taken";
+  finding.detail = "the tip of " + FingerText(body.hand(), finger) + " is " + value +
+                   " from where it touches its contact" + After(when) + "; up to " + limit +
+                   " is taken";
   plan::HandFaultPlace& place = finding.fault.hand.emplace();
   place.state = state;
   place.links = {{finger, static_cast<int>(of.joints.size())}};
@@ -242,8 +254,9 @@ HandFinding PartsCollide(HandBody& body, const HandState& state, int a, int b, d
     nearness.gap = -FreeingDistance(first, {&second, 1}, AllDirections());
   }
   HandFinding finding = Collision(body, state, {a, b}, nearness);
-  finding.detail = NearText(PartText(body, a), PartText(body, b), nearness.gap) + After(when) +
-                   "; the clearance is " + FormatLength(clearance);
+  const LimitText text = GapText(nearness.gap, clearance);
+  finding.detail = NearText(PartText(body, a), PartText(body, b), nearness.gap, text) +
+                   After(when) + "; the clearance is " + text.limit;
   return finding;
 }
 
@@ -257,9 +270,11 @@ HandFinding PartMeetsObject(HandBody& body, const HandState& state, int part,
   if (nearness.gap < 0 && !ways.empty()) nearness.gap = -FreeingDistance(solid, surface, ways);
   nearness.at = state.pose * nearness.at;
   HandFinding finding = Collision(body, state, {part}, nearness);
-  finding.detail = NearText(PartText(body, part), "the object", nearness.gap) + After(when) + "; " +
-                   (needed < 0 ? "a tip that touches may be " + FormatLength(-needed) + " in it"
-                               : "the clearance is " + FormatLength(needed));
+  const LimitText text = GapText(nearness.gap, needed);
+  finding.detail = NearText(PartText(body, part), "the object", nearness.gap, text) + After(when) +
+                   "; " +
+                   (needed < 0 ? "a tip that touches may be " + text.limit + " in it"
+                               : "the clearance is " + text.limit);
   return finding;
 }
 

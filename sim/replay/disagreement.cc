@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "planner/criteria/clearance.h"
@@ -61,10 +62,10 @@ class ReplayFault {
       for (const plan::FingerContact& held : grasp) {
         const double away = step_.object.DistanceToBorder(held.contact.face, held.contact.p);
         if (away >= slip) continue;
+        const auto [border, most] = FormatLengthWithLimit(Metres(away), Metres(slip));
         return Disagreement{.cause = Cause::kEdge,
-                            .text = Finger(held.finger) + " stands " + FormatLength(Metres(away)) +
-                                    " from the border of its face, and may slip " +
-                                    FormatLength(Metres(slip)),
+                            .text = Finger(held.finger) + " stands " + border +
+                                    " from the border of its face, and may slip " + most,
                             .values = {{"finger", held.finger},
                                        {"border_m", Metres(away)},
                                        {"allowed_slip_m", Metres(slip)}}};
@@ -127,10 +128,10 @@ class ReplayFault {
       const auto carried =
           grasp::ComputeLargestLoad(plan::ContactsOf(grasp), frame_, half_angle_, {}, down, 1);
       if (!carried || carried->upper >= weight) continue;
+      const auto [load, most] = FormatWithLimit(weight, carried->lower, 4);
       return Disagreement{.cause = Cause::kWeight,
-                          .text = "the squeeze does not carry the weight: the weight is " +
-                                  FormatShort(weight) + " of the squeeze, the grasp carries " +
-                                  FormatShort(carried->lower),
+                          .text = "the squeeze does not carry the weight: the weight is " + load +
+                                  " of the squeeze, the grasp carries " + most,
                           .values = {{"weight", weight}, {"carried", carried->lower}}};
     }
     return std::nullopt;
@@ -139,10 +140,11 @@ class ReplayFault {
   [[nodiscard]] Finding LookAtQuality() const {
     const double shake = step_.settings.shake;
     if (quality() >= shake) return std::nullopt;
-    return Disagreement{.cause = Cause::kQuality,
-                        .text = "the quality is below the shake: ε = " + FormatShort(quality()) +
-                                ", shake " + FormatShort(shake),
-                        .values = {{"quality", quality()}, {"shake", shake}}};
+    const auto [reached, needed] = FormatWithLimit(quality(), shake, 4);
+    return Disagreement{
+        .cause = Cause::kQuality,
+        .text = "the quality is below the shake: ε = " + reached + ", shake " + needed,
+        .values = {{"quality", quality()}, {"shake", shake}}};
   }
 
   /// A grasp above the shake that is below it once it carries the weight.
@@ -154,11 +156,11 @@ class ReplayFault {
           grasp::ComputeLargestLoad(rest, frame_, half_angle_, Weight(), PushWrench(push, 1), 1);
       if (left && left->upper >= step_.settings.shake) continue;
       const double least = left ? left->lower : 0;
+      const auto [resisted, needed] = FormatWithLimit(least, step_.settings.shake, 4);
       return Disagreement{.cause = Cause::kWeight,
                           .text = "beside the weight, " + FormatShort(Weight().force.norm()) +
-                                  " of the squeeze, the grasp resists " + FormatShort(least) +
-                                  " in " + PushName(push) + ", less than the shake of " +
-                                  FormatShort(step_.settings.shake),
+                                  " of the squeeze, the grasp resists " + resisted + " in " +
+                                  PushName(push) + ", less than the shake of " + needed,
                           .values = {{"weight", Weight().force.norm()},
                                      {"resisted", least},
                                      {"shake", step_.settings.shake}}};
@@ -222,12 +224,12 @@ Disagreement ExplainAnalysis(const ExaminedStep& step) {
     return {.cause = Cause::kNotSimulated,
             .text = "the replay goes by the normals of facets, not by those of patches"};
   }
+  const LimitText text = FormatRequiredDegrees(Degrees(required), Degrees(half_angle));
   const bool near = step.settings.mu >= kNearCritical * std::tan(required);
   return {.cause = near ? Cause::kCriticalFriction : Cause::kUnknown,
           .text = std::string(near ? "the friction is hardly below the critical one"
                                    : "no cause found") +
-                  ": half-angle " + FormatDegrees(Degrees(half_angle)) + ", required " +
-                  FormatDegrees(Degrees(required)),
+                  ": half-angle " + text.limit + "°, required " + text.value + "°",
           .values = {{"half_angle_deg", Degrees(half_angle)},
                      {"required_half_angle_deg", Degrees(required)}}};
 }

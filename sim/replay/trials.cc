@@ -31,6 +31,9 @@ double DrawFactor(double error, RandomStream& random) {
 
 double TrialSummary::share() const { return static_cast<double>(passed) / options.count; }
 
+// Both sides are the doubles nearest to a share: 93 of 100 is enough for 0.93.
+bool TrialSummary::enough() const { return share() >= options.min_pass_rate; }
+
 ShareInterval TrialSummary::interval() const {
   return ComputeShareInterval(passed, options.count, kTrialConfidence);
 }

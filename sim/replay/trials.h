@@ -30,6 +30,8 @@ struct TrialOptions {
   /// Standard deviation of what a joint's angle is off from what the hand believes, radians; of
   /// replays by a hand alone (sim/actuation/hand_trials.h).
   std::optional<double> joint_noise = std::nullopt;
+  /// Smallest share of trials that must pass for the plan to pass, in (0, 1].
+  double min_pass_rate = 1;
 };
 
 /// The world's friction and mass over what the hand believes.
@@ -46,6 +48,8 @@ struct TrialSummary {
   std::map<plan::EntryIndex, int> steps;  ///< how many failed in each entry, the first that fails
 
   [[nodiscard]] double share() const;
+  /// Whether the share is at least `options.min_pass_rate`.
+  [[nodiscard]] bool enough() const;
   /// Of the share, at kTrialConfidence.
   [[nodiscard]] ShareInterval interval() const;
 };

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 #include "sim/world/cone_margin.h"
 
 namespace regrasp::sim {
@@ -80,7 +80,7 @@ void MotionMonitor::AddSlip(FingerIndex finger, double slip_m) {
     slipped_finger_ = finger;
     slipped_ = phase_;
   }
-  if (finger == slipped_finger_) slip_now_ = slip_m;
+  if (finger == slipped_finger_) slip_now_ = std::max(slip_now_, slip_m);
 }
 
 void MotionMonitor::AddGap(FingerIndex finger, double gap_m) {
@@ -88,7 +88,7 @@ void MotionMonitor::AddGap(FingerIndex finger, double gap_m) {
     lost_finger_ = finger;
     lost_ = phase_;
   }
-  if (finger == lost_finger_) gap_now_ = gap_m;
+  if (finger == lost_finger_) gap_now_ = std::max(gap_now_, gap_m);
 }
 
 void MotionMonitor::AddForce(FingerIndex finger, const Eigen::Vector3d& force,
@@ -132,16 +132,21 @@ FingerIndex MotionMonitor::finger() const {
 }
 
 std::string MotionMonitor::MotionText() const {
-  return "moved by " + FormatLength(displacement_) + " and turned by " +
+  const double limit = settings_.tolerance * settings_.diameter_m;
+  return "moved by " + FormatLengthWithLimit(displacement_, limit).value + " and turned by " +
          FormatShort(Degrees(rotation_), kAngleDigits) + "°";
 }
 
 std::string MotionMonitor::detail() const {
   switch (reason()) {
     case plan::Reason::kContactLost:
-      return Name(lost_finger_) + " came " + FormatLength(gap_now_) + " off the surface " + *lost_;
+      return Name(lost_finger_) + " came " +
+             FormatLengthWithLimit(gap_now_, kLostGap * settings_.diameter_m).value +
+             " off the surface " + *lost_;
     case plan::Reason::kSlipped:
-      return Name(slipped_finger_) + " slipped by " + FormatLength(slip_now_) + " " + *slipped_;
+      return Name(slipped_finger_) + " slipped by " +
+             FormatLengthWithLimit(slip_now_, settings_.tolerance * settings_.diameter_m).value +
+             " " + *slipped_;
     case plan::Reason::kObjectMoved:
       return unrest_ ? "the object did not come to rest " + *object_moved_ + ": it " + MotionText()
                      : "the object " + MotionText() + " " + *object_moved_;

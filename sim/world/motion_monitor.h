@@ -46,8 +46,8 @@ class MotionMonitor {
 
   /// kNone, or the first of contact-lost, slipped and object-moved that applies.
   [[nodiscard]] plan::Reason reason() const;
-  /// What the reason is, with its number now and when it was seen first: "finger 2 slipped by
-  /// 300 µm during the align"; empty where there is none.
+  /// What the reason is, with its largest number so far and when it was seen first: "finger 2
+  /// slipped by 300 µm during the align"; empty where there is none.
   [[nodiscard]] std::string detail() const;
   /// The finger that lost its contact or slipped first; not valid where the reason is another.
   [[nodiscard]] FingerIndex finger() const;
@@ -76,7 +76,7 @@ class MotionMonitor {
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();
   std::string phase_;
   double displacement_ = 0, rotation_ = 0, moved_ = 0, moved_now_ = 0, give_ = 0, slip_ = 0;
-  double slip_now_ = 0, gap_now_ = 0;  ///< of slipped_finger_ and lost_finger_
+  double slip_now_ = 0, gap_now_ = 0;  ///< largest of slipped_finger_ and lost_finger_
   bool giving_ = false;
   bool unrest_ = false;  ///< the object moved in that it did not come to rest
   /// By finger: the largest tangential over its normal force, squared.

@@ -480,6 +480,27 @@ class Batch(ProgramCase):
         self.assertEqual(count(1), 3)
         self.assertEqual(count(1), 4)
 
+    def test_failures_that_are_kept_are_printed_as_new_ones(self):
+        self.use_few()
+        said = [sorted(line for line in self.run_batch(1, *more).stderr.splitlines()
+                       if " fails: " in line) for more in ((), (), ("--quiet",), ("--fresh",))]
+        self.assertTrue(said[0])
+        self.assertRegex(said[0][0], r"^validate: \w+: step \d+ .* fails: .*; why: .*; what would mend")
+        for again in said[1:]:
+            self.assertEqual(again, said[0])
+
+    def test_plans_in_subfolders_are_named_and_not_validated(self):
+        self.use(["square_01.json", "square_02.json"])
+        os.mkdir(self.path("plans/more"))
+        os.rename(self.path("plans/square_02.json"), self.path("plans/more/square_02.json"))
+        done = self.run_batch(0)
+        self.assertIn("skipped: more/ is a subfolder with 1 plan; subfolders are not searched",
+                      done.stdout)
+        os.remove(self.path("plans/square_01.json"))
+        self.assert_refused(2, ["plans: no plan found", "more/ is a subfolder with 1 plan",
+                                "; help: give --plan plans/more"],
+                            "--object", self.model(""), "--plan", "plans", "--out", "none")
+
     def test_no_result_that_was_edited_is_kept(self):
         self.use(["square_01.json"])
         arguments = ["--object", self.model("square.wkt"), "--plan", "plans", "--out", "result",
@@ -729,7 +750,7 @@ class Batch(ProgramCase):
                 self.assert_refused(2, words, *arguments)
                 refused += 1
         os.mkdir(self.path("nothing"))
-        self.assert_refused(2, "holds no plan", *models, "--plan", "nothing")
+        self.assert_refused(2, "nothing: no plan found", *models, "--plan", "nothing")
         self.assertGreater(refused, 10)
 
     def test_says_when_the_folder_cannot_be_written(self):

@@ -6,6 +6,7 @@ import json
 import math
 import os
 import re
+import shutil
 
 import xml.etree.ElementTree
 
@@ -152,7 +153,9 @@ class Gait(ProgramCase):
             done, report = self.validate(plan, *by_hand, "--no-frames", "--trials", "3",
                                          "--position-noise", noise, "--joint-noise", noise,
                                          "--friction-error", "0", "--mass-error", "0")
-            self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
+            expected = (0, "pass") if passed else (1, "fail")
+            self.assertEqual((done.returncode, report["verdict"]), expected, done.stderr)
+            self.assertEqual({step["verdict"] for step in report["steps"]}, {"pass"})
             trials = report["trials"]
             self.assertEqual((trials["count"], trials["passed"]), (3, passed))
             self.assertEqual(trials["joint_noise_deg"], float(noise))
@@ -166,7 +169,8 @@ class Gait(ProgramCase):
             more = ("--no-frames", "--tip", tip, "--trials", "2", "--trajectory", tip + ".csv",
                     "--export-mjcf", tip)
             done, report = self.validate(plan, *by_hand, *more)
-            self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
+            self.assertEqual({step["verdict"] for step in report["steps"]}, {"pass"})
+            self.assertEqual(done.returncode, 0 if report["trials"]["passed"] == 2 else 1)
             self.assertEqual(report["settings"]["hand"]["tip"], tip)
             self.assertEqual(report["trials"]["count"], 2)
             reports[tip] = report
@@ -541,6 +545,11 @@ class Gait(ProgramCase):
                             "--planner", "gait", "--start", "random", "--goal", "random")
         self.assert_refused(2, "--start is required", "--object", self.model("cube.obj"), "--mu",
                             "0.5", "--output", "plan.json")
+        for option, value in (("--turn", "z 90"), ("--goal-pose", "0 0 0.1 1 0 0 0"),
+                              ("--start-pose", "0 0 0.1 1 0 0 0"), ("--clearance", "0.002"),
+                              ("--reserve", "none")):
+            self.assert_refused(2, f"{option} requires --hand", "--object", self.model("cube.obj"),
+                                "--mu", "0.5", "--output", "plan.json", option, value)
         self.assert_refused(2, "no planar objects", "--object", self.model("square.wkt"), "--mu",
                             "0.5", "--output", "plan.json", "--hand", self.hand("ring4"), "--turn",
                             "z 90")
@@ -582,9 +591,38 @@ class Gait(ProgramCase):
             names = [name for name in os.listdir(self.path("result")) if "_move" in name]
             self.assertEqual(bool(names), more != ("--no-frames",))
 
+    def test_no_result_is_reused_after_a_change_of_the_hand_or_its_model(self):
+        os.mkdir(self.path("hands"))
+        os.mkdir(self.path("plans"))
+        for name in ("ring4.json", "ring4.xml"):
+            shutil.copy(self.model(os.path.join("hands", name)), self.path("hands"))
+        plan = self.plan_in_hand()
+        self.write_json("plans/one.json", plan)
+        self.write("plans.jsonl", json.dumps(plan) + "\n")
+        model = self.read("hands/ring4.xml")
+        # A blank more is another model, for which the plan was not made.
+        for bytes_now, code, word in ((model, 0, "1 pass"), (model, 0, "1 kept"),
+                                      (model + b" ", 2, "bad-input"), (model, 0, "1 pass"),
+                                      (model, 0, "1 kept")):
+            self.write("hands/ring4.xml", bytes_now)
+            for plans, out in (("plans", "folder"), ("plans.jsonl", "lines")):
+                done = self.run_program(
+                    "--object", self.model("cube.obj"), "--plan", plans, "--hand",
+                    "hands/ring4.json", "--replay", "points", "--frames", "none", "--out", out,
+                    program="validate")
+                self.assertEqual(done.returncode, code, done.stderr)
+                said = done.stdout.splitlines()[-1] if plans == "plans" else done.stderr
+                # A folder's results are gone once they were bad input; a line's are replaced.
+                self.assertIn(word, said)
+                if code == 2:
+                    self.assertNotIn("kept", said)
+                    self.assertIn("another version of ring4.json (hand ring4): the hand file, its "
+                                  "model or a mesh differs", done.stderr)
+
     def test_another_hand_is_refused(self):
         self.write_json("plan.json", self.plan_in_hand())
-        self.assert_refused(2, "the plan was made for a hand with digest", "--object",
+        self.assert_refused(2, "--hand: the plan is for another hand, expected ring4.json (hand ring4), "
+                            "found ring5.json (hand ring5)", "--object",
                             self.model("cube.obj"), "--plan", "plan.json", "--hand",
                             self.hand("ring5"), program="validate")
 

@@ -44,6 +44,23 @@ class Lines(ProgramCase):
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 
+    def unseal(self, line):
+        """Takes away what a run is recognized by."""
+        for key in ("inputs_sha256", "line_sha256"):
+            self.assertRegex(line.pop(key), "^[0-9a-f]{64}$")
+
+    def copy_objects(self):
+        """Of the queries, in a folder that may be changed."""
+        os.mkdir(self.path("objects"))
+        for name in ("cube.obj", "square.wkt", "stone.obj"):
+            shutil.copy(self.model(name), self.path("objects"))
+
+    def validate_copies(self, plans, *options, code=0):
+        done = self.run_program("--object", "objects", "--plan", plans, "--out", "out", *options,
+                                program="validate")
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
     def merge(self, output, *shards):
         return self.assert_done("--shards", *shards, "--output", output, program="merge")
 
@@ -71,11 +88,13 @@ class Lines(ProgramCase):
                              "--output", "one.json", program="plan")
             self.assertEqual(plans[i].pop("query"), i + 1)
             plans[i].pop("warnings", None)
+            self.unseal(plans[i])
             self.assertEqual(plans[i], json.loads(self.read("one.json")))
             self.assert_done("--object", self.model(""), "--plan", "one.json", "--no-frames", "--out",
                              "one", program="validate")
             one = json.loads(self.read("one/report.json"))
             self.assertEqual(reports[i].pop("query"), i + 1)
+            self.unseal(reports[i])
             self.assertEqual(reports[i]["steps"], one["steps"])
             self.assertEqual({**reports[i], "plan": None},
                              {**{k: v for k, v in one.items() if k != "run"}, "plan": None})
@@ -122,6 +141,137 @@ class Lines(ProgramCase):
         self.assertNotIn("kept", self.validate("plans.jsonl", "killed").stderr)
         self.assertEqual(self.read("killed/reports.jsonl"), self.read("whole/reports.jsonl"))
 
+    def test_only_what_is_the_same_is_reused(self):
+        self.copy_objects()
+        self.write_lines("queries.jsonl", self.queries(12))
+        self.plan("plans.jsonl")
+        self.assertIn("12 pass; ", self.validate_copies("plans.jsonl").stderr)
+
+        def check(kept, counts, *options, plans="plans.jsonl", code=0):
+            said = self.validate_copies(plans, *options, code=code).stderr.splitlines()[-1]
+            self.assertIn(counts, said)
+            if kept:
+                self.assertIn(f"; {kept} kept from an earlier run", said)
+            else:
+                self.assertNotIn("kept", said)
+            fresh = self.read("out/reports.jsonl")
+            self.run_program("--object", "objects", "--plan", plans, "--out", "fresh", "--fresh",
+                             *options, program="validate")
+            self.assertEqual(fresh, self.read("fresh/reports.jsonl"))
+
+        check(12, "12 pass")
+        whole = self.read("plans.jsonl")
+        # A line that is edited under the same header, so that it fails.
+        lines = whole.splitlines(keepends=True)
+        plan = json.loads(lines[5])
+        plan["friction"]["half_angle_deg"] = 0.5
+        lines[5] = (json.dumps(plan) + "\n").encode()
+        self.write("plans.jsonl", b"".join(lines))
+        check(11, "11 pass, 1 fail", code=1)
+        check(12, "11 pass, 1 fail", code=1)
+        self.write("plans.jsonl", whole)
+        check(11, "12 pass")
+        # A blank at the end of a line is another line.
+        lines = whole.splitlines()
+        lines[7] += b" "
+        self.write("plans.jsonl", b"\n".join(lines) + b"\n")
+        check(11, "12 pass")
+        self.write("plans.jsonl", whole)
+        check(11, "12 pass")
+        # An object that is another one, or gone: its plans are bad input in every run.
+        cube = self.read("objects/cube.obj")
+        for _ in range(2):
+            self.write("objects/cube.obj", cube.replace(b"v ", b"v  ", 1))
+            check(8, "8 pass, 4 bad-input", code=2)
+        os.remove(self.path("objects/cube.obj"))
+        check(8, "8 pass, 4 bad-input", code=2)
+        self.write("objects/cube.obj", cube)
+        check(8, "12 pass")
+        # Options: all.
+        check(0, "12 pass", "--density", "900")
+        check(12, "12 pass", "--density", "900", "--jobs", "1")
+        check(0, "12 pass", "--density", "900.0")
+        check(0, "12 pass")
+        # Lines of Windows.
+        self.write("plans.jsonl", whole.replace(b"\n", b"\r\n"))
+        check(12, "12 pass")
+
+    def test_another_build_reuses_nothing(self):
+        self.write_lines("queries.jsonl", self.queries(3))
+        self.plan("plans.jsonl")
+        self.validate("plans.jsonl", "out")
+        with open(os.path.join(program_case.ARGUMENTS.programs, "validate"), "rb") as file:
+            program = bytearray(file.read())
+        # The first byte of the build id, behind its note's header: sizes, type and owner.
+        program[program.index(b"\x04\0\0\0\x14\0\0\0\x03\0\0\0GNU\0") + 16] ^= 1
+        os.chmod(self.write("validate", bytes(program)), 0o755)
+        for kept in (False, True):
+            done = subprocess.run(
+                [self.path("validate"), "--object", self.model(""), "--plan", "plans.jsonl", "--out",
+                 "out"], cwd=self.folder, capture_output=True, text=True, check=True,
+                timeout=program_case.HANG_SECONDS)
+            self.assertEqual("3 kept" in done.stderr, kept, done.stderr)
+
+    def test_results_that_were_edited_are_made_again(self):
+        self.write_lines("queries.jsonl", self.queries(6))
+        self.plan("plans.jsonl")
+        self.validate("plans.jsonl", "out")
+        whole = self.read("out/reports.jsonl")
+        lines = whole.splitlines(keepends=True)
+        for name, edited, kept in (
+                ("a verdict", lines[3].replace(b'"pass"', b'"fail"', 1), 5),
+                ("a number", lines[3].replace(b'"required_half_angle_deg":', b'"required_half_angle_deg":1', 1), 5),
+                ("a digest", lines[3].replace(b'"inputs_sha256":"', b'"inputs_sha256":"0'), 5),
+                ("cut", lines[3][:-9], 4), ("twice", lines[3] + lines[3], 6),
+                ("nothing", b"", 5), ("another entry's", lines[2], 5), ("zeros", bytes(64) + b"\n", 5)):
+            self.write("out/reports.jsonl", b"".join([*lines[:3], edited, *lines[4:]]))
+            done = self.validate("plans.jsonl", "out")
+            with self.subTest(name=name):
+                self.assertEqual(self.read("out/reports.jsonl"), whole)
+                self.assertIn("6 pass", done.stderr)
+                self.assertIn(f"; {kept} kept", done.stderr)
+        self.assertEqual(os.listdir(self.path("out")), ["reports.jsonl"])
+
+    def test_a_corrected_command_answers_nothing_from_the_wrong_one(self):
+        self.write_lines("queries.jsonl", self.queries(15))
+        base = ("--object", self.model(""), "--batch", "queries.jsonl", "--mu", "0.5", "--output",
+                "plans.jsonl", "--jobs", "2")
+        seen = set()
+        start = ["--start", "random"]
+        goal = ["--goal", "random"]
+        for ends, code, counts in (
+                ([], 2, "15 bad-input"), (start, 2, "15 bad-input"), ([*start, *goal], 0, "15 plan"),
+                (["--start", "random-any", *goal], 0, "15 plan"),
+                ([*start, "--goal", "random-any"], 0, "15 plan"),
+                (["--start", "randm", *goal], 2, "15 bad-input"), ([*start, *goal], 0, "15 plan")):
+            done = self.run_program(*base, *ends)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(counts, done.stderr.splitlines()[-1])
+            self.assertNotIn("kept", done.stderr)
+            seen.add(self.lines("plans.jsonl")[0]["run"])
+            self.validate("plans.jsonl", "out")
+            last = self.lines("out/reports.jsonl")
+            self.assertEqual({line.get("verdict") for line in last[1:]},
+                             {"pass" if counts == "15 plan" else "no-plan"})
+        self.assertEqual(len(seen), 6, "the first and the last of two equal commands have one run")
+        self.assertIn("15 kept", self.run_program(*base, *start, *goal).stderr)
+
+    def test_failures_that_are_reused_are_printed_again(self):
+        self.write_lines("queries.jsonl", self.queries(6))
+        self.plan("plans.jsonl")
+        _, *plans = self.lines("plans.jsonl")
+        for plan in plans[::2]:
+            plan["friction"]["half_angle_deg"] = 0.5
+        self.write_lines("plans.jsonl", [*plans, "{"])
+        said = [sorted(self.validate("plans.jsonl", "out", *more, code=2).stderr.splitlines())
+                for more in ((), (), ("--quiet",))]
+        failures = [line for line in said[0] if "fails: " in line]
+        self.assertEqual(len(failures), 3)
+        self.assertIn("6 kept", "".join(said[1]))
+        for again in said[1:]:
+            self.assertEqual([line for line in again if ": line " in line],
+                             [line for line in said[0] if ": line " in line])
+
     def test_a_part_of_another_run_is_not_touched(self):
         self.write_lines("queries.jsonl", self.queries(3))
         self.plan("plans.jsonl")
@@ -135,7 +285,10 @@ class Lines(ProgramCase):
 
     def test_a_bad_line_is_named_and_stops_no_other(self):
         good = {"object": {"file": "cube.obj"}, "seed": 1, "note": "a member of the user's own"}
-        bad = [("{", "not JSON"), ("", "not JSON"), ("[1]", "expected an object"),
+        bad = [("{", "not JSON"), ("", "not JSON"), ("[1]", "expected a JSON object"),
+               ({"object": "cube.obj"}, "/object: expected a JSON object that names the file, found "
+                '"cube.obj"; help: write {"object": {"file": "cube.obj"}}'),
+               ({"object": 7}, "/object: expected a JSON object that names the file, found 7"),
                ({"seed": 1}, "/object/file: there is no file"),
                ({"object": {"file": "gone.obj"}}, '/object/file: there is no file "gone.obj"'),
                ({**good, "seed": -1}, "/seed"),
@@ -150,7 +303,8 @@ class Lines(ProgramCase):
                 "/object: unknown member fil; did you mean file?"),
                ({**good, "start": {"format": "regrasp-grasp"}}, '/start: "version" is missing'),
                ({"object": {"file": "cube.obj", "sha256": "0" * 64}},
-                f"/object/sha256: the query is for an object with digest {'0' * 64}")]
+                f"/object/sha256: the query is for another file, expected cube.obj (SHA-256 "
+                f"{'0' * 12}…), found ")]
         self.write_lines("queries.jsonl", [good, *(query for query, _ in bad), good])
         done = self.plan("plans.jsonl", code=2)
         said = done.stderr.splitlines()
@@ -164,9 +318,9 @@ class Lines(ProgramCase):
             self.assertIn(f"queries.jsonl: line {i + 2}: ", nothing[i]["message"])
             self.assertIn(words, nothing[i]["message"])
             self.assertIn("plan: " + nothing[i]["message"], said)
-        self.assertIn("2 plan, 16 bad-input", said[-1])
+        self.assertIn(f"2 plan, {len(bad)} bad-input", said[-1])
         # What has no plan is passed on, and is no fault of the plans.
-        self.assertIn("2 pass, 16 no-plan", self.validate("plans.jsonl", "out").stderr)
+        self.assertIn(f"2 pass, {len(bad)} no-plan", self.validate("plans.jsonl", "out").stderr)
 
     def test_messages_of_many_bad_lines_are_few(self):
         self.write_lines("queries.jsonl", ["{"] * 100)
@@ -207,6 +361,7 @@ class Lines(ProgramCase):
                          "--output", "one.json")
         plan = self.lines("plans.jsonl")[1]
         plan.pop("query")
+        self.unseal(plan)
         self.assertEqual(plan, json.loads(self.read("one.json")))
 
     def test_objects_are_found_by_their_digests(self):
@@ -230,8 +385,8 @@ class Lines(ProgramCase):
         done = self.run_program("--object", "objects", "--plan", "bad.jsonl", "--out", "bad",
                                 program="validate")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("validate: bad.jsonl: line 1: /object/sha256: the plan was made for an object "
-                      "with digest 000", done.stderr)
+        self.assertIn("validate: bad.jsonl: line 1: /object/sha256: the plan is for another object "
+                      "file, expected again.obj (SHA-256 000000000000…), found objects", done.stderr)
 
     def test_failing_plans_have_frames_where_that_is_asked(self):
         self.write_lines("queries.jsonl", self.queries(3))

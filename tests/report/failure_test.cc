@@ -7,6 +7,7 @@
 #include <string>
 
 #include "planner/base/angle.h"
+#include "planner/base/limit_text.h"
 #include "report/squeeze_text.h"
 
 namespace regrasp::report {
@@ -46,6 +47,49 @@ TEST(Failure, IsTheFirstStepThatFailsAndAPlanThatPassesHasNone) {
   EXPECT_EQ(FormatFailure(report), "");
 }
 
+TEST(Failure, OfAPlanWhoseStepsPassAreTheTrialsThatFail) {
+  Report report = FailingFor(Reason::kNone, 3);
+  for (ReportStep& step : report.steps) step.replay.emplace();
+  EXPECT_TRUE(report.passed());
+  report.trials.emplace();
+  sim::TrialSummary& trials = *report.trials;
+  trials.options.count = 20;
+  trials.passed = 20;
+  EXPECT_TRUE(report.passed());
+  EXPECT_EQ(VerdictHeadline(report), "");
+  trials.passed = 14;
+  trials.reasons = {{Reason::kSlipped, 6}};
+  trials.steps = {{plan::EntryIndex(1), 6}};
+  EXPECT_FALSE(report.passed());
+  EXPECT_TRUE(report.steps_passed());
+  const auto failure = DescribeFailure(report);
+  ASSERT_TRUE(failure);
+  EXPECT_FALSE(failure->entry.valid());
+  EXPECT_EQ(failure->headline(),
+            "trials-failed: 6 of 20 trials with noise fail: 6 slipped; first in step 1: 6");
+  EXPECT_EQ(failure->why, "14 of 20 trials pass (70 %), and --min-pass-rate requires 100 %");
+  EXPECT_THAT(failure->mend, Not(HasSubstr("--min-pass-rate"))) << "loosens the test";
+  EXPECT_EQ(VerdictHeadline(report), failure->headline());
+  EXPECT_EQ(HeadingText(report),
+            "FAIL: 6 of 20 trials with noise fail: 6 slipped; first in step 1: 6");
+  trials.options.min_pass_rate = 0.7;
+  EXPECT_TRUE(report.passed());
+  EXPECT_FALSE(DescribeFailure(report));
+  EXPECT_EQ(VerdictHeadline(report), "pass in 14 of 20 trials");
+  EXPECT_EQ(HeadingText(report), "PASS in 14 of 20 trials: the hold and the step stand");
+  report.trials.reset();
+  EXPECT_EQ(HeadingText(report), "PASS: the hold and the step stand");
+}
+
+TEST(Failure, NamesTheRequiredFrictionOnceAndInTheSameDigits) {
+  for (const double required : {5.3201, 5.3249, 5.3299, 6.0004, 6.004}) {
+    const Report report = FailingFor(Reason::kNotForceClosure, required);
+    const std::string number = FormatRequiredDegrees(required, 6).value;
+    EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--friction-angle " + number + " "));
+    if (required > 6) EXPECT_GT(std::stod(number), 6);
+  }
+}
+
 TEST(Failure, SaysForEveryReasonWhatItIsHeldAgainstAndWhatWouldMendIt) {
   std::set<std::string> said;
   for (Reason reason = Reason::kOffSurface; reason <= Reason::kGoalNotReached;
@@ -63,7 +107,7 @@ TEST(Failure, AsksForTheFrictionThatIsNeededRoundedUp) {
   EXPECT_THAT(DescribeFailure(FailingFor(Reason::kNotForceClosure, 7.3312))->mend,
               HasSubstr("--friction-angle 7.34 or --mu 0.129;"));
   EXPECT_THAT(DescribeFailure(FailingFor(Reason::kNotForceClosure, 45))->mend,
-              HasSubstr("--friction-angle 45 or --mu 1;"));
+              HasSubstr("--friction-angle 45.00 or --mu 1;"));
   Report none = FailingFor(Reason::kNotForceClosure, 45);
   none.steps[1].check.required.reset();
   EXPECT_THAT(DescribeFailure(none)->mend, Not(HasSubstr("--mu")));

@@ -305,5 +305,51 @@ TEST(VerdictText, OfAFailedStepSaysWhy) {
   EXPECT_EQ(VerdictText(step), "skipped");
 }
 
+/// All steps pass, and some of 20 trials.
+Report MakeTrialsReport(int passed, double min_pass_rate) {
+  Report report = MakeReport();
+  sim::TrialSummary& trials = report.trials.emplace();
+  trials.options.count = 20;
+  trials.options.min_pass_rate = min_pass_rate;
+  trials.passed = passed;
+  if (passed < 20) {
+    trials.reasons = {{plan::Reason::kSlipped, 20 - passed}};
+    trials.steps = {{plan::EntryIndex(1), 20 - passed}};
+  }
+  return report;
+}
+
+TEST(ReportTest, NoVerdictOnTrialsIsAPlainPass) {
+  int checked = 0;
+  for (int passed = 0; passed <= 20; ++passed) {
+    for (const double rate : {0.05, 0.5, 0.7, 1.0}) {
+      const Report report = MakeTrialsReport(passed, rate);
+      const bool enough = passed >= std::round(20 * rate);
+      EXPECT_EQ(report.passed(), enough) << passed << " " << rate;
+      const Json json = Json::parse(FormatReportJson(report));
+      EXPECT_EQ(json["verdict"], enough ? "pass" : "fail");
+      EXPECT_EQ(json["trials"]["verdict"], json["verdict"]);
+      EXPECT_EQ(json["trials"]["min_pass_rate"], rate);
+      EXPECT_EQ(json["trials"].contains("why"), !enough);
+      const std::string table = FormatReportTable(report);
+      const std::string numbers = std::to_string(passed) + " of 20 trials";
+      const std::string failed = std::to_string(20 - passed) + " of 20 trials with noise fail: ";
+      EXPECT_THAT(table, Not(HasSubstr("verdict: pass\n")));
+      EXPECT_THAT(
+          table, EndsWith(enough ? "verdict: pass in " + numbers + "\n"
+                                 : "verdict: fail, trials-failed: " + failed +
+                                       std::to_string(20 - passed) + " slipped; first in step 1: " +
+                                       std::to_string(20 - passed) + "\n"));
+      if (!enough) EXPECT_THAT(table, StartsWith("trials-failed: " + failed));
+      const JunitSuite suite = MakeJunitSuite(report, "out");
+      ASSERT_EQ(suite.cases.size(), 4u);
+      EXPECT_EQ(suite.cases.back().outcome == JunitOutcome::kFailed, !enough);
+      EXPECT_EQ(suite.cases.back().message, enough ? "" : "trials-failed");
+      ++checked;
+    }
+  }
+  EXPECT_EQ(checked, 84);
+}
+
 }  // namespace report_test
 }  // namespace regrasp::report

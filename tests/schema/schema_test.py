@@ -369,7 +369,8 @@ class SchemaTest(unittest.TestCase):
         report = copy.deepcopy(REPORT)
         report["trials"] = {
             "count": 100, "seed": 0, "position_noise": 0.01, "friction_error": 0.1,
-            "mass_error": 0.1, "passed": 93, "share": 0.93, "confidence": 0.95,
+            "mass_error": 0.1, "min_pass_rate": 0.9, "passed": 93, "verdict": "pass",
+            "share": 0.93, "confidence": 0.95,
             "interval": [0.86, 0.97], "reasons": {"slipped": 7},
             "steps": [{"index": 1, "failed": 7}],
         }
@@ -380,6 +381,7 @@ class SchemaTest(unittest.TestCase):
             *[(["trials", key], REMOVED) for key in report["trials"]],
             *[(["steps", 0, "align_shares", key], REMOVED) for key in step["align_shares"]],
             (["trials", "count"], 0), (["trials", "share"], 1.5), (["trials", "interval"], [0.5]),
+            (["trials", "min_pass_rate"], 0), (["trials", "verdict"], "skipped"),
             (["trials", "reasons"], {"tired": 1}), (["trials", "steps"], [{"index": 1}]),
             (["steps", 0, "align_mode"], "dragged"), (["settings", "align"], "fly"),
         ])

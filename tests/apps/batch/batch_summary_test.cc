@@ -99,5 +99,34 @@ TEST(BatchSummaryTest, NamesOfAnyBytesBreakNothing) {
   EXPECT_THAT(FormatSummaryJunit(summary, "out"), HasSubstr("&quot;&lt;"));
 }
 
+TEST(BatchSummaryTest, TrialsThatFailAreNotHiddenByAPass) {
+  PlanOutcome some = Passed("some");
+  some.report->trials = ReportSummary::Trials{20, 14};
+  PlanOutcome few = Passed("few");
+  few.verdict = PlanVerdict::kFail;
+  few.report->passed = false;
+  few.report->trials =
+      ReportSummary::Trials{20, 2, "18 of 20 trials with noise fail", "it is so", "more friction"};
+  const BatchSummary summary{{Passed("good"), some, few}, {}};
+  const std::string table = FormatSummaryTable(summary);
+  EXPECT_THAT(table, HasSubstr("passes in 14 of 20 trials\n"));
+  EXPECT_THAT(table, HasSubstr("trials-failed: passes in 2 of 20 trials\n"));
+  EXPECT_THAT(table, HasSubstr("2 pass, 1 fail, 0 bad-input, 0 error; 1 pass in a part of their "
+                               "trials only\n"));
+  const Json json = Json::parse(FormatSummaryJson(summary));
+  EXPECT_EQ(json["verdict"], "fail");
+  EXPECT_FALSE(json["plans"][0].contains("trials"));
+  EXPECT_EQ(json["plans"][1]["trials"]["passed"], 14);
+  EXPECT_EQ(json["plans"][2]["reason"], "trials-failed");
+  EXPECT_TRUE(json["plans"][2]["failed_step"].is_null());
+  const std::string xml = FormatSummaryJunit(summary, "out");
+  EXPECT_THAT(xml, HasSubstr("<failure message=\"trials-failed\">18 of 20 trials with noise fail\n"
+                             "why: it is so\nwhat would mend it: more friction</failure>"));
+  const std::string page = FormatBatchPage(summary);
+  EXPECT_THAT(page, HasSubstr("<strong>Pass in 14 of 20 trials</strong>"));
+  EXPECT_THAT(page, HasSubstr("Trials: trials-failed. 18 of 20 trials with noise fail."));
+  EXPECT_THAT(page, HasSubstr("1 pass in a part of their trials only."));
+}
+
 }  // namespace batch_summary_test
 }  // namespace regrasp::apps

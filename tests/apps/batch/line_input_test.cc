@@ -57,6 +57,16 @@ TEST_F(LineInputTest, AHeaderMayFollowAByteOrderMark) {
                         "UTF-16"));
 }
 
+TEST_F(LineInputTest, LinesMayEndAsOnWindows) {
+  EXPECT_THAT(All(LinesInput(Write("a.jsonl", "one\r\n\r\ntwo\r"))),
+              ElementsAre(std::pair(1, "one"), std::pair(2, ""), std::pair(3, "two")));
+  std::string header = FormatHeader({"plans", 1, {}, "run"});
+  header.insert(header.size() - 1, "\r");
+  const LinesInput input(Write("b.jsonl", header + "a\r\n"));
+  ASSERT_TRUE(input.header());
+  EXPECT_EQ(input.header()->run, "run");
+}
+
 TEST_F(LineInputTest, AShardKeepsTheNumbersOfTheWhole) {
   const auto path = Write("a.jsonl", "a\nb\nc\nd\ne\n");
   EXPECT_THAT(All(LinesInput(path, {1, 2})), ElementsAre(std::pair(1, "a"), std::pair(2, "b")));

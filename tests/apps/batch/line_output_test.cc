@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,7 +17,16 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 std::string LineOf(std::int64_t entry) {
-  return FormatNoResult(entry, Outcome::kNoPlan, "none") + "\n";
+  return SealRecord(FormatNoResult(entry, Outcome::kNoPlan, "none"), entry, Sha256("inputs")) +
+         "\n";
+}
+
+/// Keeps what an earlier run left, as far as `accept` says.
+void Keep(
+    LinesOutput& output,
+    const LinesOutput::Accept& accept = [](std::string_view /*line*/) { return true; }) {
+  while (output.KeepNext(accept)) {
+  }
 }
 
 class LineOutputTest : public FolderTest {
@@ -62,6 +72,7 @@ TEST_F(LineOutputTest, GoesOnBehindTheLastWholeEntryWhereverAPartWasCut) {
     WriteFile(part_, whole.substr(0, length));
     {
       LinesOutput output(path_, header_, false);
+      Keep(output);
       const std::size_t left = length < header ? 0 : (length - header) / entry;
       ASSERT_EQ(output.kept(), left) << length;
       for (std::int64_t next = output.next(); next <= 3; ++next) output.Append(LineOf(next));
@@ -75,6 +86,7 @@ TEST_F(LineOutputTest, GoesOnBehindTheLastWholeEntryWhereverAPartWasCut) {
 TEST_F(LineOutputTest, WhatIsBehindALineThatIsNoneIsThrownAway) {
   WriteFile(part_, FormatHeader(header_) + LineOf(1) + "rubbish\n" + LineOf(3));
   LinesOutput output(path_, header_, false);
+  Keep(output);
   EXPECT_EQ(output.next(), 2);
   EXPECT_EQ(ReadFile(part_), FormatHeader(header_) + LineOf(1));
 }
@@ -83,6 +95,9 @@ TEST_F(LineOutputTest, AWholeFileOfTheSameRunIsKeptAndAnyOtherIsMadeAgain) {
   WriteFile(path_, Whole());
   {
     LinesOutput output(path_, header_, false);
+    for (int entry = 1; entry <= 3; ++entry) {
+      EXPECT_TRUE(output.KeepNext([](std::string_view /*line*/) { return true; }));
+    }
     EXPECT_EQ(output.next(), 4);
     output.Finish();
     EXPECT_FALSE(fs::exists(part_));
@@ -94,8 +109,12 @@ TEST_F(LineOutputTest, AWholeFileOfTheSameRunIsKeptAndAnyOtherIsMadeAgain) {
        {whole.substr(0, whole.size() - 1), whole + LineOf(4), FormatHeader(other)}) {
     WriteFile(path_, bytes);
     LinesOutput output(path_, header_, false);
-    EXPECT_EQ(output.next(), 1);
+    Keep(output);
     EXPECT_EQ(ReadFile(path_), bytes) << "the old file stays until the new one is there";
+    for (std::int64_t next = output.next(); next <= 3; ++next) output.Append(LineOf(next));
+    output.Finish();
+    EXPECT_EQ(ReadFile(path_), whole);
+    EXPECT_FALSE(fs::exists(part_));
   }
   WriteFile(path_, whole);
   LinesOutput fresh(path_, header_, true);
@@ -120,6 +139,15 @@ TEST_F(LineOutputTest, APartOfAnotherRunOrOfSomebodyElseIsNotTouched) {
   EXPECT_EQ(ReadFile(part_), "my own notes\n");
 }
 
+TEST_F(LineOutputTest, APipeInTheWayIsRefusedUnread) {
+  ASSERT_EQ(mkfifo(part_.c_str(), 0600), 0);
+  EXPECT_THAT(Refusal<InputError>(header_), HasSubstr("plans.jsonl.part: is in the way"));
+  fs::remove(part_);
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  LinesOutput output(path_, header_, false);
+  EXPECT_FALSE(output.FindEarlier(1, [](std::string_view /*line*/) { return true; }));
+}
+
 TEST_F(LineOutputTest, OneProcessAtATimeWritesIt) {
   LinesOutput output(path_, header_, false);
   output.Append(LineOf(1));
@@ -138,7 +166,72 @@ TEST_F(LineOutputTest, AProcessThatIsKilledLeavesItToTheNext) {
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFSIGNALED(status));
   LinesOutput output(path_, header_, false);
+  Keep(output);
   EXPECT_EQ(output.next(), 2);
+}
+
+TEST_F(LineOutputTest, ALineThatIsNotAcceptedIsReplacedAndThoseBehindItAreFound) {
+  for (const fs::path& path : {path_, part_}) {
+    WriteFile(path, Whole());
+    LinesOutput output(path_, header_, false);
+    const auto accept = [](std::string_view line) { return EntryOf(line) != 2; };
+    Keep(output, accept);
+    EXPECT_EQ(output.next(), 2);
+    EXPECT_FALSE(output.FindEarlier(2, accept));
+    const auto third = output.FindEarlier(3, accept);
+    ASSERT_TRUE(third);
+    EXPECT_EQ(output.kept(), 2);
+    output.Append(FormatNoResult(2, Outcome::kNoPlan, "other") + "\n" + *third + "\n");
+    output.Finish();
+    EXPECT_EQ(ReadFile(path_), FormatHeader(header_) + LineOf(1) +
+                                   FormatNoResult(2, Outcome::kNoPlan, "other") + "\n" + LineOf(3));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+    fs::remove(path_);
+  }
+}
+
+TEST_F(LineOutputTest, WhatAPartHadBehindAReplacedLineSurvivesFurtherKills) {
+  WriteFile(part_, Whole());
+  const auto accept = [](std::string_view line) { return EntryOf(line) != 1; };
+  for (int kill = 0; kill < 3; ++kill) {
+    // Killed before it wrote entry 1.
+    LinesOutput output(path_, header_, false);
+    Keep(output, accept);
+    EXPECT_FALSE(output.FindEarlier(1, accept));
+    EXPECT_EQ(ReadFile(part_), FormatHeader(header_));
+  }
+  LinesOutput output(path_, header_, false);
+  Keep(output, accept);
+  EXPECT_FALSE(output.FindEarlier(1, accept));
+  output.Append(LineOf(1));
+  for (const std::int64_t entry : {2, 3}) {
+    const auto found = output.FindEarlier(entry, accept);
+    ASSERT_TRUE(found) << entry;
+    output.Append(*found + "\n");
+  }
+  output.Finish();
+  EXPECT_EQ(ReadFile(path_), Whole());
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(LineOutputTest, AStaleWholeAndThePartOfItsReplacementAreBothSearched) {
+  const std::string stale =
+      SealRecord(FormatNoResult(1, Outcome::kNoPlan, "stale"), 1, Sha256("inputs")) + "\n";
+  WriteFile(path_, FormatHeader(header_) + stale + LineOf(2) + LineOf(3));
+  WriteFile(part_, FormatHeader(header_) + LineOf(1));
+  const auto accept = [](std::string_view line) {
+    return line.find("stale") == std::string_view::npos;
+  };
+  LinesOutput output(path_, header_, false);
+  Keep(output, accept);
+  EXPECT_EQ(output.next(), 1);
+  for (std::int64_t entry = 1; entry <= 3; ++entry) {
+    const auto found = output.FindEarlier(entry, accept);
+    ASSERT_TRUE(found) << entry;
+    output.Append(*found + "\n");
+  }
+  output.Finish();
+  EXPECT_EQ(ReadFile(path_), Whole());
 }
 
 TEST_F(LineOutputTest, EntriesComeInOrder) {

@@ -39,6 +39,7 @@ class LineRunTest : public FolderTest {
     work.group = [](const Line& line) { return line.text; };
     work.prepare = [this](const Line& line) { prepared_.push_back(line.text); };
     work.work = [this](const Line& line) { return Work(line); };
+    if (seals_) work.inputs = DigestOf;
     const fs::path path = folder_ / "out.jsonl";
     LinesInput input(input_);
     LinesOutput output(path, {"plans", input.entries(), {}, "run"}, true);
@@ -46,6 +47,8 @@ class LineRunTest : public FolderTest {
     output.Finish();
     return ReadFile(path);
   }
+
+  static std::string DigestOf(const Line& line) { return Sha256(line.text); }
 
   std::string Work(const Line& line) const {
     if (line.text.starts_with("crash")) raise(SIGSEGV);
@@ -77,6 +80,7 @@ class LineRunTest : public FolderTest {
   }
 
   std::string bad_ = "fine";
+  bool seals_ = false;
   fs::path input_;
   std::vector<std::string> messages_, prepared_;
   int progress_ = 0;
@@ -121,20 +125,22 @@ TEST_F(LineRunTest, AnEntryThatTakesTooLongIsStopped) {
 
 TEST_F(LineRunTest, GoesOnWhereAnEarlierRunWasStopped) {
   WriteInput("fine");
+  seals_ = true;
   const std::string whole = Run({2, {}, {}, {}});
   const std::size_t half = whole.find(R"({"query":50,)");
   Write("out.jsonl.part", whole.substr(0, half + 5));
   fs::remove(folder_ / "out.jsonl");
   LinesInput input(input_);
   LinesOutput output(folder_ / "out.jsonl", {"plans", kEntries, {}, "run"}, false);
-  ASSERT_EQ(output.kept(), 49);
   std::vector<std::int64_t> prepared;
   LineWork work;
+  work.inputs = DigestOf;
   work.group = [](const Line& line) { return line.name; };
   work.prepare = [&](const Line& line) { prepared.push_back(line.entry); };
   work.work = [this](const Line& line) { return Work(line); };
   EXPECT_EQ(RunLines(input, output, work, {2, {}, [](const std::string&) {}, [] {}}), 0);
   output.Finish();
+  EXPECT_EQ(output.kept(), 49);
   EXPECT_EQ(ReadFile(folder_ / "out.jsonl"), whole);
   EXPECT_EQ(prepared.front(), 50) << "what stands there already is not done again";
   EXPECT_EQ(prepared.size(), 51U);

@@ -14,8 +14,10 @@ namespace regrasp::apps {
 namespace plan_library_test {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr char kPlan[] = R"({"format": "regrasp-plan", "version": 1})";
 
@@ -93,10 +95,32 @@ TEST_F(PlanLibraryTest, TwoPlansOfOneNameAreRefused) {
 
 TEST_F(PlanLibraryTest, AFolderWithoutPlansAndNamesThatAreNoFoldersAreRefused) {
   Write("x/grasp.json", R"({"format": "regrasp-grasp"})");
-  EXPECT_THAT(Refusal({(folder_ / "x").string()}), HasSubstr("holds no plan"));
+  EXPECT_THAT(Refusal({(folder_ / "x").string()}), HasSubstr("x: no plan found, expected *.json"));
   for (const char* name : {"..json", "...json", "summary.json.json", ".regrasp-run.json"}) {
     EXPECT_THAT(Refusal({Write(name, kPlan), "other.json"}), HasSubstr("names the folder")) << name;
   }
+}
+
+TEST_F(PlanLibraryTest, PlansInSubfoldersAreNamedAndNotSearched) {
+  Write("x/a/one.json", kPlan);
+  Write("x/a/deep/two.json", kPlan);
+  Write("x/b/grasp.json", R"({"format": "regrasp-grasp"})");
+  const std::string folder = (folder_ / "x").string();
+  EXPECT_THAT(Refusal({folder}),
+              AllOf(HasSubstr("a/ is a subfolder with 2 plans; subfolders are not searched"),
+                    HasSubstr("; help: give --plan " + folder + "/a"), Not(HasSubstr("b/"))));
+  // With a plan beside them they are skipped by name.
+  Write("x/three.json", kPlan);
+  const PlanLibrary library = FindPlans({folder});
+  EXPECT_THAT(Names(library), ElementsAre("three"));
+  ASSERT_EQ(library.skipped.size(), 1u);
+  EXPECT_EQ(library.skipped[0].file, "a/");
+}
+
+TEST_F(PlanLibraryTest, AFolderWithPlansInLinesSaysHowToNameThem) {
+  Write("x/plans.jsonl", kPlan);
+  EXPECT_THAT(Refusal({(folder_ / "x").string()}),
+              HasSubstr("help: give --plan " + (folder_ / "x" / "plans.jsonl").string()));
 }
 
 }  // namespace plan_library_test

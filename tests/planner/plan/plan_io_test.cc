@@ -278,7 +278,8 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
        "plan.json: /steps/0/place/0/region: expected a number, found \"wide\""},
       {"/steps/0/place/0/region", nullptr,
        "plan.json: /steps/0/place/0/region: expected a number, found null"},
-      {"/initial", Json::array(), "plan.json: /initial: expected an object, found an array"},
+      {"/initial", Json::array(),
+       "plan.json: /initial: expected a JSON object, found a JSON array"},
       {"/goal/contacts", nullptr, "plan.json: /goal/contacts: expected an array, found null"},
   };
   int checked = 0;

@@ -219,5 +219,24 @@ TEST(StepMeasuresTest, TheMarginAtRestIsThatOfTheForceThatLeansMost) {
   EXPECT_THAT(MeasureSteps(scene.report)[1].rest_margin_deg, Optional(DoubleNear(8, 1e-12)));
 }
 
+TEST(ReportPageTest, TheVerdictOfTrialsNamesTheirNumbers) {
+  Scene scene(/*fails=*/false);
+  sim::TrialSummary& trials = scene.report.trials.emplace();
+  trials.options.count = 20;
+  trials.passed = 14;
+  trials.reasons = {{plan::Reason::kSlipped, 6}};
+  const std::string fails = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_THAT(fails, HasSubstr("<title>Fail in 6 of 20 trials: plan.json</title>"));
+  EXPECT_THAT(fails, HasSubstr("<strong>Fail in 6 of 20 trials</strong>"));
+  EXPECT_THAT(fails, HasSubstr("6 of 20 trials with noise fail: 6 slipped."));
+  EXPECT_THAT(fails, HasSubstr("--min-pass-rate requires 100 %"));
+  EXPECT_THAT(fails, Not(HasSubstr("<strong>Pass")));
+  trials.options.min_pass_rate = 0.5;
+  const std::string passes = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_THAT(passes, HasSubstr("<title>Pass in 14 of 20 trials: plan.json</title>"));
+  EXPECT_THAT(passes, HasSubstr("<strong>Pass in 14 of 20 trials</strong>"));
+  EXPECT_THAT(passes, Not(HasSubstr("<strong>Pass</strong>")));
+}
+
 }  // namespace report_page_test
 }  // namespace regrasp::report

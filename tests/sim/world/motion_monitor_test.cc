@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "planner/base/quantity_text.h"
+
 namespace regrasp::sim {
 namespace motion_monitor_test {
 
@@ -94,6 +96,29 @@ TEST(MotionMonitorTest, TellsHowFarAndWhenItWasSeenFirst) {
   monitor.AddGap(FingerIndex(3), 1e-4);
   EXPECT_EQ(monitor.detail(),
             "finger 3 came 100 µm off the surface under a push of 5.3 N along +x");
+}
+
+TEST(MotionMonitorTest, WhatExceedsTheToleranceIsNotToldEqualToIt) {
+  const ReplaySettings settings = UnitSettings();
+  const double limit = settings.tolerance * settings.diameter_m;
+  int checked = 0;
+  for (double more = 1; more > 1e-9; more /= 10) {
+    MotionMonitor monitor(settings);
+    monitor.SetPhase("now");
+    monitor.AddSlip(FingerIndex(1), limit * (1 + more));
+    monitor.AddSlip(FingerIndex(1), 0);
+    ASSERT_EQ(monitor.reason(), plan::Reason::kSlipped);
+    EXPECT_EQ(monitor.detail().find(" " + FormatLength(limit) + " "), std::string::npos)
+        << monitor.detail();
+    MotionMonitor moved(settings);
+    moved.SetPhase("now");
+    moved.Start(Pose(0, 0));
+    moved.AddPose(Pose(limit * (1 + more), 0));
+    EXPECT_EQ(moved.detail().find(" " + FormatLength(limit) + " "), std::string::npos)
+        << moved.detail();
+    ++checked;
+  }
+  EXPECT_GE(checked, 9);
 }
 
 TEST(MotionMonitorTest, TheGiveOfTheServosIsNoMotion) {
