@@ -63,7 +63,7 @@ void GrowingHull<kDim>::Start(double radius) {
 template <int kDim>
 typename GrowingHull<kDim>::Plane GrowingHull<kDim>::Nearest() {
   while (facets_[heap_.front().facet].serial != heap_.front().serial) {
-    std::ranges::pop_heap(heap_);
+    std::ranges::pop_heap(heap_, {}, &Entry::pole_squared);
     heap_.pop_back();
   }
   const int facet = heap_.front().facet;
@@ -207,7 +207,7 @@ int GrowingHull<kDim>::NewPlace() {
 template <int kDim>
 void GrowingHull<kDim>::Push(int facet) {
   heap_.push_back({facets_[facet].pole.squaredNorm(), facet, facets_[facet].serial});
-  std::ranges::push_heap(heap_);
+  std::ranges::push_heap(heap_, {}, &Entry::pole_squared);
 }
 
 template class GrowingHull<3>;

@@ -68,7 +68,6 @@ class GrowingHull {
     double pole_squared;
     int facet;
     int serial;
-    bool operator<(const Entry& other) const { return pole_squared < other.pole_squared; }
   };
 
   static constexpr int kFree = -1;

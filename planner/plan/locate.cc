@@ -65,10 +65,30 @@ std::string VectorText(const Eigen::Vector3d& v, int dimension) {
   return text + ")";
 }
 
+double SurfaceTolerance(const object::Object& object) {
+  const double diameter = object.diameter();
+  const double largest =
+      object.mass_properties().centroid.lpNorm<Eigen::Infinity>() + diameter;
+  const double lost =
+      kSinglePrecisionSteps * double{std::numeric_limits<float>::epsilon()} * largest;
+  return std::max(object::kPointTolerance * diameter,
+                  std::min(lost, kLargestPointTolerance * diameter));
+}
+
+std::string OffSurfaceText(const object::Object& object, const Eigen::Vector3d& point) {
+  const double distance =
+      (NearestContact(object, {point, Eigen::Vector3d::Zero()}).p - point).stableNorm();
+  const double tolerance = SurfaceTolerance(object);
+  const bool single = tolerance > object::kPointTolerance * object.diameter();
+  return FormatShort(distance) + " of the object file's units off the surface, " +
+         FormatShort(distance / object.diameter()) + " of the object's diameter; up to " +
+         FormatShort(tolerance / object.diameter()) + " of it counts as on it" +
+         (single ? ", the precision of float32 so far from the origin" : "");
+}
+
 LocatedContact LocateContact(const object::Object& object, const grasp::Contact& contact) {
   LocatedContact located{{contact.p, contact.n}, Reason::kNone, ""};
-  const double tolerance = object::kPointTolerance * object.diameter();
-  const std::vector<FaceIndex> faces = object.FacesNear(contact.p, tolerance);
+  const std::vector<FaceIndex> faces = object.FacesNear(contact.p, SurfaceTolerance(object));
   if (faces.empty()) {
     located.reason = Reason::kOffSurface;
     return located;
@@ -108,7 +128,7 @@ std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,
   std::vector<grasp::Contact> places;
   if (!IsUnit(contact.n)) return places;
   const std::vector<FaceIndex> faces =
-      object.FacesNear(contact.p, object::kPointTolerance * object.diameter());
+      object.FacesNear(contact.p, SurfaceTolerance(object));
   for (const auto& [angle, face] : RankFaces(faces, object, contact)) {
     if (angle <= kNormalTolerance) places.push_back(Project(object, contact, face));
   }
