@@ -25,8 +25,8 @@
 #include "planner/base/text_table.h"
 #include "planner/base/write_file.h"
 #include "planner/grasp/judge_grasps.h"
-#include "planner/plan/locate.h"
 #include "planner/plan/locate_grasps.h"
+#include "planner/plan/surface_tolerance.h"
 #include "report/report.h"
 
 namespace regrasp::apps {
@@ -227,8 +227,8 @@ std::string OffSurfaceLine(const object::Object& object, const Verdicts& verdict
   if (!verdicts.off_surface) return "";
   const OffSurface& first = *verdicts.off_surface;
   return "off-surface: grasp " + std::to_string(first.grasp) + ", contact " +
-         std::to_string(first.contact) + " (the first): " +
-         plan::OffSurfaceText(object, first.point) + "\n";
+         std::to_string(first.contact) +
+         " (the first): " + plan::OffSurfaceText(object, first.point) + "\n";
 }
 
 }  // namespace
@@ -244,8 +244,7 @@ int RunGrasps(const ValidateOptions& options) {
   progress.Report("judging " + std::to_string(table.count) + " grasps");
   Verdicts verdicts = JudgeAll(*object.object, table, options, progress);
   progress.Clear();
-  const std::string counts =
-      CountsText(verdicts) + OffSurfaceLine(*object.object, verdicts);
+  const std::string counts = CountsText(verdicts) + OffSurfaceLine(*object.object, verdicts);
   const bool passed = Count(verdicts.holds, 1) == table.count;
   std::error_code error;
   std::filesystem::create_directories(options.Folder(), error);

@@ -197,8 +197,8 @@ void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::st
   if (plan.scale != object.scale) {
     throw InputError(name + ": /object/scale: must be the scale of " + object.file.file +
                      ", expected " + FormatDouble(object.scale) + " m per unit, found " +
-                     FormatDouble(plan.scale) + "; help: read the object with scale=" +
-                     FormatDouble(plan.scale));
+                     FormatDouble(plan.scale) +
+                     "; help: read the object with scale=" + FormatDouble(plan.scale));
   }
   if (plan.at_given_points) {
     throw InputError(name + ": its contacts are at points of " + plan.object_file +

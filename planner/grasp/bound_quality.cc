@@ -1,6 +1,8 @@
 #include "planner/grasp/bound_quality.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -12,13 +14,19 @@
 namespace regrasp::grasp {
 namespace {
 
-/// Radius of the simplex that the hull starts from. A facet of the final hull that still has a
-/// corner of it is no farther away, below every gap that is refined.
-constexpr double kCore = kQualityGap / 2;
+/// Radius of the simplex that the hull starts from, over the largest force: rounding leaves the
+/// fewest traces of a simplex that is not much smaller than the wrench set. It must be smaller than
+/// ε, and is then inside the final hull.
+constexpr double kCore = 1e-3;
 
-/// Facets may miss their corners by this part of their distance: a fifth of what the corners are
-/// shrunk by at least, so that the hull stays inside the wrench set.
-constexpr double kLargestResidual = 1e-8;
+/// The radius where ε turns out to be smaller: below every gap that is refined.
+constexpr double kLeastCore = kQualityGap / 2;
+
+/// Facets may miss their corners by this part of the gap, over their distance.
+constexpr double kLargestResidual = 1e-3;
+
+/// Beyond this friction coefficient Qhull takes minutes for a set that is so flat.
+constexpr double kMostFriction = 1e3;
 
 template <int kDim>
 struct SupportPoint {
@@ -39,44 +47,71 @@ SupportPoint<kDim> FarthestWrench(const UnitContacts& contacts,
     best = &contact;
   }
   if (best == nullptr) return farthest;
-  const ContactWrench wrench =
-      SupportWrench<kDim>(*best, Velocity<kDim>(*best, twist.data()), Spin<kDim>(*best, twist.data()));
+  const ContactWrench wrench = SupportWrench<kDim>(*best, Velocity<kDim>(*best, twist.data()),
+                                                   Spin<kDim>(*best, twist.data()));
   WriteWrench<kDim>(*best, wrench, farthest.point.data());
   return farthest;
 }
 
+/// The distance at which a facet need not be refined any more.
+double GoalOf(double upper, double relative_gap) {
+  return upper - std::max(relative_gap * upper, kQualityGap);
+}
+
+/// Grows a hull from a simplex of a radius until its ball is within the gap.
+/// @returns none if rounding broke the hull, or if ε may be less than the simplex's radius.
 template <int kDim>
-std::optional<QualityBounds> GrowBall(const UnitContacts& contacts, double relative_gap) {
+std::optional<QualityBounds> GrowBall(const UnitContacts& contacts, double relative_gap,
+                                      double core, std::int64_t& facets) {
   thread_local GrowingHull<kDim> hull;  // its memory serves the next grasp
-  hull.Start(kCore);
-  QualityBounds bounds{0, std::numeric_limits<double>::infinity()};
+  hull.Start(core);
+  double upper = std::numeric_limits<double>::infinity();
+  double lower = 0;
   while (true) {
     const auto nearest = hull.Nearest();
-    const SupportPoint<kDim> farthest = FarthestWrench<kDim>(contacts, nearest.normal);
-    bounds.lower = nearest.distance > kCore ? nearest.distance : 0;
-    bounds.upper = std::min(bounds.upper, farthest.value);
-    bounds.facets = hull.created();
-    const double gap = std::max(relative_gap * bounds.upper, kQualityGap);
-    if (bounds.upper - bounds.lower <= gap || bounds.facets >= kMostQualityFacets) break;
-    if (!hull.Insert(nearest.facet, farthest.point)) return std::nullopt;
+    lower = nearest ? nearest->distance : GoalOf(upper, relative_gap);
+    if (!nearest || facets + hull.created() >= kMostQualityFacets) break;
+    const SupportPoint<kDim> farthest = FarthestWrench<kDim>(contacts, nearest->normal);
+    if (farthest.value < upper) {
+      upper = farthest.value;
+      if (core > kLeastCore && upper <= 2 * core) break;
+      hull.SetLimit(GoalOf(upper, relative_gap));
+    }
+    if (lower >= GoalOf(upper, relative_gap)) break;
+    if (!hull.Insert(nearest->facet, farthest.point)) return std::nullopt;
   }
-  // Also refuses what is not a number.
-  if (!(hull.Residual() <= kLargestResidual)) return std::nullopt;
-  bounds.lower = std::min(bounds.lower, bounds.upper);
-  return bounds;
+  facets += hull.created();
+  if (core > kLeastCore && upper <= 2 * core) return std::nullopt;
+  const double residual = hull.Residual();
+  if (!(residual <= kLargestResidual * relative_gap)) return std::nullopt;
+  // A facet that has a corner of the simplex is no farther away than that.
+  if (lower <= core) lower = 0;
+  return QualityBounds{std::clamp((1 - residual) * lower, 0.0, upper), upper, facets};
+}
+
+template <int kDim>
+std::optional<QualityBounds> BoundByHulls(const UnitContacts& contacts, double friction,
+                                          double relative_gap) {
+  std::int64_t facets = 0;
+  for (const double core : {kCore * std::max(1.0, friction), kCore, kLeastCore}) {
+    if (const auto bounds = GrowBall<kDim>(contacts, relative_gap, core, facets)) return bounds;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<QualityBounds> BoundQualityByHull(std::span<const Contact> contacts,
-                                                const object::WrenchFrame& frame,
-                                                double half_angle, double relative_gap) {
+                                                const object::WrenchFrame& frame, double half_angle,
+                                                double relative_gap) {
   if (!(relative_gap >= kLeastRelativeGap)) {
     throw std::invalid_argument("quality: relative gap below 1e-5");
   }
   UnitContacts units = MakeUnitContacts(contacts, frame);
   SetUnitNormalForces(units, half_angle);
-  return frame.dimension == 3 ? GrowBall<6>(units, relative_gap) : GrowBall<3>(units, relative_gap);
+  const double friction = std::tan(half_angle);
+  return frame.dimension == 3 ? BoundByHulls<6>(units, friction, relative_gap)
+                              : BoundByHulls<3>(units, friction, relative_gap);
 }
 
 QualityBounds BoundQuality(std::span<const Contact> contacts, const object::WrenchFrame& frame,
@@ -85,7 +120,10 @@ QualityBounds BoundQuality(std::span<const Contact> contacts, const object::Wren
   if (const auto bounds = BoundQualityByHull(contacts, frame, half_angle, relative_gap)) {
     return *bounds;
   }
-  return ComputeQuality(contacts, frame, half_angle, relative_gap);
+  if (std::tan(half_angle) <= kMostFriction) {
+    return ComputeQuality(contacts, frame, half_angle, relative_gap);
+  }
+  return {0, std::hypot(1, std::tan(half_angle)), 0};  // no twist has a larger support everywhere
 }
 
 }  // namespace regrasp::grasp

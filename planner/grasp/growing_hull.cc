@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace regrasp::grasp {
 
@@ -17,9 +18,12 @@ constexpr double kSpread = 0.6180339887498949;
 /// Heights below this may be rounding.
 constexpr double kLeastHeight = 1e-10;
 
+/// The place of a value that occurs once; without a branch, which would be mispredicted.
 template <typename Array>
 int PlaceIn(const Array& values, int value) {
-  return static_cast<int>(std::ranges::find(values, value) - values.begin());
+  int place = 0;
+  for (int i = 1; i < static_cast<int>(values.size()); ++i) place = values[i] == value ? i : place;
+  return place;
 }
 
 /// Corner i of kDim + 1 of the regular simplex with unit corners about the origin.
@@ -40,40 +44,44 @@ template <int kDim>
 void GrowingHull<kDim>::Start(double radius) {
   points_.clear();
   facets_.clear();
+  links_.clear();
   free_.clear();
   heap_.clear();
+  least_pole_squared_ = 0;
   serials_ = 0;
   created_ = 0;
   for (int i = 0; i <= kDim; ++i) points_.push_back(radius * SimplexCorner<kDim>(i));
   for (int opposite = 0; opposite <= kDim; ++opposite) {
     const int facet = NewPlace();
-    Facet& made = facets_[facet];
-    made.pole = -kDim / (radius * radius) * points_[opposite];
-    made.visit = kFree;
+    facets_[facet].pole = -kDim / (radius * radius) * points_[opposite];
     int place = 0;
     for (int i = 0; i <= kDim; ++i) {
       if (i == opposite) continue;
-      made.corners[place] = i;
-      made.neighbours[place++] = i;  // facet i is the one opposite to corner i
+      links_[facet].corners[place] = static_cast<std::int16_t>(i);
+      // Facet i is the one opposite to corner i, and has all corners but that in order.
+      links_[facet].back[place] = static_cast<std::int8_t>(opposite - (opposite > i ? 1 : 0));
+      links_[facet].neighbours[place++] = i;
     }
     Push(facet);
   }
 }
 
 template <int kDim>
-typename GrowingHull<kDim>::Plane GrowingHull<kDim>::Nearest() {
-  while (facets_[heap_.front().facet].serial != heap_.front().serial) {
+std::optional<typename GrowingHull<kDim>::Plane> GrowingHull<kDim>::Nearest() {
+  while (!heap_.empty() && facets_[heap_.front().facet].serial != heap_.front().serial) {
     std::ranges::pop_heap(heap_, {}, &Entry::pole_squared);
     heap_.pop_back();
   }
+  if (heap_.empty() || heap_.front().pole_squared <= least_pole_squared_) return std::nullopt;
   const int facet = heap_.front().facet;
   const double distance = 1 / std::sqrt(heap_.front().pole_squared);
-  return {facet, distance, distance * facets_[facet].pole};
+  return Plane{facet, distance, distance * facets_[facet].pole};
 }
 
 template <int kDim>
 bool GrowingHull<kDim>::Insert(int facet, const Vector& point) {
   point_ = static_cast<int>(points_.size());
+  if (point_ > std::numeric_limits<std::int16_t>::max()) return false;
   const double turn = kSpread * point_;
   points_.push_back((1 - kShrink * (0.5 + turn - std::floor(turn))) * point);
   if (!(HeightOf(facet) > kLeastHeight)) return false;
@@ -91,10 +99,12 @@ bool GrowingHull<kDim>::Insert(int facet, const Vector& point) {
 template <int kDim>
 double GrowingHull<kDim>::Residual() const {
   double largest = 0;
-  for (const Facet& facet : facets_) {
-    if (facet.serial == kFree) continue;
-    for (const int corner : facet.corners) {
-      largest = std::max(largest, std::abs(facet.pole.dot(points_[corner]) - 1));
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    if (facets_[i].serial == kFree) continue;
+    for (const int corner : links_[i].corners) {
+      // Also a value that is not a number is larger than any limit.
+      const double residual = std::abs(facets_[i].pole.dot(points_[corner]) - 1);
+      if (!(residual <= largest)) largest = residual;
     }
   }
   return largest;
@@ -120,7 +130,7 @@ void GrowingHull<kDim>::FindVisible(int start) {
   for (std::size_t i = 0; i < visible_.size(); ++i) {
     const int facet = visible_[i];
     for (int place = 0; place < kDim; ++place) {
-      const int neighbour = facets_[facet].neighbours[place];
+      const int neighbour = links_[facet].neighbours[place];
       const bool seen = facets_[neighbour].visit == point_;
       if (!(HeightOf(neighbour) > 0)) {
         horizon_.push_back({facet, place});
@@ -137,37 +147,42 @@ template <int kDim>
 void GrowingHull<kDim>::AddFacets() {
   added_.clear();
   for (const Ridge& ridge : horizon_) {
-    const int index = NewPlace();
-    Facet& inner = facets_[ridge.facet];
+    const int made = NewPlace();
+    Links& inner = links_[ridge.facet];
     const int beyond = inner.neighbours[ridge.place];
-    Facet& outer = facets_[beyond];
-    Facet& made = facets_[index];
-    const double part = -outer.height / (inner.height - outer.height);
-    made.pole = outer.pole + part * (inner.pole - outer.pole);
-    made.visit = kFree;
-    made.corners = inner.corners;
-    made.corners[ridge.place] = point_;
-    made.neighbours.fill(kUnlinked);
-    made.neighbours[ridge.place] = beyond;
-    outer.neighbours[PlaceIn(outer.neighbours, ridge.facet)] = index;
-    inner.neighbours[ridge.place] = Replaced(index);
-    added_.push_back(index);
+    const double height = facets_[beyond].height;
+    const double part = -height / (facets_[ridge.facet].height - height);
+    const Vector& pole = facets_[beyond].pole;
+    facets_[made].pole = pole + part * (facets_[ridge.facet].pole - pole);
+    links_[made].corners = inner.corners;
+    links_[made].corners[ridge.place] = static_cast<std::int16_t>(point_);
+    links_[made].neighbours.fill(kUnlinked);
+    Link({made, ridge.place}, {beyond, inner.back[ridge.place]});
+    inner.neighbours[ridge.place] = Code(made);
+    added_.push_back(made);
   }
 }
 
 template <int kDim>
 bool GrowingHull<kDim>::LinkFacets() {
   for (std::size_t i = 0; i < added_.size(); ++i) {
-    Facet& made = facets_[added_[i]];
+    const std::array<int, kDim>& neighbours = links_[added_[i]].neighbours;
     for (int place = 0; place < kDim; ++place) {
-      if (made.neighbours[place] != kUnlinked) continue;
+      if (neighbours[place] != kUnlinked) continue;
       const std::optional<Ridge> found = FollowRidge(horizon_[i], place);
       if (!found) return false;
-      made.neighbours[place] = found->facet;
-      facets_[found->facet].neighbours[found->place] = added_[i];
+      Link({added_[i], place}, *found);
     }
   }
   return true;
+}
+
+template <int kDim>
+void GrowingHull<kDim>::Link(Ridge a, Ridge b) {
+  links_[a.facet].neighbours[a.place] = b.facet;
+  links_[a.facet].back[a.place] = static_cast<std::int8_t>(b.place);
+  links_[b.facet].neighbours[b.place] = a.facet;
+  links_[b.facet].back[b.place] = static_cast<std::int8_t>(a.place);
 }
 
 /// Visible facets that share all corners of the ridge but the dropped one follow each other like
@@ -175,17 +190,16 @@ bool GrowingHull<kDim>::LinkFacets() {
 /// other is dropped there.
 template <int kDim>
 std::optional<typename GrowingHull<kDim>::Ridge> GrowingHull<kDim>::FollowRidge(Ridge from,
-                                                                               int dropped) const {
-  int facet = from.facet;
+                                                                                int dropped) const {
+  const Links* facet = &links_[from.facet];
   int kept = from.place;
   for (std::size_t page = 0; page <= visible_.size(); ++page) {
-    const int next = facets_[facet].neighbours[dropped];
-    if (next < kUnlinked) return Ridge{kUnlinked - 1 - next, kept};
-    const int corner = facets_[facet].corners[kept];
-    kept = PlaceIn(facets_[next].neighbours, facet);
-    dropped = PlaceIn(facets_[next].corners, corner);
-    if (kept == kDim || dropped == kDim) return std::nullopt;
-    facet = next;
+    const int next = facet->neighbours[dropped];
+    if (next < kUnlinked) return Ridge{Code(next), kept};
+    const int corner = facet->corners[kept];
+    kept = facet->back[dropped];
+    facet = &links_[next];
+    dropped = PlaceIn(facet->corners, corner);
   }
   return std::nullopt;
 }
@@ -195,10 +209,12 @@ int GrowingHull<kDim>::NewPlace() {
   int place = static_cast<int>(facets_.size());
   if (free_.empty()) {
     facets_.emplace_back();
+    links_.emplace_back();
   } else {
     place = free_.back();
     free_.pop_back();
   }
+  facets_[place].visit = kFree;
   facets_[place].serial = serials_++;
   ++created_;
   return place;
@@ -206,7 +222,9 @@ int GrowingHull<kDim>::NewPlace() {
 
 template <int kDim>
 void GrowingHull<kDim>::Push(int facet) {
-  heap_.push_back({facets_[facet].pole.squaredNorm(), facet, facets_[facet].serial});
+  const double pole_squared = facets_[facet].pole.squaredNorm();
+  if (pole_squared <= least_pole_squared_) return;
+  heap_.push_back({pole_squared, facet, facets_[facet].serial});
   std::ranges::push_heap(heap_, {}, &Entry::pole_squared);
 }
 

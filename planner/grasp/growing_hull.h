@@ -34,8 +34,12 @@ class GrowingHull {
   /// of an earlier hull is used again.
   void Start(double radius);
 
-  /// The facet nearest to the origin.
-  [[nodiscard]] Plane Nearest();
+  /// Facets that are created at this distance or beyond need not be found by Nearest. A limit may
+  /// become smaller, never larger, until the next Start.
+  void SetLimit(double distance) { least_pole_squared_ = 1 / (distance * distance); }
+
+  /// The facet nearest to the origin; none if all are at the limit or beyond it.
+  [[nodiscard]] std::optional<Plane> Nearest();
 
   /// Inserts a point beyond a facet.
   /// @returns false if the point is not beyond the facet, or if rounding leaves facets without
@@ -50,15 +54,21 @@ class GrowingHull {
   [[nodiscard]] std::int64_t created() const { return created_; }
 
  private:
+  /// What a facet is: kept apart from its neighbours, of which far more is read.
   struct Facet {
     Vector pole;
-    double height;                     ///< pole · point − 1 for the point of `visit`
-    std::array<int, kDim> corners;     ///< indices of points
-    std::array<int, kDim> neighbours;  ///< [i] shares all corners but corners[i]
-    int visit;                         ///< the last inserted point that the height was taken of
-    int serial;                        ///< unique over all facets; kFree for a free place
+    double height;  ///< pole · point − 1 for the point of `visit`
+    int visit;      ///< the last inserted point that the height was taken of
+    int serial;     ///< unique over all facets; kFree for a free place
   };
-  /// The ridge of a visible facet without its corner at `place`, whose neighbour is not visible.
+  /// Neighbour [i] shares all corners but corners[i], and has this facet as its neighbour
+  /// [back[i]].
+  struct Links {
+    std::array<int, kDim> neighbours;
+    std::array<std::int16_t, kDim> corners;  ///< indices of points
+    std::array<std::int8_t, kDim> back;
+  };
+  /// The ridge of a facet without its corner at `place`.
   struct Ridge {
     int facet;
     int place;
@@ -72,27 +82,31 @@ class GrowingHull {
 
   static constexpr int kFree = -1;
   /// Neighbour of a new facet that is not linked yet. Lower values stand, in a visible facet, for
-  /// the new facet at that ridge: kUnlinked − 1 − its index.
+  /// the new facet at that ridge.
   static constexpr int kUnlinked = -1;
-  [[nodiscard]] static int Replaced(int facet) { return kUnlinked - 1 - facet; }
+  /// The code of a new facet, and the facet of a code.
+  [[nodiscard]] static int Code(int facet) { return kUnlinked - 1 - facet; }
 
   [[nodiscard]] double HeightOf(int facet);
   void FindVisible(int start);
   void AddFacets();
   [[nodiscard]] bool LinkFacets();
-  /// The new facet at the other end of the visible facets around a ridge's ridge, and the place in
-  /// it of the corner that the two new facets do not share; none if rounding broke the hull.
+  void Link(Ridge a, Ridge b);
+  /// The ridge of another new facet that is the same as the one of the new facet at `from` without
+  /// the corner at place `dropped`; none if rounding broke the hull.
   [[nodiscard]] std::optional<Ridge> FollowRidge(Ridge from, int dropped) const;
   [[nodiscard]] int NewPlace();
   void Push(int facet);
 
   std::vector<Vector> points_;
   std::vector<Facet> facets_;
+  std::vector<Links> links_;  ///< of the facets
   std::vector<int> free_;
   std::vector<Entry> heap_;
   std::vector<int> visible_, added_;
-  std::vector<Ridge> horizon_;  ///< [i] is the ridge of added_[i]
-  int point_ = 0;               ///< the one that is being inserted
+  std::vector<Ridge> horizon_;  ///< [i] is the ridge of added_[i] in a visible facet
+  double least_pole_squared_ = 0;
+  int point_ = 0;  ///< the one that is being inserted
   int serials_ = 0;
   std::int64_t created_ = 0;
 };

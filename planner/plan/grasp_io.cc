@@ -3,6 +3,7 @@
 #include "planner/base/file.h"
 #include "planner/plan/contact_json.h"
 #include "planner/plan/locate.h"
+#include "planner/plan/surface_tolerance.h"
 
 namespace regrasp::plan {
 

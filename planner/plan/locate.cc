@@ -9,6 +9,7 @@
 #include "planner/base/quantity_text.h"
 #include "planner/grasp/angle_between.h"
 #include "planner/plan/locate_align.h"
+#include "planner/plan/surface_tolerance.h"
 #include "planner/plan/tolerance.h"
 
 namespace regrasp::plan {
@@ -65,27 +66,6 @@ std::string VectorText(const Eigen::Vector3d& v, int dimension) {
   return text + ")";
 }
 
-double SurfaceTolerance(const object::Object& object) {
-  const double diameter = object.diameter();
-  const double largest =
-      object.mass_properties().centroid.lpNorm<Eigen::Infinity>() + diameter;
-  const double lost =
-      kSinglePrecisionSteps * double{std::numeric_limits<float>::epsilon()} * largest;
-  return std::max(object::kPointTolerance * diameter,
-                  std::min(lost, kLargestPointTolerance * diameter));
-}
-
-std::string OffSurfaceText(const object::Object& object, const Eigen::Vector3d& point) {
-  const double distance =
-      (NearestContact(object, {point, Eigen::Vector3d::Zero()}).p - point).stableNorm();
-  const double tolerance = SurfaceTolerance(object);
-  const bool single = tolerance > object::kPointTolerance * object.diameter();
-  return FormatShort(distance) + " of the object file's units off the surface, " +
-         FormatShort(distance / object.diameter()) + " of the object's diameter; up to " +
-         FormatShort(tolerance / object.diameter()) + " of it counts as on it" +
-         (single ? ", the precision of float32 so far from the origin" : "");
-}
-
 LocatedContact LocateContact(const object::Object& object, const grasp::Contact& contact) {
   LocatedContact located{{contact.p, contact.n}, Reason::kNone, ""};
   const std::vector<FaceIndex> faces = object.FacesNear(contact.p, SurfaceTolerance(object));
@@ -127,8 +107,7 @@ std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,
                                              const grasp::Contact& contact) {
   std::vector<grasp::Contact> places;
   if (!IsUnit(contact.n)) return places;
-  const std::vector<FaceIndex> faces =
-      object.FacesNear(contact.p, SurfaceTolerance(object));
+  const std::vector<FaceIndex> faces = object.FacesNear(contact.p, SurfaceTolerance(object));
   for (const auto& [angle, face] : RankFaces(faces, object, contact)) {
     if (angle <= kNormalTolerance) places.push_back(Project(object, contact, face));
   }

@@ -12,18 +12,6 @@ namespace regrasp::plan {
 /// A normal for people: "(0, 0.6, -0.8)"; of a planar object two numbers.
 [[nodiscard]] std::string VectorText(const Eigen::Vector3d& v, int dimension);
 
-/// Return how far a given point may be from the object's surface and still count as on it.
-///
-/// This is kPointTolerance · D, or what coordinates in single precision lose if that is more:
-/// kSinglePrecisionSteps · 2⁻²³ times the largest coordinate of the object, at most
-/// kLargestPointTolerance · D. The second is larger for objects more than 1.1 D from the origin.
-/// @returns a length in the object's unit.
-[[nodiscard]] double SurfaceTolerance(const object::Object& object);
-
-/// Describe for people how far a point is off the surface, over the tolerance: "0.001 of the object
-/// file's units off the surface, …".
-[[nodiscard]] std::string OffSurfaceText(const object::Object& object, const Eigen::Vector3d& point);
-
 /// A contact as a file gives it, placed on the object.
 struct LocatedContact {
   /// The point projected onto its face, the face's own normal, and the face; as given and with face
@@ -33,8 +21,8 @@ struct LocatedContact {
   std::string detail;             ///< of a wrong normal, how far off, for people
 };
 
-/// Finds the face of a contact: among the faces within SurfaceTolerance of the point, the one whose
-/// inward normal is nearest to the contact's, which must be within kNormalTolerance and of
+/// Finds the face of a contact: among the faces within SurfaceTolerance of the point, the one
+/// whose inward normal is nearest to the contact's, which must be within kNormalTolerance and of
 /// unit length within kNormalLengthTolerance. So the normal chooses where faces meet.
 [[nodiscard]] LocatedContact LocateContact(const object::Object& object,
                                            const grasp::Contact& contact);

@@ -5,6 +5,7 @@
 
 #include "planner/base/in_blocks.h"
 #include "planner/plan/locate.h"
+#include "planner/plan/surface_tolerance.h"
 
 namespace regrasp::plan {
 namespace {

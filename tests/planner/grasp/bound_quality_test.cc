@@ -86,9 +86,7 @@ double QualityOfPyramids(const Grasp& grasp, double half_angle, int sides, bool 
 /// Four, six and three contacts with many equal minima and coplanar wrenches.
 std::vector<std::pair<std::string, Grasp>> SymmetricGrasps() {
   std::vector<std::pair<std::string, Grasp>> grasps(4);
-  const auto add = [](Grasp& to, const Eigen::Vector3d& p) {
-    to.push_back({p, -p.normalized()});
-  };
+  const auto add = [](Grasp& to, const Eigen::Vector3d& p) { to.push_back({p, -p.normalized()}); };
   grasps[0].first = "square";
   grasps[1].first = "tetrahedron";
   grasps[2].first = "octahedron";

@@ -33,9 +33,9 @@ double DistanceByGrowing(const Eigen::MatrixXd& points, GrowingHull<kDim>& hull)
   while (true) {
     const auto nearest = hull.Nearest();
     Eigen::Index farthest = 0;
-    const double support = (nearest.normal.transpose() * points).maxCoeff(&farthest);
-    if (support <= nearest.distance * (1 + 1e-6)) return nearest.distance;
-    if (!hull.Insert(nearest.facet, points.col(farthest))) return -1;
+    const double support = (nearest->normal.transpose() * points).maxCoeff(&farthest);
+    if (support <= nearest->distance * (1 + 1e-6)) return nearest->distance;
+    if (!hull.Insert(nearest->facet, points.col(farthest))) return -1;
   }
 }
 
@@ -92,11 +92,21 @@ TEST(GrowingHullTest, RefusesAPointThatIsNotBeyondTheFacet) {
   GrowingHull<3> hull;
   hull.Start(1);
   const auto nearest = hull.Nearest();
-  EXPECT_NEAR(nearest.distance, 1.0 / 3, 1e-12);
-  EXPECT_FALSE(hull.Insert(nearest.facet, 0.9 * nearest.distance * nearest.normal));
+  ASSERT_TRUE(nearest);
+  EXPECT_NEAR(nearest->distance, 1.0 / 3, 1e-12);
+  EXPECT_FALSE(hull.Insert(nearest->facet, 0.9 * nearest->distance * nearest->normal));
   hull.Start(1);
   const auto again = hull.Nearest();
-  EXPECT_TRUE(hull.Insert(again.facet, 2 * again.distance * again.normal));
+  EXPECT_TRUE(hull.Insert(again->facet, 2 * again->distance * again->normal));
+}
+
+TEST(GrowingHullTest, FacetsBeyondTheLimitAreNotFound) {
+  GrowingHull<3> hull;
+  hull.Start(1);
+  hull.SetLimit(0.34);
+  EXPECT_TRUE(hull.Nearest());  // all are a third away
+  hull.SetLimit(0.33);
+  EXPECT_FALSE(hull.Nearest());
 }
 
 }  // namespace growing_hull_test
