@@ -1,6 +1,6 @@
-// Grasp quality ε of four contacts: certified bounds with circular cones against the hull of friction
-// pyramids of 8 and 16 sides, on the same grasps in the same run. Prints times and, as error, how far
-// the pyramids' quality lies below the certified one.
+// Grasp quality ε of four contacts: certified bounds with circular cones against the hull of
+// friction pyramids of 8 and 16 sides, on the same grasps in the same run. Prints times and, as
+// error, how far the pyramids' quality lies below the certified one.
 //
 // usage: quality_bench [GRASPS]
 

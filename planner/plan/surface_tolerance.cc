@@ -10,8 +10,7 @@ namespace regrasp::plan {
 
 double SurfaceTolerance(const object::Object& object) {
   const double diameter = object.diameter();
-  const double largest =
-      object.mass_properties().centroid.lpNorm<Eigen::Infinity>() + diameter;
+  const double largest = object.mass_properties().centroid.lpNorm<Eigen::Infinity>() + diameter;
   const double lost =
       kSinglePrecisionSteps * double{std::numeric_limits<float>::epsilon()} * largest;
   return std::max(object::kPointTolerance * diameter,

@@ -96,8 +96,8 @@ def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None =
             others are not looked at, and may be NaN.
         required_angle: whether to compute `ForceClosure.required_angle_deg`; some 0.06 ms each.
         quality: whether to compute `ForceClosure.quality` and its upper bound, within 1 % of each
-            other and with circular cones. Costs about 0.1 ms for each grasp of four contacts and core, up
-            to 1 ms for symmetric grasps; the verdict alone costs half a microsecond.
+            other and with circular cones. Costs about 0.1 ms for each grasp of four contacts and core, 1 to
+            2 ms for symmetric grasps; the verdict alone costs half a microsecond.
         threads: how many work; 0: as many as the machine has cores. Verdicts do not depend on it.
         progress: called with a line of text after each part of many grasps; Ctrl-C ends the work after
             the part that is under way.

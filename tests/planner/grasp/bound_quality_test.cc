@@ -22,7 +22,7 @@ namespace bound_quality_test {
 
 constexpr double kGap = 0.01;
 /// Created facets for four contacts: what limits the time, the same on every machine.
-constexpr int kFewFacets = 25'000;
+constexpr int kFewFacets = 30'000;
 
 /// The support of the wrench set along a unit twist, written out once more.
 double Support(const Grasp& grasp, const object::WrenchFrame& frame, double half_angle,
@@ -239,7 +239,7 @@ TEST(BoundQualityTest, SoftFingersAreBoundedToo) {
     for (Contact& contact : grasp) contact.torsion = torsion;
     const QualityBounds bounds = Bound(grasp, UnitFrame(3), Radians(30));
     ExpectOverlap(bounds, ComputeQuality(grasp, UnitFrame(3), Radians(30), 0.05), "soft pair");
-    EXPECT_LE(bounds.upper, 1.001 * std::tan(Radians(30)) * torsion);
+    EXPECT_LE(bounds.upper, 1.01 * std::tan(Radians(30)) * torsion);
     EXPECT_GE(bounds.lower, 0.9 * std::tan(Radians(30)) * torsion);
   }
 }
@@ -271,6 +271,9 @@ TEST(BoundQualityTest, ExtremeFrictionIsBounded) {
       EXPECT_LE(bounds.lower, bounds.upper) << name << " " << mu;
       EXPECT_GE(bounds.lower, 0) << name << " " << mu;
       EXPECT_TRUE(std::isfinite(bounds.upper)) << name << " " << mu;
+      if (mu <= 1e6) {
+        EXPECT_GE(bounds.lower, 0.9 * bounds.upper) << name << " " << mu;
+      }
     }
   }
 }
