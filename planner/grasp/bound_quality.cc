@@ -53,9 +53,10 @@ SupportPoint<kDim> FarthestWrench(const UnitContacts& contacts,
   return farthest;
 }
 
-/// The distance at which a facet need not be refined any more.
+/// The distance at which a facet need not be refined any more. A hundredth of the gap is left for
+/// what rounding takes from the lower bound.
 double GoalOf(double upper, double relative_gap) {
-  return upper - std::max(relative_gap * upper, kQualityGap);
+  return upper - 0.99 * std::max(relative_gap * upper, kQualityGap);
 }
 
 /// Grows a hull from a simplex of a radius until its ball is within the gap.

@@ -34,8 +34,8 @@ class Reading:
     how: str
     help: str
     grasps: HandGrasps
-    units: float | np.ndarray = 1
-    """By which the object's scale is multiplied, of all grasps or of each."""
+    units: float = 1
+    """By which the object's scale is multiplied."""
 
 
 @dataclass
@@ -56,24 +56,27 @@ class Cause:
 
 
 def likely_cause(grasps: HandGrasps, hand: Hand, object: Object, *, fingers: list[int],
-                 tolerance: float, palm: list[float] | None = None) -> Cause | None:
+                 tolerance: float, palm: list[float] | None = None,
+                 file_scales: np.ndarray | None = None) -> Cause | None:
     """Find the reading of a file with which most fingertips touch.
 
     Args:
         grasps: as they were read, none of whose fingertips touches.
         hand: the hand.
-        object: what it holds, at the scale that was used if that is not 1.
+        object: what it holds; its scale counts if the grasps have none.
         fingers: indices of the fingers that count.
         tolerance: as for `HandGrasps.touching`, metres.
         palm: the palm's frame as for `HandGrasps.with_palm_at`; None: the poses are the palm's.
+        file_scales: (N,) scales of the file if others were used.
 
     Returns:
         The likely cause, or None if with no reading half of the grasps have two fingers, or all that
         count if it is one, at the surface.
     """
-    tried = _part(grasps, np.linspace(0, len(grasps) - 1, min(len(grasps), _MOST_GRASPS)).astype(int))
+    chosen = np.linspace(0, len(grasps) - 1, min(len(grasps), _MOST_GRASPS)).astype(int)
+    tried = _part(grasps, chosen)
     best: Cause | None = None
-    for reading in _readings(tried, object):
+    for reading in _readings(tried, None if file_scales is None else file_scales[chosen]):
         if palm is not None:
             reading.grasps = reading.grasps.with_palm_at(palm)
         touching = np.abs(_gaps(reading, hand, object)[:, fingers]) <= tolerance
@@ -103,9 +106,8 @@ def _better(best: Cause | None, reading: Reading, touching: np.ndarray,
 
 
 def _scales(grasps: HandGrasps, object: Object) -> np.ndarray:
-    """(N,) metres per unit: the object's own if it is not 1, otherwise the file's."""
-    own = grasps.scales is None or object.scale != 1
-    return np.full(len(grasps), object.scale) if own else grasps.scales
+    """(N,) metres per unit of the object's file."""
+    return np.full(len(grasps), object.scale) if grasps.scales is None else grasps.scales
 
 
 def _gaps(reading: Reading, hand: Hand, object: Object) -> np.ndarray:
@@ -114,19 +116,18 @@ def _gaps(reading: Reading, hand: Hand, object: Object) -> np.ndarray:
     return measure_gaps(reading.grasps, hand, object, scales)[2]
 
 
-def _readings(grasps: HandGrasps, object: Object) -> Iterator[Reading]:
+def _readings(grasps: HandGrasps, file_scales: np.ndarray | None) -> Iterator[Reading]:
     """All that need no fitting."""
     yield from _quaternion_orders(grasps)
     yield Reading("degrees", "with joints in degrees", "give joint angles in radians",
                   replace(grasps, joints=np.radians(grasps.joints)))
     yield from _units(grasps)
-    if grasps.scales is not None and object.scale == 1:
+    if grasps.scales is not None:
         yield Reading("scale", "without the scale in the file of the grasps", "use --scale 1",
                       replace(grasps, scales=None))
-        yield Reading("scale", "with the scale in the file of the grasps", "leave --scale out", grasps)
-    elif grasps.scales is not None:
+    if file_scales is not None:
         yield Reading("scale", "with the scale in the file of the grasps", "leave --scale out",
-                      grasps, grasps.scales / object.scale)
+                      replace(grasps, scales=file_scales))
     back = _poses.inverse(grasps.positions, grasps.quaternions)
     yield Reading("palm frame", "with poses of the object in the palm's frame",
                   "give poses of the palm in the object's frame",
@@ -204,7 +205,7 @@ def _palm_frame(grasps: HandGrasps, hand: Hand, object: Object, fingers: list[in
     for _, _, turn, shift in sorted(starts, key=lambda start: start[:2])[:16]:
         shift = fit.refine(turn, shift)
         palm = [*shift, *turn]
-        option = ",".join(f"{x:.4g}" for x in (shift if turn[0] == 1 else palm))
+        option = ",".join(f"{round(x, 6) + 0.0:g}" for x in (shift if turn[0] == 1 else palm))
         reading = Reading("palm frame", f"with the palm's frame at {option} in the body's whose poses "
                           "the file gives", f"use --palm={option}", grasps.with_palm_at(palm))
         touching = np.abs(_gaps(reading, hand, object)[:, fingers]) <= tolerance

@@ -225,6 +225,11 @@ def _write_contacts(options, grasps: formats.HandGrasps, hand: Hand) -> list[str
     if not len(kept):
         raise NoContacts(_no_contacts(options, grasps, hand, body, gaps[:, chosen]))
     lost = list(grasps.lost)
+    if len(chosen) > 1 and touching.sum(axis=1).max() < 2:
+        cause = _likely_cause(options, grasps, hand, body)
+        if cause is not None:
+            print("regrasp-convert: warning: no grasp has two fingertips at the surface; likely cause: "
+                  f"{cause}", file=sys.stderr)
     _npz.write(options.output, points=points[kept][:, chosen], normals=normals[kept][:, chosen],
                holds=touching[kept], grasps=kept)
     lost.append("palm and joints")
@@ -262,12 +267,21 @@ def _no_contacts(options, grasps: formats.HandGrasps, hand: Hand, body: Object,
             f"(negative: inside) in grasp {grasps.names[nearest]}, the nearest: {distances}")
     if touching.any():
         return text
-    cause = _misread.likely_cause(
-        grasps, hand, body, fingers=chosen, tolerance=options.tolerance_mm / 1000,
-        palm=_numbers("--palm", options.palm) if options.palm else None)
+    cause = _likely_cause(options, grasps, hand, body)
     if cause is None:
         return f"{text}; cause not found: other {_misread.KINDS} does not make fingertips touch"
     return f"{text}; likely cause: {cause}"
+
+
+def _likely_cause(options, grasps: formats.HandGrasps, hand: Hand,
+                  body: Object) -> _misread.Cause | None:
+    """Of grasps as they were read; a scale that is given replaces theirs."""
+    sized = grasps if options.scale is None else replace(grasps, scales=None)
+    return _misread.likely_cause(
+        sized, hand, body, fingers=_chosen(options.fingers, hand),
+        tolerance=options.tolerance_mm / 1000,
+        palm=_numbers("--palm", options.palm) if options.palm else None,
+        file_scales=None if options.scale is None else grasps.scales)
 
 
 def _at_palm(options, grasps: formats.HandGrasps) -> formats.HandGrasps:
