@@ -87,6 +87,9 @@ std::vector<GraspGroup> SplitByVerdict(const GraspGroup& all, const std::vector<
     GraspGroup& group = groups[held - 1];
     group.contacts = static_cast<int>(held);
     group.places.push_back(g);
+    for (std::size_t c = 0; c < k; ++c) {
+      if (holds[g * k + c] != 0) group.fingers.push_back(static_cast<int>(c));
+    }
     AppendHeld(all.points, holds, g, k, group.points);
     if (!all.normals.empty()) AppendHeld(all.normals, holds, g, k, group.normals);
   }
@@ -120,6 +123,9 @@ GraspTable ReadGrasps(const std::string& file, int dimension) {
   all.contacts = static_cast<int>(shape[1]);
   all.places.resize(shape[0]);
   for (std::size_t g = 0; g < shape[0]; ++g) all.places[g] = g;
+  for (std::size_t c = 0; c < shape[0] * shape[1]; ++c) {
+    all.fingers.push_back(static_cast<int>(c % shape[1]));
+  }
   all.points = InSpace(*points);
   if (normals != nullptr) {
     CheckFinite(*normals, file);

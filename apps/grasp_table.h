@@ -10,6 +10,7 @@ namespace regrasp::apps {
 struct GraspGroup {
   int contacts = 0;
   std::vector<std::size_t> places;  ///< of its grasps among all of the file
+  std::vector<int> fingers;         ///< of each contact its index in the grasp of the file
   std::vector<double> points;       ///< in the plane with z = 0
   std::vector<double> normals;      ///< empty where the file has none
 };

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,7 @@
 #include "planner/base/write_file.h"
 #include "planner/grasp/judge_grasps.h"
 #include "planner/plan/locate_grasps.h"
+#include "planner/plan/surface_tolerance.h"
 #include "report/report.h"
 
 namespace regrasp::apps {
@@ -34,9 +36,17 @@ namespace {
 /// The last that a grasp can fail for.
 constexpr auto kLastReason = plan::Reason::kObjectMoved;
 
+/// A contact that is off the surface, by its grasp and its index there.
+struct OffSurface {
+  std::size_t grasp;
+  int contact;
+  Eigen::Vector3d point;
+};
+
 /// The verdicts on those grasps that are on the object, at their places among all.
 struct Verdicts {
   std::vector<double> holds, too_close, margin, required_deg, quality, reason, replayed;
+  std::optional<OffSurface> off_surface;  ///< of the first grasp of the file that has one
 
   explicit Verdicts(std::size_t count)
       : holds(count, 0),
@@ -54,6 +64,14 @@ struct PlacedGrasps {
   std::vector<double> points, normals;
 };
 
+void NoteOffSurface(const GraspGroup& group, std::size_t i, int contact, Verdicts& verdicts) {
+  if (verdicts.off_surface && verdicts.off_surface->grasp < group.places[i]) return;
+  const std::size_t at =
+      i * static_cast<std::size_t>(group.contacts) + static_cast<std::size_t>(contact);
+  verdicts.off_surface = {group.places[i], group.fingers[at],
+                          Eigen::Vector3d::Map(&group.points[3 * at])};
+}
+
 PlacedGrasps Place(const object::Object& object, const GraspGroup& group, Verdicts& verdicts) {
   const plan::LocatedGrasps located =
       plan::LocateGrasps(object, group.points, group.normals, group.contacts);
@@ -61,6 +79,9 @@ PlacedGrasps Place(const object::Object& object, const GraspGroup& group, Verdic
   PlacedGrasps placed;
   for (std::size_t i = 0; i < group.places.size(); ++i) {
     verdicts.reason[group.places[i]] = static_cast<double>(located.reasons[i]);
+    if (located.reasons[i] == plan::Reason::kOffSurface) {
+      NoteOffSurface(group, i, located.contacts[i], verdicts);
+    }
     if (located.reasons[i] != plan::Reason::kNone) continue;
     placed.places.push_back(group.places[i]);
     const auto begin = static_cast<std::ptrdiff_t>(i * values);
@@ -200,6 +221,16 @@ std::string CountsText(const Verdicts& verdicts) {
   return FormatRows(rows);
 }
 
+/// "off-surface: grasp 3, contact 1: 0.001 of the object file's units off the surface, …"; empty if
+/// all contacts are on it.
+std::string OffSurfaceLine(const object::Object& object, const Verdicts& verdicts) {
+  if (!verdicts.off_surface) return "";
+  const OffSurface& first = *verdicts.off_surface;
+  return "off-surface: grasp " + std::to_string(first.grasp) + ", contact " +
+         std::to_string(first.contact) +
+         " (the first): " + plan::OffSurfaceText(object, first.point) + "\n";
+}
+
 }  // namespace
 
 int RunGrasps(const ValidateOptions& options) {
@@ -213,7 +244,7 @@ int RunGrasps(const ValidateOptions& options) {
   progress.Report("judging " + std::to_string(table.count) + " grasps");
   Verdicts verdicts = JudgeAll(*object.object, table, options, progress);
   progress.Clear();
-  const std::string counts = CountsText(verdicts);
+  const std::string counts = CountsText(verdicts) + OffSurfaceLine(*object.object, verdicts);
   const bool passed = Count(verdicts.holds, 1) == table.count;
   std::error_code error;
   std::filesystem::create_directories(options.Folder(), error);

@@ -23,7 +23,7 @@ struct PythonHand {
 };
 
 /// @param name  of the plan, for the message.
-/// @throws InputError  the plan was made for another object.
+/// @throws InputError  if the plan was made for another object or for another scale of it.
 void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::string& name);
 
 // Each adds its functions to the extension module. They check no argument whose type or shape the

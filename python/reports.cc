@@ -14,6 +14,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/base/number.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/locate.h"
 #include "planner/plan/plan_io.h"
@@ -194,6 +195,12 @@ void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::st
                      plan.object_file + " (SHA-256 " + plan.object_sha256.substr(0, kShown) +
                      "…), found " + object.file.file + " (SHA-256 " +
                      object.file.sha256.substr(0, kShown) + "…)");
+  }
+  if (plan.scale != object.scale) {
+    throw InputError(name + ": /object/scale: must be the scale of " + object.file.file +
+                     ", expected " + FormatDouble(object.scale) + " m per unit, found " +
+                     FormatDouble(plan.scale) +
+                     "; help: read the object with scale=" + FormatDouble(plan.scale));
   }
   if (plan.at_given_points) {
     throw InputError(name + ": its contacts are at points of " + plan.object_file +

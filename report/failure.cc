@@ -210,7 +210,8 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
   switch (reason) {
     case Reason::kOffSurface:
       return "a contact lies on the surface to within " + FormatShort(object::kPointTolerance) +
-             " of the object's diameter";
+             " of the object's diameter, or the precision of float32 coordinates if that is "
+             "coarser";
     case Reason::kWrongNormal:
       return "the normal of a contact is the inward one of its face, which the replay pushes along";
     case Reason::kFingerNotFree:

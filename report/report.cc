@@ -8,6 +8,7 @@
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/certificate/plan_proof.h"
+#include "planner/grasp/bound_quality.h"
 #include "planner/object/polygon.h"
 #include "report/hand_limits.h"
 #include "sim/measure/weakest_finger.h"
@@ -244,7 +245,7 @@ Report ValidateGrasp(const object::Object& object, const grasp::Grasp& grasp, do
   report.grasp.emplace();
   report.grasp->fingers = grasp::MeasureFingerFriction(grasp, frame, half_angle);
   if (!report.grasp->fingers.empty()) {
-    report.grasp->quality = grasp::ComputeQuality(grasp, frame, half_angle);
+    report.grasp->quality = grasp::BoundQuality(grasp, frame, half_angle);
   }
   return report;
 }

@@ -36,8 +36,9 @@ inline constexpr double kForceClosureEpsilon = 1e-12;
 /// unit normal forces balance by themselves. It depends on neither the frame's origin nor its
 /// radius.
 ///
-/// kNo is certain by a separating twist, by a line through two contacts about which all others turn
-/// the object the same way, or by rank; kYes by a ball of wrenches about the origin.
+/// kNo is certain by a twist, by a line through two contacts about which all others turn alike, or
+/// by rank, kYes by a ball of wrenches. With contacts within 1e-7 of the grasp's radius no is too
+/// close.
 ///
 /// Laws: independent of the order of the contacts, of rigid motion and of the unit of length;
 /// enlarging half_angle or a torsion or adding a contact never turns yes into no.

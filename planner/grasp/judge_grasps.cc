@@ -5,7 +5,7 @@
 #include <string>
 
 #include "planner/base/in_blocks.h"
-#include "planner/grasp/quality.h"
+#include "planner/grasp/bound_quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/grasp/unit_contacts.h"
 
@@ -15,6 +15,9 @@ namespace {
 /// Grasps that a thread takes at a time: enough that taking them costs nothing, few enough that the
 /// threads end together.
 constexpr std::size_t kBlock = 256;
+
+/// The same where each grasp takes a tenth of a millisecond or more.
+constexpr std::size_t kBlockOfSlow = 4;
 
 std::size_t CountGrasps(const GraspArrays& grasps) {
   if (grasps.contacts < 1) {
@@ -48,7 +51,9 @@ void Judge(const Grasp& grasp, const JudgeOptions& options, std::size_t index,
         required ? required->upper : std::numeric_limits<double>::quiet_NaN();
   }
   if (options.quality) {
-    verdicts.quality[index] = ComputeQuality(grasp, options.frame, options.half_angle).lower;
+    const QualityBounds quality = BoundQuality(grasp, options.frame, options.half_angle);
+    verdicts.quality[index] = quality.lower;
+    verdicts.quality_upper[index] = quality.upper;
   }
 }
 
@@ -60,19 +65,25 @@ GraspVerdicts JudgeGrasps(const GraspArrays& grasps, const JudgeOptions& options
   GraspVerdicts verdicts;
   verdicts.force_closure.resize(count);
   if (options.required_half_angle) verdicts.required_half_angle.resize(count);
-  if (options.quality) verdicts.quality.resize(count);
+  if (options.quality) {
+    verdicts.quality.resize(count);
+    verdicts.quality_upper.resize(count);
+  }
 
-  InBlocks(count, kBlock, options.threads, [&](std::size_t begin, std::size_t end) {
-    Grasp grasp(static_cast<std::size_t>(grasps.contacts));
-    for (std::size_t index = begin; index < end; ++index) {
-      Load(grasps, index, options.torsion, grasp);
-      try {
-        Judge(grasp, options, index, verdicts);
-      } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument("grasp " + std::to_string(index) + ": " + error.what());
-      }
-    }
-  });
+  const bool slow = options.required_half_angle || options.quality;
+  InBlocks(
+      count, slow ? kBlockOfSlow : kBlock, options.threads,
+      [&](std::size_t begin, std::size_t end) {
+        Grasp grasp(static_cast<std::size_t>(grasps.contacts));
+        for (std::size_t index = begin; index < end; ++index) {
+          Load(grasps, index, options.torsion, grasp);
+          try {
+            Judge(grasp, options, index, verdicts);
+          } catch (const std::invalid_argument& error) {
+            throw std::invalid_argument("grasp " + std::to_string(index) + ": " + error.what());
+          }
+        }
+      });
   return verdicts;
 }
 

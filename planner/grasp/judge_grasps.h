@@ -31,10 +31,11 @@ struct GraspVerdicts {
   std::vector<ForceClosure> force_closure;
   /// The smallest half-angle proved to be enough, radians; NaN where none below π/2 is.
   std::vector<double> required_half_angle;
-  std::vector<double> quality;  ///< the lower bound of ComputeQuality, dimensionless
+  std::vector<double> quality;        ///< lower bound of BoundQuality, dimensionless
+  std::vector<double> quality_upper;  ///< upper bound of BoundQuality
 };
 
-/// Judges every grasp by TestForceClosure, ComputeRequiredHalfAngle and ComputeQuality.
+/// Judges every grasp by TestForceClosure, ComputeRequiredHalfAngle and BoundQuality.
 ///
 /// Laws: each verdict has the bits that the function for a single grasp gives; they do not depend
 /// on the number of threads.

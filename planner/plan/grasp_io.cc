@@ -1,26 +1,18 @@
 #include "planner/plan/grasp_io.h"
 
 #include "planner/base/file.h"
-#include "planner/base/number.h"
 #include "planner/plan/contact_json.h"
 #include "planner/plan/locate.h"
+#include "planner/plan/surface_tolerance.h"
 
 namespace regrasp::plan {
 
 namespace {
 
-std::string OffSurfaceText(const object::Object& object, const Eigen::Vector3d& point) {
-  const double distance =
-      (NearestContact(object, {point, Eigen::Vector3d::Zero()}).p - point).stableNorm();
-  return FormatShort(distance) + " of the object file's units off the surface, " +
-         FormatShort(distance / object.diameter()) + " of the object's diameter; up to " +
-         FormatShort(object::kPointTolerance) + " of it counts as on it";
-}
-
 /// The contact of a point whose normal is left out: its only face's.
 grasp::Contact ContactOfPoint(const JsonReader& json, const object::Object& object,
                               const Eigen::Vector3d& point) {
-  const double tolerance = object::kPointTolerance * object.diameter();
+  const double tolerance = SurfaceTolerance(object);
   const std::vector<FaceIndex> faces = object.FacesNear(point, tolerance);
   if (faces.empty()) {
     json.Member("point").Fail(OffSurfaceText(object, point));

@@ -9,6 +9,7 @@
 #include "planner/base/quantity_text.h"
 #include "planner/grasp/angle_between.h"
 #include "planner/plan/locate_align.h"
+#include "planner/plan/surface_tolerance.h"
 #include "planner/plan/tolerance.h"
 
 namespace regrasp::plan {
@@ -67,8 +68,7 @@ std::string VectorText(const Eigen::Vector3d& v, int dimension) {
 
 LocatedContact LocateContact(const object::Object& object, const grasp::Contact& contact) {
   LocatedContact located{{contact.p, contact.n}, Reason::kNone, ""};
-  const double tolerance = object::kPointTolerance * object.diameter();
-  const std::vector<FaceIndex> faces = object.FacesNear(contact.p, tolerance);
+  const std::vector<FaceIndex> faces = object.FacesNear(contact.p, SurfaceTolerance(object));
   if (faces.empty()) {
     located.reason = Reason::kOffSurface;
     return located;
@@ -107,8 +107,7 @@ std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,
                                              const grasp::Contact& contact) {
   std::vector<grasp::Contact> places;
   if (!IsUnit(contact.n)) return places;
-  const std::vector<FaceIndex> faces =
-      object.FacesNear(contact.p, object::kPointTolerance * object.diameter());
+  const std::vector<FaceIndex> faces = object.FacesNear(contact.p, SurfaceTolerance(object));
   for (const auto& [angle, face] : RankFaces(faces, object, contact)) {
     if (angle <= kNormalTolerance) places.push_back(Project(object, contact, face));
   }

@@ -21,7 +21,7 @@ struct LocatedContact {
   std::string detail;             ///< of a wrong normal, how far off, for people
 };
 
-/// Finds the face of a contact: among the faces within kPointTolerance · D of the point, the one
+/// Finds the face of a contact: among the faces within SurfaceTolerance of the point, the one
 /// whose inward normal is nearest to the contact's, which must be within kNormalTolerance and of
 /// unit length within kNormalLengthTolerance. So the normal chooses where faces meet.
 [[nodiscard]] LocatedContact LocateContact(const object::Object& object,

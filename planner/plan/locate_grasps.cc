@@ -5,6 +5,7 @@
 
 #include "planner/base/in_blocks.h"
 #include "planner/plan/locate.h"
+#include "planner/plan/surface_tolerance.h"
 
 namespace regrasp::plan {
 namespace {
@@ -15,7 +16,7 @@ using Vector = Eigen::Map<Eigen::Vector3d>;
 
 /// The contact of a point alone; nullopt off the surface and on borders.
 LocatedContact LocatePoint(const object::Object& object, const Eigen::Vector3d& point) {
-  const double tolerance = object::kPointTolerance * object.diameter();
+  const double tolerance = SurfaceTolerance(object);
   const std::vector<FaceIndex> faces = object.FacesNear(point, tolerance);
   if (faces.empty()) return {{point, {}}, Reason::kOffSurface, ""};
   const FaceIndex face = faces.front();
@@ -53,6 +54,7 @@ LocatedGrasps LocateGrasps(const object::Object& object, std::span<const double>
   located.normals.assign(normals.begin(), normals.end());
   located.normals.resize(points.size());
   located.reasons.resize(points.size() / (3 * k));
+  located.contacts.resize(located.reasons.size(), -1);
   InBlocks(located.reasons.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t grasp = begin; grasp < end; ++grasp) {
       for (std::size_t c = 0; c < k && located.reasons[grasp] == Reason::kNone; ++c) {
@@ -66,6 +68,7 @@ LocatedGrasps LocateGrasps(const object::Object& object, std::span<const double>
         if (found.reason == Reason::kNone && object.IsEnclosed(found.contact.face)) {
           located.reasons[grasp] = Reason::kUnreachable;
         }
+        if (located.reasons[grasp] != Reason::kNone) located.contacts[grasp] = static_cast<int>(c);
       }
       const auto own = std::span(located.points).subspan(3 * grasp * k, 3 * k);
       if (located.reasons[grasp] == Reason::kNone && Coincide(own, tolerance)) {

@@ -16,6 +16,9 @@ struct LocatedGrasps {
   /// a border without a normal) of its first contact that has no place, which is left as it was
   /// given, as are those after it; kUnreachable of one in a sealed cavity; kCoincidentFingers.
   std::vector<Reason> reasons;
+  /// Of each grasp the index of the contact that the reason is of; −1 with kNone and
+  /// kCoincidentFingers.
+  std::vector<int> contacts;
 };
 
 /// Places every contact as a grasp file's is (LocateContact); without normals on the only face at

@@ -64,7 +64,42 @@ def indices(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.nd
     return np.ascontiguousarray(array, dtype=np.int64)
 
 
+_MOST_AXES = 32
+"""NumPy's own limit."""
+
+
+def unmasked(name: str, value) -> None:
+    """Checks that nothing in a value is masked: an ordinary array would show what is beneath.
+
+    Args:
+        value: an array, or lists and tuples of arrays and numbers.
+
+    Raises:
+        InputError: names the place of the first masked value and how many there are.
+    """
+    seen: set[int] = set()
+
+    def check(name: str, part, depth: int) -> None:
+        if isinstance(part, np.ma.MaskedArray):
+            mask = np.ma.getmaskarray(part)
+            if mask.dtype != bool or not mask.any():  # of structures: they are refused anyway
+                return
+            place = [int(i) for i in np.argwhere(mask)[0]] if mask.ndim else ""
+            count = int(mask.sum())
+            more = f" and {count - 1} more" if count > 1 else ""
+            raise InputError(f"{name}{place}: is masked{more}, expected numbers without a mask; "
+                             "help: leave masked values out, or fill them")
+        if isinstance(part, (list, tuple)) and depth < _MOST_AXES and id(part) not in seen:
+            seen.add(id(part))
+            for i, inner in enumerate(part):
+                if not isinstance(inner, (float, int, str)):
+                    check(f"{name}[{i}]", inner, depth + 1)
+
+    check(name, value, 0)
+
+
 def _array(name: str, value, shapes: str) -> np.ndarray:
+    unmasked(name, value)
     try:
         return np.asarray(value)
     except ValueError as error:
@@ -73,6 +108,7 @@ def _array(name: str, value, shapes: str) -> np.ndarray:
 
 def number(name: str, value, lower: float, upper: float = math.inf, *, zero: bool = False) -> float:
     """A finite number above `lower` and below `upper`; also 0 where that is said."""
+    unmasked(name, value)
     try:
         if isinstance(value, (str, bytes)):
             raise TypeError
@@ -89,6 +125,7 @@ def number(name: str, value, lower: float, upper: float = math.inf, *, zero: boo
 
 def integer(name: str, value, lower: int, upper: int) -> int:
     """An integer from `lower` to `upper`."""
+    unmasked(name, value)
     try:
         result = operator.index(value)
     except TypeError:

@@ -1,4 +1,4 @@
-"""Dictionaries of NumPy, as DexGraspBench and BODex keep grasps in them."""
+"""Dictionaries of NumPy, as DexGraspBench, Dexonomy and BODex keep grasps in them."""
 
 from __future__ import annotations
 
@@ -8,14 +8,24 @@ import numpy as np
 
 from . import _arguments, _dict_file, _poses
 from ._arguments import member, vector
-from ._hand_grasps import HandGrasps
+from ._hand_grasps import HandGrasps, WorldPoses
 from ._regrasp import InputError
 from ._types import ArrayLike
 
+_NO_POSE = ("no obj_pose, expected obj_pose or a scene_cfg with the object's pose; help: give the pose "
+            "as object_pose (regrasp-convert --object-pose)")
 
-def read_dexgraspbench(path: str | os.PathLike) -> HandGrasps:
-    """Reads a dictionary of DexGraspBench (`grasp_qpos`, `obj_pose`; NPY, or its members as NPZ), without
-    executing anything in it. Joints that have no names are in the order of the hand's model.
+
+def read_dexgraspbench(path: str | os.PathLike, *,
+                       object_pose: ArrayLike | None = None) -> HandGrasps:
+    """Reads a dictionary of DexGraspBench or Dexonomy (`grasp_qpos` with `obj_pose` or `scene_cfg`; NPY,
+    or its members as NPZ), without executing anything in it. Joints that have no names are in the
+    order of the hand's model.
+
+    Args:
+        path: of the NPY or NPZ file.
+        object_pose: of the object in the file's world, position in metres and quaternion w, x, y, z;
+            None: that of the file.
 
     Raises:
         InputError: names the file, the member and what is wrong.
@@ -24,8 +34,7 @@ def read_dexgraspbench(path: str | os.PathLike) -> HandGrasps:
     data = _dict_file.read_dict(path)
     qpos = _arguments.numbers(f"{name}: grasp_qpos", member(name, data, "grasp_qpos"),
                               "(7 + J,) or (N, 7 + J)", (1, 2))
-    pose = vector(f"{name}: obj_pose", member(name, data, "obj_pose"), 7)
-    return _grasps(name, data, "grasp_qpos", np.atleast_2d(qpos), pose)
+    return _grasps(name, data, "grasp_qpos", np.atleast_2d(qpos), object_pose)
 
 
 def read_bodex(path: str | os.PathLike, *, object_pose: ArrayLike | None = None) -> HandGrasps:
@@ -48,42 +57,82 @@ def read_bodex(path: str | os.PathLike, *, object_pose: ArrayLike | None = None)
     if stages.shape[0] != 1 or stages.shape[2] < 2:
         raise InputError(f"{where}: the shape is {shape} with two stages or more, "
                          f"found {stages.shape}")
-    if object_pose is not None:
-        pose = vector("object_pose", object_pose, 7)
-        _poses.unit("object_pose", pose[3:])
-    elif "obj_pose" in data:
-        pose = _arguments.numbers(f"{name}: obj_pose", data["obj_pose"], "(1, 7)", (1, 2)).ravel()
-    else:
-        raise InputError(f"object_pose: {name} has no obj_pose, it is to be given")
-    grasps = _grasps(name, data, "robot_pose", stages[0, :, 1],
-                     vector(f"{name}: obj_pose", pose, 7))
+    grasps = _grasps(name, data, "robot_pose", stages[0, :, 1], object_pose)
     grasps.lost.append("all stages of robot_pose but the second")
     return grasps
 
 
-def _grasps(name: str, data: dict, key: str, qpos: np.ndarray, pose: np.ndarray) -> HandGrasps:
+def _scene_object(name: str, data: dict) -> dict | None:
+    """The object that `scene_cfg` of Dexonomy says is grasped; None if there is no `scene_cfg`."""
+    if "scene_cfg" not in data:
+        return None
+    where = f"{name}: scene_cfg"
+    config = _arguments.mapping(where, data["scene_cfg"])
+    scene = _arguments.mapping(f"{where}: scene", member(where, config, "scene"))
+    if "interest_obj_name" in config:
+        key = _arguments.text(f"{where}: interest_obj_name", config["interest_obj_name"])
+    elif len(scene) == 1:
+        key = next(iter(scene))
+    else:
+        raise InputError(f"{where}: no interest_obj_name, expected it for {len(scene)} objects")
+    return _arguments.mapping(f"{where}: scene: {key}", member(f"{where}: scene", scene, key))
+
+
+def _object_pose(name: str, data: dict, scene: dict | None, given: ArrayLike | None) -> np.ndarray:
+    """(7,) of the object in the file's world."""
+    if given is not None:
+        where, pose = "object_pose", vector("object_pose", given, 7)
+    elif "obj_pose" in data or (scene is not None and "pose" in scene):
+        where, pose = ((f"{name}: obj_pose", data["obj_pose"]) if "obj_pose" in data else
+                       (f"{name}: scene_cfg: pose", scene["pose"]))
+        pose = vector(where, _arguments.numbers(where, pose, "(7,) or (1, 7)", (1, 2)).ravel(), 7)
+    else:
+        raise InputError(f"{name}: {_NO_POSE}")
+    return np.concatenate([pose[:3], _poses.unit(where, pose[3:])])
+
+
+def _scale(where: str, value) -> float:
+    """One scale; BODex and Dexonomy have it for each axis in some versions."""
+    scale = _arguments.numbers(where, value, "(), (1,) or (3,)", (0, 1)).ravel()
+    if len(scale) == 0 or (scale != scale[0]).any():
+        raise InputError(f"{where}: one scale is needed, found {_arguments.shown(scale.tolist())}")
+    return _arguments.number(where, scale[0], 0)
+
+
+def _joint_names(name: str, data: dict, count: int) -> list[str]:
+    names = data.get("joint_names", [])
+    if isinstance(names, np.ndarray):
+        names = names.tolist()
+    names = _arguments.texts(f"{name}: joint_names", names)
+    if names and len(names) != count:
+        raise InputError(f"{name}: joint_names: {len(names)} for {count} joints")
+    return names
+
+
+def _grasps(name: str, data: dict, key: str, qpos: np.ndarray,
+            object_pose: ArrayLike | None) -> HandGrasps:
     """Of (N, 7 + J) palms and joints in the world, and the object's pose there."""
     if qpos.shape[1] < 8:
         raise InputError(f"{name}: {key}: a pose of 7 and joints are needed, found {qpos.shape}")
-    joint_names = data.get("joint_names", [])
-    if isinstance(joint_names, np.ndarray):
-        joint_names = joint_names.tolist()
-    joint_names = _arguments.texts(f"{name}: joint_names", joint_names)
-    if joint_names and len(joint_names) != qpos.shape[1] - 7:
-        raise InputError(f"{name}: joint_names: {len(joint_names)} for {qpos.shape[1] - 7} joints")
-    position, back = _poses.inverse(pose[:3], _poses.unit(f"{name}: obj_pose", pose[3:]))
-    palm = _poses.unit(f"{name}: {key}", qpos[:, 3:7])
-    positions = np.einsum("ij,nj->ni", _poses.matrices(back), qpos[:, :3]) + position
-    stem = os.path.splitext(os.path.basename(name))[0]
+    scene = _scene_object(name, data)
+    pose = _object_pose(name, data, scene, object_pose)
+    joint_names = _joint_names(name, data, qpos.shape[1] - 7)
     lost = set(data) - {key, "obj_pose", "joint_names", "obj_scale"}
+    if object_pose is not None and (lost & {"scene_cfg"} or "obj_pose" in data):
+        lost.add("the object's pose, replaced by the one that is given")
+    scale = None
     if "obj_scale" in data:
-        scale = _arguments.numbers(f"{name}: obj_scale", data["obj_scale"], "() or (1,)", (0, 1))
-        scale = scale.ravel()
-        # BODex has it for each axis in some versions.
-        if len(scale) == 0 or (scale != scale[0]).any():
-            raise InputError(f"{name}: obj_scale: one scale is needed, found "
-                             f"{_arguments.shown(scale.tolist())}")
-        lost.add(f"obj_scale, to be given as --scale {scale[0]:g}")
-    return HandGrasps(positions, _poses.product(np.broadcast_to(back, palm.shape), palm), joint_names,
-                      qpos[:, 7:], [f"{stem}_{i}" for i in range(len(qpos))], np.ones(len(qpos)),
-                      sorted(lost))
+        scale = _scale(f"{name}: obj_scale", data["obj_scale"])
+        lost.add(f"obj_scale, to be given as --scale {scale:g}")
+    elif scene is not None and "scale" in scene:
+        scale = _scale(f"{name}: scene_cfg: scale", scene["scale"])
+        lost.add(f"scale of scene_cfg, to be given as --scale {scale:g}")
+    if "scene_cfg" in lost:
+        lost.remove("scene_cfg")
+        lost.add("scene_cfg but the object's pose and scale")
+    palms = np.concatenate([qpos[:, :3], _poses.unit(f"{name}: {key}", qpos[:, 3:7])], axis=1)
+    world = WorldPoses(palms, np.broadcast_to(pose, palms.shape).copy())
+    stem = os.path.splitext(os.path.basename(name))[0]
+    return HandGrasps(*world.in_object(), joint_names, qpos[:, 7:],
+                      [f"{stem}_{i}" for i in range(len(qpos))], np.ones(len(qpos)), sorted(lost),
+                      None if scale is None else np.full(len(qpos), scale), world)

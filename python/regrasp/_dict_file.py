@@ -91,8 +91,9 @@ def _plain(value):
     return value.item() if isinstance(value, np.ndarray) and value.shape == () else value
 
 
-def read_dict(path) -> dict:
-    """The dictionary of an NPY file that numpy.save wrote of it, or the arrays of an NPZ file.
+def read_content(path) -> dict | list[dict]:
+    """The dictionary of an NPY file that numpy.save wrote of it, the arrays of an NPZ file, or the
+    dictionaries of an NPY file of an array or a list of them.
 
     Raises:
         InputError: it is none, or holds something else than dictionaries, lists, texts, numbers
@@ -106,9 +107,29 @@ def read_dict(path) -> dict:
         raise InputError(f"{path}: {error}") from None
     except Exception as error:  # what a pickle that is cut off or made up brings about
         raise InputError(f"{path}: not a dictionary of NumPy: {error}".replace("\n", " ")) from None
-    if not isinstance(found, dict):
-        what = f"an array of {found.dtype}" if isinstance(found, np.ndarray) else type(found).__name__
-        raise InputError(f"{path}: a dictionary is needed, found {what}")
-    if not all(isinstance(key, str) for key in found):
-        raise InputError(f"{path}: keys of the dictionary are to be texts")
-    return _arguments.bounded(path, found)
+    several = isinstance(found, list) or (
+        isinstance(found, np.ndarray) and found.dtype == object and found.ndim == 1)
+    entries = list(found) if several else [found]
+    for i, entry in enumerate(entries):
+        at = f"{path}[{i}]" if several else path
+        if not isinstance(entry, dict):
+            what = (f"an array of {entry.dtype}" if isinstance(entry, np.ndarray)
+                    else type(entry).__name__)
+            raise InputError(f"{at}: a dictionary is needed, found {what}")
+        if not all(isinstance(key, str) for key in entry):
+            raise InputError(f"{at}: keys of the dictionary are to be texts")
+    _arguments.bounded(path, entries)
+    return entries if several else found
+
+
+def read_dict(path) -> dict:
+    """The same, if it is a single dictionary.
+
+    Raises:
+        InputError: it is a list of dictionaries, or as `read_content`.
+    """
+    found = read_content(path)
+    if isinstance(found, list):
+        raise InputError(f"{path}: a dictionary is needed, found a list of {len(found)}, as "
+                         "DexGraspNet writes them; help: use read_dexgraspnet")
+    return found

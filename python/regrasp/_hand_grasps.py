@@ -19,6 +19,22 @@ _ROWS = 10
 
 
 @dataclass
+class WorldPoses:
+    """Poses of palms and of the object in the world of a file, as the file has them."""
+
+    palms: np.ndarray
+    """(N, 7) positions in metres and quaternions w, x, y, z."""
+    objects: np.ndarray
+    """(N, 7), likewise."""
+
+    def in_object(self) -> tuple[np.ndarray, np.ndarray]:
+        """Positions (N, 3) and quaternions (N, 4) of the palms in the object's frame."""
+        position, back = _poses.inverse(self.objects[:, :3], self.objects[:, 3:])
+        turned = np.einsum("nij,nj->ni", _poses.matrices(back), self.palms[:, :3])
+        return turned + position, _poses.product(back, self.palms[:, 3:])
+
+
+@dataclass
 class HandGrasps:
     """How a hand holds an object, N times: where its palm is, and its joints."""
 
@@ -36,6 +52,10 @@ class HandGrasps:
     """(N,), 1 where the format has none."""
     lost: list[str] = field(default_factory=list)
     """What the file has besides and could not be carried over, in words."""
+    scales: np.ndarray | None = None
+    """(N,) metres per unit of the object's file, if the file of the grasps has them."""
+    world: WorldPoses | None = field(default=None, repr=False, compare=False)
+    """The poses as the file has them, if they are not in the object's frame there."""
 
     def __post_init__(self):
         """
@@ -55,6 +75,11 @@ class HandGrasps:
                 raise InputError(f"{name}: the shape is {text} for {count} names, found {array.shape}")
             setattr(self, name, array)
         self.quaternions = _poses.unit("quaternions", self.quaternions)
+        if self.scales is not None:
+            self.scales = _arguments.numbers("scales", self.scales, f"({count},)", (1,))
+            if self.scales.shape != (count,) or not (self.scales > 0).all():
+                raise InputError(f"scales: must be {count} numbers above 0, found "
+                                 f"{_arguments.shown(self.scales.tolist())}")
 
     def __len__(self) -> int:
         return len(self.names)
@@ -105,7 +130,8 @@ class HandGrasps:
 
         Args:
             hand: the hand, of F fingers.
-            object: what it holds, a solid.
+            object: what it holds, a solid. Its size is that of `scales`, if the grasps have them;
+                its own scale must then be the same, or 1.
             tolerance: a fingertip's ball that is no farther from the surface than this, and no deeper
                 in it, touches; metres.
 
@@ -113,19 +139,50 @@ class HandGrasps:
             points (N, F, 3) in the object's unit, unit normals (N, F, 3) into the object, and
             whether the fingertip touches (N, F).
         """
+        tolerance = _arguments.number("tolerance", tolerance, 0)
+        points, normals, gaps = self.gaps(hand, object)
+        return points, normals, np.abs(gaps) <= tolerance
+
+    def gaps(self, hand: Hand, object: Object) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Measure how far the fingertips are from the object.
+
+        Args:
+            hand: the hand, of F fingers.
+            object: what it holds, as for `touching`.
+
+        Returns:
+            The nearest points (N, F, 3) of the surface in the object's unit, unit normals (N, F, 3)
+            into the object, and signed distances (N, F) from the surface to the fingertips' balls in
+            metres, negative if a ball reaches into the object.
+        """
         _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
         if _arguments.of_type("object", object, Object).dimension != 3:
             raise InputError(f"object: {object.name} is a polygon; hands hold solids")
-        tolerance = _arguments.number("tolerance", tolerance, 0)
-        tips = hand.tips(self.in_order_of(hand))
-        turned = np.einsum("nij,nkj->nki", _poses.matrices(self.quaternions), tips)
-        centres = (turned + self.positions[:, None]) / object.scale
-        points, normals = object.nearest(centres.reshape(-1, 3))
-        points, normals = points.reshape(centres.shape), normals.reshape(centres.shape)
-        away = centres - points
-        side = np.where(np.einsum("nki,nki->nk", away, normals) > 0, -1, 1)  # -1: in the object
-        gaps = side * np.linalg.norm(away, axis=-1) * object.scale - hand.radii
-        return points, normals, np.abs(gaps) <= tolerance
+        return measure_gaps(self, hand, object, self._scales_for(object))
+
+    def _scales_for(self, object: Object) -> np.ndarray:
+        """(N,) metres per unit of the object."""
+        if self.scales is None:
+            return np.full(len(self), object.scale)
+        other = np.flatnonzero(self.scales != object.scale)
+        if object.scale != 1 and len(other):
+            raise InputError(f"object: {object.name} has scale {object.scale:g}, expected "
+                             f"{self.scales[other[0]]:g} as in grasp {self.names[other[0]]}, or 1")
+        return self.scales
+
+
+def measure_gaps(grasps: HandGrasps, hand: Hand, object: Object,
+                 scales: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Measure as `HandGrasps.gaps`, with an object of (N,) metres per unit of its file."""
+    tips = hand.tips(grasps.in_order_of(hand))
+    turned = np.einsum("nij,nkj->nki", _poses.matrices(grasps.quaternions), tips)
+    centres = (turned + grasps.positions[:, None]) / scales[:, None, None]
+    points, normals = object.nearest(centres.reshape(-1, 3))
+    points, normals = points.reshape(centres.shape), normals.reshape(centres.shape)
+    away = centres - points
+    side = np.where(np.einsum("nki,nki->nk", away, normals) > 0, -1, 1)  # -1: in the object
+    distances = np.linalg.norm(away, axis=-1) * scales[:, None]
+    return points, normals, side * distances - hand.radii
 
 
 def of_plan(path: str | os.PathLike, hand: Hand) -> HandGrasps:

@@ -5,17 +5,19 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from dataclasses import replace
 
 import numpy as np
 
-from . import _arguments, _dict_file, _npz, formats
+from . import _arguments, _dict_file, _misread, _npz, formats
+from ._hand_grasps import WorldPoses
 from ._help_as import help_as
 from ._regrasp import InputError, version
 from .hands import Hand
 from .objects import Object
 
-_EPILOG = """Read, by the files' ending: isaac_grasp 1.0 (.yaml), dictionaries of DexGraspBench and BODex
-(.npy, .npz), worlds of GraspIt! (.xml), plans of HiDex (.csv), plans of regrasp for a hand (.json),
+_EPILOG = """Read, by the files' ending: isaac_grasp 1.0 (.yaml), dictionaries of DexGraspBench, Dexonomy and BODex
+(.npy, .npz), lists of DexGraspNet (.npy), worlds of GraspIt! (.xml), plans of HiDex (.csv), plans of regrasp for a hand (.json),
 trajectories of validate (.npz, to .mcap). Written: isaac_grasp 1.0 (.yaml), contacts for validate --grasps
 (.npz), plans of regrasp (.json, of .csv), ROS 2 transforms and joint states (.mcap)."""
 
@@ -38,6 +40,10 @@ class _HelpAs(argparse.Action):
         parser.exit(0)
 
 
+class NoContacts(Exception):
+    """No grasp has contacts: the result is negative, and no file is written."""
+
+
 def parser() -> argparse.ArgumentParser:
     """Of the program's options."""
     parser = _Parser(
@@ -53,9 +59,9 @@ def parser() -> argparse.ArgumentParser:
                         "it begins with a minus (default: they are the palm's own)")
     parser.add_argument("--object", metavar="FILE", help="object file; for .npz and of .csv")
     parser.add_argument("--object-pose", metavar="X,Y,Z,QW,QX,QY,QZ", help="the object's pose in the "
-                        "world of a file of BODex that has none")
-    parser.add_argument("--scale", type=float, default=1, metavar="METRES_PER_UNIT",
-                        help="of the object file (default 1)")
+                        "world of a dictionary (.npy, .npz), instead of the file's or if it has none")
+    parser.add_argument("--scale", type=float, metavar="METRES_PER_UNIT", help="of the object file "
+                        "(default: the scale in the file of the grasps, 1 if it has none)")
     parser.add_argument("--tolerance-mm", type=float, default=2, metavar="MM", help="a fingertip "
                         "touches that is no farther from the surface, or deeper in it; so far a contact "
                         "of .csv may be off it (default 2)")
@@ -90,14 +96,30 @@ def _numbers(option: str, text: str) -> list[float]:
 
 
 def _read_dictionary(path: str, options) -> formats.HandGrasps:
-    if "robot_pose" not in _dict_file.read_dict(path):
-        return formats.read_dexgraspbench(path)
-    pose = options.object_pose
-    return formats.read_bodex(path, object_pose=_numbers("--object-pose", pose) if pose else None)
+    content = _dict_file.read_content(path)
+    if isinstance(content, list):
+        _check_object_pose(path, options)
+        return formats.read_dexgraspnet(path)
+    read = formats.read_bodex if "robot_pose" in content else formats.read_dexgraspbench
+    pose = None
+    if options.object_pose is not None:
+        pose = _numbers("--object-pose", options.object_pose)
+        if len(pose) != 7:
+            raise InputError(f"--object-pose: 7 numbers are needed, found {len(pose)}")
+    return read(path, object_pose=pose)
+
+
+def _check_object_pose(path: str, options) -> None:
+    """That --object-pose is not given for a file in which it means nothing."""
+    if options.object_pose is not None:
+        raise InputError(f"--object-pose: cannot be used with {path}, expected a dictionary of "
+                         "DexGraspBench, Dexonomy or BODex")
 
 
 def _read(path: str, hand: Hand | None, options) -> formats.HandGrasps:
     ending = _ending(path)
+    if ending not in (".npy", ".npz"):
+        _check_object_pose(path, options)
     if ending == ".json":
         return formats.of_plan(path, _need(hand, "hand", "for the joints' names of a plan"))
     if ending in (".npy", ".npz"):
@@ -124,10 +146,18 @@ def _join(parts: list[formats.HandGrasps]) -> formats.HandGrasps:
     if any(n != names[0] for n in names) or len({p.joints.shape[1] for p in parts}) > 1:
         raise InputError("the files have other joints than each other")
     lost = sorted({what for part in parts for what in part.lost})
+    if len({p.scales is None for p in parts}) > 1:
+        raise InputError("scale: some of the files have one and others do not")
+    worlds = [part.world for part in parts if part.world is not None]
+
+    def all_of(name: str, of: list) -> np.ndarray:
+        return np.concatenate([getattr(part, name) for part in of])
     return formats.HandGrasps(
-        *(np.concatenate([getattr(p, key) for p in parts]) for key in ("positions", "quaternions")),
-        names[0], np.concatenate([p.joints for p in parts]), [n for p in parts for n in p.names],
-        np.concatenate([p.confidence for p in parts]), lost)
+        all_of("positions", parts), all_of("quaternions", parts), names[0], all_of("joints", parts),
+        [n for p in parts for n in p.names], all_of("confidence", parts), lost,
+        None if parts[0].scales is None else all_of("scales", parts),
+        WorldPoses(all_of("palms", worlds), all_of("objects", worlds))
+        if len(worlds) == len(parts) else None)
 
 
 def _chosen(fingers: str | None, hand: Hand) -> list[int]:
@@ -151,7 +181,8 @@ def _single(inputs: list[str], what: str) -> str:
 
 
 def _object(options) -> Object:
-    return Object.read(_need(options.object, "object", "to find contacts"), scale=options.scale)
+    scale = 1 if options.scale is None else options.scale
+    return Object.read(_need(options.object, "object", "to find contacts"), scale=scale)
 
 
 def _convert_motion(options, hand: Hand | None) -> list[str]:
@@ -184,14 +215,24 @@ def _convert_fingers(options) -> list[str]:
 
 
 def _write_contacts(options, grasps: formats.HandGrasps, hand: Hand) -> list[str]:
-    points, normals, touching = grasps.touching(hand, _object(options),
-                                                tolerance=options.tolerance_mm / 1000)
+    body = _object(options)
+    tolerance = _arguments.number("--tolerance-mm", options.tolerance_mm, 0) / 1000
     chosen = _chosen(options.fingers, hand)
-    touching = touching[:, chosen]
+    sized = grasps if options.scale is None else replace(grasps, scales=None)
+    points, normals, gaps = _at_palm(options, sized).gaps(hand, body)
+    touching = np.abs(gaps[:, chosen]) <= tolerance
     kept = np.flatnonzero(touching.all(axis=1) if options.fingers else touching.any(axis=1))
+    if not len(kept):
+        raise NoContacts(_no_contacts(options, grasps, hand, body, gaps[:, chosen]))
+    lost = list(grasps.lost)
+    if len(chosen) > 1 and touching.sum(axis=1).max() < 2:
+        cause = _likely_cause(options, grasps, hand, body)
+        if cause is not None:
+            print("regrasp-convert: warning: no grasp has two fingertips at the surface; likely cause: "
+                  f"{cause}", file=sys.stderr)
     _npz.write(options.output, points=points[kept][:, chosen], normals=normals[kept][:, chosen],
                holds=touching[kept], grasps=kept)
-    lost = grasps.lost + ["palm and joints"]
+    lost.append("palm and joints")
     off = (~touching).sum(axis=0)
     if off.any():
         lost.append(f"fingertips that are not within {options.tolerance_mm:g} mm of the surface: "
@@ -202,6 +243,50 @@ def _write_contacts(options, grasps: formats.HandGrasps, hand: Hand) -> list[str
                     + ("one of --fingers does not touch" if options.fingers
                        else "no fingertip touches"))
     return lost
+
+
+def _no_contacts(options, grasps: formats.HandGrasps, hand: Hand, body: Object,
+                 gaps: np.ndarray) -> str:
+    """The line for grasps none of which is at the surface.
+
+    Args:
+        gaps: (N, chosen fingers) signed distances, metres.
+    """
+    if not len(grasps):
+        return "no contacts found: the files hold no grasp"
+    chosen = _chosen(options.fingers, hand)
+    touching = np.abs(gaps) <= options.tolerance_mm / 1000
+    if touching.any():
+        what = "one of --fingers is farther from the surface in each"
+    else:
+        what = f"no fingertip is within {options.tolerance_mm:g} mm of the surface in any"
+    nearest = int(np.argmin(np.sort(np.abs(gaps), axis=1)[:, :3].mean(axis=1)))
+    distances = ", ".join(f"{hand.fingers[finger]} {1000 * gap:+.3g}"
+                          for finger, gap in zip(chosen, gaps[nearest]))
+    text = (f"no contacts found: {what} of {len(grasps)} grasps of {body.name}; signed distances in mm "
+            f"(negative: inside) in grasp {grasps.names[nearest]}, the nearest: {distances}")
+    if touching.any():
+        return text
+    cause = _likely_cause(options, grasps, hand, body)
+    if cause is None:
+        return f"{text}; cause not found: other {_misread.KINDS} does not make fingertips touch"
+    return f"{text}; likely cause: {cause}"
+
+
+def _likely_cause(options, grasps: formats.HandGrasps, hand: Hand,
+                  body: Object) -> _misread.Cause | None:
+    """Of grasps as they were read; a scale that is given replaces theirs."""
+    sized = grasps if options.scale is None else replace(grasps, scales=None)
+    return _misread.likely_cause(
+        sized, hand, body, fingers=_chosen(options.fingers, hand),
+        tolerance=options.tolerance_mm / 1000,
+        palm=_numbers("--palm", options.palm) if options.palm else None,
+        file_scales=None if options.scale is None else grasps.scales)
+
+
+def _at_palm(options, grasps: formats.HandGrasps) -> formats.HandGrasps:
+    """The grasps with the poses of the palm."""
+    return grasps.with_palm_at(_numbers("--palm", options.palm)) if options.palm else grasps
 
 
 def _write_isaac_grasp(options, grasps: formats.HandGrasps, hand: Hand | None) -> list[str]:
@@ -233,18 +318,20 @@ def _run(options) -> list[str]:
         _need(options.object, "object", "to find contacts")
     grasps = _join([_fitting(path, _read(path, hand, options), hand if ending == ".npz" else None)
                     for path in options.inputs])
-    if options.palm:
-        grasps = grasps.with_palm_at(_numbers("--palm", options.palm))
     if ending == ".npz":
         return _write_contacts(options, grasps, hand)
-    return _write_isaac_grasp(options, grasps, hand)
+    return _write_isaac_grasp(options, _at_palm(options, grasps), hand)
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Runs the program; returns its exit code: 0, or 2 for bad input, 3 where the machine fails."""
+    """Run the program. Returns its exit code: 0, 1 if no grasp has contacts, 2 for bad input, 3 if the
+    machine fails."""
     options = parser().parse_args(arguments)
     try:
         lost = _run(options)
+    except NoContacts as none:
+        print(f"regrasp-convert: {none}", file=sys.stderr)
+        return 1
     except InputError as error:
         print(f"regrasp-convert: {error}".replace("\n", " "), file=sys.stderr)
         return 2

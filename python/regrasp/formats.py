@@ -1,6 +1,7 @@
 """Grasps and plans in the formats of other projects (docs/interchange.md has the table)."""
 
 from ._dexgraspbench import read_bodex, read_dexgraspbench
+from ._dexgraspnet import read_dexgraspnet
 from ._finger_grasps import FingerGrasps
 from ._graspit import read_graspit
 from ._hand_grasps import HandGrasps, of_plan
@@ -17,6 +18,7 @@ __all__ = [
     "of_plan",
     "read_bodex",
     "read_dexgraspbench",
+    "read_dexgraspnet",
     "read_graspit",
     "read_hidex",
     "read_isaac_grasp",

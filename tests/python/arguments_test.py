@@ -117,8 +117,9 @@ class ArgumentsTest(RegraspCase):
         self.check(grasps.with_palm_at, palm=[0, 0, 0])
         self.check(grasps.in_order_of, hand=self.hand)
         os.chdir(self.folder)
-        for reader in (formats.read_isaac_grasp, formats.read_dexgraspbench, formats.read_graspit,
-                       formats.read_bodex, formats.read_hidex, formats.read_trajectory):
+        for reader in (formats.read_isaac_grasp, formats.read_dexgraspbench, formats.read_dexgraspnet,
+                       formats.read_graspit, formats.read_bodex, formats.read_hidex,
+                       formats.read_trajectory):
             self.check(reader, path="grasps")
         self.check(formats.of_plan, path="plan.json", hand=self.hand)
         self.check(formats.write_isaac_grasp, path="grasps.yaml", grasps=grasps,
@@ -142,6 +143,75 @@ class ArgumentsTest(RegraspCase):
         self.check(grasps.write_npz, path="grasps.npz")
         self.check(formats.write_mcap, path="a.mcap", motion=formats.HandMotion(**moves),
                    hand=self.hand, start_time=0, palm_frame="palm", object_frame="object")
+
+    def test_masked_values_are_never_taken_for_numbers(self):
+        def masked(array, place):
+            result = np.ma.array(array)
+            result[place] = np.ma.masked
+            return result
+        points = np.random.default_rng(0).normal(size=(3, 4, 3))
+        normals = points / np.linalg.norm(points, axis=-1, keepdims=True)
+        contacts = {"points": np.zeros((1, 3, 3)), "normals": np.zeros((1, 3, 3)), "names": ["a"]}
+        grasps = formats.HandGrasps(**self.open)
+        moves = {"times": [0.], "joint_names": self.hand.joint_names, "joints": np.zeros((1, 16)),
+                 "object_poses": [[0, 0, 0, 1., 0, 0, 0]]}
+        start = np.array([[.03, 0, 0], [-.03, 0, 0], [0, .03, 0], [0, -.03, 0]])
+        in_hand = {"object": self.cube, "hand": self.hand, "mu": 0.8}
+        for words, function, arguments in [
+                (["points[1, 2, 0]"], regrasp.force_closure,
+                 {"points": masked(points, (1, 2, 0)), "normals": normals, "mu": 0.5}),
+                (["points[0, 0, 0]", "11 more"], regrasp.force_closure,
+                 {"points": masked(points, 0), "normals": normals, "mu": 0.5}),
+                (["normals[2, 0, 1]"], regrasp.force_closure,
+                 {"points": points, "normals": masked(normals, (2, 0, 1)), "mu": 0.5}),
+                (["touching[0, 1]"], regrasp.force_closure,
+                 {"points": points, "normals": normals, "mu": 0.5,
+                  "touching": masked(np.ones((3, 4), bool), (0, 1))}),
+                (["points[1][2, 0]"], regrasp.force_closure,
+                 {"points": [points[0], masked(points[1], (2, 0))], "normals": normals[:2], "mu": 0.5}),
+                (["points[0][1][2]"], regrasp.force_closure,
+                 {"points": [[[0, 0, 0], (1, 1, np.ma.masked)]], "normals": normals[:2], "mu": 0.5}),
+                (["mu"], regrasp.force_closure,
+                 {"points": points, "normals": normals, "mu": np.ma.array(0.5, mask=True)}),
+                (["threads"], regrasp.force_closure,
+                 {"points": points, "normals": normals, "mu": .5, "threads": np.ma.array(1, mask=True)}),
+                (["vertices[0, 0]"], regrasp.Object.from_arrays,
+                 {"vertices": masked(self.cube.vertices, (0, 0)), "faces": self.cube.triangles}),
+                (["faces[3, 1]"], regrasp.Object.from_arrays,
+                 {"vertices": self.cube.vertices, "faces": masked(self.cube.triangles, (3, 1))}),
+                (["outline[1, 0]"], regrasp.Object.from_polygon,
+                 {"outline": masked(np.eye(3)[:, :2], (1, 0))}),
+                (["holes[0][1, 0]"], regrasp.Object.from_polygon,
+                 {"outline": [[0, 0], [9, 0], [0, 9]], "holes": [masked(np.eye(3)[:, :2], (1, 0))]}),
+                (["points[0, 2]"], self.cube.nearest, {"points": masked(np.zeros((2, 3)), (0, 2))}),
+                (["joints[3]"], self.hand.tips, {"joints": masked(np.zeros(16), 3)}),
+                (["start[2, 1]"], regrasp.plan,
+                 {"object": self.cube, "start": masked(start, (2, 1)), "goal": start, "mu": 0.5}),
+                (["goal[1][0, 0]"], regrasp.plan,
+                 {"object": self.cube, "start": start, "goal": (start, masked(-start, (0, 0))), "mu": 0.5}),
+                (["start_pose[6]"], regrasp.plan_in_hand,
+                 {**in_hand, "start_pose": masked(np.eye(7)[3], 6), "turn": ("z", 5)}),
+                (["turn[1]"], regrasp.plan_in_hand, {**in_hand, "turn": ("z", np.ma.masked)}),
+                (["positions[0, 1]"], formats.HandGrasps,
+                 {**self.open, "positions": masked(np.zeros((1, 3)), (0, 1))}),
+                (["joints[0, 9]"], formats.HandGrasps,
+                 {**self.open, "joints": masked(np.zeros((1, 16)), (0, 9))}),
+                (["scales[0]"], formats.HandGrasps, {**self.open, "scales": masked(np.ones(1), 0)}),
+                (["palm[2]"], grasps.with_palm_at, {"palm": masked(np.zeros(3), 2)}),
+                (["points[0, 1, 2]"], formats.FingerGrasps,
+                 {**contacts, "points": masked(np.zeros((1, 3, 3)), (0, 1, 2))}),
+                (["times[0]"], formats.HandMotion, {**moves, "times": masked(np.zeros(1), 0)}),
+                (["object_pose[3]"], formats.read_bodex,
+                 {"path": "x", "object_pose": masked(np.eye(7)[3], 3)})]:
+            with self.subTest(function=function.__qualname__, words=words):
+                if function is formats.read_bodex:
+                    np.save(self.path("x.npy"), {"robot_pose": np.ones((1, 1, 2, 9)) / 2})
+                    arguments["path"] = self.path("x.npy")
+                self.refuses([*words, "mask"], function, **arguments)
+        # The control: an array without a masked value is one like any other.
+        plain = regrasp.force_closure(points, normals, mu=0.5)
+        free = regrasp.force_closure(np.ma.array(points), list(np.ma.array(normals)), mu=0.5)
+        np.testing.assert_array_equal(free.margin, plain.margin)
 
     def test_a_function_that_does_not_look_is_found(self):
         def sloppy(length, words):

@@ -167,6 +167,144 @@ class FormatsTest(RegraspCase):
             np.save(path, {**data, **change})
             self.refuses([path, *words], formats.read_bodex, path, object_pose=pose)
 
+    def test_scenes_of_dexonomy(self):
+        object_pose, palms = self.world_poses()
+        table = {"type": "rigid_object", "pose": np.arange(7.), "scale": np.ones(3)}
+        cube = {"type": "rigid_object", "pose": object_pose, "scale": np.full(3, 0.06)}
+        scene = {"scene_id": "s", "interest_obj_name": "cube", "scene": {"table": table, "cube": cube}}
+        path = self.path("grasp.npy")
+        qpos = np.concatenate([palms, self.grasps.joints], axis=1)
+        plain = {"grasp_qpos": qpos, "pregrasp_qpos": qpos, "hand_name": "ring4"}
+        np.save(path, {**plain, "scene_cfg": scene})
+        found = formats.read_dexgraspbench(path)
+        self.assert_same(found)
+        np.testing.assert_array_equal(found.scales, np.full(len(qpos), 0.06))
+        self.assertEqual(found.lost, ["hand_name", "pregrasp_qpos", "scale of scene_cfg, to be given as "
+                                      "--scale 0.06", "scene_cfg but the object's pose and scale"])
+        # The object without its name, if it is the only one, and a scale that is a number.
+        np.save(path, {**plain, "scene_cfg": {"scene": {"cube": {**cube, "scale": 0.5}}}})
+        found = formats.read_dexgraspbench(path)
+        self.assert_same(found)
+        self.assertEqual(found.scales[0], 0.5)
+        for change, words in [
+                ({"interest_obj_name": "cup"}, ["scene_cfg: scene", "no cup"]),
+                ({"interest_obj_name": 3}, ["interest_obj_name", "3"]),
+                ({"scene": {"cube": {**cube, "pose": [1, 2]}}}, ["scene_cfg: pose", "7"]),
+                ({"scene": {"cube": {**cube, "pose": np.zeros(7)}}}, ["scene_cfg: pose", "length 1"]),
+                ({"scene": {"cube": {**cube, "scale": [1, 1, 2.]}}}, ["scene_cfg: scale", "2.0"]),
+                ({"scene": {"cube": {**cube, "scale": 0}}}, ["scene_cfg: scale", "0"]),
+                ({"scene": [cube]}, ["scene_cfg: scene", "list"]),
+                ({"scene": {"cube": {"scale": 1}}}, ["no obj_pose", "--object-pose"])]:
+            with self.subTest(change=change):
+                np.save(path, {**plain, "scene_cfg": {**scene, **change}})
+                self.refuses([path, *words], formats.read_dexgraspbench, path)
+        nameless = {"scene": {"a": cube, "b": cube}}
+        np.save(path, {**plain, "scene_cfg": nameless})
+        self.refuses([path, "interest_obj_name", "2"], formats.read_dexgraspbench, path)
+
+    def test_the_pose_of_the_object_is_an_option_for_every_dictionary(self):
+        object_pose, palms = self.world_poses()
+        plain = {"grasp_qpos": np.concatenate([palms, self.grasps.joints], axis=1),
+                 "joint_names": self.hand.joint_names}
+        option = "--object-pose=" + ",".join(map(repr, object_pose.tolist()))
+        path, output = self.path("plain.npy"), self.path("a.yaml")
+        np.save(path, plain)
+        self.assertIn("--object-pose", self.convert(path, "--output", output, code=2))
+        self.convert(path, option, "--output", output)
+        self.assert_same(formats.read_isaac_grasp(output))
+        # A pose in the file is replaced, and that is said.
+        np.save(path, {**plain, "obj_pose": np.eye(7)[3]})
+        said = self.convert(path, option, "--output", output)
+        self.assertIn("pose, replaced by the one that is given", said)
+        self.assert_same(formats.read_isaac_grasp(output))
+        self.assertIn("found 3", self.convert(path, "--object-pose", "1,2,3", "--output", output, code=2))
+        # Where it means nothing it is refused, not passed over.
+        for other in (output, self.plan):
+            said = self.convert(other, option, "--hand", HAND, "--output", self.path("b.yaml"), code=2)
+            self.assertIn("--object-pose: cannot be used with", said)
+
+    def dexgraspnet(self, scales):
+        """What DexGraspNet saves of the plan's grasps on a cube of edge 1 that is scaled."""
+        # Turns about the fixed axes x, y and z: R = Rz Ry Rx.
+        turns = _poses.matrices(self.grasps.quaternions)
+        angles = np.stack([np.arctan2(turns[:, 2, 1], turns[:, 2, 2]), np.arcsin(-turns[:, 2, 0]),
+                           np.arctan2(turns[:, 1, 0], turns[:, 0, 0])], axis=1)
+        entries = []
+        for i, scale in enumerate(scales):
+            i %= len(self.grasps)
+            # On a smaller or larger cube the same grasp would not touch; the first scale is the cube's.
+            qpos = dict(zip(self.hand.joint_names, self.grasps.joints[i].tolist()))
+            qpos |= dict(zip(["WRJTx", "WRJTy", "WRJTz"], self.grasps.positions[i].tolist()))
+            qpos |= dict(zip(["WRJRx", "WRJRy", "WRJRz"], angles[i].tolist()))
+            entries.append({"qpos": qpos, "scale": scale, "E_pen": 0.1})
+        return entries
+
+    def test_lists_of_dexgraspnet(self):
+        path = self.path("cube.npy")
+        count = len(self.grasps)
+        for kind in (lambda entries: np.array(entries, dtype=object), list):
+            np.save(path, kind(self.dexgraspnet([0.06] * count)))
+            found = formats.read_dexgraspnet(path)
+            self.assert_same(found)
+            self.assertEqual(found.names[-1], f"cube_{count - 1}")
+            self.assertEqual(found.lost, ["E_pen", "scale, to be given as --scale 0.06"])
+        # The joints of a later grasp may be in another order; numbers may be NumPy's.
+        entries = self.dexgraspnet([0.06] * count)
+        entries[-1]["qpos"] = {key: np.float64(value)
+                               for key, value in reversed(list(entries[-1]["qpos"].items()))}
+        np.save(path, entries)
+        self.assert_same(formats.read_dexgraspnet(path))
+        self.refuses([path, "list of", "read_dexgraspnet"], formats.read_dexgraspbench, path)
+
+    def test_each_grasp_of_dexgraspnet_is_on_an_object_of_its_own_size(self):
+        # A cube of edge 1, which the first scale makes the cube of the plan.
+        unit = regrasp.Object.from_arrays(self.cube.vertices / 0.06, self.cube.triangles, name="unit.obj")
+        unit.write(self.path("unit.obj"))
+        path, output = self.path("unit.npy"), self.path("a.npz")
+        np.save(path, self.dexgraspnet([0.06, 0.12]))
+        found = formats.read_dexgraspnet(path)
+        touching = found.touching(self.hand, unit)[2]
+        self.assertGreaterEqual(touching[0].sum(), 3)
+        self.assertFalse(touching[1].any())  # the cube is twice as large there
+        said = self.convert(path, "--hand", HAND, "--object", self.path("unit.obj"), "--output", output)
+        self.assertIn("0.06 of 1, 0.12 of 1", said)
+        with np.load(output) as arrays:
+            np.testing.assert_array_equal(arrays["grasps"], [0])
+            places = unit.nearest(arrays["points"][arrays["holds"]])[0]
+            np.testing.assert_allclose(places, arrays["points"][arrays["holds"]], atol=1e-12)
+        # An object that says another size is refused, one that says the same is not.
+        large = regrasp.Object.read(self.path("unit.obj"), scale=0.06)
+        self.refuses(["object", "scale 0.06", "0.12", "unit_1"], found.touching, self.hand, large)
+        np.save(path, self.dexgraspnet([0.06, 0.06]))
+        same = formats.read_dexgraspnet(path).touching(self.hand, large)[2]
+        self.assertTrue(same.any(axis=1).all())
+
+    def test_lists_of_dexgraspnet_that_are_wrong_are_named(self):
+        path = self.path("cube.npy")
+        good = self.dexgraspnet([0.06, 0.06])
+
+        def changed(**more):
+            return [good[0], {**good[1], "qpos": {**good[1]["qpos"], **more}}]
+        without = {key: value for key, value in good[1]["qpos"].items() if key != "WRJTy"}
+        for entries, words in [
+                ([good[0], {"qpos": good[1]["qpos"]}], ["[1]", "no scale"]),
+                ([good[0], {"scale": 1}], ["[1]", "no qpos"]),
+                ([good[0], {"scale": 1, "qpos": without}], ["[1]: qpos", "no WRJTy"]),
+                ([good[0], {"scale": -1, "qpos": good[1]["qpos"]}], ["[1]: scale", "-1"]),
+                ([good[0], {"scale": 1, "qpos": [1, 2]}], ["[1]: qpos", "list"]),
+                (changed(extra=1), ["[1]: qpos", "extra"]),
+                (changed(WRJRx=float("nan")), ["[1]: qpos: WRJRx", "nan"]),
+                (changed(WRJRx=[1, 2]), ["[1]: qpos: WRJRx", "2"]),
+                (changed(WRJRx="x"), ["[1]: qpos: WRJRx"]),
+                ([good[0], 7], ["[1]", "int"])]:
+            with self.subTest(words=words):
+                np.save(path, np.array(entries, dtype=object))
+                self.refuses([path, *words], formats.read_dexgraspnet, path)
+        np.save(path, good[0])
+        self.refuses([path, "one dictionary"], formats.read_dexgraspnet, path)
+        np.save(path, np.array([], dtype=object))
+        self.refuses([path, "none"], formats.read_dexgraspnet, path)
+
     def test_members_of_an_archive_are_read_like_a_dictionary(self):
         object_pose, palms = self.world_poses()
         np.savez_compressed(self.path("a.npz"), obj_pose=object_pose,
@@ -293,12 +431,11 @@ class FormatsTest(RegraspCase):
         with np.load(self.path("b.npz")) as arrays:
             self.assertEqual(arrays["points"].shape, (len(self.grasps), 4, 3))
             self.assertFalse(arrays["holds"][:, int(idle)].any())
-        # Of a finger that must touch and does not no grasp is left.
+        # If a finger that must touch does not, no grasp is left and no file is written.
         said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--fingers",
-                            "finger" + idle, "--output", self.path("c.npz"))
-        self.assertIn("one of --fingers does not touch", said)
-        with np.load(self.path("c.npz")) as arrays:
-            self.assertEqual(arrays["points"].shape, (0, 1, 3))
+                            "finger" + idle, "--output", self.path("c.npz"), code=1)
+        self.assertIn(f"finger{idle} ", said)
+        self.assertFalse(os.path.exists(self.path("c.npz")))
 
     def test_poses_of_another_body_than_the_palm(self):
         # In a body's frame the palm is at (1, 2, 3), turned by 90° about z.

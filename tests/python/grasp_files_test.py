@@ -93,6 +93,42 @@ class GraspFilesTest(RegraspCase):
                               holds=np.ones((400, 4), bool))
         self.assertFalse(np.array_equal(all_hold["holds"], found["holds"]))
 
+    def test_a_contact_off_the_surface_is_named_with_its_distance_and_the_tolerance(self):
+        points = self.points.copy()
+        for grasp, contact in ((7, 2), (7, 3), (3, 1), (11, 0)):
+            axis = np.flatnonzero(self.normals[grasp, contact])[0]
+            points[grasp, contact, axis] *= 1 + 2e-5 * (1 + contact)  # 30 mm from the centre
+        arrays = {"points": points, "normals": self.normals}
+        self.judge("--mu", "0.5", code=1, **arrays)
+        line, = [line for line in self.said.splitlines() if line.startswith("off-surface: ")]
+        self.assertIn("grasp 3, contact 1 (the first): 1.2e-06 of the object file's units", line)
+        self.assertIn("1e-06 of it counts as on it", line)
+        # The index is that of the file, whichever contacts hold.
+        holds = np.ones((400, 4), bool)
+        holds[3, 1] = holds[7, 0] = holds[7, 2] = False
+        self.judge("--mu", "0.5", code=1, holds=holds, **arrays)
+        self.assertIn("grasp 7, contact 3 (the first): 2.4e-06", self.said)
+        # The control: on the surface there is no such line.
+        self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
+        self.assertNotIn("off-surface", self.said)
+
+    def test_single_precision_three_metres_from_the_origin_is_on_the_surface(self):
+        cube = regrasp.Object.read("models/cube.obj")
+        offset = np.array([3, -2.5, 0.7])
+        far = self.path("far.obj")
+        regrasp.Object.from_arrays(cube.vertices + offset, cube.triangles, name="far.obj").write(far)
+        points = (self.points + offset).astype(np.float32)
+        found = self.judge("--mu", "0.5", code=1, object=far, points=points,
+                           normals=self.normals.astype(np.float32))
+        near = self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
+        self.assertNotIn("off-surface", found["reasons"][found["reason"].astype(int)])
+        np.testing.assert_array_equal(found["holds"], near["holds"])
+        # The control: a tenth of a millimetre is off, and the tolerance says why it is what it is.
+        points[5, 1] += 1e-4 * -self.normals[5, 1].astype(np.float32)
+        self.judge("--mu", "0.5", code=1, object=far, points=points, normals=self.normals)
+        self.assertIn("grasp 5, contact 1 (the first): 0.0001", self.said)
+        self.assertIn("float32", self.said)
+
     def test_replays_are_those_of_single_grasps(self):
         chosen = np.flatnonzero(self.judge("--mu", "0.4", code=1, points=self.points)["holds"])[:12]
         points, normals = self.points[chosen], self.normals[chosen]

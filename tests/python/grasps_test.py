@@ -99,6 +99,41 @@ class GraspsTest(RegraspCase):
                                   progress=stop)
         self.assertEqual(len(told), 1)
 
+    def test_qualities_are_bounded_within_one_percent_and_work_may_end(self):
+        cube = regrasp.Object.read("models/cube.obj")
+        points, normals = random_grasps(1500, 4, 10)
+        told = []
+        found = regrasp.force_closure(points, normals, cube, mu=0.6, threads=1, quality=True,
+                                      progress=told.append)
+        self.assertEqual((len(told), told[-1]), (5, "judged 1500 of 1500 grasps"))
+        held = found.holds
+        self.assertGreater(held.sum(), 100)
+        np.testing.assert_array_equal(found.quality_upper > 0, held)
+        gap = found.quality_upper - found.quality
+        self.assertTrue((gap >= 0).all())
+        self.assertTrue((gap <= np.maximum(0.01 * found.quality_upper, 1e-6)).all())
+        # More friction is more quality, less is less: by 20 % it is beyond the bounds.
+        more = regrasp.force_closure(points[held], normals[held], cube, mu=0.8, quality=True)
+        self.assertTrue((more.quality_upper >= found.quality[held]).all())
+        self.assertTrue((more.quality > found.quality_upper[held]).mean() > 0.9)
+
+        def stop(text):
+            told.append(text)
+            os.kill(os.getpid(), signal.SIGINT)
+        told.clear()
+        with self.assertRaises(KeyboardInterrupt):
+            regrasp.force_closure(points, normals, cube, mu=0.6, threads=1, quality=True, progress=stop)
+        self.assertEqual(len(told), 1)
+
+    def test_a_contact_very_far_away_is_no_definite_no(self):
+        for distance in (1e13, 1e16, 1e200):
+            far = np.vstack([TETRAHEDRON, [[distance, 0, 0]]])
+            found = regrasp.force_closure(far, np.vstack([-TETRAHEDRON, [[-1, 0, 0]]]), mu=0.5)
+            self.assertTrue(found.holds or found.too_close, distance)
+        # The control: beside each other they do not hold, and that is certain.
+        near = regrasp.force_closure(TETRAHEDRON[:2], -TETRAHEDRON[:2], mu=0.5)
+        self.assertFalse(near.holds or near.too_close)
+
     def test_contacts_that_do_not_touch_do_not_count(self):
         points, normals = random_grasps(300, 5, 9)
         touching = np.random.default_rng(1).uniform(size=(300, 5)) < 0.75
@@ -121,7 +156,7 @@ class GraspsTest(RegraspCase):
             points, normals, mu=0.8, touching=np.ones((300, 5), bool)).margin)
         nobody = regrasp.force_closure(points, normals, cube, mu=0.8, touching=np.zeros((300, 5), bool),
                                        quality=True)
-        self.assertFalse(nobody.holds.any() or nobody.quality.any())
+        self.assertFalse(nobody.holds.any() or nobody.quality.any() or nobody.quality_upper.any())
         self.assertFalse(regrasp.force_closure(points[0], normals[0], mu=0.8, touching=[False] * 5).holds)
         self.refuses(["touching", "(300, 5)", "(300, 4)"], regrasp.force_closure, points, normals, mu=1,
                      touching=touching[:, :4])

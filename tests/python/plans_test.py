@@ -54,6 +54,16 @@ class PlansTest(RegraspCase):
         told.pop("run")
         self.assertEqual(regrasp.validate(self.cube, self.plan).data, told)
 
+    def test_a_plan_for_another_size_of_the_object_is_refused(self):
+        small = regrasp.Object.read("models/cube.obj", scale=0.5)
+        words = ["plan.json: /object/scale", "cube.obj", "expected 0.5", "found 1", "scale=1"]
+        self.refuses(words, regrasp.validate, small, self.plan)
+        self.refuses(words, self.plan.figure, small)
+        # The control: a plan of that size passes with it, and only with it.
+        plan = regrasp.plan(small, START, GOAL, friction_angle_deg=20)
+        self.assertTrue(regrasp.validate(small, plan).passed)
+        self.refuses(["expected 1 m", "found 0.5"], regrasp.validate, self.cube, plan)
+
     def test_grasps_as_arrays_are_those_of_the_file(self):
         def contacts(path):
             with open(path, encoding="utf-8") as file:

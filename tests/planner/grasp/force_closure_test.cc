@@ -119,6 +119,31 @@ TEST(ForceClosureTest, CollinearContactsInSpaceAreNever) {
   }
 }
 
+TEST(ForceClosureTest, AContactVeryFarAwayNeverMakesADefiniteNo) {
+  // The four contacts hold without the fifth, so no answer may be no, however far that is.
+  for (const double distance : {1e5, 1e8, 1e10, 1e13, 1e16, 1e100, 1e160, 1e300}) {
+    Grasp grasp = Tetrahedron();
+    grasp.push_back({{distance, 0, 0}, {-1, 0, 0}});
+    EXPECT_NE(Decide(grasp, 3, Radians(30)), Decision::kNo) << distance;
+    // All four forces still meet in one point, so the four hold, too.
+    grasp.pop_back();
+    grasp[3].p *= distance;
+    EXPECT_NE(Decide(grasp, 3, Radians(30)), Decision::kNo) << distance;
+  }
+  // So small that squares of distances vanish.
+  Grasp small = Tetrahedron();
+  for (Contact& contact : small) contact.p *= 1e-200;
+  EXPECT_NE(Decide(small, 3, Radians(30)), Decision::kNo);
+  // The controls: a tenth of a millimetre from each other is resolved, and no is no.
+  Grasp near{{{0, 0, 0}, {1, 0, 0}},
+             {{0, 1e-4, 0}, {1, 0, 0}},
+             {{1, 0, 0}, {1, 0, 0}},
+             {{0, 1, 0}, {1, 0, 0}}};
+  EXPECT_EQ(Decide(near, 3, Radians(30)), Decision::kNo);
+  near[1].p.y() = 0;  // coincident contacts are one
+  EXPECT_EQ(Decide(near, 3, Radians(30)), Decision::kNo);
+}
+
 TEST(ForceClosureTest, ThreeCollinearContactsAndOneBesideTheirLineAreNever) {
   Grasp grasp{{{-1, 0, 0}, {1, 0, 0}},
               {{0.1, 0, 0}, {0, 1, 0}},

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "planner/grasp/quality.h"
+#include "planner/grasp/bound_quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "tests/fixtures/random_grasps.h"
 
@@ -21,7 +22,7 @@ constexpr int kContacts = 4;
 constexpr double kHalfAngle = 0.4;
 /// Several of the blocks that threads take.
 constexpr int kGrasps = 1000;
-/// Enough for both answers; a quality takes milliseconds.
+/// Enough for both answers.
 constexpr int kMeasured = 50;
 
 class JudgeGraspsTest : public testing::Test {
@@ -75,7 +76,10 @@ TEST_F(JudgeGraspsTest, MeasuresEachAsForOne) {
   int held = 0;
   for (std::size_t i = 0; i < kMeasured; ++i) {
     const Grasp grasp = GraspAt(i);
-    EXPECT_EQ(verdicts.quality[i], ComputeQuality(grasp, options_.frame, kHalfAngle).lower) << i;
+    const QualityBounds quality = BoundQuality(grasp, options_.frame, kHalfAngle);
+    EXPECT_EQ(verdicts.quality[i], quality.lower) << i;
+    EXPECT_EQ(verdicts.quality_upper[i], quality.upper) << i;
+    EXPECT_LE(quality.upper - quality.lower, std::max(kQualityGap, 0.01 * quality.upper)) << i;
     const auto required = ComputeRequiredHalfAngle(grasp, options_.frame);
     EXPECT_EQ(required.has_value(), !std::isnan(verdicts.required_half_angle[i])) << i;
     if (required) {
@@ -102,6 +106,7 @@ TEST_F(JudgeGraspsTest, ComputesNothingThatIsNotAskedFor) {
   const GraspVerdicts verdicts = Judge(options_);
   EXPECT_TRUE(verdicts.required_half_angle.empty());
   EXPECT_TRUE(verdicts.quality.empty());
+  EXPECT_TRUE(verdicts.quality_upper.empty());
 }
 
 TEST_F(JudgeGraspsTest, JudgesNone) {

@@ -39,6 +39,7 @@ TEST_F(LocateGraspsTest, SaysOfEachGraspWhatLocateContactSays) {
   const LocatedGrasps located = LocateGrasps(*cube_.object, points_, normals_, 2);
   EXPECT_THAT(located.reasons, ElementsAre(Reason::kNone, Reason::kOffSurface, Reason::kWrongNormal,
                                            Reason::kNone, Reason::kCoincidentFingers));
+  EXPECT_THAT(located.contacts, ElementsAre(-1, 1, 1, -1, -1));
   for (std::size_t c = 0; c < points_.size() / 3; ++c) {
     const auto alone = LocateContact(*cube_.object, {Eigen::Vector3d::Map(&points_[3 * c]),
                                                      Eigen::Vector3d::Map(&normals_[3 * c])});

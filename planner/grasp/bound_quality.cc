@@ -1,0 +1,130 @@
+#include "planner/grasp/bound_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+#include "planner/grasp/cone_support.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/growing_hull.h"
+#include "planner/grasp/unit_contacts.h"
+
+namespace regrasp::grasp {
+namespace {
+
+/// Radius of the simplex that the hull starts from, over the largest force: rounding leaves the
+/// fewest traces of a simplex that is not much smaller than the wrench set. It must be smaller than
+/// ε, and is then inside the final hull.
+constexpr double kCore = 1e-3;
+
+/// The radius where ε turns out to be smaller: below every gap that is refined.
+constexpr double kLeastCore = kQualityGap / 2;
+
+/// Facets may miss their corners by this part of the gap, over their distance.
+constexpr double kLargestResidual = 1e-3;
+
+/// Beyond this friction coefficient Qhull takes minutes for a set that is so flat.
+constexpr double kMostFriction = 1e3;
+
+template <int kDim>
+struct SupportPoint {
+  double value = 0;
+  Eigen::Matrix<double, kDim, 1> point = Eigen::Matrix<double, kDim, 1>::Zero();
+};
+
+/// The farthest wrench of all contacts along a unit twist.
+template <int kDim>
+SupportPoint<kDim> FarthestWrench(const UnitContacts& contacts,
+                                  const Eigen::Matrix<double, kDim, 1>& twist) {
+  SupportPoint<kDim> farthest;
+  const UnitContact* best = nullptr;
+  for (const UnitContact& contact : contacts) {
+    const double value = ConeSupportOf<kDim>(contact, twist.data());
+    if (value <= farthest.value) continue;
+    farthest.value = value;
+    best = &contact;
+  }
+  if (best == nullptr) return farthest;
+  const ContactWrench wrench = SupportWrench<kDim>(*best, Velocity<kDim>(*best, twist.data()),
+                                                   Spin<kDim>(*best, twist.data()));
+  WriteWrench<kDim>(*best, wrench, farthest.point.data());
+  return farthest;
+}
+
+/// The distance at which a facet need not be refined any more. A hundredth of the gap is left for
+/// what rounding takes from the lower bound.
+double GoalOf(double upper, double relative_gap) {
+  return upper - 0.99 * std::max(relative_gap * upper, kQualityGap);
+}
+
+/// Grows a hull from a simplex of a radius until its ball is within the gap.
+/// @returns none if rounding broke the hull, or if ε may be less than the simplex's radius.
+template <int kDim>
+std::optional<QualityBounds> GrowBall(const UnitContacts& contacts, double relative_gap,
+                                      double core, std::int64_t& facets) {
+  thread_local GrowingHull<kDim> hull;  // its memory serves the next grasp
+  hull.Start(core);
+  double upper = std::numeric_limits<double>::infinity();
+  double lower = 0;
+  while (true) {
+    const auto nearest = hull.Nearest();
+    lower = nearest ? nearest->distance : GoalOf(upper, relative_gap);
+    if (!nearest || facets + hull.created() >= kMostQualityFacets) break;
+    const SupportPoint<kDim> farthest = FarthestWrench<kDim>(contacts, nearest->normal);
+    if (farthest.value < upper) {
+      upper = farthest.value;
+      if (core > kLeastCore && upper <= 2 * core) break;
+      hull.SetLimit(GoalOf(upper, relative_gap));
+    }
+    if (lower >= GoalOf(upper, relative_gap)) break;
+    if (!hull.Insert(nearest->facet, farthest.point)) return std::nullopt;
+  }
+  facets += hull.created();
+  if (core > kLeastCore && upper <= 2 * core) return std::nullopt;
+  const double residual = hull.Residual();
+  if (!(residual <= kLargestResidual * relative_gap)) return std::nullopt;
+  // A facet that has a corner of the simplex is no farther away than that.
+  if (lower <= core) lower = 0;
+  return QualityBounds{std::clamp((1 - residual) * lower, 0.0, upper), upper, facets};
+}
+
+template <int kDim>
+std::optional<QualityBounds> BoundByHulls(const UnitContacts& contacts, double friction,
+                                          double relative_gap) {
+  std::int64_t facets = 0;
+  for (const double core : {kCore * std::max(1.0, friction), kCore, kLeastCore}) {
+    if (const auto bounds = GrowBall<kDim>(contacts, relative_gap, core, facets)) return bounds;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<QualityBounds> BoundQualityByHull(std::span<const Contact> contacts,
+                                                const object::WrenchFrame& frame, double half_angle,
+                                                double relative_gap) {
+  if (!(relative_gap >= kLeastRelativeGap)) {
+    throw std::invalid_argument("quality: relative gap below 1e-5");
+  }
+  UnitContacts units = MakeUnitContacts(contacts, frame);
+  SetUnitNormalForces(units, half_angle);
+  const double friction = std::tan(half_angle);
+  return frame.dimension == 3 ? BoundByHulls<6>(units, friction, relative_gap)
+                              : BoundByHulls<3>(units, friction, relative_gap);
+}
+
+QualityBounds BoundQuality(std::span<const Contact> contacts, const object::WrenchFrame& frame,
+                           double half_angle, double relative_gap) {
+  if (!IsForceClosure(contacts, frame, half_angle)) return {};
+  if (const auto bounds = BoundQualityByHull(contacts, frame, half_angle, relative_gap)) {
+    return *bounds;
+  }
+  if (std::tan(half_angle) <= kMostFriction) {
+    return ComputeQuality(contacts, frame, half_angle, relative_gap);
+  }
+  return {0, std::hypot(1, std::tan(half_angle)), 0};  // no twist has a larger support everywhere
+}
+
+}  // namespace regrasp::grasp

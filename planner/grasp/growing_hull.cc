@@ -1,0 +1,234 @@
+#include "planner/grasp/growing_hull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace regrasp::grasp {
+
+namespace {
+
+/// Points are shrunk by between a half and one and a half of this part. Far above the rounding of a
+/// height, far below any gap that a search asks for.
+constexpr double kShrink = 1e-7;
+
+/// The golden ratio's fraction: its multiples spread evenly and repeat no pattern.
+constexpr double kSpread = 0.6180339887498949;
+
+/// Heights below this may be rounding.
+constexpr double kLeastHeight = 1e-10;
+
+/// The place of a value that occurs once; without a branch, which would be mispredicted.
+template <typename Array>
+int PlaceIn(const Array& values, int value) {
+  int place = 0;
+  for (int i = 1; i < static_cast<int>(values.size()); ++i) place = values[i] == value ? i : place;
+  return place;
+}
+
+/// Corner i of kDim + 1 of the regular simplex with unit corners about the origin.
+template <int kDim>
+Eigen::Matrix<double, kDim, 1> SimplexCorner(int i) {
+  using Vector = Eigen::Matrix<double, kDim, 1>;
+  const double n = kDim;
+  const double last = (1 - std::sqrt(n + 1)) / n;
+  const double mean = (1 + last) / (n + 1);
+  Vector corner = Vector::Constant(i == kDim ? last - mean : -mean);
+  if (i < kDim) corner[i] += 1;
+  return corner.normalized();
+}
+
+}  // namespace
+
+template <int kDim>
+void GrowingHull<kDim>::Start(double radius) {
+  points_.clear();
+  facets_.clear();
+  links_.clear();
+  free_.clear();
+  heap_.clear();
+  least_pole_squared_ = 0;
+  serials_ = 0;
+  created_ = 0;
+  for (int i = 0; i <= kDim; ++i) points_.push_back(radius * SimplexCorner<kDim>(i));
+  for (int opposite = 0; opposite <= kDim; ++opposite) {
+    const int facet = NewPlace();
+    facets_[facet].pole = -kDim / (radius * radius) * points_[opposite];
+    int place = 0;
+    for (int i = 0; i <= kDim; ++i) {
+      if (i == opposite) continue;
+      links_[facet].corners[place] = static_cast<std::int16_t>(i);
+      // Facet i is the one opposite to corner i, and has all corners but that in order.
+      links_[facet].back[place] = static_cast<std::int8_t>(opposite - (opposite > i ? 1 : 0));
+      links_[facet].neighbours[place++] = i;
+    }
+    Push(facet);
+  }
+}
+
+template <int kDim>
+std::optional<typename GrowingHull<kDim>::Plane> GrowingHull<kDim>::Nearest() {
+  while (!heap_.empty() && facets_[heap_.front().facet].serial != heap_.front().serial) {
+    std::ranges::pop_heap(heap_, {}, &Entry::pole_squared);
+    heap_.pop_back();
+  }
+  if (heap_.empty() || heap_.front().pole_squared <= least_pole_squared_) return std::nullopt;
+  const int facet = heap_.front().facet;
+  const double distance = 1 / std::sqrt(heap_.front().pole_squared);
+  return Plane{facet, distance, distance * facets_[facet].pole};
+}
+
+template <int kDim>
+bool GrowingHull<kDim>::Insert(int facet, const Vector& point) {
+  point_ = static_cast<int>(points_.size());
+  if (point_ > std::numeric_limits<std::int16_t>::max()) return false;
+  const double turn = kSpread * point_;
+  points_.push_back((1 - kShrink * (0.5 + turn - std::floor(turn))) * point);
+  if (!(HeightOf(facet) > kLeastHeight)) return false;
+  FindVisible(facet);
+  AddFacets();
+  if (!LinkFacets()) return false;
+  for (const int gone : visible_) {
+    facets_[gone].serial = kFree;
+    free_.push_back(gone);
+  }
+  for (const int added : added_) Push(added);
+  return true;
+}
+
+template <int kDim>
+double GrowingHull<kDim>::Residual() const {
+  double largest = 0;
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    if (facets_[i].serial == kFree) continue;
+    for (const int corner : links_[i].corners) {
+      // Also a value that is not a number is larger than any limit.
+      const double residual = std::abs(facets_[i].pole.dot(points_[corner]) - 1);
+      if (!(residual <= largest)) largest = residual;
+    }
+  }
+  return largest;
+}
+
+template <int kDim>
+double GrowingHull<kDim>::HeightOf(int facet) {
+  Facet& of = facets_[facet];
+  if (of.visit != point_) {
+    of.visit = point_;
+    of.height = of.pole.dot(points_[point_]) - 1;
+  }
+  return of.height;
+}
+
+/// Visible facets are connected: those that the point is beyond are found from neighbour to
+/// neighbour.
+template <int kDim>
+void GrowingHull<kDim>::FindVisible(int start) {
+  visible_.assign(1, start);
+  horizon_.clear();
+  // The start is marked as seen by its height; another visible facet is when it is found.
+  for (std::size_t i = 0; i < visible_.size(); ++i) {
+    const int facet = visible_[i];
+    for (int place = 0; place < kDim; ++place) {
+      const int neighbour = links_[facet].neighbours[place];
+      const bool seen = facets_[neighbour].visit == point_;
+      if (!(HeightOf(neighbour) > 0)) {
+        horizon_.push_back({facet, place});
+      } else if (!seen) {
+        visible_.push_back(neighbour);
+      }
+    }
+  }
+}
+
+/// A facet for every ridge on the horizon, with the point in the place of the ridge's missing
+/// corner.
+template <int kDim>
+void GrowingHull<kDim>::AddFacets() {
+  added_.clear();
+  for (const Ridge& ridge : horizon_) {
+    const int made = NewPlace();
+    Links& inner = links_[ridge.facet];
+    const int beyond = inner.neighbours[ridge.place];
+    const double height = facets_[beyond].height;
+    const double part = -height / (facets_[ridge.facet].height - height);
+    const Vector& pole = facets_[beyond].pole;
+    facets_[made].pole = pole + part * (facets_[ridge.facet].pole - pole);
+    links_[made].corners = inner.corners;
+    links_[made].corners[ridge.place] = static_cast<std::int16_t>(point_);
+    links_[made].neighbours.fill(kUnlinked);
+    Link({made, ridge.place}, {beyond, inner.back[ridge.place]});
+    inner.neighbours[ridge.place] = Code(made);
+    added_.push_back(made);
+  }
+}
+
+template <int kDim>
+bool GrowingHull<kDim>::LinkFacets() {
+  for (std::size_t i = 0; i < added_.size(); ++i) {
+    const std::array<int, kDim>& neighbours = links_[added_[i]].neighbours;
+    for (int place = 0; place < kDim; ++place) {
+      if (neighbours[place] != kUnlinked) continue;
+      const std::optional<Ridge> found = FollowRidge(horizon_[i], place);
+      if (!found) return false;
+      Link({added_[i], place}, *found);
+    }
+  }
+  return true;
+}
+
+template <int kDim>
+void GrowingHull<kDim>::Link(Ridge a, Ridge b) {
+  links_[a.facet].neighbours[a.place] = b.facet;
+  links_[a.facet].back[a.place] = static_cast<std::int8_t>(b.place);
+  links_[b.facet].neighbours[b.place] = a.facet;
+  links_[b.facet].back[b.place] = static_cast<std::int8_t>(a.place);
+}
+
+/// Visible facets that share all corners of the ridge but the dropped one follow each other like
+/// the pages of a book. Each has two corners besides: one is dropped to reach the next facet, the
+/// other is dropped there.
+template <int kDim>
+std::optional<typename GrowingHull<kDim>::Ridge> GrowingHull<kDim>::FollowRidge(Ridge from,
+                                                                                int dropped) const {
+  const Links* facet = &links_[from.facet];
+  int kept = from.place;
+  for (std::size_t page = 0; page <= visible_.size(); ++page) {
+    const int next = facet->neighbours[dropped];
+    if (next < kUnlinked) return Ridge{Code(next), kept};
+    const int corner = facet->corners[kept];
+    kept = facet->back[dropped];
+    facet = &links_[next];
+    dropped = PlaceIn(facet->corners, corner);
+  }
+  return std::nullopt;
+}
+
+template <int kDim>
+int GrowingHull<kDim>::NewPlace() {
+  int place = static_cast<int>(facets_.size());
+  if (free_.empty()) {
+    facets_.emplace_back();
+    links_.emplace_back();
+  } else {
+    place = free_.back();
+    free_.pop_back();
+  }
+  facets_[place].visit = kFree;
+  facets_[place].serial = serials_++;
+  ++created_;
+  return place;
+}
+
+template <int kDim>
+void GrowingHull<kDim>::Push(int facet) {
+  const double pole_squared = facets_[facet].pole.squaredNorm();
+  if (pole_squared <= least_pole_squared_) return;
+  heap_.push_back({pole_squared, facet, facets_[facet].serial});
+  std::ranges::push_heap(heap_, {}, &Entry::pole_squared);
+}
+
+template class GrowingHull<3>;
+template class GrowingHull<6>;
+
+}  // namespace regrasp::grasp

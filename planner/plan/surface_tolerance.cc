@@ -1,0 +1,31 @@
+#include "planner/plan/surface_tolerance.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "planner/base/number.h"
+#include "planner/plan/locate.h"
+
+namespace regrasp::plan {
+
+double SurfaceTolerance(const object::Object& object) {
+  const double diameter = object.diameter();
+  const double largest = object.mass_properties().centroid.lpNorm<Eigen::Infinity>() + diameter;
+  const double lost =
+      kSinglePrecisionSteps * double{std::numeric_limits<float>::epsilon()} * largest;
+  return std::max(object::kPointTolerance * diameter,
+                  std::min(lost, kLargestPointTolerance * diameter));
+}
+
+std::string OffSurfaceText(const object::Object& object, const Eigen::Vector3d& point) {
+  const double distance =
+      (NearestContact(object, {point, Eigen::Vector3d::Zero()}).p - point).stableNorm();
+  const double tolerance = SurfaceTolerance(object);
+  const bool single = tolerance > object::kPointTolerance * object.diameter();
+  return FormatShort(distance) + " of the object file's units off the surface, " +
+         FormatShort(distance / object.diameter()) + " of the object's diameter; up to " +
+         FormatShort(tolerance / object.diameter()) + " of it counts as on it" +
+         (single ? ", the precision of float32 so far from the origin" : "");
+}
+
+}  // namespace regrasp::plan

@@ -1,0 +1,113 @@
+#include "planner/grasp/growing_hull.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include "planner/grasp/convex_hull.h"
+
+namespace regrasp::grasp {
+namespace growing_hull_test {
+
+/// Points on the unit sphere in kDim dimensions, pulled towards the origin by up to a half.
+template <int kDim>
+Eigen::MatrixXd RandomPoints(int count, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> length(0.5, 1);
+  Eigen::MatrixXd points(kDim, count);
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < kDim; ++j) points(j, i) = normal(engine);
+    points.col(i) *= length(engine) / points.col(i).norm();
+  }
+  return points;
+}
+
+/// Inserts the farthest point along the normal of the nearest facet until none is beyond it.
+/// @returns the nearest facet's distance, or −1 if the hull broke.
+template <int kDim>
+double DistanceByGrowing(const Eigen::MatrixXd& points, GrowingHull<kDim>& hull) {
+  hull.Start(1e-6);
+  while (true) {
+    const auto nearest = hull.Nearest();
+    Eigen::Index farthest = 0;
+    const double support = (nearest->normal.transpose() * points).maxCoeff(&farthest);
+    if (support <= nearest->distance * (1 + 1e-6)) return nearest->distance;
+    if (!hull.Insert(nearest->facet, points.col(farthest))) return -1;
+  }
+}
+
+double DistanceByQhull(const Eigen::MatrixXd& points) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const HullFacet& facet : ComputeConvexHull(points).facets) {
+    least = std::min(least, facet.offset);
+  }
+  return least;
+}
+
+template <int kDim>
+void ExpectSameDistance(int count) {
+  GrowingHull<kDim> hull;
+  int inside = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Eigen::MatrixXd points = RandomPoints<kDim>(count, seed);
+    const double expected = DistanceByQhull(points);
+    if (expected < 1e-3) continue;  // the origin is outside, or too near to the border
+    ++inside;
+    const double found = DistanceByGrowing<kDim>(points, hull);
+    EXPECT_NEAR(found, expected, 2e-6) << kDim << " dimensions, seed " << seed;
+    EXPECT_LE(found, expected + 1e-9) << "points are shrunk, never moved outwards";
+    EXPECT_LT(hull.Residual(), 1e-8);
+  }
+  EXPECT_GT(inside, 8);
+}
+
+TEST(GrowingHullTest, HasTheNearestFacetOfQhull) {
+  ExpectSameDistance<3>(12);
+  ExpectSameDistance<3>(60);
+  ExpectSameDistance<6>(30);
+  ExpectSameDistance<6>(60);
+}
+
+TEST(GrowingHullTest, SolvesPointsInManyCommonPlanes) {
+  // The corners of a cube, the middles of its edges and of its faces: all facets are degenerate.
+  Eigen::MatrixXd points(3, 26);
+  int count = 0;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        points.col(count++) = Eigen::Vector3d(x, y, z);
+      }
+    }
+  }
+  GrowingHull<3> hull;
+  EXPECT_NEAR(DistanceByGrowing<3>(points, hull), 1, 1e-6);
+  EXPECT_LT(hull.Residual(), 1e-8);
+}
+
+TEST(GrowingHullTest, RefusesAPointThatIsNotBeyondTheFacet) {
+  GrowingHull<3> hull;
+  hull.Start(1);
+  const auto nearest = hull.Nearest();
+  ASSERT_TRUE(nearest);
+  EXPECT_NEAR(nearest->distance, 1.0 / 3, 1e-12);
+  EXPECT_FALSE(hull.Insert(nearest->facet, 0.9 * nearest->distance * nearest->normal));
+  hull.Start(1);
+  const auto again = hull.Nearest();
+  EXPECT_TRUE(hull.Insert(again->facet, 2 * again->distance * again->normal));
+}
+
+TEST(GrowingHullTest, FacetsBeyondTheLimitAreNotFound) {
+  GrowingHull<3> hull;
+  hull.Start(1);
+  hull.SetLimit(0.34);
+  EXPECT_TRUE(hull.Nearest());  // all are a third away
+  hull.SetLimit(0.33);
+  EXPECT_FALSE(hull.Nearest());
+}
+
+}  // namespace growing_hull_test
+}  // namespace regrasp::grasp

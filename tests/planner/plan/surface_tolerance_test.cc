@@ -1,0 +1,67 @@
+#include "planner/plan/surface_tolerance.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "planner/plan/locate.h"
+#include "tests/fixtures/solids.h"
+
+namespace regrasp::plan {
+namespace surface_tolerance_test {
+
+constexpr double kHalf = 0.03;
+
+/// The reason why a point is not on the cube's face towards +x, by its normal.
+Reason ReasonOf(const object::Object& cube, const Eigen::Vector3d& point) {
+  return LocateContact(cube, {point, -Eigen::Vector3d::UnitX()}).reason;
+}
+
+TEST(SurfaceTolerance, PointsInSinglePrecisionAreOnAnObjectFarFromTheOrigin) {
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> across(-0.9 * kHalf, 0.9 * kHalf);
+  for (const Eigen::Vector3d& offset :
+       {Eigen::Vector3d(3, 0, 0), Eigen::Vector3d(-3, 2.5, 1), Eigen::Vector3d(40, 0, 7)}) {
+    const object::Polyhedron cube = MakeCube(kHalf, offset);
+    int moved = 0;
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector3d exact =
+          offset + Eigen::Vector3d(kHalf, across(engine), across(engine));
+      const Eigen::Vector3d single = exact.cast<float>().cast<double>();
+      EXPECT_EQ(ReasonOf(cube, single), Reason::kNone) << offset.transpose();
+      moved += std::abs(single.x() - exact.x()) > 1e-6 * cube.diameter() ? 1 : 0;
+    }
+    // The control: some of them are farther off than the tolerance of an object at the origin.
+    EXPECT_GT(moved, 0) << offset.transpose();
+    EXPECT_EQ(ReasonOf(cube, offset + Eigen::Vector3d(kHalf + 1e-4, 0, 0)), Reason::kOffSurface);
+  }
+}
+
+TEST(SurfaceTolerance, NearTheOriginItIsAMillionthOfTheDiameter) {
+  for (const double offset : {0.0, kHalf, 2 * kHalf}) {
+    const object::Polyhedron cube = MakeCube(kHalf, {offset, 0, 0});
+    EXPECT_EQ(SurfaceTolerance(cube), object::kPointTolerance * cube.diameter()) << offset;
+  }
+  EXPECT_GT(SurfaceTolerance(MakeCube(kHalf, {5 * kHalf, 0, 0})),
+            object::kPointTolerance * MakeCube(kHalf).diameter());
+}
+
+TEST(SurfaceTolerance, IsNeverMoreThanAThousandthOfTheDiameter) {
+  const object::Polyhedron cube = MakeCube(kHalf, {1e4, 0, 0});
+  EXPECT_DOUBLE_EQ(SurfaceTolerance(cube), 1e-3 * cube.diameter());
+}
+
+TEST(SurfaceTolerance, TheTextHasTheDistanceAndTheTolerance) {
+  EXPECT_EQ(OffSurfaceText(MakeCube(), {1.001, 0, 0}),
+            "0.001 of the object file's units off the surface, 0.0002887 of the object's diameter; up "
+            "to 1e-06 of it counts as on it");
+  const std::string far = OffSurfaceText(MakeCube(kHalf, {3, 0, 0}), {3.04, 0, 0});
+  EXPECT_THAT(far, testing::StartsWith("0.01 of the object file's units off the surface, "));
+  EXPECT_THAT(far, testing::HasSubstr("up to 1.424e-05 of it counts as on it"));
+  EXPECT_THAT(far, testing::HasSubstr("float32"));
+}
+
+}  // namespace surface_tolerance_test
+}  // namespace regrasp::plan
