@@ -18,7 +18,7 @@
 #include "planner/base/stopwatch.h"
 #include "planner/base/text_table.h"
 #include "planner/base/write_file.h"
-#include "planner/gait/random_rests.h"
+#include "planner/gait/random_stances.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/reason.h"
 #include "sim/actuation/draw_reset_states.h"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/gait/home.h"
+#include "planner/gait/initial_pose.h"
 
 namespace regrasp::bench {
 namespace {

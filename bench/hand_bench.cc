@@ -29,7 +29,7 @@
 #include "planner/base/random.h"
 #include "planner/base/text_table.h"
 #include "planner/gait/plan_of_gait.h"
-#include "planner/gait/random_rests.h"
+#include "planner/gait/random_stances.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/check.h"
 #include "sim/actuation/carry_out.h"

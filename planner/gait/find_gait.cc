@@ -10,11 +10,9 @@
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/gait/fewer_moves.h"
 #include "planner/gait/gait_search.h"
-#include "planner/gait/places_in_hand.h"
 #include "planner/gait/plan_of_gait.h"
-#include "planner/gait/with_reserve.h"
+#include "planner/gait/schedule.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/reason.h"
 #include "planner/sampling/surface_sampler.h"
@@ -224,14 +222,6 @@ std::string GivenWithoutReserve(const GaitEnds& ends, criteria::GraspMemory& mem
 }
 
 }  // namespace
-
-hand::Hand FingersOf(const planning::InHandTask& task) {
-  double radius = 0;
-  for (const kinematics::Finger& finger : task.hand->fingers) {
-    radius = std::max(radius, finger.tip.radius);
-  }
-  return {static_cast<int>(task.hand->fingers.size()), radius / task.scale};
-}
 
 GaitResult FindGait(const GaitRequest& request) {
   CheckStartFingers(request);

@@ -1,41 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "planner/base/deadline.h"
-#include "planner/criteria/grasp_criteria.h"
 #include "planner/gait/gait.h"
-#include "planner/gait/home.h"
-#include "planner/kinematics/hand_model.h"
-#include "planner/object/polyhedron.h"
-#include "planner/planning/plan_request.h"
+#include "planner/gait/request.h"
 
 namespace regrasp::gait {
-
-using planning::Reserve;
-
-/// Rests that a search expands, from all places in the hand together, where nothing else is said.
-inline constexpr std::int64_t kDefaultExpanded = 8'000;
-
-/// What is asked of a hand: that the object turns, or goes to a pose, or is held by another grasp
-/// in the end, or both.
-struct GaitRequest : planning::InHandTask {
-  const object::Polyhedron* solid = nullptr;
-  criteria::GraspCriteria criteria;
-  grasp::Grasp start_grasp;  ///< in the file's units; empty: any
-  grasp::Grasp goal_grasp;   ///< the same
-  std::uint64_t seed = 0;
-  std::int64_t most_expanded = kDefaultExpanded;
-  /// Of the gaits with reserve that are found and carried out the one with most to spare
-  /// (planning::CarriedOut::spare), instead of the first; where plans are tried.
-  bool seeks_most_spare = false;
-  Deadline deadline = {};
-  int jobs = 1;  ///< searches at a time where plans are tried, ≥ 1
-  planning::Progress progress = [](std::string_view) {};
-};
 
 struct GaitResult {
   std::optional<Gait> gait;
@@ -45,10 +17,6 @@ struct GaitResult {
   std::vector<grasp::Contact> contacts;  ///< by the numbers that the gait has, the object's units
   std::string message;                   ///< where there is none: what stopped it, counted
 };
-
-/// The fingers that grasps are judged for: as many as the hand has, each with its largest tip.
-/// Lengths in the object's unit.
-[[nodiscard]] hand::Hand FingersOf(const planning::InHandTask& task);
 
 /// Finds a gait of the hand that turns the object: chooses where in the hand it begins and with
 /// which grasp. A preferred reserve is left out where the gait gets much longer by it.

@@ -1,12 +1,49 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <vector>
 
-#include "planner/gait/holding.h"
-#include "planner/gait/keyframe.h"
 #include "planner/grasp/contact.h"
+#include "planner/kinematics/hand_model.h"
 
 namespace regrasp::gait {
+
+/// By finger: the contact that it holds, by number; kNone where it is free.
+using Holding = std::vector<int>;
+inline constexpr int kNone = -1;
+
+/// How many fingers hold.
+[[nodiscard]] inline int CountHolding(const Holding& holding) {
+  return static_cast<int>(std::ranges::count_if(holding, [](int point) { return point != kNone; }));
+}
+
+[[nodiscard]] inline bool Holds(const Holding& holding, int point) {
+  return std::ranges::find(holding, point) != holding.end();
+}
+
+/// Calls `take` with each way to have fingers hold the points, one finger each.
+/// @pre no more points than fingers.
+template <class Take>
+void ForEachAssignment(const std::vector<int>& points, int fingers, const Take& take) {
+  std::vector<int> order(fingers, kNone);
+  std::ranges::copy(points, order.begin());
+  std::ranges::sort(order);
+  do {
+    take(Holding(order));
+  } while (std::ranges::next_permutation(order).found);
+}
+
+/// How object and hand stand at an instant. Between two that follow each other the drives go
+/// straight, the object's origin goes straight and its orientation turns about one axis.
+struct Keyframe {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of the object in the palm's frame
+  std::vector<kinematics::Posture> postures;               ///< of all fingers
+};
+
+[[nodiscard]] Eigen::Isometry3d Between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
+                                        double share);
+[[nodiscard]] Keyframe Between(const Keyframe& from, const Keyframe& to, double share);
 
 /// The grasps that a gait begins and ends with, as numbers of contacts; none: any grasp.
 struct GaitEnds {

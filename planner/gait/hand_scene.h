@@ -2,13 +2,18 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "planner/base/random.h"
+#include "planner/collision/ball_contact.h"
 #include "planner/collision/convex_shape.h"
 #include "planner/collision/surface_tree.h"
+#include "planner/gait/pose_grid.h"
+#include "planner/grasp/contact.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_model.h"
+#include "planner/kinematics/inverse_kinematics.h"
 
 namespace regrasp::gait {
 
@@ -107,5 +112,73 @@ class HandScene {
   std::vector<std::vector<std::vector<ShapePair>>> with_fingers_;  ///< by both fingers
   std::vector<std::vector<std::vector<double>>> reach_;  ///< LinkReach by finger and shape
 };
+
+/// A contact of the object in its own frame, metres.
+struct SurfacePoint {
+  Eigen::Vector3d p;
+  Eigen::Vector3d n;  ///< inward, of length 1
+};
+
+/// What a finger is asked for at a contact: the centre of its ball is one radius outside.
+/// @param pose  of the object in the palm's frame.
+[[nodiscard]] kinematics::TipTarget TargetAt(const kinematics::Finger& finger,
+                                             const SurfacePoint& contact,
+                                             const Eigen::Isometry3d& pose);
+
+/// Which fingers can be at which contacts, and how they stand there, for the poses of a grid: the
+/// finger alone, whatever the others do. Worked out when first asked for.
+class ReachMap {
+ public:
+  /// @param scene, inverse, points, grid  outlive this object; `inverse` has one for each finger.
+  ReachMap(const HandScene& scene, const std::vector<kinematics::InverseKinematics>& inverse,
+           const std::vector<SurfacePoint>& points, const PoseGrid& grid)
+      : scene_(scene), inverse_(inverse), points_(points), grid_(grid) {}
+
+  /// How the finger stands at a contact at a node of the grid, keeping off the palm, itself and
+  /// the object; null where it does not reach it. Stays where it is.
+  [[nodiscard]] const Posture* Find(FingerIndex finger, int point, int node);
+
+  /// Whether the finger can keep the contact from a node to a neighbour, without a jump in its
+  /// posture. @param node  where it reaches the contact.
+  [[nodiscard]] bool CanFollow(FingerIndex finger, int point, int node, int neighbour);
+
+  /// The last step to which the finger can keep the contact from a node on, with the node's offset:
+  /// an estimate, as not every pose on the way is looked at.
+  /// @param node  where it reaches the contact.
+  [[nodiscard]] int RunEnd(FingerIndex finger, int point, int node);
+
+ private:
+  struct Known {
+    std::optional<Posture> posture;
+    int run_end = -1;  ///< a step; -1: not asked for yet
+  };
+  [[nodiscard]] Known& KnownAt(FingerIndex finger, int point, int node);
+  [[nodiscard]] std::optional<Posture> WorkOut(FingerIndex finger, int point, int node) const;
+  [[nodiscard]] int WorkOutRunEnd(FingerIndex finger, int point, int node);
+
+  const HandScene& scene_;
+  const std::vector<kinematics::InverseKinematics>& inverse_;
+  const std::vector<SurfacePoint>& points_;
+  const PoseGrid& grid_;
+  std::unordered_map<std::size_t, Known> known_;
+};
+
+/// A hand ready to work with an object: its inverse kinematics, and points of the surface.
+struct HandSetup {
+  const HandScene& scene;
+  const std::vector<kinematics::InverseKinematics>& inverse;  ///< by finger
+  const std::vector<SurfacePoint>& points;
+  double scale = 1;  ///< metres per unit of the object's file
+  /// For gaits with reserve: grasps hold where their contacts have rolled to on this surface. Null:
+  /// contacts count as they are planned.
+  const collision::BallContact* rolled_on = nullptr;
+  /// Where contacts roll: what forces that hold the object's weight have to spare (RollingTips).
+  double force_margin = 0;
+  bool may_slide = true;          ///< fingers that hold
+  int fewest_beside_sliding = 0;  ///< that hold and stay, while others slide
+};
+
+/// By finger: postures in which it may wait while it holds nothing, the best first.
+using Parking = std::vector<std::vector<Posture>>;
 
 }  // namespace regrasp::gait

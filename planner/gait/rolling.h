@@ -7,9 +7,9 @@
 
 #include "planner/collision/ball_contact.h"
 #include "planner/criteria/grasp_memory.h"
-#include "planner/gait/carrier.h"
 #include "planner/gait/finger_path.h"
-#include "planner/gait/hand_setup.h"
+#include "planner/gait/hand_scene.h"
+#include "planner/gait/object_motion.h"
 
 namespace regrasp::gait {
 

@@ -1,7 +1,6 @@
-#include "planner/gait/carrier.h"
-
 #include <gtest/gtest.h>
 
+#include "planner/gait/object_motion.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/project_path.h"

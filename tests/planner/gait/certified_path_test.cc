@@ -1,11 +1,10 @@
-#include "planner/gait/certified_path.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "planner/base/random.h"
+#include "planner/gait/finger_path.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
 #include "tests/fixtures/project_path.h"

@@ -1,7 +1,7 @@
-#include "planner/gait/contact_kinds.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "planner/gait/successors.h"
 
 namespace regrasp::gait {
 namespace contact_kinds_test {

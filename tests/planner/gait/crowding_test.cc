@@ -1,6 +1,6 @@
-#include "planner/gait/crowding.h"
-
 #include <gtest/gtest.h>
+
+#include "planner/gait/successors.h"
 
 namespace regrasp::gait {
 namespace crowding_test {

@@ -1,11 +1,10 @@
-#include "planner/gait/fewer_moves.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "planner/base/angle.h"
 #include "planner/gait/find_gait.h"
+#include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/project_path.h"

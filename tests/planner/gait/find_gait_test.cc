@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planner/base/angle.h"
-#include "planner/gait/explain_gait.h"
+#include "planner/gait/gait_planner.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/kinematics/finger_kinematics.h"

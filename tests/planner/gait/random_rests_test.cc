@@ -1,11 +1,10 @@
-#include "planner/gait/random_rests.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "planner/gait/random_stances.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "tests/planner/gait/gait_requests.h"
 

@@ -1,5 +1,3 @@
-#include "planner/gait/rest_tree.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 
 #include "planner/gait/find_gait.h"
 #include "planner/gait/finger_path.h"
+#include "planner/gait/stance_tree.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/project_path.h"

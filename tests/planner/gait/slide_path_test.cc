@@ -1,8 +1,8 @@
-#include "planner/gait/slide_path.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "planner/gait/change_paths.h"
 
 namespace regrasp::gait {
 namespace slide_path_test {

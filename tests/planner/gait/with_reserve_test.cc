@@ -1,5 +1,3 @@
-#include "planner/gait/with_reserve.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,6 +15,7 @@
 
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/rolling.h"
+#include "planner/gait/schedule.h"
 #include "planner/grasp/grasp_forces.h"
 #include "planner/plan/plan_io.h"
 #include "planner/plan/reason.h"

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "planner/gait/random_rests.h"
+#include "planner/gait/random_stances.h"
 #include "planner/mujoco/handles.h"
 #include "sim/actuation/draw_reset_states.h"
 #include "sim/actuation/format_reset_states.h"

@@ -11,10 +11,10 @@
 
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_memory.h"
-#include "planner/gait/carrier.h"
+#include "planner/gait/object_motion.h"
 #include "planner/gait/change_paths.h"
 #include "planner/gait/gait.h"
-#include "planner/gait/hand_setup.h"
+#include "planner/gait/hand_scene.h"
 #include "planner/gait/pose_grid.h"
 #include "planner/gait/rolling.h"
 

@@ -1,14 +1,23 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_memory.h"
 #include "planner/gait/gait.h"
-#include "planner/gait/hand_setup.h"
-#include "planner/gait/journey.h"
+#include "planner/gait/hand_scene.h"
+#include "planner/gait/pose_grid.h"
 
 namespace regrasp::gait {
+
+/// A turn drawn evenly among all: four normal numbers are a direction in four dimensions, which a
+/// unit quaternion is.
+[[nodiscard]] inline Eigen::Matrix3d DrawTurn(RandomStream& random) {
+  Eigen::Quaterniond turn;
+  for (int k = 0; k < 4; ++k) turn.coeffs()[k] = random.Normal();
+  return turn.normalized().toRotationMatrix();
+}
 
 /// Poses in the hand to begin a journey in, the best first: where many contacts are within reach of
 /// many fingers all along and make grasps, and the object keeps off the palm. The object's own z

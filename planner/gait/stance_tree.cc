@@ -1,10 +1,11 @@
-#include "planner/gait/rest_tree.h"
+#include "planner/gait/stance_tree.h"
 
 #include <algorithm>
 
-#include "planner/gait/move_path.h"
+#include "planner/gait/object_motion.h"
 
 namespace regrasp::gait {
+
 namespace {
 
 /// Nodes from which a hold is carried on in vain.

@@ -1,4 +1,4 @@
-#include "planner/gait/home.h"
+#include "planner/gait/initial_pose.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "planner/gait/random_turn.h"
-
 namespace regrasp::gait {
+
 namespace {
 
 using Eigen::Isometry3d;

@@ -1,14 +1,15 @@
-#include "planner/gait/random_rests.h"
+#include "planner/gait/random_stances.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
-#include "planner/gait/random_turn.h"
-#include "planner/gait/reach_map.h"
+#include "planner/gait/initial_pose.h"
+#include "planner/gait/hand_scene.h"
 #include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::gait {
+
 namespace {
 
 /// Places of the surface that are drawn for all fingers together, in each rest.
