@@ -81,9 +81,9 @@ sim::DrawnStates Draw(const ValidateOptions& options, const StatesTask& task,
     log.Report(text);
   };
   const auto make_draw = [&]() -> sim::DrawRest {
-    const gait::RandomRestOptions fingers{.fewest = kFewestFingers,
-                                          .most = static_cast<int>(request.hand->fingers.size())};
-    const auto rests = std::make_shared<gait::RandomRests>(request, fingers);
+    const gait::RandomStanceOptions fingers{.fewest = kFewestFingers,
+                                            .most = static_cast<int>(request.hand->fingers.size())};
+    const auto rests = std::make_shared<gait::RandomStances>(request, fingers);
     return [rests](RandomStream& random) -> std::optional<sim::RestToHold> {
       auto rest = rests->Draw(random, kMostDraws);
       if (!rest) return std::nullopt;

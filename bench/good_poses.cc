@@ -33,7 +33,7 @@ GoodPoses FindGoodPoses(const gait::GaitRequest& request) {
   const gait::HandSetup setup{scene, inverse, points, request.scale};
   const gait::Journey nowhere(request.scale * request.solid->mass_properties().centroid, {}, {});
   RandomStream random(request.seed, RandomUse::kHomes);
-  auto homes = gait::FindHomes(setup, nowhere, {}, memory, random);
+  auto homes = gait::FindInitialPoses(setup, nowhere, {}, memory, random);
   if (homes.empty()) throw std::runtime_error("the object is nowhere within reach of the fingers");
   return {std::move(homes), std::move(contacts)};
 }

@@ -85,7 +85,8 @@ class Traveller {
 /// Fingers on their way.
 class Slider {
  public:
-  Slider(const HandSetup& setup, const std::vector<Sliding>& fingers, const Holding& holding)
+  Slider(const HandSetup& setup, const std::vector<Sliding>& fingers,
+         const ContactAssignment& holding)
       : setup_(setup), fingers_(fingers) {
     for (const int point : holding) {
       touching_.push_back(point == kNone ? TipContact::kFree : TipContact::kTouching);
@@ -225,8 +226,8 @@ std::vector<Contacts> GoTogether(const std::vector<const tree::SurfaceRoute*>& r
 }
 
 std::optional<Slide> FindSlide(const HandSetup& setup, const criteria::GraspMemory& memory,
-                               const std::vector<Sliding>& fingers, const Holding& holding,
-                               const Keyframe& from) {
+                               const std::vector<Sliding>& fingers,
+                               const ContactAssignment& holding, const Keyframe& from) {
   std::vector<const tree::SurfaceRoute*> routes;
   for (const Sliding& sliding : fingers) routes.push_back(sliding.route);
   Contacts still;
@@ -259,14 +260,15 @@ std::optional<Slide> FindSlide(const HandSetup& setup, const criteria::GraspMemo
 namespace {
 
 /// One finger goes along a path, all else stays.
-void Append(const Keyframe& before, FingerIndex finger, const Posture& posture, Stretch& stretch) {
+void Append(const Keyframe& before, FingerIndex finger, const Posture& posture,
+            PlanSegment& stretch) {
   stretch.path.push_back(before);
   stretch.path.back().postures[finger] = posture;
 }
 
 }  // namespace
 
-Change ChangeBetween(const Holding& from, const Holding& to) {
+Change ChangeBetween(const ContactAssignment& from, const ContactAssignment& to) {
   Change change;
   for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
     if (from[finger] == to[finger]) continue;
@@ -281,15 +283,15 @@ Change ChangeBetween(const Holding& from, const Holding& to) {
   return change;
 }
 
-std::optional<std::vector<Stretch>> ChangePaths::Find(const Hold& from, Hold& to, int node,
-                                                      const Rolled& rolled) {
+std::optional<std::vector<PlanSegment>> ChangePaths::Find(const Stance& from, Stance& to, int node,
+                                                          const Rolled& rolled) {
   const Change change = ChangeBetween(from.holding, to.holding);
-  Keyframe frame = carrier_.FrameAt(from, node);
-  std::vector<Stretch> stretches;
-  const auto take = [&](std::optional<Stretch> stretch) {
+  Keyframe frame = checker_.FrameAt(from, node);
+  std::vector<PlanSegment> segments;
+  const auto take = [&](std::optional<PlanSegment> stretch) {
     if (!stretch) return false;
     frame = stretch->path.back();
-    stretches.push_back(*std::move(stretch));
+    segments.push_back(*std::move(stretch));
     return true;
   };
   const auto& [placed, released, slid] = change;
@@ -303,12 +305,12 @@ std::optional<std::vector<Stretch>> ChangePaths::Find(const Hold& from, Hold& to
       !take(Release(released, from.holding[released], to, node, frame, rolled.after))) {
     return std::nullopt;
   }
-  return stretches;
+  return segments;
 }
 
-std::optional<Stretch> ChangePaths::Place(FingerIndex finger, int point, int node,
-                                          const Keyframe& before, const RolledTips& rolled) {
-  const Posture touching = *carrier_.reach().Find(finger, point, node);
+std::optional<PlanSegment> ChangePaths::Place(FingerIndex finger, int point, int node,
+                                              const Keyframe& before, const RolledTips& rolled) {
+  const Posture touching = *checker_.reach().Find(finger, point, node);
   Surroundings around = AllBut(setup_.scene, finger, before);
   AddRolled(setup_.scene, rolled, around);
   const auto path =
@@ -316,20 +318,20 @@ std::optional<Stretch> ChangePaths::Place(FingerIndex finger, int point, int nod
                         TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
                         touching, around, random_);
   if (!path) return std::nullopt;
-  Stretch stretch{Stretch::Kind::kPlace, finger, point, {}};
+  PlanSegment stretch{PlanSegment::Kind::kPlace, finger, point, {}};
   for (const Posture& posture : *path) Append(before, finger, posture, stretch);
   return stretch;
 }
 
 /// To where the finger is to wait, or else no farther than above its contact.
-std::optional<Stretch> ChangePaths::Release(FingerIndex finger, int point, Hold& to, int node,
-                                            const Keyframe& before, const RolledTips& rolled) {
+std::optional<PlanSegment> ChangePaths::Release(FingerIndex finger, int point, Stance& to, int node,
+                                                const Keyframe& before, const RolledTips& rolled) {
   Surroundings around = AllBut(setup_.scene, finger, before);
   AddRolled(setup_.scene, rolled, around);
   const auto up =
-      FindWayUp(setup_.scene, setup_.inverse[finger], finger,
-                TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
-                before.postures[finger], around);
+      FindLiftPath(setup_.scene, setup_.inverse[finger], finger,
+                   TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
+                   before.postures[finger], around);
   if (!up) return std::nullopt;
   const auto onward =
       FindFreePath(setup_.scene, finger, up->back(), to.waiting[finger], around, random_);
@@ -338,21 +340,23 @@ std::optional<Stretch> ChangePaths::Release(FingerIndex finger, int point, Hold&
     path.insert(path.end(), onward->begin() + 1, onward->end());
   } else {
     to.waiting[finger] = up->back();
-    if (!carrier_.IsPassable(to, node)) return std::nullopt;
+    if (!checker_.IsPassable(to, node)) return std::nullopt;
   }
-  Stretch stretch{Stretch::Kind::kRelease, finger, point, {}};
+  PlanSegment stretch{PlanSegment::Kind::kRelease, finger, point, {}};
   for (const Posture& posture : path) Append(before, finger, posture, stretch);
   return stretch;
 }
 
-std::optional<Stretch> ChangePaths::Slide(const std::vector<FingerIndex>& slid, const Holding& from,
-                                          const Holding& to, int node, const Keyframe& before) {
-  Stretch stretch{Stretch::Kind::kSlide, {}, kNone, {before}};
+std::optional<PlanSegment> ChangePaths::Slide(const std::vector<FingerIndex>& slid,
+                                              const ContactAssignment& from,
+                                              const ContactAssignment& to, int node,
+                                              const Keyframe& before) {
+  PlanSegment stretch{PlanSegment::Kind::kSlide, {}, kNone, {before}};
   std::vector<Sliding> fingers;
   for (const FingerIndex finger : slid) {
     stretch.slid.push_back({finger, from[finger], to[finger]});
     fingers.push_back({finger, routes_.Between(from[finger], to[finger]),
-                       carrier_.reach().Find(finger, to[finger], node)});
+                       checker_.reach().Find(finger, to[finger], node)});
   }
   auto slide = FindSlide(setup_, memory_, fingers, from, before);
   if (!slide) return std::nullopt;

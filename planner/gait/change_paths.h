@@ -62,7 +62,8 @@ struct Slide {
 [[nodiscard]] std::optional<Slide> FindSlide(const HandSetup& setup,
                                              const criteria::GraspMemory& memory,
                                              const std::vector<Sliding>& fingers,
-                                             const Holding& holding, const Keyframe& from);
+                                             const ContactAssignment& holding,
+                                             const Keyframe& from);
 
 /// What fingers do between two rests: either some that hold slide, all at once, or one is placed,
 /// one released, or both.
@@ -71,7 +72,7 @@ struct Change {
   FingerIndex released = {};  ///< not valid: none
   std::vector<FingerIndex> slid = {};
 };
-[[nodiscard]] Change ChangeBetween(const Holding& from, const Holding& to);
+[[nodiscard]] Change ChangeBetween(const ContactAssignment& from, const ContactAssignment& to);
 
 /// Finds how fingers go from one hold to the next while the object stands still.
 class ChangePaths {
@@ -83,29 +84,31 @@ class ChangePaths {
   };
 
   /// All outlive this object.
-  ChangePaths(const HandSetup& setup, criteria::GraspMemory& memory, Carrier& carrier,
+  ChangePaths(const HandSetup& setup, criteria::GraspMemory& memory, ObjectMotionChecker& checker,
               SlideRoutes& routes, RandomStream& random)
-      : setup_(setup), memory_(memory), carrier_(carrier), routes_(routes), random_(random) {}
+      : setup_(setup), memory_(memory), checker_(checker), routes_(routes), random_(random) {}
 
   /// @param to  after the change; where a finger that is released can't go to where it is to wait,
   ///            it waits above its contact from now on.
   /// @param node  of the grid, where both holds can be.
   /// @returns the stretches, certified; nullopt where a finger finds no way.
-  [[nodiscard]] std::optional<std::vector<Stretch>> Find(const Hold& from, Hold& to, int node,
-                                                         const Rolled& rolled);
+  [[nodiscard]] std::optional<std::vector<PlanSegment>> Find(const Stance& from, Stance& to,
+                                                             int node, const Rolled& rolled);
 
  private:
-  [[nodiscard]] std::optional<Stretch> Slide(const std::vector<FingerIndex>& slid,
-                                             const Holding& from, const Holding& to, int node,
-                                             const Keyframe& before);
-  [[nodiscard]] std::optional<Stretch> Place(FingerIndex finger, int point, int node,
-                                             const Keyframe& before, const RolledTips& rolled);
-  [[nodiscard]] std::optional<Stretch> Release(FingerIndex finger, int point, Hold& to, int node,
-                                               const Keyframe& before, const RolledTips& rolled);
+  [[nodiscard]] std::optional<PlanSegment> Slide(const std::vector<FingerIndex>& slid,
+                                                 const ContactAssignment& from,
+                                                 const ContactAssignment& to, int node,
+                                                 const Keyframe& before);
+  [[nodiscard]] std::optional<PlanSegment> Place(FingerIndex finger, int point, int node,
+                                                 const Keyframe& before, const RolledTips& rolled);
+  [[nodiscard]] std::optional<PlanSegment> Release(FingerIndex finger, int point, Stance& to,
+                                                   int node, const Keyframe& before,
+                                                   const RolledTips& rolled);
 
   const HandSetup& setup_;
   criteria::GraspMemory& memory_;
-  Carrier& carrier_;
+  ObjectMotionChecker& checker_;
   SlideRoutes& routes_;
   RandomStream& random_;
 };

@@ -168,16 +168,17 @@ criteria::GraspCriteria WithQuality(criteria::GraspCriteria criteria, double qua
 constexpr int kBesideSliding = 3;
 
 /// Gaits with one spare, or without.
-struct Kind {
+struct SearchConfig {
   double quality;
   HandScene scene;
   HandSetup setup;
   criteria::GraspMemory memory;
-  CarryOut carry_out = {};
+  SimulateExecution carry_out = {};
 
-  Kind(const GaitRequest& request, const Spare* spare, const collision::SurfaceTree& surface,
-       const std::vector<kinematics::InverseKinematics>& inverse,
-       const std::vector<SurfacePoint>& points, const hand::Hand& fingers)
+  SearchConfig(const GaitRequest& request, const RobustnessMargins* spare,
+               const collision::SurfaceTree& surface,
+               const std::vector<kinematics::InverseKinematics>& inverse,
+               const std::vector<SurfacePoint>& points, const hand::Hand& fingers)
       : quality(spare == nullptr ? request.criteria.min_quality
                                  : std::max(request.criteria.min_quality, spare->quality)),
         scene(*request.hand, surface, request.margin + (spare == nullptr ? 0 : spare->clearance)),
@@ -192,10 +193,10 @@ struct Kind {
 };
 
 /// Tries gaits of a setup on the hand's motors, as they would be planned.
-CarryOut TrialOf(const HandSetup& setup, const GaitRequest& request,
-                 const std::vector<grasp::Contact>& contacts) {
-  return [&](const Gait& gait) -> CarriedGait {
-    const Gait fewer = WithFewerMoves(setup, gait);
+SimulateExecution TrialOf(const HandSetup& setup, const GaitRequest& request,
+                          const std::vector<grasp::Contact>& contacts) {
+  return [&](const Gait& gait) -> GaitExecution {
+    const Gait fewer = MergeMoves(setup, gait);
     request.progress("trying a plan on the hand's own motors");
     const plan::Plan plan = PlanOf(fewer, request, contacts);
     const auto carried = request.carry_out(plan, request.deadline);
@@ -241,11 +242,12 @@ GaitResult FindGait(const GaitRequest& request) {
   for (const kinematics::Finger& finger : request.hand->fingers) inverse.emplace_back(finger);
   const collision::BallContact rolled_on(*request.solid, request.scale);
   const hand::Hand fingers = FingersOf(request);
-  const FindOne find = [&](const GaitRequest& asked, std::span<const Spare> spares) -> FoundGait {
-    std::vector<std::unique_ptr<Kind>> kinds;
+  const FindOne find = [&](const GaitRequest& asked,
+                           std::span<const RobustnessMargins> margins) -> FoundGait {
+    std::vector<std::unique_ptr<SearchConfig>> kinds;
     std::string without;
-    const auto add = [&](const Spare* spare) {
-      auto kind = std::make_unique<Kind>(asked, spare, surface, inverse, points, fingers);
+    const auto add = [&](const RobustnessMargins* spare) {
+      auto kind = std::make_unique<SearchConfig>(asked, spare, surface, inverse, points, fingers);
       kind->memory.Append(result.contacts);
       if (spare != nullptr) {
         if (spare->force_margin) kind->setup.rolled_on = &rolled_on;
@@ -255,27 +257,27 @@ GaitResult FindGait(const GaitRequest& request) {
       }
       kinds.push_back(std::move(kind));
     };
-    if (spares.empty()) add(nullptr);
-    for (const Spare& spare : spares) add(&spare);
+    if (margins.empty()) add(nullptr);
+    for (const RobustnessMargins& spare : margins) add(&spare);
     if (kinds.empty()) return {std::nullopt, std::move(without)};
     std::vector<SearchTerms> terms;
     for (const auto& kind : kinds) {
       terms.push_back({kind->setup, kind->memory, kind->carry_out});
     }
-    PlacesInHand places(asked, std::move(terms), ends);
+    MultiStartSearch places(asked, std::move(terms), ends);
     std::optional<Gait> gait = places.Search();
     if (gait) return {std::move(gait), ""};
     return {std::nullopt, WhatStopped(asked, places.counts())};
   };
-  TriedGait tried;
+  SimulatedGait tried;
   if (request.reserve == Reserve::kNone) {
     tried.found = find(request, {});
   } else if (request.carry_out) {
-    tried = FindCarriedOut(request, result.contacts, find);
+    tried = FindExecutableGait(request, result.contacts, find);
   } else {
     if (request.reserve == Reserve::kPreferred) tried.found = find(request, {});
     if (request.reserve == Reserve::kRequired || tried.found.gait) {
-      tried.found = FindWithReserve(request, find, tried.found);
+      tried.found = FindRobustGait(request, find, tried.found);
     }
   }
   result.gait = std::move(tried.found.gait);

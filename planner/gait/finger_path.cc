@@ -299,10 +299,10 @@ std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finge
   return Connector(scene, finger, around, random).Find(from, to, most_extensions);
 }
 
-std::optional<FingerPath> FindWayUp(const HandScene& scene,
-                                    const kinematics::InverseKinematics& inverse,
-                                    FingerIndex finger, const kinematics::TipTarget& target,
-                                    const Posture& touching, const Surroundings& around) {
+std::optional<FingerPath> FindLiftPath(const HandScene& scene,
+                                       const kinematics::InverseKinematics& inverse,
+                                       FingerIndex finger, const kinematics::TipTarget& target,
+                                       const Posture& touching, const Surroundings& around) {
   for (const Eigen::Vector3d& up : WaysOff(-target.towards)) {
     FingerPath path = {touching};
     double height = 0;
@@ -325,7 +325,7 @@ std::optional<FingerPath> FindPathToContact(const HandScene& scene,
                                             const kinematics::TipTarget& target,
                                             const Posture& touching, const Surroundings& around,
                                             RandomStream& random) {
-  const auto up = FindWayUp(scene, inverse, finger, target, touching, around);
+  const auto up = FindLiftPath(scene, inverse, finger, target, touching, around);
   if (!up) return std::nullopt;
   std::optional<FingerPath> path = FindFreePath(scene, finger, from, up->back(), around, random);
   if (!path) return std::nullopt;

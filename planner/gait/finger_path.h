@@ -55,12 +55,12 @@ struct Surroundings {
 /// @param target    of the tip at the contact.
 /// @param touching  the posture there.
 /// @returns none where it does not come far enough off the surface to go elsewhere.
-[[nodiscard]] std::optional<FingerPath> FindWayUp(
+[[nodiscard]] std::optional<FingerPath> FindLiftPath(
     const HandScene& scene, const kinematics::InverseKinematics& inverse, FingerIndex finger,
     const kinematics::TipTarget& target, const Posture& touching, const Surroundings& around);
 
 /// A certified path from a free posture to a contact: freely to a place some millimetres above it,
-/// then down as by FindWayUp.
+/// then down as by FindLiftPath.
 /// @param target   of the tip at the contact.
 /// @param touching the posture there.
 [[nodiscard]] std::optional<FingerPath> FindPathToContact(

@@ -23,45 +23,45 @@ Keyframe Between(const Keyframe& from, const Keyframe& to, double share) {
 }
 
 bool AreHeldBy(const std::vector<FingerIndex>& fingers, const std::vector<int>& contacts,
-               const Holding& holding) {
+               const ContactAssignment& holding) {
   for (std::size_t i = 0; i < fingers.size(); ++i) {
     if (holding[fingers[i]] != contacts[i]) return false;
   }
   return true;
 }
 
-Stretch Reversed(Stretch stretch) {
+PlanSegment Reversed(PlanSegment stretch) {
   std::ranges::reverse(stretch.path);
   std::ranges::reverse(stretch.along);
   std::ranges::reverse(stretch.along_at);
   const int last = static_cast<int>(stretch.path.size()) - 1;
   for (int& at : stretch.along_at) at = last - at;
-  for (Stretch::Slid& slid : stretch.slid) std::swap(slid.from, slid.to);
-  if (stretch.kind == Stretch::Kind::kPlace) {
-    stretch.kind = Stretch::Kind::kRelease;
-  } else if (stretch.kind == Stretch::Kind::kRelease) {
-    stretch.kind = Stretch::Kind::kPlace;
+  for (PlanSegment::Slid& slid : stretch.slid) std::swap(slid.from, slid.to);
+  if (stretch.kind == PlanSegment::Kind::kPlace) {
+    stretch.kind = PlanSegment::Kind::kRelease;
+  } else if (stretch.kind == PlanSegment::Kind::kRelease) {
+    stretch.kind = PlanSegment::Kind::kPlace;
   }
   return stretch;
 }
 
 const Keyframe& EndOf(const Gait& gait) {
-  return gait.stretches.empty() ? gait.start : gait.stretches.back().path.back();
+  return gait.segments.empty() ? gait.start : gait.segments.back().path.back();
 }
 
-Holding HoldingAtEnd(const Gait& gait) {
-  Holding holding = gait.initial;
-  for (const Stretch& stretch : gait.stretches) {
-    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
-    if (stretch.kind == Stretch::Kind::kRelease) holding[stretch.finger] = kNone;
-    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
+ContactAssignment AssignmentAtEnd(const Gait& gait) {
+  ContactAssignment holding = gait.initial;
+  for (const PlanSegment& stretch : gait.segments) {
+    if (stretch.kind == PlanSegment::Kind::kPlace) holding[stretch.finger] = stretch.contact;
+    if (stretch.kind == PlanSegment::Kind::kRelease) holding[stretch.finger] = kNone;
+    for (const PlanSegment::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
   }
   return holding;
 }
 
-void AppendReversed(const std::vector<Stretch>& stretches, Gait& gait) {
-  for (auto stretch = stretches.rbegin(); stretch != stretches.rend(); ++stretch) {
-    gait.stretches.push_back(Reversed(*stretch));
+void AppendReversed(const std::vector<PlanSegment>& segments, Gait& gait) {
+  for (auto stretch = segments.rbegin(); stretch != segments.rend(); ++stretch) {
+    gait.segments.push_back(Reversed(*stretch));
   }
 }
 

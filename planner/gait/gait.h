@@ -10,15 +10,15 @@
 namespace regrasp::gait {
 
 /// By finger: the contact that it holds, by number; kNone where it is free.
-using Holding = std::vector<int>;
+using ContactAssignment = std::vector<int>;
 inline constexpr int kNone = -1;
 
 /// How many fingers hold.
-[[nodiscard]] inline int CountHolding(const Holding& holding) {
+[[nodiscard]] inline int CountHoldingFingers(const ContactAssignment& holding) {
   return static_cast<int>(std::ranges::count_if(holding, [](int point) { return point != kNone; }));
 }
 
-[[nodiscard]] inline bool Holds(const Holding& holding, int point) {
+[[nodiscard]] inline bool Holds(const ContactAssignment& holding, int point) {
   return std::ranges::find(holding, point) != holding.end();
 }
 
@@ -30,7 +30,7 @@ void ForEachAssignment(const std::vector<int>& points, int fingers, const Take& 
   std::ranges::copy(points, order.begin());
   std::ranges::sort(order);
   do {
-    take(Holding(order));
+    take(ContactAssignment(order));
   } while (std::ranges::next_permutation(order).found);
 }
 
@@ -56,10 +56,10 @@ struct GaitEnds {
 
 /// Whether contacts are held by the fingers that are asked for; true where none are.
 [[nodiscard]] bool AreHeldBy(const std::vector<FingerIndex>& fingers,
-                             const std::vector<int>& contacts, const Holding& holding);
+                             const std::vector<int>& contacts, const ContactAssignment& holding);
 
 /// A stretch of a gait: keyframes, the first of which is the last one of the stretch before.
-struct Stretch {
+struct PlanSegment {
   enum class Kind {
     kMove,     ///< the object moves, held by all fingers that hold
     kPlace,    ///< a free finger comes to its contact
@@ -85,18 +85,18 @@ struct Stretch {
 
 /// A way of fingers and object from a rest to another one.
 struct Gait {
-  Holding initial;
+  ContactAssignment initial;
   Keyframe start;
-  std::vector<Stretch> stretches;
+  std::vector<PlanSegment> segments;
 };
 
 /// A stretch the other way round.
-[[nodiscard]] Stretch Reversed(Stretch stretch);
+[[nodiscard]] PlanSegment Reversed(PlanSegment stretch);
 
 [[nodiscard]] const Keyframe& EndOf(const Gait& gait);
-[[nodiscard]] Holding HoldingAtEnd(const Gait& gait);
+[[nodiscard]] ContactAssignment AssignmentAtEnd(const Gait& gait);
 
 /// Appends stretches the other way round, the last one first.
-void AppendReversed(const std::vector<Stretch>& stretches, Gait& gait);
+void AppendReversed(const std::vector<PlanSegment>& segments, Gait& gait);
 
 }  // namespace regrasp::gait

@@ -145,7 +145,7 @@ GaitRequest RequestFor(const PlanRequest& asked) {
   request.goal_grasp = asked.goal.grasp;
   request.seed = asked.seed;
   request.most_expanded = asked.effort.value_or(kDefaultExpanded);
-  request.seeks_most_spare = asked.objective == planning::Objective::kMargin;
+  request.seeks_most_margin = asked.objective == planning::Objective::kMargin;
   request.deadline = asked.deadline;
   request.jobs = asked.jobs;
   request.progress = asked.progress;
@@ -177,7 +177,7 @@ GaitPlanner::GaitPlanner()
 
 PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   GaitRequest request = RequestFor(asked);
-  if (request.seeks_most_spare && (!request.carry_out || request.reserve == Reserve::kNone)) {
+  if (request.seeks_most_margin && (!request.carry_out || request.reserve == Reserve::kNone)) {
     throw InputError(OptionName(PlanOption::kMargin) +
                      ": goes with plans that the hand tries, and none is tried without reserve");
   }

@@ -9,39 +9,39 @@
 
 namespace regrasp::gait {
 
-bool TriedWays::IsCarriedOut(int rest) {
+bool EdgeSimulation::ExecutesInSimulation(int rest) {
   if (!are_tried()) return true;
-  const int last = tree_.LastCarried(rest);
+  const int last = tree_.LastExecuted(rest);
   const int from = last < 0 ? grid_.start() : tree_[last].node;
   if (grid_.StepOf(tree_[rest].node) - grid_.StepOf(from) < at_once_) return true;
-  const std::optional<Gait> gait = tree_.WayTo(rest, tree_[rest].node);
+  const std::optional<Gait> gait = tree_.PathTo(rest, tree_[rest].node);
   return gait && Try(rest, *gait);
 }
 
-bool TriedWays::Try(int rest, const Gait& gait) {
-  const CarriedGait carried = carry_out_(gait);
+bool EdgeSimulation::Try(int rest, const Gait& gait) {
+  const GaitExecution carried = carry_out_(gait);
   if (carried.is_cut_short) return false;  // which says nothing of the rest
   at_once_ = carried.is_whole ? std::min(2 * at_once_, kMostAtOnce)
                               : std::max(at_once_ / 2, kFewestAtOnce);
   if (carried.is_whole) {
-    TakeAsCarried(rest);
+    MarkExecutedUpTo(rest);
     return true;
   }
   ++in_vain_[carried.reason];
   const int cut = tree_.CutOffAfter(rest, carried.is_held ? carried.changes : -1);
   if (cut < 0) {
     tree_[rest].ends_in_vain = true;
-    KeepBeforeMiddle(rest, grid_.steps());
-    tree_.MarkCarried(rest);
+    LimitToMiddle(rest, grid_.steps());
+    tree_.MarkExecuted(rest);
     return false;
   }
-  const Rest& failed = tree_[cut];
+  const StanceNode& failed = tree_[cut];
   if (failed.parent >= 0) {
-    TakeAsCarried(failed.parent);
+    MarkExecutedUpTo(failed.parent);
     failed_.insert({failed.parent, failed.node, failed.hold.holding});
     const int step = grid_.StepOf(failed.node);
     if (carried.fails_in_move) {
-      KeepBeforeMiddle(failed.parent, step);
+      LimitToMiddle(failed.parent, step);
     } else {
       CountFailedChange(failed.parent, step);
     }
@@ -49,20 +49,20 @@ bool TriedWays::Try(int rest, const Gait& gait) {
   return false;
 }
 
-void TriedWays::KeepBeforeMiddle(int rest, int step) {
+void EdgeSimulation::LimitToMiddle(int rest, int step) {
   const int from = grid_.StepOf(tree_[rest].node);
-  if (step > from) tree_.KeepBefore(rest, (from + step) / 2);
+  if (step > from) tree_.LimitBefore(rest, (from + step) / 2);
 }
 
-void TriedWays::CountFailedChange(int rest, int step) {
+void EdgeSimulation::CountFailedChange(int rest, int step) {
   FailedChanges& failed = failed_changes_[rest];
   ++failed.count;
   failed.first_step = std::min(failed.first_step, step);
-  if (failed.count >= kMostFailedChanges) tree_.KeepBefore(rest, failed.first_step - 1);
+  if (failed.count >= kMostFailedChanges) tree_.LimitBefore(rest, failed.first_step - 1);
 }
 
-void TriedWays::TakeAsCarried(int rest) {
-  tree_.MarkCarried(rest);
+void EdgeSimulation::MarkExecutedUpTo(int rest) {
+  tree_.MarkExecuted(rest);
   farthest_ = std::max(farthest_, grid_.StepOf(tree_[rest].node));
 }
 
@@ -102,7 +102,7 @@ std::array<int, 3> KindOf(const Change& change) {
 
 }  // namespace
 
-GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& carrier,
+GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, ObjectMotionChecker& checker,
                        const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random)
     : setup_(setup),
       grid_(grid),
@@ -113,25 +113,25 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
           {static_cast<std::size_t>(kFewestHolding), ends.start.size(), ends.goal.size()}))),
       memory_(memory),
       random_(random),
-      carrier_(carrier),
+      checker_(checker),
       routes_(memory),
-      next_(setup, carrier, goal_, routes_, most_holding_ > kFewestHolding),
-      kinds_(setup.points),
-      crowding_(kinds_, grid.steps()),
+      next_(setup, checker, goal_, routes_, most_holding_ > kFewestHolding),
+      clusters_(setup.points),
+      novelty_(clusters_, grid.steps()),
       rolling_(setup, memory),
       tree_(
-          setup, grid, carrier, memory, routes_, random,
-          [this](int node, const Holding& holding) {
+          setup, grid, checker, memory, routes_, random,
+          [this](int node, const ContactAssignment& holding) {
             return grid_.IsGoal(node) && goal_.IsHeldBy(holding);
           },
           !ends.start.empty()),
-      tried_(grid, tree_) {
+      simulation_(grid, tree_) {
   counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
-  ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
+  ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](ContactAssignment holding) {
     if (!AreHeldBy(ends.goal_fingers, ends.goal, holding)) return;
-    Hold hold{std::move(holding)};
-    if (carrier_.LetFreeFingersWait(hold, grid.goal(), &random))
+    Stance hold{std::move(holding)};
+    if (checker_.PlaceIdleFingers(hold, grid.goal(), &random))
       goal_.AddWay(std::move(hold.holding));
   });
 }
@@ -139,7 +139,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& ca
 GaitCounts GaitSearch::counts() const {
   GaitCounts counts = counts_;
   counts.ways = tree_.counts();
-  counts.not_carried = tried_.in_vain();
+  counts.not_carried = simulation_.in_vain();
   counts.farthest = farthest();
   return counts;
 }
@@ -156,12 +156,12 @@ void GaitCounts::Add(const GaitCounts& other) {
   at_goal += other.at_goal;
 }
 
-void GaitSearch::BeginWith(const Hold& hold) {
+void GaitSearch::StartFrom(const Stance& hold) {
   Add({.hold = hold, .node = grid_.start()});
   begun_ = true;
 }
 
-bool GaitSearch::IsGrasp(const Holding& holding) {
+bool GaitSearch::IsGrasp(const ContactAssignment& holding) {
   criteria::ContactSet set;
   for (const int point : holding) {
     if (point == kNone) continue;
@@ -171,7 +171,7 @@ bool GaitSearch::IsGrasp(const Holding& holding) {
   return set.size() >= kFewestHolding && memory_.Admits(set);
 }
 
-GaitSearch::RolledTo GaitSearch::RollTowards(const Rest& rest, int node) {
+GaitSearch::RolledTo GaitSearch::RollTowards(const StanceNode& rest, int node) {
   if (setup_.rolled_on == nullptr) return {node, {}};
   RolledTo rolled{rest.node, rest.rolled};
   for (const int next : rest.carried.PathTo(node)) {
@@ -187,7 +187,7 @@ GaitSearch::RolledTo GaitSearch::RollTowards(const Rest& rest, int node) {
   return rolled;
 }
 
-bool GaitSearch::TakeRolledTips(Rest& rest) {
+bool GaitSearch::TakeRolledTips(StanceNode& rest) {
   if (setup_.rolled_on == nullptr) return true;
   rest.rolled = rest.rolled_before;
   rest.rolled.resize(rest.hold.holding.size());
@@ -197,7 +197,7 @@ bool GaitSearch::TakeRolledTips(Rest& rest) {
       rest.rolled[finger].reset();
     } else if (!rest.rolled[finger]) {
       rest.rolled[finger] = {setup_.points[point],
-                             *carrier_.reach().Find(finger, point, rest.node)};
+                             *checker_.reach().Find(finger, point, rest.node)};
     }
   }
   if (rolling_.AreGrasp(rest.rolled, grid_.PoseAt(rest.node))) return true;
@@ -205,34 +205,35 @@ bool GaitSearch::TakeRolledTips(Rest& rest) {
   return false;
 }
 
-double GaitSearch::ScoreOf(const Holding& holding, int node, int slides, int last) {
+double GaitSearch::ScoreOf(const ContactAssignment& holding, int node, int slides, int last) {
   double sum = 0;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (holding[finger] == kNone) continue;
-    sum += carrier_.reach().RunEnd(finger, holding[finger], node);
+    sum += checker_.reach().RunEnd(finger, holding[finger], node);
   }
-  return last + kSingleFinger * sum / CountHolding(holding) - kOffTrack * grid_.OffTrack(node) -
-         kNotYetGoal * goal_.DistanceFrom(holding) - (grid_.steps() > 0 ? kSlide * slides : 0);
+  return last + kSingleFinger * sum / CountHoldingFingers(holding) -
+         kOffTrack * grid_.OffTrack(node) - kNotYetGoal * goal_.DistanceFrom(holding) -
+         (grid_.steps() > 0 ? kSlide * slides : 0);
 }
 
-bool GaitSearch::IsTaken(const Holding& holding, int node) const {
+bool GaitSearch::IsTaken(const ContactAssignment& holding, int node) const {
   const auto found = taken_.find(holding);
-  return found != taken_.end() && std::ranges::any_of(found->second, [&](const Taken& taken) {
+  return found != taken_.end() && std::ranges::any_of(found->second, [&](const QueuedGrasp& taken) {
            return taken.node == node && (taken.rest < 0 || !tree_[taken.rest].is_cut_off);
          });
 }
 
-bool GaitSearch::Add(Rest rest) {
+bool GaitSearch::Add(StanceNode rest) {
   if (!IsGrasp(rest.hold.holding) || IsTaken(rest.hold.holding, rest.node)) return false;
-  Taken& taken = taken_[rest.hold.holding].emplace_back(Taken{rest.node});
+  QueuedGrasp& taken = taken_[rest.hold.holding].emplace_back(QueuedGrasp{rest.node});
   ++counts_.grasps;
-  const Hold* before = rest.parent < 0 ? nullptr : &tree_[rest.parent].hold;
-  if (!carrier_.LetFreeFingersWait(rest.hold, rest.node, nullptr, before)) {
+  const Stance* before = rest.parent < 0 ? nullptr : &tree_[rest.parent].hold;
+  if (!checker_.PlaceIdleFingers(rest.hold, rest.node, nullptr, before)) {
     ++counts_.colliding;
     return false;
   }
   if (!TakeRolledTips(rest)) return false;
-  rest.carried = carrier_.StraightOn(rest.hold, rest.node);
+  rest.carried = checker_.ExtendAlongTrack(rest.hold, rest.node);
   rest.score = ScoreOf(rest.hold.holding, rest.node, rest.slides, grid_.StepOf(rest.carried.end));
   taken.rest = tree_.size();
   queue_.push({rest.score, taken.rest});
@@ -241,10 +242,10 @@ bool GaitSearch::Add(Rest rest) {
 }
 
 void GaitSearch::AddGivenStart() {
-  ForEachAssignment(start_, setup_.scene.finger_count(), [&](Holding holding) {
+  ForEachAssignment(start_, setup_.scene.finger_count(), [&](ContactAssignment holding) {
     if (!AreHeldBy(start_fingers_, start_, holding)) return;
-    Hold hold{std::move(holding)};
-    if (carrier_.LetFreeFingersWait(hold, grid_.start(), &random_)) {
+    Stance hold{std::move(holding)};
+    if (checker_.PlaceIdleFingers(hold, grid_.start(), &random_)) {
       Add({.hold = std::move(hold), .node = grid_.start()});
     } else {
       ++counts_.colliding;
@@ -252,17 +253,17 @@ void GaitSearch::AddGivenStart() {
   });
 }
 
-void GaitSearch::AddFirstRests() {
+void GaitSearch::AddInitialStances() {
   const int fingers = setup_.scene.finger_count();
   std::vector<std::vector<int>> places;
   for (FingerIndex finger{0}; finger < fingers; ++finger) {
-    places.push_back(next_.PlacesFor(finger, Holding(fingers, kNone), grid_.start()));
+    places.push_back(next_.PlacesFor(finger, ContactAssignment(fingers, kNone), grid_.start()));
   }
   std::vector<int> chosen(fingers, 0);
   std::fill(chosen.begin(), chosen.begin() + kFewestHolding, 1);
   do {
     for (int i = 0; i < kDrawnGrasps; ++i) {
-      Holding holding(fingers, kNone);
+      ContactAssignment holding(fingers, kNone);
       for (FingerIndex finger{0}; finger < fingers; ++finger) {
         if (chosen[finger] == 0) continue;
         const std::vector<int>& points = places[finger];
@@ -271,37 +272,38 @@ void GaitSearch::AddFirstRests() {
         const double place = random_.Uniform() * random_.Uniform();
         holding[finger] = points[static_cast<std::size_t>(place * points.size())];
       }
-      if (CountHolding(holding) == kFewestHolding) {
+      if (CountHoldingFingers(holding) == kFewestHolding) {
         Add({.hold = {std::move(holding)}, .node = grid_.start()});
       }
     }
   } while (std::ranges::prev_permutation(chosen).found);
 }
 
-std::optional<double> GaitSearch::ScoreAfter(const Rest& from, const Holding& to, int node) {
-  const int count = CountHolding(to);
+std::optional<double> GaitSearch::ScoreAfter(const StanceNode& from, const ContactAssignment& to,
+                                             int node) {
+  const int count = CountHoldingFingers(to);
   if (count < kFewestHolding || count > most_holding_ || !IsGrasp(to)) return std::nullopt;
   int last = grid_.steps();
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (to[finger] == kNone) continue;
-    last = std::min(last, carrier_.reach().RunEnd(finger, to[finger], node));
+    last = std::min(last, checker_.reach().RunEnd(finger, to[finger], node));
   }
   const bool slides = !ChangeBetween(from.hold.holding, to).slid.empty();
   return ScoreOf(to, node, from.slides + static_cast<int>(slides), last);
 }
 
 bool GaitSearch::SwitchAt(int index, int node) {
-  const Holding from = tree_[index].hold.holding;
+  const ContactAssignment from = tree_[index].hold.holding;
   if (grid_.StepOf(node) > tree_[index].farthest) return false;
   const RolledTo rolled = RollTowards(tree_[index], node);
   if (rolled.node != node) return false;
-  std::vector<std::pair<double, Holding>> found;
-  for (Holding& to : next_.After(from, node)) {
+  std::vector<std::pair<double, ContactAssignment>> found;
+  for (ContactAssignment& to : next_.After(from, node)) {
     if (const auto score = ScoreAfter(tree_[index], to, node)) {
       found.emplace_back(*score, std::move(to));
     }
   }
-  std::ranges::stable_sort(found, std::greater<>(), &std::pair<double, Holding>::first);
+  std::ranges::stable_sort(found, std::greater<>(), &std::pair<double, ContactAssignment>::first);
   const bool is_start = !start_.empty() && tree_[index].parent < 0;
   const int many = is_start ? kMoreAtStart : 1;
   int taken = 0;
@@ -311,13 +313,13 @@ bool GaitSearch::SwitchAt(int index, int node) {
     const Change change = ChangeBetween(from, to);
     int& alike = taken_by_fingers[KindOf(change)];
     if (alike == many * kTakenUpOfAKind) continue;
-    Rest rest = tree_.After(index, to, node);
+    StanceNode rest = tree_.After(index, to, node);
     // A switch passes a grasp of all fingers.
-    Hold all = rest.hold;
+    Stance all = rest.hold;
     if (change.released.valid()) all.holding[change.released] = from[change.released];
-    if (change.placed.valid() && !carrier_.IsPassable(all, rest.node)) continue;
+    if (change.placed.valid() && !checker_.IsPassable(all, rest.node)) continue;
     rest.rolled_before = rolled.tips;
-    if (tried_.HasFailed(index, rest.node, rest.hold.holding)) continue;
+    if (simulation_.HasFailed(index, rest.node, rest.hold.holding)) continue;
     if (!Add(std::move(rest))) continue;
     ++taken;
     ++alike;
@@ -326,7 +328,7 @@ bool GaitSearch::SwitchAt(int index, int node) {
 }
 
 void GaitSearch::Expand(int index) {
-  const Rest& rest = tree_[index];
+  const StanceNode& rest = tree_[index];
   const std::vector<int> path = rest.carried.PathTo(rest.carried.end);
   const std::size_t last = path.size() - 1;
   std::set<int> nodes = {path[last], path[last / 2], path[last - std::min<std::size_t>(last, 2)],
@@ -337,7 +339,7 @@ void GaitSearch::Expand(int index) {
                            static_cast<int>(random_.Index(rest.carried.from.size())))
                      ->first);
   }
-  Rest& again = tree_[index];
+  StanceNode& again = tree_[index];
   bool is_worth_it = ++again.turns == 1;
   for (const int node : nodes) {
     again.switched_at.insert(node);
@@ -349,11 +351,11 @@ void GaitSearch::Expand(int index) {
   }
 }
 
-bool GaitSearch::ComesToItsEnd(int index) {
+bool GaitSearch::ReachesEnd(int index) {
   while (!tree_[index].is_cut_off) {
-    Carried& carried = tree_[index].carried;
+    ReachablePoses& carried = tree_[index].carried;
     const int end = carried.end;
-    if (tree_.WayTo(index, end)) return true;
+    if (tree_.PathTo(index, end)) return true;
     if (carried.end == end && carried.from.contains(end)) carried.end = carried.from.at(end);
   }
   return false;
@@ -361,77 +363,77 @@ bool GaitSearch::ComesToItsEnd(int index) {
 
 /// The whole gait, where a rest's path leads to the goal and is free.
 std::optional<Gait> GaitSearch::GaitFrom(int index) {
-  Carried& carried = tree_[index].carried;
+  ReachablePoses& carried = tree_[index].carried;
   if (!grid_.IsGoal(carried.end) || !goal_.IsHeldBy(tree_[index].hold.holding)) {
     return std::nullopt;
   }
   ++counts_.at_goal;
   const int end = carried.end;
   if (tree_[index].ends_in_vain || grid_.StepOf(end) > tree_[index].farthest) return std::nullopt;
-  std::optional<Gait> gait = tree_.WayTo(index, end);
-  if (gait && tried_.are_tried() && !tried_.Try(index, *gait)) return std::nullopt;
+  std::optional<Gait> gait = tree_.PathTo(index, end);
+  if (gait && simulation_.are_tried() && !simulation_.Try(index, *gait)) return std::nullopt;
   // Else the rest goes on from where it did not fail, or from another place.
   if (!gait && carried.from.contains(end)) carried.end = carried.from.at(end);
   return gait;
 }
 
-void GaitSearch::AddTarget(const Holding& holding) {
-  if (targets_.insert(kinds_.KindOf(holding)).second) goal_.AddTarget(holding);
+void GaitSearch::AddTarget(const ContactAssignment& holding) {
+  if (targets_.insert(clusters_.KindOf(holding)).second) goal_.AddTarget(holding);
 }
 
 int GaitSearch::PopNext() {
   while (true) {
-    const Waiting top = queue_.top();
+    const QueueEntry top = queue_.top();
     queue_.pop();
-    const Rest& rest = tree_[top.rest];
-    const double score = crowding_.PutBack(rest.score - kAnotherTurn * rest.turns,
-                                           rest.hold.holding, grid_.StepOf(rest.carried.end));
+    const StanceNode& rest = tree_[top.rest];
+    const double score = novelty_.PenaltyFor(rest.score - kAnotherTurn * rest.turns,
+                                             rest.hold.holding, grid_.StepOf(rest.carried.end));
     if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
     queue_.push({score, top.rest});
   }
 }
 
 /// Whether the same grasp was expanded that passes the rest's node.
-bool GaitSearch::WasExpandedAt(const Rest& rest) const {
+bool GaitSearch::WasExpandedAt(const StanceNode& rest) const {
   const auto found = expanded_.find(rest.hold.holding);
   return found != expanded_.end() && std::ranges::any_of(found->second, [&](int other) {
            return !tree_[other].is_cut_off && tree_[other].carried.from.contains(rest.node);
          });
 }
 
-int GaitSearch::ComeTo(int index) {
-  if (tree_.WorkOutWay(tree_[index])) return index;
-  const int other = tree_.AfterWaitingAbove(index);
+int GaitSearch::ConnectToParent(int index) {
+  if (tree_.PlanPathFromParent(tree_[index])) return index;
+  const int other = tree_.AfterIdlingAbove(index);
   // From another rest there may be a way.
-  Rest& failed = tree_[index];
+  StanceNode& failed = tree_[index];
   if (other < 0 && ++failed_[failed.hold.holding] < kMostFailures) failed.is_cut_off = true;
   return other;
 }
 
 std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& deadline) {
-  if (!begun_) start_.empty() ? AddFirstRests() : AddGivenStart();
+  if (!begun_) start_.empty() ? AddInitialStances() : AddGivenStart();
   begun_ = true;
   while (!queue_.empty() && counts_.expanded < most_expanded) {
     if (deadline.IsOver()) return std::nullopt;
     int index = PopNext();
     const bool is_new = tree_[index].turns == 0;
     if (tree_[index].is_cut_off || (is_new && WasExpandedAt(tree_[index]))) continue;
-    if (is_new) index = ComeTo(index);
+    if (is_new) index = ConnectToParent(index);
     if (index < 0) continue;
-    Rest& rest = tree_[index];
+    StanceNode& rest = tree_[index];
     // Where the object has nowhere to go it stays while there is something else to do.
-    if (grid_.steps() > 0 || !is_new) tree_.CarryOn(rest);
+    if (grid_.steps() > 0 || !is_new) tree_.ExtendReachable(rest);
     rest.carried.end = RollTowards(rest, rest.carried.end).node;
     if (std::optional<Gait> gait = GaitFrom(index)) return gait;
     if (rest.is_cut_off) continue;
     // Whose way can't be gone had better be found out before much grows from it.
-    if (grid_.StepOf(rest.carried.end) > reached_ && !ComesToItsEnd(index)) continue;
-    if (!tried_.IsCarriedOut(index)) continue;
+    if (grid_.StepOf(rest.carried.end) > reached_ && !ReachesEnd(index)) continue;
+    if (!simulation_.ExecutesInSimulation(index)) continue;
     if (is_new) expanded_[rest.hold.holding].push_back(index);
     const int last = grid_.StepOf(rest.carried.end);
     reached_ = std::max(reached_, last);
     ++counts_.expanded;
-    crowding_.Count(rest.hold.holding, last);
+    novelty_.Count(rest.hold.holding, last);
     last_expanded_ = index;
     Expand(index);
   }

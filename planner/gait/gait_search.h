@@ -28,7 +28,7 @@
 namespace regrasp::gait {
 
 /// How far something carried a gait out.
-struct CarriedGait {
+struct GaitExecution {
   int changes = 0;             ///< stretches that are no moves, before one failed
   bool is_held = true;         ///< before the first stretch
   bool fails_in_move = false;  ///< and in no change
@@ -39,26 +39,26 @@ struct CarriedGait {
 /// How often what failed.
 using FailureCounts = std::map<plan::Reason, std::int64_t>;
 /// Tries a gait, or the beginning of one.
-using CarryOut = std::function<CarriedGait(const Gait&)>;
+using SimulateExecution = std::function<GaitExecution(const Gait&)>;
 
 /// Tries the ways of a tree of rests, and cuts off what is not carried out. The more steps of the
 /// track are tried at once, the more often the last ones were carried out.
-class TriedWays {
+class EdgeSimulation {
  public:
   /// Both outlive this object.
-  TriedWays(const PoseGrid& grid, RestTree& tree) : grid_(grid), tree_(tree) {}
+  EdgeSimulation(const PoseGrid& grid, StanceTree& tree) : grid_(grid), tree_(tree) {}
 
   /// From now on ways are tried; before, all are believed.
-  void TryWith(CarryOut carry_out) { carry_out_ = std::move(carry_out); }
+  void TryWith(SimulateExecution carry_out) { carry_out_ = std::move(carry_out); }
   [[nodiscard]] bool are_tried() const { return carry_out_ != nullptr; }
 
   /// Whether the way to a rest is carried out; few steps after what was carried out are believed.
-  [[nodiscard]] bool IsCarriedOut(int rest);
+  [[nodiscard]] bool ExecutesInSimulation(int rest);
   /// @param gait  the way to a rest, perhaps on to where it brings the object.
   /// @returns whether all of it is carried out; else what failed is cut off.
   [[nodiscard]] bool Try(int rest, const Gait& gait);
   /// Whether a change from a rest at a node to a grasp was tried in vain.
-  [[nodiscard]] bool HasFailed(int rest, int node, const Holding& to) const {
+  [[nodiscard]] bool HasFailed(int rest, int node, const ContactAssignment& to) const {
     return failed_.contains({rest, node, to});
   }
 
@@ -79,25 +79,25 @@ class TriedWays {
   };
 
   /// The object is not carried with a rest to a step, and perhaps not half as far.
-  void KeepBeforeMiddle(int rest, int step);
+  void LimitToMiddle(int rest, int step);
   void CountFailedChange(int rest, int step);
-  void TakeAsCarried(int rest);
+  void MarkExecutedUpTo(int rest);
 
   const PoseGrid& grid_;
-  RestTree& tree_;
-  CarryOut carry_out_;
+  StanceTree& tree_;
+  SimulateExecution carry_out_;
   int at_once_ = kFewestAtOnce;
   int farthest_ = 0;
   FailureCounts in_vain_;
-  std::set<std::tuple<int, int, Holding>> failed_;  ///< rest, node and grasp
-  std::map<int, FailedChanges> failed_changes_;     ///< by rest
+  std::set<std::tuple<int, int, ContactAssignment>> failed_;  ///< rest, node and grasp
+  std::map<int, FailedChanges> failed_changes_;               ///< by rest
 };
 
 /// What a search did, and what stopped it.
 struct GaitCounts {
   std::int64_t grasps = 0;    ///< rests that were looked at
   std::int64_t expanded = 0;  ///< from which fingers were switched
-  WayCounts ways;
+  PathFailureCounts ways;
   std::int64_t colliding = 0;  ///< grasps in which fingers hit each other
   std::int64_t rolled = 0;     ///< that are lost where contacts roll, with reserve
   FailureCounts not_carried;   ///< to which the way was tried in vain
@@ -124,12 +124,12 @@ class GaitSearch {
   /// @param carrier  on the grid.
   /// @param memory   knows the setup's points as contacts under their numbers. All outlive this
   ///                 object.
-  GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& carrier, const GaitEnds& ends,
-             criteria::GraspMemory& memory, RandomStream& random);
+  GaitSearch(const HandSetup& setup, const PoseGrid& grid, ObjectMotionChecker& checker,
+             const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random);
 
   /// From now on ways are tried before much grows from them, and gaits are carried out as a whole.
   /// Before the first Run.
-  void TryWays(CarryOut carry_out) { tried_.TryWith(std::move(carry_out)); }
+  void SimulateEdges(SimulateExecution carry_out) { simulation_.TryWith(std::move(carry_out)); }
 
   /// Whether some fingers can hold the goal grasp, if there is one, at the goal pose.
   [[nodiscard]] bool GoalIsHeld() const { return goal_.IsWithinReach(); }
@@ -145,28 +145,28 @@ class GaitSearch {
   // For a search that goes the other way.
 
   /// Begins with a hold at the start of the grid, instead of others.
-  void BeginWith(const Hold& hold);
+  void StartFrom(const Stance& hold);
   /// The first rest of the way to a rest.
   [[nodiscard]] int RootOf(int rest) const { return tree_.RootOf(rest); }
   /// The rest that was expanded last, by number; −1 before.
   [[nodiscard]] int last_expanded() const { return last_expanded_; }
-  [[nodiscard]] const Hold& HoldOf(int rest) const { return tree_[rest].hold; }
-  /// The nodes to which an expanded rest is carried; others where WayTo had to go round something.
+  [[nodiscard]] const Stance& StanceOf(int rest) const { return tree_[rest].hold; }
+  /// The nodes to which an expanded rest is carried; others where PathTo had to go round something.
   [[nodiscard]] const std::map<int, int>& NodesOf(int rest) const {
     return tree_[rest].carried.from;
   }
   /// Whether it turned out that the object can't be brought to a rest.
   [[nodiscard]] bool IsCutOff(int rest) const { return tree_[rest].is_cut_off; }
   /// The whole way with a rest to one of its nodes, where it is free.
-  [[nodiscard]] std::optional<Gait> WayTo(int rest, int node) { return tree_.WayTo(rest, node); }
-  /// As RestTree::WithWaiting.
-  [[nodiscard]] int WithWaiting(int rest, FingerIndex finger, const Posture& posture) {
-    return tree_.WithWaiting(rest, finger, posture);
+  [[nodiscard]] std::optional<Gait> PathTo(int rest, int node) { return tree_.PathTo(rest, node); }
+  /// As StanceTree::WithIdlePosture.
+  [[nodiscard]] int WithIdlePosture(int rest, FingerIndex finger, const Posture& posture) {
+    return tree_.WithIdlePosture(rest, finger, posture);
   }
   /// Finds more nodes to which an expanded rest is carried.
-  void CarryAround(int rest) { tree_.CarryOn(tree_[rest]); }
+  void CarryAround(int rest) { tree_.ExtendReachable(tree_[rest]); }
   /// From now on grasps near to this one are looked at before others, too.
-  void AddTarget(const Holding& holding);
+  void AddTarget(const ContactAssignment& holding);
 
  private:
   /// The last node on a way at which tips that roll hold, and where they are there.
@@ -174,45 +174,46 @@ class GaitSearch {
     int node = 0;
     RolledTips tips;
   };
-  struct Waiting {
+  struct QueueEntry {
     double score;
     int rest;
-    bool operator<(const Waiting& other) const {
+    bool operator<(const QueueEntry& other) const {
       return score != other.score ? score < other.score : rest > other.rest;
     }
   };
   /// Of a grasp that was taken up at a node; no rest: it could not be.
-  struct Taken {
+  struct QueuedGrasp {
     int node;
     int rest = -1;
   };
 
   /// The step that counts as reached: of ways that are tried none beyond what is carried out and
   /// believed.
-  [[nodiscard]] int farthest() const { return std::min(reached_, tried_.MayReach()); }
-  void AddFirstRests();
+  [[nodiscard]] int farthest() const { return std::min(reached_, simulation_.MayReach()); }
+  void AddInitialStances();
   void AddGivenStart();
   void Expand(int index);
   /// @returns whether rests are taken up.
   bool SwitchAt(int index, int node);
   /// How good a grasp is that a change leads to; nullopt where it is none.
-  [[nodiscard]] std::optional<double> ScoreAfter(const Rest& from, const Holding& to, int node);
+  [[nodiscard]] std::optional<double> ScoreAfter(const StanceNode& from,
+                                                 const ContactAssignment& to, int node);
   /// Whether a grasp was taken up at a node, and is not cut off.
-  [[nodiscard]] bool IsTaken(const Holding& holding, int node) const;
+  [[nodiscard]] bool IsTaken(const ContactAssignment& holding, int node) const;
   /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
-  bool Add(Rest rest);
-  [[nodiscard]] bool IsGrasp(const Holding& holding);
+  bool Add(StanceNode rest);
+  [[nodiscard]] bool IsGrasp(const ContactAssignment& holding);
   /// Where tips roll to when the object is carried towards a node; without reserve it comes there.
-  [[nodiscard]] RolledTo RollTowards(const Rest& rest, int node);
+  [[nodiscard]] RolledTo RollTowards(const StanceNode& rest, int node);
   /// Of a new rest, from `rolled_before`. @returns whether its tips hold there.
-  [[nodiscard]] bool TakeRolledTips(Rest& rest);
-  [[nodiscard]] bool WasExpandedAt(const Rest& rest) const;
-  [[nodiscard]] double ScoreOf(const Holding& holding, int node, int slides, int last);
+  [[nodiscard]] bool TakeRolledTips(StanceNode& rest);
+  [[nodiscard]] bool WasExpandedAt(const StanceNode& rest) const;
+  [[nodiscard]] double ScoreOf(const ContactAssignment& holding, int node, int slides, int last);
   /// Whether there is a way to a rest and on with it; `carried.end` is where it leads to, which
   /// may be nearer than before.
-  [[nodiscard]] bool ComesToItsEnd(int index);
+  [[nodiscard]] bool ReachesEnd(int index);
   /// Works out the way to a new rest. @returns the rest as it is come to; −1 where it is not.
-  [[nodiscard]] int ComeTo(int index);
+  [[nodiscard]] int ConnectToParent(int index);
   /// The next rest in turn.
   [[nodiscard]] int PopNext();
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
@@ -225,24 +226,24 @@ class GaitSearch {
   int most_holding_;
   criteria::GraspMemory& memory_;
   RandomStream& random_;
-  Carrier& carrier_;
+  ObjectMotionChecker& checker_;
   SlideRoutes routes_;
-  NextHoldings next_;
-  ContactKinds kinds_;
-  Crowding crowding_;
+  SuccessorGenerator next_;
+  ContactClusters clusters_;
+  NoveltyPenalty novelty_;
   RollingTips rolling_;
-  RestTree tree_;
-  TriedWays tried_;
-  std::priority_queue<Waiting> queue_;
+  StanceTree tree_;
+  EdgeSimulation simulation_;
+  std::priority_queue<QueueEntry> queue_;
   /// Where each grasp was taken up, or could not be.
-  std::map<Holding, std::vector<Taken>> taken_;
-  std::map<Holding, int> failed_;  ///< times that a grasp was not come to
+  std::map<ContactAssignment, std::vector<QueuedGrasp>> taken_;
+  std::map<ContactAssignment, int> failed_;  ///< times that a grasp was not come to
   /// Of each grasp the rests that were expanded.
-  std::map<Holding, std::vector<int>> expanded_;
+  std::map<ContactAssignment, std::vector<int>> expanded_;
   GaitCounts counts_;
   int reached_ = 0;  ///< the farthest step
   int last_expanded_ = -1;
-  std::set<Holding> targets_;  ///< kinds of them
+  std::set<ContactAssignment> targets_;  ///< kinds of them
   bool begun_ = false;
 };
 

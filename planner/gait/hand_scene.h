@@ -37,7 +37,7 @@ struct PlacedFinger {
 };
 
 /// What postures keep beside the margin, metres.
-inline constexpr double kSpare = 5e-4;
+inline constexpr double kPostureMargin = 5e-4;
 
 /// A hand and an object that run into each other or do not. Lengths in metres; poses of the object
 /// are from its own frame (the file's axes and origin, scaled) to the palm's.
@@ -91,7 +91,9 @@ class HandScene {
 
  private:
   using Part = kinematics::HandModel::Part;
-  [[nodiscard]] double Needed(Motion motion) const { return margin_ + motion.value_or(kSpare); }
+  [[nodiscard]] double Needed(Motion motion) const {
+    return margin_ + motion.value_or(kPostureMargin);
+  }
   /// Of shapes that may run into each other; those that never can are not looked at: they are
   /// many, and touch, for which GJK takes longest.
   struct ShapePair {
@@ -179,6 +181,6 @@ struct HandSetup {
 };
 
 /// By finger: postures in which it may wait while it holds nothing, the best first.
-using Parking = std::vector<std::vector<Posture>>;
+using IdlePostures = std::vector<std::vector<Posture>>;
 
 }  // namespace regrasp::gait

@@ -142,10 +142,10 @@ bool MayHold(const HandSetup& setup, const std::vector<int>& grasp, const Isomet
 /// Draws poses for an object to begin in.
 class PoseDraw {
  public:
-  PoseDraw(const HandSetup& setup, const Journey& journey, const GaitEnds& ends,
+  PoseDraw(const HandSetup& setup, const ObjectTask& task, const GaitEnds& ends,
            RandomStream& random)
       : setup_(setup),
-        journey_(journey),
+        task_(task),
         grasp_(ends.start.empty() ? ends.goal : ends.start),
         upright_(Upright(setup.scene.hand().up)),
         random_(random) {
@@ -163,7 +163,7 @@ class PoseDraw {
     pose.linear() = upright_ * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
     Vector3d place;
     for (int k = 0; k < 3; ++k) place[k] = box_.min()[k] + random_.Uniform() * box_.sizes()[k];
-    pose.translation() = place - pose.linear() * journey_.centre();
+    pose.translation() = place - pose.linear() * task_.centre();
     return pose;
   }
   /// With any orientation.
@@ -180,7 +180,7 @@ class PoseDraw {
   }
 
   const HandSetup& setup_;
-  const Journey& journey_;
+  const ObjectTask& task_;
   const std::vector<int>& grasp_;
   Eigen::AlignedBox3d box_;
   Eigen::Matrix3d upright_;
@@ -189,10 +189,10 @@ class PoseDraw {
 
 }  // namespace
 
-std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Journey& journey,
-                                  const GaitEnds& ends, criteria::GraspMemory& memory,
-                                  RandomStream& random) {
-  PoseDraw draw(setup, journey, ends, random);
+std::vector<Isometry3d> FindInitialPoses(const HandSetup& setup, const ObjectTask& task,
+                                         const GaitEnds& ends, criteria::GraspMemory& memory,
+                                         RandomStream& random) {
+  PoseDraw draw(setup, task, ends, random);
   struct Home {
     double score;
     Isometry3d pose;
@@ -200,7 +200,7 @@ std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Journey& journey
   std::vector<Home> homes;
   for (int i = 0; i < kMostDrawn && static_cast<int>(homes.size()) < kPlaces; ++i) {
     const Isometry3d pose = draw.Next();
-    const PoseTrack track = journey.From(pose, kPosesOfTurn);
+    const PoseTrack track = task.From(pose, kPosesOfTurn);
     if (!MayHold(setup, ends.start, pose)) continue;
     if (!MayHold(setup, ends.goal, track.PoseAt(track.steps()))) continue;
     homes.push_back({ScoreOf(setup, track), pose});
@@ -209,7 +209,7 @@ std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Journey& journey
   homes.resize(std::min<std::size_t>(homes.size(), kCloser));
   for (Home& home : homes) {
     if (!std::isfinite(home.score)) continue;
-    home.score = CloserScoreOf(setup, journey.From(home.pose, kPosesOfTurn / 2), memory, random);
+    home.score = CloserScoreOf(setup, task.From(home.pose, kPosesOfTurn / 2), memory, random);
   }
   std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
   std::vector<Isometry3d> poses;
@@ -220,15 +220,15 @@ std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Journey& journey
   return poses;
 }
 
-std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& track,
-                                   RandomStream& random) {
+std::optional<IdlePostures> FindIdlePostures(const HandSetup& setup, const PoseTrack& track,
+                                             RandomStream& random) {
   struct Place {
     double score;
     Posture posture;
   };
   const HandScene& scene = setup.scene;
   const int samples = track.steps() == 0 ? 1 : kTrackSamples;
-  Parking parking(scene.finger_count());
+  IdlePostures idle_postures(scene.finger_count());
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
     std::vector<Place> places;
     for (int i = 0; i < kParkingDraws || (i < kMostParkingDraws && places.empty()); ++i) {
@@ -237,27 +237,27 @@ std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& trac
       const PlacedFinger placed = scene.Place(finger, posture);
       if (!scene.KeepsOffHand(placed)) continue;
       double clearance = kParkingClearance;
-      for (int k = 0; k < samples && clearance > scene.margin() + kSpare; ++k) {
+      for (int k = 0; k < samples && clearance > scene.margin() + kPostureMargin; ++k) {
         const Isometry3d pose = track.PoseAt(track.steps() * k / (kTrackSamples - 1.0));
         clearance = std::min(clearance, scene.DistanceFromObject(placed, pose, clearance));
       }
-      if (clearance <= scene.margin() + kSpare) continue;
+      if (clearance <= scene.margin() + kPostureMargin) continue;
       // Far enough off, it had better stay where it is soon back.
       const double bent = (posture - middle).norm();
       places.push_back({clearance - kBendPenalty * bent, std::move(posture)});
     }
     std::ranges::stable_sort(places, std::greater<>(), &Place::score);
     for (Place& place : places) {
-      std::vector<Posture>& chosen = parking[finger];
+      std::vector<Posture>& chosen = idle_postures[finger];
       if (static_cast<int>(chosen.size()) == kParkingPlaces) break;
       const bool is_other = std::ranges::all_of(chosen, [&](const Posture& posture) {
         return (posture - place.posture).norm() > kOtherPlace;
       });
       if (is_other) chosen.push_back(std::move(place.posture));
     }
-    if (parking[finger].empty()) return std::nullopt;
+    if (idle_postures[finger].empty()) return std::nullopt;
   }
-  return parking;
+  return idle_postures;
 }
 
 }  // namespace regrasp::gait

@@ -24,15 +24,17 @@ namespace regrasp::gait {
 /// axis is upright there, its place and its yaw are drawn; but where a grasp is given any pose may
 /// be drawn that brings its contacts to the fingertips.
 /// @param memory  knows the setup's points as contacts under their numbers.
-[[nodiscard]] std::vector<Eigen::Isometry3d> FindHomes(const HandSetup& setup,
-                                                       const Journey& journey, const GaitEnds& ends,
-                                                       criteria::GraspMemory& memory,
-                                                       RandomStream& random);
+[[nodiscard]] std::vector<Eigen::Isometry3d> FindInitialPoses(const HandSetup& setup,
+                                                              const ObjectTask& task,
+                                                              const GaitEnds& ends,
+                                                              criteria::GraspMemory& memory,
+                                                              RandomStream& random);
 
 /// Postures out of the way: each finger as far from the object's poses along a track as it can
 /// be (no more than some millimetres count), and off the palm.
 /// @returns none where a finger has no such posture.
-[[nodiscard]] std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& track,
-                                                 RandomStream& random);
+[[nodiscard]] std::optional<IdlePostures> FindIdlePostures(const HandSetup& setup,
+                                                           const PoseTrack& track,
+                                                           RandomStream& random);
 
 }  // namespace regrasp::gait

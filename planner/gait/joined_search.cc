@@ -18,22 +18,22 @@ constexpr int kExtensionsToMeet = 1000;
 }  // namespace
 
 BidirectionalSearch::BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid,
-                                         Parking parking, const GaitEnds& ends,
+                                         IdlePostures idle_postures, const GaitEnds& ends,
                                          criteria::GraspMemory& memory, RandomStream& random,
-                                         CarryOut carry_out)
+                                         SimulateExecution carry_out)
     : setup_(setup),
       grid_(grid),
       reversed_(grid.Reversed()),
-      parking_(std::move(parking)),
+      idle_postures_(std::move(idle_postures)),
       random_(random),
-      carrier_(setup, grid_, parking_),
-      forward_(setup, grid_, carrier_, ends, memory, random) {
+      checker_(setup, grid_, idle_postures_),
+      forward_(setup, grid_, checker_, ends, memory, random) {
   if (ends.start.empty() || ends.goal.empty() || !forward_.GoalIsHeld()) {
-    forward_.TryWays(std::move(carry_out));
+    forward_.SimulateEdges(std::move(carry_out));
     return;
   }
-  if (grid.steps() > 0) reversed_carrier_.emplace(setup, reversed_, parking_);
-  backward_.emplace(setup, reversed_, reversed_carrier_ ? *reversed_carrier_ : carrier_,
+  if (grid.steps() > 0) reversed_checker_.emplace(setup, reversed_, idle_postures_);
+  backward_.emplace(setup, reversed_, reversed_checker_ ? *reversed_checker_ : checker_,
                     GaitEnds{ends.goal, ends.start, ends.goal_fingers, ends.start_fingers}, memory,
                     random);
 }
@@ -72,7 +72,7 @@ std::optional<Gait> BidirectionalSearch::Meet(bool is_forward) {
   GaitSearch& search = is_forward ? forward_ : *backward_;
   GaitSearch& other = is_forward ? *backward_ : forward_;
   const int rest = search.last_expanded();
-  const Holding& holding = search.HoldOf(rest).holding;
+  const ContactAssignment& holding = search.StanceOf(rest).holding;
   (is_forward ? from_start_ : from_goal_)[holding].push_back(rest);
   other.AddTarget(holding);
   const auto& others = is_forward ? from_goal_ : from_start_;
@@ -104,27 +104,27 @@ std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
   const int node = CommonNode(forward, backward);
   if (node == PoseGrid::kNoNode) return std::nullopt;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    std::optional<Gait> gait = forward_.WayTo(forward, node);
+    std::optional<Gait> gait = forward_.PathTo(forward, node);
     if (!gait) return std::nullopt;
-    const std::optional<Gait> back = backward_->WayTo(backward, grid_.Mirrored(node));
+    const std::optional<Gait> back = backward_->PathTo(backward, grid_.Mirrored(node));
     if (!back) return std::nullopt;
     FingerIndex stuck;
     auto between =
-        MoveFreeFingers(forward_.HoldOf(forward).holding, EndOf(*gait), EndOf(*back), stuck);
+        MoveFreeFingers(forward_.StanceOf(forward).holding, EndOf(*gait), EndOf(*back), stuck);
     if (between) {
       if (between->size() > 1) {
-        gait->stretches.push_back({Stretch::Kind::kMove, {}, kNone, *std::move(between)});
+        gait->segments.push_back({PlanSegment::Kind::kMove, {}, kNone, *std::move(between)});
       }
-      AppendReversed(back->stretches, *gait);
+      AppendReversed(back->segments, *gait);
       return gait;
     }
     if (!stuck.valid()) return std::nullopt;
     // One of the ends may have it elsewhere all along.
     const Posture& there = EndOf(*gait).postures[stuck];
     const Posture& other = EndOf(*back).postures[stuck];
-    if (const int later = backward_->WithWaiting(backward, stuck, there); later >= 0) {
+    if (const int later = backward_->WithIdlePosture(backward, stuck, there); later >= 0) {
       backward = later;
-    } else if (const int sooner = forward_.WithWaiting(forward, stuck, other); sooner >= 0) {
+    } else if (const int sooner = forward_.WithIdlePosture(forward, stuck, other); sooner >= 0) {
       forward = sooner;
     } else {
       return std::nullopt;
@@ -133,10 +133,9 @@ std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
   return std::nullopt;
 }
 
-std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveFreeFingers(const Holding& holding,
-                                                                          const Keyframe& from,
-                                                                          const Keyframe& to,
-                                                                          FingerIndex& stuck) {
+std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveFreeFingers(
+    const ContactAssignment& holding, const Keyframe& from, const Keyframe& to,
+    FingerIndex& stuck) {
   std::vector<int> order;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     const Posture& posture = from.postures[finger];
@@ -188,18 +187,18 @@ constexpr int kMostJoins = 6;
 
 }  // namespace
 
-TurnSearch::TurnSearch(const HandSetup& setup, const PoseTrack& track, Parking onwards,
-                       Parking backwards, criteria::GraspMemory& memory, RandomStream& random)
+TurnSearch::TurnSearch(const HandSetup& setup, const PoseTrack& track, IdlePostures onwards,
+                       IdlePostures backwards, criteria::GraspMemory& memory, RandomStream& random)
     : setup_(setup),
       grid_(track, setup.scene.hand().up, PoseGrid::End::kOrientation),
       back_grid_(track.Backwards(), setup.scene.hand().up, PoseGrid::End::kOrientation),
-      parking_(std::move(onwards)),
-      back_parking_(std::move(backwards)),
+      idle_postures_(std::move(onwards)),
+      back_idle_postures_(std::move(backwards)),
       memory_(memory),
       random_(random),
-      carrier_(setup, grid_, parking_),
-      back_carrier_(setup, back_grid_, back_parking_),
-      onwards_(setup, grid_, carrier_, {}, memory, random) {}
+      checker_(setup, grid_, idle_postures_),
+      back_checker_(setup, back_grid_, back_idle_postures_),
+      onwards_(setup, grid_, checker_, {}, memory, random) {}
 
 GaitCounts TurnSearch::counts() const {
   GaitCounts counts = onwards_.counts();
@@ -222,8 +221,8 @@ std::optional<Gait> TurnSearch::Run(std::int64_t most_expanded, const Deadline& 
     GaitSearch& backwards = BackwardsFrom(root);
     const std::int64_t had = backwards.counts().expanded;
     if (auto gait = backwards.Run(had + 1, deadline)) {
-      Gait turn{HoldingAtEnd(*gait), EndOf(*gait), {}};
-      AppendReversed(gait->stretches, turn);
+      Gait turn{AssignmentAtEnd(*gait), EndOf(*gait), {}};
+      AppendReversed(gait->segments, turn);
       return turn;
     }
     if (backwards.counts().expanded > had) {
@@ -248,8 +247,8 @@ int TurnSearch::BestRoot() const {
 GaitSearch& TurnSearch::BackwardsFrom(int root) {
   std::optional<GaitSearch>& search = roots_[root].search;
   if (!search) {
-    search.emplace(setup_, back_grid_, back_carrier_, GaitEnds{}, memory_, random_);
-    search->BeginWith(onwards_.HoldOf(root));
+    search.emplace(setup_, back_grid_, back_checker_, GaitEnds{}, memory_, random_);
+    search->StartFrom(onwards_.StanceOf(root));
   }
   return *search;
 }
@@ -275,7 +274,7 @@ std::optional<Gait> TurnSearch::TakeDown(int root, bool is_onwards) {
       const std::pair rests =
           is_onwards ? std::pair(rest, place.first) : std::pair(place.first, rest);
       if (onwards_.IsCutOff(rests.first) || from.search->IsCutOff(rests.second)) continue;
-      if (joins == kMostJoins || !tried_.insert(rests).second) continue;
+      if (joins == kMostJoins || !simulation_.insert(rests).second) continue;
       ++joins;
       auto gait = is_onwards ? Join(root, here, place) : Join(root, place, here);
       if (gait) return gait;
@@ -286,13 +285,13 @@ std::optional<Gait> TurnSearch::TakeDown(int root, bool is_onwards) {
 
 std::optional<Gait> TurnSearch::Join(int root, std::pair<int, int> onwards,
                                      std::pair<int, int> backwards) {
-  const std::optional<Gait> on = onwards_.WayTo(onwards.first, onwards.second);
+  const std::optional<Gait> on = onwards_.PathTo(onwards.first, onwards.second);
   if (!on) return std::nullopt;
-  const std::optional<Gait> back = roots_[root].search->WayTo(backwards.first, backwards.second);
+  const std::optional<Gait> back = roots_[root].search->PathTo(backwards.first, backwards.second);
   if (!back) return std::nullopt;
-  Gait turn{HoldingAtEnd(*back), EndOf(*back), {}};
-  AppendReversed(back->stretches, turn);
-  turn.stretches.insert(turn.stretches.end(), on->stretches.begin(), on->stretches.end());
+  Gait turn{AssignmentAtEnd(*back), EndOf(*back), {}};
+  AppendReversed(back->segments, turn);
+  turn.segments.insert(turn.segments.end(), on->segments.begin(), on->segments.end());
   return turn;
 }
 

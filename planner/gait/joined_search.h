@@ -14,9 +14,9 @@
 namespace regrasp::gait {
 
 /// A search of a gait from one place in the hand, which goes on as often as it is asked to.
-class PlaceSearch {
+class StartSearch {
  public:
-  virtual ~PlaceSearch() = default;
+  virtual ~StartSearch() = default;
 
   /// Whether some fingers can hold the goal grasp, if there is one, at the goal pose.
   [[nodiscard]] virtual bool GoalIsHeld() const { return true; }
@@ -30,13 +30,13 @@ class PlaceSearch {
 
 /// Searches a gait from one place in the hand: from its start, and, where the grasps of both ends
 /// are given, from its goal as well, until the two meet in one grasp at one pose.
-class BidirectionalSearch : public PlaceSearch {
+class BidirectionalSearch : public StartSearch {
  public:
   /// @param memory     as in GaitSearch. setup, memory and random outlive this object.
-  /// @param carry_out  as GaitSearch::TryWays, where there is but one end.
-  BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid, Parking parking,
+  /// @param carry_out  as GaitSearch::SimulateEdges, where there is but one end.
+  BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid, IdlePostures idle_postures,
                       const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random,
-                      CarryOut carry_out);
+                      SimulateExecution carry_out);
   BidirectionalSearch(const BidirectionalSearch&) = delete;
   BidirectionalSearch& operator=(const BidirectionalSearch&) = delete;
 
@@ -59,33 +59,34 @@ class BidirectionalSearch : public PlaceSearch {
   /// Brings fingers that hold nothing from where they wait in one keyframe to where they do in
   /// another one, one after the other in some order.
   /// @param stuck  one that finds no way, where it is the fingers' fault.
-  std::optional<std::vector<Keyframe>> MoveFreeFingers(const Holding& holding, const Keyframe& from,
-                                                       const Keyframe& to, FingerIndex& stuck);
+  std::optional<std::vector<Keyframe>> MoveFreeFingers(const ContactAssignment& holding,
+                                                       const Keyframe& from, const Keyframe& to,
+                                                       FingerIndex& stuck);
 
   const HandSetup& setup_;
   PoseGrid grid_;
   PoseGrid reversed_;
-  Parking parking_;
+  IdlePostures idle_postures_;
   RandomStream& random_;
-  Carrier carrier_;
-  std::optional<Carrier> reversed_carrier_;  ///< none: the other one serves both
+  ObjectMotionChecker checker_;
+  std::optional<ObjectMotionChecker> reversed_checker_;  ///< none: the other one serves both
   GaitSearch forward_;
   std::optional<GaitSearch> backward_;
   /// Rests that were expanded from the start and from the goal, by their grasp.
-  std::map<Holding, std::vector<int>> from_start_, from_goal_;
+  std::map<ContactAssignment, std::vector<int>> from_start_, from_goal_;
 };
 
 /// Searches a turn that may begin at any angle: from rests at one pose onwards, and from those of
 /// them that come farthest backwards, until the two ways with one of them make up the turn. What
 /// lies between the end and the start of a whole turn is never passed, so that a posture or a side
 /// of the object that the hand does not master need not be where it happens to begin.
-class TurnSearch : public PlaceSearch {
+class TurnSearch : public StartSearch {
  public:
   /// @param track    from a pose onwards.
   /// @param parking  for the way onwards, and the one backwards.
   /// @param memory   as in GaitSearch. setup, memory and random outlive this object.
-  TurnSearch(const HandSetup& setup, const PoseTrack& track, Parking onwards, Parking backwards,
-             criteria::GraspMemory& memory, RandomStream& random);
+  TurnSearch(const HandSetup& setup, const PoseTrack& track, IdlePostures onwards,
+             IdlePostures backwards, criteria::GraspMemory& memory, RandomStream& random);
   TurnSearch(const TurnSearch&) = delete;
   TurnSearch& operator=(const TurnSearch&) = delete;
 
@@ -119,15 +120,15 @@ class TurnSearch : public PlaceSearch {
   const HandSetup& setup_;
   PoseGrid grid_;
   PoseGrid back_grid_;
-  Parking parking_;
-  Parking back_parking_;
+  IdlePostures idle_postures_;
+  IdlePostures back_idle_postures_;
   criteria::GraspMemory& memory_;
   RandomStream& random_;
-  Carrier carrier_;
-  Carrier back_carrier_;
+  ObjectMotionChecker checker_;
+  ObjectMotionChecker back_checker_;
   GaitSearch onwards_;
-  std::map<int, Root> roots_;            ///< by rest
-  std::set<std::pair<int, int>> tried_;  ///< of one root's rests onwards and backwards
+  std::map<int, Root> roots_;                 ///< by rest
+  std::set<std::pair<int, int>> simulation_;  ///< of one root's rests onwards and backwards
 };
 
 }  // namespace regrasp::gait

@@ -18,7 +18,8 @@ constexpr int kMostHalvings = 6;
 /// One move.
 class Mover {
  public:
-  Mover(const HandSetup& setup, const Holding& holding) : setup_(setup), holding_(holding) {
+  Mover(const HandSetup& setup, const ContactAssignment& holding)
+      : setup_(setup), holding_(holding) {
     for (const int point : holding) {
       touching_.push_back(point == kNone ? TipContact::kFree : TipContact::kTouching);
     }
@@ -64,13 +65,14 @@ class Mover {
   }
 
   const HandSetup& setup_;
-  const Holding& holding_;
+  const ContactAssignment& holding_;
   Touching touching_;
 };
 
 }  // namespace
 
-std::optional<std::vector<Keyframe>> FindMove(const HandSetup& setup, const Holding& holding,
+std::optional<std::vector<Keyframe>> FindMove(const HandSetup& setup,
+                                              const ContactAssignment& holding,
                                               const Keyframe& from, const Keyframe& to) {
   std::vector<Keyframe> path = {from};
   if (!Mover(setup, holding).Append(from, to, kMostHalvings, path)) return std::nullopt;
@@ -87,7 +89,7 @@ constexpr std::array kHeights = {0.020, 0.012, 0.006};
 
 }  // namespace
 
-Keyframe Carrier::FrameAt(const Hold& hold, int node) {
+Keyframe ObjectMotionChecker::FrameAt(const Stance& hold, int node) {
   Keyframe frame{grid_.PoseAt(node), hold.waiting};
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (hold.holding[finger] == kNone) continue;
@@ -96,13 +98,13 @@ Keyframe Carrier::FrameAt(const Hold& hold, int node) {
   return frame;
 }
 
-bool Carrier::KeepsOffPalm(int node) {
+bool ObjectMotionChecker::KeepsOffPalm(int node) {
   const auto [found, is_new] = off_palm_.try_emplace(node);
   if (is_new) found->second = setup_.scene.KeepsOffPalm(grid_.PoseAt(node));
   return found->second;
 }
 
-bool Carrier::KeepApart(const Hold& hold, FingerIndex a, FingerIndex b, int node) {
+bool ObjectMotionChecker::KeepApart(const Stance& hold, FingerIndex a, FingerIndex b, int node) {
   const auto points = setup_.points.size();
   const auto fingers = static_cast<std::size_t>(setup_.scene.finger_count());
   std::size_t key = static_cast<std::size_t>(node);
@@ -119,7 +121,7 @@ bool Carrier::KeepApart(const Hold& hold, FingerIndex a, FingerIndex b, int node
   return found->second;
 }
 
-bool Carrier::KeepsApart(const Hold& hold, FingerIndex finger, int node) {
+bool ObjectMotionChecker::KeepsApart(const Stance& hold, FingerIndex finger, int node) {
   for (FingerIndex other{0}; other < setup_.scene.finger_count(); ++other) {
     if (other == finger || hold.holding[other] == kNone) continue;
     if (!KeepApart(hold, std::min(finger, other), std::max(finger, other), node)) return false;
@@ -127,7 +129,7 @@ bool Carrier::KeepsApart(const Hold& hold, FingerIndex finger, int node) {
   return true;
 }
 
-bool Carrier::IsPassable(const Hold& hold, int node) {
+bool ObjectMotionChecker::IsPassable(const Stance& hold, int node) {
   if (!KeepsOffPalm(node)) return false;
   std::vector<FingerIndex> holding;
   std::vector<FingerIndex> waiting;
@@ -163,8 +165,8 @@ bool Carrier::IsPassable(const Hold& hold, int node) {
   return true;
 }
 
-std::optional<Posture> Carrier::PostureAbove(FingerIndex finger, int point, int node,
-                                             double height) {
+std::optional<Posture> ObjectMotionChecker::PostureAbove(FingerIndex finger, int point, int node,
+                                                         double height) {
   const Posture* touching = reach_.Find(finger, point, node);
   if (touching == nullptr) return std::nullopt;
   kinematics::TipTarget target =
@@ -175,7 +177,7 @@ std::optional<Posture> Carrier::PostureAbove(FingerIndex finger, int point, int 
   return above;
 }
 
-bool Carrier::WaitAnywhere(Hold& hold, int node, RandomStream& random) {
+bool ObjectMotionChecker::DrawIdlePostures(Stance& hold, int node, RandomStream& random) {
   for (const int drawn : random.Choose(setup_.scene.finger_count(), setup_.scene.finger_count())) {
     const FingerIndex finger{drawn};
     if (hold.holding[finger] != kNone || hold.waiting[finger].size() > 0) continue;
@@ -190,7 +192,8 @@ bool Carrier::WaitAnywhere(Hold& hold, int node, RandomStream& random) {
   return true;
 }
 
-bool Carrier::LetFreeFingersWait(Hold& hold, int node, RandomStream* random, const Hold* before) {
+bool ObjectMotionChecker::PlaceIdleFingers(Stance& hold, int node, RandomStream* random,
+                                           const Stance* before) {
   hold.waiting.resize(setup_.scene.finger_count());
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (hold.holding[finger] == kNone) continue;
@@ -198,15 +201,15 @@ bool Carrier::LetFreeFingersWait(Hold& hold, int node, RandomStream* random, con
   }
   if (!IsPassable(hold, node)) return false;
   const std::vector<Posture> given = hold.waiting;
-  if (WaitInUsualPlaces(hold, node, before)) return true;
+  if (UseIdlePostures(hold, node, before)) return true;
   for (int i = 0; random != nullptr && i < kDrawings; ++i) {
     hold.waiting = given;
-    if (WaitAnywhere(hold, node, *random)) return true;
+    if (DrawIdlePostures(hold, node, *random)) return true;
   }
   return false;
 }
 
-bool Carrier::WaitAbove(Hold& hold, FingerIndex finger, int point, int node) {
+bool ObjectMotionChecker::IdleAbove(Stance& hold, FingerIndex finger, int point, int node) {
   for (const double height : kHeights) {
     const auto above = PostureAbove(finger, point, node, height);
     if (!above) continue;
@@ -216,24 +219,24 @@ bool Carrier::WaitAbove(Hold& hold, FingerIndex finger, int point, int node) {
   return false;
 }
 
-bool Carrier::WaitInUsualPlaces(Hold& hold, int node, const Hold* before) {
+bool ObjectMotionChecker::UseIdlePostures(Stance& hold, int node, const Stance* before) {
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (hold.holding[finger] != kNone || hold.waiting[finger].size() > 0) continue;
     const auto waits_at = [&](const Posture& posture) {
       hold.waiting[finger] = posture;
       return IsPassable(hold, node);
     };
-    bool waits = std::ranges::any_of(parking_[finger], waits_at);
+    bool waits = std::ranges::any_of(idle_postures_[finger], waits_at);
     // Where it was, some millimetres above its contact.
     const bool has_held = before != nullptr && before->holding[finger] != kNone;
-    if (!waits && !(has_held && WaitAbove(hold, finger, before->holding[finger], node))) {
+    if (!waits && !(has_held && IdleAbove(hold, finger, before->holding[finger], node))) {
       return false;
     }
   }
   return true;
 }
 
-bool Carrier::CanFollow(const Hold& hold, int node, int neighbour) {
+bool ObjectMotionChecker::CanFollow(const Stance& hold, int node, int neighbour) {
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (hold.holding[finger] == kNone) continue;
     if (!reach_.CanFollow(finger, hold.holding[finger], node, neighbour)) return false;
@@ -241,8 +244,8 @@ bool Carrier::CanFollow(const Hold& hold, int node, int neighbour) {
   return true;
 }
 
-Carried Carrier::StraightOn(const Hold& hold, int node) {
-  Carried carried{{{node, node}}, node};
+ReachablePoses ObjectMotionChecker::ExtendAlongTrack(const Stance& hold, int node) {
+  ReachablePoses carried{{{node, node}}, node};
   for (int next = grid_.Onward(node); next != PoseGrid::kNoNode; next = grid_.Onward(next)) {
     if (!CanFollow(hold, carried.end, next) || !IsPassable(hold, next)) break;
     carried.from.emplace(next, carried.end);
@@ -251,14 +254,15 @@ Carried Carrier::StraightOn(const Hold& hold, int node) {
   return carried;
 }
 
-Carried Carrier::Around(const Hold& hold, int node, int patience,
-                        const std::function<bool(int)>& is_enough, const Legs& barred) {
+ReachablePoses ObjectMotionChecker::ExtendAround(const Stance& hold, int node, int patience,
+                                                 const std::function<bool(int)>& is_enough,
+                                                 const GridEdges& blocked) {
   using Key = std::tuple<int, bool, int, int>;  // step, is goal, units beside the track, order
   const auto key_of = [&](int at, int order) {
     return Key(grid_.StepOf(at), grid_.IsGoal(at), -grid_.OffTrack(at), -order);
   };
   std::priority_queue<std::pair<Key, int>> queue;
-  Carried carried{{{node, node}}, node};
+  ReachablePoses carried{{{node, node}}, node};
   std::set<int> tried = {node};
   queue.push({key_of(node, 0), node});
   std::pair<Key, int> best = queue.top();
@@ -273,7 +277,7 @@ Carried Carrier::Around(const Hold& hold, int node, int patience,
     }
     if (is_enough(best.second)) break;
     for (const int next : grid_.Neighbours(top.second)) {
-      if (tried.contains(next) || barred.contains(std::minmax({top.second, next})) ||
+      if (tried.contains(next) || blocked.contains(std::minmax({top.second, next})) ||
           !CanFollow(hold, top.second, next)) {
         continue;
       }
@@ -287,7 +291,7 @@ Carried Carrier::Around(const Hold& hold, int node, int patience,
   return carried;
 }
 
-std::vector<int> Carried::PathTo(int node) const {
+std::vector<int> ReachablePoses::PathTo(int node) const {
   std::vector<int> path = {node};
   while (from.at(path.back()) != path.back()) path.push_back(from.at(path.back()));
   std::ranges::reverse(path);

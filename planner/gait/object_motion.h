@@ -22,7 +22,7 @@ namespace regrasp::gait {
 /// @param from, to  with tips at their contacts.
 /// @returns nullopt where a finger can't follow, or something comes too near something.
 [[nodiscard]] std::optional<std::vector<Keyframe>> FindMove(const HandSetup& setup,
-                                                            const Holding& holding,
+                                                            const ContactAssignment& holding,
                                                             const Keyframe& from,
                                                             const Keyframe& to);
 
@@ -30,13 +30,13 @@ namespace regrasp::gait {
 inline constexpr double kTipOff = 2e-5;
 
 /// How a hand holds an object.
-struct Hold {
-  Holding holding;
+struct Stance {
+  ContactAssignment holding;
   std::vector<Posture> waiting = {};  ///< by finger, of those that hold nothing; empty: not yet
 };
 
 /// The nodes of a grid to which an object is carried by one hold.
-struct Carried {
+struct ReachablePoses {
   std::map<int, int> from;  ///< of each node the one before; of the first itself
   int end = 0;              ///< the farthest of them
 
@@ -45,64 +45,66 @@ struct Carried {
 };
 
 /// Ways from a node of a grid to a neighbour, and back.
-using Legs = std::set<std::pair<int, int>>;
+using GridEdges = std::set<std::pair<int, int>>;
 
 /// Finds where holds can be carried on a grid of poses: fingers that hold follow, none runs into
 /// anything, checked at the nodes.
-class Carrier {
+class ObjectMotionChecker {
  public:
   /// @param parking  where free fingers may wait. All outlive this object.
-  Carrier(const HandSetup& setup, const PoseGrid& grid, const Parking& parking)
+  ObjectMotionChecker(const HandSetup& setup, const PoseGrid& grid,
+                      const IdlePostures& idle_postures)
       : setup_(setup),
         grid_(grid),
-        parking_(parking),
+        idle_postures_(idle_postures),
         reach_(setup.scene, setup.inverse, setup.points, grid) {}
 
   [[nodiscard]] ReachMap& reach() { return reach_; }
 
   /// @param node  where all fingers that hold reach their contacts.
-  [[nodiscard]] Keyframe FrameAt(const Hold& hold, int node);
+  [[nodiscard]] Keyframe FrameAt(const Stance& hold, int node);
   /// Whether a finger that holds keeps off all others that hold at a node, where all reach theirs.
-  [[nodiscard]] bool KeepsApart(const Hold& hold, FingerIndex finger, int node);
+  [[nodiscard]] bool KeepsApart(const Stance& hold, FingerIndex finger, int node);
   /// Whether the fingers may stand as they do at a node, those left out that have no posture.
   /// @param node  as in FrameAt.
-  [[nodiscard]] bool IsPassable(const Hold& hold, int node);
+  [[nodiscard]] bool IsPassable(const Stance& hold, int node);
   /// Finds postures for fingers that hold nothing and have none.
   /// @param random  draws others where fingers can't all wait in places of `parking`; null: none.
   /// @param before  fingers that held something in it may wait above that.
   /// @returns whether the hold can be at the node.
-  [[nodiscard]] bool LetFreeFingersWait(Hold& hold, int node, RandomStream* random = nullptr,
-                                        const Hold* before = nullptr);
+  [[nodiscard]] bool PlaceIdleFingers(Stance& hold, int node, RandomStream* random = nullptr,
+                                      const Stance* before = nullptr);
   /// Has a finger that holds nothing wait above a contact that it reaches at the node.
   /// @returns whether it can.
-  [[nodiscard]] bool WaitAbove(Hold& hold, FingerIndex finger, int point, int node);
+  [[nodiscard]] bool IdleAbove(Stance& hold, FingerIndex finger, int point, int node);
 
   /// Along the track, with the node's offset.
-  [[nodiscard]] Carried StraightOn(const Hold& hold, int node);
+  [[nodiscard]] ReachablePoses ExtendAlongTrack(const Stance& hold, int node);
   /// Also beside the track; best first by steps, near the track before far from it.
   /// @param patience   nodes that are tried in vain, each a few microseconds to milliseconds.
   /// @param is_enough  of the farthest node: no more is looked for.
   /// @param barred     that are not gone.
-  [[nodiscard]] Carried Around(const Hold& hold, int node, int patience,
-                               const std::function<bool(int)>& is_enough, const Legs& barred);
+  [[nodiscard]] ReachablePoses ExtendAround(const Stance& hold, int node, int patience,
+                                            const std::function<bool(int)>& is_enough,
+                                            const GridEdges& blocked);
 
  private:
   /// The first that suits of its parking and above where it was before, finger by finger.
-  [[nodiscard]] bool WaitInUsualPlaces(Hold& hold, int node, const Hold* before);
+  [[nodiscard]] bool UseIdlePostures(Stance& hold, int node, const Stance* before);
   /// In postures that are drawn, finger by finger in an order that is drawn.
-  [[nodiscard]] bool WaitAnywhere(Hold& hold, int node, RandomStream& random);
+  [[nodiscard]] bool DrawIdlePostures(Stance& hold, int node, RandomStream& random);
   /// Of a finger off a contact that it reaches at the node; nullopt where it does not come there.
   /// @param height  metres.
   [[nodiscard]] std::optional<Posture> PostureAbove(FingerIndex finger, int point, int node,
                                                     double height);
-  [[nodiscard]] bool CanFollow(const Hold& hold, int node, int neighbour);
+  [[nodiscard]] bool CanFollow(const Stance& hold, int node, int neighbour);
   [[nodiscard]] bool KeepsOffPalm(int node);
   /// Of two fingers that hold.
-  [[nodiscard]] bool KeepApart(const Hold& hold, FingerIndex a, FingerIndex b, int node);
+  [[nodiscard]] bool KeepApart(const Stance& hold, FingerIndex a, FingerIndex b, int node);
 
   const HandSetup& setup_;
   const PoseGrid& grid_;
-  const Parking& parking_;
+  const IdlePostures& idle_postures_;
   ReachMap reach_;
   // Worked out when first asked for: grasps are many, and made of few contacts.
   std::unordered_map<int, bool> off_palm_;       ///< by node

@@ -16,25 +16,25 @@ bool IsSameKeyframe(const Keyframe& a, const Keyframe& b) {
 
 }  // namespace
 
-Gait WithFewerMoves(const HandSetup& setup, const Gait& gait) {
-  using enum Stretch::Kind;
+Gait MergeMoves(const HandSetup& setup, const Gait& gait) {
+  using enum PlanSegment::Kind;
   Gait fewer{gait.initial, gait.start, {}};
-  for (std::size_t i = 0; i < gait.stretches.size(); ++i) {
-    if (gait.stretches[i].kind != kMove) {
-      fewer.stretches.push_back(gait.stretches[i]);
+  for (std::size_t i = 0; i < gait.segments.size(); ++i) {
+    if (gait.segments[i].kind != kMove) {
+      fewer.segments.push_back(gait.segments[i]);
       continue;
     }
-    Stretch move = gait.stretches[i];
-    for (; i + 1 < gait.stretches.size() && gait.stretches[i + 1].kind == kMove; ++i) {
-      const std::vector<Keyframe>& more = gait.stretches[i + 1].path;
+    PlanSegment move = gait.segments[i];
+    for (; i + 1 < gait.segments.size() && gait.segments[i + 1].kind == kMove; ++i) {
+      const std::vector<Keyframe>& more = gait.segments[i + 1].path;
       move.path.insert(move.path.end(), more.begin() + 1, more.end());
     }
     if (setup.rolled_on == nullptr) {
       if (IsSameKeyframe(move.path.front(), move.path.back())) continue;
-      auto straight = FindMove(setup, HoldingAtEnd(fewer), move.path.front(), move.path.back());
+      auto straight = FindMove(setup, AssignmentAtEnd(fewer), move.path.front(), move.path.back());
       if (straight) move.path = *std::move(straight);
     }
-    fewer.stretches.push_back(std::move(move));
+    fewer.segments.push_back(std::move(move));
   }
   return fewer;
 }
@@ -50,14 +50,14 @@ plan::HandState StateOf(const Keyframe& frame, const kinematics::HandModel& hand
 }
 
 /// The states of some keyframes of a stretch.
-plan::HandPath PathOf(const Stretch& stretch, int first, int last,
+plan::HandPath PathOf(const PlanSegment& stretch, int first, int last,
                       const kinematics::HandModel& hand) {
   plan::HandPath path;
   for (int i = first; i <= last; ++i) path.push_back(StateOf(stretch.path[i], hand));
   return path;
 }
 
-plan::HandPath PathOf(const Stretch& stretch, const kinematics::HandModel& hand) {
+plan::HandPath PathOf(const PlanSegment& stretch, const kinematics::HandModel& hand) {
   return PathOf(stretch, 0, static_cast<int>(stretch.path.size()) - 1, hand);
 }
 
@@ -68,14 +68,14 @@ plan::FingerGrasp GraspAtEnd(const plan::Plan& plan) {
 }
 
 /// Some fingers slide, the others stay where they are.
-plan::Align SlideOf(const Stretch& stretch, const plan::FingerGrasp& holding,
+plan::Align SlideOf(const PlanSegment& stretch, const plan::FingerGrasp& holding,
                     const kinematics::HandModel& hand) {
   plan::Align align;
   align.motion.emplace();
   for (std::size_t i = 0; i < stretch.along.size(); ++i) {
     align.waypoints.push_back(holding);
     for (plan::FingerContact& held : align.waypoints.back()) {
-      const auto slid = std::ranges::find(stretch.slid, held.finger, &Stretch::Slid::finger);
+      const auto slid = std::ranges::find(stretch.slid, held.finger, &PlanSegment::Slid::finger);
       if (slid != stretch.slid.end()) {
         held.contact = stretch.along[i][slid - stretch.slid.begin()];
       }
@@ -87,10 +87,10 @@ plan::Align SlideOf(const Stretch& stretch, const plan::FingerGrasp& holding,
 }
 
 /// Whether a stretch is one step with the one before: a placed finger, and then another released.
-bool BelongTogether(const std::vector<Stretch>& stretches, std::size_t i) {
-  using enum Stretch::Kind;
-  return i > 0 && stretches[i].kind == kRelease && stretches[i - 1].kind == kPlace &&
-         stretches[i].finger != stretches[i - 1].finger;
+bool BelongTogether(const std::vector<PlanSegment>& segments, std::size_t i) {
+  using enum PlanSegment::Kind;
+  return i > 0 && segments[i].kind == kRelease && segments[i - 1].kind == kPlace &&
+         segments[i].finger != segments[i - 1].finger;
 }
 
 }  // namespace
@@ -106,28 +106,28 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
   plan.planner = "gait";
   plan.hand =
       plan::HandUse{hand.name, hand.file, hand.sha256, StateOf(gait.start, hand),
-                    (gait.stretches.empty() ? gait.start : gait.stretches.back().path.back()).pose};
+                    (gait.segments.empty() ? gait.start : gait.segments.back().path.back()).pose};
   for (FingerIndex finger{0}; finger < plan.fingers; ++finger) {
     if (gait.initial[finger] == kNone) continue;
     plan.initial.push_back({finger, contacts[gait.initial[finger]]});
   }
-  for (std::size_t i = 0; i < gait.stretches.size(); ++i) {
-    const Stretch& stretch = gait.stretches[i];
+  for (std::size_t i = 0; i < gait.segments.size(); ++i) {
+    const PlanSegment& stretch = gait.segments[i];
     switch (stretch.kind) {
-      case Stretch::Kind::kMove:
+      case PlanSegment::Kind::kMove:
         plan.steps.emplace_back(plan::Move{PathOf(stretch, hand)});
         break;
-      case Stretch::Kind::kPlace: {
+      case PlanSegment::Kind::kPlace: {
         const plan::FingerContact placed{stretch.finger, contacts[stretch.contact]};
         plan.steps.emplace_back(
             plan::Switch{{placed}, {}, plan::SwitchMotion{PathOf(stretch, hand), {}}});
         break;
       }
-      case Stretch::Kind::kSlide:
+      case PlanSegment::Kind::kSlide:
         plan.steps.emplace_back(SlideOf(stretch, GraspAtEnd(plan), hand));
         break;
-      case Stretch::Kind::kRelease: {
-        if (!BelongTogether(gait.stretches, i)) {
+      case PlanSegment::Kind::kRelease: {
+        if (!BelongTogether(gait.segments, i)) {
           plan.steps.emplace_back(plan::Switch{{}, {}, plan::SwitchMotion{{}, {}}});
         }
         auto& last = std::get<plan::Switch>(plan.steps.back());
@@ -144,10 +144,10 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
 int CountChanges(const Gait& gait, int steps) {
   int changes = 0;
   int count = 0;
-  for (std::size_t i = 0; i < gait.stretches.size(); ++i) {
-    if (!BelongTogether(gait.stretches, i)) ++count;
+  for (std::size_t i = 0; i < gait.segments.size(); ++i) {
+    if (!BelongTogether(gait.segments, i)) ++count;
     if (count > steps) break;
-    if (gait.stretches[i].kind != Stretch::Kind::kMove) ++changes;
+    if (gait.segments[i].kind != PlanSegment::Kind::kMove) ++changes;
   }
   return changes;
 }

@@ -13,7 +13,7 @@ namespace regrasp::gait {
 ///
 /// Laws: the same keyframes first and last, the same changes in the same order, and no more
 /// stretches; certified like the gait.
-[[nodiscard]] Gait WithFewerMoves(const HandSetup& setup, const Gait& gait);
+[[nodiscard]] Gait MergeMoves(const HandSetup& setup, const Gait& gait);
 
 /// The plan that a gait is, all but the object's file and digest: finger numbers are those of the
 /// hand, a placed and the next released finger are one switch.

@@ -58,12 +58,12 @@ class PoseTrack {
 };
 
 /// What an object is to do, wherever it begins: turn about its centre, or go to a pose.
-class Journey {
+class ObjectTask {
  public:
   /// @param centre  of the object, in its frame, metres.
   /// @param goal    in the palm's frame; instead of the turn.
-  Journey(const Eigen::Vector3d& centre, const Turn& turn,
-          const std::optional<Eigen::Isometry3d>& goal)
+  ObjectTask(const Eigen::Vector3d& centre, const Turn& turn,
+             const std::optional<Eigen::Isometry3d>& goal)
       : centre_(centre), turn_(turn), goal_(goal) {}
 
   [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/gait/initial_pose.h"
 #include "planner/gait/hand_scene.h"
+#include "planner/gait/initial_pose.h"
 #include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::gait {
@@ -21,7 +21,7 @@ constexpr int kPostures = 200;
 
 }  // namespace
 
-RandomRests::RandomRests(const GaitRequest& request, RandomRestOptions options)
+RandomStances::RandomStances(const GaitRequest& request, RandomStanceOptions options)
     : request_(request),
       options_(std::move(options)),
       sampler_(*request.solid, FingersOf(request).fingertip_radius, kRandomFromBorder),
@@ -40,7 +40,7 @@ RandomRests::RandomRests(const GaitRequest& request, RandomRestOptions options)
   }
 }
 
-Eigen::Isometry3d RandomRests::DrawPose(RandomStream& random) const {
+Eigen::Isometry3d RandomStances::DrawPose(RandomStream& random) const {
   if (request_.start_pose) return *request_.start_pose;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = DrawTurn(random);
@@ -52,14 +52,14 @@ Eigen::Isometry3d RandomRests::DrawPose(RandomStream& random) const {
   return pose;
 }
 
-bool RandomRests::IsClear(const PlacedFinger& placed, const Held& held, TipContact tip) const {
+bool RandomStances::IsClear(const PlacedFinger& placed, const Held& held, TipContact tip) const {
   return scene_.KeepsOffHand(placed) && scene_.KeepsOffObject(placed, held.rest.state.pose, tip) &&
          std::ranges::all_of(held.placed, [&](const PlacedFinger& other) {
            return scene_.KeepApart(other, placed);
          });
 }
 
-bool RandomRests::PlaceAt(FingerIndex finger, const grasp::Contact& contact, Held& held) const {
+bool RandomStances::PlaceAt(FingerIndex finger, const grasp::Contact& contact, Held& held) const {
   const kinematics::Finger& chain = scene_.finger(finger);
   const SurfacePoint point{request_.scale * contact.p, contact.n};
   const auto posture = inverse_[finger].Solve(TargetAt(chain, point, held.rest.state.pose));
@@ -72,7 +72,7 @@ bool RandomRests::PlaceAt(FingerIndex finger, const grasp::Contact& contact, Hel
   return true;
 }
 
-std::vector<grasp::Contact> RandomRests::DrawContacts(RandomStream& random) const {
+std::vector<grasp::Contact> RandomStances::DrawContacts(RandomStream& random) const {
   std::vector<grasp::Contact> contacts;
   const auto given = static_cast<int>(options_.among.size());
   for (const int i : random.Choose(given, std::min(given, kRandomContacts))) {
@@ -84,7 +84,7 @@ std::vector<grasp::Contact> RandomRests::DrawContacts(RandomStream& random) cons
   return contacts;
 }
 
-std::optional<RandomRests::Held> RandomRests::DrawHeld(RandomStream& random) const {
+std::optional<RandomStances::Held> RandomStances::DrawHeld(RandomStream& random) const {
   Held held;
   held.rest.state.pose = DrawPose(random);
   if (!scene_.KeepsOffPalm(held.rest.state.pose)) return std::nullopt;
@@ -105,13 +105,13 @@ std::optional<RandomRests::Held> RandomRests::DrawHeld(RandomStream& random) con
   return held;
 }
 
-std::optional<RandomRest> RandomRests::TryDraw(RandomStream& random) const {
+std::optional<RandomStance> RandomStances::TryDraw(RandomStream& random) const {
   auto held = DrawHeld(random);
   if (!held) return std::nullopt;
   return std::move(held->rest);
 }
 
-bool RandomRests::LetOthersWait(Held& held, RandomStream& random) const {
+bool RandomStances::PlaceIdleFingers(Held& held, RandomStream& random) const {
   std::vector<std::vector<double>>& joints = held.rest.state.joints;
   for (FingerIndex finger{0}; finger < scene_.finger_count(); ++finger) {
     for (int i = 0; joints[finger].empty(); ++i) {
@@ -126,13 +126,14 @@ bool RandomRests::LetOthersWait(Held& held, RandomStream& random) const {
   return true;
 }
 
-std::optional<RandomRest> RandomRests::Draw(RandomStream& random, int tries) const {
+std::optional<RandomStance> RandomStances::Draw(RandomStream& random, int tries) const {
   for (int i = 0; i < tries; ++i) {
     auto held = DrawHeld(random);
     if (!held) continue;
     grasp::Grasp grasp;
     for (const plan::FingerContact& one : held->rest.grasp) grasp.push_back(one.contact);
-    if (evaluator_.IsAdmitted(grasp) && LetOthersWait(*held, random)) return std::move(held->rest);
+    if (evaluator_.IsAdmitted(grasp) && PlaceIdleFingers(*held, random))
+      return std::move(held->rest);
   }
   return std::nullopt;
 }

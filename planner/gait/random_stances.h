@@ -16,12 +16,12 @@
 namespace regrasp::gait {
 
 /// A hand that holds an object.
-struct RandomRest {
+struct RandomStance {
   plan::HandState state;    ///< with a posture for each finger, those too that hold nothing
   plan::FingerGrasp grasp;  ///< by finger, in the object's units
 };
 
-struct RandomRestOptions {
+struct RandomStanceOptions {
   /// Fingers that hold: their number is drawn evenly, and rests of many are found less often.
   int fewest = 3;
   int most = 3;
@@ -32,25 +32,25 @@ struct RandomRestOptions {
 /// Random rests of a hand: no search has a say in them. Where the object is in the hand is drawn,
 /// each finger's contact among those that it reaches there, and how fingers wait that hold nothing.
 /// Not for several threads.
-class RandomRests {
+class RandomStances {
  public:
   /// @param request  of the hand and the object; its criteria are what grasps meet, and where it
   ///                 has a start pose the object is nowhere else. Outlives this object.
-  RandomRests(const GaitRequest& request, RandomRestOptions options);
-  RandomRests(const RandomRests&) = delete;  // its parts refer to each other
-  RandomRests& operator=(const RandomRests&) = delete;
+  RandomStances(const GaitRequest& request, RandomStanceOptions options);
+  RandomStances(const RandomStances&) = delete;  // its parts refer to each other
+  RandomStances& operator=(const RandomStances&) = delete;
 
   /// Fingers at contacts, whatever those are worth as a grasp; those that do not hold have no
   /// posture. @returns nullopt where fewer fingers reach the object, or something is in the way.
-  [[nodiscard]] std::optional<RandomRest> TryDraw(RandomStream& random) const;
+  [[nodiscard]] std::optional<RandomStance> TryDraw(RandomStream& random) const;
 
   /// One that meets the criteria, and beside which the other fingers have room.
   /// @returns nullopt where none is found in `tries`.
-  [[nodiscard]] std::optional<RandomRest> Draw(RandomStream& random, int tries) const;
+  [[nodiscard]] std::optional<RandomStance> Draw(RandomStream& random, int tries) const;
 
  private:
   struct Held {
-    RandomRest rest;
+    RandomStance rest;
     std::vector<PlacedFinger> placed;  ///< those that have a posture
   };
   [[nodiscard]] std::optional<Held> DrawHeld(RandomStream& random) const;
@@ -60,10 +60,10 @@ class RandomRests {
   /// @returns false where the finger does not reach the contact, or is in something's way there.
   [[nodiscard]] bool PlaceAt(FingerIndex finger, const grasp::Contact& contact, Held& held) const;
   [[nodiscard]] bool IsClear(const PlacedFinger& placed, const Held& held, TipContact tip) const;
-  [[nodiscard]] bool LetOthersWait(Held& held, RandomStream& random) const;
+  [[nodiscard]] bool PlaceIdleFingers(Held& held, RandomStream& random) const;
 
   const GaitRequest& request_;
-  RandomRestOptions options_;
+  RandomStanceOptions options_;
   sampling::SurfaceSampler sampler_;
   collision::SurfaceTree surface_;
   HandScene scene_;

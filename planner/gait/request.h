@@ -30,7 +30,7 @@ struct GaitRequest : planning::InHandTask {
   std::int64_t most_expanded = kDefaultExpanded;
   /// Of the gaits with reserve that are found and carried out the one with most to spare
   /// (planning::CarriedOut::spare), instead of the first; where plans are tried.
-  bool seeks_most_spare = false;
+  bool seeks_most_margin = false;
   Deadline deadline = {};
   int jobs = 1;  ///< searches at a time where plans are tried, ≥ 1
   planning::Progress progress = [](std::string_view) {};

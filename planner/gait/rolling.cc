@@ -8,8 +8,8 @@
 
 namespace regrasp::gait {
 
-Eigen::Matrix3d BallIn(const kinematics::Finger& finger, const Posture& posture,
-                       const Eigen::Isometry3d& pose) {
+Eigen::Matrix3d FingertipOrientation(const kinematics::Finger& finger, const Posture& posture,
+                                     const Eigen::Isometry3d& pose) {
   return pose.linear().transpose() * kinematics::FramesOf(finger, posture).back().linear();
 }
 
@@ -34,7 +34,8 @@ bool RollingTips::AreGrasp(const RolledTips& tips, const Eigen::Isometry3d& pose
   }
   const grasp::Wrench weight{-(pose.linear().transpose() * setup_.scene.hand().up),
                              Eigen::Vector3d::Zero()};
-  return grasp::ComputeGraspForces(grasp, memory_.frame(), memory_.half_angle(), weight, kSqueeze)
+  return grasp::ComputeGraspForces(grasp, memory_.frame(), memory_.half_angle(), weight,
+                                   kGraspForceOverWeight)
              .margin >= setup_.force_margin;
 }
 
@@ -47,8 +48,8 @@ std::optional<RolledTip> RollingTips::Follow(FingerIndex finger, const RolledTip
   };
   const std::optional<Posture> unrolled = stand_at(tip.contact, tip.posture);
   if (!unrolled) return std::nullopt;
-  const Eigen::Matrix3d turn =
-      BallIn(chain, *unrolled, to_pose) * BallIn(chain, tip.posture, from_pose).transpose();
+  const Eigen::Matrix3d turn = FingertipOrientation(chain, *unrolled, to_pose) *
+                               FingertipOrientation(chain, tip.posture, from_pose).transpose();
   const SurfacePoint contact = Rolled(tip.contact, turn, chain.tip.radius, *setup_.rolled_on);
   std::optional<Posture> posture = stand_at(contact, *unrolled);
   if (!posture) return std::nullopt;
@@ -56,7 +57,7 @@ std::optional<RolledTip> RollingTips::Follow(FingerIndex finger, const RolledTip
 }
 
 bool RollingTips::AreClear(const RolledTips& tips, const Eigen::Isometry3d& pose,
-                           const Hold& hold) const {
+                           const Stance& hold) const {
   std::vector<PlacedFinger> placed;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     const auto& tip = tips[finger];
@@ -74,7 +75,7 @@ bool RollingTips::AreClear(const RolledTips& tips, const Eigen::Isometry3d& pose
 std::optional<RolledTips> RollingTips::Carry(const RolledTips& from,
                                              const Eigen::Isometry3d& from_pose,
                                              const Eigen::Isometry3d& to_pose,
-                                             const Hold& hold) const {
+                                             const Stance& hold) const {
   RolledTips to(from.size());
   for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
     if (!from[finger]) continue;

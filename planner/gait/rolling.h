@@ -19,8 +19,9 @@ namespace regrasp::gait {
 
 /// How a fingertip's ball is turned, seen from the object.
 /// @param pose  of the object in the palm's frame.
-[[nodiscard]] Eigen::Matrix3d BallIn(const kinematics::Finger& finger, const Posture& posture,
-                                     const Eigen::Isometry3d& pose);
+[[nodiscard]] Eigen::Matrix3d FingertipOrientation(const kinematics::Finger& finger,
+                                                   const Posture& posture,
+                                                   const Eigen::Isometry3d& pose);
 
 /// Where a ball touches after it has rolled without slipping: its centre goes by the rotation
 /// vector times the way from the contact to the centre, and touches what is nearest then. Of first
@@ -38,7 +39,7 @@ struct RolledTip {
   Posture posture;
 };
 /// The sum of the normal forces of a grasp over the object's weight, as hands usually squeeze.
-inline constexpr double kSqueeze = 12;
+inline constexpr double kGraspForceOverWeight = 12;
 
 /// By finger; none where it holds nothing.
 using RolledTips = std::vector<std::optional<RolledTip>>;
@@ -60,14 +61,14 @@ class RollingTips {
   [[nodiscard]] std::optional<RolledTips> Carry(const RolledTips& from,
                                                 const Eigen::Isometry3d& from_pose,
                                                 const Eigen::Isometry3d& to_pose,
-                                                const Hold& hold) const;
+                                                const Stance& hold) const;
 
  private:
   [[nodiscard]] std::optional<RolledTip> Follow(FingerIndex finger, const RolledTip& tip,
                                                 const Eigen::Isometry3d& from_pose,
                                                 const Eigen::Isometry3d& to_pose) const;
   [[nodiscard]] bool AreClear(const RolledTips& tips, const Eigen::Isometry3d& pose,
-                              const Hold& hold) const;
+                              const Stance& hold) const;
 
   const HandSetup& setup_;
   criteria::GraspMemory& memory_;

@@ -13,8 +13,8 @@
 #include "planner/gait/gait.h"
 #include "planner/gait/gait_search.h"
 #include "planner/gait/hand_scene.h"
-#include "planner/gait/pose_grid.h"
 #include "planner/gait/joined_search.h"
+#include "planner/gait/pose_grid.h"
 #include "planner/gait/request.h"
 
 namespace regrasp::gait {
@@ -22,17 +22,17 @@ namespace regrasp::gait {
 /// What gaits from a place are searched with.
 struct SearchTerms {
   const HandSetup& setup;
-  criteria::GraspMemory& memory;  ///< knows the setup's points as contacts under their numbers
-  CarryOut carry_out = {};        ///< none: what is planned counts
+  criteria::GraspMemory& memory;     ///< knows the setup's points as contacts under their numbers
+  SimulateExecution carry_out = {};  ///< none: what is planned counts
 };
 
 /// All places in the hand to begin in that are tried, the best first, and more the longer it takes;
 /// those where the object comes farther have more turns.
-class PlacesInHand {
+class MultiStartSearch {
  public:
   /// @param request  outlives this object.
   /// @param terms    which places have by turns; one or more.
-  PlacesInHand(const GaitRequest& request, std::vector<SearchTerms> terms, GaitEnds ends);
+  MultiStartSearch(const GaitRequest& request, std::vector<SearchTerms> terms, GaitEnds ends);
 
   /// @returns the first gait that is found, with fewer moves; nullopt where the request's bounds
   ///          are reached, or nothing is left to search.
@@ -45,26 +45,26 @@ class PlacesInHand {
   struct Place {
     const SearchTerms& terms;
     RandomStream random;
-    std::unique_ptr<PlaceSearch> search = nullptr;
+    std::unique_ptr<StartSearch> search = nullptr;
   };
   /// Grasps from all places together, before there is another one.
-  [[nodiscard]] std::int64_t EnoughForNext() const;
+  [[nodiscard]] std::int64_t BudgetForNextStart() const;
   /// Null where all places are exhausted.
   Place* Next();
   /// @returns whether there is another place.
   bool Open();
   /// Null where a finger has no place to wait.
-  std::unique_ptr<PlaceSearch> SearchAlong(const PoseTrack& track, const SearchTerms& terms,
+  std::unique_ptr<StartSearch> SearchAlong(const PoseTrack& track, const SearchTerms& terms,
                                            RandomStream& random);
   /// @returns false where there are no more.
-  bool DrawHomes();
+  bool DrawInitialPoses();
 
   const GaitRequest& request_;
   std::vector<SearchTerms> terms_;
   GaitEnds ends_;
   RandomStream random_;
-  Journey journey_;
-  std::vector<Eigen::Isometry3d> homes_;  ///< that were not tried yet, the best last
+  ObjectTask task_;
+  std::vector<Eigen::Isometry3d> initial_poses_;  ///< that were not tried yet, the best last
   int drawings_ = 0;
   std::size_t opened_ = 0;  ///< homes that were tried
   std::vector<std::unique_ptr<Place>> places_;
@@ -72,7 +72,7 @@ class PlacesInHand {
 };
 
 /// What gaits with reserve have to spare. None of their fingers slides.
-struct Spare {
+struct RobustnessMargins {
   double quality = 0;    ///< of their grasps
   double clearance = 0;  ///< of links, beside the margin, metres
   /// As HandSetup has it, where contacts have rolled to. None: contacts are not followed, which is
@@ -87,18 +87,19 @@ struct FoundGait {
 /// Looks for a gait with one of some spares, from each place in the hand with the next of them;
 /// without reserve where there are none. What is to have a spare is tried on the way where the
 /// hand can try plans.
-using FindOne = std::function<FoundGait(const GaitRequest& asked, std::span<const Spare> spares)>;
+using FindOne =
+    std::function<FoundGait(const GaitRequest& asked, std::span<const RobustnessMargins> margins)>;
 
 /// Looks for gaits with reserve where nothing tells whether the hand carries them out: first with
 /// more and then with less to spare. One much longer than the one without does not count.
 /// @param without  the one without reserve, where the request allows it and there is one.
 /// @returns the first that there is, or the one without; where there is none, why.
-[[nodiscard]] FoundGait FindWithReserve(const GaitRequest& request, const FindOne& find,
-                                        const FoundGait& without);
+[[nodiscard]] FoundGait FindRobustGait(const GaitRequest& request, const FindOne& find,
+                                       const FoundGait& without);
 
 /// A gait, and how far the hand carries it out, or the one that came farthest of those that are not
 /// given because it does not; nullopt: nothing tells, or none was tried.
-struct TriedGait {
+struct SimulatedGait {
   FoundGait found;
   std::optional<planning::CarriedOut> trial = {};
 };
@@ -113,8 +114,8 @@ struct TriedGait {
 /// ones.
 /// @param contacts  of gaits, by their numbers.
 /// @returns no gait that is not carried out where the request's reserve is required.
-[[nodiscard]] TriedGait FindCarriedOut(const GaitRequest& request,
-                                       const std::vector<grasp::Contact>& contacts,
-                                       const FindOne& find);
+[[nodiscard]] SimulatedGait FindExecutableGait(const GaitRequest& request,
+                                               const std::vector<grasp::Contact>& contacts,
+                                               const FindOne& find);
 
 }  // namespace regrasp::gait

@@ -15,45 +15,45 @@ constexpr int kMostDetours = 8;
 
 }  // namespace
 
-int RestTree::Add(Rest rest) {
+int StanceTree::Add(StanceNode rest) {
   rests_.push_back(std::move(rest));
   return static_cast<int>(rests_.size()) - 1;
 }
 
-int RestTree::RootOf(int rest) const {
+int StanceTree::RootOf(int rest) const {
   while (rests_[rest].parent >= 0) rest = rests_[rest].parent;
   return rest;
 }
 
-Rest RestTree::After(int from, const Holding& to, int node) const {
-  const Rest& before = rests_[from];
+StanceNode StanceTree::After(int from, const ContactAssignment& to, int node) const {
+  const StanceNode& before = rests_[from];
   const Change change = ChangeBetween(before.hold.holding, to);
-  Rest rest{.hold = {to, before.hold.waiting},
-            .node = node,
-            .parent = from,
-            .slides = before.slides + static_cast<int>(!change.slid.empty())};
+  StanceNode rest{.hold = {to, before.hold.waiting},
+                  .node = node,
+                  .parent = from,
+                  .slides = before.slides + static_cast<int>(!change.slid.empty())};
   if (change.placed.valid()) rest.hold.waiting[change.placed] = {};
   return rest;
 }
 
-void RestTree::CarryOn(Rest& rest) {
-  rest.carried = carrier_.Around(
+void StanceTree::ExtendReachable(StanceNode& rest) {
+  rest.carried = checker_.ExtendAround(
       rest.hold, rest.node, kPatience * (1 + rest.turns),
-      [&](int node) { return is_enough_(node, rest.hold.holding); }, rest.barred);
+      [&](int node) { return is_enough_(node, rest.hold.holding); }, rest.blocked);
 }
 
-const std::vector<Keyframe>* RestTree::MoveBetween(Rest& rest, int from, int to) {
+const std::vector<Keyframe>* StanceTree::MoveBetween(StanceNode& rest, int from, int to) {
   const auto [found, is_new] = rest.moves.try_emplace({from, to});
-  if (is_new && !rest.barred.contains(std::minmax({from, to}))) {
-    const Keyframe first = from == rest.node ? rest.at : carrier_.FrameAt(rest.hold, from);
-    if (auto move = FindMove(setup_, rest.hold.holding, first, carrier_.FrameAt(rest.hold, to))) {
+  if (is_new && !rest.blocked.contains(std::minmax({from, to}))) {
+    const Keyframe first = from == rest.node ? rest.at : checker_.FrameAt(rest.hold, from);
+    if (auto move = FindMove(setup_, rest.hold.holding, first, checker_.FrameAt(rest.hold, to))) {
       found->second = *std::move(move);
     }
   }
   return found->second.empty() ? nullptr : &found->second;
 }
 
-std::optional<std::vector<Keyframe>> RestTree::MoveFrom(Rest& rest, int node) {
+std::optional<std::vector<Keyframe>> StanceTree::MoveFrom(StanceNode& rest, int node) {
   for (int detour = 0; rest.carried.from.contains(node); ++detour) {
     const std::vector<int> path = rest.carried.PathTo(node);
     std::vector<Keyframe> keyframes = {rest.at};
@@ -65,19 +65,19 @@ std::optional<std::vector<Keyframe>> RestTree::MoveFrom(Rest& rest, int node) {
       ++at;
     }
     if (at == path.size()) return keyframes;
-    rest.barred.insert(std::minmax({path[at - 1], path[at]}));
+    rest.blocked.insert(std::minmax({path[at - 1], path[at]}));
     // Tips that roll were followed along this way.
     if (detour == kMostDetours || setup_.rolled_on != nullptr) break;
-    CarryOn(rest);
+    ExtendReachable(rest);
   }
   ++counts_.no_move;
   return std::nullopt;
 }
 
-bool RestTree::WorkOutWay(Rest& rest) {
-  rest.at = carrier_.FrameAt(rest.hold, rest.node);
+bool StanceTree::PlanPathFromParent(StanceNode& rest) {
+  rest.at = checker_.FrameAt(rest.hold, rest.node);
   if (rest.parent < 0) return true;
-  const Hold& before = rests_[rest.parent].hold;
+  const Stance& before = rests_[rest.parent].hold;
   auto way = paths_.Find(before, rest.hold, rest.node, {rest.rolled_before, rest.rolled});
   if (!way) {
     const bool slides = !ChangeBetween(before.holding, rest.hold.holding).slid.empty();
@@ -89,9 +89,9 @@ bool RestTree::WorkOutWay(Rest& rest) {
   return true;
 }
 
-void RestTree::WaitAsBefore(Rest& rest) const {
+void StanceTree::IdleAsBefore(StanceNode& rest) const {
   if (rest.parent < 0) return;
-  const Hold& before = rests_[rest.parent].hold;
+  const Stance& before = rests_[rest.parent].hold;
   for (std::size_t finger = 0; finger < before.holding.size(); ++finger) {
     if (before.holding[finger] == kNone && rest.hold.holding[finger] == kNone) {
       rest.hold.waiting[finger] = before.waiting[finger];
@@ -99,7 +99,7 @@ void RestTree::WaitAsBefore(Rest& rest) const {
   }
 }
 
-int RestTree::WithWaiting(int index, FingerIndex finger, const Posture& posture) {
+int StanceTree::WithIdlePosture(int index, FingerIndex finger, const Posture& posture) {
   std::vector<int> chain;
   int last = index;
   while (last >= 0 && rests_[last].hold.holding[finger] == kNone) {
@@ -109,17 +109,17 @@ int RestTree::WithWaiting(int index, FingerIndex finger, const Posture& posture)
   if (chain.empty() || (last < 0 && !has_given_start_)) return -1;
   std::ranges::reverse(chain);
   for (const int i : chain) {
-    Rest rest = rests_[i];
+    StanceNode rest = rests_[i];
     rest.parent = last;
     rest.way.clear();
     rest.is_carried = false;
     rest.ends_in_vain = false;
     rest.farthest = std::numeric_limits<int>::max();
     rest.moves.clear();
-    rest.barred.clear();
-    WaitAsBefore(rest);
+    rest.blocked.clear();
+    IdleAsBefore(rest);
     rest.hold.waiting[finger] = posture;
-    const bool is_free = carrier_.IsPassable(rest.hold, rest.node) && WorkOutWay(rest) &&
+    const bool is_free = checker_.IsPassable(rest.hold, rest.node) && PlanPathFromParent(rest) &&
                          rest.hold.waiting[finger] == posture;
     if (!is_free) return -1;
     last = Add(std::move(rest));
@@ -127,33 +127,33 @@ int RestTree::WithWaiting(int index, FingerIndex finger, const Posture& posture)
   return last;
 }
 
-int RestTree::AfterWaitingAbove(int index) {
+int StanceTree::AfterIdlingAbove(int index) {
   const int parent = rests_[index].parent;
-  const Hold& before = rests_[parent].hold;
+  const Stance& before = rests_[parent].hold;
   const FingerIndex placed = ChangeBetween(before.holding, rests_[index].hold.holding).placed;
   if (!placed.valid()) return -1;
-  Hold above = before;
+  Stance above = before;
   const int point = rests_[index].hold.holding[placed];
-  if (!carrier_.WaitAbove(above, placed, point, rests_[index].node)) return -1;
-  const int begin = WithWaiting(parent, placed, above.waiting[placed]);
+  if (!checker_.IdleAbove(above, placed, point, rests_[index].node)) return -1;
+  const int begin = WithIdlePosture(parent, placed, above.waiting[placed]);
   if (begin < 0) return -1;
-  Rest rest = rests_[index];
+  StanceNode rest = rests_[index];
   rest.parent = begin;
-  WaitAsBefore(rest);
-  if (!WorkOutWay(rest)) return -1;
+  IdleAsBefore(rest);
+  if (!PlanPathFromParent(rest)) return -1;
   return Add(std::move(rest));
 }
 
-int RestTree::LastCarried(int rest) const {
+int StanceTree::LastExecuted(int rest) const {
   while (rest >= 0 && !rests_[rest].is_carried) rest = rests_[rest].parent;
   return rest;
 }
 
-void RestTree::MarkCarried(int rest) {
+void StanceTree::MarkExecuted(int rest) {
   for (; rest >= 0; rest = rests_[rest].parent) rests_[rest].is_carried = true;
 }
 
-int RestTree::CutOffAfter(int index, int changes) {
+int StanceTree::CutOffAfter(int index, int changes) {
   std::vector<int> chain;
   for (int i = index; i >= 0; i = rests_[i].parent) chain.push_back(i);
   std::ranges::reverse(chain);
@@ -167,41 +167,41 @@ int RestTree::CutOffAfter(int index, int changes) {
   return -1;
 }
 
-void RestTree::KeepBefore(int index, int step) {
+void StanceTree::LimitBefore(int index, int step) {
   rests_[index].farthest = std::min(rests_[index].farthest, step);
   for (int i = index; i < size(); ++i) {
-    const Rest& rest = rests_[i];
+    const StanceNode& rest = rests_[i];
     if (rest.parent == index && grid_.StepOf(rest.node) > step && !rest.is_carried) CutOff(i);
   }
 }
 
-void RestTree::CutOff(int index) {
+void StanceTree::CutOff(int index) {
   rests_[index].is_cut_off = true;
   // A rest comes after its parent.
   for (int i = index; i < size(); ++i) {
-    Rest& rest = rests_[i];
+    StanceNode& rest = rests_[i];
     rest.is_cut_off = rest.is_cut_off || (rest.parent >= 0 && rests_[rest.parent].is_cut_off);
   }
 }
 
-std::optional<Gait> RestTree::WayTo(int index, int node) {
+std::optional<Gait> StanceTree::PathTo(int index, int node) {
   std::vector<int> chain;
   for (int i = index; i >= 0; i = rests_[i].parent) chain.push_back(i);
   std::ranges::reverse(chain);
   Gait gait{rests_[chain.front()].hold.holding, rests_[chain.front()].at, {}};
-  const auto move_to = [&](Rest& rest, int to) {
+  const auto move_to = [&](StanceNode& rest, int to) {
     if (rest.node == to) return true;
     auto move = MoveFrom(rest, to);
-    if (move) gait.stretches.push_back({Stretch::Kind::kMove, {}, kNone, *std::move(move)});
+    if (move) gait.segments.push_back({PlanSegment::Kind::kMove, {}, kNone, *std::move(move)});
     return move.has_value();
   };
   for (const int i : chain) {
-    Rest& rest = rests_[i];
+    StanceNode& rest = rests_[i];
     if (rest.parent >= 0 && !move_to(rests_[rest.parent], rest.node)) {
       CutOff(i);
       return std::nullopt;
     }
-    gait.stretches.insert(gait.stretches.end(), rest.way.begin(), rest.way.end());
+    gait.segments.insert(gait.segments.end(), rest.way.begin(), rest.way.end());
   }
   if (!move_to(rests_[index], node)) return std::nullopt;
   return gait;

@@ -18,7 +18,7 @@ constexpr double kLeastCosine = 0.7;
 
 }  // namespace
 
-ContactKinds::ContactKinds(const std::vector<SurfacePoint>& points) {
+ContactClusters::ContactClusters(const std::vector<SurfacePoint>& points) {
   std::vector<const SurfacePoint*> firsts;
   for (const SurfacePoint& point : points) {
     const auto found = std::ranges::find_if(firsts, [&](const SurfacePoint* first) {
@@ -29,7 +29,7 @@ ContactKinds::ContactKinds(const std::vector<SurfacePoint>& points) {
   }
 }
 
-Holding ContactKinds::KindOf(Holding holding) const {
+ContactAssignment ContactClusters::KindOf(ContactAssignment holding) const {
   for (int& point : holding) {
     if (point != kNone) point = groups_[point];
   }
@@ -46,7 +46,7 @@ constexpr double kAlike = 0.5;
 /// of it leads nowhere.
 constexpr double kSameFingers = 0.3;
 
-std::vector<bool> WhoHolds(const Holding& holding) {
+std::vector<bool> WhoHolds(const ContactAssignment& holding) {
   std::vector<bool> holds;
   for (const int point : holding) holds.push_back(point != kNone);
   return holds;
@@ -60,14 +60,14 @@ int CountOf(const std::map<Key, int>& counts, const Key& key) {
 
 }  // namespace
 
-void Crowding::Count(const Holding& holding, int step) {
+void NoveltyPenalty::Count(const ContactAssignment& holding, int step) {
   ++at_[step];
-  ++like_[kinds_.KindOf(holding)];
+  ++like_[clusters_.KindOf(holding)];
   ++with_[WhoHolds(holding)];
 }
 
-double Crowding::PutBack(double score, const Holding& holding, int step) const {
-  return score - kAtOneStep * at_[step] - kAlike * CountOf(like_, kinds_.KindOf(holding)) -
+double NoveltyPenalty::PenaltyFor(double score, const ContactAssignment& holding, int step) const {
+  return score - kAtOneStep * at_[step] - kAlike * CountOf(like_, clusters_.KindOf(holding)) -
          kSameFingers * CountOf(with_, WhoHolds(holding));
 }
 
@@ -80,7 +80,7 @@ constexpr double kFar = 0.08;
 
 }  // namespace
 
-bool GoalGrasp::IsHeldBy(const Holding& holding) const {
+bool GoalGrasp::IsHeldBy(const ContactAssignment& holding) const {
   if (points_.empty()) return true;
   return std::ranges::count(holding, kNone) + std::ssize(points_) == std::ssize(holding) &&
          std::ranges::all_of(points_, [&](int point) {
@@ -97,17 +97,18 @@ double GoalGrasp::DistanceBetween(int from, int to) const {
   return std::min(1.0, kNear + apart / kFar + turned / 2);
 }
 
-double GoalGrasp::DistanceBetween(const Holding& from, const Holding& to) const {
+double GoalGrasp::DistanceBetween(const ContactAssignment& from,
+                                  const ContactAssignment& to) const {
   double distance = 0;
   for (std::size_t i = 0; i < from.size(); ++i) distance += DistanceBetween(from[i], to[i]);
   return distance;
 }
 
-const Holding* GoalGrasp::NearestTo(const Holding& holding) const {
-  const Holding* nearest = nullptr;
+const ContactAssignment* GoalGrasp::NearestTo(const ContactAssignment& holding) const {
+  const ContactAssignment* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const auto* holdings : {&ways_, &targets_}) {
-    for (const Holding& other : *holdings) {
+    for (const ContactAssignment& other : *holdings) {
       const double distance = DistanceBetween(holding, other);
       if (distance >= least) continue;
       least = distance;
@@ -117,18 +118,19 @@ const Holding* GoalGrasp::NearestTo(const Holding& holding) const {
   return nearest;
 }
 
-std::vector<Holding> GoalGrasp::NearestOfSameFingers(const Holding& holding, int most) const {
-  std::vector<std::pair<double, const Holding*>> found;
+std::vector<ContactAssignment> GoalGrasp::NearestOfSameFingers(const ContactAssignment& holding,
+                                                               int most) const {
+  std::vector<std::pair<double, const ContactAssignment*>> found;
   for (const auto* holdings : {&ways_, &targets_}) {
-    for (const Holding& other : *holdings) {
+    for (const ContactAssignment& other : *holdings) {
       const bool is_same = std::ranges::equal(
           holding, other, {}, [](int point) { return point == kNone; },
           [](int point) { return point == kNone; });
       if (is_same && other != holding) found.emplace_back(DistanceBetween(holding, other), &other);
     }
   }
-  std::ranges::stable_sort(found, {}, &std::pair<double, const Holding*>::first);
-  std::vector<Holding> nearest;
+  std::ranges::stable_sort(found, {}, &std::pair<double, const ContactAssignment*>::first);
+  std::vector<ContactAssignment> nearest;
   for (const auto& [distance, other] : found) {
     if (std::ssize(nearest) == most) break;
     nearest.push_back(*other);
@@ -136,14 +138,14 @@ std::vector<Holding> GoalGrasp::NearestOfSameFingers(const Holding& holding, int
   return nearest;
 }
 
-double GoalGrasp::DistanceFrom(const Holding& holding) const {
-  const Holding* nearest = NearestTo(holding);
+double GoalGrasp::DistanceFrom(const ContactAssignment& holding) const {
+  const ContactAssignment* nearest = NearestTo(holding);
   return nearest == nullptr ? 0 : DistanceBetween(holding, *nearest);
 }
 
 std::set<int> GoalGrasp::ContactsOf(FingerIndex finger) const {
   std::set<int> contacts;
-  for (const Holding& way : ways_) {
+  for (const ContactAssignment& way : ways_) {
     if (way[finger] != kNone) contacts.insert(way[finger]);
   }
   return contacts;
@@ -163,33 +165,34 @@ constexpr double kLongestSlideToGoal = 0.06;
 
 }  // namespace
 
-const std::vector<int>& NextHoldings::ReachedAt(FingerIndex finger, int node, int share) {
+const std::vector<int>& SuccessorGenerator::ReachedAt(FingerIndex finger, int node, int share) {
   const auto [found, is_new] = within_reach_.try_emplace({finger, node, share});
   if (!is_new) return found->second;
   const int count = static_cast<int>(setup_.points.size());
   for (int point = (node + share) % kShares; point < count; point += kShares) {
-    if (carrier_.reach().Find(finger, point, node) != nullptr) found->second.push_back(point);
+    if (checker_.reach().Find(finger, point, node) != nullptr) found->second.push_back(point);
   }
   return found->second;
 }
 
-std::vector<int> NextHoldings::PlacesFor(FingerIndex finger, const Holding& from, int node) {
+std::vector<int> SuccessorGenerator::PlacesFor(FingerIndex finger, const ContactAssignment& from,
+                                               int node) {
   struct Place {
     int point;
     bool is_goal;
     int last;  ///< step to which the finger can keep it
   };
   std::vector<Place> places;
-  Hold with{from};
+  Stance with{from};
   const std::set<int> goals = goal_.ContactsOf(finger);
   const auto look_at = [&](int point, bool is_goal) {
     if (Holds(from, point)) return;
     with.holding[finger] = point;
-    if (!carrier_.KeepsApart(with, finger, node)) return;
-    places.push_back({point, is_goal, carrier_.reach().RunEnd(finger, point, node)});
+    if (!checker_.KeepsApart(with, finger, node)) return;
+    places.push_back({point, is_goal, checker_.reach().RunEnd(finger, point, node)});
   };
   for (const int point : goals) {
-    if (carrier_.reach().Find(finger, point, node) != nullptr) look_at(point, true);
+    if (checker_.reach().Find(finger, point, node) != nullptr) look_at(point, true);
   }
   // At each node some of the contacts, at others others; more where few do.
   for (int share = 0; share < kShares && places.size() < kTriedContacts; ++share) {
@@ -205,9 +208,9 @@ std::vector<int> NextHoldings::PlacesFor(FingerIndex finger, const Holding& from
   return points;
 }
 
-void NextHoldings::AddSwitches(const Holding& from, FingerIndex placed, int point,
-                               std::vector<Holding>& holdings) const {
-  Holding with = from;
+void SuccessorGenerator::AddSwitches(const ContactAssignment& from, FingerIndex placed, int point,
+                                     std::vector<ContactAssignment>& holdings) const {
+  ContactAssignment with = from;
   if (placed.valid()) {
     with[placed] = point;
     holdings.push_back(with);
@@ -219,25 +222,25 @@ void NextHoldings::AddSwitches(const Holding& from, FingerIndex placed, int poin
   }
 }
 
-bool NextHoldings::MaySlide(const Holding& from, std::size_t fingers) const {
+bool SuccessorGenerator::MaySlide(const ContactAssignment& from, std::size_t fingers) const {
   return setup_.may_slide &&
-         CountHolding(from) - static_cast<int>(fingers) >= setup_.fewest_beside_sliding;
+         CountHoldingFingers(from) - static_cast<int>(fingers) >= setup_.fewest_beside_sliding;
 }
 
-void NextHoldings::AddSlidesTogether(const Holding& from, int node,
-                                     std::vector<Holding>& holdings) {
-  for (Holding& to : goal_.NearestOfSameFingers(from, kSlidesTogether)) {
+void SuccessorGenerator::AddSlidesTogether(const ContactAssignment& from, int node,
+                                           std::vector<ContactAssignment>& holdings) {
+  for (ContactAssignment& to : goal_.NearestOfSameFingers(from, kSlidesTogether)) {
     const Change change = ChangeBetween(from, to);
     const bool may_come = std::ranges::all_of(change.slid, [&](FingerIndex finger) {
-      return carrier_.reach().Find(finger, to[finger], node) != nullptr &&
+      return checker_.reach().Find(finger, to[finger], node) != nullptr &&
              IsWay(from[finger], to[finger]);
     });
     if (may_come && MaySlide(from, change.slid.size())) holdings.push_back(std::move(to));
   }
 }
 
-void NextHoldings::AddSlides(const Holding& from, FingerIndex finger, int node,
-                             std::vector<Holding>& holdings) {
+void SuccessorGenerator::AddSlides(const ContactAssignment& from, FingerIndex finger, int node,
+                                   std::vector<ContactAssignment>& holdings) {
   if (!MaySlide(from, 1)) return;
   const int at = from[finger];
   const std::set<int> goals = goal_.ContactsOf(finger);
@@ -247,14 +250,14 @@ void NextHoldings::AddSlides(const Holding& from, FingerIndex finger, int node,
     if (!is_goal && point % kShares != node % kShares) continue;
     const double way = (setup_.points[at].p - setup_.points[point].p).norm();
     if (way > (is_goal ? kLongestSlideToGoal : kLongestSlide) || Holds(from, point)) continue;
-    if (carrier_.reach().Find(finger, point, node) == nullptr || !IsWay(at, point)) continue;
+    if (checker_.reach().Find(finger, point, node) == nullptr || !IsWay(at, point)) continue;
     holdings.push_back(from);
     holdings.back()[finger] = point;
   }
 }
 
-std::vector<Holding> NextHoldings::After(const Holding& from, int node) {
-  std::vector<Holding> holdings;
+std::vector<ContactAssignment> SuccessorGenerator::After(const ContactAssignment& from, int node) {
+  std::vector<ContactAssignment> holdings;
   if (may_hold_more_) AddSwitches(from, {}, kNone, holdings);
   for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
     if (from[finger] != kNone) {
@@ -265,11 +268,11 @@ std::vector<Holding> NextHoldings::After(const Holding& from, int node) {
       AddSwitches(from, finger, point, holdings);
     }
   }
-  const Holding* target = goal_.NearestTo(from);
+  const ContactAssignment* target = goal_.NearestTo(from);
   for (FingerIndex finger{0}; target != nullptr && finger < std::ssize(from); ++finger) {
     const int point = (*target)[finger];
     if (point == kNone || Holds(from, point)) continue;
-    if (carrier_.reach().Find(finger, point, node) == nullptr) continue;
+    if (checker_.reach().Find(finger, point, node) == nullptr) continue;
     if (from[finger] == kNone) {
       AddSwitches(from, finger, point, holdings);
     } else if (MaySlide(from, 1) && IsWay(from[finger], point)) {

@@ -24,16 +24,16 @@ TEST(CarrierTest, FingersWaitWhereTheyKeepOffTheirOwnHand) {
   pose.translation() = 0.5 * hand.up;  // out of everybody's way
   const PoseGrid grid({pose, Eigen::Vector3d::Zero(), {}, Eigen::Vector3d::Zero(), 0}, hand.up,
                       PoseGrid::End::kPose);
-  const Parking nowhere(scene.finger_count());
-  Carrier carrier(setup, grid, nowhere);
+  const IdlePostures nowhere(scene.finger_count());
+  ObjectMotionChecker checker(setup, grid, nowhere);
   int would_collide = 0;
   for (int seed = 0; seed < 60; ++seed) {
     RandomStream random(seed, RandomUse::kGaits);
     RandomStream same(seed, RandomUse::kGaits);
     const FingerIndex first{same.Choose(scene.finger_count(), scene.finger_count()).front()};
     would_collide += !scene.KeepsOffHand(scene.Place(first, scene.DrawPosture(first, same)));
-    Hold hold{Holding(scene.finger_count(), kNone)};
-    ASSERT_TRUE(carrier.LetFreeFingersWait(hold, grid.start(), &random));
+    Stance hold{ContactAssignment(scene.finger_count(), kNone)};
+    ASSERT_TRUE(checker.PlaceIdleFingers(hold, grid.start(), &random));
     for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
       EXPECT_TRUE(scene.KeepsOffHand(scene.Place(finger, hold.waiting[finger]))) << seed;
     }

@@ -13,7 +13,7 @@ TEST(ContactKindsTest, NearContactsOnOneSideAreOfAKind) {
                                             {{0.01, 0, 0}, Vector3d::UnitZ()},
                                             {{0.05, 0, 0}, Vector3d::UnitZ()},
                                             {{0, 0, 0.002}, -Vector3d::UnitZ()}};
-  const ContactKinds kinds(points);
+  const ContactClusters kinds(points);
   EXPECT_EQ(kinds.KindOf({0, kNone, 2}), kinds.KindOf({1, kNone, 2}));
   EXPECT_NE(kinds.KindOf({0, kNone, 2}), kinds.KindOf({2, kNone, 0}));
   EXPECT_NE(kinds.KindOf({0}), kinds.KindOf({2})) << "far off";

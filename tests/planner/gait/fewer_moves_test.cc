@@ -45,23 +45,23 @@ class FewerMovesTest : public testing::Test {
 TEST_F(FewerMovesTest, DetoursAreLeftOutButNotWhereContactsRoll) {
   const HandSetup setup{scene_, inverse_, points_, 0.8};
   ASSERT_TRUE(found_.gait) << found_.message;
-  ASSERT_EQ(found_.gait->stretches.size(), 1u);
-  const Stretch to = found_.gait->stretches[0];
-  ASSERT_EQ(to.kind, Stretch::Kind::kMove);
+  ASSERT_EQ(found_.gait->segments.size(), 1u);
+  const PlanSegment to = found_.gait->segments[0];
+  ASSERT_EQ(to.kind, PlanSegment::Kind::kMove);
   Gait gait = *found_.gait;
-  gait.stretches = {to, Reversed(to)};
-  EXPECT_TRUE(WithFewerMoves(setup, gait).stretches.empty());
-  gait.stretches.push_back(to);
-  const Gait fewer = WithFewerMoves(setup, gait);
-  ASSERT_EQ(fewer.stretches.size(), 1u);
-  EXPECT_LE(fewer.stretches[0].path.size(), to.path.size());
+  gait.segments = {to, Reversed(to)};
+  EXPECT_TRUE(MergeMoves(setup, gait).segments.empty());
+  gait.segments.push_back(to);
+  const Gait fewer = MergeMoves(setup, gait);
+  ASSERT_EQ(fewer.segments.size(), 1u);
+  EXPECT_LE(fewer.segments[0].path.size(), to.path.size());
   EXPECT_EQ(EndOf(fewer).pose.matrix(), EndOf(gait).pose.matrix());
   EXPECT_EQ(EndOf(fewer).postures, EndOf(gait).postures);
   // There each way to a pose leaves contacts elsewhere.
   const HandSetup rolling{scene_, inverse_, points_, 0.8, &rolled_on_};
-  const Gait rolled = WithFewerMoves(rolling, gait);
-  ASSERT_EQ(rolled.stretches.size(), 1u);
-  EXPECT_EQ(rolled.stretches[0].path.size(), 3 * to.path.size() - 2);
+  const Gait rolled = MergeMoves(rolling, gait);
+  ASSERT_EQ(rolled.segments.size(), 1u);
+  EXPECT_EQ(rolled.segments[0].path.size(), 3 * to.path.size() - 2);
 }
 
 /// A straight way that would go through something is not taken.
@@ -72,10 +72,10 @@ TEST_F(FewerMovesTest, AMoveThatCantBeStraightStays) {
   // Whatever it is: the straight way to a pose half a metre off is out of reach.
   Keyframe away = gait.start;
   away.pose.translation().x() += 0.5;
-  gait.stretches = {{Stretch::Kind::kMove, {}, kNone, {gait.start, EndOf(gait), away}}};
-  const Gait same = WithFewerMoves(setup, gait);
-  ASSERT_EQ(same.stretches.size(), 1u);
-  EXPECT_EQ(same.stretches[0].path.size(), 3u);
+  gait.segments = {{PlanSegment::Kind::kMove, {}, kNone, {gait.start, EndOf(gait), away}}};
+  const Gait same = MergeMoves(setup, gait);
+  ASSERT_EQ(same.segments.size(), 1u);
+  EXPECT_EQ(same.segments[0].path.size(), 3u);
 }
 
 }  // namespace fewer_moves_test

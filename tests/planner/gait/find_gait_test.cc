@@ -21,7 +21,7 @@ namespace find_gait_test {
 using Eigen::Vector3d;
 
 Eigen::Isometry3d LastPose(const Gait& gait) {
-  return gait.stretches.empty() ? gait.start.pose : gait.stretches.back().path.back().pose;
+  return gait.segments.empty() ? gait.start.pose : gait.segments.back().path.back().pose;
 }
 
 /// Without reserve a turn may begin anywhere: ways onwards and backwards are joined.
@@ -54,16 +54,16 @@ TEST_P(TurnTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
   request.reserve = GetParam();
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  Holding holding = found.gait->initial;
+  ContactAssignment holding = found.gait->initial;
   const Keyframe* last = &found.gait->start;
   int tips = 0;
-  for (const Stretch& stretch : found.gait->stretches) {
+  for (const PlanSegment& stretch : found.gait->segments) {
     EXPECT_EQ(stretch.path.front().pose.matrix(), last->pose.matrix());
     EXPECT_EQ(stretch.path.front().postures, last->postures);
     const bool changes =
-        stretch.kind == Stretch::Kind::kPlace || stretch.kind == Stretch::Kind::kRelease;
+        stretch.kind == PlanSegment::Kind::kPlace || stretch.kind == PlanSegment::Kind::kRelease;
     if (changes) holding[stretch.finger] = kNone;
-    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = kNone;
+    for (const PlanSegment::Slid& slid : stretch.slid) holding[slid.finger] = kNone;
     for (const Keyframe& frame : stretch.path) {
       for (FingerIndex finger{0}; finger < std::ssize(holding); ++finger) {
         if (holding[finger] == kNone) continue;
@@ -75,8 +75,8 @@ TEST_P(TurnTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
         ++tips;
       }
     }
-    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
-    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
+    if (stretch.kind == PlanSegment::Kind::kPlace) holding[stretch.finger] = stretch.contact;
+    for (const PlanSegment::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
     last = &stretch.path.back();
   }
   EXPECT_GT(tips, 100);
@@ -92,8 +92,8 @@ TEST_P(TurnTest, NoMoveFollowsAnother) {
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << found.message;
     bool was_move = false;
-    for (const Stretch& stretch : found.gait->stretches) {
-      const bool is_move = stretch.kind == Stretch::Kind::kMove;
+    for (const PlanSegment& stretch : found.gait->segments) {
+      const bool is_move = stretch.kind == PlanSegment::Kind::kMove;
       EXPECT_FALSE(is_move && was_move);
       was_move = is_move;
       moves += static_cast<int>(is_move);
@@ -117,12 +117,12 @@ TEST(FindGaitTest, PlansAreRightAsPlansOfContacts) {
 
 /// The contacts that are held before one of the stretches.
 grasp::Grasp GraspBefore(const GaitResult& found, std::size_t end) {
-  Holding holding = found.gait->initial;
+  ContactAssignment holding = found.gait->initial;
   for (std::size_t i = 0; i < end; ++i) {
-    const Stretch& stretch = found.gait->stretches[i];
-    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
-    if (stretch.kind == Stretch::Kind::kRelease) holding[stretch.finger] = kNone;
-    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
+    const PlanSegment& stretch = found.gait->segments[i];
+    if (stretch.kind == PlanSegment::Kind::kPlace) holding[stretch.finger] = stretch.contact;
+    if (stretch.kind == PlanSegment::Kind::kRelease) holding[stretch.finger] = kNone;
+    for (const PlanSegment::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
   }
   grasp::Grasp grasp;
   for (const int contact : holding) {
@@ -132,7 +132,7 @@ grasp::Grasp GraspBefore(const GaitResult& found, std::size_t end) {
 }
 
 grasp::Grasp LastGrasp(const GaitResult& found) {
-  return GraspBefore(found, found.gait->stretches.size());
+  return GraspBefore(found, found.gait->segments.size());
 }
 
 grasp::Grasp FirstGrasp(const GaitResult& found) { return GraspBefore(found, 0); }
@@ -161,10 +161,10 @@ TEST_P(TurnTest, TheSameRequestGivesTheSameGait) {
   const GaitResult first = FindGait(request);
   const GaitResult second = FindGait(request);
   ASSERT_TRUE(first.gait && second.gait);
-  ASSERT_EQ(first.gait->stretches.size(), second.gait->stretches.size());
-  for (std::size_t i = 0; i < first.gait->stretches.size(); ++i) {
-    const auto& a = first.gait->stretches[i].path;
-    const auto& b = second.gait->stretches[i].path;
+  ASSERT_EQ(first.gait->segments.size(), second.gait->segments.size());
+  for (std::size_t i = 0; i < first.gait->segments.size(); ++i) {
+    const auto& a = first.gait->segments[i].path;
+    const auto& b = second.gait->segments[i].path;
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].postures, b[k].postures);
   }
@@ -252,8 +252,8 @@ TEST(FindGaitTest, FingersThatHoldSlideAlongTheSurface) {
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << seed << found.message;
     EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
-    for (const Stretch& stretch : found.gait->stretches) {
-      if (stretch.kind != Stretch::Kind::kSlide) continue;
+    for (const PlanSegment& stretch : found.gait->segments) {
+      if (stretch.kind != PlanSegment::Kind::kSlide) continue;
       ASSERT_EQ(stretch.along.size(), stretch.along_at.size());
       EXPECT_EQ(stretch.along_at.back() + 1, std::ssize(stretch.path));
       for (std::size_t i = 0; i < stretch.slid.size(); ++i) {
@@ -296,8 +296,8 @@ TEST(FindGaitTest, FingersSlideAllAtOnce) {
   const GaitRequest request = PairAnAlignApart(Reserve::kNone);  // with it no finger slides
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  ASSERT_EQ(found.gait->stretches.size(), 1u);
-  EXPECT_EQ(found.gait->stretches[0].slid.size(), 3u);
+  ASSERT_EQ(found.gait->segments.size(), 1u);
+  EXPECT_EQ(found.gait->segments[0].slid.size(), 3u);
   EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
   const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
   EXPECT_TRUE(plan::CheckPlan(*request.solid, plan).passed());
@@ -308,11 +308,11 @@ TEST(FindGaitTest, APreferredReserveDoesNotMakeAGaitMuchLonger) {
   GaitRequest request = PairAnAlignApart(Reserve::kRequired);
   const GaitResult with = FindGait(request);
   ASSERT_TRUE(with.gait) << with.message;
-  EXPECT_GT(with.gait->stretches.size(), 15u);
+  EXPECT_GT(with.gait->segments.size(), 15u);
   request.reserve = Reserve::kPreferred;
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  EXPECT_EQ(found.gait->stretches.size(), 1u);
+  EXPECT_EQ(found.gait->segments.size(), 1u);
 }
 
 TEST(FindGaitTest, AGivenGraspFindsAPoseWhereFingersReachIt) {
@@ -340,12 +340,12 @@ ThreeAndFour FindThreeAndFour() {
     const GaitResult turned = FindGait(turn);
     EXPECT_TRUE(turned.gait) << turned.message;
     if (!turned.gait) break;
-    const std::vector<Stretch>& stretches = turned.gait->stretches;
+    const std::vector<PlanSegment>& segments = turned.gait->segments;
     // Some need no finger to be placed.
-    const auto place = std::ranges::find(stretches, Stretch::Kind::kPlace, &Stretch::kind);
-    if (place == stretches.end()) continue;
+    const auto place = std::ranges::find(segments, PlanSegment::Kind::kPlace, &PlanSegment::kind);
+    if (place == segments.end()) continue;
     found.request.start_pose = found.request.goal_pose = place->path.back().pose;
-    found.three = GraspBefore(turned, place - stretches.begin());
+    found.three = GraspBefore(turned, place - segments.begin());
     found.four = found.three;
     found.four.push_back(turned.contacts[place->contact]);
     break;
@@ -383,8 +383,8 @@ TEST(FindGaitTest, WhereTheHandIsAskedAFingerSlidesBesideThreeOthersOnly) {
       request.carry_out = [](const plan::Plan&, const Deadline&) { return planning::CarriedOut{}; };
     }
     const GaitResult found = FindGait(request);
-    return found.gait &&
-           std::ranges::count(found.gait->stretches, Stretch::Kind::kSlide, &Stretch::kind) > 0;
+    return found.gait && std::ranges::count(found.gait->segments, PlanSegment::Kind::kSlide,
+                                            &PlanSegment::kind) > 0;
   };
   EXPECT_TRUE(slides(hold.three, false));
   EXPECT_FALSE(slides(hold.three, true));

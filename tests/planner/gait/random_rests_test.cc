@@ -19,9 +19,9 @@ kinematics::Posture PostureOf(const std::vector<double>& joints) {
   return Eigen::Map<const Eigen::VectorXd>(joints.data(), std::ssize(joints));
 }
 
-TEST(RandomRests, TipsTouchAtTheContactsOfAGraspThatHoldsAndNothingElseTouches) {
+TEST(RandomStances, TipsTouchAtTheContactsOfAGraspThatHoldsAndNothingElseTouches) {
   const GaitRequest request = RequestFor("cube", kScale, 0);
-  const RandomRests rests(request, {.fewest = 3, .most = 4});
+  const RandomStances rests(request, {.fewest = 3, .most = 4});
   const collision::SurfaceTree surface(*request.solid, request.scale);
   const HandScene scene(*request.hand, surface, request.margin);
   const criteria::GraspEvaluator evaluator(*request.solid, request.criteria);
@@ -55,24 +55,24 @@ TEST(RandomRests, TipsTouchAtTheContactsOfAGraspThatHoldsAndNothingElseTouches) 
   EXPECT_GT(by_fingers[4], 0);
 }
 
-TEST(RandomRests, TheSameStreamGivesTheSameRestWhateverWasDrawnBefore) {
+TEST(RandomStances, TheSameStreamGivesTheSameRestWhateverWasDrawnBefore) {
   const GaitRequest request = RequestFor("cube", kScale, 0);
-  const RandomRests rests(request, {});
+  const RandomStances rests(request, {});
   const auto draw = [&](std::uint64_t index) {
     RandomStream random(1, RandomUse::kResetStates, index);
     return *rests.Draw(random, kTries);
   };
-  const RandomRest first = draw(0);
-  const RandomRest second = draw(1);
+  const RandomStance first = draw(0);
+  const RandomStance second = draw(1);
   EXPECT_NE(first.state.joints, second.state.joints);
   EXPECT_EQ(draw(0).state.joints, first.state.joints);
 }
 
-TEST(RandomRests, AStartPoseIsKept) {
+TEST(RandomStances, AStartPoseIsKept) {
   GaitRequest request = RequestFor("cube", kScale, 0);
   RandomStream random(1, RandomUse::kResetStates);
-  request.start_pose = RandomRests(request, {}).Draw(random, kTries)->state.pose;
-  const RandomRests rests(request, {});
+  request.start_pose = RandomStances(request, {}).Draw(random, kTries)->state.pose;
+  const RandomStances rests(request, {});
   for (int i = 0; i < 3; ++i) {
     const auto rest = rests.Draw(random, kTries);
     ASSERT_TRUE(rest);
@@ -80,13 +80,13 @@ TEST(RandomRests, AStartPoseIsKept) {
   }
 }
 
-TEST(RandomRests, ContactsAreAmongThoseThatAreGiven) {
+TEST(RandomStances, ContactsAreAmongThoseThatAreGiven) {
   const GaitRequest request = RequestFor("cube", kScale, 0);
-  RandomRestOptions options;
+  RandomStanceOptions options;
   const sampling::SurfaceSampler sampler(*request.solid);
   RandomStream random(1, RandomUse::kResetStates);
   for (int i = 0; i < 100; ++i) options.among.push_back(sampler.Draw(random));
-  const RandomRests rests(request, options);
+  const RandomStances rests(request, options);
   for (int i = 0; i < 5; ++i) {
     const auto rest = rests.Draw(random, kTries);
     ASSERT_TRUE(rest);
@@ -96,20 +96,20 @@ TEST(RandomRests, ContactsAreAmongThoseThatAreGiven) {
   }
 }
 
-TEST(RandomRests, WhatIsTooLargeOrTooSlipperyIsNotHeld) {
+TEST(RandomStances, WhatIsTooLargeOrTooSlipperyIsNotHeld) {
   RandomStream random(1, RandomUse::kResetStates);
   const GaitRequest large = RequestFor("cube", 10, 0);
-  EXPECT_FALSE(RandomRests(large, {}).Draw(random, 2000));
+  EXPECT_FALSE(RandomStances(large, {}).Draw(random, 2000));
   GaitRequest slippery = RequestFor("cube", kScale, 0);
   slippery.criteria.half_angle = 0.01;
-  EXPECT_FALSE(RandomRests(slippery, {}).Draw(random, 2000));
+  EXPECT_FALSE(RandomStances(slippery, {}).Draw(random, 2000));
 }
 
-TEST(RandomRests, ThreeFingersHoldAtLeastAndNoMoreThanTheHandHas) {
+TEST(RandomStances, ThreeFingersHoldAtLeastAndNoMoreThanTheHandHas) {
   const GaitRequest request = RequestFor("cube", kScale, 0);
   for (const auto& [fewest, most] : {std::pair(2, 3), {4, 3}, {3, 5}}) {
-    const RandomRestOptions options{.fewest = fewest, .most = most};
-    EXPECT_THROW(RandomRests(request, options), std::invalid_argument);
+    const RandomStanceOptions options{.fewest = fewest, .most = most};
+    EXPECT_THROW(RandomStances(request, options), std::invalid_argument);
   }
 }
 

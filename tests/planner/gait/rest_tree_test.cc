@@ -43,28 +43,28 @@ class RestTreeTest : public testing::Test {
     while (first_.holding[free_] != kNone) ++free_;
   }
 
-  RestTree Tree(bool has_given_start) {
+  StanceTree Tree(bool has_given_start) {
     return {setup_,
             grid_,
-            carrier_,
+            checker_,
             memory_,
             routes_,
             random_,
-            [](int /*node*/, const Holding& /*holding*/) { return false; },
+            [](int /*node*/, const ContactAssignment& /*holding*/) { return false; },
             has_given_start};
   }
-  int AddFirst(RestTree& tree) {
+  int AddFirst(StanceTree& tree) {
     const int first = tree.Add({.hold = first_, .node = grid_.start()});
-    EXPECT_TRUE(tree.WorkOutWay(tree[first]));
+    EXPECT_TRUE(tree.PlanPathFromParent(tree[first]));
     return first;
   }
   Posture FreePosture() { return FreePostureOf(free_, first_); }
   /// Somewhere in the air.
-  Posture FreePostureOf(FingerIndex finger, Hold hold) {
+  Posture FreePostureOf(FingerIndex finger, Stance hold) {
     do {
       hold.waiting[finger] = setup_.scene.DrawPosture(finger, random_);
     } while (!setup_.scene.KeepsOffHand(setup_.scene.Place(finger, hold.waiting[finger])) ||
-             !carrier_.IsPassable(hold, grid_.start()));
+             !checker_.IsPassable(hold, grid_.start()));
     return hold.waiting[finger];
   }
   Vector3d TipOf(const Posture& posture) const {
@@ -83,22 +83,22 @@ class RestTreeTest : public testing::Test {
   const HandSetup setup_{scene_, inverse_, points_, request_.scale};
   criteria::GraspMemory memory_{solid_, request_.criteria, FingersOf(request_),
                                 criteria::QualityTest::kQuick};
-  const Parking nowhere_ = Parking(hand_.fingers.size());
+  const IdlePostures nowhere_ = IdlePostures(hand_.fingers.size());
   const PoseGrid grid_{{found_.gait->start.pose, Vector3d::Zero(), {}, Vector3d::Zero(), 0},
                        hand_.up,
                        PoseGrid::End::kPose};
-  Carrier carrier_{setup_, grid_, nowhere_};
+  ObjectMotionChecker checker_{setup_, grid_, nowhere_};
   SlideRoutes routes_{memory_};
   RandomStream random_{1, RandomUse::kGaits};
-  const Hold first_{found_.gait->initial, found_.gait->start.postures};
+  const Stance first_{found_.gait->initial, found_.gait->start.postures};
   FingerIndex free_{0};
 };
 
 TEST_F(RestTreeTest, AFingerThatHoldsNothingMayBeginElsewhere) {
-  RestTree tree = Tree(true);
+  StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
   const Posture elsewhere = FreePosture();
-  const int other = tree.WithWaiting(first, free_, elsewhere);
+  const int other = tree.WithIdlePosture(first, free_, elsewhere);
   ASSERT_GE(other, 0);
   EXPECT_EQ(tree[other].hold.holding, first_.holding);
   EXPECT_EQ(tree[other].at.postures[free_], elsewhere);
@@ -106,48 +106,48 @@ TEST_F(RestTreeTest, AFingerThatHoldsNothingMayBeginElsewhere) {
 }
 
 TEST_F(RestTreeTest, NotInTheObjectNotOneThatHoldsAndNotWhereTheBeginningSaysWhereItIs) {
-  RestTree tree = Tree(true);
+  StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
   int touching = 0;
   for (int point = 0; point < std::ssize(points_); ++point) {
-    const Posture* there = carrier_.reach().Find(free_, point, grid_.start());
+    const Posture* there = checker_.reach().Find(free_, point, grid_.start());
     if (there == nullptr) continue;
     ++touching;
-    EXPECT_LT(tree.WithWaiting(first, free_, *there), 0);
+    EXPECT_LT(tree.WithIdlePosture(first, free_, *there), 0);
   }
   EXPECT_GT(touching, 0);
   const FingerIndex holds{(free_ + 1) % 4};
-  EXPECT_LT(tree.WithWaiting(first, holds, FreePosture()), 0);
-  RestTree others = Tree(false);
-  EXPECT_LT(others.WithWaiting(AddFirst(others), free_, FreePosture()), 0);
+  EXPECT_LT(tree.WithIdlePosture(first, holds, FreePosture()), 0);
+  StanceTree others = Tree(false);
+  EXPECT_LT(others.WithIdlePosture(AddFirst(others), free_, FreePosture()), 0);
 }
 
 /// Some millimetres above the contact that it goes to, wherever it waited before.
 TEST_F(RestTreeTest, AFingerThatIsPlacedMayWaitAboveItsContactBefore) {
-  RestTree tree = Tree(true);
+  StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
   int come_to = 0;
   for (int point = 0; point < std::ssize(points_); ++point) {
-    if (carrier_.reach().Find(free_, point, grid_.start()) == nullptr) continue;
-    Holding to = first_.holding;
+    if (checker_.reach().Find(free_, point, grid_.start()) == nullptr) continue;
+    ContactAssignment to = first_.holding;
     to[free_] = point;
-    if (!carrier_.IsPassable({to}, grid_.start())) continue;
+    if (!checker_.IsPassable({to}, grid_.start())) continue;
     const int placed = tree.Add(tree.After(first, to, grid_.start()));
-    const int after = tree.AfterWaitingAbove(placed);
+    const int after = tree.AfterIdlingAbove(placed);
     if (after < 0) continue;
     ++come_to;
-    const Rest& begin = tree[tree[after].parent];
+    const StanceNode& begin = tree[tree[after].parent];
     EXPECT_EQ(begin.hold.holding, first_.holding);
     const Vector3d ball =
         TargetAt(hand_.fingers[free_], points_[point], grid_.PoseAt(grid_.start())).centre;
     const double above = (TipOf(begin.at.postures[free_]) - ball).norm();
     EXPECT_GT(above, 0.005);
     EXPECT_LT(above, 0.021);
-    const auto gait = tree.WayTo(after, grid_.start());
+    const auto gait = tree.PathTo(after, grid_.start());
     ASSERT_TRUE(gait);
     EXPECT_EQ(gait->start.postures, begin.at.postures);
-    ASSERT_EQ(gait->stretches.size(), 1u);
-    EXPECT_EQ(gait->stretches[0].contact, point);
+    ASSERT_EQ(gait->segments.size(), 1u);
+    EXPECT_EQ(gait->segments[0].contact, point);
   }
   EXPECT_GT(come_to, 0);
 }
@@ -167,38 +167,38 @@ class FiveFingersTest : public RestTreeTest {
 
 /// A rest that was come to when the other free finger waited elsewhere before it.
 TEST_F(FiveFingersTest, WhoWaitsBeforeARestAndInItStaysWhereItIsWhenItIsComeToAnew) {
-  RestTree tree = Tree(true);
+  StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
-  Holding released = first_.holding;
+  ContactAssignment released = first_.holding;
   released[holds_] = kNone;
-  Rest after = tree.After(first, released, grid_.start());
+  StanceNode after = tree.After(first, released, grid_.start());
   after.hold.waiting[holds_] = FreePostureOf(holds_, after.hold);
   const int second = tree.Add(after);
-  ASSERT_TRUE(tree.WorkOutWay(tree[second]));
+  ASSERT_TRUE(tree.PlanPathFromParent(tree[second]));
   tree[second].hold.waiting[other_free_] = FreePostureOf(other_free_, tree[second].hold);
   ASSERT_NE(tree[second].hold.waiting[other_free_], first_.waiting[other_free_]);
 
-  const int anew = tree.WithWaiting(second, free_, FreePostureOf(free_, tree[second].hold));
+  const int anew = tree.WithIdlePosture(second, free_, FreePostureOf(free_, tree[second].hold));
   ASSERT_GE(anew, 0);
-  const Rest& before = tree[tree[anew].parent];
+  const StanceNode& before = tree[tree[anew].parent];
   EXPECT_EQ(before.hold.waiting[other_free_], first_.waiting[other_free_]);
   EXPECT_EQ(tree[anew].hold.waiting[other_free_], first_.waiting[other_free_]);
 }
 
 /// The same where the finger that is placed waits above its contact since the beginning.
 TEST_F(FiveFingersTest, AndWhenAFingerWaitsAboveItsContact) {
-  RestTree tree = Tree(true);
+  StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
   int come_to = 0;
   for (int point = 0; point < std::ssize(points_) && come_to == 0; ++point) {
-    if (carrier_.reach().Find(free_, point, grid_.start()) == nullptr) continue;
-    Holding to = first_.holding;
+    if (checker_.reach().Find(free_, point, grid_.start()) == nullptr) continue;
+    ContactAssignment to = first_.holding;
     to[free_] = point;
-    if (!carrier_.IsPassable({to}, grid_.start())) continue;
-    Rest placed = tree.After(first, to, grid_.start());
+    if (!checker_.IsPassable({to}, grid_.start())) continue;
+    StanceNode placed = tree.After(first, to, grid_.start());
     placed.hold.waiting[other_free_] = FreePostureOf(other_free_, placed.hold);
     ASSERT_NE(placed.hold.waiting[other_free_], first_.waiting[other_free_]);
-    const int after = tree.AfterWaitingAbove(tree.Add(placed));
+    const int after = tree.AfterIdlingAbove(tree.Add(placed));
     if (after < 0) continue;
     ++come_to;
     EXPECT_EQ(tree[after].hold.waiting[other_free_], first_.waiting[other_free_]);
@@ -241,7 +241,7 @@ TEST_F(WayUpTest, LeadsOffTheSurface) {
           !scene_.KeepsOffObject(there, around.pose, TipContact::kTouching)) {
         continue;
       }
-      const auto up = FindWayUp(scene_, inverse_[finger], finger, target, *touching, around);
+      const auto up = FindLiftPath(scene_, inverse_[finger], finger, target, *touching, around);
       if (!up) continue;
       const auto tip = [&](const Posture& posture) {
         return kinematics::TipAt(hand_.fingers[finger], posture).centre;

@@ -40,26 +40,27 @@ double ForceMarginWhereItRolls(const Gait& gait, const GaitRequest& request,
     if (gait.initial[f] != kNone) take(f, gait.initial[f]);
   }
   double least = std::numeric_limits<double>::infinity();
-  for (const Stretch& stretch : gait.stretches) {
-    if (stretch.kind == Stretch::Kind::kPlace) take(stretch.finger, stretch.contact);
-    if (stretch.kind == Stretch::Kind::kRelease) rolled[stretch.finger].reset();
-    if (stretch.kind != Stretch::Kind::kMove) continue;
+  for (const PlanSegment& stretch : gait.segments) {
+    if (stretch.kind == PlanSegment::Kind::kPlace) take(stretch.finger, stretch.contact);
+    if (stretch.kind == PlanSegment::Kind::kRelease) rolled[stretch.finger].reset();
+    if (stretch.kind != PlanSegment::Kind::kMove) continue;
     for (std::size_t i = 1; i < stretch.path.size(); ++i) {
       grasp::Grasp grasp;
       for (FingerIndex f{0}; f < std::ssize(rolled); ++f) {
         if (!rolled[f]) continue;
         const kinematics::Finger& chain = request.hand->fingers[f];
         const auto ball = [&](const Keyframe& at) {
-          return BallIn(chain, at.postures[f], at.pose);
+          return FingertipOrientation(chain, at.postures[f], at.pose);
         };
         rolled[f] = Rolled(*rolled[f], ball(stretch.path[i]) * ball(stretch.path[i - 1]).inverse(),
                            chain.tip.radius, surface);
         grasp.push_back({rolled[f]->p / request.scale, rolled[f]->n, {}});
       }
       const Vector3d weight = -(stretch.path[i].pose.linear().transpose() * request.hand->up);
-      least = std::min(least, grasp::ComputeGraspForces(grasp, frame, request.criteria.half_angle,
-                                                        {weight, Vector3d::Zero()}, kSqueeze)
-                                  .margin);
+      least = std::min(least,
+                       grasp::ComputeGraspForces(grasp, frame, request.criteria.half_angle,
+                                                 {weight, Vector3d::Zero()}, kGraspForceOverWeight)
+                           .margin);
     }
   }
   return least;
@@ -75,8 +76,8 @@ TEST(WithReserveTest, GraspsOfAGaitWithReserveHoldWhereTheirContactsRollTo) {
     ASSERT_TRUE(with.gait) << with.message;
     // Followed at poses of the grid: between them a little less.
     EXPECT_GT(ForceMarginWhereItRolls(*with.gait, request, with.contacts), 0.15);
-    for (const Stretch& stretch : with.gait->stretches) {
-      EXPECT_NE(stretch.kind, Stretch::Kind::kSlide);
+    for (const PlanSegment& stretch : with.gait->segments) {
+      EXPECT_NE(stretch.kind, PlanSegment::Kind::kSlide);
     }
     request.reserve = Reserve::kNone;
     const GaitResult without = FindGait(request);
@@ -98,7 +99,7 @@ TEST(WithReserveTest, WhereNothingIsToSpareARequiredReserveIsToldOf) {
 }
 
 /// Fails where there is no trial.
-bool IsCarriedOut(const GaitResult& result) {
+bool ExecutesInSimulation(const GaitResult& result) {
   EXPECT_TRUE(result.trial) << result.message;
   return result.trial && result.trial->is_whole;
 }
@@ -164,7 +165,7 @@ TEST(WithReserveTest, WhatIsFoundIsWhatTheHandCarriesOutAsItWasTried) {
   hand.TriesFor(request);
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  EXPECT_TRUE(IsCarriedOut(found));
+  EXPECT_TRUE(ExecutesInSimulation(found));
   const plan::Plan carried = PlanOf(*found.gait, request, found.contacts);
   EXPECT_FALSE(std::ranges::any_of(carried.steps, places));
   EXPECT_EQ(plan::FormatPlan(carried), plan::FormatPlan(hand.plans.back()));
@@ -179,7 +180,7 @@ TEST(WithReserveTest, WhereMovesFailHalfWayFingersAreSwitchedSooner) {
   hand.TriesFor(request);
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  EXPECT_TRUE(IsCarriedOut(found));
+  EXPECT_TRUE(ExecutesInSimulation(found));
   const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
   double most = 0;
   for (const plan::Step& step : plan.steps) most = std::max(most, TurnIn(step));
@@ -213,14 +214,14 @@ TEST(WithReserveTest, OfTheGaitsThatAreCarriedOutTheOneWithMostToSpareIsFoundWhe
     most = 0;
     const GaitResult found = FindGait(request);
     EXPECT_TRUE(found.gait) << found.message;
-    EXPECT_TRUE(IsCarriedOut(found));
+    EXPECT_TRUE(ExecutesInSimulation(found));
     const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
     EXPECT_EQ(found.trial->spare, spare(plan));
     return plan;
   };
   const plan::Plan first = find();
   EXPECT_EQ(plan::FormatPlan(first), plans.back());
-  request.seeks_most_spare = true;
+  request.seeks_most_margin = true;
   const plan::Plan best = find();
   EXPECT_GT(plans.size(), 1U);
   EXPECT_NE(plan::FormatPlan(best), plans.back());
@@ -247,7 +248,7 @@ TEST(WithReserveTest, WhereTheHandHoldsNothingThereIsAGaitUnlessThatIsRequired) 
   request.most_expanded = 60;
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait);
-  EXPECT_FALSE(IsCarriedOut(found));
+  EXPECT_FALSE(ExecutesInSimulation(found));
   EXPECT_GT(hand.plans.size(), 3U);
   const auto slides = [](const plan::Plan& plan) {
     return std::ranges::count(plan.steps, std::string("align"), plan::StepKind) > 0;
@@ -256,7 +257,7 @@ TEST(WithReserveTest, WhereTheHandHoldsNothingThereIsAGaitUnlessThatIsRequired) 
   request.reserve = Reserve::kRequired;
   const GaitResult none = FindGait(request);
   EXPECT_FALSE(none.gait);
-  EXPECT_FALSE(IsCarriedOut(none));
+  EXPECT_FALSE(ExecutesInSimulation(none));
   EXPECT_THAT(none.message, testing::HasSubstr("motors carry none out"));
   EXPECT_THAT(none.message, testing::HasSubstr("the first hold fails (slipped): finger 7 slipped"));
   request.reserve = Reserve::kNone;
@@ -317,7 +318,7 @@ TEST(WithReserveTest, WhereTheTimeIsUpInATrialItIsNotSaidThatTheHandDoesNotCarry
   const GaitResult cut_short = FindGait(request);
   ASSERT_TRUE(cut_short.gait) << cut_short.message;
   EXPECT_TRUE(cut_short.trial->is_cut_short);
-  EXPECT_FALSE(IsCarriedOut(cut_short));
+  EXPECT_FALSE(ExecutesInSimulation(cut_short));
   EXPECT_EQ(trials, 1);
 
   now = {};
@@ -328,7 +329,7 @@ TEST(WithReserveTest, WhereTheTimeIsUpInATrialItIsNotSaidThatTheHandDoesNotCarry
   const GaitResult failed = FindGait(request);
   ASSERT_TRUE(failed.gait) << failed.message;
   EXPECT_FALSE(failed.trial->is_cut_short);
-  EXPECT_FALSE(IsCarriedOut(failed));
+  EXPECT_FALSE(ExecutesInSimulation(failed));
 }
 
 /// A hand that carries out one of so many plans, whichever.
@@ -363,13 +364,13 @@ TEST(WithReserveTest, WithAnyJobsTheGaitIsTheSameWithoutADeadline) {
     const GaitResult alone = find(1, trials_alone);
     const GaitResult together = find(3, trials_together);
     ASSERT_EQ(alone.gait.has_value(), together.gait.has_value());
-    EXPECT_EQ(IsCarriedOut(alone), IsCarriedOut(together));
+    EXPECT_EQ(ExecutesInSimulation(alone), ExecutesInSimulation(together));
     EXPECT_EQ(alone.message, together.message);
     if (!alone.gait) continue;
     EXPECT_EQ(plan::FormatPlan(PlanOf(*alone.gait, request, alone.contacts)),
               plan::FormatPlan(PlanOf(*together.gait, request, together.contacts)));
     EXPECT_GE(trials_together, trials_alone);
-    if (IsCarriedOut(alone) && trials_alone > kOfFirstRow) {
+    if (ExecutesInSimulation(alone) && trials_alone > kOfFirstRow) {
       ++found_later;
     };
   }
@@ -420,7 +421,7 @@ TEST(WithReserveTest, WithADeadlineTheFirstSearchThatEndsInAGaitEndsThemAll) {
   };
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  EXPECT_TRUE(IsCarriedOut(found));
+  EXPECT_TRUE(ExecutesInSimulation(found));
   EXPECT_TRUE(is_given_up);
 }
 
