@@ -26,7 +26,7 @@ double Difference(const Polyhedron& solid, const grasp::Contact& contact, double
 }
 
 TEST(PatchJudge, AgreesWithWhatPlannersGoByOnANoisyBody) {
-  object::PolygonSoup soup = testing::SphereSoup(20);
+  object::PolygonSoup soup = soups::SphereSoup(20);
   RandomStream random(1, RandomUse::kTrialContacts);
   for (Vector3d& v : soup.vertices) v *= 1 + 0.02 * random.Normal();
   const Polyhedron body = Polyhedron::FromSoup(soup, "soup");
@@ -41,8 +41,8 @@ TEST(PatchJudge, AgreesWithWhatPlannersGoByOnANoisyBody) {
 }
 
 TEST(PatchJudge, AgreesBesideAnEdgeAndOnAThinWall) {
-  const Polyhedron cube = Polyhedron::FromSoup(testing::UnitCubeSoup(), "soup");
-  const Polyhedron plate = Polyhedron::FromSoup(testing::BoxSoup({0, 0, 0}, {1, 1, 0.01}), "soup");
+  const Polyhedron cube = Polyhedron::FromSoup(soups::UnitCubeSoup(), "soup");
+  const Polyhedron plate = Polyhedron::FromSoup(soups::BoxSoup({0, 0, 0}, {1, 1, 0.01}), "soup");
   for (const Polyhedron* body : {&cube, &plate}) {
     for (FaceIndex f{0}; f < body->face_count(); ++f) {
       const Vector3d at = 0.8 * body->BordersOf(f).front().a + 0.2 * body->CentroidOf(f);

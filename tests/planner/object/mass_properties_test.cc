@@ -13,7 +13,7 @@ namespace mass_properties_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using namespace regrasp::testing;  // NOLINT: the meshes of this folder
+using namespace regrasp::soups;  // NOLINT: the meshes of this folder
 
 constexpr double kTight = 1e-12;
 

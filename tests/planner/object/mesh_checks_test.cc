@@ -21,7 +21,7 @@ namespace mesh_checks_test {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
-using namespace regrasp::testing;  // NOLINT: the meshes of this folder
+using namespace regrasp::soups;  // NOLINT: the meshes of this folder
 
 struct Spoilt {
   std::string what;

@@ -14,7 +14,7 @@ namespace regrasp::object {
 namespace mesh_survey_test {
 
 using Eigen::Vector3d;
-using namespace regrasp::testing;  // NOLINT: the meshes of this folder
+using namespace regrasp::soups;  // NOLINT: the meshes of this folder
 
 PolygonSoup Box(double from, double to) {
   return BoxSoup(Vector3d::Constant(from), Vector3d::Constant(to));

@@ -15,7 +15,7 @@ namespace regrasp::object {
 namespace patch_normal_test {
 
 using Eigen::Vector3d;
-using namespace regrasp::testing;  // NOLINT: the meshes of objects
+using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
 constexpr double kPi = std::numbers::pi;
 

@@ -16,7 +16,7 @@ namespace polyhedron_test {
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::UnorderedElementsAre;
-using namespace regrasp::testing;  // NOLINT: the meshes of this folder
+using namespace regrasp::soups;  // NOLINT: the meshes of this folder
 
 constexpr double kTight = 1e-12;
 

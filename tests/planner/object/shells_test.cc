@@ -19,7 +19,7 @@ namespace shells_test {
 using Eigen::Vector3d;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using namespace regrasp::testing;  // NOLINT: the meshes of this folder
+using namespace regrasp::soups;  // NOLINT: the meshes of this folder
 
 PolygonSoup Box(double from, double to) {
   return BoxSoup(Vector3d::Constant(from), Vector3d::Constant(to));

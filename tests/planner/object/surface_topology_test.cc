@@ -30,9 +30,9 @@ TriangleMesh MeshOf(const PolygonSoup& soup) {
 TriangleMesh Tetrahedra(const std::vector<Eigen::Vector3d>& offsets) {
   PolygonSoup all;
   for (const Eigen::Vector3d& offset : offsets) {
-    PolygonSoup one = testing::CornerTetrahedronSoup();
+    PolygonSoup one = soups::CornerTetrahedronSoup();
     for (Eigen::Vector3d& p : one.vertices) p += offset;
-    all = testing::Join(all, one);
+    all = soups::Join(all, one);
   }
   return MeshOf(all);
 }
@@ -48,7 +48,7 @@ std::optional<std::pair<MeshDefect, std::string>> DefectOf(const TriangleMesh& m
 }
 
 TEST(SurfaceTopology, ATriangleAcrossAnEdgeHasItTheOtherWayRound) {
-  const TriangleMesh mesh = MeshOf(testing::SphereSoup(8));
+  const TriangleMesh mesh = MeshOf(soups::SphereSoup(8));
   const SurfaceTopology topology = ComputeTopology(mesh, "sphere");
   ASSERT_EQ(topology.neighbor.size(), mesh.triangles.size());
   for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {

@@ -14,7 +14,7 @@ namespace regrasp::object {
 namespace surface_walk_test {
 
 using Eigen::Vector3d;
-using namespace regrasp::testing;  // NOLINT: the meshes of objects
+using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
 Polyhedron Solid(const PolygonSoup& soup) { return Polyhedron::FromSoup(soup, "soup"); }
 

@@ -32,7 +32,7 @@ PolygonSoup TakenApart(const PolygonSoup& soup) {
 
 TEST(WeldVertices, PutsTogetherWhatWasTakenApart) {
   for (const PolygonSoup& soup :
-       {testing::UnitCubeSoup(), testing::HoleBlockSoup(), testing::SphereSoup(6)}) {
+       {soups::UnitCubeSoup(), soups::HoleBlockSoup(), soups::SphereSoup(6)}) {
     const PolygonSoup apart = TakenApart(soup);
     const WeldedSoup welded = WeldVertices(apart, "soup");
     EXPECT_EQ(welded.vertices.size(), soup.vertices.size());

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 /// A cube whose side at x = 0.5 was invented.
 object::Polyhedron CubeWithInventedSide() {
-  object::PolygonSoup cube = testing::UnitCubeSoup();
+  object::PolygonSoup cube = soups::UnitCubeSoup();
   cube.invented.assign(cube.facets.size(), false);
   cube.invented[3] = true;
   return object::Polyhedron::FromSoup(cube, "cube");

@@ -21,7 +21,7 @@ constexpr double kHalfAngle_deg = 20;
 
 /// A sphere of radius 1 with facets that are up to 30° off.
 object::Polyhedron RoughSphere(bool felt) {
-  object::PolygonSoup sphere = testing::SphereSoup(30);
+  object::PolygonSoup sphere = soups::SphereSoup(30);
   for (std::size_t v = 0; v < sphere.vertices.size(); ++v) {
     sphere.vertices[v] *= 1 + 0.03 * std::sin(12.9898 * double(v) * double(v));
   }

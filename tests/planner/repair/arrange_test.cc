@@ -13,7 +13,7 @@ namespace arrange_test {
 
 using object::PolygonSoup;
 using object::Polyhedron;
-using namespace regrasp::testing;  // NOLINT: the meshes of objects
+using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
 constexpr double kTight = 1e-9;
 

@@ -11,7 +11,7 @@ namespace regrasp::repair {
 namespace canonical_order_test {
 
 using object::PolygonSoup;
-using namespace regrasp::testing;  // NOLINT: the meshes of objects
+using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
 /// The same surface, numbered by chance.
 PolygonSoup Shuffled(const PolygonSoup& soup, std::mt19937& random) {

@@ -11,7 +11,7 @@ namespace regrasp::repair {
 namespace comparison_test {
 
 using object::PolygonSoup;
-using namespace regrasp::testing;  // NOLINT: the meshes of objects
+using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
 /// Each quadrilateral as two triangles.
 PolygonSoup Cut(const PolygonSoup& soup) {

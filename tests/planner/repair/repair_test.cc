@@ -26,7 +26,7 @@ using object::Polyhedron;
 using object::RepairOptions;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using namespace regrasp::testing;  // NOLINT: the meshes of objects
+using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
 constexpr double kTight = 1e-9;
 

@@ -11,7 +11,7 @@ namespace regrasp::repair {
 namespace run_stage_test {
 
 StageResult CubeWithFacts() {
-  StageResult result{testing::UnitCubeSoup()};
+  StageResult result{soups::UnitCubeSoup()};
   result.facts["holes"] = 3;
   return result;
 }
@@ -20,7 +20,7 @@ TEST(RunStage, ResultAndFactsComeBack) {
   const StageRun run = RunStage(CubeWithFacts, {});
   ASSERT_TRUE(run.result);
   EXPECT_EQ(run.result->facts["holes"], 3);
-  EXPECT_EQ(run.result->soup.facets, testing::UnitCubeSoup().facets);
+  EXPECT_EQ(run.result->soup.facets, soups::UnitCubeSoup().facets);
 }
 
 TEST(RunStage, AStageThatCannotGoOnSaysWhy) {

@@ -10,7 +10,7 @@ namespace regrasp::repair {
 namespace surface_distance_test {
 
 using Eigen::Vector3d;
-using namespace regrasp::testing;  // NOLINT: the meshes of objects
+using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
 /// Law: what was found for another point, near or far, shortens the search and does not change what
 /// is found.

@@ -18,7 +18,7 @@ namespace given_contacts_test {
 using Eigen::Vector3d;
 
 object::Polyhedron SphereOf(int rows) {
-  return object::Polyhedron::FromSoup(testing::SphereSoup(rows), "sphere");
+  return object::Polyhedron::FromSoup(soups::SphereSoup(rows), "sphere");
 }
 
 TEST(GivenContacts, AreAtTheirPointsInsideAFaceWithItsNormal) {
@@ -62,7 +62,7 @@ TEST(ContactAt, NoContactIsAtAPointOffTheSurfaceOrWhereItIsRough) {
   object::Reading reading;
   reading.patch = object::FeltPatch{0.05, Radians(5)};
   const object::Polyhedron felt =
-      object::Polyhedron::FromSoup(testing::UnitCubeSoup(), "cube", reading);
+      object::Polyhedron::FromSoup(soups::UnitCubeSoup(), "cube", reading);
   EXPECT_FALSE(ContactAt(felt, felt.vertices()[0]));
 }
 

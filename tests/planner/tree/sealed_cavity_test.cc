@@ -25,12 +25,11 @@ using ::testing::ThrowsMessage;
 /// [−1, 1]³ with the cavity [−0.9, 0.9]³, which has nearly half of the surface. First in the file
 /// comes the cavity or the outside.
 object::Polyhedron MakeHollowCube(bool cavity_first) {
-  object::PolygonSoup cavity = testing::BoxSoup(Vector3d::Constant(-0.9), Vector3d::Constant(0.9));
-  testing::Turn(cavity);
-  const object::PolygonSoup outside =
-      testing::BoxSoup(Vector3d::Constant(-1), Vector3d::Constant(1));
+  object::PolygonSoup cavity = soups::BoxSoup(Vector3d::Constant(-0.9), Vector3d::Constant(0.9));
+  soups::Turn(cavity);
+  const object::PolygonSoup outside = soups::BoxSoup(Vector3d::Constant(-1), Vector3d::Constant(1));
   return object::Polyhedron::FromSoup(
-      cavity_first ? testing::Join(cavity, outside) : testing::Join(outside, cavity), "hollow");
+      cavity_first ? soups::Join(cavity, outside) : soups::Join(outside, cavity), "hollow");
 }
 
 /// Counts contacts; none may be in the cavity.
@@ -80,12 +79,12 @@ TEST_P(SealedCavity, RoadmapsHaveNoContactPointsThere) {
 }
 
 TEST(SealedCavityOfAMesh, HasNoContactPoints) {
-  object::PolygonSoup cavity = testing::SphereSoup(12);
+  object::PolygonSoup cavity = soups::SphereSoup(12);
   object::PolygonSoup outside = cavity;
   for (Vector3d& p : outside.vertices) p *= 1.2;
-  testing::Turn(cavity);
+  soups::Turn(cavity);
   const object::Polyhedron hollow =
-      object::Polyhedron::FromSoup(testing::Join(cavity, outside), "hollow");
+      object::Polyhedron::FromSoup(soups::Join(cavity, outside), "hollow");
   int enclosed = 0;
   for (FaceIndex face{0}; face < hollow.face_count(); ++face) enclosed += hollow.IsEnclosed(face);
   EXPECT_EQ(2 * enclosed, hollow.face_count());
@@ -96,13 +95,13 @@ TEST(SealedCavityOfAMesh, HasNoContactPoints) {
 }
 
 TEST(SealedCavityOfATetrahedron, HasNoFocusCells) {
-  object::PolygonSoup outside = testing::CornerTetrahedronSoup();
+  object::PolygonSoup outside = soups::CornerTetrahedronSoup();
   object::PolygonSoup cavity = outside;
-  testing::Turn(cavity);
+  soups::Turn(cavity);
   for (Vector3d& p : outside.vertices) p = 9 * p - Vector3d::Ones();
   for (const bool cavity_first : {false, true}) {
     const object::Polyhedron hollow = object::Polyhedron::FromSoup(
-        cavity_first ? testing::Join(cavity, outside) : testing::Join(outside, cavity), "hollow");
+        cavity_first ? soups::Join(cavity, outside) : soups::Join(outside, cavity), "hollow");
     const auto candidates = polyhedron::FindQuadrupleCandidates(hollow, std::tan(Radians(10)),
                                                                 planning::Spanning::kAdaptive);
     ASSERT_EQ(candidates.size(), 1u);

@@ -126,7 +126,7 @@ constexpr double kFarOff = 5 * kFacet;
 
 TEST(ContactNoise, IsNotCutOffBySmallFacets) {
   const object::Polyhedron box =
-      object::Polyhedron::FromSoup(testing::GriddedBoxSoup(50, 1e-5), "soup");
+      object::Polyhedron::FromSoup(soups::GriddedBoxSoup(50, 1e-5), "soup");
   ASSERT_GT(box.face_count(), 2000);
   constexpr int kDraws = 1000;
   const plan::Plan plan = MakePlan({{FingerIndex(0), OnTop(box, 0.503, 0.511)}}, 25);
@@ -145,9 +145,8 @@ TEST(ContactNoise, IsNotCutOffBySmallFacets) {
 
 TEST(ContactNoise, OnFacetsOfOnePlaneIsThatOnTheOneFace) {
   const object::Polyhedron whole =
-      object::Polyhedron::FromSoup(testing::GriddedBoxSoup(1, 0), "soup");
-  const object::Polyhedron cut =
-      object::Polyhedron::FromSoup(testing::GriddedBoxSoup(50, 0), "soup");
+      object::Polyhedron::FromSoup(soups::GriddedBoxSoup(1, 0), "soup");
+  const object::Polyhedron cut = object::Polyhedron::FromSoup(soups::GriddedBoxSoup(50, 0), "soup");
   for (int i = 0; i < 100; ++i) {
     Eigen::Vector3d p[2];
     for (const object::Polyhedron* box : {&whole, &cut}) {
@@ -161,7 +160,7 @@ TEST(ContactNoise, OnFacetsOfOnePlaneIsThatOnTheOneFace) {
 
 TEST(ContactNoise, LeavesAnAlignAWayAlongTheSurface) {
   const object::Polyhedron box =
-      object::Polyhedron::FromSoup(testing::GriddedBoxSoup(50, 1e-5), "soup");
+      object::Polyhedron::FromSoup(soups::GriddedBoxSoup(50, 1e-5), "soup");
   const FingerIndex first(0), second(1);
   plan::FingerGrasp begin = {{first, OnTop(box, 0.303, 0.311)}, {second, OnTop(box, 0.703, 0.711)}};
   // Within a facet, and the other stays.
