@@ -31,7 +31,7 @@ GoodPoses FindGoodPoses(const gait::GaitRequest& request) {
     points.push_back({request.scale * contact.p, contact.n});
   }
   const gait::HandSetup setup{scene, inverse, points, request.scale};
-  const gait::Journey nowhere(request.scale * request.solid->mass_properties().centroid, {}, {});
+  const gait::ObjectTask nowhere(request.scale * request.solid->mass_properties().centroid, {}, {});
   RandomStream random(request.seed, RandomUse::kHomes);
   auto homes = gait::FindInitialPoses(setup, nowhere, {}, memory, random);
   if (homes.empty()) throw std::runtime_error("the object is nowhere within reach of the fingers");

@@ -18,26 +18,27 @@ namespace {
 using grasp::Contact;
 using Contacts = std::vector<Contact>;
 
-/// Shares that the way between two waypoints is cut into: the fewest, of how far a tip goes in one,
-/// metres, and the most.
-constexpr double kSlideStride = 0.004;
-constexpr int kMostShares = 64;
-/// A motion that needs shorter pieces of a proof keeps too close to the limit.
+/// Subdivision of the path between two waypoints: length of a piece, metres, and maximum number of
+/// pieces.
+constexpr double kSlideStep = 0.004;
+constexpr int kMaxPieces = 64;
+/// Shortest permitted piece of a proof of force closure. Motions that require shorter pieces are
+/// too close to the friction limit.
 constexpr double kShortestPiece = 1.0 / 64;
-/// How far a path is bent to another posture at one place, radians.
-constexpr double kMostBend = 0.5;
-/// Faces of a fine mesh that a slide goes over, and the turn of the normal, radians, at edges
-/// between them that are concave: a tip of 10 mm is in the surface by kTipDepth there. Whether
-/// this one is, by no more, is looked at where it slides.
-constexpr int kMostCrossings = 6;
-constexpr double kConcave = 0.2;
+/// Maximum change of a joint angle when a path is bent to its required end configuration, radians.
+constexpr double kMaxBend = 0.5;
+/// Limits of a surface route: maximum number of crossed triangles of a fine mesh, and maximum
+/// rotation of the normal at concave edges, radians. There a fingertip of radius 10 mm penetrates
+/// by kTipDepth; smaller ones are checked during the slide.
+constexpr int kMaxCrossings = 6;
+constexpr double kMaxConcaveTurn = 0.2;
 
 bool IsSame(const Contact& a, const Contact& b) { return a.p == b.p && a.face == b.face; }
 
-/// A contact of a route, and the share of its length there. Two with one share: a turn about an
-/// edge.
+/// Contact of a route with the normalized arc length there. Two knots with equal arc length are a
+/// rotation about an edge.
 struct Knot {
-  double share;
+  double fraction;
   Contact contact;
 };
 
@@ -49,30 +50,31 @@ std::vector<Knot> KnotsOf(const tree::SurfaceRoute& route) {
     length += (contact.p - knots.back().contact.p).norm();
     knots.push_back({length, contact});
   }
-  for (Knot& knot : knots) knot.share = length > 0 ? knot.share / length : 0;
+  for (Knot& knot : knots) knot.fraction = length > 0 ? knot.fraction / length : 0;
   return knots;
 }
 
-/// A contact on its way along a route.
-class Traveller {
+/// Position of a contact on a route.
+class RouteCursor {
  public:
-  explicit Traveller(const tree::SurfaceRoute& route) : knots_(KnotsOf(route)) {}
+  explicit RouteCursor(const tree::SurfaceRoute& route) : knots_(KnotsOf(route)) {}
 
   [[nodiscard]] const Contact& at() const { return at_; }
-  /// The share at which it comes to its next knot; infinite where it is at the last one.
+  /// Arc length of the next knot; infinite at the last one.
   [[nodiscard]] double next() const {
-    return last_ + 1 < knots_.size() ? knots_[last_ + 1].share
+    return last_ + 1 < knots_.size() ? knots_[last_ + 1].fraction
                                      : std::numeric_limits<double>::infinity();
   }
-  /// @param share  no more than next().
-  void GoTo(double share) {
-    if (next() == share) {
+  /// @param fraction  normalized arc length, at most next().
+  void AdvanceTo(double fraction) {
+    if (next() == fraction) {
       at_ = knots_[++last_].contact;
     } else if (last_ + 1 < knots_.size()) {
       const Knot& from = knots_[last_];
       const Knot& to = knots_[last_ + 1];
       at_ = from.contact;
-      at_.p += (share - from.share) / (to.share - from.share) * (to.contact.p - from.contact.p);
+      at_.p += (fraction - from.fraction) / (to.fraction - from.fraction) *
+               (to.contact.p - from.contact.p);
     }
   }
 
@@ -82,32 +84,34 @@ class Traveller {
   Contact at_ = knots_.front().contact;
 };
 
-/// Fingers on their way.
-class Slider {
+/// Inverse kinematics of sliding fingers along contact motions.
+class SlideFollower {
  public:
-  Slider(const HandSetup& setup, const std::vector<Sliding>& fingers,
-         const ContactAssignment& holding)
+  SlideFollower(const HandSetup& setup, const std::vector<Sliding>& fingers,
+                const ContactAssignment& assignment)
       : setup_(setup), fingers_(fingers) {
-    for (const int point : holding) {
+    for (const int point : assignment) {
       touching_.push_back(point == kNone ? TipContact::kFree : TipContact::kTouching);
     }
   }
 
-  /// From where tips are at a motion's first contacts on. @param is_last  it ends in the end.
+  /// Follow a contact motion from the keyframe at its first contacts.
+  /// @param is_last  whether the motion ends the sliding step.
+  /// @returns the certified keyframes; nullopt if a finger cannot follow.
   [[nodiscard]] std::optional<std::vector<Keyframe>> Follow(const motion::GraspMotion& motion,
                                                             const Keyframe& from,
                                                             bool is_last) const {
-    for (int shares = std::max(1, static_cast<int>(std::ceil(LengthOf(motion) / kSlideStride)));
-         shares <= kMostShares; shares *= 2) {
-      auto path = InShares(motion, from, shares);
-      if (!path || (is_last && !LeadToTheEnd(motion, *path))) return std::nullopt;
-      if (StaysOn(motion, *path)) return IsFree(*path) ? path : std::nullopt;
+    for (int pieces = std::max(1, static_cast<int>(std::ceil(LengthOf(motion) / kSlideStep)));
+         pieces <= kMaxPieces; pieces *= 2) {
+      auto path = Subdivide(motion, from, pieces);
+      if (!path || (is_last && !BendToEnd(motion, *path))) return std::nullopt;
+      if (KeepsContact(motion, *path)) return IsFree(*path) ? path : std::nullopt;
     }
     return std::nullopt;
   }
 
  private:
-  /// Of the longest way of a tip, metres.
+  /// Return the longest distance that a fingertip moves, metres.
   [[nodiscard]] double LengthOf(const motion::GraspMotion& motion) const {
     double length = 0;
     for (std::size_t i = 0; i < fingers_.size(); ++i) {
@@ -121,14 +125,14 @@ class Slider {
                                                const Eigen::Isometry3d& pose) const {
     return TargetAt(setup_.scene.finger(finger), {setup_.scale * contact.p, contact.n}, pose);
   }
-  [[nodiscard]] std::optional<std::vector<Keyframe>> InShares(const motion::GraspMotion& motion,
-                                                              const Keyframe& from,
-                                                              int shares) const {
+  [[nodiscard]] std::optional<std::vector<Keyframe>> Subdivide(const motion::GraspMotion& motion,
+                                                               const Keyframe& from,
+                                                               int pieces) const {
     std::vector<Keyframe> path = {from};
-    for (int k = 1; k <= shares; ++k) {
+    for (int k = 1; k <= pieces; ++k) {
       path.push_back(path.back());
       for (std::size_t i = 0; i < fingers_.size(); ++i) {
-        const Contact contact = k == shares ? motion[i].to() : motion[i].At(double(k) / shares);
+        const Contact contact = k == pieces ? motion[i].to() : motion[i].At(double(k) / pieces);
         Posture& posture = path.back().postures[fingers_[i].finger];
         const auto next = setup_.inverse[fingers_[i].finger].SolveFrom(
             TargetOf(fingers_[i].finger, contact, from.pose), posture);
@@ -138,20 +142,20 @@ class Slider {
     }
     return path;
   }
-  /// Bends a path to the postures that fingers are to have in the end, the more the nearer it is:
-  /// tips stay where they are. @returns whether it can be bent so far.
-  [[nodiscard]] bool LeadToTheEnd(const motion::GraspMotion& motion,
-                                  std::vector<Keyframe>& path) const {
-    const std::size_t shares = path.size() - 1;
+  /// Bend a path gradually to the required end configurations; fingertips stay on their contacts.
+  /// @returns whether the required bend is small enough.
+  [[nodiscard]] bool BendToEnd(const motion::GraspMotion& motion,
+                               std::vector<Keyframe>& path) const {
+    const std::size_t pieces = path.size() - 1;
     for (std::size_t i = 0; i < fingers_.size(); ++i) {
       const FingerIndex finger = fingers_[i].finger;
       const Posture bend = *fingers_[i].end - path.back().postures[finger];
-      if (bend.cwiseAbs().maxCoeff() > kMostBend) return false;
-      for (std::size_t k = 1; k < shares; ++k) {
-        const double share = static_cast<double>(k) / static_cast<double>(shares);
+      if (bend.cwiseAbs().maxCoeff() > kMaxBend) return false;
+      for (std::size_t k = 1; k < pieces; ++k) {
+        const double fraction = static_cast<double>(k) / static_cast<double>(pieces);
         Posture& posture = path[k].postures[finger];
         const auto bent = setup_.inverse[finger].SolveNear(
-            TargetOf(finger, motion[i].At(share), path[k].pose), posture + share * bend);
+            TargetOf(finger, motion[i].At(fraction), path[k].pose), posture + fraction * bend);
         if (!bent) return false;
         posture = *bent;
       }
@@ -159,15 +163,15 @@ class Slider {
     }
     return true;
   }
-  /// Half-way between postures too.
-  [[nodiscard]] bool StaysOn(const motion::GraspMotion& motion,
-                             const std::vector<Keyframe>& path) const {
-    const auto shares = static_cast<double>(path.size() - 1);
+  /// Check contacts halfway between keyframes, too.
+  [[nodiscard]] bool KeepsContact(const motion::GraspMotion& motion,
+                                  const std::vector<Keyframe>& path) const {
+    const auto pieces = static_cast<double>(path.size() - 1);
     for (std::size_t k = 0; k + 1 < path.size(); ++k) {
       const Keyframe middle = Between(path[k], path[k + 1], 0.5);
       for (std::size_t i = 0; i < fingers_.size(); ++i) {
         const FingerIndex finger = fingers_[i].finger;
-        const Contact contact = motion[i].At((static_cast<double>(k) + 0.5) / shares);
+        const Contact contact = motion[i].At((static_cast<double>(k) + 0.5) / pieces);
         const auto tip = kinematics::TipAt(setup_.scene.finger(finger), middle.postures[finger]);
         if ((tip.centre - TargetOf(finger, contact, middle.pose).centre).norm() > kTipOff) {
           return false;
@@ -188,85 +192,82 @@ class Slider {
   Touching touching_;
 };
 
+/// Append a keyframe in which only one finger has moved.
+void Append(const Keyframe& before, FingerIndex finger, const Posture& posture,
+            PlanSegment& segment) {
+  segment.path.push_back(before);
+  segment.path.back().postures[finger] = posture;
+}
+
 }  // namespace
 
 const tree::SurfaceRoute* SlideRoutes::Between(int from, int to) {
-  const auto [found, is_new] = known_.try_emplace({from, to});
+  const auto [found, is_new] = cache_.try_emplace({from, to});
   if (is_new) {
     found->second = tree::FindSurfaceRoute(memory_.object(), memory_.contact(from),
-                                           memory_.contact(to), {kMostCrossings, kConcave});
+                                           memory_.contact(to), {kMaxCrossings, kMaxConcaveTurn});
   }
   return found->second ? &*found->second : nullptr;
 }
 
-std::vector<Contacts> GoTogether(const std::vector<const tree::SurfaceRoute*>& routes) {
-  std::vector<Traveller> travellers;
-  for (const tree::SurfaceRoute* route : routes) travellers.emplace_back(*route);
-  std::vector<Contacts> along;
+std::vector<Contacts> SynchronizeRoutes(const std::vector<const tree::SurfaceRoute*>& routes) {
+  std::vector<RouteCursor> cursors;
+  for (const tree::SurfaceRoute* route : routes) cursors.emplace_back(*route);
+  std::vector<Contacts> waypoints;
   const auto append = [&] {
-    along.emplace_back();
-    for (const Traveller& traveller : travellers) along.back().push_back(traveller.at());
+    waypoints.emplace_back();
+    for (const RouteCursor& cursor : cursors) waypoints.back().push_back(cursor.at());
   };
   append();
-  double share = 0;
+  double fraction = 0;
   while (true) {
-    for (Traveller& traveller : travellers) {
-      while (traveller.next() == share) {
-        traveller.GoTo(share);
+    for (RouteCursor& cursor : cursors) {
+      while (cursor.next() == fraction) {
+        cursor.AdvanceTo(fraction);
         append();
       }
     }
     double next = std::numeric_limits<double>::infinity();
-    for (const Traveller& traveller : travellers) next = std::min(next, traveller.next());
-    if (!std::isfinite(next)) return along;
-    share = next;
-    for (Traveller& traveller : travellers) traveller.GoTo(share);
+    for (const RouteCursor& cursor : cursors) next = std::min(next, cursor.next());
+    if (!std::isfinite(next)) return waypoints;
+    fraction = next;
+    for (RouteCursor& cursor : cursors) cursor.AdvanceTo(fraction);
     append();
   }
 }
 
 std::optional<Slide> FindSlide(const HandSetup& setup, const criteria::GraspMemory& memory,
                                const std::vector<Sliding>& fingers,
-                               const ContactAssignment& holding, const Keyframe& from) {
+                               const ContactAssignment& assignment, const Keyframe& from) {
   std::vector<const tree::SurfaceRoute*> routes;
   for (const Sliding& sliding : fingers) routes.push_back(sliding.route);
-  Contacts still;
-  for (FingerIndex finger{0}; finger < std::ssize(holding); ++finger) {
+  Contacts stationary;
+  for (FingerIndex finger{0}; finger < std::ssize(assignment); ++finger) {
     const bool slides = std::ranges::find(fingers, finger, &Sliding::finger) != fingers.end();
-    if (!slides && holding[finger] != kNone) still.push_back(memory.contact(holding[finger]));
+    if (!slides && assignment[finger] != kNone)
+      stationary.push_back(memory.contact(assignment[finger]));
   }
-  Slide slide{GoTogether(routes), {}};
+  Slide slide{SynchronizeRoutes(routes), {}};
   std::vector<motion::GraspMotion> motions;
-  for (std::size_t i = 0; i + 1 < slide.along.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < slide.waypoints.size(); ++i) {
     motion::GraspMotion& motion = motions.emplace_back();
     for (std::size_t k = 0; k < fingers.size(); ++k) {
-      motion.emplace_back(slide.along[i][k], slide.along[i + 1][k]);
+      motion.emplace_back(slide.waypoints[i][k], slide.waypoints[i + 1][k]);
     }
-    for (const Contact& contact : still) motion.emplace_back(contact, contact);
+    for (const Contact& contact : stationary) motion.emplace_back(contact, contact);
     if (!motion::FindMotionProof(motion, memory.dimension(), memory.half_angle(), kShortestPiece)) {
       return std::nullopt;
     }
   }
-  const Slider slider(setup, fingers, holding);
+  const SlideFollower follower(setup, fingers, assignment);
   for (const motion::GraspMotion& motion : motions) {
     const Keyframe& at = slide.paths.empty() ? from : slide.paths.back().back();
-    auto path = slider.Follow(motion, at, &motion == &motions.back());
+    auto path = follower.Follow(motion, at, &motion == &motions.back());
     if (!path) return std::nullopt;
     slide.paths.push_back(*std::move(path));
   }
   return slide;
 }
-
-namespace {
-
-/// One finger goes along a path, all else stays.
-void Append(const Keyframe& before, FingerIndex finger, const Posture& posture,
-            PlanSegment& stretch) {
-  stretch.path.push_back(before);
-  stretch.path.back().postures[finger] = posture;
-}
-
-}  // namespace
 
 Change ChangeBetween(const ContactAssignment& from, const ContactAssignment& to) {
   Change change;
@@ -285,24 +286,24 @@ Change ChangeBetween(const ContactAssignment& from, const ContactAssignment& to)
 
 std::optional<std::vector<PlanSegment>> ChangePaths::Find(const Stance& from, Stance& to, int node,
                                                           const Rolled& rolled) {
-  const Change change = ChangeBetween(from.holding, to.holding);
+  const Change change = ChangeBetween(from.assignment, to.assignment);
   Keyframe frame = checker_.FrameAt(from, node);
   std::vector<PlanSegment> segments;
-  const auto take = [&](std::optional<PlanSegment> stretch) {
-    if (!stretch) return false;
-    frame = stretch->path.back();
-    segments.push_back(*std::move(stretch));
+  const auto take = [&](std::optional<PlanSegment> segment) {
+    if (!segment) return false;
+    frame = segment->path.back();
+    segments.push_back(*std::move(segment));
     return true;
   };
   const auto& [placed, released, slid] = change;
-  if (!slid.empty() && !take(Slide(slid, from.holding, to.holding, node, frame))) {
+  if (!slid.empty() && !take(Slide(slid, from.assignment, to.assignment, node, frame))) {
     return std::nullopt;
   }
-  if (placed.valid() && !take(Place(placed, to.holding[placed], node, frame, rolled.before))) {
+  if (placed.valid() && !take(Place(placed, to.assignment[placed], node, frame, rolled.before))) {
     return std::nullopt;
   }
   if (released.valid() &&
-      !take(Release(released, from.holding[released], to, node, frame, rolled.after))) {
+      !take(Release(released, from.assignment[released], to, node, frame, rolled.after))) {
     return std::nullopt;
   }
   return segments;
@@ -311,62 +312,62 @@ std::optional<std::vector<PlanSegment>> ChangePaths::Find(const Stance& from, St
 std::optional<PlanSegment> ChangePaths::Place(FingerIndex finger, int point, int node,
                                               const Keyframe& before, const RolledTips& rolled) {
   const Posture touching = *checker_.reach().Find(finger, point, node);
-  Surroundings around = AllBut(setup_.scene, finger, before);
+  Surroundings around = AllExcept(setup_.scene, finger, before);
   AddRolled(setup_.scene, rolled, around);
   const auto path =
       FindPathToContact(setup_.scene, setup_.inverse[finger], finger, before.postures[finger],
                         TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
                         touching, around, random_);
   if (!path) return std::nullopt;
-  PlanSegment stretch{PlanSegment::Kind::kPlace, finger, point, {}};
-  for (const Posture& posture : *path) Append(before, finger, posture, stretch);
-  return stretch;
+  PlanSegment segment{PlanSegment::Kind::kPlace, finger, point, {}};
+  for (const Posture& posture : *path) Append(before, finger, posture, segment);
+  return segment;
 }
 
-/// To where the finger is to wait, or else no farther than above its contact.
+/// The finger moves to its idle posture or, if there is no path, stops above its contact.
 std::optional<PlanSegment> ChangePaths::Release(FingerIndex finger, int point, Stance& to, int node,
                                                 const Keyframe& before, const RolledTips& rolled) {
-  Surroundings around = AllBut(setup_.scene, finger, before);
+  Surroundings around = AllExcept(setup_.scene, finger, before);
   AddRolled(setup_.scene, rolled, around);
-  const auto up =
+  const auto lift_path =
       FindLiftPath(setup_.scene, setup_.inverse[finger], finger,
                    TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
                    before.postures[finger], around);
-  if (!up) return std::nullopt;
-  const auto onward =
-      FindFreePath(setup_.scene, finger, up->back(), to.waiting[finger], around, random_);
-  FingerPath path = *up;
-  if (onward) {
-    path.insert(path.end(), onward->begin() + 1, onward->end());
+  if (!lift_path) return std::nullopt;
+  const auto free_path =
+      FindFreePath(setup_.scene, finger, lift_path->back(), to.idle[finger], around, random_);
+  FingerPath path = *lift_path;
+  if (free_path) {
+    path.insert(path.end(), free_path->begin() + 1, free_path->end());
   } else {
-    to.waiting[finger] = up->back();
+    to.idle[finger] = lift_path->back();
     if (!checker_.IsPassable(to, node)) return std::nullopt;
   }
-  PlanSegment stretch{PlanSegment::Kind::kRelease, finger, point, {}};
-  for (const Posture& posture : path) Append(before, finger, posture, stretch);
-  return stretch;
+  PlanSegment segment{PlanSegment::Kind::kRelease, finger, point, {}};
+  for (const Posture& posture : path) Append(before, finger, posture, segment);
+  return segment;
 }
 
 std::optional<PlanSegment> ChangePaths::Slide(const std::vector<FingerIndex>& slid,
                                               const ContactAssignment& from,
                                               const ContactAssignment& to, int node,
                                               const Keyframe& before) {
-  PlanSegment stretch{PlanSegment::Kind::kSlide, {}, kNone, {before}};
+  PlanSegment segment{PlanSegment::Kind::kSlide, {}, kNone, {before}};
   std::vector<Sliding> fingers;
   for (const FingerIndex finger : slid) {
-    stretch.slid.push_back({finger, from[finger], to[finger]});
+    segment.slid.push_back({finger, from[finger], to[finger]});
     fingers.push_back({finger, routes_.Between(from[finger], to[finger]),
                        checker_.reach().Find(finger, to[finger], node)});
   }
   auto slide = FindSlide(setup_, memory_, fingers, from, before);
   if (!slide) return std::nullopt;
-  stretch.along = std::move(slide->along);
-  stretch.along_at = {0};
+  segment.waypoints = std::move(slide->waypoints);
+  segment.waypoint_frames = {0};
   for (const std::vector<Keyframe>& path : slide->paths) {
-    stretch.path.insert(stretch.path.end(), path.begin() + 1, path.end());
-    stretch.along_at.push_back(static_cast<int>(stretch.path.size()) - 1);
+    segment.path.insert(segment.path.end(), path.begin() + 1, path.end());
+    segment.waypoint_frames.push_back(static_cast<int>(segment.path.size()) - 1);
   }
-  return stretch;
+  return segment;
 }
 
 }  // namespace regrasp::gait

@@ -15,83 +15,91 @@
 
 namespace regrasp::gait {
 
-/// Ways that a contact can take along the surface to another one, worked out when first asked for.
+/// Cache of the shortest surface routes between contacts, computed on demand.
 class SlideRoutes {
  public:
-  /// @param memory  knows the contacts by their numbers; outlives this object.
+  /// @param memory  contacts by number; outlives this object.
   explicit SlideRoutes(const criteria::GraspMemory& memory) : memory_(memory) {}
 
-  /// Null where there is none (tree::FindSurfaceRoute). Stays where it is.
+  /// Return the route from one contact to another.
+  /// @param from, to  contact numbers.
+  /// @returns pointer to the cached route, valid for the lifetime of this object; null if
+  ///     tree::FindSurfaceRoute finds none.
   [[nodiscard]] const tree::SurfaceRoute* Between(int from, int to);
 
  private:
   const criteria::GraspMemory& memory_;
-  std::map<std::pair<int, int>, std::optional<tree::SurfaceRoute>> known_;
+  std::map<std::pair<int, int>, std::optional<tree::SurfaceRoute>> cache_;
 };
 
-/// A finger that is to slide, the way that its contact takes, and its posture there in the end.
+/// One finger of a sliding step: the route of its contact and its joint configuration at the end.
 struct Sliding {
   FingerIndex finger;
   const tree::SurfaceRoute* route = nullptr;
   const Posture* end = nullptr;
 };
 
-/// How fingers that hold slide along the surface, all at once: between two waypoints each goes
-/// straight on a face, or about one point from a face to the next, or stays.
+/// Sliding step: holding fingers slide along the surface simultaneously.
+/// Between two waypoints each contact moves straight on a planar face, rotates about an edge from
+/// one face to the next, or stays.
 struct Slide {
-  /// By waypoint where each of the fingers is, the object's units.
-  std::vector<std::vector<grasp::Contact>> along;
-  /// Between two waypoints, at equal shares of the way.
+  /// Contacts [waypoint][sliding finger], in object units.
+  std::vector<std::vector<grasp::Contact>> waypoints;
+  /// Keyframes [interval between waypoints], equally spaced along the interval.
   std::vector<std::vector<Keyframe>> paths;
 };
 
-/// Waypoints of contacts that go along routes at once, each at its own even speed, all for the same
-/// time: where one of them reaches another face, and one more for each turn about an edge, for
-/// which the others wait.
-///
-/// Law: begins and ends with the first and last contacts of the routes, bit for bit.
-[[nodiscard]] std::vector<std::vector<grasp::Contact>> GoTogether(
+/// Compute the common waypoints of contacts that move along routes simultaneously.
+/// Each contact moves at its own constant speed and all arrive at the same time. A waypoint is
+/// inserted when a contact reaches another face, and one more for each rotation about an edge,
+/// during which the other contacts stay.
+/// Law: the first and the last waypoint equal the ends of the routes bit for bit.
+[[nodiscard]] std::vector<std::vector<grasp::Contact>> SynchronizeRoutes(
     const std::vector<const tree::SurfaceRoute*>& routes);
 
-/// A slide that tips follow within kTipOff, certified to be free and force closure all along, by
-/// routes as aligns take them (tree/surface_route.h).
-/// @param fingers  that slide.
-/// @param holding  at first.
-/// @param from     how all stands at first.
-/// @returns nullopt where none was found.
+/// Plan a certified sliding step along given surface routes (tree/surface_route.h).
+/// The fingertips follow their routes within kTipOff. The path is collision-free, and the grasp is
+/// force closure throughout.
+/// @param fingers  sliding fingers with their routes.
+/// @param assignment  contacts before the step.
+/// @param from  keyframe before the step.
+/// @returns the step; nullopt if none is found.
 [[nodiscard]] std::optional<Slide> FindSlide(const HandSetup& setup,
                                              const criteria::GraspMemory& memory,
                                              const std::vector<Sliding>& fingers,
-                                             const ContactAssignment& holding,
+                                             const ContactAssignment& assignment,
                                              const Keyframe& from);
 
-/// What fingers do between two rests: either some that hold slide, all at once, or one is placed,
-/// one released, or both.
+/// Difference between two consecutive contact assignments.
+/// Either holding fingers slide simultaneously, or one finger is placed, one is released, or both.
 struct Change {
-  FingerIndex placed = {};    ///< not valid: none
-  FingerIndex released = {};  ///< not valid: none
+  FingerIndex placed = {};    ///< finger that is placed; invalid if none
+  FingerIndex released = {};  ///< finger that is released; invalid if none
   std::vector<FingerIndex> slid = {};
 };
 [[nodiscard]] Change ChangeBetween(const ContactAssignment& from, const ContactAssignment& to);
 
-/// Finds how fingers go from one hold to the next while the object stands still.
+/// Planner of finger paths between two stances while the object does not move.
 class ChangePaths {
  public:
-  /// Where tips have rolled to before and after a change; empty without reserve.
+  /// Fingertips after rolling, before and after the change; empty if rolling is not modelled.
   struct Rolled {
     const RolledTips& before;
     const RolledTips& after;
   };
 
-  /// All outlive this object.
+  /// All arguments outlive this object.
   ChangePaths(const HandSetup& setup, criteria::GraspMemory& memory, ObjectMotionChecker& checker,
               SlideRoutes& routes, RandomStream& random)
       : setup_(setup), memory_(memory), checker_(checker), routes_(routes), random_(random) {}
 
-  /// @param to  after the change; where a finger that is released can't go to where it is to wait,
-  ///            it waits above its contact from now on.
-  /// @param node  of the grid, where both holds can be.
-  /// @returns the stretches, certified; nullopt where a finger finds no way.
+  /// Plan the paths of all fingers that change.
+  /// @param from  stance before the change.
+  /// @param to  stance after the change. If the released finger finds no path to its idle posture,
+  ///     its idle posture becomes the one above its contact.
+  /// @param node  grid node that both stances can reach.
+  /// @param rolled  fingertips before and after the change.
+  /// @returns the certified segments; nullopt if a finger finds no path.
   [[nodiscard]] std::optional<std::vector<PlanSegment>> Find(const Stance& from, Stance& to,
                                                              int node, const Rolled& rolled);
 

@@ -19,18 +19,18 @@ namespace regrasp::gait {
 
 namespace {
 
-/// Of what the request may expand, the share of one try: all together take as long as a search that
-/// finds nothing; and no fewer.
-constexpr std::int64_t kShareOfTry = 20;
+/// Budget of one probe: fraction of the request's budget, so that all probes together take as long
+/// as a failing search, and its minimum.
+constexpr std::int64_t kProbeFraction = 20;
 constexpr std::int64_t kFewestExpanded = 40;
 
-/// Something that can be otherwise, and by how much, the least first.
+/// A parameter of the request with its alternative values, smallest change first.
 struct Relaxation {
-  std::string vain;  ///< "more friction"
+  std::string no_help;  ///< for example "more friction"
   std::vector<double> changes;
-  /// Changes the request. @returns in words.
+  /// Changes the request. Returns the change in words.
   std::function<std::string(double, GaitRequest&)> change;
-  std::string helps = {};  ///< the least change that does, in words
+  std::string helps = {};  ///< smallest change that helps, in words
 };
 
 Relaxation MoreFriction() {
@@ -42,7 +42,7 @@ Relaxation MoreFriction() {
           }};
 }
 
-/// Contacts that are given grow with the object, poses stay.
+/// Given contacts scale with the object; poses do not.
 Relaxation OtherSize() {
   return {"another size of the object",
           {0.9, 1.1, 0.8, 1.25, 0.65, 1.5, 0.5, 2},
@@ -53,7 +53,8 @@ Relaxation OtherSize() {
           }};
 }
 
-/// The palm tilted about an axis of the hand, `hand` being a place for it.
+/// Tilt the palm about an axis of the hand.
+/// @param hand  storage for the tilted hand.
 Relaxation TiltedPalm(kinematics::HandModel& hand) {
   return {"a tilt of the palm",
           {15, -15, 30, -30, 45, -45},
@@ -71,76 +72,37 @@ Relaxation TiltedPalm(kinematics::HandModel& hand) {
           }};
 }
 
-/// One of many tries, which looks at fewer rests. Nothing is asked of motors that don't stop it.
-GaitRequest TryOf(const GaitRequest& request, bool with_motors) {
-  GaitRequest tried = request;
-  if (!with_motors) tried.reserve = Reserve::kNone;
-  tried.most_expanded = std::min(request.most_expanded,
-                                 std::max(kFewestExpanded, request.most_expanded / kShareOfTry));
-  return tried;
+/// Return a probe with a smaller budget. Actuators are ignored unless they limit the request.
+GaitRequest ProbeOf(const GaitRequest& request, bool with_actuators) {
+  GaitRequest probe = request;
+  if (!with_actuators) probe.reserve = Reserve::kNone;
+  probe.most_expanded = std::min(request.most_expanded,
+                                 std::max(kFewestExpanded, request.most_expanded / kProbeFraction));
+  return probe;
 }
 
-bool AreMotorsInTheWay(const GaitRequest& request) {
+bool IsLimitedByActuators(const GaitRequest& request) {
   if (request.reserve != Reserve::kRequired) return false;
   request.progress("trying without the hand's motors");
-  return FindGait(TryOf(request, false)).gait.has_value();
+  return FindGait(ProbeOf(request, false)).gait.has_value();
 }
-
-}  // namespace
-
-std::string ExplainGait(const GaitRequest& request) {
-  const bool with_motors = AreMotorsInTheWay(request);
-  kinematics::HandModel tilted;
-  std::vector<Relaxation> kinds = {MoreFriction(), OtherSize()};
-  const bool is_upright = !request.start_pose && !request.goal_pose &&
-                          request.start_grasp.empty() && request.goal_grasp.empty();
-  if (is_upright) kinds.push_back(TiltedPalm(tilted));
-  // The least of each kind first: time is for all alike.
-  const auto most =
-      std::ranges::max(kinds, {}, [](const Relaxation& kind) { return kind.changes.size(); });
-  for (std::size_t i = 0; i < most.changes.size(); ++i) {
-    for (Relaxation& kind : kinds) {
-      if (i >= kind.changes.size() || !kind.helps.empty()) continue;
-      GaitRequest changed = TryOf(request, with_motors);
-      const std::string words = kind.change(kind.changes[i], changed);
-      changed.progress = [&](std::string_view) { request.progress("trying " + words); };
-      if (FindGait(changed).gait) kind.helps = words;
-    }
-  }
-  std::string helps;
-  std::string vain;
-  for (const Relaxation& kind : kinds) {
-    if (!kind.helps.empty()) helps += (helps.empty() ? "" : "; ") + kind.helps;
-    if (kind.helps.empty()) vain += (vain.empty() ? "" : ", ") + kind.vain;
-  }
-  std::string text;
-  if (!helps.empty()) text = "would do, each alone: " + helps;
-  if (!vain.empty()) {
-    if (!text.empty()) text += "; ";
-    text += "not found to help: " + vain;
-  }
-  if (request.deadline.IsOver()) text += " (the time limit ended the tries)";
-  return text;
-}
-
-namespace {
 
 using planning::GraspChoice;
 using planning::PlanOption;
 using planning::PlanRequest;
 using planning::PlanResult;
 
-/// No hand that is known has more.
+/// No known hand has more fingers.
 constexpr int kMostFingers = 20;
 constexpr int kFewestFingers = 3;
 
 GaitRequest RequestFor(const PlanRequest& asked) {
   GaitRequest request;
   static_cast<planning::InHandTask&>(request) = *asked.in_hand;
-  // There are no other objects of three dimensions (WhyNotServed).
+  // Spatial objects are always polyhedra (WhyNotServed).
   request.solid = &dynamic_cast<const object::Polyhedron&>(*asked.object);
   request.criteria = asked.criteria;
-  // Of those that the planner chooses there is none.
+  // Empty if the planner chooses them.
   request.start_grasp = asked.start.grasp;
   request.goal_grasp = asked.goal.grasp;
   request.seed = asked.seed;
@@ -152,17 +114,52 @@ GaitRequest RequestFor(const PlanRequest& asked) {
   return request;
 }
 
-std::vector<planning::Rest> RestsOf(const plan::Plan& plan) {
-  plan::FingerGrasp holding = plan.initial;
-  std::vector<planning::Rest> rests = {{plan::ContactsOf(holding), {}}};
+std::vector<planning::Rest> StaticGraspsOf(const plan::Plan& plan) {
+  plan::FingerGrasp grasp = plan.initial;
+  std::vector<planning::Rest> grasps = {{plan::ContactsOf(grasp), {}}};
   for (const plan::Step& step : plan.steps) {
-    holding = plan::GraspAfter(holding, step);
-    rests.push_back({plan::ContactsOf(holding), {}});
+    grasp = plan::GraspAfter(grasp, step);
+    grasps.push_back({plan::ContactsOf(grasp), {}});
   }
-  return rests;
+  return grasps;
 }
 
 }  // namespace
+
+std::string ExplainGait(const GaitRequest& request) {
+  const bool with_actuators = IsLimitedByActuators(request);
+  kinematics::HandModel tilted;
+  std::vector<Relaxation> relaxations = {MoreFriction(), OtherSize()};
+  const bool is_upright = !request.start_pose && !request.goal_pose &&
+                          request.start_grasp.empty() && request.goal_grasp.empty();
+  if (is_upright) relaxations.push_back(TiltedPalm(tilted));
+  // Try the smallest change of every relaxation first, so that all share the time.
+  const auto most = std::ranges::max(
+      relaxations, {}, [](const Relaxation& relaxation) { return relaxation.changes.size(); });
+  for (std::size_t i = 0; i < most.changes.size(); ++i) {
+    for (Relaxation& relaxation : relaxations) {
+      if (i >= relaxation.changes.size() || !relaxation.helps.empty()) continue;
+      GaitRequest changed = ProbeOf(request, with_actuators);
+      const std::string words = relaxation.change(relaxation.changes[i], changed);
+      changed.progress = [&](std::string_view) { request.progress("trying " + words); };
+      if (FindGait(changed).gait) relaxation.helps = words;
+    }
+  }
+  std::string helps;
+  std::string no_help;
+  for (const Relaxation& relaxation : relaxations) {
+    if (!relaxation.helps.empty()) helps += (helps.empty() ? "" : "; ") + relaxation.helps;
+    if (relaxation.helps.empty()) no_help += (no_help.empty() ? "" : ", ") + relaxation.no_help;
+  }
+  std::string text;
+  if (!helps.empty()) text = "would do, each alone: " + helps;
+  if (!no_help.empty()) {
+    if (!text.empty()) text += "; ";
+    text += "not found to help: " + no_help;
+  }
+  if (request.deadline.IsOver()) text += " (the time limit ended the tries)";
+  return text;
+}
 
 GaitPlanner::GaitPlanner()
     : Planner({.name = "gait",
@@ -187,8 +184,8 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   if (!found.gait) {
     result.status = PlanResult::Status::kNoSequence;
     result.message = found.message;
-    if (found.trial) {
-      if (!found.trial->is_cut_short) result.trial = found.trial->reason;
+    if (found.execution) {
+      if (!found.execution->is_cut_short) result.trial = found.execution->reason;
       result.message += "; with --reserve preferred there is a plan all the same";
     }
     if (request.deadline.IsOver()) result.message += "; that was when the time was up";
@@ -203,21 +200,22 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     return result;
   }
   result.plan = PlanOf(*found.gait, request, found.contacts);
-  if (found.trial && found.trial->is_whole) {
+  if (found.execution && found.execution->is_whole) {
     result.notes.push_back("the hand's own motors carry it out in a simulation, with " +
-                           FormatShort(std::floor(100 * found.trial->spare)) +
+                           FormatShort(std::floor(100 * found.execution->spare)) +
                            " % of the replay's limits to spare at its closest");
-  } else if (found.trial) {
-    const bool says = !found.trial->is_cut_short;
-    result.warnings.push_back(
-        std::string("the hand's own motors do not ") + (says ? "" : "yet ") +
-        "carry it out in a simulation: " + FailureText(*found.trial, result.plan->steps.size()) +
-        "; validate --hand " + (says ? "shows it" : "says whether they do"));
+  } else if (found.execution) {
+    const bool is_failure = !found.execution->is_cut_short;
+    result.warnings.push_back(std::string("the hand's own motors do not ") +
+                              (is_failure ? "" : "yet ") + "carry it out in a simulation: " +
+                              FailureText(*found.execution, result.plan->steps.size()) +
+                              "; validate --hand " +
+                              (is_failure ? "shows it" : "says whether they do"));
   }
-  const std::vector<planning::Rest> rests = RestsOf(*result.plan);
+  const std::vector<planning::Rest> grasps = StaticGraspsOf(*result.plan);
   const criteria::GraspEvaluator evaluator(*asked.object, asked.criteria, FingersOf(request));
-  result.margin = planning::SmallestMargin(rests, evaluator);
-  for (std::string& warning : planning::RestWarnings(rests, evaluator)) {
+  result.margin = planning::SmallestMargin(grasps, evaluator);
+  for (std::string& warning : planning::RestWarnings(grasps, evaluator)) {
     result.warnings.push_back(std::move(warning));
   }
   return result;
@@ -225,9 +223,10 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
 
 void AskInHand(const planning::InHandTask& task, PlanRequest& request) {
   request.in_hand = std::make_shared<planning::InHandTask>(task);
-  // A grasp for another one, and no word of the pose: the object stays where it is.
+  // For a change of grasp without a given goal pose, the object keeps its pose.
   if (task.turn.angle == 0 && !task.goal_pose) request.in_hand->goal_pose = task.start_pose;
-  // What contacts are is not the hand file's to say: soft fingers that are asked for are refused.
+  // The hand file does not define the contact model; a request for soft fingers must still be
+  // rejected.
   const double torsion = request.hand.torsion;
   request.hand = FingersOf(task);
   request.hand.torsion = torsion;

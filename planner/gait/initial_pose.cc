@@ -13,32 +13,38 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr int kPlaces = 300;        // drawn, with a yaw each
-constexpr int kMostDrawn = 60'000;  // where a grasp is given that most poses don't suit
-constexpr int kPoints = 40;         // of the surface that are looked at
-constexpr int kPosesOfTurn = 4;     // at which it is looked at them
-constexpr int kHomes = 24;
-constexpr int kHomeGrasps = 150;  // at each pose
-/// So many of the best by what tips may reach are looked at more closely.
-constexpr int kCloser = 36;
-/// Contacts within reach of a finger are worth their logarithm, so that all fingers count.
+/// Number of candidate poses, and of draws for them: few poses suit a given grasp.
+constexpr int kPoseDraws = 300;
+constexpr int kMaxPoseDraws = 60'000;
+/// First score: number of contacts, and of steps of the task.
+constexpr int kScoredContacts = 40;
+constexpr int kTaskSteps = 4;
+/// Number of candidates that receive the second score, and of grasps drawn for each.
+constexpr int kMaxRefined = 36;
+constexpr int kGraspDraws = 150;
+constexpr int kMaxInitialPoses = 24;
+/// Offset in the logarithm of the number of reachable contacts. The logarithm makes all fingers
+/// count.
 constexpr double kNoContact = 0.3;
 
-constexpr int kParkingDraws = 160;
-constexpr int kMostParkingDraws = 5000;  // where a finger has hardly any place
-constexpr int kParkingPlaces = 16;
-constexpr double kOtherPlace = 0.5;  // radians over all drives
+/// Number of sampled idle configurations; the maximum applies to a finger with little free space.
+constexpr int kIdleSamples = 160;
+constexpr int kMaxIdleSamples = 5000;
+constexpr int kMaxIdlePostures = 16;
+/// Minimum distance between two idle postures of a finger, radians, norm over all joints.
+constexpr double kDistinctPosture = 0.5;
+/// Poses of the track from which an idle posture must be clear.
 constexpr int kTrackSamples = 5;
-constexpr double kParkingClearance = 0.02;  // metres: more counts for nothing
+constexpr double kMaxIdleClearance = 0.02;  // metres; additional clearance is not rewarded
 constexpr double kBendPenalty = 0.002;      // metres per radian
 
-/// Turns z to `up`.
+/// Return the rotation that maps the z axis to `up`.
 Eigen::Matrix3d Upright(const Vector3d& up) {
   return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up).toRotationMatrix();
 }
 
 double ScoreOf(const HandSetup& setup, const PoseTrack& track) {
-  const int every = std::max<int>(1, static_cast<int>(setup.points.size()) / kPoints);
+  const int every = std::max<int>(1, static_cast<int>(setup.points.size()) / kScoredContacts);
   double score = 0;
   for (int step = 0; step <= track.steps(); ++step) {
     const Isometry3d pose = track.PoseAt(step);
@@ -56,14 +62,14 @@ double ScoreOf(const HandSetup& setup, const PoseTrack& track) {
   return score;
 }
 
-/// A contact that a finger reaches, and the finger there.
+/// A contact that a finger reaches, with the placed finger.
 struct Reached {
   int point;
   PlacedFinger placed;
 };
 
-/// Whether these three fingers, each at a contact of its own drawn for it, hold the object and keep
-/// off each other.
+/// Draw one contact for each of three fingers.
+/// @returns whether they form an admissible grasp of fingers that are clear of each other.
 bool DrawGrasp(const HandSetup& setup, const std::vector<std::vector<Reached>>& reached,
                const std::vector<int>& fingers, criteria::GraspMemory& memory,
                RandomStream& random) {
@@ -80,14 +86,15 @@ bool DrawGrasp(const HandSetup& setup, const std::vector<std::vector<Reached>>& 
          setup.scene.KeepApart(drawn[1]->placed, drawn[2]->placed);
 }
 
-/// By grasps: of three contacts that three fingers reach without running into anything, drawn at
-/// some poses of the turn, how many hold the object, and how many without a finger, so that it is
-/// free to go on, for each of them.
-double CloserScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::GraspMemory& memory,
-                     RandomStream& random) {
+/// Score a pose by its admissible grasps.
+/// At some steps of the task, draws grasps of three fingers at contacts that they reach. Counts the
+/// collision-free admissible ones, in total and, for each finger, those without it, so that this
+/// finger is free to move.
+double GraspScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::GraspMemory& memory,
+                    RandomStream& random) {
   const PoseGrid grid(track, setup.scene.hand().up, PoseGrid::End::kPose);
   ReachMap reach(setup.scene, setup.inverse, setup.points, grid);
-  const int every = std::max<int>(1, static_cast<int>(setup.points.size()) / kPoints);
+  const int every = std::max<int>(1, static_cast<int>(setup.points.size()) / kScoredContacts);
   double score = 0;
   for (int node = grid.start(); node != PoseGrid::kNoNode; node = grid.Onward(node)) {
     std::vector<std::vector<Reached>> reached;
@@ -101,7 +108,7 @@ double CloserScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::G
     }
     int grasps = 0;
     std::vector<int> grasps_without(reached.size(), 0);
-    for (int i = 0; reached.size() >= 3 && i < kHomeGrasps; ++i) {
+    for (int i = 0; reached.size() >= 3 && i < kGraspDraws; ++i) {
       const std::vector<int> fingers = random.Choose(static_cast<int>(reached.size()), 3);
       if (!DrawGrasp(setup, reached, fingers, memory, random)) continue;
       ++grasps;
@@ -114,9 +121,10 @@ double CloserScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::G
   return score;
 }
 
-/// Whether tips may be at all contacts of a grasp, each at one: by the tables of reach alone.
-bool MayHold(const HandSetup& setup, const std::vector<int>& grasp, const Isometry3d& pose) {
-  std::vector<std::vector<int>> fingers_of;  // by contact
+/// Return whether the fingertips may reach all contacts of a grasp with distinct fingers, by the
+/// reach tables alone.
+bool MayReachAll(const HandSetup& setup, const std::vector<int>& grasp, const Isometry3d& pose) {
+  std::vector<std::vector<int>> fingers_of;  // [contact]
   for (const int point : grasp) {
     fingers_of.emplace_back();
     for (FingerIndex finger{0}; finger < setup.scene.finger_count(); ++finger) {
@@ -125,21 +133,21 @@ bool MayHold(const HandSetup& setup, const std::vector<int>& grasp, const Isomet
     }
     if (fingers_of.back().empty()) return false;
   }
-  std::vector<bool> taken(setup.scene.finger_count(), false);
+  std::vector<bool> used(setup.scene.finger_count(), false);
   const auto match = [&](const auto& self, std::size_t contact) -> bool {
     if (contact == fingers_of.size()) return true;
     return std::ranges::any_of(fingers_of[contact], [&](int finger) {
-      if (taken[finger]) return false;
-      taken[finger] = true;
+      if (used[finger]) return false;
+      used[finger] = true;
       const bool matched = self(self, contact + 1);
-      taken[finger] = false;
+      used[finger] = false;
       return matched;
     });
   };
   return match(match, 0);
 }
 
-/// Draws poses for an object to begin in.
+/// Sampler of initial object poses.
 class PoseDraw {
  public:
   PoseDraw(const HandSetup& setup, const ObjectTask& task, const GaitEnds& ends,
@@ -154,24 +162,24 @@ class PoseDraw {
     }
   }
 
-  Isometry3d Next() { return grasp_.empty() ? Anywhere() : WithAContactAtATip(); }
+  Isometry3d Next() { return grasp_.empty() ? UprightPose() : WithContactAtFingertip(); }
 
  private:
-  Isometry3d Anywhere() {
+  Isometry3d UprightPose() {
     Isometry3d pose = Isometry3d::Identity();
     const double yaw = 2 * std::numbers::pi * random_.Uniform();
     pose.linear() = upright_ * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
-    Vector3d place;
-    for (int k = 0; k < 3; ++k) place[k] = box_.min()[k] + random_.Uniform() * box_.sizes()[k];
-    pose.translation() = place - pose.linear() * task_.centre();
+    Vector3d position;
+    for (int k = 0; k < 3; ++k) position[k] = box_.min()[k] + random_.Uniform() * box_.sizes()[k];
+    pose.translation() = position - pose.linear() * task_.centre();
     return pose;
   }
-  /// With any orientation.
-  Isometry3d WithAContactAtATip() {
+  /// Draws any orientation.
+  Isometry3d WithContactAtFingertip() {
     const FingerIndex finger{static_cast<int>(random_.Index(setup_.inverse.size()))};
     const std::vector<Vector3d>& tips = setup_.inverse[finger].sampled_tips();
     Isometry3d pose = Isometry3d::Identity();
-    pose.linear() = DrawTurn(random_);
+    pose.linear() = DrawOrientation(random_);
     const Vector3d centre = TargetAt(setup_.scene.finger(finger),
                                      setup_.points[grasp_[random_.Index(grasp_.size())]], pose)
                                 .centre;
@@ -193,36 +201,38 @@ std::vector<Isometry3d> FindInitialPoses(const HandSetup& setup, const ObjectTas
                                          const GaitEnds& ends, criteria::GraspMemory& memory,
                                          RandomStream& random) {
   PoseDraw draw(setup, task, ends, random);
-  struct Home {
+  struct Candidate {
     double score;
     Isometry3d pose;
   };
-  std::vector<Home> homes;
-  for (int i = 0; i < kMostDrawn && static_cast<int>(homes.size()) < kPlaces; ++i) {
+  std::vector<Candidate> candidates;
+  for (int i = 0; i < kMaxPoseDraws && static_cast<int>(candidates.size()) < kPoseDraws; ++i) {
     const Isometry3d pose = draw.Next();
-    const PoseTrack track = task.From(pose, kPosesOfTurn);
-    if (!MayHold(setup, ends.start, pose)) continue;
-    if (!MayHold(setup, ends.goal, track.PoseAt(track.steps()))) continue;
-    homes.push_back({ScoreOf(setup, track), pose});
+    const PoseTrack track = task.From(pose, kTaskSteps);
+    if (!MayReachAll(setup, ends.start, pose)) continue;
+    if (!MayReachAll(setup, ends.goal, track.PoseAt(track.steps()))) continue;
+    candidates.push_back({ScoreOf(setup, track), pose});
   }
-  std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
-  homes.resize(std::min<std::size_t>(homes.size(), kCloser));
-  for (Home& home : homes) {
-    if (!std::isfinite(home.score)) continue;
-    home.score = CloserScoreOf(setup, task.From(home.pose, kPosesOfTurn / 2), memory, random);
+  std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::score);
+  candidates.resize(std::min<std::size_t>(candidates.size(), kMaxRefined));
+  for (Candidate& candidate : candidates) {
+    if (!std::isfinite(candidate.score)) continue;
+    candidate.score =
+        GraspScoreOf(setup, task.From(candidate.pose, kTaskSteps / 2), memory, random);
   }
-  std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
+  std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::score);
   std::vector<Isometry3d> poses;
-  for (const Home& home : homes) {
-    if (static_cast<int>(poses.size()) == kHomes || !std::isfinite(home.score)) break;
-    poses.push_back(home.pose);
+  for (const Candidate& candidate : candidates) {
+    if (static_cast<int>(poses.size()) == kMaxInitialPoses || !std::isfinite(candidate.score))
+      break;
+    poses.push_back(candidate.pose);
   }
   return poses;
 }
 
 std::optional<IdlePostures> FindIdlePostures(const HandSetup& setup, const PoseTrack& track,
                                              RandomStream& random) {
-  struct Place {
+  struct Candidate {
     double score;
     Posture posture;
   };
@@ -230,30 +240,30 @@ std::optional<IdlePostures> FindIdlePostures(const HandSetup& setup, const PoseT
   const int samples = track.steps() == 0 ? 1 : kTrackSamples;
   IdlePostures idle_postures(scene.finger_count());
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
-    std::vector<Place> places;
-    for (int i = 0; i < kParkingDraws || (i < kMostParkingDraws && places.empty()); ++i) {
+    std::vector<Candidate> candidates;
+    for (int i = 0; i < kIdleSamples || (i < kMaxIdleSamples && candidates.empty()); ++i) {
       const Posture& middle = setup.inverse[finger].middle();
       Posture posture = i == 0 ? middle : scene.DrawPosture(finger, random);
       const PlacedFinger placed = scene.Place(finger, posture);
       if (!scene.KeepsOffHand(placed)) continue;
-      double clearance = kParkingClearance;
+      double clearance = kMaxIdleClearance;
       for (int k = 0; k < samples && clearance > scene.margin() + kPostureMargin; ++k) {
         const Isometry3d pose = track.PoseAt(track.steps() * k / (kTrackSamples - 1.0));
         clearance = std::min(clearance, scene.DistanceFromObject(placed, pose, clearance));
       }
       if (clearance <= scene.margin() + kPostureMargin) continue;
-      // Far enough off, it had better stay where it is soon back.
-      const double bent = (posture - middle).norm();
-      places.push_back({clearance - kBendPenalty * bent, std::move(posture)});
+      // Beyond the maximum clearance, postures near the middle of the joint ranges are preferred.
+      const double bend = (posture - middle).norm();
+      candidates.push_back({clearance - kBendPenalty * bend, std::move(posture)});
     }
-    std::ranges::stable_sort(places, std::greater<>(), &Place::score);
-    for (Place& place : places) {
+    std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::score);
+    for (Candidate& candidate : candidates) {
       std::vector<Posture>& chosen = idle_postures[finger];
-      if (static_cast<int>(chosen.size()) == kParkingPlaces) break;
-      const bool is_other = std::ranges::all_of(chosen, [&](const Posture& posture) {
-        return (posture - place.posture).norm() > kOtherPlace;
+      if (static_cast<int>(chosen.size()) == kMaxIdlePostures) break;
+      const bool is_distinct = std::ranges::all_of(chosen, [&](const Posture& posture) {
+        return (posture - candidate.posture).norm() > kDistinctPosture;
       });
-      if (is_other) chosen.push_back(std::move(place.posture));
+      if (is_distinct) chosen.push_back(std::move(candidate.posture));
     }
     if (idle_postures[finger].empty()) return std::nullopt;
   }

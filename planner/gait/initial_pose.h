@@ -11,28 +11,30 @@
 
 namespace regrasp::gait {
 
-/// A turn drawn evenly among all: four normal numbers are a direction in four dimensions, which a
-/// unit quaternion is.
-[[nodiscard]] inline Eigen::Matrix3d DrawTurn(RandomStream& random) {
+/// Draw a rotation uniformly from SO(3): a normalized quaternion with four normal components.
+[[nodiscard]] inline Eigen::Matrix3d DrawOrientation(RandomStream& random) {
   Eigen::Quaterniond turn;
   for (int k = 0; k < 4; ++k) turn.coeffs()[k] = random.Normal();
   return turn.normalized().toRotationMatrix();
 }
 
-/// Poses in the hand to begin a journey in, the best first: where many contacts are within reach of
-/// many fingers all along and make grasps, and the object keeps off the palm. The object's own z
-/// axis is upright there, its place and its yaw are drawn; but where a grasp is given any pose may
-/// be drawn that brings its contacts to the fingertips.
-/// @param memory  knows the setup's points as contacts under their numbers.
+/// Find initial object poses for a task, best first.
+/// A pose is good if many fingers reach many contacts throughout the task, the reachable contacts
+/// form admissible grasps, and the object is clear of the palm. Draws position and yaw of the
+/// upright object. If a start or goal grasp is given, draws orientations freely and puts one of its
+/// contacts at a fingertip.
+/// @param memory  contacts of the setup under the same numbers.
+/// @returns at most 24 poses of the object in the palm's frame; empty if none is found.
 [[nodiscard]] std::vector<Eigen::Isometry3d> FindInitialPoses(const HandSetup& setup,
                                                               const ObjectTask& task,
                                                               const GaitEnds& ends,
                                                               criteria::GraspMemory& memory,
                                                               RandomStream& random);
 
-/// Postures out of the way: each finger as far from the object's poses along a track as it can
-/// be (no more than some millimetres count), and off the palm.
-/// @returns none where a finger has no such posture.
+/// Find idle joint configurations that keep clear of the palm and of the object along a track.
+/// Configurations with more clearance, up to 20 mm, and closer to the middle of the joint ranges
+/// come first.
+/// @returns candidates by finger; nullopt if a finger has none.
 [[nodiscard]] std::optional<IdlePostures> FindIdlePostures(const HandSetup& setup,
                                                            const PoseTrack& track,
                                                            RandomStream& random);

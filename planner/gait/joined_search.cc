@@ -9,18 +9,22 @@ namespace regrasp::gait {
 
 namespace {
 
-/// Postures of a finger at one contact that are the same but for rounding, radians.
+/// Joint configurations of a finger at one contact that differ only by rounding, radians.
 constexpr double kSamePosture = 1e-6;
 
-/// Of a path of a free finger between two ways that meet: what is lost with it is much.
+/// Maximum number of RRT extensions for a path that connects both trees. It is large because a
+/// failure discards both paths.
 constexpr int kExtensionsToMeet = 1000;
+
+/// Maximum number of planned connections per expanded stance.
+constexpr int kMaxJoins = 6;
 
 }  // namespace
 
 BidirectionalSearch::BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid,
                                          IdlePostures idle_postures, const GaitEnds& ends,
                                          criteria::GraspMemory& memory, RandomStream& random,
-                                         SimulateExecution carry_out)
+                                         SimulateExecution simulate)
     : setup_(setup),
       grid_(grid),
       reversed_(grid.Reversed()),
@@ -29,7 +33,7 @@ BidirectionalSearch::BidirectionalSearch(const HandSetup& setup, const PoseGrid&
       checker_(setup, grid_, idle_postures_),
       forward_(setup, grid_, checker_, ends, memory, random) {
   if (ends.start.empty() || ends.goal.empty() || !forward_.GoalIsHeld()) {
-    forward_.SimulateEdges(std::move(carry_out));
+    forward_.SimulateEdges(std::move(simulate));
     return;
   }
   if (grid.steps() > 0) reversed_checker_.emplace(setup, reversed_, idle_postures_);
@@ -71,26 +75,26 @@ std::optional<Gait> BidirectionalSearch::RunFromBothEnds(std::int64_t most_expan
 std::optional<Gait> BidirectionalSearch::Meet(bool is_forward) {
   GaitSearch& search = is_forward ? forward_ : *backward_;
   GaitSearch& other = is_forward ? *backward_ : forward_;
-  const int rest = search.last_expanded();
-  const ContactAssignment& holding = search.StanceOf(rest).holding;
-  (is_forward ? from_start_ : from_goal_)[holding].push_back(rest);
-  other.AddTarget(holding);
+  const int index = search.last_expanded();
+  const ContactAssignment& assignment = search.StanceOf(index).assignment;
+  (is_forward ? from_start_ : from_goal_)[assignment].push_back(index);
+  other.AddTarget(assignment);
   const auto& others = is_forward ? from_goal_ : from_start_;
-  const auto found = others.find(holding);
+  const auto found = others.find(assignment);
   if (found == others.end()) return std::nullopt;
   for (const int candidate : found->second) {
-    auto gait = is_forward ? Join(rest, candidate) : Join(candidate, rest);
+    auto gait = is_forward ? Join(index, candidate) : Join(candidate, index);
     if (gait) return gait;
   }
   return std::nullopt;
 }
 
 int BidirectionalSearch::CommonNode(int forward, int backward) {
-  // Mostly it is one that they were carried to already.
+  // Nodes reached so far usually suffice.
   for (const bool further : {false, true}) {
     if (further) {
-      forward_.CarryAround(forward);
-      backward_->CarryAround(backward);
+      forward_.ExtendReachable(forward);
+      backward_->ExtendReachable(backward);
     }
     const std::map<int, int>& others = backward_->NodesOf(backward);
     for (const auto& [node, before] : forward_.NodesOf(forward)) {
@@ -110,7 +114,7 @@ std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
     if (!back) return std::nullopt;
     FingerIndex stuck;
     auto between =
-        MoveFreeFingers(forward_.StanceOf(forward).holding, EndOf(*gait), EndOf(*back), stuck);
+        MoveIdleFingers(forward_.StanceOf(forward).assignment, EndOf(*gait), EndOf(*back), stuck);
     if (between) {
       if (between->size() > 1) {
         gait->segments.push_back({PlanSegment::Kind::kMove, {}, kNone, *std::move(between)});
@@ -119,13 +123,15 @@ std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
       return gait;
     }
     if (!stuck.valid()) return std::nullopt;
-    // One of the ends may have it elsewhere all along.
-    const Posture& there = EndOf(*gait).postures[stuck];
-    const Posture& other = EndOf(*back).postures[stuck];
-    if (const int later = backward_->WithIdlePosture(backward, stuck, there); later >= 0) {
-      backward = later;
-    } else if (const int sooner = forward_.WithIdlePosture(forward, stuck, other); sooner >= 0) {
-      forward = sooner;
+    // Give the finger the same idle posture in both trees.
+    const Posture& forward_posture = EndOf(*gait).postures[stuck];
+    const Posture& backward_posture = EndOf(*back).postures[stuck];
+    if (const int backward_copy = backward_->WithIdlePosture(backward, stuck, forward_posture);
+        backward_copy >= 0) {
+      backward = backward_copy;
+    } else if (const int forward_copy = forward_.WithIdlePosture(forward, stuck, backward_posture);
+               forward_copy >= 0) {
+      forward = forward_copy;
     } else {
       return std::nullopt;
     }
@@ -133,13 +139,13 @@ std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
   return std::nullopt;
 }
 
-std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveFreeFingers(
-    const ContactAssignment& holding, const Keyframe& from, const Keyframe& to,
+std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveIdleFingers(
+    const ContactAssignment& assignment, const Keyframe& from, const Keyframe& to,
     FingerIndex& stuck) {
   std::vector<int> order;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     const Posture& posture = from.postures[finger];
-    if (holding[finger] == kNone) {
+    if (assignment[finger] == kNone) {
       if (posture != to.postures[finger]) order.push_back(finger);
     } else if ((posture - to.postures[finger]).cwiseAbs().maxCoeff() > kSamePosture) {
       return std::nullopt;
@@ -151,16 +157,16 @@ std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveFreeFingers(
     path = {from};
     is_free = std::ranges::all_of(order, [&](int number) {
       const FingerIndex finger{number};
-      const auto way =
+      const auto free_path =
           FindFreePath(setup_.scene, finger, from.postures[finger], to.postures[finger],
-                       AllBut(setup_.scene, finger, path.back()), random_, kExtensionsToMeet);
-      if (!way) {
+                       AllExcept(setup_.scene, finger, path.back()), random_, kExtensionsToMeet);
+      if (!free_path) {
         stuck = finger;
         return false;
       }
-      for (std::size_t i = 1; i < way->size(); ++i) {
+      for (std::size_t i = 1; i < free_path->size(); ++i) {
         path.push_back(path.back());
-        path.back().postures[finger] = (*way)[i];
+        path.back().postures[finger] = (*free_path)[i];
       }
       return true;
     });
@@ -169,40 +175,33 @@ std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveFreeFingers(
   stuck = {};
   Touching touching;
   bool is_same = true;
-  for (std::size_t finger = 0; finger < holding.size(); ++finger) {
-    touching.push_back(holding[finger] == kNone ? TipContact::kFree : TipContact::kTouching);
+  for (std::size_t finger = 0; finger < assignment.size(); ++finger) {
+    touching.push_back(assignment[finger] == kNone ? TipContact::kFree : TipContact::kTouching);
     is_same = is_same && path.back().postures[finger] == to.postures[finger];
   }
   if (is_same && path.back().pose.isApprox(to.pose, 0)) return path;
-  // The same but for rounding.
+  // Remove the difference due to rounding.
   if (!IsClear(setup_.scene, path.back(), to, touching)) return std::nullopt;
   path.push_back(to);
   return path;
 }
 
-namespace {
-
-/// Of one rest that is expanded: ways that are worked out with it.
-constexpr int kMostJoins = 6;
-
-}  // namespace
-
-TurnSearch::TurnSearch(const HandSetup& setup, const PoseTrack& track, IdlePostures onwards,
-                       IdlePostures backwards, criteria::GraspMemory& memory, RandomStream& random)
+TurnSearch::TurnSearch(const HandSetup& setup, const PoseTrack& track, IdlePostures forward,
+                       IdlePostures backward, criteria::GraspMemory& memory, RandomStream& random)
     : setup_(setup),
       grid_(track, setup.scene.hand().up, PoseGrid::End::kOrientation),
       back_grid_(track.Backwards(), setup.scene.hand().up, PoseGrid::End::kOrientation),
-      idle_postures_(std::move(onwards)),
-      back_idle_postures_(std::move(backwards)),
+      idle_postures_(std::move(forward)),
+      back_idle_postures_(std::move(backward)),
       memory_(memory),
       random_(random),
       checker_(setup, grid_, idle_postures_),
       back_checker_(setup, back_grid_, back_idle_postures_),
-      onwards_(setup, grid_, checker_, {}, memory, random) {}
+      forward_(setup, grid_, checker_, {}, memory, random) {}
 
 GaitCounts TurnSearch::counts() const {
-  GaitCounts counts = onwards_.counts();
-  for (const auto& [rest, root] : roots_) {
+  GaitCounts counts = forward_.counts();
+  for (const auto& [index, root] : roots_) {
     counts.farthest = std::max(counts.farthest, std::min(counts.steps, root.farthest()));
     if (root.search) counts.Add(root.search->counts());
   }
@@ -211,22 +210,22 @@ GaitCounts TurnSearch::counts() const {
 
 std::optional<Gait> TurnSearch::Run(std::int64_t most_expanded, const Deadline& deadline) {
   while (counts().expanded < most_expanded && !IsExhausted() && !deadline.IsOver()) {
-    const std::int64_t before = onwards_.counts().expanded;
-    if (auto gait = onwards_.Run(before + 1, deadline)) return gait;
-    if (onwards_.counts().expanded > before) {
-      if (auto gait = TakeDown(onwards_.RootOf(onwards_.last_expanded()), true)) return gait;
+    const std::int64_t before = forward_.counts().expanded;
+    if (auto gait = forward_.Run(before + 1, deadline)) return gait;
+    if (forward_.counts().expanded > before) {
+      if (auto gait = RecordReached(forward_.RootOf(forward_.last_expanded()), true)) return gait;
     }
     const int root = BestRoot();
     if (root < 0) continue;
-    GaitSearch& backwards = BackwardsFrom(root);
-    const std::int64_t had = backwards.counts().expanded;
-    if (auto gait = backwards.Run(had + 1, deadline)) {
+    GaitSearch& backward = BackwardFrom(root);
+    const std::int64_t expanded_before = backward.counts().expanded;
+    if (auto gait = backward.Run(expanded_before + 1, deadline)) {
       Gait turn{AssignmentAtEnd(*gait), EndOf(*gait), {}};
       AppendReversed(gait->segments, turn);
       return turn;
     }
-    if (backwards.counts().expanded > had) {
-      if (auto gait = TakeDown(root, false)) return gait;
+    if (backward.counts().expanded > expanded_before) {
+      if (auto gait = RecordReached(root, false)) return gait;
     }
   }
   return std::nullopt;
@@ -235,59 +234,59 @@ std::optional<Gait> TurnSearch::Run(std::int64_t most_expanded, const Deadline& 
 int TurnSearch::BestRoot() const {
   int best = -1;
   int farthest = -1;
-  for (const auto& [rest, root] : roots_) {
+  for (const auto& [index, root] : roots_) {
     if (root.search && root.search->IsExhausted()) continue;
     if (root.farthest() <= farthest) continue;
     farthest = root.farthest();
-    best = rest;
+    best = index;
   }
   return best;
 }
 
-GaitSearch& TurnSearch::BackwardsFrom(int root) {
+GaitSearch& TurnSearch::BackwardFrom(int root) {
   std::optional<GaitSearch>& search = roots_[root].search;
   if (!search) {
     search.emplace(setup_, back_grid_, back_checker_, GaitEnds{}, memory_, random_);
-    search->StartFrom(onwards_.StanceOf(root));
+    search->StartFrom(forward_.StanceOf(root));
   }
   return *search;
 }
 
-std::optional<Gait> TurnSearch::TakeDown(int root, bool is_onwards) {
+std::optional<Gait> TurnSearch::RecordReached(int root, bool is_forward) {
   Root& from = roots_[root];
-  GaitSearch& search = is_onwards ? onwards_ : *from.search;
-  Reached& reached = is_onwards ? from.onwards : from.backwards;
-  const Reached& other = is_onwards ? from.backwards : from.onwards;
-  const int rest = search.last_expanded();
+  GaitSearch& search = is_forward ? forward_ : *from.search;
+  Reached& reached = is_forward ? from.forward : from.backward;
+  const Reached& other = is_forward ? from.backward : from.forward;
+  const int index = search.last_expanded();
   int joins = 0;
-  // Ways that are worked out may lead it to other ones.
-  const std::map<int, int> nodes = search.NodesOf(rest);
+  // A copy: Join may plan detours, which change the nodes.
+  const std::map<int, int> nodes = search.NodesOf(index);
   for (const auto& [node, before] : nodes) {
     const int step = grid_.StepOf(node);
     const int tilt = grid_.TiltOf(node);
     reached.farthest = std::max(reached.farthest, step);
-    reached.places[{step, tilt}].emplace_back(rest, node);
-    const auto found = other.places.find({grid_.steps() - step, tilt});
-    if (found == other.places.end()) continue;
-    for (const auto& place : found->second) {
-      const std::pair here(rest, node);
-      const std::pair rests =
-          is_onwards ? std::pair(rest, place.first) : std::pair(place.first, rest);
-      if (onwards_.IsCutOff(rests.first) || from.search->IsCutOff(rests.second)) continue;
-      if (joins == kMostJoins || !simulation_.insert(rests).second) continue;
+    reached.nodes_at[{step, tilt}].emplace_back(index, node);
+    const auto found = other.nodes_at.find({grid_.steps() - step, tilt});
+    if (found == other.nodes_at.end()) continue;
+    for (const auto& other_node : found->second) {
+      const std::pair here(index, node);
+      const std::pair pair =
+          is_forward ? std::pair(index, other_node.first) : std::pair(other_node.first, index);
+      if (forward_.IsPruned(pair.first) || from.search->IsPruned(pair.second)) continue;
+      if (joins == kMaxJoins || !joined_.insert(pair).second) continue;
       ++joins;
-      auto gait = is_onwards ? Join(root, here, place) : Join(root, place, here);
+      auto gait = is_forward ? Join(root, here, other_node) : Join(root, other_node, here);
       if (gait) return gait;
     }
   }
   return std::nullopt;
 }
 
-std::optional<Gait> TurnSearch::Join(int root, std::pair<int, int> onwards,
-                                     std::pair<int, int> backwards) {
-  const std::optional<Gait> on = onwards_.PathTo(onwards.first, onwards.second);
+std::optional<Gait> TurnSearch::Join(int root, std::pair<int, int> forward,
+                                     std::pair<int, int> backward) {
+  const std::optional<Gait> on = forward_.PathTo(forward.first, forward.second);
   if (!on) return std::nullopt;
-  const std::optional<Gait> back = roots_[root].search->PathTo(backwards.first, backwards.second);
+  const std::optional<Gait> back = roots_[root].search->PathTo(backward.first, backward.second);
   if (!back) return std::nullopt;
   Gait turn{AssignmentAtEnd(*back), EndOf(*back), {}};
   AppendReversed(back->segments, turn);

@@ -13,53 +13,56 @@
 
 namespace regrasp::gait {
 
-/// A search of a gait from one place in the hand, which goes on as often as it is asked to.
+/// Resumable search of a gait from one initial object pose.
 class StartSearch {
  public:
   virtual ~StartSearch() = default;
 
-  /// Whether some fingers can hold the goal grasp, if there is one, at the goal pose.
+  /// Return whether some fingers can hold the goal grasp, if any, at the goal pose.
   [[nodiscard]] virtual bool GoalIsHeld() const { return true; }
-  /// As GaitSearch::Run; rests from both ends count.
+  /// Same as GaitSearch::Run; expansions of both directions count.
   [[nodiscard]] virtual std::optional<Gait> Run(std::int64_t most_expanded,
                                                 const Deadline& deadline) = 0;
-  /// Whether nothing is left to expand.
+  /// Return whether nothing is left to expand.
   [[nodiscard]] virtual bool IsExhausted() const = 0;
   [[nodiscard]] virtual GaitCounts counts() const = 0;
 };
 
-/// Searches a gait from one place in the hand: from its start, and, where the grasps of both ends
-/// are given, from its goal as well, until the two meet in one grasp at one pose.
+/// Bidirectional search of a gait from one initial object pose.
+/// Searches forward from the start. If the grasps of both ends are given, also searches backward
+/// from the goal until both trees contain the same contact assignment at the same pose.
 class BidirectionalSearch : public StartSearch {
  public:
-  /// @param memory     as in GaitSearch. setup, memory and random outlive this object.
-  /// @param carry_out  as GaitSearch::SimulateEdges, where there is but one end.
+  /// @param memory  same as in GaitSearch. setup, memory and random outlive this object.
+  /// @param simulate  simulator of edges (GaitSearch::SimulateEdges); used only if there is no
+  ///     backward search.
   BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid, IdlePostures idle_postures,
                       const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random,
-                      SimulateExecution carry_out);
+                      SimulateExecution simulate);
   BidirectionalSearch(const BidirectionalSearch&) = delete;
   BidirectionalSearch& operator=(const BidirectionalSearch&) = delete;
 
   [[nodiscard]] bool GoalIsHeld() const override { return forward_.GoalIsHeld(); }
   [[nodiscard]] std::optional<Gait> Run(std::int64_t most_expanded,
                                         const Deadline& deadline) override;
-  /// Whether nothing is left to expand from one of the ends.
+  /// Return whether nothing is left to expand in one of the directions.
   [[nodiscard]] bool IsExhausted() const override;
-  /// Of both ends; what was reached from the start.
+  /// Counts of both directions; `farthest` of the forward search.
   [[nodiscard]] GaitCounts counts() const override;
 
  private:
   std::optional<Gait> RunFromBothEnds(std::int64_t most_expanded, const Deadline& deadline);
-  /// Tells the other end of the rest that one end expanded last, and looks for gaits through it.
+  /// Add the last expanded stance of one direction to the targets of the other, and try to connect
+  /// both trees through it.
   std::optional<Gait> Meet(bool is_forward);
-  /// The gait through two rests with one grasp, where it is free.
+  /// Plan the gait through two stances with equal assignments; nullopt if a path fails.
   std::optional<Gait> Join(int forward, int backward);
-  /// The node to which both rests can be carried, kNoNode where none is found.
+  /// Return a grid node that both stances reach, kNoNode if none is found.
   int CommonNode(int forward, int backward);
-  /// Brings fingers that hold nothing from where they wait in one keyframe to where they do in
-  /// another one, one after the other in some order.
-  /// @param stuck  one that finds no way, where it is the fingers' fault.
-  std::optional<std::vector<Keyframe>> MoveFreeFingers(const ContactAssignment& holding,
+  /// Move idle fingers from their configurations in one keyframe to those in another, one finger at
+  /// a time in some order.
+  /// @param stuck  output: a finger without a path, if that is the cause of the failure.
+  std::optional<std::vector<Keyframe>> MoveIdleFingers(const ContactAssignment& assignment,
                                                        const Keyframe& from, const Keyframe& to,
                                                        FingerIndex& stuck);
 
@@ -69,53 +72,58 @@ class BidirectionalSearch : public StartSearch {
   IdlePostures idle_postures_;
   RandomStream& random_;
   ObjectMotionChecker checker_;
-  std::optional<ObjectMotionChecker> reversed_checker_;  ///< none: the other one serves both
+  std::optional<ObjectMotionChecker>
+      reversed_checker_;  ///< none if `checker_` serves both directions
   GaitSearch forward_;
   std::optional<GaitSearch> backward_;
-  /// Rests that were expanded from the start and from the goal, by their grasp.
+  /// Expanded stances of the forward and the backward search, by assignment.
   std::map<ContactAssignment, std::vector<int>> from_start_, from_goal_;
 };
 
-/// Searches a turn that may begin at any angle: from rests at one pose onwards, and from those of
-/// them that come farthest backwards, until the two ways with one of them make up the turn. What
-/// lies between the end and the start of a whole turn is never passed, so that a posture or a side
-/// of the object that the hand does not master need not be where it happens to begin.
+/// Search of a rotation that may begin at any angle.
+/// Searches forward from the stances at one pose, and backward from the roots that reach farthest,
+/// until a forward and a backward path from one root add up to the required rotation. A full
+/// rotation then avoids the angles between its end and its start, for example one at which the hand
+/// reaches the object badly.
 class TurnSearch : public StartSearch {
  public:
-  /// @param track    from a pose onwards.
-  /// @param parking  for the way onwards, and the one backwards.
-  /// @param memory   as in GaitSearch. setup, memory and random outlive this object.
-  TurnSearch(const HandSetup& setup, const PoseTrack& track, IdlePostures onwards,
-             IdlePostures backwards, criteria::GraspMemory& memory, RandomStream& random);
+  /// @param track  track of the forward search.
+  /// @param forward, backward  idle postures of the two directions.
+  /// @param memory  same as in GaitSearch. setup, memory and random outlive this object.
+  TurnSearch(const HandSetup& setup, const PoseTrack& track, IdlePostures forward,
+             IdlePostures backward, criteria::GraspMemory& memory, RandomStream& random);
   TurnSearch(const TurnSearch&) = delete;
   TurnSearch& operator=(const TurnSearch&) = delete;
 
   [[nodiscard]] std::optional<Gait> Run(std::int64_t most_expanded,
                                         const Deadline& deadline) override;
-  [[nodiscard]] bool IsExhausted() const override { return onwards_.IsExhausted(); }
+  [[nodiscard]] bool IsExhausted() const override { return forward_.IsExhausted(); }
   [[nodiscard]] GaitCounts counts() const override;
 
  private:
-  /// Where the object was brought from a first rest in one direction.
+  /// Poses reached from a root in one direction.
   struct Reached {
-    int farthest = 0;  ///< step
-    /// By step and tilt: rests, and the node.
-    std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> places;
+    int farthest = 0;  ///< farthest step
+    /// Pairs of stance and grid node, by step and tilt.
+    std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> nodes_at;
   };
-  /// A first rest, and what it leads to.
+  /// Initial stance with the poses that are reached from it.
   struct Root {
-    Reached onwards;
-    Reached backwards;
-    std::optional<GaitSearch> search;  ///< backwards
-    [[nodiscard]] int farthest() const { return onwards.farthest + backwards.farthest; }
+    Reached forward;
+    Reached backward;
+    std::optional<GaitSearch> search;  ///< backward search
+    [[nodiscard]] int farthest() const { return forward.farthest + backward.farthest; }
   };
-  /// The first rest from which the object comes farthest and that can go on backwards; −1: none.
+  /// Return the root with the largest reached rotation whose backward search is not exhausted; −1
+  /// if none.
   [[nodiscard]] int BestRoot() const;
-  GaitSearch& BackwardsFrom(int root);
-  /// Takes down where a search's last rest brings the object, and looks for turns through it.
-  std::optional<Gait> TakeDown(int root, bool is_onwards);
-  /// @param onwards, backwards  rest and node.
-  std::optional<Gait> Join(int root, std::pair<int, int> onwards, std::pair<int, int> backwards);
+  GaitSearch& BackwardFrom(int root);
+  /// Record the poses that the last expanded stance of a direction reaches, and try to complete a
+  /// rotation through them.
+  std::optional<Gait> RecordReached(int root, bool is_forward);
+  /// Plan the rotation through a forward and a backward path.
+  /// @param forward, backward  pairs of stance and grid node.
+  std::optional<Gait> Join(int root, std::pair<int, int> forward, std::pair<int, int> backward);
 
   const HandSetup& setup_;
   PoseGrid grid_;
@@ -126,9 +134,10 @@ class TurnSearch : public StartSearch {
   RandomStream& random_;
   ObjectMotionChecker checker_;
   ObjectMotionChecker back_checker_;
-  GaitSearch onwards_;
-  std::map<int, Root> roots_;                 ///< by rest
-  std::set<std::pair<int, int>> simulation_;  ///< of one root's rests onwards and backwards
+  GaitSearch forward_;
+  std::map<int, Root> roots_;  ///< by stance
+  std::set<std::pair<int, int>>
+      joined_;  ///< pairs of forward and backward stances for which Join was called
 };
 
 }  // namespace regrasp::gait

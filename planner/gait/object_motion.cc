@@ -12,50 +12,52 @@ namespace regrasp::gait {
 
 namespace {
 
-/// Halvings of the way between two keyframes.
-constexpr int kMostHalvings = 6;
+/// Maximum number of bisections between two keyframes.
+constexpr int kMaxBisections = 6;
 
-/// One move.
-class Mover {
+/// Recursive construction of one in-hand motion.
+class MotionBuilder {
  public:
-  Mover(const HandSetup& setup, const ContactAssignment& holding)
-      : setup_(setup), holding_(holding) {
-    for (const int point : holding) {
+  MotionBuilder(const HandSetup& setup, const ContactAssignment& assignment)
+      : setup_(setup), assignment_(assignment) {
+    for (const int point : assignment) {
       touching_.push_back(point == kNone ? TipContact::kFree : TipContact::kTouching);
     }
   }
 
-  /// Appends the keyframes of the way to one, without the first. @returns whether there is one.
-  [[nodiscard]] bool Append(const Keyframe& from, const Keyframe& to, int halvings,
+  /// Append the keyframes of the motion without the first.
+  /// @returns whether the motion is feasible.
+  [[nodiscard]] bool Append(const Keyframe& from, const Keyframe& to, int bisections,
                             std::vector<Keyframe>& path) const {
     const Keyframe middle = Between(from, to, 0.5);
-    if (TipsStay(middle)) {
+    if (TipsAreOnContacts(middle)) {
       if (!IsClear(setup_.scene, from, to, touching_)) return false;
       path.push_back(to);
       return true;
     }
-    if (halvings == 0) return false;
-    const auto held = Held(middle);
-    return held && Append(from, *held, halvings - 1, path) && Append(*held, to, halvings - 1, path);
+    if (bisections == 0) return false;
+    const auto held = Projected(middle);
+    return held && Append(from, *held, bisections - 1, path) &&
+           Append(*held, to, bisections - 1, path);
   }
 
  private:
   [[nodiscard]] kinematics::TipTarget TargetOf(FingerIndex finger, const Keyframe& frame) const {
-    return TargetAt(setup_.scene.finger(finger), setup_.points[holding_[finger]], frame.pose);
+    return TargetAt(setup_.scene.finger(finger), setup_.points[assignment_[finger]], frame.pose);
   }
-  [[nodiscard]] bool TipsStay(const Keyframe& frame) const {
+  [[nodiscard]] bool TipsAreOnContacts(const Keyframe& frame) const {
     for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-      if (holding_[finger] == kNone) continue;
+      if (assignment_[finger] == kNone) continue;
       const Eigen::Vector3d centre =
           kinematics::TipAt(setup_.scene.finger(finger), frame.postures[finger]).centre;
       if ((centre - TargetOf(finger, frame).centre).norm() > kTipOff) return false;
     }
     return true;
   }
-  /// The nearest postures in which tips are at their contacts.
-  [[nodiscard]] std::optional<Keyframe> Held(Keyframe frame) const {
+  /// Return the nearest keyframe with all fingertips on their contacts.
+  [[nodiscard]] std::optional<Keyframe> Projected(Keyframe frame) const {
     for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-      if (holding_[finger] == kNone) continue;
+      if (assignment_[finger] == kNone) continue;
       Posture& posture = frame.postures[finger];
       const auto held = setup_.inverse[finger].SolveNear(TargetOf(finger, frame), posture);
       if (!held) return std::nullopt;
@@ -65,35 +67,31 @@ class Mover {
   }
 
   const HandSetup& setup_;
-  const ContactAssignment& holding_;
+  const ContactAssignment& assignment_;
   Touching touching_;
 };
+
+/// Random idle configurations: draws per finger, and attempts for all fingers together.
+constexpr int kIdleDraws = 200;
+constexpr int kIdleAttempts = 10;
+/// Heights above a former contact at which a finger may idle, metres.
+constexpr std::array kIdleHeights = {0.020, 0.012, 0.006};
 
 }  // namespace
 
 std::optional<std::vector<Keyframe>> FindMove(const HandSetup& setup,
-                                              const ContactAssignment& holding,
+                                              const ContactAssignment& assignment,
                                               const Keyframe& from, const Keyframe& to) {
   std::vector<Keyframe> path = {from};
-  if (!Mover(setup, holding).Append(from, to, kMostHalvings, path)) return std::nullopt;
+  if (!MotionBuilder(setup, assignment).Append(from, to, kMaxBisections, path)) return std::nullopt;
   return path;
 }
 
-namespace {
-
-/// To wait in, for a finger where the usual places don't suit all; times that all are drawn.
-constexpr int kDrawnPlaces = 200;
-constexpr int kDrawings = 10;
-/// Above a contact that a finger has left, where it may wait too, metres: the highest first.
-constexpr std::array kHeights = {0.020, 0.012, 0.006};
-
-}  // namespace
-
-Keyframe ObjectMotionChecker::FrameAt(const Stance& hold, int node) {
-  Keyframe frame{grid_.PoseAt(node), hold.waiting};
+Keyframe ObjectMotionChecker::FrameAt(const Stance& stance, int node) {
+  Keyframe frame{grid_.PoseAt(node), stance.idle};
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (hold.holding[finger] == kNone) continue;
-    frame.postures[finger] = *reach_.Find(finger, hold.holding[finger], node);
+    if (stance.assignment[finger] == kNone) continue;
+    frame.postures[finger] = *reach_.Find(finger, stance.assignment[finger], node);
   }
   return frame;
 }
@@ -104,63 +102,64 @@ bool ObjectMotionChecker::KeepsOffPalm(int node) {
   return found->second;
 }
 
-bool ObjectMotionChecker::KeepApart(const Stance& hold, FingerIndex a, FingerIndex b, int node) {
+bool ObjectMotionChecker::KeepApart(const Stance& stance, FingerIndex a, FingerIndex b, int node) {
   const auto points = setup_.points.size();
   const auto fingers = static_cast<std::size_t>(setup_.scene.finger_count());
   std::size_t key = static_cast<std::size_t>(node);
   for (const FingerIndex finger : {a, b}) {
     key = (key * fingers + static_cast<std::size_t>(finger)) * points +
-          static_cast<std::size_t>(hold.holding[finger]);
+          static_cast<std::size_t>(stance.assignment[finger]);
   }
   const auto [found, is_new] = apart_.try_emplace(key);
   if (is_new) {
     found->second =
-        setup_.scene.KeepApart(setup_.scene.Place(a, *reach_.Find(a, hold.holding[a], node)),
-                               setup_.scene.Place(b, *reach_.Find(b, hold.holding[b], node)));
+        setup_.scene.KeepApart(setup_.scene.Place(a, *reach_.Find(a, stance.assignment[a], node)),
+                               setup_.scene.Place(b, *reach_.Find(b, stance.assignment[b], node)));
   }
   return found->second;
 }
 
-bool ObjectMotionChecker::KeepsApart(const Stance& hold, FingerIndex finger, int node) {
+bool ObjectMotionChecker::KeepsApart(const Stance& stance, FingerIndex finger, int node) {
   for (FingerIndex other{0}; other < setup_.scene.finger_count(); ++other) {
-    if (other == finger || hold.holding[other] == kNone) continue;
-    if (!KeepApart(hold, std::min(finger, other), std::max(finger, other), node)) return false;
+    if (other == finger || stance.assignment[other] == kNone) continue;
+    if (!KeepApart(stance, std::min(finger, other), std::max(finger, other), node)) return false;
   }
   return true;
 }
 
-bool ObjectMotionChecker::IsPassable(const Stance& hold, int node) {
+bool ObjectMotionChecker::IsPassable(const Stance& stance, int node) {
   if (!KeepsOffPalm(node)) return false;
-  std::vector<FingerIndex> holding;
-  std::vector<FingerIndex> waiting;
+  std::vector<FingerIndex> holding_fingers;
+  std::vector<FingerIndex> idle_fingers;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (hold.holding[finger] != kNone) {
-      holding.push_back(finger);
-    } else if (finger < std::ssize(hold.waiting) && hold.waiting[finger].size() > 0) {
-      waiting.push_back(finger);
+    if (stance.assignment[finger] != kNone) {
+      holding_fingers.push_back(finger);
+    } else if (finger < std::ssize(stance.idle) && stance.idle[finger].size() > 0) {
+      idle_fingers.push_back(finger);
     }
   }
-  for (std::size_t b = 1; b < holding.size(); ++b) {
+  for (std::size_t b = 1; b < holding_fingers.size(); ++b) {
     for (std::size_t a = 0; a < b; ++a) {
-      if (!KeepApart(hold, holding[a], holding[b], node)) return false;
+      if (!KeepApart(stance, holding_fingers[a], holding_fingers[b], node)) return false;
     }
   }
-  if (waiting.empty()) return true;
+  if (idle_fingers.empty()) return true;
   std::vector<PlacedFinger> placed;
-  for (const FingerIndex finger : holding) {
-    placed.push_back(setup_.scene.Place(finger, *reach_.Find(finger, hold.holding[finger], node)));
+  for (const FingerIndex finger : holding_fingers) {
+    placed.push_back(
+        setup_.scene.Place(finger, *reach_.Find(finger, stance.assignment[finger], node)));
   }
   const Eigen::Isometry3d pose = grid_.PoseAt(node);
-  for (const FingerIndex finger : waiting) {
-    PlacedFinger there = setup_.scene.Place(finger, hold.waiting[finger]);
+  for (const FingerIndex finger : idle_fingers) {
+    PlacedFinger idle_finger = setup_.scene.Place(finger, stance.idle[finger]);
     const auto keeps_apart = [&](const PlacedFinger& other) {
-      return setup_.scene.KeepApart(other, there);
+      return setup_.scene.KeepApart(other, idle_finger);
     };
-    if (!setup_.scene.KeepsOffObject(there, pose, TipContact::kFree) ||
+    if (!setup_.scene.KeepsOffObject(idle_finger, pose, TipContact::kFree) ||
         !std::ranges::all_of(placed, keeps_apart)) {
       return false;
     }
-    placed.push_back(std::move(there));
+    placed.push_back(std::move(idle_finger));
   }
   return true;
 }
@@ -177,123 +176,123 @@ std::optional<Posture> ObjectMotionChecker::PostureAbove(FingerIndex finger, int
   return above;
 }
 
-bool ObjectMotionChecker::DrawIdlePostures(Stance& hold, int node, RandomStream& random) {
+bool ObjectMotionChecker::DrawIdlePostures(Stance& stance, int node, RandomStream& random) {
   for (const int drawn : random.Choose(setup_.scene.finger_count(), setup_.scene.finger_count())) {
     const FingerIndex finger{drawn};
-    if (hold.holding[finger] != kNone || hold.waiting[finger].size() > 0) continue;
-    bool waits = false;
-    for (int i = 0; !waits && i < kDrawnPlaces; ++i) {
-      hold.waiting[finger] = setup_.scene.DrawPosture(finger, random);
-      waits = setup_.scene.KeepsOffHand(setup_.scene.Place(finger, hold.waiting[finger])) &&
-              IsPassable(hold, node);
+    if (stance.assignment[finger] != kNone || stance.idle[finger].size() > 0) continue;
+    bool is_placed = false;
+    for (int i = 0; !is_placed && i < kIdleDraws; ++i) {
+      stance.idle[finger] = setup_.scene.DrawPosture(finger, random);
+      is_placed = setup_.scene.KeepsOffHand(setup_.scene.Place(finger, stance.idle[finger])) &&
+                  IsPassable(stance, node);
     }
-    if (!waits) return false;
+    if (!is_placed) return false;
   }
   return true;
 }
 
-bool ObjectMotionChecker::PlaceIdleFingers(Stance& hold, int node, RandomStream* random,
+bool ObjectMotionChecker::PlaceIdleFingers(Stance& stance, int node, RandomStream* random,
                                            const Stance* before) {
-  hold.waiting.resize(setup_.scene.finger_count());
+  stance.idle.resize(setup_.scene.finger_count());
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (hold.holding[finger] == kNone) continue;
-    if (reach_.Find(finger, hold.holding[finger], node) == nullptr) return false;
+    if (stance.assignment[finger] == kNone) continue;
+    if (reach_.Find(finger, stance.assignment[finger], node) == nullptr) return false;
   }
-  if (!IsPassable(hold, node)) return false;
-  const std::vector<Posture> given = hold.waiting;
-  if (UseIdlePostures(hold, node, before)) return true;
-  for (int i = 0; random != nullptr && i < kDrawings; ++i) {
-    hold.waiting = given;
-    if (DrawIdlePostures(hold, node, *random)) return true;
+  if (!IsPassable(stance, node)) return false;
+  const std::vector<Posture> given = stance.idle;
+  if (UseIdlePostures(stance, node, before)) return true;
+  for (int i = 0; random != nullptr && i < kIdleAttempts; ++i) {
+    stance.idle = given;
+    if (DrawIdlePostures(stance, node, *random)) return true;
   }
   return false;
 }
 
-bool ObjectMotionChecker::IdleAbove(Stance& hold, FingerIndex finger, int point, int node) {
-  for (const double height : kHeights) {
+bool ObjectMotionChecker::IdleAbove(Stance& stance, FingerIndex finger, int point, int node) {
+  for (const double height : kIdleHeights) {
     const auto above = PostureAbove(finger, point, node, height);
     if (!above) continue;
-    hold.waiting[finger] = *above;
-    if (IsPassable(hold, node)) return true;
+    stance.idle[finger] = *above;
+    if (IsPassable(stance, node)) return true;
   }
   return false;
 }
 
-bool ObjectMotionChecker::UseIdlePostures(Stance& hold, int node, const Stance* before) {
+bool ObjectMotionChecker::UseIdlePostures(Stance& stance, int node, const Stance* before) {
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (hold.holding[finger] != kNone || hold.waiting[finger].size() > 0) continue;
-    const auto waits_at = [&](const Posture& posture) {
-      hold.waiting[finger] = posture;
-      return IsPassable(hold, node);
+    if (stance.assignment[finger] != kNone || stance.idle[finger].size() > 0) continue;
+    const auto fits = [&](const Posture& posture) {
+      stance.idle[finger] = posture;
+      return IsPassable(stance, node);
     };
-    bool waits = std::ranges::any_of(idle_postures_[finger], waits_at);
-    // Where it was, some millimetres above its contact.
-    const bool has_held = before != nullptr && before->holding[finger] != kNone;
-    if (!waits && !(has_held && IdleAbove(hold, finger, before->holding[finger], node))) {
+    bool is_placed = std::ranges::any_of(idle_postures_[finger], fits);
+    // The finger may stay a few millimetres above its former contact.
+    const bool has_held = before != nullptr && before->assignment[finger] != kNone;
+    if (!is_placed && !(has_held && IdleAbove(stance, finger, before->assignment[finger], node))) {
       return false;
     }
   }
   return true;
 }
 
-bool ObjectMotionChecker::CanFollow(const Stance& hold, int node, int neighbour) {
+bool ObjectMotionChecker::CanFollow(const Stance& stance, int node, int neighbour) {
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (hold.holding[finger] == kNone) continue;
-    if (!reach_.CanFollow(finger, hold.holding[finger], node, neighbour)) return false;
+    if (stance.assignment[finger] == kNone) continue;
+    if (!reach_.CanFollow(finger, stance.assignment[finger], node, neighbour)) return false;
   }
   return true;
 }
 
-ReachablePoses ObjectMotionChecker::ExtendAlongTrack(const Stance& hold, int node) {
-  ReachablePoses carried{{{node, node}}, node};
+ReachablePoses ObjectMotionChecker::ExtendAlongTrack(const Stance& stance, int node) {
+  ReachablePoses reachable{{{node, node}}, node};
   for (int next = grid_.Onward(node); next != PoseGrid::kNoNode; next = grid_.Onward(next)) {
-    if (!CanFollow(hold, carried.end, next) || !IsPassable(hold, next)) break;
-    carried.from.emplace(next, carried.end);
-    carried.end = next;
+    if (!CanFollow(stance, reachable.end, next) || !IsPassable(stance, next)) break;
+    reachable.predecessor.emplace(next, reachable.end);
+    reachable.end = next;
   }
-  return carried;
+  return reachable;
 }
 
-ReachablePoses ObjectMotionChecker::ExtendAround(const Stance& hold, int node, int patience,
+ReachablePoses ObjectMotionChecker::ExtendAround(const Stance& stance, int node, int patience,
                                                  const std::function<bool(int)>& is_enough,
                                                  const GridEdges& blocked) {
-  using Key = std::tuple<int, bool, int, int>;  // step, is goal, units beside the track, order
+  using Key = std::tuple<int, bool, int, int>;  // step, is goal, −offset units, −insertion order
   const auto key_of = [&](int at, int order) {
     return Key(grid_.StepOf(at), grid_.IsGoal(at), -grid_.OffTrack(at), -order);
   };
   std::priority_queue<std::pair<Key, int>> queue;
-  ReachablePoses carried{{{node, node}}, node};
-  std::set<int> tried = {node};
+  ReachablePoses reachable{{{node, node}}, node};
+  std::set<int> visited = {node};
   queue.push({key_of(node, 0), node});
   std::pair<Key, int> best = queue.top();
-  int in_vain = 0;
-  while (!queue.empty() && in_vain < patience) {
+  int without_progress = 0;
+  while (!queue.empty() && without_progress < patience) {
     const auto top = queue.top();
     queue.pop();
     if (best.first < top.first) {
       best = top;
     } else {
-      ++in_vain;
+      ++without_progress;
     }
     if (is_enough(best.second)) break;
     for (const int next : grid_.Neighbours(top.second)) {
-      if (tried.contains(next) || blocked.contains(std::minmax({top.second, next})) ||
-          !CanFollow(hold, top.second, next)) {
+      if (visited.contains(next) || blocked.contains(std::minmax({top.second, next})) ||
+          !CanFollow(stance, top.second, next)) {
         continue;
       }
-      tried.insert(next);
-      if (!IsPassable(hold, next)) continue;
-      carried.from.emplace(next, top.second);
-      queue.push({key_of(next, static_cast<int>(tried.size())), next});
+      visited.insert(next);
+      if (!IsPassable(stance, next)) continue;
+      reachable.predecessor.emplace(next, top.second);
+      queue.push({key_of(next, static_cast<int>(visited.size())), next});
     }
   }
-  carried.end = best.second;
-  return carried;
+  reachable.end = best.second;
+  return reachable;
 }
 
 std::vector<int> ReachablePoses::PathTo(int node) const {
   std::vector<int> path = {node};
-  while (from.at(path.back()) != path.back()) path.push_back(from.at(path.back()));
+  while (predecessor.at(path.back()) != path.back()) path.push_back(predecessor.at(path.back()));
   std::ranges::reverse(path);
   return path;
 }

@@ -14,44 +14,46 @@
 
 namespace regrasp::gait {
 
-/// Certified keyframes of a short move, both ends among them: all holding fingers keep their
-/// contacts, the ball's centre one radius above each, the others stay where they are.
-///
-/// Between keyframes drives go straight; there are so many of them that no tip is off its contact
-/// by more than kTipOff half-way.
-/// @param from, to  with tips at their contacts.
-/// @returns nullopt where a finger can't follow, or something comes too near something.
+/// Plan a certified short in-hand motion between two keyframes.
+/// Holding fingers keep their contacts, with the centre of the fingertip sphere one radius above
+/// each; idle fingers are stationary. Joints move linearly between keyframes, which are dense
+/// enough that no fingertip leaves its contact by more than kTipOff halfway.
+/// @param from, to  keyframes with the fingertips at their contacts.
+/// @returns keyframes including both ends; nullopt if a finger cannot follow or a collision occurs.
 [[nodiscard]] std::optional<std::vector<Keyframe>> FindMove(const HandSetup& setup,
-                                                            const ContactAssignment& holding,
+                                                            const ContactAssignment& assignment,
                                                             const Keyframe& from,
                                                             const Keyframe& to);
 
-/// Metres.
+/// Permitted deviation of a fingertip from its contact between keyframes, metres.
 inline constexpr double kTipOff = 2e-5;
 
-/// How a hand holds an object.
+/// Stance: the contacts of the holding fingers and the joint configurations of the idle fingers.
 struct Stance {
-  ContactAssignment holding;
-  std::vector<Posture> waiting = {};  ///< by finger, of those that hold nothing; empty: not yet
+  ContactAssignment assignment;
+  std::vector<Posture> idle =
+      {};  ///< joint configuration [finger] of idle fingers; empty until chosen
 };
 
-/// The nodes of a grid to which an object is carried by one hold.
+/// Grid nodes that the object reaches with one stance.
 struct ReachablePoses {
-  std::map<int, int> from;  ///< of each node the one before; of the first itself
-  int end = 0;              ///< the farthest of them
+  std::map<int, int> predecessor;  ///< previous node of each node; the first node maps to itself
+  int end = 0;                     ///< the farthest node
 
-  /// From the first node. @param node  one of them.
+  /// Return the nodes from the first one to `node`.
+  /// @param node  one of the reachable nodes.
   [[nodiscard]] std::vector<int> PathTo(int node) const;
 };
 
-/// Ways from a node of a grid to a neighbour, and back.
+/// Undirected edges between adjacent grid nodes.
 using GridEdges = std::set<std::pair<int, int>>;
 
-/// Finds where holds can be carried on a grid of poses: fingers that hold follow, none runs into
-/// anything, checked at the nodes.
+/// Motion checker of stances on a pose grid.
+/// Checks at the grid nodes that holding fingers follow the object and that nothing collides.
 class ObjectMotionChecker {
  public:
-  /// @param parking  where free fingers may wait. All outlive this object.
+  /// @param idle_postures  candidate configurations of idle fingers. All arguments outlive this
+  ///     object.
   ObjectMotionChecker(const HandSetup& setup, const PoseGrid& grid,
                       const IdlePostures& idle_postures)
       : setup_(setup),
@@ -61,54 +63,62 @@ class ObjectMotionChecker {
 
   [[nodiscard]] ReachMap& reach() { return reach_; }
 
-  /// @param node  where all fingers that hold reach their contacts.
-  [[nodiscard]] Keyframe FrameAt(const Stance& hold, int node);
-  /// Whether a finger that holds keeps off all others that hold at a node, where all reach theirs.
-  [[nodiscard]] bool KeepsApart(const Stance& hold, FingerIndex finger, int node);
-  /// Whether the fingers may stand as they do at a node, those left out that have no posture.
-  /// @param node  as in FrameAt.
-  [[nodiscard]] bool IsPassable(const Stance& hold, int node);
-  /// Finds postures for fingers that hold nothing and have none.
-  /// @param random  draws others where fingers can't all wait in places of `parking`; null: none.
-  /// @param before  fingers that held something in it may wait above that.
-  /// @returns whether the hold can be at the node.
-  [[nodiscard]] bool PlaceIdleFingers(Stance& hold, int node, RandomStream* random = nullptr,
+  /// Return the keyframe of a stance at a grid node.
+  /// @param node  grid node at which all holding fingers reach their contacts.
+  [[nodiscard]] Keyframe FrameAt(const Stance& stance, int node);
+  /// Return whether one holding finger is clear of all other holding fingers at a grid node that
+  /// all of them reach.
+  [[nodiscard]] bool KeepsApart(const Stance& stance, FingerIndex finger, int node);
+  /// Return whether a stance is collision-free at a grid node. Idle fingers without a configuration
+  /// are ignored.
+  /// @param node  grid node at which all holding fingers reach their contacts.
+  [[nodiscard]] bool IsPassable(const Stance& stance, int node);
+  /// Choose configurations for idle fingers that have none.
+  /// @param random  random stream for further candidates if `idle_postures` does not suffice; null:
+  ///     no further candidates.
+  /// @param before  previous stance; a finger that it releases may idle above its former contact.
+  ///     Null: none.
+  /// @returns whether the stance is collision-free at the grid node.
+  [[nodiscard]] bool PlaceIdleFingers(Stance& stance, int node, RandomStream* random = nullptr,
                                       const Stance* before = nullptr);
-  /// Has a finger that holds nothing wait above a contact that it reaches at the node.
-  /// @returns whether it can.
-  [[nodiscard]] bool IdleAbove(Stance& hold, FingerIndex finger, int point, int node);
+  /// Let an idle finger wait above a contact that it reaches at the grid node.
+  /// @returns whether such a configuration is collision-free.
+  [[nodiscard]] bool IdleAbove(Stance& stance, FingerIndex finger, int point, int node);
 
-  /// Along the track, with the node's offset.
-  [[nodiscard]] ReachablePoses ExtendAlongTrack(const Stance& hold, int node);
-  /// Also beside the track; best first by steps, near the track before far from it.
-  /// @param patience   nodes that are tried in vain, each a few microseconds to milliseconds.
-  /// @param is_enough  of the farthest node: no more is looked for.
-  /// @param barred     that are not gone.
-  [[nodiscard]] ReachablePoses ExtendAround(const Stance& hold, int node, int patience,
+  /// Extend a stance along the track at the offset of the grid node.
+  [[nodiscard]] ReachablePoses ExtendAlongTrack(const Stance& stance, int node);
+  /// Extend a stance over the whole grid, best first: larger steps first, then smaller offsets from
+  /// the track.
+  /// @param patience  maximum number of expanded nodes without progress; each takes microseconds to
+  ///     milliseconds.
+  /// @param is_enough  predicate of the farthest node that ends the search.
+  /// @param blocked  edges that must not be used.
+  [[nodiscard]] ReachablePoses ExtendAround(const Stance& stance, int node, int patience,
                                             const std::function<bool(int)>& is_enough,
                                             const GridEdges& blocked);
 
  private:
-  /// The first that suits of its parking and above where it was before, finger by finger.
-  [[nodiscard]] bool UseIdlePostures(Stance& hold, int node, const Stance* before);
-  /// In postures that are drawn, finger by finger in an order that is drawn.
-  [[nodiscard]] bool DrawIdlePostures(Stance& hold, int node, RandomStream& random);
-  /// Of a finger off a contact that it reaches at the node; nullopt where it does not come there.
-  /// @param height  metres.
+  /// Choose for each idle finger the first collision-free candidate, or a configuration above its
+  /// contact in `before`.
+  [[nodiscard]] bool UseIdlePostures(Stance& stance, int node, const Stance* before);
+  /// Draw configurations finger by finger in random order.
+  [[nodiscard]] bool DrawIdlePostures(Stance& stance, int node, RandomStream& random);
+  /// Return a configuration above a contact; nullopt if the finger does not reach it.
+  /// @param height  height above the contact, metres.
   [[nodiscard]] std::optional<Posture> PostureAbove(FingerIndex finger, int point, int node,
                                                     double height);
-  [[nodiscard]] bool CanFollow(const Stance& hold, int node, int neighbour);
+  [[nodiscard]] bool CanFollow(const Stance& stance, int node, int neighbour);
   [[nodiscard]] bool KeepsOffPalm(int node);
-  /// Of two fingers that hold.
-  [[nodiscard]] bool KeepApart(const Stance& hold, FingerIndex a, FingerIndex b, int node);
+  /// Return whether two holding fingers are clear of each other.
+  [[nodiscard]] bool KeepApart(const Stance& stance, FingerIndex a, FingerIndex b, int node);
 
   const HandSetup& setup_;
   const PoseGrid& grid_;
   const IdlePostures& idle_postures_;
   ReachMap reach_;
-  // Worked out when first asked for: grasps are many, and made of few contacts.
-  std::unordered_map<int, bool> off_palm_;       ///< by node
-  std::unordered_map<std::size_t, bool> apart_;  ///< by node, and two fingers with their contacts
+  // Caches, filled on demand: there are many grasps, but they consist of few contacts.
+  std::unordered_map<int, bool> off_palm_;       ///< by grid node
+  std::unordered_map<std::size_t, bool> apart_;  ///< by grid node and two (finger, contact) pairs
 };
 
 }  // namespace regrasp::gait

@@ -14,6 +14,60 @@ bool IsSameKeyframe(const Keyframe& a, const Keyframe& b) {
   return a.pose.matrix() == b.pose.matrix() && a.postures == b.postures;
 }
 
+plan::HandState StateOf(const Keyframe& frame, const kinematics::HandModel& hand) {
+  plan::HandState state{frame.pose, {}};
+  for (std::size_t i = 0; i < hand.fingers.size(); ++i) {
+    state.joints.push_back(kinematics::JointAngles(hand.fingers[i], frame.postures[i]));
+  }
+  return state;
+}
+
+/// Return the hand states of the keyframes first to last of a segment.
+plan::HandPath PathOf(const PlanSegment& segment, int first, int last,
+                      const kinematics::HandModel& hand) {
+  plan::HandPath path;
+  for (int i = first; i <= last; ++i) path.push_back(StateOf(segment.path[i], hand));
+  return path;
+}
+
+plan::HandPath PathOf(const PlanSegment& segment, const kinematics::HandModel& hand) {
+  return PathOf(segment, 0, static_cast<int>(segment.path.size()) - 1, hand);
+}
+
+plan::FingerGrasp GraspAtEnd(const plan::Plan& plan) {
+  plan::FingerGrasp grasp = plan.initial;
+  for (const plan::Step& step : plan.steps) grasp = plan::GraspAfter(grasp, step);
+  return grasp;
+}
+
+/// Return the sliding step: some fingers slide, the others stay.
+plan::Align SlideOf(const PlanSegment& segment, const plan::FingerGrasp& grasp,
+                    const kinematics::HandModel& hand) {
+  plan::Align align;
+  align.motion.emplace();
+  for (std::size_t i = 0; i < segment.waypoints.size(); ++i) {
+    align.waypoints.push_back(grasp);
+    for (plan::FingerContact& held : align.waypoints.back()) {
+      const auto slid = std::ranges::find(segment.slid, held.finger, &PlanSegment::Slid::finger);
+      if (slid != segment.slid.end()) {
+        held.contact = segment.waypoints[i][slid - segment.slid.begin()];
+      }
+    }
+    if (i == 0) continue;
+    align.motion->push_back(
+        PathOf(segment, segment.waypoint_frames[i - 1], segment.waypoint_frames[i], hand));
+  }
+  return align;
+}
+
+/// Return whether a segment belongs to the same plan step as the previous one: a placed finger,
+/// then another one released.
+bool BelongTogether(const std::vector<PlanSegment>& segments, std::size_t i) {
+  using enum PlanSegment::Kind;
+  return i > 0 && segments[i].kind == kRelease && segments[i - 1].kind == kPlace &&
+         segments[i].finger != segments[i - 1].finger;
+}
+
 }  // namespace
 
 Gait MergeMoves(const HandSetup& setup, const Gait& gait) {
@@ -39,62 +93,6 @@ Gait MergeMoves(const HandSetup& setup, const Gait& gait) {
   return fewer;
 }
 
-namespace {
-
-plan::HandState StateOf(const Keyframe& frame, const kinematics::HandModel& hand) {
-  plan::HandState state{frame.pose, {}};
-  for (std::size_t i = 0; i < hand.fingers.size(); ++i) {
-    state.joints.push_back(kinematics::JointAngles(hand.fingers[i], frame.postures[i]));
-  }
-  return state;
-}
-
-/// The states of some keyframes of a stretch.
-plan::HandPath PathOf(const PlanSegment& stretch, int first, int last,
-                      const kinematics::HandModel& hand) {
-  plan::HandPath path;
-  for (int i = first; i <= last; ++i) path.push_back(StateOf(stretch.path[i], hand));
-  return path;
-}
-
-plan::HandPath PathOf(const PlanSegment& stretch, const kinematics::HandModel& hand) {
-  return PathOf(stretch, 0, static_cast<int>(stretch.path.size()) - 1, hand);
-}
-
-plan::FingerGrasp GraspAtEnd(const plan::Plan& plan) {
-  plan::FingerGrasp holding = plan.initial;
-  for (const plan::Step& step : plan.steps) holding = plan::GraspAfter(holding, step);
-  return holding;
-}
-
-/// Some fingers slide, the others stay where they are.
-plan::Align SlideOf(const PlanSegment& stretch, const plan::FingerGrasp& holding,
-                    const kinematics::HandModel& hand) {
-  plan::Align align;
-  align.motion.emplace();
-  for (std::size_t i = 0; i < stretch.along.size(); ++i) {
-    align.waypoints.push_back(holding);
-    for (plan::FingerContact& held : align.waypoints.back()) {
-      const auto slid = std::ranges::find(stretch.slid, held.finger, &PlanSegment::Slid::finger);
-      if (slid != stretch.slid.end()) {
-        held.contact = stretch.along[i][slid - stretch.slid.begin()];
-      }
-    }
-    if (i == 0) continue;
-    align.motion->push_back(PathOf(stretch, stretch.along_at[i - 1], stretch.along_at[i], hand));
-  }
-  return align;
-}
-
-/// Whether a stretch is one step with the one before: a placed finger, and then another released.
-bool BelongTogether(const std::vector<PlanSegment>& segments, std::size_t i) {
-  using enum PlanSegment::Kind;
-  return i > 0 && segments[i].kind == kRelease && segments[i - 1].kind == kPlace &&
-         segments[i].finger != segments[i - 1].finger;
-}
-
-}  // namespace
-
 plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
                   const std::vector<grasp::Contact>& contacts) {
   const kinematics::HandModel& hand = *request.hand;
@@ -112,27 +110,27 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
     plan.initial.push_back({finger, contacts[gait.initial[finger]]});
   }
   for (std::size_t i = 0; i < gait.segments.size(); ++i) {
-    const PlanSegment& stretch = gait.segments[i];
-    switch (stretch.kind) {
+    const PlanSegment& segment = gait.segments[i];
+    switch (segment.kind) {
       case PlanSegment::Kind::kMove:
-        plan.steps.emplace_back(plan::Move{PathOf(stretch, hand)});
+        plan.steps.emplace_back(plan::Move{PathOf(segment, hand)});
         break;
       case PlanSegment::Kind::kPlace: {
-        const plan::FingerContact placed{stretch.finger, contacts[stretch.contact]};
+        const plan::FingerContact placed{segment.finger, contacts[segment.contact]};
         plan.steps.emplace_back(
-            plan::Switch{{placed}, {}, plan::SwitchMotion{PathOf(stretch, hand), {}}});
+            plan::Switch{{placed}, {}, plan::SwitchMotion{PathOf(segment, hand), {}}});
         break;
       }
       case PlanSegment::Kind::kSlide:
-        plan.steps.emplace_back(SlideOf(stretch, GraspAtEnd(plan), hand));
+        plan.steps.emplace_back(SlideOf(segment, GraspAtEnd(plan), hand));
         break;
       case PlanSegment::Kind::kRelease: {
         if (!BelongTogether(gait.segments, i)) {
           plan.steps.emplace_back(plan::Switch{{}, {}, plan::SwitchMotion{{}, {}}});
         }
         auto& last = std::get<plan::Switch>(plan.steps.back());
-        last.release.push_back(stretch.finger);
-        last.motion->release = PathOf(stretch, hand);
+        last.release.push_back(segment.finger);
+        last.motion->release = PathOf(segment, hand);
         break;
       }
     }

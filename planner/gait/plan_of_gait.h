@@ -7,20 +7,22 @@
 
 namespace regrasp::gait {
 
-/// The same gait with one move where several follow each other, each straight from pose to pose
-/// where that is free, and none that ends where it begins; but where contacts roll
-/// (HandSetup::rolled_on) the object stays on the way on which they were followed.
-///
-/// Laws: the same keyframes first and last, the same changes in the same order, and no more
-/// stretches; certified like the gait.
+/// Merge consecutive in-hand motions of a gait into one.
+/// The merged motion is straight if that is collision-free, and is dropped if it ends where it
+/// begins. If fingertips roll (HandSetup::rolled_on), the object keeps the path along which rolling
+/// was computed.
+/// Laws: same first and last keyframe, same contact changes in the same order, no more segments;
+/// certified like the gait.
 [[nodiscard]] Gait MergeMoves(const HandSetup& setup, const Gait& gait);
 
-/// The plan that a gait is, all but the object's file and digest: finger numbers are those of the
-/// hand, a placed and the next released finger are one switch.
+/// Convert a gait into a plan without the object's file and digest.
+/// Finger numbers are those of the hand. A placed finger and the finger released next form one
+/// finger switch.
+/// @param contacts  contacts by number, in object units.
 [[nodiscard]] plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
                                 const std::vector<grasp::Contact>& contacts);
 
-/// Of the first steps of a gait's plan how many of its stretches are no moves.
+/// Return the number of contact changes within the first `steps` plan steps of a gait.
 [[nodiscard]] int CountChanges(const Gait& gait, int steps);
 
 }  // namespace regrasp::gait

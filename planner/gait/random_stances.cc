@@ -12,11 +12,11 @@ namespace regrasp::gait {
 
 namespace {
 
-/// Places of the surface that are drawn for all fingers together, in each rest.
+/// Number of candidate contacts per draw, shared by all fingers.
 constexpr int kRandomContacts = 24;
-/// Of the diameter: contacts keep off the borders of faces.
-constexpr double kRandomFromBorder = 0.02;
-/// Postures drawn for a finger that does not hold.
+/// Minimum distance between contacts and face borders, in diameters.
+constexpr double kRandomBorderClearance = 0.02;
+/// Number of configurations drawn for an idle finger.
 constexpr int kPostures = 200;
 
 }  // namespace
@@ -24,7 +24,7 @@ constexpr int kPostures = 200;
 RandomStances::RandomStances(const GaitRequest& request, RandomStanceOptions options)
     : request_(request),
       options_(std::move(options)),
-      sampler_(*request.solid, FingersOf(request).fingertip_radius, kRandomFromBorder),
+      sampler_(*request.solid, FingersOf(request).fingertip_radius, kRandomBorderClearance),
       surface_(*request.solid, request.scale),
       scene_(*request.hand, surface_, request.margin),
       evaluator_(*request.solid, request.criteria, FingersOf(request),
@@ -43,32 +43,35 @@ RandomStances::RandomStances(const GaitRequest& request, RandomStanceOptions opt
 Eigen::Isometry3d RandomStances::DrawPose(RandomStream& random) const {
   if (request_.start_pose) return *request_.start_pose;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = DrawTurn(random);
-  Eigen::Vector3d place;
+  pose.linear() = DrawOrientation(random);
+  Eigen::Vector3d position;
   for (int k = 0; k < 3; ++k) {
-    place[k] = tips_box_.min()[k] + random.Uniform() * tips_box_.sizes()[k];
+    position[k] = tips_box_.min()[k] + random.Uniform() * tips_box_.sizes()[k];
   }
-  pose.translation() = place - pose.linear() * centre_;
+  pose.translation() = position - pose.linear() * centre_;
   return pose;
 }
 
-bool RandomStances::IsClear(const PlacedFinger& placed, const Held& held, TipContact tip) const {
-  return scene_.KeepsOffHand(placed) && scene_.KeepsOffObject(placed, held.rest.state.pose, tip) &&
-         std::ranges::all_of(held.placed, [&](const PlacedFinger& other) {
+bool RandomStances::IsClear(const PlacedFinger& placed, const Holding& holding,
+                            TipContact tip) const {
+  return scene_.KeepsOffHand(placed) &&
+         scene_.KeepsOffObject(placed, holding.stance.state.pose, tip) &&
+         std::ranges::all_of(holding.placed, [&](const PlacedFinger& other) {
            return scene_.KeepApart(other, placed);
          });
 }
 
-bool RandomStances::PlaceAt(FingerIndex finger, const grasp::Contact& contact, Held& held) const {
+bool RandomStances::PlaceAt(FingerIndex finger, const grasp::Contact& contact,
+                            Holding& holding) const {
   const kinematics::Finger& chain = scene_.finger(finger);
   const SurfacePoint point{request_.scale * contact.p, contact.n};
-  const auto posture = inverse_[finger].Solve(TargetAt(chain, point, held.rest.state.pose));
+  const auto posture = inverse_[finger].Solve(TargetAt(chain, point, holding.stance.state.pose));
   if (!posture) return false;
-  PlacedFinger there = scene_.Place(finger, *posture);
-  if (!IsClear(there, held, TipContact::kTouching)) return false;
-  held.placed.push_back(std::move(there));
-  held.rest.state.joints[finger] = kinematics::JointAngles(chain, *posture);
-  held.rest.grasp.push_back({finger, contact});
+  PlacedFinger placed = scene_.Place(finger, *posture);
+  if (!IsClear(placed, holding, TipContact::kTouching)) return false;
+  holding.placed.push_back(std::move(placed));
+  holding.stance.state.joints[finger] = kinematics::JointAngles(chain, *posture);
+  holding.stance.grasp.push_back({finger, contact});
   return true;
 }
 
@@ -84,12 +87,12 @@ std::vector<grasp::Contact> RandomStances::DrawContacts(RandomStream& random) co
   return contacts;
 }
 
-std::optional<RandomStances::Held> RandomStances::DrawHeld(RandomStream& random) const {
-  Held held;
-  held.rest.state.pose = DrawPose(random);
-  if (!scene_.KeepsOffPalm(held.rest.state.pose)) return std::nullopt;
+std::optional<RandomStances::Holding> RandomStances::DrawHolding(RandomStream& random) const {
+  Holding holding;
+  holding.stance.state.pose = DrawPose(random);
+  if (!scene_.KeepsOffPalm(holding.stance.state.pose)) return std::nullopt;
   const int fingers = scene_.finger_count();
-  held.rest.state.joints.resize(fingers);
+  holding.stance.state.joints.resize(fingers);
   const std::vector<grasp::Contact> contacts = DrawContacts(random);
   const int choices = options_.most - options_.fewest + 1;
   const int wanted = options_.fewest + static_cast<int>(random.Index(choices));
@@ -97,29 +100,29 @@ std::optional<RandomStances::Held> RandomStances::DrawHeld(RandomStream& random)
   for (const int finger : random.Choose(fingers, fingers)) {
     const std::vector<int> order = random.Choose(count, count);
     std::ranges::any_of(order,
-                        [&](int i) { return PlaceAt(FingerIndex{finger}, contacts[i], held); });
-    if (std::ssize(held.placed) == wanted) break;
+                        [&](int i) { return PlaceAt(FingerIndex{finger}, contacts[i], holding); });
+    if (std::ssize(holding.placed) == wanted) break;
   }
-  if (std::ssize(held.placed) < wanted) return std::nullopt;
-  std::ranges::sort(held.rest.grasp, {}, &plan::FingerContact::finger);
-  return held;
+  if (std::ssize(holding.placed) < wanted) return std::nullopt;
+  std::ranges::sort(holding.stance.grasp, {}, &plan::FingerContact::finger);
+  return holding;
 }
 
 std::optional<RandomStance> RandomStances::TryDraw(RandomStream& random) const {
-  auto held = DrawHeld(random);
-  if (!held) return std::nullopt;
-  return std::move(held->rest);
+  auto holding = DrawHolding(random);
+  if (!holding) return std::nullopt;
+  return std::move(holding->stance);
 }
 
-bool RandomStances::PlaceIdleFingers(Held& held, RandomStream& random) const {
-  std::vector<std::vector<double>>& joints = held.rest.state.joints;
+bool RandomStances::PlaceIdleFingers(Holding& holding, RandomStream& random) const {
+  std::vector<std::vector<double>>& joints = holding.stance.state.joints;
   for (FingerIndex finger{0}; finger < scene_.finger_count(); ++finger) {
     for (int i = 0; joints[finger].empty(); ++i) {
       if (i == kPostures) return false;
       const Posture posture = scene_.DrawPosture(finger, random);
-      PlacedFinger there = scene_.Place(finger, posture);
-      if (!IsClear(there, held, TipContact::kFree)) continue;
-      held.placed.push_back(std::move(there));
+      PlacedFinger placed = scene_.Place(finger, posture);
+      if (!IsClear(placed, holding, TipContact::kFree)) continue;
+      holding.placed.push_back(std::move(placed));
       joints[finger] = kinematics::JointAngles(scene_.finger(finger), posture);
     }
   }
@@ -128,12 +131,12 @@ bool RandomStances::PlaceIdleFingers(Held& held, RandomStream& random) const {
 
 std::optional<RandomStance> RandomStances::Draw(RandomStream& random, int tries) const {
   for (int i = 0; i < tries; ++i) {
-    auto held = DrawHeld(random);
-    if (!held) continue;
+    auto holding = DrawHolding(random);
+    if (!holding) continue;
     grasp::Grasp grasp;
-    for (const plan::FingerContact& one : held->rest.grasp) grasp.push_back(one.contact);
-    if (evaluator_.IsAdmitted(grasp) && PlaceIdleFingers(*held, random))
-      return std::move(held->rest);
+    for (const plan::FingerContact& one : holding->stance.grasp) grasp.push_back(one.contact);
+    if (evaluator_.IsAdmitted(grasp) && PlaceIdleFingers(*holding, random))
+      return std::move(holding->stance);
   }
   return std::nullopt;
 }

@@ -17,60 +17,66 @@ namespace regrasp::gait {
 
 /// A hand that holds an object.
 struct RandomStance {
-  plan::HandState state;    ///< with a posture for each finger, those too that hold nothing
-  plan::FingerGrasp grasp;  ///< by finger, in the object's units
+  plan::HandState
+      state;  ///< object pose and joint configurations of all fingers, idle ones included
+  plan::FingerGrasp grasp;  ///< contacts by finger, in object units
 };
 
 struct RandomStanceOptions {
-  /// Fingers that hold: their number is drawn evenly, and rests of many are found less often.
+  /// Range of the number of holding fingers. The number is drawn uniformly; draws with many fingers
+  /// succeed less often.
   int fewest = 3;
   int most = 3;
-  /// Contacts are drawn among these; none: anywhere on the surface.
+  /// Candidate contacts. Empty: any point of the surface.
   std::vector<grasp::Contact> among = {};
 };
 
-/// Random rests of a hand: no search has a say in them. Where the object is in the hand is drawn,
-/// each finger's contact among those that it reaches there, and how fingers wait that hold nothing.
-/// Not for several threads.
+/// Sampler of random stances, independent of any search.
+/// Draws the object pose, a contact of each finger among those that it reaches, and the
+/// configurations of idle fingers. Not thread-safe.
 class RandomStances {
  public:
-  /// @param request  of the hand and the object; its criteria are what grasps meet, and where it
-  ///                 has a start pose the object is nowhere else. Outlives this object.
+  /// @param request  hand, object and criteria of the grasps. A start pose in it fixes the object
+  ///     pose. Outlives this object.
+  /// @throws std::invalid_argument  if not 3 ≤ fewest ≤ most ≤ number of fingers.
   RandomStances(const GaitRequest& request, RandomStanceOptions options);
-  RandomStances(const RandomStances&) = delete;  // its parts refer to each other
+  RandomStances(const RandomStances&) = delete;  // members refer to each other
   RandomStances& operator=(const RandomStances&) = delete;
 
-  /// Fingers at contacts, whatever those are worth as a grasp; those that do not hold have no
-  /// posture. @returns nullopt where fewer fingers reach the object, or something is in the way.
+  /// Draw fingers at contacts without checking the grasp; idle fingers have no configuration.
+  /// @returns the stance; nullopt if too few fingers reach the object or a collision occurs.
   [[nodiscard]] std::optional<RandomStance> TryDraw(RandomStream& random) const;
 
-  /// One that meets the criteria, and beside which the other fingers have room.
-  /// @returns nullopt where none is found in `tries`.
+  /// Draw a stance that meets the criteria, with collision-free idle fingers.
+  /// @returns the stance; nullopt if none is found in `tries` draws.
   [[nodiscard]] std::optional<RandomStance> Draw(RandomStream& random, int tries) const;
 
  private:
-  struct Held {
-    RandomStance rest;
-    std::vector<PlacedFinger> placed;  ///< those that have a posture
+  struct Holding {
+    RandomStance stance;
+    std::vector<PlacedFinger> placed;  ///< fingers with a configuration
   };
-  [[nodiscard]] std::optional<Held> DrawHeld(RandomStream& random) const;
+  [[nodiscard]] std::optional<Holding> DrawHolding(RandomStream& random) const;
   [[nodiscard]] Eigen::Isometry3d DrawPose(RandomStream& random) const;
-  /// For all fingers together.
+  /// Draw candidate contacts for all fingers.
   [[nodiscard]] std::vector<grasp::Contact> DrawContacts(RandomStream& random) const;
-  /// @returns false where the finger does not reach the contact, or is in something's way there.
-  [[nodiscard]] bool PlaceAt(FingerIndex finger, const grasp::Contact& contact, Held& held) const;
-  [[nodiscard]] bool IsClear(const PlacedFinger& placed, const Held& held, TipContact tip) const;
-  [[nodiscard]] bool PlaceIdleFingers(Held& held, RandomStream& random) const;
+  /// Place a finger at a contact.
+  /// @returns false if the finger does not reach it or collides there.
+  [[nodiscard]] bool PlaceAt(FingerIndex finger, const grasp::Contact& contact,
+                             Holding& holding) const;
+  [[nodiscard]] bool IsClear(const PlacedFinger& placed, const Holding& holding,
+                             TipContact tip) const;
+  [[nodiscard]] bool PlaceIdleFingers(Holding& holding, RandomStream& random) const;
 
   const GaitRequest& request_;
   RandomStanceOptions options_;
   sampling::SurfaceSampler sampler_;
   collision::SurfaceTree surface_;
   HandScene scene_;
-  std::vector<kinematics::InverseKinematics> inverse_;  ///< by finger
+  std::vector<kinematics::InverseKinematics> inverse_;  ///< [finger]
   criteria::GraspEvaluator evaluator_;
-  Eigen::Vector3d centre_;        ///< of the object, in its frame, metres
-  Eigen::AlignedBox3d tips_box_;  ///< around all places of tips
+  Eigen::Vector3d centre_;        ///< centroid in the object's frame, metres
+  Eigen::AlignedBox3d tips_box_;  ///< bounding box of all sampled fingertip positions, metres
 };
 
 }  // namespace regrasp::gait

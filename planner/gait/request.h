@@ -16,28 +16,27 @@ namespace regrasp::gait {
 
 using planning::Reserve;
 
-/// Rests that a search expands, from all places in the hand together, where nothing else is said.
+/// Default budget of a search: number of expanded stances over all initial poses.
 inline constexpr std::int64_t kDefaultExpanded = 8'000;
 
-/// What is asked of a hand: that the object turns, or goes to a pose, or is held by another grasp
-/// in the end, or both.
+/// Request for a gait: rotate the object, move it to a pose, change its grasp, or several of these.
 struct GaitRequest : planning::InHandTask {
   const object::Polyhedron* solid = nullptr;
   criteria::GraspCriteria criteria;
-  grasp::Grasp start_grasp;  ///< in the file's units; empty: any
-  grasp::Grasp goal_grasp;   ///< the same
+  grasp::Grasp start_grasp;  ///< in object units; empty: any grasp
+  grasp::Grasp goal_grasp;   ///< in object units; empty: any grasp
   std::uint64_t seed = 0;
   std::int64_t most_expanded = kDefaultExpanded;
-  /// Of the gaits with reserve that are found and carried out the one with most to spare
-  /// (planning::CarriedOut::spare), instead of the first; where plans are tried.
+  /// Select the executable gait with the largest tolerance margin (planning::CarriedOut::spare)
+  /// instead of the first one. Requires a simulator.
   bool seeks_most_margin = false;
   Deadline deadline = {};
-  int jobs = 1;  ///< searches at a time where plans are tried, ≥ 1
+  int jobs = 1;  ///< number of parallel searches if plans are simulated, ≥ 1
   planning::Progress progress = [](std::string_view) {};
 };
 
-/// The fingers that grasps are judged for: as many as the hand has, each with its largest tip.
-/// Lengths in the object's unit.
+/// Return the hand used by the grasp criteria: all fingers, each with the largest fingertip radius,
+/// in object units.
 [[nodiscard]] hand::Hand FingersOf(const planning::InHandTask& task);
 
 }  // namespace regrasp::gait

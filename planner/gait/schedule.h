@@ -19,44 +19,48 @@
 
 namespace regrasp::gait {
 
-/// What gaits from a place are searched with.
+/// Configuration of the searches from one initial pose.
 struct SearchTerms {
   const HandSetup& setup;
-  criteria::GraspMemory& memory;     ///< knows the setup's points as contacts under their numbers
-  SimulateExecution carry_out = {};  ///< none: what is planned counts
+  criteria::GraspMemory& memory;    ///< contacts of the setup under the same numbers
+  SimulateExecution simulate = {};  ///< simulator of edges; none: paths are not simulated
 };
 
-/// All places in the hand to begin in that are tried, the best first, and more the longer it takes;
-/// those where the object comes farther have more turns.
+/// Search from several initial object poses, interleaved.
+/// Starts with the best pose and adds poses while the search continues. Searches that move the
+/// object farther receive more of the budget.
 class MultiStartSearch {
  public:
-  /// @param request  outlives this object.
-  /// @param terms    which places have by turns; one or more.
+  /// @param request  request; outlives this object.
+  /// @param terms  one or more configurations, assigned to the initial poses in turn.
   MultiStartSearch(const GaitRequest& request, std::vector<SearchTerms> terms, GaitEnds ends);
 
-  /// @returns the first gait that is found, with fewer moves; nullopt where the request's bounds
-  ///          are reached, or nothing is left to search.
+  /// Run the search.
+  /// @returns the first gait, with merged in-hand motions; nullopt if the budget or the deadline is
+  ///     exhausted or nothing is left to search.
   [[nodiscard]] std::optional<Gait> Search();
 
-  /// By place.
+  /// Return the counts of each initial pose.
   [[nodiscard]] std::vector<GaitCounts> counts() const;
 
  private:
-  struct Place {
+  struct Start {
     const SearchTerms& terms;
     RandomStream random;
     std::unique_ptr<StartSearch> search = nullptr;
   };
-  /// Grasps from all places together, before there is another one.
+  /// Return the total number of expansions at which the next initial pose is added.
   [[nodiscard]] std::int64_t BudgetForNextStart() const;
-  /// Null where all places are exhausted.
-  Place* Next();
-  /// @returns whether there is another place.
-  bool Open();
-  /// Null where a finger has no place to wait.
+  /// Return the search that continues; null if all are exhausted.
+  Start* Next();
+  /// Add the search of the next initial pose.
+  /// @returns false if there is none.
+  bool OpenNextStart();
+  /// Create the search along a track; null if a finger has no idle posture.
   std::unique_ptr<StartSearch> SearchAlong(const PoseTrack& track, const SearchTerms& terms,
                                            RandomStream& random);
-  /// @returns false where there are no more.
+  /// Draw initial poses.
+  /// @returns false if the number of draws is exhausted.
   bool DrawInitialPoses();
 
   const GaitRequest& request_;
@@ -64,56 +68,55 @@ class MultiStartSearch {
   GaitEnds ends_;
   RandomStream random_;
   ObjectTask task_;
-  std::vector<Eigen::Isometry3d> initial_poses_;  ///< that were not tried yet, the best last
+  std::vector<Eigen::Isometry3d> initial_poses_;  ///< unused poses, best last
   int drawings_ = 0;
-  std::size_t opened_ = 0;  ///< homes that were tried
-  std::vector<std::unique_ptr<Place>> places_;
-  std::int64_t expanded_ = 0;  ///< from all places
+  std::size_t opened_ = 0;  ///< number of used poses
+  std::vector<std::unique_ptr<Start>> starts_;
+  std::int64_t expanded_ = 0;  ///< number of expansions over all searches
 };
 
-/// What gaits with reserve have to spare. None of their fingers slides.
+/// Robustness margins of a gait beyond the request. Fingers do not slide in such gaits.
 struct RobustnessMargins {
-  double quality = 0;    ///< of their grasps
-  double clearance = 0;  ///< of links, beside the margin, metres
-  /// As HandSetup has it, where contacts have rolled to. None: contacts are not followed, which is
-  /// reserve only where the hand carries a gait out.
+  double quality = 0;    ///< minimum grasp quality ε
+  double clearance = 0;  ///< additional clearance of links, metres
+  /// Required force margin at rolled contacts (HandSetup::force_margin). None: rolling is not
+  /// modelled, and the gait is robust only if its simulated execution succeeds.
   std::optional<double> force_margin = {};
 };
 
 struct FoundGait {
   std::optional<Gait> gait;
-  std::string message;  ///< where there is none
+  std::string message;  ///< reason, if there is no gait
 };
-/// Looks for a gait with one of some spares, from each place in the hand with the next of them;
-/// without reserve where there are none. What is to have a spare is tried on the way where the
-/// hand can try plans.
-using FindOne =
-    std::function<FoundGait(const GaitRequest& asked, std::span<const RobustnessMargins> margins)>;
+/// Searches a gait with one of several robustness margins, assigned to the initial poses in turn.
+/// Empty margins: no robustness. With margins, edges are simulated if the request has a simulator.
+using FindOne = std::function<FoundGait(const GaitRequest& asked,
+                                        std::span<const RobustnessMargins> margin_sets)>;
 
-/// Looks for gaits with reserve where nothing tells whether the hand carries them out: first with
-/// more and then with less to spare. One much longer than the one without does not count.
-/// @param without  the one without reserve, where the request allows it and there is one.
-/// @returns the first that there is, or the one without; where there is none, why.
+/// Search a robust gait without simulated execution, with decreasing margins.
+/// A gait that is much longer than `without` is rejected.
+/// @param without  result without robustness margins; empty if robustness is required.
+/// @returns the first robust gait; otherwise `without`, with the reason if it has no gait.
 [[nodiscard]] FoundGait FindRobustGait(const GaitRequest& request, const FindOne& find,
                                        const FoundGait& without);
 
-/// A gait, and how far the hand carries it out, or the one that came farthest of those that are not
-/// given because it does not; nullopt: nothing tells, or none was tried.
+/// Gait with the result of its simulated execution. Without a gait, the result of the candidate
+/// that executes farthest; nullopt if the simulator gives no result or nothing was simulated.
 struct SimulatedGait {
   FoundGait found;
-  std::optional<planning::CarriedOut> trial = {};
+  std::optional<planning::CarriedOut> execution = {};
 };
 
-/// Where and why a plan of so many steps is not carried out.
-[[nodiscard]] std::string FailureText(const planning::CarriedOut& carried, std::size_t steps);
+/// Return which of `steps` plan steps fails in simulation, and why.
+[[nodiscard]] std::string FailureText(const planning::CarriedOut& execution, std::size_t steps);
 
-/// Looks for gaits with reserve until the hand carries one out (planning::InHandTask::carry_out),
-/// with more or less to spare by turns, and again, as each time draws others; where there is none,
-/// for one without. Where the hand can't tell, as if it were not asked. Where the request seeks the
-/// most to spare, it goes on all the same, and the gait with most is taken, the first of equal
-/// ones.
-/// @param contacts  of gaits, by their numbers.
-/// @returns no gait that is not carried out where the request's reserve is required.
+/// Search a gait that executes in simulation (planning::InHandTask::carry_out).
+/// Runs the schedules of attempts with varying margins and random streams. If none executes and
+/// robustness is only preferred, searches a gait without margins. If the simulator gives no result,
+/// the search runs without simulation. With `seeks_most_margin`, all attempts run, and the first
+/// gait with the largest tolerance margin is selected.
+/// @param contacts  contacts by number, in object units.
+/// @returns a gait that executes; if robustness is only preferred, possibly one that does not.
 [[nodiscard]] SimulatedGait FindExecutableGait(const GaitRequest& request,
                                                const std::vector<grasp::Contact>& contacts,
                                                const FindOne& find);

@@ -8,93 +8,98 @@ namespace regrasp::gait {
 
 namespace {
 
-/// Nodes from which a hold is carried on in vain.
+/// Expanded grid nodes without progress after which an extension stops.
 constexpr int kPatience = 40;
-/// Of one move: times that it is led round what it can't pass.
-constexpr int kMostDetours = 8;
+/// Maximum number of detours per in-hand motion.
+constexpr int kMaxDetours = 8;
 
 }  // namespace
 
-int StanceTree::Add(StanceNode rest) {
-  rests_.push_back(std::move(rest));
-  return static_cast<int>(rests_.size()) - 1;
+int StanceTree::Add(StanceNode stance_node) {
+  nodes_.push_back(std::move(stance_node));
+  return static_cast<int>(nodes_.size()) - 1;
 }
 
-int StanceTree::RootOf(int rest) const {
-  while (rests_[rest].parent >= 0) rest = rests_[rest].parent;
-  return rest;
+int StanceTree::RootOf(int index) const {
+  while (nodes_[index].parent >= 0) index = nodes_[index].parent;
+  return index;
 }
 
 StanceNode StanceTree::After(int from, const ContactAssignment& to, int node) const {
-  const StanceNode& before = rests_[from];
-  const Change change = ChangeBetween(before.hold.holding, to);
-  StanceNode rest{.hold = {to, before.hold.waiting},
-                  .node = node,
-                  .parent = from,
-                  .slides = before.slides + static_cast<int>(!change.slid.empty())};
-  if (change.placed.valid()) rest.hold.waiting[change.placed] = {};
-  return rest;
+  const StanceNode& before = nodes_[from];
+  const Change change = ChangeBetween(before.stance.assignment, to);
+  StanceNode stance_node{.stance = {to, before.stance.idle},
+                         .node = node,
+                         .parent = from,
+                         .slides = before.slides + static_cast<int>(!change.slid.empty())};
+  if (change.placed.valid()) stance_node.stance.idle[change.placed] = {};
+  return stance_node;
 }
 
-void StanceTree::ExtendReachable(StanceNode& rest) {
-  rest.carried = checker_.ExtendAround(
-      rest.hold, rest.node, kPatience * (1 + rest.turns),
-      [&](int node) { return is_enough_(node, rest.hold.holding); }, rest.blocked);
+void StanceTree::ExtendReachable(StanceNode& stance_node) {
+  stance_node.reachable = checker_.ExtendAround(
+      stance_node.stance, stance_node.node, kPatience * (1 + stance_node.expansions),
+      [&](int node) { return is_enough_(node, stance_node.stance.assignment); },
+      stance_node.blocked);
 }
 
-const std::vector<Keyframe>* StanceTree::MoveBetween(StanceNode& rest, int from, int to) {
-  const auto [found, is_new] = rest.moves.try_emplace({from, to});
-  if (is_new && !rest.blocked.contains(std::minmax({from, to}))) {
-    const Keyframe first = from == rest.node ? rest.at : checker_.FrameAt(rest.hold, from);
-    if (auto move = FindMove(setup_, rest.hold.holding, first, checker_.FrameAt(rest.hold, to))) {
+const std::vector<Keyframe>* StanceTree::MoveBetween(StanceNode& stance_node, int from, int to) {
+  const auto [found, is_new] = stance_node.moves.try_emplace({from, to});
+  if (is_new && !stance_node.blocked.contains(std::minmax({from, to}))) {
+    const Keyframe first =
+        from == stance_node.node ? stance_node.at : checker_.FrameAt(stance_node.stance, from);
+    if (auto move = FindMove(setup_, stance_node.stance.assignment, first,
+                             checker_.FrameAt(stance_node.stance, to))) {
       found->second = *std::move(move);
     }
   }
   return found->second.empty() ? nullptr : &found->second;
 }
 
-std::optional<std::vector<Keyframe>> StanceTree::MoveFrom(StanceNode& rest, int node) {
-  for (int detour = 0; rest.carried.from.contains(node); ++detour) {
-    const std::vector<int> path = rest.carried.PathTo(node);
-    std::vector<Keyframe> keyframes = {rest.at};
+std::optional<std::vector<Keyframe>> StanceTree::MoveFrom(StanceNode& stance_node, int node) {
+  for (int detour = 0; stance_node.reachable.predecessor.contains(node); ++detour) {
+    const std::vector<int> path = stance_node.reachable.PathTo(node);
+    std::vector<Keyframe> keyframes = {stance_node.at};
     std::size_t at = 1;
     while (at < path.size()) {
-      const std::vector<Keyframe>* move = MoveBetween(rest, path[at - 1], path[at]);
+      const std::vector<Keyframe>* move = MoveBetween(stance_node, path[at - 1], path[at]);
       if (move == nullptr) break;
       keyframes.insert(keyframes.end(), move->begin() + 1, move->end());
       ++at;
     }
     if (at == path.size()) return keyframes;
-    rest.blocked.insert(std::minmax({path[at - 1], path[at]}));
-    // Tips that roll were followed along this way.
-    if (detour == kMostDetours || setup_.rolled_on != nullptr) break;
-    ExtendReachable(rest);
+    stance_node.blocked.insert(std::minmax({path[at - 1], path[at]}));
+    // The rolled fingertips are valid along this path only.
+    if (detour == kMaxDetours || setup_.rolled_on != nullptr) break;
+    ExtendReachable(stance_node);
   }
   ++counts_.no_move;
   return std::nullopt;
 }
 
-bool StanceTree::PlanPathFromParent(StanceNode& rest) {
-  rest.at = checker_.FrameAt(rest.hold, rest.node);
-  if (rest.parent < 0) return true;
-  const Stance& before = rests_[rest.parent].hold;
-  auto way = paths_.Find(before, rest.hold, rest.node, {rest.rolled_before, rest.rolled});
-  if (!way) {
-    const bool slides = !ChangeBetween(before.holding, rest.hold.holding).slid.empty();
+bool StanceTree::PlanPathFromParent(StanceNode& stance_node) {
+  stance_node.at = checker_.FrameAt(stance_node.stance, stance_node.node);
+  if (stance_node.parent < 0) return true;
+  const Stance& before = nodes_[stance_node.parent].stance;
+  auto edge = paths_.Find(before, stance_node.stance, stance_node.node,
+                          {stance_node.rolled_before, stance_node.rolled});
+  if (!edge) {
+    const bool slides =
+        !ChangeBetween(before.assignment, stance_node.stance.assignment).slid.empty();
     ++(slides ? counts_.no_slide : counts_.no_path);
     return false;
   }
-  rest.way = *std::move(way);
-  rest.at = rest.way.back().path.back();
+  stance_node.edge = *std::move(edge);
+  stance_node.at = stance_node.edge.back().path.back();
   return true;
 }
 
-void StanceTree::IdleAsBefore(StanceNode& rest) const {
-  if (rest.parent < 0) return;
-  const Stance& before = rests_[rest.parent].hold;
-  for (std::size_t finger = 0; finger < before.holding.size(); ++finger) {
-    if (before.holding[finger] == kNone && rest.hold.holding[finger] == kNone) {
-      rest.hold.waiting[finger] = before.waiting[finger];
+void StanceTree::IdleAsBefore(StanceNode& stance_node) const {
+  if (stance_node.parent < 0) return;
+  const Stance& before = nodes_[stance_node.parent].stance;
+  for (std::size_t finger = 0; finger < before.assignment.size(); ++finger) {
+    if (before.assignment[finger] == kNone && stance_node.stance.assignment[finger] == kNone) {
+      stance_node.stance.idle[finger] = before.idle[finger];
     }
   }
 }
@@ -102,108 +107,114 @@ void StanceTree::IdleAsBefore(StanceNode& rest) const {
 int StanceTree::WithIdlePosture(int index, FingerIndex finger, const Posture& posture) {
   std::vector<int> chain;
   int last = index;
-  while (last >= 0 && rests_[last].hold.holding[finger] == kNone) {
+  while (last >= 0 && nodes_[last].stance.assignment[finger] == kNone) {
     chain.push_back(last);
-    last = rests_[last].parent;
+    last = nodes_[last].parent;
   }
   if (chain.empty() || (last < 0 && !has_given_start_)) return -1;
   std::ranges::reverse(chain);
   for (const int i : chain) {
-    StanceNode rest = rests_[i];
-    rest.parent = last;
-    rest.way.clear();
-    rest.is_carried = false;
-    rest.ends_in_vain = false;
-    rest.farthest = std::numeric_limits<int>::max();
-    rest.moves.clear();
-    rest.blocked.clear();
-    IdleAsBefore(rest);
-    rest.hold.waiting[finger] = posture;
-    const bool is_free = checker_.IsPassable(rest.hold, rest.node) && PlanPathFromParent(rest) &&
-                         rest.hold.waiting[finger] == posture;
+    StanceNode stance_node = nodes_[i];
+    stance_node.parent = last;
+    stance_node.edge.clear();
+    stance_node.is_executed = false;
+    stance_node.goal_path_failed = false;
+    stance_node.farthest = std::numeric_limits<int>::max();
+    stance_node.moves.clear();
+    stance_node.blocked.clear();
+    IdleAsBefore(stance_node);
+    stance_node.stance.idle[finger] = posture;
+    const bool is_free = checker_.IsPassable(stance_node.stance, stance_node.node) &&
+                         PlanPathFromParent(stance_node) &&
+                         stance_node.stance.idle[finger] == posture;
     if (!is_free) return -1;
-    last = Add(std::move(rest));
+    last = Add(std::move(stance_node));
   }
   return last;
 }
 
 int StanceTree::AfterIdlingAbove(int index) {
-  const int parent = rests_[index].parent;
-  const Stance& before = rests_[parent].hold;
-  const FingerIndex placed = ChangeBetween(before.holding, rests_[index].hold.holding).placed;
+  const int parent = nodes_[index].parent;
+  const Stance& before = nodes_[parent].stance;
+  const FingerIndex placed =
+      ChangeBetween(before.assignment, nodes_[index].stance.assignment).placed;
   if (!placed.valid()) return -1;
   Stance above = before;
-  const int point = rests_[index].hold.holding[placed];
-  if (!checker_.IdleAbove(above, placed, point, rests_[index].node)) return -1;
-  const int begin = WithIdlePosture(parent, placed, above.waiting[placed]);
+  const int point = nodes_[index].stance.assignment[placed];
+  if (!checker_.IdleAbove(above, placed, point, nodes_[index].node)) return -1;
+  const int begin = WithIdlePosture(parent, placed, above.idle[placed]);
   if (begin < 0) return -1;
-  StanceNode rest = rests_[index];
-  rest.parent = begin;
-  IdleAsBefore(rest);
-  if (!PlanPathFromParent(rest)) return -1;
-  return Add(std::move(rest));
+  StanceNode stance_node = nodes_[index];
+  stance_node.parent = begin;
+  IdleAsBefore(stance_node);
+  if (!PlanPathFromParent(stance_node)) return -1;
+  return Add(std::move(stance_node));
 }
 
-int StanceTree::LastExecuted(int rest) const {
-  while (rest >= 0 && !rests_[rest].is_carried) rest = rests_[rest].parent;
-  return rest;
+int StanceTree::LastExecuted(int index) const {
+  while (index >= 0 && !nodes_[index].is_executed) index = nodes_[index].parent;
+  return index;
 }
 
-void StanceTree::MarkExecuted(int rest) {
-  for (; rest >= 0; rest = rests_[rest].parent) rests_[rest].is_carried = true;
+void StanceTree::MarkExecuted(int index) {
+  for (; index >= 0; index = nodes_[index].parent) nodes_[index].is_executed = true;
 }
 
-int StanceTree::CutOffAfter(int index, int changes) {
+int StanceTree::PruneAfter(int index, int changes) {
   std::vector<int> chain;
-  for (int i = index; i >= 0; i = rests_[i].parent) chain.push_back(i);
+  for (int i = index; i >= 0; i = nodes_[i].parent) chain.push_back(i);
   std::ranges::reverse(chain);
-  int come_to = -1;
+  int changes_so_far = -1;
   for (const int i : chain) {
-    come_to = rests_[i].parent < 0 ? 0 : come_to + static_cast<int>(rests_[i].way.size());
-    if (come_to <= changes) continue;
-    CutOff(i);
+    changes_so_far =
+        nodes_[i].parent < 0 ? 0 : changes_so_far + static_cast<int>(nodes_[i].edge.size());
+    if (changes_so_far <= changes) continue;
+    Prune(i);
     return i;
   }
   return -1;
 }
 
 void StanceTree::LimitBefore(int index, int step) {
-  rests_[index].farthest = std::min(rests_[index].farthest, step);
+  nodes_[index].farthest = std::min(nodes_[index].farthest, step);
   for (int i = index; i < size(); ++i) {
-    const StanceNode& rest = rests_[i];
-    if (rest.parent == index && grid_.StepOf(rest.node) > step && !rest.is_carried) CutOff(i);
+    const StanceNode& stance_node = nodes_[i];
+    if (stance_node.parent == index && grid_.StepOf(stance_node.node) > step &&
+        !stance_node.is_executed)
+      Prune(i);
   }
 }
 
-void StanceTree::CutOff(int index) {
-  rests_[index].is_cut_off = true;
-  // A rest comes after its parent.
+void StanceTree::Prune(int index) {
+  nodes_[index].is_pruned = true;
+  // A node has a larger index than its parent.
   for (int i = index; i < size(); ++i) {
-    StanceNode& rest = rests_[i];
-    rest.is_cut_off = rest.is_cut_off || (rest.parent >= 0 && rests_[rest.parent].is_cut_off);
+    StanceNode& stance_node = nodes_[i];
+    stance_node.is_pruned =
+        stance_node.is_pruned || (stance_node.parent >= 0 && nodes_[stance_node.parent].is_pruned);
   }
 }
 
 std::optional<Gait> StanceTree::PathTo(int index, int node) {
   std::vector<int> chain;
-  for (int i = index; i >= 0; i = rests_[i].parent) chain.push_back(i);
+  for (int i = index; i >= 0; i = nodes_[i].parent) chain.push_back(i);
   std::ranges::reverse(chain);
-  Gait gait{rests_[chain.front()].hold.holding, rests_[chain.front()].at, {}};
-  const auto move_to = [&](StanceNode& rest, int to) {
-    if (rest.node == to) return true;
-    auto move = MoveFrom(rest, to);
+  Gait gait{nodes_[chain.front()].stance.assignment, nodes_[chain.front()].at, {}};
+  const auto move_to = [&](StanceNode& stance_node, int to) {
+    if (stance_node.node == to) return true;
+    auto move = MoveFrom(stance_node, to);
     if (move) gait.segments.push_back({PlanSegment::Kind::kMove, {}, kNone, *std::move(move)});
     return move.has_value();
   };
   for (const int i : chain) {
-    StanceNode& rest = rests_[i];
-    if (rest.parent >= 0 && !move_to(rests_[rest.parent], rest.node)) {
-      CutOff(i);
+    StanceNode& stance_node = nodes_[i];
+    if (stance_node.parent >= 0 && !move_to(nodes_[stance_node.parent], stance_node.node)) {
+      Prune(i);
       return std::nullopt;
     }
-    gait.segments.insert(gait.segments.end(), rest.way.begin(), rest.way.end());
+    gait.segments.insert(gait.segments.end(), stance_node.edge.begin(), stance_node.edge.end());
   }
-  if (!move_to(rests_[index], node)) return std::nullopt;
+  if (!move_to(nodes_[index], node)) return std::nullopt;
   return gait;
 }
 

@@ -20,46 +20,50 @@
 
 namespace regrasp::gait {
 
-/// A grasp, and the nodes of the grid that it can be carried to.
+/// Node of the stance tree: a stance entered at one grid node, and the grid nodes that it reaches.
 struct StanceNode {
-  Stance hold;
-  int node = 0;                    ///< at which it was taken
-  ReachablePoses carried = {};     ///< to where
-  std::set<int> switched_at = {};  ///< nodes, in earlier turns
-  int turns = 0;                   ///< that it had
+  Stance stance;
+  int node = 0;                    ///< grid node at which the stance is entered
+  ReachablePoses reachable = {};   ///< grid nodes that the object reaches with the stance
+  std::set<int> expanded_at = {};  ///< grid nodes at which successors were generated
+  int expansions = 0;              ///< number of expansions
   double score = 0;
   int parent = -1;
-  bool is_carried = false;    ///< the way to it was tried, and carried out
-  bool ends_in_vain = false;  ///< the way on with it to the goal is not carried out
-  /// Step of the track: moves with it were tried, and are not carried out much farther.
+  bool is_executed = false;       ///< the path to the stance executes in simulation
+  bool goal_path_failed = false;  ///< the path from the stance to the goal fails in simulation
+  /// Farthest track step of in-hand motions with the stance; limited by failed simulations.
   int farthest = std::numeric_limits<int>::max();
-  int slides = 0;  ///< from the first rest to this one
-  /// Worked out when its turn comes: the change, from where the parent brought the object.
-  std::vector<PlanSegment> way = {};
-  bool is_cut_off = false;  ///< the object can't be brought there
-  /// Moves from node to node that were worked out, empty where they can't be done.
+  int slides = 0;  ///< number of sliding steps from the root
+  /// Edge from the parent: segments of the contact change. Planned when the node is popped from the
+  /// queue.
+  std::vector<PlanSegment> edge = {};
+  bool is_pruned = false;  ///< the stance is known to be unreachable
+  /// Planned in-hand motions by edge of the grid; empty if infeasible.
   std::map<std::pair<int, int>, std::vector<Keyframe>> moves = {};
-  GridEdges blocked = {};  ///< those that can't
-  Keyframe at = {};        ///< at `node`
-  /// With reserve, where tips have rolled to at `node`: before the change, and after it.
+  GridEdges blocked = {};  ///< infeasible edges of the grid
+  Keyframe at = {};        ///< keyframe at `node`
+  /// Rolled fingertips at `node` before and after the contact change; empty if rolling is not
+  /// modelled.
   RolledTips rolled_before = {}, rolled = {};
 };
 
-/// Why ways could not be gone.
+/// Number of path planning failures by cause.
 struct PathFailureCounts {
-  std::int64_t no_path = 0;   ///< changes for which a finger found no free path
-  std::int64_t no_slide = 0;  ///< slides that a finger could not follow, or that lose the object
-  std::int64_t no_move = 0;   ///< moves that a finger could not follow, or that hit something
+  std::int64_t no_path = 0;  ///< contact changes without a free finger path
+  std::int64_t no_slide =
+      0;  ///< sliding steps that a finger cannot follow, or that lose force closure
+  std::int64_t no_move = 0;  ///< in-hand motions that fingers cannot follow, or that collide
 };
 
-/// The rests that a search has come to, by number, each from another one, and the ways between
-/// them. Ways are worked out when they are asked for, as they cost much.
+/// Search tree of stances with lazily planned paths.
+/// An edge is a contact change at a grid node of the parent. Edges and in-hand motions are planned
+/// on demand because they are expensive.
 class StanceTree {
  public:
-  /// @param is_enough  of a node, for a holding: where it is carried to, no more need be looked
-  /// for.
-  /// @param has_given_start  the first rests are given by what they hold, and fingers that hold
-  ///                         nothing may begin anywhere. All others outlive this object.
+  /// @param is_enough  predicate of a grid node and an assignment that ends the extension of a
+  ///     stance.
+  /// @param has_given_start  whether roots are given by their contacts only, so that idle fingers
+  ///     may start anywhere. All other arguments outlive this object.
   StanceTree(const HandSetup& setup, const PoseGrid& grid, ObjectMotionChecker& checker,
              criteria::GraspMemory& memory, SlideRoutes& routes, RandomStream& random,
              std::function<bool(int, const ContactAssignment&)> is_enough, bool has_given_start)
@@ -70,57 +74,60 @@ class StanceTree {
         has_given_start_(has_given_start),
         grid_(grid) {}
 
-  /// References to rests hold when others are added. @returns the rest's number.
-  int Add(StanceNode rest);
-  [[nodiscard]] StanceNode& operator[](int rest) { return rests_[rest]; }
-  [[nodiscard]] const StanceNode& operator[](int rest) const { return rests_[rest]; }
-  [[nodiscard]] int size() const { return static_cast<int>(rests_.size()); }
+  /// Add a node. References to nodes stay valid.
+  /// @returns index of the node.
+  int Add(StanceNode stance_node);
+  [[nodiscard]] StanceNode& operator[](int index) { return nodes_[index]; }
+  [[nodiscard]] const StanceNode& operator[](int index) const { return nodes_[index]; }
+  [[nodiscard]] int size() const { return static_cast<int>(nodes_.size()); }
   [[nodiscard]] const PathFailureCounts& counts() const { return counts_; }
 
-  /// The first rest of the way to a rest.
-  [[nodiscard]] int RootOf(int rest) const;
-  /// A rest after a change, which is not in the tree yet.
+  /// Return the root of a node.
+  [[nodiscard]] int RootOf(int index) const;
+  /// Return a child of node `from` after a contact change at a grid node. It is not added to the
+  /// tree.
   [[nodiscard]] StanceNode After(int from, const ContactAssignment& to, int node) const;
 
-  /// The last rest of the way to one that was carried out; −1: none.
-  [[nodiscard]] int LastExecuted(int rest) const;
-  /// The way to a rest is carried out.
-  void MarkExecuted(int rest);
-  /// Cuts off the rest of the way to `rest` that comes after so many changes; −1: the first one.
-  /// @returns it; −1 where it is none of them.
-  int CutOffAfter(int rest, int changes);
-  /// The object is not carried with a rest beyond a step: cuts off what comes of that.
-  void LimitBefore(int rest, int step);
+  /// Return the last node on the path to `index` that executes in simulation; −1 if none.
+  [[nodiscard]] int LastExecuted(int index) const;
+  /// Mark the path to a node as executed in simulation.
+  void MarkExecuted(int index);
+  /// Prune the first node on the path to `index` that comes after a number of contact changes; −1
+  /// prunes the root.
+  /// @returns the pruned node; −1 if the path has no more changes.
+  int PruneAfter(int index, int changes);
+  /// Limit the in-hand motions of a node to a track step, and prune the children beyond it.
+  void LimitBefore(int index, int step);
 
-  /// Finds where a rest is carried, but for moves that can't be done.
-  void ExtendReachable(StanceNode& rest);
-  /// Works out the change to a rest, from where its parent brought the object.
-  /// @returns whether there is a way.
-  [[nodiscard]] bool PlanPathFromParent(StanceNode& rest);
-  /// The whole way to a rest and with it to one of its nodes, where it is free. A rest that the
-  /// object can't be brought to is cut off, with all that came of it.
-  [[nodiscard]] std::optional<Gait> PathTo(int rest, int node);
+  /// Search the grid nodes that a stance reaches without infeasible motions.
+  void ExtendReachable(StanceNode& stance_node);
+  /// Plan the contact change from the parent to a node.
+  /// @returns whether it succeeds.
+  [[nodiscard]] bool PlanPathFromParent(StanceNode& stance_node);
+  /// Plan the whole path to a node and on to one of its grid nodes. A node that proves unreachable
+  /// is pruned with its subtree.
+  /// @returns the gait; nullopt if a motion fails.
+  [[nodiscard]] std::optional<Gait> PathTo(int index, int node);
 
-  /// The same way to a rest with a finger that waits elsewhere all the time since it held
-  /// something, or, after a given start, since the beginning.
-  /// @returns that rest, by number; −1 where the finger is in the way, or where the beginning says
-  ///          where it is.
-  [[nodiscard]] int WithIdlePosture(int rest, FingerIndex finger, const Posture& posture);
-  /// Of a rest to which the finger that is placed finds no way: has it wait above its contact
-  /// before that (WithIdlePosture).
-  /// @returns the rest as it is come to so, by number; −1 where it is not.
-  [[nodiscard]] int AfterIdlingAbove(int rest);
+  /// Copy the path to a node with another idle posture of one finger. The posture applies since the
+  /// finger's last contact or, with a given start, since the root.
+  /// @returns index of the copied node; −1 if a collision occurs or the root fixes the posture.
+  [[nodiscard]] int WithIdlePosture(int index, FingerIndex finger, const Posture& posture);
+  /// Connect a node whose placed finger has no path: let the finger idle above its future contact
+  /// beforehand (WithIdlePosture).
+  /// @returns index of the connected copy; −1 if it fails.
+  [[nodiscard]] int AfterIdlingAbove(int index);
 
  private:
-  /// The move with a rest's grasp from a node to a neighbour; null where it can't be done.
-  [[nodiscard]] const std::vector<Keyframe>* MoveBetween(StanceNode& rest, int from, int to);
-  /// The move with a rest's grasp to a node that it comes to, past what can't be done; nullopt
-  /// where there is no way round it.
-  [[nodiscard]] std::optional<std::vector<Keyframe>> MoveFrom(StanceNode& rest, int node);
-  void CutOff(int rest);
-  /// Fingers that hold nothing before a rest and in it stay where they are: with another way to its
-  /// parent that may be elsewhere, where one that was lifted found no way to where it was to wait.
-  void IdleAsBefore(StanceNode& rest) const;
+  /// Return the in-hand motion between adjacent grid nodes; null if infeasible.
+  [[nodiscard]] const std::vector<Keyframe>* MoveBetween(StanceNode& stance_node, int from, int to);
+  /// Plan the in-hand motion to a reachable grid node, with detours around infeasible edges;
+  /// nullopt if there is none.
+  [[nodiscard]] std::optional<std::vector<Keyframe>> MoveFrom(StanceNode& stance_node, int node);
+  void Prune(int index);
+  /// Reset the postures of fingers that idle before and after the change to those of the parent.
+  /// They may differ if a released finger found no path to its idle posture.
+  void IdleAsBefore(StanceNode& stance_node) const;
 
   const HandSetup& setup_;
   ObjectMotionChecker& checker_;
@@ -128,7 +135,7 @@ class StanceTree {
   std::function<bool(int, const ContactAssignment&)> is_enough_;
   bool has_given_start_;
   const PoseGrid& grid_;
-  std::deque<StanceNode> rests_;  ///< which stay where they are when others come
+  std::deque<StanceNode> nodes_;  ///< addresses are stable
   PathFailureCounts counts_;
 };
 

@@ -12,44 +12,23 @@ namespace regrasp::gait {
 
 namespace {
 
-/// From the first contact of a group, metres, and the cosine between their normals.
-constexpr double kRadius = 0.02;
-constexpr double kLeastCosine = 0.7;
+/// Maximum distance from the first contact of a cluster, metres, and minimum cosine between their
+/// normals.
+constexpr double kClusterRadius = 0.02;
+constexpr double kClusterCosine = 0.7;
 
-}  // namespace
-
-ContactClusters::ContactClusters(const std::vector<SurfacePoint>& points) {
-  std::vector<const SurfacePoint*> firsts;
-  for (const SurfacePoint& point : points) {
-    const auto found = std::ranges::find_if(firsts, [&](const SurfacePoint* first) {
-      return (first->p - point.p).norm() < kRadius && first->n.dot(point.n) > kLeastCosine;
-    });
-    groups_.push_back(static_cast<int>(found - firsts.begin()));
-    if (found == firsts.end()) firsts.push_back(&point);
-  }
-}
-
-ContactAssignment ContactClusters::KindOf(ContactAssignment holding) const {
-  for (int& point : holding) {
-    if (point != kNone) point = groups_[point];
-  }
-  return holding;
-}
-
-namespace {
-
-/// Steps for each rest that ends at the same one.
-constexpr double kAtOneStep = 0.1;
-/// For each one of the same kind.
-constexpr double kAlike = 0.5;
-/// For each one that the same fingers hold: there is much to slide to with three fingers, and most
-/// of it leads nowhere.
+/// Penalty per expanded stance with the same end step, in steps.
+constexpr double kSameStep = 0.1;
+/// Penalty per expanded stance with the same clusters, in steps.
+constexpr double kSameClusters = 0.5;
+/// Penalty per expanded stance with the same holding fingers, in steps. Three fingers can slide to
+/// many contacts, most of which lead nowhere.
 constexpr double kSameFingers = 0.3;
 
-std::vector<bool> WhoHolds(const ContactAssignment& holding) {
-  std::vector<bool> holds;
-  for (const int point : holding) holds.push_back(point != kNone);
-  return holds;
+std::vector<bool> HoldingFingers(const ContactAssignment& assignment) {
+  std::vector<bool> is_holding;
+  for (const int point : assignment) is_holding.push_back(point != kNone);
+  return is_holding;
 }
 
 template <class Key>
@@ -58,43 +37,70 @@ int CountOf(const std::map<Key, int>& counts, const Key& key) {
   return found == counts.end() ? 0 : found->second;
 }
 
-}  // namespace
+/// Distance of a finger at a wrong contact: offset, and metres along the surface that count as much
+/// as an idle finger.
+constexpr double kWrongContact = 0.3;
+constexpr double kFarAlongSurface = 0.08;
 
-void NoveltyPenalty::Count(const ContactAssignment& holding, int step) {
-  ++at_[step];
-  ++like_[clusters_.KindOf(holding)];
-  ++with_[WhoHolds(holding)];
-}
-
-double NoveltyPenalty::PenaltyFor(double score, const ContactAssignment& holding, int step) const {
-  return score - kAtOneStep * at_[step] - kAlike * CountOf(like_, clusters_.KindOf(holding)) -
-         kSameFingers * CountOf(with_, WhoHolds(holding));
-}
-
-namespace {
-
-/// What it costs not to be there, and metres along the surface that cost as much as a finger that
-/// does not hold at all.
-constexpr double kNear = 0.3;
-constexpr double kFar = 0.08;
+/// Maximum number of candidate contacts of a placed finger.
+constexpr std::size_t kMaxCandidates = 24;
+/// Number of subsets of the contacts. At one grid node further subsets are used only if the first
+/// yields too few candidates.
+constexpr int kSubsets = 4;
+/// Maximum number of goal assignments and targets for simultaneous sliding.
+constexpr int kMaxJointSlides = 3;
+/// Maximum length of a sliding step, metres; the second one applies to goal contacts.
+constexpr double kLongestSlide = 0.015;
+constexpr double kLongestSlideToGoal = 0.06;
 
 }  // namespace
 
-bool GoalGrasp::IsHeldBy(const ContactAssignment& holding) const {
+ContactClusters::ContactClusters(const std::vector<SurfacePoint>& points) {
+  std::vector<const SurfacePoint*> firsts;
+  for (const SurfacePoint& point : points) {
+    const auto found = std::ranges::find_if(firsts, [&](const SurfacePoint* first) {
+      return (first->p - point.p).norm() < kClusterRadius && first->n.dot(point.n) > kClusterCosine;
+    });
+    cluster_of_.push_back(static_cast<int>(found - firsts.begin()));
+    if (found == firsts.end()) firsts.push_back(&point);
+  }
+}
+
+ContactAssignment ContactClusters::ClustersOf(ContactAssignment assignment) const {
+  for (int& point : assignment) {
+    if (point != kNone) point = cluster_of_[point];
+  }
+  return assignment;
+}
+
+void NoveltyPenalty::Count(const ContactAssignment& assignment, int step) {
+  ++by_step_[step];
+  ++by_clusters_[clusters_.ClustersOf(assignment)];
+  ++by_fingers_[HoldingFingers(assignment)];
+}
+
+double NoveltyPenalty::Penalized(double score, const ContactAssignment& assignment,
+                                 int step) const {
+  return score - kSameStep * by_step_[step] -
+         kSameClusters * CountOf(by_clusters_, clusters_.ClustersOf(assignment)) -
+         kSameFingers * CountOf(by_fingers_, HoldingFingers(assignment));
+}
+
+bool GoalGrasp::IsHeldBy(const ContactAssignment& assignment) const {
   if (points_.empty()) return true;
-  return std::ranges::count(holding, kNone) + std::ssize(points_) == std::ssize(holding) &&
+  return std::ranges::count(assignment, kNone) + std::ssize(points_) == std::ssize(assignment) &&
          std::ranges::all_of(points_, [&](int point) {
-           return std::ranges::find(holding, point) != holding.end();
+           return std::ranges::find(assignment, point) != assignment.end();
          });
 }
 
-/// Of a finger that holds at one contact and should at another one.
+/// Return the distance of one finger between two contacts, in [0, 1].
 double GoalGrasp::DistanceBetween(int from, int to) const {
   if (from == to) return 0;
   if (from == kNone || to == kNone) return 1;
   const double apart = (surface_[from].p - surface_[to].p).norm();
   const double turned = 1 - surface_[from].n.dot(surface_[to].n);
-  return std::min(1.0, kNear + apart / kFar + turned / 2);
+  return std::min(1.0, kWrongContact + apart / kFarAlongSurface + turned / 2);
 }
 
 double GoalGrasp::DistanceBetween(const ContactAssignment& from,
@@ -104,12 +110,12 @@ double GoalGrasp::DistanceBetween(const ContactAssignment& from,
   return distance;
 }
 
-const ContactAssignment* GoalGrasp::NearestTo(const ContactAssignment& holding) const {
+const ContactAssignment* GoalGrasp::NearestTo(const ContactAssignment& assignment) const {
   const ContactAssignment* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (const auto* holdings : {&ways_, &targets_}) {
-    for (const ContactAssignment& other : *holdings) {
-      const double distance = DistanceBetween(holding, other);
+  for (const auto* assignments : {&assignments_, &targets_}) {
+    for (const ContactAssignment& other : *assignments) {
+      const double distance = DistanceBetween(assignment, other);
       if (distance >= least) continue;
       least = distance;
       nearest = &other;
@@ -118,15 +124,16 @@ const ContactAssignment* GoalGrasp::NearestTo(const ContactAssignment& holding) 
   return nearest;
 }
 
-std::vector<ContactAssignment> GoalGrasp::NearestOfSameFingers(const ContactAssignment& holding,
+std::vector<ContactAssignment> GoalGrasp::NearestOfSameFingers(const ContactAssignment& assignment,
                                                                int most) const {
   std::vector<std::pair<double, const ContactAssignment*>> found;
-  for (const auto* holdings : {&ways_, &targets_}) {
-    for (const ContactAssignment& other : *holdings) {
+  for (const auto* assignments : {&assignments_, &targets_}) {
+    for (const ContactAssignment& other : *assignments) {
       const bool is_same = std::ranges::equal(
-          holding, other, {}, [](int point) { return point == kNone; },
+          assignment, other, {}, [](int point) { return point == kNone; },
           [](int point) { return point == kNone; });
-      if (is_same && other != holding) found.emplace_back(DistanceBetween(holding, other), &other);
+      if (is_same && other != assignment)
+        found.emplace_back(DistanceBetween(assignment, other), &other);
     }
   }
   std::ranges::stable_sort(found, {}, &std::pair<double, const ContactAssignment*>::first);
@@ -138,87 +145,74 @@ std::vector<ContactAssignment> GoalGrasp::NearestOfSameFingers(const ContactAssi
   return nearest;
 }
 
-double GoalGrasp::DistanceFrom(const ContactAssignment& holding) const {
-  const ContactAssignment* nearest = NearestTo(holding);
-  return nearest == nullptr ? 0 : DistanceBetween(holding, *nearest);
+double GoalGrasp::DistanceFrom(const ContactAssignment& assignment) const {
+  const ContactAssignment* nearest = NearestTo(assignment);
+  return nearest == nullptr ? 0 : DistanceBetween(assignment, *nearest);
 }
 
 std::set<int> GoalGrasp::ContactsOf(FingerIndex finger) const {
   std::set<int> contacts;
-  for (const ContactAssignment& way : ways_) {
-    if (way[finger] != kNone) contacts.insert(way[finger]);
+  for (const ContactAssignment& assignment : assignments_) {
+    if (assignment[finger] != kNone) contacts.insert(assignment[finger]);
   }
   return contacts;
 }
 
-namespace {
-
-/// Contacts tried for a finger that is placed, those that it keeps longest first.
-constexpr std::size_t kTriedContacts = 24;
-/// Of all contacts one in so many is looked at from one place, if that is enough.
-constexpr int kShares = 4;
-/// Goals and targets that all fingers of a grasp may slide to at once, the nearest ones.
-constexpr int kSlidesTogether = 3;
-/// How far a finger slides at once, metres.
-constexpr double kLongestSlide = 0.015;
-constexpr double kLongestSlideToGoal = 0.06;
-
-}  // namespace
-
-const std::vector<int>& SuccessorGenerator::ReachedAt(FingerIndex finger, int node, int share) {
-  const auto [found, is_new] = within_reach_.try_emplace({finger, node, share});
+const std::vector<int>& SuccessorGenerator::ReachedAt(FingerIndex finger, int node, int subset) {
+  const auto [found, is_new] = within_reach_.try_emplace({finger, node, subset});
   if (!is_new) return found->second;
   const int count = static_cast<int>(setup_.points.size());
-  for (int point = (node + share) % kShares; point < count; point += kShares) {
+  for (int point = (node + subset) % kSubsets; point < count; point += kSubsets) {
     if (checker_.reach().Find(finger, point, node) != nullptr) found->second.push_back(point);
   }
   return found->second;
 }
 
-std::vector<int> SuccessorGenerator::PlacesFor(FingerIndex finger, const ContactAssignment& from,
-                                               int node) {
-  struct Place {
+std::vector<int> SuccessorGenerator::ContactCandidates(FingerIndex finger,
+                                                       const ContactAssignment& from, int node) {
+  struct Candidate {
     int point;
     bool is_goal;
-    int last;  ///< step to which the finger can keep it
+    int last;  ///< step up to which the finger keeps it
   };
-  std::vector<Place> places;
+  std::vector<Candidate> candidates;
   Stance with{from};
   const std::set<int> goals = goal_.ContactsOf(finger);
-  const auto look_at = [&](int point, bool is_goal) {
-    if (Holds(from, point)) return;
-    with.holding[finger] = point;
+  const auto consider = [&](int point, bool is_goal) {
+    if (IsAssigned(from, point)) return;
+    with.assignment[finger] = point;
     if (!checker_.KeepsApart(with, finger, node)) return;
-    places.push_back({point, is_goal, checker_.reach().RunEnd(finger, point, node)});
+    candidates.push_back({point, is_goal, checker_.reach().RunEnd(finger, point, node)});
   };
   for (const int point : goals) {
-    if (checker_.reach().Find(finger, point, node) != nullptr) look_at(point, true);
+    if (checker_.reach().Find(finger, point, node) != nullptr) consider(point, true);
   }
-  // At each node some of the contacts, at others others; more where few do.
-  for (int share = 0; share < kShares && places.size() < kTriedContacts; ++share) {
-    for (const int point : ReachedAt(finger, node, share)) {
-      if (!goals.contains(point)) look_at(point, false);
+  // Subsets rotate with the grid node, so that adjacent nodes use different contacts.
+  for (int subset = 0; subset < kSubsets && candidates.size() < kMaxCandidates; ++subset) {
+    for (const int point : ReachedAt(finger, node, subset)) {
+      if (!goals.contains(point)) consider(point, false);
     }
   }
-  std::ranges::stable_sort(places, std::greater<>(),
-                           [](const Place& place) { return std::pair(place.is_goal, place.last); });
-  if (places.size() > kTriedContacts) places.resize(kTriedContacts);
+  std::ranges::stable_sort(candidates, std::greater<>(), [](const Candidate& candidate) {
+    return std::pair(candidate.is_goal, candidate.last);
+  });
+  if (candidates.size() > kMaxCandidates) candidates.resize(kMaxCandidates);
   std::vector<int> points;
-  for (const Place& place : places) points.push_back(place.point);
+  for (const Candidate& candidate : candidates) points.push_back(candidate.point);
   return points;
 }
 
 void SuccessorGenerator::AddSwitches(const ContactAssignment& from, FingerIndex placed, int point,
-                                     std::vector<ContactAssignment>& holdings) const {
+                                     std::vector<ContactAssignment>& assignments) const {
   ContactAssignment with = from;
   if (placed.valid()) {
     with[placed] = point;
-    holdings.push_back(with);
+    assignments.push_back(with);
   }
   for (FingerIndex released{0}; released < std::ssize(from); ++released) {
     if (from[released] == kNone) continue;
-    holdings.push_back(with);
-    holdings.back()[released] = kNone;
+    assignments.push_back(with);
+    assignments.back()[released] = kNone;
   }
 }
 
@@ -228,60 +222,61 @@ bool SuccessorGenerator::MaySlide(const ContactAssignment& from, std::size_t fin
 }
 
 void SuccessorGenerator::AddSlidesTogether(const ContactAssignment& from, int node,
-                                           std::vector<ContactAssignment>& holdings) {
-  for (ContactAssignment& to : goal_.NearestOfSameFingers(from, kSlidesTogether)) {
+                                           std::vector<ContactAssignment>& assignments) {
+  for (ContactAssignment& to : goal_.NearestOfSameFingers(from, kMaxJointSlides)) {
     const Change change = ChangeBetween(from, to);
     const bool may_come = std::ranges::all_of(change.slid, [&](FingerIndex finger) {
       return checker_.reach().Find(finger, to[finger], node) != nullptr &&
-             IsWay(from[finger], to[finger]);
+             HasRoute(from[finger], to[finger]);
     });
-    if (may_come && MaySlide(from, change.slid.size())) holdings.push_back(std::move(to));
+    if (may_come && MaySlide(from, change.slid.size())) assignments.push_back(std::move(to));
   }
 }
 
 void SuccessorGenerator::AddSlides(const ContactAssignment& from, FingerIndex finger, int node,
-                                   std::vector<ContactAssignment>& holdings) {
+                                   std::vector<ContactAssignment>& assignments) {
   if (!MaySlide(from, 1)) return;
   const int at = from[finger];
   const std::set<int> goals = goal_.ContactsOf(finger);
   const int count = static_cast<int>(setup_.points.size());
   for (int point = 0; point < count; ++point) {
     const bool is_goal = goals.contains(point);
-    if (!is_goal && point % kShares != node % kShares) continue;
-    const double way = (setup_.points[at].p - setup_.points[point].p).norm();
-    if (way > (is_goal ? kLongestSlideToGoal : kLongestSlide) || Holds(from, point)) continue;
-    if (checker_.reach().Find(finger, point, node) == nullptr || !IsWay(at, point)) continue;
-    holdings.push_back(from);
-    holdings.back()[finger] = point;
+    if (!is_goal && point % kSubsets != node % kSubsets) continue;
+    const double length = (setup_.points[at].p - setup_.points[point].p).norm();
+    if (length > (is_goal ? kLongestSlideToGoal : kLongestSlide) || IsAssigned(from, point))
+      continue;
+    if (checker_.reach().Find(finger, point, node) == nullptr || !HasRoute(at, point)) continue;
+    assignments.push_back(from);
+    assignments.back()[finger] = point;
   }
 }
 
 std::vector<ContactAssignment> SuccessorGenerator::After(const ContactAssignment& from, int node) {
-  std::vector<ContactAssignment> holdings;
-  if (may_hold_more_) AddSwitches(from, {}, kNone, holdings);
+  std::vector<ContactAssignment> assignments;
+  if (may_change_count_) AddSwitches(from, {}, kNone, assignments);
   for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
     if (from[finger] != kNone) {
-      AddSlides(from, finger, node, holdings);
+      AddSlides(from, finger, node, assignments);
       continue;
     }
-    for (const int point : PlacesFor(finger, from, node)) {
-      AddSwitches(from, finger, point, holdings);
+    for (const int point : ContactCandidates(finger, from, node)) {
+      AddSwitches(from, finger, point, assignments);
     }
   }
   const ContactAssignment* target = goal_.NearestTo(from);
   for (FingerIndex finger{0}; target != nullptr && finger < std::ssize(from); ++finger) {
     const int point = (*target)[finger];
-    if (point == kNone || Holds(from, point)) continue;
+    if (point == kNone || IsAssigned(from, point)) continue;
     if (checker_.reach().Find(finger, point, node) == nullptr) continue;
     if (from[finger] == kNone) {
-      AddSwitches(from, finger, point, holdings);
-    } else if (MaySlide(from, 1) && IsWay(from[finger], point)) {
-      holdings.push_back(from);
-      holdings.back()[finger] = point;
+      AddSwitches(from, finger, point, assignments);
+    } else if (MaySlide(from, 1) && HasRoute(from[finger], point)) {
+      assignments.push_back(from);
+      assignments.back()[finger] = point;
     }
   }
-  AddSlidesTogether(from, node, holdings);
-  return holdings;
+  AddSlidesTogether(from, node, assignments);
+  return assignments;
 }
 
 }  // namespace regrasp::gait

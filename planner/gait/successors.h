@@ -13,64 +13,67 @@
 
 namespace regrasp::gait {
 
-/// Groups of contacts near each other, so that grasps can be told from those much like them.
+/// Clusters of nearby contacts, which make similar grasps recognizable.
 class ContactClusters {
  public:
   explicit ContactClusters(const std::vector<SurfacePoint>& points);
 
-  /// By finger: the group of its contact, kNone where it is free.
-  [[nodiscard]] ContactAssignment KindOf(ContactAssignment holding) const;
+  /// Return the cluster of each finger's contact; kNone for idle fingers.
+  [[nodiscard]] ContactAssignment ClustersOf(ContactAssignment assignment) const;
 
  private:
-  std::vector<int> groups_;  ///< by contact
+  std::vector<int> cluster_of_;  ///< [contact]
 };
 
-/// How much a search has looked at of what is like a rest, and how far that puts it back: so that
-/// a dead end does not hold the search up.
+/// Penalty for stances that resemble those already expanded, which lets the search leave dead ends.
 class NoveltyPenalty {
  public:
-  /// @param kinds  outlives this object. @param steps  that the object's track has.
-  NoveltyPenalty(const ContactClusters& kinds, int steps) : clusters_(kinds), at_(steps + 1, 0) {}
+  /// @param clusters  clusters of contacts; outlives this object.
+  /// @param steps  number of track steps.
+  NoveltyPenalty(const ContactClusters& clusters, int steps)
+      : clusters_(clusters), by_step_(steps + 1, 0) {}
 
-  /// A rest was looked at. @param step  of the track, where it ends; in [0, steps].
-  void Count(const ContactAssignment& holding, int step);
-  /// A rest's score less what it is put back, in steps: for each one that ends where it ends, that
-  /// is of its kind, and that the same fingers hold.
-  [[nodiscard]] double PenaltyFor(double score, const ContactAssignment& holding, int step) const;
+  /// Count an expanded stance.
+  /// @param step  track step that it reaches, in [0, steps].
+  void Count(const ContactAssignment& assignment, int step);
+  /// Return the score minus the penalty, in track steps. The penalty counts expanded stances with
+  /// the same end step, the same clusters, and the same holding fingers.
+  [[nodiscard]] double Penalized(double score, const ContactAssignment& assignment, int step) const;
 
  private:
   const ContactClusters& clusters_;
-  std::vector<int> at_;                    ///< rests, by the step that they end at
-  std::map<ContactAssignment, int> like_;  ///< by the kind of their grasp
-  std::map<std::vector<bool>, int> with_;  ///< by which fingers hold
+  std::vector<int> by_step_;                      ///< expanded stances by end step
+  std::map<ContactAssignment, int> by_clusters_;  ///< expanded stances by clusters
+  std::map<std::vector<bool>, int> by_fingers_;   ///< expanded stances by set of holding fingers
 };
 
-/// The grasp that a gait is to end with, if one is asked for, and the ways in which fingers can
-/// hold it.
+/// Goal grasp, if any, with the assignments of fingers that can hold it.
 class GoalGrasp {
  public:
-  /// @param points   its contacts, by number; none: any grasp will do.
-  /// @param surface  what numbers mean; outlives this object.
+  /// @param points  contact numbers of the goal grasp; empty: any grasp.
+  /// @param surface  contacts by number; outlives this object.
   GoalGrasp(std::vector<int> points, const std::vector<SurfacePoint>& surface)
       : points_(std::move(points)), surface_(surface) {}
 
-  /// A way that the hand can hold it, at the goal pose.
-  void AddWay(ContactAssignment way) { ways_.push_back(std::move(way)); }
+  /// Add an assignment that the hand can hold at the goal pose.
+  void AddAssignment(ContactAssignment assignment) {
+    assignments_.push_back(std::move(assignment));
+  }
 
-  /// A grasp from which there is a way on to it.
+  /// Add an assignment from which the goal is known to be reachable.
   void AddTarget(ContactAssignment target) { targets_.push_back(std::move(target)); }
-  /// The way or target that is nearest (DistanceFrom); null where there are none.
-  [[nodiscard]] const ContactAssignment* NearestTo(const ContactAssignment& holding) const;
-  /// Of those that the same fingers hold the nearest, so many at most.
+  /// Return the nearest goal assignment or target (DistanceFrom); null if there are none.
+  [[nodiscard]] const ContactAssignment* NearestTo(const ContactAssignment& assignment) const;
+  /// Return the nearest goal assignments and targets with the same holding fingers, at most `most`.
   [[nodiscard]] std::vector<ContactAssignment> NearestOfSameFingers(
-      const ContactAssignment& holding, int most) const;
+      const ContactAssignment& assignment, int most) const;
 
-  [[nodiscard]] bool IsWithinReach() const { return points_.empty() || !ways_.empty(); }
-  [[nodiscard]] bool IsHeldBy(const ContactAssignment& holding) const;
-  /// Fingers that are not where a way or a target has them, those that hold by how far they are
-  /// from there.
-  [[nodiscard]] double DistanceFrom(const ContactAssignment& holding) const;
-  /// Contacts that a finger may end with.
+  [[nodiscard]] bool IsReachable() const { return points_.empty() || !assignments_.empty(); }
+  [[nodiscard]] bool IsHeldBy(const ContactAssignment& assignment) const;
+  /// Return the distance to the nearest goal assignment or target: the number of differing fingers,
+  /// each weighted by the distance between its contacts.
+  [[nodiscard]] double DistanceFrom(const ContactAssignment& assignment) const;
+  /// Return the contacts at which a finger may end.
   [[nodiscard]] std::set<int> ContactsOf(FingerIndex finger) const;
 
  private:
@@ -80,53 +83,56 @@ class GoalGrasp {
 
   std::vector<int> points_;
   const std::vector<SurfacePoint>& surface_;
-  std::vector<ContactAssignment> ways_;
+  std::vector<ContactAssignment> assignments_;
   std::vector<ContactAssignment> targets_;
 };
 
-/// What fingers may hold after one change: a finger is placed, released or both, or slides.
+/// Generator of contact assignments after one contact change.
 class SuccessorGenerator {
  public:
-  /// @param may_hold_more  a finger may be placed or released alone, too. All others outlive this
-  ///                       object.
+  /// @param may_change_count  whether a finger may also be placed or released alone. All other
+  ///     arguments outlive this object.
   SuccessorGenerator(const HandSetup& setup, ObjectMotionChecker& checker, const GoalGrasp& goal,
-                     SlideRoutes& routes, bool may_hold_more)
+                     SlideRoutes& routes, bool may_change_count)
       : setup_(setup),
         checker_(checker),
         goal_(goal),
         routes_(routes),
-        may_hold_more_(may_hold_more) {}
+        may_change_count_(may_change_count) {}
 
-  /// After a change at a node, whether it is a grasp or not.
+  /// Return all assignments after one change at a grid node. They need not be admissible grasps.
   [[nodiscard]] std::vector<ContactAssignment> After(const ContactAssignment& from, int node);
-  /// Contacts for a finger that holds nothing, where it keeps off the fingers that hold: goals
-  /// first, then those that it can keep longest.
-  [[nodiscard]] std::vector<int> PlacesFor(FingerIndex finger, const ContactAssignment& from,
-                                           int node);
+  /// Return contacts for an idle finger that are clear of the holding fingers: goal contacts first,
+  /// then by the step up to which the finger keeps them.
+  [[nodiscard]] std::vector<int> ContactCandidates(FingerIndex finger,
+                                                   const ContactAssignment& from, int node);
 
  private:
-  /// Of a share of the contacts, which is another one at each node: those that a finger reaches.
-  [[nodiscard]] const std::vector<int>& ReachedAt(FingerIndex finger, int node, int share);
-  /// A finger is placed, if it is valid, and each of the others released or none.
+  /// Return the contacts of one subset that a finger reaches at a grid node. The subsets rotate
+  /// with the node.
+  [[nodiscard]] const std::vector<int>& ReachedAt(FingerIndex finger, int node, int subset);
+  /// Add the assignments in which a finger is placed, if valid, and one or none of the others is
+  /// released.
   void AddSwitches(const ContactAssignment& from, FingerIndex placed, int point,
-                   std::vector<ContactAssignment>& holdings) const;
-  /// A finger that holds slides.
+                   std::vector<ContactAssignment>& assignments) const;
+  /// Add the assignments in which one holding finger slides.
   void AddSlides(const ContactAssignment& from, FingerIndex finger, int node,
-                 std::vector<ContactAssignment>& holdings);
-  /// Those of goals and targets that the same fingers slide to, all at once.
+                 std::vector<ContactAssignment>& assignments);
+  /// Add goal assignments and targets that the same fingers reach by sliding simultaneously.
   void AddSlidesTogether(const ContactAssignment& from, int node,
-                         std::vector<ContactAssignment>& holdings);
-  /// Whether so many fingers of a grasp may slide at once.
+                         std::vector<ContactAssignment>& assignments);
+  /// Return whether a number of fingers of a grasp may slide simultaneously.
   [[nodiscard]] bool MaySlide(const ContactAssignment& from, std::size_t fingers) const;
-  /// Whether there is a way along the surface between two points.
-  [[nodiscard]] bool IsWay(int from, int to) { return routes_.Between(from, to) != nullptr; }
+  /// Return whether there is a surface route between two contacts.
+  [[nodiscard]] bool HasRoute(int from, int to) { return routes_.Between(from, to) != nullptr; }
 
   const HandSetup& setup_;
   ObjectMotionChecker& checker_;
   const GoalGrasp& goal_;
   SlideRoutes& routes_;
-  bool may_hold_more_;
-  std::map<std::tuple<int, int, int>, std::vector<int>> within_reach_;  ///< by finger, node, share
+  bool may_change_count_;
+  std::map<std::tuple<int, int, int>, std::vector<int>>
+      within_reach_;  ///< by finger, grid node, subset
 };
 
 }  // namespace regrasp::gait

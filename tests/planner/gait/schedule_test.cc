@@ -1,3 +1,5 @@
+#include "planner/gait/schedule.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,19 +17,17 @@
 
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/rolling.h"
-#include "planner/gait/schedule.h"
 #include "planner/grasp/grasp_forces.h"
 #include "planner/plan/plan_io.h"
 #include "planner/plan/reason.h"
 #include "tests/planner/gait/gait_requests.h"
 
 namespace regrasp::gait {
-namespace with_reserve_test {
+namespace schedule_test {
 
 using Eigen::Vector3d;
 
-/// What forces that hold the object's weight have to spare where balls roll, the least all along a
-/// gait's moves, seen by keyframes.
+/// Return the smallest force margin at rolled contacts over the keyframes of all in-hand motions.
 double ForceMarginWhereItRolls(const Gait& gait, const GaitRequest& request,
                                const std::vector<grasp::Contact>& contacts) {
   const collision::BallContact surface(*request.solid, request.scale);
@@ -40,11 +40,11 @@ double ForceMarginWhereItRolls(const Gait& gait, const GaitRequest& request,
     if (gait.initial[f] != kNone) take(f, gait.initial[f]);
   }
   double least = std::numeric_limits<double>::infinity();
-  for (const PlanSegment& stretch : gait.segments) {
-    if (stretch.kind == PlanSegment::Kind::kPlace) take(stretch.finger, stretch.contact);
-    if (stretch.kind == PlanSegment::Kind::kRelease) rolled[stretch.finger].reset();
-    if (stretch.kind != PlanSegment::Kind::kMove) continue;
-    for (std::size_t i = 1; i < stretch.path.size(); ++i) {
+  for (const PlanSegment& segment : gait.segments) {
+    if (segment.kind == PlanSegment::Kind::kPlace) take(segment.finger, segment.contact);
+    if (segment.kind == PlanSegment::Kind::kRelease) rolled[segment.finger].reset();
+    if (segment.kind != PlanSegment::Kind::kMove) continue;
+    for (std::size_t i = 1; i < segment.path.size(); ++i) {
       grasp::Grasp grasp;
       for (FingerIndex f{0}; f < std::ssize(rolled); ++f) {
         if (!rolled[f]) continue;
@@ -52,11 +52,11 @@ double ForceMarginWhereItRolls(const Gait& gait, const GaitRequest& request,
         const auto ball = [&](const Keyframe& at) {
           return FingertipOrientation(chain, at.postures[f], at.pose);
         };
-        rolled[f] = Rolled(*rolled[f], ball(stretch.path[i]) * ball(stretch.path[i - 1]).inverse(),
+        rolled[f] = Rolled(*rolled[f], ball(segment.path[i]) * ball(segment.path[i - 1]).inverse(),
                            chain.tip.radius, surface);
         grasp.push_back({rolled[f]->p / request.scale, rolled[f]->n, {}});
       }
-      const Vector3d weight = -(stretch.path[i].pose.linear().transpose() * request.hand->up);
+      const Vector3d weight = -(segment.path[i].pose.linear().transpose() * request.hand->up);
       least = std::min(least,
                        grasp::ComputeGraspForces(grasp, frame, request.criteria.half_angle,
                                                  {weight, Vector3d::Zero()}, kGraspForceOverWeight)
@@ -66,7 +66,7 @@ double ForceMarginWhereItRolls(const Gait& gait, const GaitRequest& request,
   return least;
 }
 
-TEST(WithReserveTest, GraspsOfAGaitWithReserveHoldWhereTheirContactsRollTo) {
+TEST(ScheduleTest, RobustGraspsWithstandTheWeightAtRolledContacts) {
   double worst_without = 1;
   for (int seed = 1; seed <= 4; ++seed) {
     GaitRequest request = RequestFor("cube", 0.8, 90);
@@ -74,10 +74,10 @@ TEST(WithReserveTest, GraspsOfAGaitWithReserveHoldWhereTheirContactsRollTo) {
     request.reserve = Reserve::kRequired;
     const GaitResult with = FindGait(request);
     ASSERT_TRUE(with.gait) << with.message;
-    // Followed at poses of the grid: between them a little less.
+    // The search checks grid poses only; in between the margin is slightly smaller.
     EXPECT_GT(ForceMarginWhereItRolls(*with.gait, request, with.contacts), 0.15);
-    for (const PlanSegment& stretch : with.gait->segments) {
-      EXPECT_NE(stretch.kind, PlanSegment::Kind::kSlide);
+    for (const PlanSegment& segment : with.gait->segments) {
+      EXPECT_NE(segment.kind, PlanSegment::Kind::kSlide);
     }
     request.reserve = Reserve::kNone;
     const GaitResult without = FindGait(request);
@@ -88,7 +88,7 @@ TEST(WithReserveTest, GraspsOfAGaitWithReserveHoldWhereTheirContactsRollTo) {
   EXPECT_LT(worst_without, 0);
 }
 
-TEST(WithReserveTest, WhereNothingIsToSpareARequiredReserveIsToldOf) {
+TEST(ScheduleTest, ReportsThatRequiredRobustnessMayPreventAPlan) {
   GaitRequest request = RequestFor("cube", 0.8, 90);
   request.criteria.half_angle = std::atan(0.15);
   request.reserve = Reserve::kRequired;
@@ -98,43 +98,43 @@ TEST(WithReserveTest, WhereNothingIsToSpareARequiredReserveIsToldOf) {
   EXPECT_THAT(found.message, testing::HasSubstr("without reserve there may be a plan"));
 }
 
-/// Fails where there is no trial.
+/// Fails if there is no simulation result.
 bool ExecutesInSimulation(const GaitResult& result) {
-  EXPECT_TRUE(result.trial) << result.message;
-  return result.trial && result.trial->is_whole;
+  EXPECT_TRUE(result.execution) << result.message;
+  return result.execution && result.execution->is_whole;
 }
 
-/// A hand that was made up: what it is asked to carry out, and how far it does.
-struct MadeUpHand {
-  /// Whether it carries out a step of a plan, by number; all before it were.
-  std::function<bool(const plan::Plan&, std::size_t)> carries_out;
-  bool holds = true;
+/// Simulated hand with prescribed results.
+struct FakeHand {
+  /// Whether a plan step executes, given that all earlier steps do.
+  std::function<bool(const plan::Plan&, std::size_t)> executes;
+  bool initial_grasp_holds = true;
   std::vector<plan::Plan> plans = {};
 
-  void TriesFor(GaitRequest& request) {
+  void SimulateIn(GaitRequest& request) {
     request.carry_out = [this](const plan::Plan& plan, const Deadline&) {
       plans.push_back(plan);
-      planning::CarriedOut carried{holds, 0, false};
-      carried.reason = plan::Reason::kSlipped;
-      carried.detail = "finger 7 slipped, plan " + std::to_string(plans.size());
-      if (!holds) return std::optional(carried);
-      while (carried.steps < std::ssize(plan.steps) && carries_out(plan, carried.steps)) {
-        ++carried.steps;
+      planning::CarriedOut execution{initial_grasp_holds, 0, false};
+      execution.reason = plan::Reason::kSlipped;
+      execution.detail = "finger 7 slipped, plan " + std::to_string(plans.size());
+      if (!initial_grasp_holds) return std::optional(execution);
+      while (execution.steps < std::ssize(plan.steps) && executes(plan, execution.steps)) {
+        ++execution.steps;
       }
-      carried.is_whole = carried.steps == std::ssize(plan.steps);
-      return std::optional(carried);
+      execution.is_whole = execution.steps == std::ssize(plan.steps);
+      return std::optional(execution);
     };
   }
 };
 
-bool Places(const plan::Step& step, FingerIndex finger) {
+bool PlacesFinger(const plan::Step& step, FingerIndex finger) {
   const auto* change = std::get_if<plan::Switch>(&step);
   return change != nullptr && std::ranges::any_of(change->place, [&](const auto& placed) {
            return placed.finger == finger;
          });
 }
 
-/// By how much the object turns in a move, radians.
+/// Return the rotation angle of the object in an in-hand motion, radians.
 double TurnIn(const plan::Step& step) {
   const auto* move = std::get_if<plan::Move>(&step);
   if (move == nullptr) return 0;
@@ -143,41 +143,41 @@ double TurnIn(const plan::Step& step) {
   return Eigen::AngleAxisd(turn).angle();
 }
 
-TEST(WithReserveTest, WhatIsFoundIsWhatTheHandCarriesOutAsItWasTried) {
+TEST(ScheduleTest, TheResultIsThePlanThatExecutedInSimulation) {
   GaitRequest request = RequestFor("cube", 0.8, 180);
-  // A finger that is placed otherwise, and never where that is not carried out.
+  // A finger that the unrestricted plan places and the simulator rejects.
   FingerIndex never_placed;
-  const auto places = [&](const plan::Step& step) { return Places(step, never_placed); };
+  const auto places_it = [&](const plan::Step& step) { return PlacesFinger(step, never_placed); };
   const auto is_placed = [&] {
     const GaitResult usual = FindGait(request);
     if (!usual.gait) return false;
     const plan::Plan plan = PlanOf(*usual.gait, request, usual.contacts);
     for (never_placed = FingerIndex{0}; never_placed < std::ssize(request.hand->fingers);
          ++never_placed) {
-      if (std::ranges::any_of(plan.steps, places)) return true;
+      if (std::ranges::any_of(plan.steps, places_it)) return true;
     }
     return false;
   };
   while (!is_placed()) ASSERT_LT(++request.seed, 10);
-  MadeUpHand hand{.carries_out = [&](const plan::Plan& tried, std::size_t i) {
-    return !places(tried.steps[i]);
+  FakeHand hand{.executes = [&](const plan::Plan& simulated, std::size_t i) {
+    return !places_it(simulated.steps[i]);
   }};
-  hand.TriesFor(request);
+  hand.SimulateIn(request);
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
   EXPECT_TRUE(ExecutesInSimulation(found));
-  const plan::Plan carried = PlanOf(*found.gait, request, found.contacts);
-  EXPECT_FALSE(std::ranges::any_of(carried.steps, places));
-  EXPECT_EQ(plan::FormatPlan(carried), plan::FormatPlan(hand.plans.back()));
+  const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
+  EXPECT_FALSE(std::ranges::any_of(plan.steps, places_it));
+  EXPECT_EQ(plan::FormatPlan(plan), plan::FormatPlan(hand.plans.back()));
 }
 
-TEST(WithReserveTest, WhereMovesFailHalfWayFingersAreSwitchedSooner) {
+TEST(ScheduleTest, IfMotionsFailHalfwayFingersAreSwitchedEarlier) {
   constexpr double kMostTurn = 0.3;
   GaitRequest request = RequestFor("cube", 0.8, 90);
-  MadeUpHand hand{.carries_out = [&](const plan::Plan& tried, std::size_t i) {
-    return TurnIn(tried.steps[i]) <= kMostTurn;
+  FakeHand hand{.executes = [&](const plan::Plan& simulated, std::size_t i) {
+    return TurnIn(simulated.steps[i]) <= kMostTurn;
   }};
-  hand.TriesFor(request);
+  hand.SimulateIn(request);
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
   EXPECT_TRUE(ExecutesInSimulation(found));
@@ -195,19 +195,19 @@ TEST(WithReserveTest, WhereMovesFailHalfWayFingersAreSwitchedSooner) {
   EXPECT_GT(most, kMostTurn);
 }
 
-/// What a made-up hand has to spare depends on how many steps a plan has.
-TEST(WithReserveTest, OfTheGaitsThatAreCarriedOutTheOneWithMostToSpareIsFoundWhereThatIsSought) {
+/// The tolerance margin of the simulated hand depends on the number of plan steps.
+TEST(ScheduleTest, SelectsTheExecutableGaitWithTheLargestToleranceMarginIfRequested) {
   GaitRequest request = RequestFor("cube", 0.8, 120);
   std::vector<std::string> plans;
-  const auto spare = [](const plan::Plan& plan) {
+  const auto margin_of = [](const plan::Plan& plan) {
     return 1.0 / static_cast<double>(2 + (7 * plan.steps.size()) % 5);
   };
   double most = 0;
   request.carry_out = [&](const plan::Plan& plan, const Deadline&) {
     const int steps = static_cast<int>(plan.steps.size());
     plans.push_back(plan::FormatPlan(plan));
-    most = std::max(most, spare(plan));
-    return std::optional(planning::CarriedOut{true, steps, true, spare(plan)});
+    most = std::max(most, margin_of(plan));
+    return std::optional(planning::CarriedOut{true, steps, true, margin_of(plan)});
   };
   const auto find = [&] {
     plans.clear();
@@ -216,7 +216,7 @@ TEST(WithReserveTest, OfTheGaitsThatAreCarriedOutTheOneWithMostToSpareIsFoundWhe
     EXPECT_TRUE(found.gait) << found.message;
     EXPECT_TRUE(ExecutesInSimulation(found));
     const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
-    EXPECT_EQ(found.trial->spare, spare(plan));
+    EXPECT_EQ(found.execution->spare, margin_of(plan));
     return plan;
   };
   const plan::Plan first = find();
@@ -225,13 +225,13 @@ TEST(WithReserveTest, OfTheGaitsThatAreCarriedOutTheOneWithMostToSpareIsFoundWhe
   const plan::Plan best = find();
   EXPECT_GT(plans.size(), 1U);
   EXPECT_NE(plan::FormatPlan(best), plans.back());
-  EXPECT_EQ(spare(best), most);
+  EXPECT_EQ(margin_of(best), most);
 }
 
-TEST(WithReserveTest, NothingIsTriedTwice) {
+TEST(ScheduleTest, NoPlanIsSimulatedTwice) {
   GaitRequest request = RequestFor("cube", 0.8, 120);
-  MadeUpHand hand{.carries_out = [](const plan::Plan&, std::size_t) { return false; }};
-  hand.TriesFor(request);
+  FakeHand hand{.executes = [](const plan::Plan&, std::size_t) { return false; }};
+  hand.SimulateIn(request);
   request.reserve = Reserve::kRequired;
   request.most_expanded = 60;
   static_cast<void>(FindGait(request));
@@ -241,10 +241,10 @@ TEST(WithReserveTest, NothingIsTriedTwice) {
   EXPECT_EQ(different.size(), hand.plans.size());
 }
 
-TEST(WithReserveTest, WhereTheHandHoldsNothingThereIsAGaitUnlessThatIsRequired) {
+TEST(ScheduleTest, IfNoPlanExecutesAGaitIsFoundUnlessRobustnessIsRequired) {
   GaitRequest request = RequestFor("cube", 0.8, 120);
-  MadeUpHand hand{.carries_out = {}, .holds = false};
-  hand.TriesFor(request);
+  FakeHand hand{.executes = {}, .initial_grasp_holds = false};
+  hand.SimulateIn(request);
   request.most_expanded = 60;
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait);
@@ -266,16 +266,16 @@ TEST(WithReserveTest, WhereTheHandHoldsNothingThereIsAGaitUnlessThatIsRequired) 
   EXPECT_TRUE(hand.plans.empty());
 }
 
-TEST(WithReserveTest, OfWhatIsNotCarriedOutThePlanIsNamedThatComesFarthest) {
+TEST(ScheduleTest, ReportsTheFailureOfThePlanThatExecutesFarthest) {
   GaitRequest request = RequestFor("cube", 0.8, 180);
   request.reserve = Reserve::kRequired;
   request.most_expanded = 40;
-  // Of every second plan half, and nothing of the others.
-  MadeUpHand hand;
-  hand.carries_out = [&](const plan::Plan& tried, std::size_t i) {
-    return hand.plans.size() % 2 == 0 && i < tried.steps.size() / 2;
+  // Every second plan executes halfway, the others not at all.
+  FakeHand hand;
+  hand.executes = [&](const plan::Plan& simulated, std::size_t i) {
+    return hand.plans.size() % 2 == 0 && i < simulated.steps.size() / 2;
   };
-  hand.TriesFor(request);
+  hand.SimulateIn(request);
   const GaitResult none = FindGait(request);
   EXPECT_FALSE(none.gait);
   const std::string last_words = "finger 7 slipped, plan ";
@@ -287,39 +287,39 @@ TEST(WithReserveTest, OfWhatIsNotCarriedOutThePlanIsNamedThatComesFarthest) {
   ASSERT_GE(steps, 2U);
   EXPECT_THAT(none.message, testing::HasSubstr("step " + std::to_string(steps / 2 + 1) + " of " +
                                                std::to_string(steps) + " fails (slipped)"));
-  ASSERT_TRUE(none.trial);
-  EXPECT_EQ(none.trial->reason, plan::Reason::kSlipped);
+  ASSERT_TRUE(none.execution);
+  EXPECT_EQ(none.execution->reason, plan::Reason::kSlipped);
 }
 
-TEST(WithReserveTest, WhatFailsOnTheWayToNoGaitIsCountedByItsReason) {
+TEST(ScheduleTest, FailedEdgesAreCountedByReason) {
   GaitRequest request = RequestFor("cube", 0.8, 180);
   request.reserve = Reserve::kRequired;
   request.most_expanded = 10;
-  MadeUpHand hand{.carries_out = [](const plan::Plan&, std::size_t) { return false; }};
-  hand.TriesFor(request);
+  FakeHand hand{.executes = [](const plan::Plan&, std::size_t) { return false; }};
+  hand.SimulateIn(request);
   const GaitResult none = FindGait(request);
   EXPECT_FALSE(none.gait);
-  EXPECT_FALSE(none.trial);
+  EXPECT_FALSE(none.execution);
   EXPECT_THAT(none.message, testing::ContainsRegex("motors do not come .slipped [1-9]"));
 }
 
-/// A clock that is set by hand.
-TEST(WithReserveTest, WhereTheTimeIsUpInATrialItIsNotSaidThatTheHandDoesNotCarryItOut) {
+/// Uses a clock that is set by hand.
+TEST(ScheduleTest, ASimulationCutShortByTheTimeLimitIsNotAFailure) {
   GaitRequest request = RequestFor("cube", 0.8, 120);
   Deadline::Clock::time_point now;
   request.deadline = {now + std::chrono::seconds(10), [&] { return now; }};
-  int trials = 0;
+  int simulations = 0;
   request.carry_out = [&](const plan::Plan&, const Deadline& deadline) {
-    ++trials;
+    ++simulations;
     now += std::chrono::seconds(20);
     EXPECT_TRUE(deadline.IsOver());
     return std::optional(planning::CarriedOut{.is_held = true, .is_cut_short = true});
   };
   const GaitResult cut_short = FindGait(request);
   ASSERT_TRUE(cut_short.gait) << cut_short.message;
-  EXPECT_TRUE(cut_short.trial->is_cut_short);
+  EXPECT_TRUE(cut_short.execution->is_cut_short);
   EXPECT_FALSE(ExecutesInSimulation(cut_short));
-  EXPECT_EQ(trials, 1);
+  EXPECT_EQ(simulations, 1);
 
   now = {};
   request.carry_out = [&](const plan::Plan&, const Deadline&) {
@@ -328,79 +328,79 @@ TEST(WithReserveTest, WhereTheTimeIsUpInATrialItIsNotSaidThatTheHandDoesNotCarry
   };
   const GaitResult failed = FindGait(request);
   ASSERT_TRUE(failed.gait) << failed.message;
-  EXPECT_FALSE(failed.trial->is_cut_short);
+  EXPECT_FALSE(failed.execution->is_cut_short);
   EXPECT_FALSE(ExecutesInSimulation(failed));
 }
 
-/// A hand that carries out one of so many plans, whichever.
+/// Simulated hand that executes one of `many` plans, selected by hash.
 std::function<std::optional<planning::CarriedOut>(const plan::Plan&, const Deadline&)> OneOf(
-    std::size_t many, std::atomic<int>& trials) {
-  return [many, &trials](const plan::Plan& plan, const Deadline&) {
-    ++trials;
-    const bool is_carried = std::hash<std::string>()(plan::FormatPlan(plan)) % many == 0;
+    std::size_t one_in, std::atomic<int>& simulations) {
+  return [one_in, &simulations](const plan::Plan& plan, const Deadline&) {
+    ++simulations;
+    const bool executes = std::hash<std::string>()(plan::FormatPlan(plan)) % one_in == 0;
     return std::optional(planning::CarriedOut{
-        true, is_carried ? static_cast<int>(plan.steps.size()) : 0, is_carried, 0.5});
+        true, executes ? static_cast<int>(plan.steps.size()) : 0, executes, 0.5});
   };
 }
 
-TEST(WithReserveTest, WithAnyJobsTheGaitIsTheSameWithoutADeadline) {
-  // More than the first row makes: a whole gait is tried four times at most.
-  constexpr int kOfFirstRow = 4;
+TEST(ScheduleTest, WithoutADeadlineTheGaitDoesNotDependOnTheNumberOfJobs) {
+  // Whole-gait attempts of the first schedule.
+  constexpr int kWholeAttemptsOfFirst = 4;
   int found_later = 0;
   for (int seed = 1; seed <= 6; ++seed) {
     GaitRequest request = RequestFor("cube", 0.8, 60);
     request.seed = seed;
     request.most_expanded = 200;
-    const auto find = [&](int jobs, int& tried) {
-      std::atomic<int> trials = 0;
+    const auto find = [&](int jobs, int& simulated) {
+      std::atomic<int> simulations = 0;
       request.jobs = jobs;
-      request.carry_out = OneOf(4, trials);
+      request.carry_out = OneOf(4, simulations);
       const GaitResult found = FindGait(request);
-      tried = trials;
+      simulated = simulations;
       return found;
     };
-    int trials_alone = 0;
-    int trials_together = 0;
-    const GaitResult alone = find(1, trials_alone);
-    const GaitResult together = find(3, trials_together);
+    int simulations_alone = 0;
+    int simulations_together = 0;
+    const GaitResult alone = find(1, simulations_alone);
+    const GaitResult together = find(3, simulations_together);
     ASSERT_EQ(alone.gait.has_value(), together.gait.has_value());
     EXPECT_EQ(ExecutesInSimulation(alone), ExecutesInSimulation(together));
     EXPECT_EQ(alone.message, together.message);
     if (!alone.gait) continue;
     EXPECT_EQ(plan::FormatPlan(PlanOf(*alone.gait, request, alone.contacts)),
               plan::FormatPlan(PlanOf(*together.gait, request, together.contacts)));
-    EXPECT_GE(trials_together, trials_alone);
-    if (ExecutesInSimulation(alone) && trials_alone > kOfFirstRow) {
+    EXPECT_GE(simulations_together, simulations_alone);
+    if (ExecutesInSimulation(alone) && simulations_alone > kWholeAttemptsOfFirst) {
       ++found_later;
     };
   }
   EXPECT_GT(found_later, 0);
 }
 
-TEST(WithReserveTest, WhatIsThrownInOneOfSeveralSearchesEndsThemAll) {
+TEST(ScheduleTest, AnExceptionInOneSearchEndsAll) {
   GaitRequest request = RequestFor("cube", 0.8, 60);
   request.jobs = 3;
   request.deadline = DeadlineAfter(Deadline::Clock::now(), 3600);
-  std::atomic<int> trials = 0;
+  std::atomic<int> simulations = 0;
   request.carry_out = [&](const plan::Plan&, const Deadline&) {
-    if (++trials == 5) throw std::runtime_error("the fifth");
+    if (++simulations == 5) throw std::runtime_error("the fifth");
     return std::optional(planning::CarriedOut{.is_held = true});
   };
   EXPECT_THROW(static_cast<void>(FindGait(request)), std::runtime_error);
-  EXPECT_GE(trials, 5);
+  EXPECT_GE(simulations, 5);
 }
 
-TEST(WithReserveTest, WithADeadlineTheFirstSearchThatEndsInAGaitEndsThemAll) {
+TEST(ScheduleTest, WithADeadlineTheFirstExecutingGaitEndsAllSearches) {
   GaitRequest request = RequestFor("cube", 0.8, 60);
   request.jobs = 3;
   Deadline::Clock::time_point now;
   request.deadline = {now + std::chrono::seconds(10), [&] { return now; }};
   std::mutex mutex;
   std::optional<std::thread::id> first;
-  // All but the first thread that asks wait in their trials until they are given up, which is at
-  // once; without an end they would wait for ever where they are not.
+  // All threads except the first simulate until they are abandoned, which happens at once. The
+  // bound only prevents an endless wait if the test fails.
   constexpr std::chrono::minutes kForEver(2);
-  std::atomic<bool> is_given_up = true;
+  std::atomic<bool> is_abandoned = true;
   request.carry_out = [&](const plan::Plan& plan, const Deadline& deadline) {
     bool is_first = false;
     {
@@ -409,8 +409,8 @@ TEST(WithReserveTest, WithADeadlineTheFirstSearchThatEndsInAGaitEndsThemAll) {
       first = first.value_or(std::this_thread::get_id());
     }
     const auto until = std::chrono::steady_clock::now() + kForEver;
-    while (!is_first && !deadline.IsOver() && is_given_up) {
-      is_given_up = std::chrono::steady_clock::now() < until;
+    while (!is_first && !deadline.IsOver() && is_abandoned) {
+      is_abandoned = std::chrono::steady_clock::now() < until;
       std::this_thread::yield();
     }
     return std::optional(planning::CarriedOut{.is_held = true,
@@ -422,19 +422,19 @@ TEST(WithReserveTest, WithADeadlineTheFirstSearchThatEndsInAGaitEndsThemAll) {
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
   EXPECT_TRUE(ExecutesInSimulation(found));
-  EXPECT_TRUE(is_given_up);
+  EXPECT_TRUE(is_abandoned);
 }
 
-TEST(WithReserveTest, WhereItCanNotBeToldItIsAsIfTheHandWereNotAsked) {
+TEST(ScheduleTest, WithoutASimulationResultTheSearchRunsWithoutSimulation) {
   GaitRequest request = RequestFor("cube", 0.8, 60);
   const GaitResult usual = FindGait(request);
   request.carry_out = [](const plan::Plan&, const Deadline&) { return std::nullopt; };
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(usual.gait && found.gait);
-  EXPECT_FALSE(found.trial);
+  EXPECT_FALSE(found.execution);
   EXPECT_EQ(plan::FormatPlan(PlanOf(*found.gait, request, found.contacts)),
             plan::FormatPlan(PlanOf(*usual.gait, request, usual.contacts)));
 }
 
-}  // namespace with_reserve_test
+}  // namespace schedule_test
 }  // namespace regrasp::gait

@@ -1,21 +1,22 @@
+#include "planner/gait/plan_of_gait.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "planner/base/angle.h"
 #include "planner/gait/find_gait.h"
-#include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
-namespace fewer_moves_test {
+namespace plan_of_gait_test {
 
-/// A hand turns a cube.
-class FewerMovesTest : public testing::Test {
+/// A hand rotates a cube.
+class MergeMovesTest : public testing::Test {
  protected:
-  FewerMovesTest() {
+  MergeMovesTest() {
     request_.hand = &hand_;
     request_.solid = &cube_;
     request_.scale = 0.8;
@@ -41,8 +42,8 @@ class FewerMovesTest : public testing::Test {
   std::vector<SurfacePoint> points_;
 };
 
-/// Of a move to and fro, and to again, one to is left; of one to and fro nothing.
-TEST_F(FewerMovesTest, DetoursAreLeftOutButNotWhereContactsRoll) {
+/// A motion, its reverse and the motion again merge into one; a motion and its reverse into none.
+TEST_F(MergeMovesTest, DetoursAreRemovedUnlessContactsRoll) {
   const HandSetup setup{scene_, inverse_, points_, 0.8};
   ASSERT_TRUE(found_.gait) << found_.message;
   ASSERT_EQ(found_.gait->segments.size(), 1u);
@@ -57,19 +58,19 @@ TEST_F(FewerMovesTest, DetoursAreLeftOutButNotWhereContactsRoll) {
   EXPECT_LE(fewer.segments[0].path.size(), to.path.size());
   EXPECT_EQ(EndOf(fewer).pose.matrix(), EndOf(gait).pose.matrix());
   EXPECT_EQ(EndOf(fewer).postures, EndOf(gait).postures);
-  // There each way to a pose leaves contacts elsewhere.
+  // If contacts roll, each path to a pose ends at other contacts.
   const HandSetup rolling{scene_, inverse_, points_, 0.8, &rolled_on_};
   const Gait rolled = MergeMoves(rolling, gait);
   ASSERT_EQ(rolled.segments.size(), 1u);
   EXPECT_EQ(rolled.segments[0].path.size(), 3 * to.path.size() - 2);
 }
 
-/// A straight way that would go through something is not taken.
-TEST_F(FewerMovesTest, AMoveThatCantBeStraightStays) {
+/// A straight motion that is infeasible is rejected.
+TEST_F(MergeMovesTest, AnInfeasibleStraightMotionIsRejected) {
   const HandSetup setup{scene_, inverse_, points_, 0.8};
   ASSERT_TRUE(found_.gait) << found_.message;
   Gait gait = *found_.gait;
-  // Whatever it is: the straight way to a pose half a metre off is out of reach.
+  // A pose half a metre away is out of reach.
   Keyframe away = gait.start;
   away.pose.translation().x() += 0.5;
   gait.segments = {{PlanSegment::Kind::kMove, {}, kNone, {gait.start, EndOf(gait), away}}};
@@ -78,5 +79,5 @@ TEST_F(FewerMovesTest, AMoveThatCantBeStraightStays) {
   EXPECT_EQ(same.segments[0].path.size(), 3u);
 }
 
-}  // namespace fewer_moves_test
+}  // namespace plan_of_gait_test
 }  // namespace regrasp::gait

@@ -1,20 +1,21 @@
+#include "planner/gait/finger_path.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "planner/base/random.h"
-#include "planner/gait/finger_path.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
-namespace certified_path_test {
+namespace finger_path_test {
 
 constexpr double kMargin = 1e-3;
 
-/// The ring hand about a cube of 48 mm.
+/// The ring hand around a cube of 48 mm.
 struct World {
   kinematics::HandModel hand = kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
   object::ObjectFile file = object::ReadObject(ProjectPath("models/cube.obj"));
@@ -36,7 +37,7 @@ struct World {
     }
     return frame;
   }
-  /// Sampled, by distances.
+  /// Distance between fingers and object, by sampling.
   [[nodiscard]] double NearestToObject(const Keyframe& frame) const {
     double nearest = 1;
     for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
@@ -47,7 +48,7 @@ struct World {
   }
 };
 
-TEST(CertifiedPathTest, WhatIsClearIsClearAtEverySampleAndWhatIsNotIsNot) {
+TEST(FingerPathTest, CertifiedPathsAreClearAtEverySample) {
   const World world;
   RandomStream random(1, RandomUse::kGaits);
   int clear = 0;
@@ -74,7 +75,7 @@ TEST(CertifiedPathTest, WhatIsClearIsClearAtEverySampleAndWhatIsNotIsNot) {
   EXPECT_GT(blocked, 20);
 }
 
-TEST(CertifiedPathTest, APathAndItsReverseAreAlike) {
+TEST(FingerPathTest, APathAndItsReverseHaveTheSameVerdict) {
   const World world;
   RandomStream random(2, RandomUse::kGaits);
   const Touching free(4, TipContact::kFree);
@@ -85,5 +86,5 @@ TEST(CertifiedPathTest, APathAndItsReverseAreAlike) {
   }
 }
 
-}  // namespace certified_path_test
+}  // namespace finger_path_test
 }  // namespace regrasp::gait

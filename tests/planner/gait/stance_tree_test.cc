@@ -1,3 +1,5 @@
+#include "planner/gait/stance_tree.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,18 +7,17 @@
 
 #include "planner/gait/find_gait.h"
 #include "planner/gait/finger_path.h"
-#include "planner/gait/stance_tree.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
-namespace rest_tree_test {
+namespace stance_tree_test {
 
 using Eigen::Vector3d;
 
-GaitRequest Standing(const kinematics::HandModel& hand, const object::Polyhedron& solid,
-                     double scale) {
+GaitRequest RequestAtRest(const kinematics::HandModel& hand, const object::Polyhedron& solid,
+                          double scale) {
   GaitRequest request;
   request.hand = &hand;
   request.solid = &solid;
@@ -27,20 +28,20 @@ GaitRequest Standing(const kinematics::HandModel& hand, const object::Polyhedron
   return request;
 }
 
-/// A hand, three fingers of which hold a body.
-class RestTreeTest : public testing::Test {
+/// A hand that holds an object with three fingers.
+class StanceTreeTest : public testing::Test {
  protected:
-  explicit RestTreeTest(const char* model = "models/cube.obj", double scale = 0.8,
-                        const char* hand = "models/hands/ring4.json")
+  explicit StanceTreeTest(const char* model = "models/cube.obj", double scale = 0.8,
+                          const char* hand = "models/hands/ring4.json")
       : hand_(kinematics::ReadHand(ProjectPath(hand))),
         file_(object::ReadObject(ProjectPath(model))),
-        request_(Standing(hand_, solid_, scale)) {
+        request_(RequestAtRest(hand_, solid_, scale)) {
     memory_.Append(found_.contacts);
     for (const grasp::Contact& contact : found_.contacts) {
       points_.push_back({request_.scale * contact.p, contact.n});
     }
     for (const kinematics::Finger& finger : hand_.fingers) inverse_.emplace_back(finger);
-    while (first_.holding[free_] != kNone) ++free_;
+    while (first_.assignment[free_] != kNone) ++free_;
   }
 
   StanceTree Tree(bool has_given_start) {
@@ -50,22 +51,22 @@ class RestTreeTest : public testing::Test {
             memory_,
             routes_,
             random_,
-            [](int /*node*/, const ContactAssignment& /*holding*/) { return false; },
+            [](int /*node*/, const ContactAssignment& /*assignment*/) { return false; },
             has_given_start};
   }
   int AddFirst(StanceTree& tree) {
-    const int first = tree.Add({.hold = first_, .node = grid_.start()});
+    const int first = tree.Add({.stance = first_, .node = grid_.start()});
     EXPECT_TRUE(tree.PlanPathFromParent(tree[first]));
     return first;
   }
   Posture FreePosture() { return FreePostureOf(free_, first_); }
-  /// Somewhere in the air.
-  Posture FreePostureOf(FingerIndex finger, Stance hold) {
+  /// Draw a collision-free idle posture.
+  Posture FreePostureOf(FingerIndex finger, Stance stance) {
     do {
-      hold.waiting[finger] = setup_.scene.DrawPosture(finger, random_);
-    } while (!setup_.scene.KeepsOffHand(setup_.scene.Place(finger, hold.waiting[finger])) ||
-             !checker_.IsPassable(hold, grid_.start()));
-    return hold.waiting[finger];
+      stance.idle[finger] = setup_.scene.DrawPosture(finger, random_);
+    } while (!setup_.scene.KeepsOffHand(setup_.scene.Place(finger, stance.idle[finger])) ||
+             !checker_.IsPassable(stance, grid_.start()));
+    return stance.idle[finger];
   }
   Vector3d TipOf(const Posture& posture) const {
     return kinematics::TipAt(hand_.fingers[free_], posture).centre;
@@ -83,29 +84,29 @@ class RestTreeTest : public testing::Test {
   const HandSetup setup_{scene_, inverse_, points_, request_.scale};
   criteria::GraspMemory memory_{solid_, request_.criteria, FingersOf(request_),
                                 criteria::QualityTest::kQuick};
-  const IdlePostures nowhere_ = IdlePostures(hand_.fingers.size());
+  const IdlePostures no_postures_ = IdlePostures(hand_.fingers.size());
   const PoseGrid grid_{{found_.gait->start.pose, Vector3d::Zero(), {}, Vector3d::Zero(), 0},
-                       hand_.up,
+                       hand_.lift_path,
                        PoseGrid::End::kPose};
-  ObjectMotionChecker checker_{setup_, grid_, nowhere_};
+  ObjectMotionChecker checker_{setup_, grid_, no_postures_};
   SlideRoutes routes_{memory_};
   RandomStream random_{1, RandomUse::kGaits};
   const Stance first_{found_.gait->initial, found_.gait->start.postures};
   FingerIndex free_{0};
 };
 
-TEST_F(RestTreeTest, AFingerThatHoldsNothingMayBeginElsewhere) {
+TEST_F(StanceTreeTest, AnIdleFingerMayStartElsewhere) {
   StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
   const Posture elsewhere = FreePosture();
   const int other = tree.WithIdlePosture(first, free_, elsewhere);
   ASSERT_GE(other, 0);
-  EXPECT_EQ(tree[other].hold.holding, first_.holding);
+  EXPECT_EQ(tree[other].stance.assignment, first_.assignment);
   EXPECT_EQ(tree[other].at.postures[free_], elsewhere);
-  EXPECT_EQ(tree[first].at.postures[free_], first_.waiting[free_]);
+  EXPECT_EQ(tree[first].at.postures[free_], first_.idle[free_]);
 }
 
-TEST_F(RestTreeTest, NotInTheObjectNotOneThatHoldsAndNotWhereTheBeginningSaysWhereItIs) {
+TEST_F(StanceTreeTest, IdlePosturesMustBeClearAndOnlyIdleFingersOfAGivenStartMayChange) {
   StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
   int touching = 0;
@@ -116,28 +117,28 @@ TEST_F(RestTreeTest, NotInTheObjectNotOneThatHoldsAndNotWhereTheBeginningSaysWhe
     EXPECT_LT(tree.WithIdlePosture(first, free_, *there), 0);
   }
   EXPECT_GT(touching, 0);
-  const FingerIndex holds{(free_ + 1) % 4};
-  EXPECT_LT(tree.WithIdlePosture(first, holds, FreePosture()), 0);
+  const FingerIndex holding_finger{(free_ + 1) % 4};
+  EXPECT_LT(tree.WithIdlePosture(first, holding_finger, FreePosture()), 0);
   StanceTree others = Tree(false);
   EXPECT_LT(others.WithIdlePosture(AddFirst(others), free_, FreePosture()), 0);
 }
 
-/// Some millimetres above the contact that it goes to, wherever it waited before.
-TEST_F(RestTreeTest, AFingerThatIsPlacedMayWaitAboveItsContactBefore) {
+/// The finger idles a few millimetres above its future contact.
+TEST_F(StanceTreeTest, APlacedFingerMayIdleAboveItsContactBefore) {
   StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
-  int come_to = 0;
+  int reached = 0;
   for (int point = 0; point < std::ssize(points_); ++point) {
     if (checker_.reach().Find(free_, point, grid_.start()) == nullptr) continue;
-    ContactAssignment to = first_.holding;
+    ContactAssignment to = first_.assignment;
     to[free_] = point;
     if (!checker_.IsPassable({to}, grid_.start())) continue;
     const int placed = tree.Add(tree.After(first, to, grid_.start()));
     const int after = tree.AfterIdlingAbove(placed);
     if (after < 0) continue;
-    ++come_to;
+    ++reached;
     const StanceNode& begin = tree[tree[after].parent];
-    EXPECT_EQ(begin.hold.holding, first_.holding);
+    EXPECT_EQ(begin.stance.assignment, first_.assignment);
     const Vector3d ball =
         TargetAt(hand_.fingers[free_], points_[point], grid_.PoseAt(grid_.start())).centre;
     const double above = (TipOf(begin.at.postures[free_]) - ball).norm();
@@ -149,69 +150,69 @@ TEST_F(RestTreeTest, AFingerThatIsPlacedMayWaitAboveItsContactBefore) {
     ASSERT_EQ(gait->segments.size(), 1u);
     EXPECT_EQ(gait->segments[0].contact, point);
   }
-  EXPECT_GT(come_to, 0);
+  EXPECT_GT(reached, 0);
 }
 
-/// Two fingers hold nothing.
-class FiveFingersTest : public RestTreeTest {
+/// Two fingers are idle.
+class FiveFingersTest : public StanceTreeTest {
  protected:
-  FiveFingersTest() : RestTreeTest("models/cube.obj", 0.8, "models/hands/ring5.json") {
+  FiveFingersTest() : StanceTreeTest("models/cube.obj", 0.8, "models/hands/ring5.json") {
     other_free_ = FingerIndex(free_ + 1);
-    while (first_.holding[other_free_] != kNone) ++other_free_;
-    while (first_.holding[holds_] == kNone) ++holds_;
+    while (first_.assignment[other_free_] != kNone) ++other_free_;
+    while (first_.assignment[holding_finger_] == kNone) ++holding_finger_;
   }
 
   FingerIndex other_free_;
-  FingerIndex holds_{0};
+  FingerIndex holding_finger_{0};
 };
 
-/// A rest that was come to when the other free finger waited elsewhere before it.
-TEST_F(FiveFingersTest, WhoWaitsBeforeARestAndInItStaysWhereItIsWhenItIsComeToAnew) {
+/// The node was planned with another posture of the second idle finger.
+TEST_F(FiveFingersTest, ACopiedNodeKeepsTheIdlePosturesOfItsParent) {
   StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
-  ContactAssignment released = first_.holding;
-  released[holds_] = kNone;
+  ContactAssignment released = first_.assignment;
+  released[holding_finger_] = kNone;
   StanceNode after = tree.After(first, released, grid_.start());
-  after.hold.waiting[holds_] = FreePostureOf(holds_, after.hold);
+  after.stance.idle[holding_finger_] = FreePostureOf(holding_finger_, after.stance);
   const int second = tree.Add(after);
   ASSERT_TRUE(tree.PlanPathFromParent(tree[second]));
-  tree[second].hold.waiting[other_free_] = FreePostureOf(other_free_, tree[second].hold);
-  ASSERT_NE(tree[second].hold.waiting[other_free_], first_.waiting[other_free_]);
+  tree[second].stance.idle[other_free_] = FreePostureOf(other_free_, tree[second].stance);
+  ASSERT_NE(tree[second].stance.idle[other_free_], first_.idle[other_free_]);
 
-  const int anew = tree.WithIdlePosture(second, free_, FreePostureOf(free_, tree[second].hold));
+  const int anew = tree.WithIdlePosture(second, free_, FreePostureOf(free_, tree[second].stance));
   ASSERT_GE(anew, 0);
   const StanceNode& before = tree[tree[anew].parent];
-  EXPECT_EQ(before.hold.waiting[other_free_], first_.waiting[other_free_]);
-  EXPECT_EQ(tree[anew].hold.waiting[other_free_], first_.waiting[other_free_]);
+  EXPECT_EQ(before.stance.idle[other_free_], first_.idle[other_free_]);
+  EXPECT_EQ(tree[anew].stance.idle[other_free_], first_.idle[other_free_]);
 }
 
-/// The same where the finger that is placed waits above its contact since the beginning.
-TEST_F(FiveFingersTest, AndWhenAFingerWaitsAboveItsContact) {
+/// The same when the placed finger idles above its contact.
+TEST_F(FiveFingersTest, ANodeAfterIdlingAboveKeepsTheIdlePosturesOfItsParent) {
   StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
-  int come_to = 0;
-  for (int point = 0; point < std::ssize(points_) && come_to == 0; ++point) {
+  int reached = 0;
+  for (int point = 0; point < std::ssize(points_) && reached == 0; ++point) {
     if (checker_.reach().Find(free_, point, grid_.start()) == nullptr) continue;
-    ContactAssignment to = first_.holding;
+    ContactAssignment to = first_.assignment;
     to[free_] = point;
     if (!checker_.IsPassable({to}, grid_.start())) continue;
     StanceNode placed = tree.After(first, to, grid_.start());
-    placed.hold.waiting[other_free_] = FreePostureOf(other_free_, placed.hold);
-    ASSERT_NE(placed.hold.waiting[other_free_], first_.waiting[other_free_]);
+    placed.stance.idle[other_free_] = FreePostureOf(other_free_, placed.stance);
+    ASSERT_NE(placed.stance.idle[other_free_], first_.idle[other_free_]);
     const int after = tree.AfterIdlingAbove(tree.Add(placed));
     if (after < 0) continue;
-    ++come_to;
-    EXPECT_EQ(tree[after].hold.waiting[other_free_], first_.waiting[other_free_]);
+    ++reached;
+    EXPECT_EQ(tree[after].stance.idle[other_free_], first_.idle[other_free_]);
   }
-  EXPECT_GT(come_to, 0);
+  EXPECT_GT(reached, 0);
 }
 
-/// Straight up is no way everywhere between its two legs.
-class WayUpTest : public RestTreeTest {
+/// Between the two arms of the L the normal is blocked.
+class LiftPathTest : public StanceTreeTest {
  protected:
-  WayUpTest() : RestTreeTest("models/l_block.obj", 0.9) {}
+  LiftPathTest() : StanceTreeTest("models/l_block.obj", 0.9) {}
 
-  /// About where the hand holds it.
+  /// Draw a pose near that of the stance.
   Eigen::Isometry3d DrawPose() {
     Eigen::Isometry3d pose = found_.gait->start.pose;
     for (int k = 0; k < 3; ++k) pose.translation()[k] += 0.04 * (random_.Uniform() - 0.5);
@@ -220,10 +221,10 @@ class WayUpTest : public RestTreeTest {
   }
 };
 
-/// Straight, or to a side where something is in the way; near the object only about the contact.
-TEST_F(WayUpTest, LeadsOffTheSurface) {
-  int straight = 0;
-  int sideways = 0;
+/// Lifts along the normal, or tilted if blocked; near the object only close to the contact.
+TEST_F(LiftPathTest, LiftsOffTheSurface) {
+  int along_normal = 0;
+  int tilted = 0;
   int near = 0;
   for (int i = 0; i < 200; ++i) {
     const FingerIndex finger{i % scene_.finger_count()};
@@ -231,7 +232,7 @@ TEST_F(WayUpTest, LeadsOffTheSurface) {
     for (const kinematics::InverseKinematics& inverse : inverse_) {
       frame.postures.push_back(inverse.middle());
     }
-    const Surroundings around = AllBut(scene_, finger, frame);
+    const Surroundings around = AllExcept(scene_, finger, frame);
     for (const SurfacePoint& point : points_) {
       const kinematics::TipTarget target = TargetAt(hand_.fingers[finger], point, around.pose);
       const auto touching = inverse_[finger].Solve(target);
@@ -241,18 +242,19 @@ TEST_F(WayUpTest, LeadsOffTheSurface) {
           !scene_.KeepsOffObject(there, around.pose, TipContact::kTouching)) {
         continue;
       }
-      const auto up = FindLiftPath(scene_, inverse_[finger], finger, target, *touching, around);
-      if (!up) continue;
+      const auto lift_path =
+          FindLiftPath(scene_, inverse_[finger], finger, target, *touching, around);
+      if (!lift_path) continue;
       const auto tip = [&](const Posture& posture) {
         return kinematics::TipAt(hand_.fingers[finger], posture).centre;
       };
-      EXPECT_EQ(up->front(), *touching);
-      const Vector3d off = tip(up->back()) - target.centre;
+      EXPECT_EQ(lift_path->front(), *touching);
+      const Vector3d off = tip(lift_path->back()) - target.centre;
       EXPECT_GT(off.norm(), 0.0029);
-      const double along = off.normalized().dot(-target.towards);
-      EXPECT_GT(along, 0.5);
-      ++(along > 0.999 ? straight : sideways);
-      for (const Posture& posture : *up) {
+      const double waypoints = off.normalized().dot(-target.towards);
+      EXPECT_GT(waypoints, 0.5);
+      ++(waypoints > 0.999 ? along_normal : tilted);
+      for (const Posture& posture : *lift_path) {
         const PlacedFinger placed = scene_.Place(finger, posture);
         EXPECT_TRUE(scene_.KeepsOffHand(placed, 0.0));
         const bool is_off = scene_.KeepsOffObject(placed, around.pose, TipContact::kFree, 0.0);
@@ -261,10 +263,10 @@ TEST_F(WayUpTest, LeadsOffTheSurface) {
       }
     }
   }
-  EXPECT_GT(straight, 0);
-  EXPECT_GT(sideways, 0);
+  EXPECT_GT(along_normal, 0);
+  EXPECT_GT(tilted, 0);
   EXPECT_GT(near, 0);
 }
 
-}  // namespace rest_tree_test
+}  // namespace stance_tree_test
 }  // namespace regrasp::gait

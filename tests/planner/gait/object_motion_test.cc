@@ -1,16 +1,16 @@
+#include "planner/gait/object_motion.h"
+
 #include <gtest/gtest.h>
 
-#include "planner/gait/object_motion.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::gait {
-namespace carrier_test {
+namespace object_motion_test {
 
-/// A finger that finds no place to wait among those that are given waits in one that is drawn; not
-/// in one where it runs into its own hand.
-TEST(CarrierTest, FingersWaitWhereTheyKeepOffTheirOwnHand) {
+/// If no candidate posture is free, random postures are drawn. They must be clear of the own hand.
+TEST(ObjectMotionCheckerTest, RandomIdlePosturesAreClearOfTheHand) {
   const kinematics::HandModel hand = kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
   const auto file = object::ReadObject(ProjectPath("models/cube.obj"));
   const collision::SurfaceTree surface(dynamic_cast<const object::Polyhedron&>(*file.object), 0.5);
@@ -21,26 +21,26 @@ TEST(CarrierTest, FingersWaitWhereTheyKeepOffTheirOwnHand) {
   const std::vector<SurfacePoint> points;
   const HandSetup setup{scene, inverse, points};
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = 0.5 * hand.up;  // out of everybody's way
+  pose.translation() = 0.5 * hand.up;  // clear of every finger
   const PoseGrid grid({pose, Eigen::Vector3d::Zero(), {}, Eigen::Vector3d::Zero(), 0}, hand.up,
                       PoseGrid::End::kPose);
-  const IdlePostures nowhere(scene.finger_count());
-  ObjectMotionChecker checker(setup, grid, nowhere);
+  const IdlePostures no_postures(scene.finger_count());
+  ObjectMotionChecker checker(setup, grid, no_postures);
   int would_collide = 0;
   for (int seed = 0; seed < 60; ++seed) {
     RandomStream random(seed, RandomUse::kGaits);
     RandomStream same(seed, RandomUse::kGaits);
     const FingerIndex first{same.Choose(scene.finger_count(), scene.finger_count()).front()};
     would_collide += !scene.KeepsOffHand(scene.Place(first, scene.DrawPosture(first, same)));
-    Stance hold{ContactAssignment(scene.finger_count(), kNone)};
-    ASSERT_TRUE(checker.PlaceIdleFingers(hold, grid.start(), &random));
+    Stance stance{ContactAssignment(scene.finger_count(), kNone)};
+    ASSERT_TRUE(checker.PlaceIdleFingers(stance, grid.start(), &random));
     for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
-      EXPECT_TRUE(scene.KeepsOffHand(scene.Place(finger, hold.waiting[finger]))) << seed;
+      EXPECT_TRUE(scene.KeepsOffHand(scene.Place(finger, stance.idle[finger]))) << seed;
     }
   }
-  // The first posture that is drawn would not always do.
+  // Negative control: the first random posture does not always suffice.
   EXPECT_GT(would_collide, 0);
 }
 
-}  // namespace carrier_test
+}  // namespace object_motion_test
 }  // namespace regrasp::gait
