@@ -22,8 +22,8 @@ using Contacts = std::vector<Contact>;
 /// pieces.
 constexpr double kSlideStep = 0.004;
 constexpr int kMaxPieces = 64;
-/// Shortest permitted piece of a proof of force closure. Motions that require shorter pieces are
-/// too close to the friction limit.
+/// Shortest permitted piece of a proof of force closure.
+/// Motions that require shorter pieces are too close to the friction limit.
 constexpr double kShortestPiece = 1.0 / 64;
 /// Maximum change of a joint angle when a path is bent to its required end configuration, radians.
 constexpr double kMaxBend = 0.5;
@@ -35,8 +35,8 @@ constexpr double kMaxConcaveTurn = 0.2;
 
 bool IsSame(const Contact& a, const Contact& b) { return a.p == b.p && a.face == b.face; }
 
-/// Contact of a route with the normalized arc length there. Two knots with equal arc length are a
-/// rotation about an edge.
+/// Contact of a route with the normalized arc length there.
+/// Two knots with equal arc length are a rotation about an edge.
 struct Knot {
   double fraction;
   Contact contact;

@@ -21,8 +21,8 @@ namespace regrasp::gait {
 namespace {
 
 constexpr int kContacts = 400;
-/// Minimum distance between contacts and sharp edges, in diameters. A fingertip that slips a little
-/// stays on its face.
+/// Minimum distance between contacts and sharp edges, in diameters.
+/// A fingertip that slips a little stays on its face.
 constexpr double kEdgeClearance = 0.02;
 /// Spatial grasps have at least three contacts.
 constexpr std::size_t kFewestHoldingFingers = 3;

@@ -49,8 +49,8 @@ class Midpoint {
     return std::max(object_bound_, *std::ranges::max_element(bounds_));
   }
 
-  /// Return whether a check passes at the midpoint with clearance for the motion: no point of the
-  /// interval is farther from the midpoint than half of the total motion.
+  /// Return whether a check passes at the midpoint with clearance for the motion.
+  /// No point of the interval is farther from the midpoint than half of the total motion.
   /// @param fraction  fraction of the interval; 0 for the midpoint alone.
   [[nodiscard]] bool Passes(const Check& check, double fraction) {
     using enum Check::Of;
@@ -92,8 +92,9 @@ class Midpoint {
   std::vector<std::optional<PlacedFinger>> placed_;
 };
 
-/// Certify all checks between two keyframes. An interval is halved for the checks that fail at its
-/// midpoint. Most checks pass on long intervals; touching fingertips need short ones.
+/// Certify all checks between two keyframes.
+/// An interval is halved for the checks that fail at its midpoint. Most checks pass on long
+/// intervals; touching fingertips need short ones.
 bool CertifyOpen(const HandScene& scene, const Stationary& stationary, const Touching& touching,
                  const Keyframe& from, const Keyframe& to, const Checks& checks) {
   Midpoint middle(scene, stationary, touching, from, to);

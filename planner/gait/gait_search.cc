@@ -86,8 +86,8 @@ constexpr double kSingleFinger = 0.3;
 constexpr double kOffTrack = 0.1;
 /// Penalty per finger that does not hold its goal contact, in steps.
 constexpr double kGoalDistanceWeight = 3;
-/// Penalty per sliding step on the path, in steps. A sliding finger holds less reliably than a
-/// static one.
+/// Penalty per sliding step on the path, in steps.
+/// A sliding finger holds less reliably than a static one.
 constexpr double kSlide = 2;
 /// Penalty per earlier expansion of the same node, in steps.
 constexpr double kReexpansionPenalty = 2;

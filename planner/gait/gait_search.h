@@ -53,8 +53,8 @@ class EdgeSimulation {
   void SimulateWith(SimulateExecution simulate) { simulate_ = std::move(simulate); }
   [[nodiscard]] bool is_enabled() const { return simulate_ != nullptr; }
 
-  /// Return whether the path to a stance executes. A path that extends the confirmed one by less
-  /// than the look-ahead is trusted.
+  /// Return whether the path to a stance executes.
+  /// A path that extends the confirmed one by less than the look-ahead is trusted.
   [[nodiscard]] bool ExecutesInSimulation(int index);
   /// Simulate a gait; prune the tree at the first failure.
   /// @param gait  path to the stance, optionally extended to a reachable grid node.
@@ -106,8 +106,8 @@ struct GaitCounts {
   std::int64_t rolled = 0;           ///< stances rejected because the grasp is lost after rolling
   FailureCounts execution_failures;  ///< failed simulations by reason
   std::int64_t at_goal = 0;          ///< stances that reach the goal, before their path is planned
-  /// Farthest reached track step. If edges are simulated, clamped to the confirmed steps plus the
-  /// look-ahead.
+  /// Farthest reached track step.
+  /// If edges are simulated, clamped to the confirmed steps plus the look-ahead.
   int farthest = 0;
   int steps = 0;  ///< number of track steps
 
@@ -161,8 +161,8 @@ class GaitSearch {
   /// Index of the last expanded stance; −1 if none.
   [[nodiscard]] int last_expanded() const { return last_expanded_; }
   [[nodiscard]] const Stance& StanceOf(int index) const { return tree_[index].stance; }
-  /// Grid nodes that an expanded stance reaches, with predecessors. PathTo may change them when it
-  /// plans a detour.
+  /// Grid nodes that an expanded stance reaches, with predecessors.
+  /// PathTo may change them when it plans a detour.
   [[nodiscard]] const std::map<int, int>& NodesOf(int index) const {
     return tree_[index].reachable.predecessor;
   }
@@ -200,8 +200,8 @@ class GaitSearch {
     int index = -1;
   };
 
-  /// Farthest track step considered reached. If edges are simulated, clamped to the confirmed steps
-  /// plus the look-ahead.
+  /// Farthest track step considered reached.
+  /// If edges are simulated, clamped to the confirmed steps plus the look-ahead.
   [[nodiscard]] int farthest() const { return std::min(reached_, simulation_.FarthestTrusted()); }
   void AddInitialStances();
   void AddGivenStart();
@@ -218,16 +218,16 @@ class GaitSearch {
   /// @returns whether it was queued.
   bool Add(StanceNode stance_node);
   [[nodiscard]] bool IsGrasp(const ContactAssignment& assignment);
-  /// Roll the fingertips while the object moves towards a grid node. Without rolling, return the
-  /// grid node itself.
+  /// Roll the fingertips while the object moves towards a grid node.
+  /// Without rolling, return the grid node itself.
   [[nodiscard]] RolledTo RollTowards(const StanceNode& stance_node, int node);
   /// Initialize the rolled fingertips of a new stance from `rolled_before`.
   /// @returns whether the grasp is valid there.
   [[nodiscard]] bool InitRolledTips(StanceNode& stance_node);
   [[nodiscard]] bool WasExpandedAt(const StanceNode& stance_node) const;
   [[nodiscard]] double ScoreOf(const ContactAssignment& assignment, int node, int slides, int last);
-  /// Plan the path to a stance and on to `reachable.end`, which moves to its predecessor if a
-  /// motion fails.
+  /// Plan the path to a stance and on to `reachable.end`.
+  /// If a motion fails, `reachable.end` moves to its predecessor.
   /// @returns whether such a path exists.
   [[nodiscard]] bool ReachesEnd(int index);
   /// Plan the edge from the parent to a new stance.

@@ -25,8 +25,8 @@ enum class TipContact {
   kTouching,  ///< may penetrate the surface by kTipDepth, with the link behind it
 };
 
-/// Permitted penetration of a touching fingertip, metres. Contacts are exact, but the postures
-/// certified between two samples are not.
+/// Permitted penetration of a touching fingertip, metres.
+/// Contacts are exact, but the postures certified between two samples are not.
 inline constexpr double kTipDepth = 2e-4;
 
 /// Collision shapes of a finger in one joint configuration, in the palm's frame.
@@ -36,8 +36,8 @@ struct PlacedFinger {
   std::vector<collision::Ball> balls;          ///< bounding spheres of the shapes
 };
 
-/// Clearance of sampled joint configurations in addition to the margin, metres. It leaves room to
-/// certify the paths between them.
+/// Clearance of sampled joint configurations in addition to the margin, metres.
+/// It leaves room to certify the paths between them.
 inline constexpr double kPostureMargin = 5e-4;
 
 /// Collision checks between the links of a hand, its palm and an object.
@@ -83,12 +83,12 @@ class HandScene {
   /// Return whether the object is clear of the palm.
   [[nodiscard]] bool KeepsOffPalm(const Eigen::Isometry3d& pose, Motion motion = {}) const;
 
-  /// Return an upper bound on the motion of any point of a finger between two joint configurations,
-  /// metres.
+  /// Bound the motion of any point of a finger between two joint configurations.
+  /// Length in metres.
   [[nodiscard]] double MotionBound(FingerIndex finger, const Posture& from,
                                    const Posture& to) const;
-  /// Return an upper bound on the motion of any point of the object between two poses, metres. The
-  /// origin moves linearly, and the object rotates about one axis.
+  /// Bound the motion of any point of the object between two poses.
+  /// Length in metres. The origin moves linearly, and the object rotates about one axis.
   [[nodiscard]] double MotionBound(const Eigen::Isometry3d& from,
                                    const Eigen::Isometry3d& to) const;
 
@@ -97,8 +97,9 @@ class HandScene {
   [[nodiscard]] double Needed(Motion motion) const {
     return margin_ + motion.value_or(kPostureMargin);
   }
-  /// Pair of shapes that may collide. Excluded are pairs that the hand model ignores: there are
-  /// many, and they overlap, which is the slowest case of GJK.
+  /// Pair of shapes that may collide.
+  /// Excluded are pairs that the hand model ignores: there are many, and they overlap, which is the
+  /// slowest case of GJK.
   struct ShapePair {
     int a;
     int b;
@@ -125,8 +126,8 @@ struct SurfacePoint {
   Eigen::Vector3d n;  ///< unit normal, inward
 };
 
-/// Return the fingertip target at a contact: the centre of the fingertip sphere is one radius
-/// outside the surface.
+/// Return the fingertip target at a contact.
+/// The centre of the fingertip sphere is one radius outside the surface.
 /// @param pose  object pose in the palm's frame.
 [[nodiscard]] kinematics::TipTarget TargetAt(const kinematics::Finger& finger,
                                              const SurfacePoint& contact,
@@ -148,13 +149,13 @@ class ReachMap {
   ///     contact.
   [[nodiscard]] const Posture* Find(FingerIndex finger, int point, int node);
 
-  /// Return whether a finger keeps its contact between adjacent grid nodes without a jump in joint
-  /// space.
+  /// Return whether a finger keeps its contact between adjacent grid nodes.
+  /// The joint configuration must be continuous.
   /// @param node  grid node at which the finger reaches the contact.
   [[nodiscard]] bool CanFollow(FingerIndex finger, int point, int node, int neighbour);
 
-  /// Estimate the last track step up to which a finger keeps a contact, at the offset of the grid
-  /// node. Not every pose in between is checked.
+  /// Estimate the last track step up to which a finger keeps a contact.
+  /// Moves along the track at the offset of the grid node; not every pose is checked.
   /// @param node  grid node at which the finger reaches the contact.
   [[nodiscard]] int RunEnd(FingerIndex finger, int point, int node);
 

@@ -23,8 +23,8 @@ constexpr int kTaskSteps = 4;
 constexpr int kMaxRefined = 36;
 constexpr int kGraspDraws = 150;
 constexpr int kMaxInitialPoses = 24;
-/// Offset in the logarithm of the number of reachable contacts. The logarithm makes all fingers
-/// count.
+/// Offset in the logarithm of the number of reachable contacts.
+/// The logarithm makes all fingers count.
 constexpr double kNoContact = 0.3;
 
 /// Number of sampled idle configurations; the maximum applies to a finger with little free space.
@@ -121,8 +121,8 @@ double GraspScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::Gr
   return score;
 }
 
-/// Return whether the fingertips may reach all contacts of a grasp with distinct fingers, by the
-/// reach tables alone.
+/// Return whether distinct fingers may reach all contacts of a grasp.
+/// Uses the reach tables only.
 bool MayReachAll(const HandSetup& setup, const std::vector<int>& grasp, const Isometry3d& pose) {
   std::vector<std::vector<int>> fingers_of;  // [contact]
   for (const int point : grasp) {

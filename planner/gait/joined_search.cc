@@ -12,8 +12,8 @@ namespace {
 /// Joint configurations of a finger at one contact that differ only by rounding, radians.
 constexpr double kSamePosture = 1e-6;
 
-/// Maximum number of RRT extensions for a path that connects both trees. It is large because a
-/// failure discards both paths.
+/// Maximum number of RRT extensions for a path that connects both trees.
+/// It is large because a failure discards both paths.
 constexpr int kExtensionsToMeet = 1000;
 
 /// Maximum number of planned connections per expanded stance.

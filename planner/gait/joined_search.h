@@ -52,15 +52,15 @@ class BidirectionalSearch : public StartSearch {
 
  private:
   std::optional<Gait> RunFromBothEnds(std::int64_t most_expanded, const Deadline& deadline);
-  /// Add the last expanded stance of one direction to the targets of the other, and try to connect
-  /// both trees through it.
+  /// Try to connect both trees through the last expanded stance of one direction.
+  /// Also adds it to the targets of the other direction.
   std::optional<Gait> Meet(bool is_forward);
   /// Plan the gait through two stances with equal assignments; nullopt if a path fails.
   std::optional<Gait> Join(int forward, int backward);
   /// Return a grid node that both stances reach, kNoNode if none is found.
   int CommonNode(int forward, int backward);
-  /// Move idle fingers from their configurations in one keyframe to those in another, one finger at
-  /// a time in some order.
+  /// Move idle fingers between their configurations in two keyframes.
+  /// Moves one finger at a time, in the first feasible order.
   /// @param stuck  output: a finger without a path, if that is the cause of the failure.
   std::optional<std::vector<Keyframe>> MoveIdleFingers(const ContactAssignment& assignment,
                                                        const Keyframe& from, const Keyframe& to,
@@ -114,12 +114,12 @@ class TurnSearch : public StartSearch {
     std::optional<GaitSearch> search;  ///< backward search
     [[nodiscard]] int farthest() const { return forward.farthest + backward.farthest; }
   };
-  /// Return the root with the largest reached rotation whose backward search is not exhausted; −1
-  /// if none.
+  /// Return the root with the largest reached rotation; −1 if none.
+  /// Roots with an exhausted backward search are skipped.
   [[nodiscard]] int BestRoot() const;
   GaitSearch& BackwardFrom(int root);
-  /// Record the poses that the last expanded stance of a direction reaches, and try to complete a
-  /// rotation through them.
+  /// Record the poses of the last expanded stance of a direction.
+  /// Tries to complete a rotation through them.
   std::optional<Gait> RecordReached(int root, bool is_forward);
   /// Plan the rotation through a forward and a backward path.
   /// @param forward, backward  pairs of stance and grid node.

@@ -66,11 +66,11 @@ class ObjectMotionChecker {
   /// Return the keyframe of a stance at a grid node.
   /// @param node  grid node at which all holding fingers reach their contacts.
   [[nodiscard]] Keyframe FrameAt(const Stance& stance, int node);
-  /// Return whether one holding finger is clear of all other holding fingers at a grid node that
-  /// all of them reach.
+  /// Return whether one holding finger is clear of the other holding fingers.
+  /// @param node  grid node at which all of them reach their contacts.
   [[nodiscard]] bool KeepsApart(const Stance& stance, FingerIndex finger, int node);
-  /// Return whether a stance is collision-free at a grid node. Idle fingers without a configuration
-  /// are ignored.
+  /// Return whether a stance is collision-free at a grid node.
+  /// Idle fingers without a configuration are ignored.
   /// @param node  grid node at which all holding fingers reach their contacts.
   [[nodiscard]] bool IsPassable(const Stance& stance, int node);
   /// Choose configurations for idle fingers that have none.
@@ -87,8 +87,8 @@ class ObjectMotionChecker {
 
   /// Extend a stance along the track at the offset of the grid node.
   [[nodiscard]] ReachablePoses ExtendAlongTrack(const Stance& stance, int node);
-  /// Extend a stance over the whole grid, best first: larger steps first, then smaller offsets from
-  /// the track.
+  /// Extend a stance over the whole grid, best first.
+  /// Order: larger steps, then smaller offsets from the track.
   /// @param patience  maximum number of expanded nodes without progress; each takes microseconds to
   ///     milliseconds.
   /// @param is_enough  predicate of the farthest node that ends the search.
@@ -98,8 +98,8 @@ class ObjectMotionChecker {
                                             const GridEdges& blocked);
 
  private:
-  /// Choose for each idle finger the first collision-free candidate, or a configuration above its
-  /// contact in `before`.
+  /// Choose the first collision-free candidate of each idle finger.
+  /// The last candidate is above the finger's contact in `before`.
   [[nodiscard]] bool UseIdlePostures(Stance& stance, int node, const Stance* before);
   /// Draw configurations finger by finger in random order.
   [[nodiscard]] bool DrawIdlePostures(Stance& stance, int node, RandomStream& random);

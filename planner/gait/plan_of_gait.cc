@@ -60,8 +60,8 @@ plan::Align SlideOf(const PlanSegment& segment, const plan::FingerGrasp& grasp,
   return align;
 }
 
-/// Return whether a segment belongs to the same plan step as the previous one: a placed finger,
-/// then another one released.
+/// Return whether a segment belongs to the same plan step as the previous one.
+/// True if a finger is placed and then another one is released.
 bool BelongTogether(const std::vector<PlanSegment>& segments, std::size_t i) {
   using enum PlanSegment::Kind;
   return i > 0 && segments[i].kind == kRelease && segments[i - 1].kind == kPlace &&

@@ -72,8 +72,8 @@ class ObjectTask {
   [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
   [[nodiscard]] const std::optional<Eigen::Isometry3d>& goal() const { return goal_; }
 
-  /// Return the track from a start in steps of at most 0.06 rad and 4 mm; a single pose if nothing
-  /// moves.
+  /// Return the track from a start; a single pose if nothing moves.
+  /// Steps are at most 0.06 rad and 4 mm.
   [[nodiscard]] PoseTrack From(const Eigen::Isometry3d& start) const;
   /// Return the track from a start in the given number of steps; a single pose if nothing moves.
   [[nodiscard]] PoseTrack From(const Eigen::Isometry3d& start, int steps) const;
@@ -84,8 +84,8 @@ class ObjectTask {
   std::optional<Eigen::Isometry3d> goal_;
 };
 
-/// Discrete poses of the object: those of a track, each with neighbours that are shifted and tilted
-/// by small offsets.
+/// Discrete object poses: those of a track, and offsets from them.
+/// Each pose of the track has neighbours that are shifted and tilted by small offsets.
 /// The offsets let fingers keep their contacts on an object that yields. A grid node is the number
 /// of a pose. A finger that reaches a contact at two adjacent nodes can usually follow from one to
 /// the other.
@@ -102,8 +102,8 @@ class PoseGrid {
   [[nodiscard]] int size() const { return (track_.steps() + 1) * offsets(); }
   [[nodiscard]] int steps() const { return track_.steps(); }
   [[nodiscard]] int StepOf(int node) const { return node / offsets(); }
-  /// Return the number of the tilt offset. The orientations of two nodes with equal tilt differ by
-  /// the rotation between their steps only.
+  /// Return the number of the tilt offset.
+  /// The orientations of two nodes with equal tilt differ by the rotation between their steps only.
   [[nodiscard]] int TiltOf(int node) const { return offsets_->tilts[node % offsets()]; }
   /// Return the number of unit offsets between a node and the track.
   [[nodiscard]] int OffTrack(int node) const;
@@ -121,8 +121,9 @@ class PoseGrid {
 
   /// Return the object pose in the palm's frame.
   [[nodiscard]] Eigen::Isometry3d PoseAt(int node) const;
-  /// Return the node `steps` steps farther along the track at the same offset; kNoNode beyond the
-  /// end.
+  /// Return the node farther along the track at the same offset.
+  /// @param steps  number of steps [default: 1].
+  /// @returns the node; kNoNode beyond the end.
   [[nodiscard]] int Onward(int node, int steps = 1) const {
     const int onward = node + steps * offsets();
     return onward < size() ? onward : kNoNode;

@@ -23,8 +23,8 @@ struct RandomStance {
 };
 
 struct RandomStanceOptions {
-  /// Range of the number of holding fingers. The number is drawn uniformly; draws with many fingers
-  /// succeed less often.
+  /// Range of the number of holding fingers.
+  /// The number is drawn uniformly; draws with many fingers succeed less often.
   int fewest = 3;
   int most = 3;
   /// Candidate contacts. Empty: any point of the surface.

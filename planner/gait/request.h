@@ -35,8 +35,8 @@ struct GaitRequest : planning::InHandTask {
   planning::Progress progress = [](std::string_view) {};
 };
 
-/// Return the hand used by the grasp criteria: all fingers, each with the largest fingertip radius,
-/// in object units.
+/// Return the hand used by the grasp criteria, in object units.
+/// It has all fingers, each with the largest fingertip radius.
 [[nodiscard]] hand::Hand FingersOf(const planning::InHandTask& task);
 
 }  // namespace regrasp::gait

@@ -48,8 +48,9 @@ constexpr Budget kRollingBudget = {40, 0.4};
 constexpr std::size_t kMaxLengthFactor = 3;
 constexpr std::size_t kMaxExtraSegments = 12;
 
-/// Margins for simulated edges, assigned to initial poses in turn. Two of three do not model
-/// rolling, because these searches are faster; with rolling, more gaits execute.
+/// Margins for simulated edges, assigned to initial poses in turn.
+/// Two of three do not model rolling, because these searches are faster; with rolling, more gaits
+/// execute.
 constexpr RobustnessMargins kNotRolling = {0.05, 0.5e-3};
 constexpr std::array kEdgeMargins = {kNotRolling, kNotRolling, kRolling.front()};
 /// Expansions per quarter turn in the first round; doubled in each further round.
@@ -58,13 +59,14 @@ constexpr std::int64_t kExpandedInRound = 300;
 constexpr int kRounds = 2;
 constexpr int kMaxRounds = 6;
 constexpr int kStreamShift = 32;  ///< of seeds
-/// Complete gaits are simulated first. For short rotations their rolling is not modelled, so that
-/// they may begin at any angle; for other tasks it is, because ring hands execute most of these.
+/// Complete gaits are simulated first.
+/// For short rotations their rolling is not modelled, so that they may begin at any angle; for
+/// other tasks it is, because ring hands execute most of these.
 constexpr std::array kShortTurnMargins = {kNotRolling, RobustnessMargins{0.02, 0}};
 constexpr double kShortTurn = 1.75;  ///< radians
 constexpr Budget kWholeBudget = {40, 0.15};
-/// Maximum number of such attempts with different initial poses. Most of these gaits are a single
-/// motion, which is found quickly and either executes or not.
+/// Maximum number of such attempts with different initial poses.
+/// Most of these gaits are a single motion, which is found quickly and either executes or not.
 constexpr int kWholeAttempts = 4;
 /// Fraction of the time after which a gait without margins is searched.
 constexpr double kTimeBeforeWithout = 0.85;
@@ -155,8 +157,8 @@ class AttemptRunner {
   /// Whether the simulator gives no result.
   [[nodiscard]] bool is_unknown() const { return is_unknown_; }
 
-  /// Return the first executing gait or, if requested, the first one with the largest tolerance
-  /// margin; no gait if none executes.
+  /// Return the first executing gait; no gait if none executes.
+  /// If requested, the first one with the largest tolerance margin.
   [[nodiscard]] SimulatedGait BestExecuted() {
     Outcome* best = nullptr;
     ForEachOutcome([&](Outcome& outcome) {
@@ -169,8 +171,8 @@ class AttemptRunner {
     return {std::move(best->found), std::move(best->execution)};
   }
 
-  /// Return the first gait or, if there is none, the reason. Reasons of attempts with simulated
-  /// edges take precedence.
+  /// Return the first gait or, if there is none, the reason.
+  /// Reasons of attempts with simulated edges take precedence.
   [[nodiscard]] SimulatedGait FirstNotExecuted() {
     SimulatedGait best;
     ForEachOutcome([&](Outcome& outcome) {
@@ -182,8 +184,8 @@ class AttemptRunner {
     return best;
   }
 
-  /// Return why no gait executes: the failure of the candidate that executes farthest, or the
-  /// reason why there is no candidate.
+  /// Return why no gait executes.
+  /// The reason is the failure of the candidate that executes farthest, or why there is none.
   [[nodiscard]] SimulatedGait WhyNoneExecutes() {
     std::size_t count = 0;
     const Outcome* farthest = nullptr;
@@ -255,8 +257,8 @@ class AttemptRunner {
     request_.progress(text);
   }
 
-  /// Abandon later schedules. With a deadline, whose result depends on the machine anyway, abandon
-  /// all.
+  /// Abandon later schedules.
+  /// With a deadline, whose result depends on the machine anyway, abandon all.
   void EndWith(std::size_t schedule) {
     if (request_.deadline.left()) is_over_ = true;
     std::size_t last = last_schedule_;

@@ -79,8 +79,9 @@ class MultiStartSearch {
 struct RobustnessMargins {
   double quality = 0;    ///< minimum grasp quality ε
   double clearance = 0;  ///< additional clearance of links, metres
-  /// Required force margin at rolled contacts (HandSetup::force_margin). None: rolling is not
-  /// modelled, and the gait is robust only if its simulated execution succeeds.
+  /// Required force margin at rolled contacts (HandSetup::force_margin).
+  /// None: rolling is not modelled, and the gait is robust only if its simulated execution
+  /// succeeds.
   std::optional<double> force_margin = {};
 };
 
@@ -100,8 +101,9 @@ using FindOne = std::function<FoundGait(const GaitRequest& asked,
 [[nodiscard]] FoundGait FindRobustGait(const GaitRequest& request, const FindOne& find,
                                        const FoundGait& without);
 
-/// Gait with the result of its simulated execution. Without a gait, the result of the candidate
-/// that executes farthest; nullopt if the simulator gives no result or nothing was simulated.
+/// Gait with the result of its simulated execution.
+/// Without a gait, the result of the candidate that executes farthest; nullopt if the simulator
+/// gives no result or nothing was simulated.
 struct SimulatedGait {
   FoundGait found;
   std::optional<planning::CarriedOut> execution = {};

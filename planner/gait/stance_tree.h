@@ -34,8 +34,8 @@ struct StanceNode {
   /// Farthest track step of in-hand motions with the stance; limited by failed simulations.
   int farthest = std::numeric_limits<int>::max();
   int slides = 0;  ///< number of sliding steps from the root
-  /// Edge from the parent: segments of the contact change. Planned when the node is popped from the
-  /// queue.
+  /// Edge from the parent: segments of the contact change.
+  /// Planned when the node is popped from the queue.
   std::vector<PlanSegment> edge = {};
   bool is_pruned = false;  ///< the stance is known to be unreachable
   /// Planned in-hand motions by edge of the grid; empty if infeasible.
@@ -84,16 +84,16 @@ class StanceTree {
 
   /// Return the root of a node.
   [[nodiscard]] int RootOf(int index) const;
-  /// Return a child of node `from` after a contact change at a grid node. It is not added to the
-  /// tree.
+  /// Return a child of node `from` after a contact change at a grid node.
+  /// It is not added to the tree.
   [[nodiscard]] StanceNode After(int from, const ContactAssignment& to, int node) const;
 
   /// Return the last node on the path to `index` that executes in simulation; −1 if none.
   [[nodiscard]] int LastExecuted(int index) const;
   /// Mark the path to a node as executed in simulation.
   void MarkExecuted(int index);
-  /// Prune the first node on the path to `index` that comes after a number of contact changes; −1
-  /// prunes the root.
+  /// Prune the path to a node after a number of contact changes.
+  /// Prunes the first later node on the path; −1 prunes the root.
   /// @returns the pruned node; −1 if the path has no more changes.
   int PruneAfter(int index, int changes);
   /// Limit the in-hand motions of a node to a track step, and prune the children beyond it.
@@ -104,25 +104,25 @@ class StanceTree {
   /// Plan the contact change from the parent to a node.
   /// @returns whether it succeeds.
   [[nodiscard]] bool PlanPathFromParent(StanceNode& stance_node);
-  /// Plan the whole path to a node and on to one of its grid nodes. A node that proves unreachable
-  /// is pruned with its subtree.
+  /// Plan the whole path to a node and on to one of its grid nodes.
+  /// A node that proves unreachable is pruned with its subtree.
   /// @returns the gait; nullopt if a motion fails.
   [[nodiscard]] std::optional<Gait> PathTo(int index, int node);
 
-  /// Copy the path to a node with another idle posture of one finger. The posture applies since the
-  /// finger's last contact or, with a given start, since the root.
+  /// Copy the path to a node with another idle posture of one finger.
+  /// The posture applies since the finger's last contact or, with a given start, since the root.
   /// @returns index of the copied node; −1 if a collision occurs or the root fixes the posture.
   [[nodiscard]] int WithIdlePosture(int index, FingerIndex finger, const Posture& posture);
-  /// Connect a node whose placed finger has no path: let the finger idle above its future contact
-  /// beforehand (WithIdlePosture).
+  /// Connect a node whose placed finger has no path.
+  /// Lets the finger idle above its future contact beforehand (WithIdlePosture).
   /// @returns index of the connected copy; −1 if it fails.
   [[nodiscard]] int AfterIdlingAbove(int index);
 
  private:
   /// Return the in-hand motion between adjacent grid nodes; null if infeasible.
   [[nodiscard]] const std::vector<Keyframe>* MoveBetween(StanceNode& stance_node, int from, int to);
-  /// Plan the in-hand motion to a reachable grid node, with detours around infeasible edges;
-  /// nullopt if there is none.
+  /// Plan the in-hand motion to a reachable grid node.
+  /// Plans detours around infeasible edges; nullopt if there is none.
   [[nodiscard]] std::optional<std::vector<Keyframe>> MoveFrom(StanceNode& stance_node, int node);
   void Prune(int index);
   /// Reset the postures of fingers that idle before and after the change to those of the parent.

@@ -21,8 +21,8 @@ constexpr double kClusterCosine = 0.7;
 constexpr double kSameStep = 0.1;
 /// Penalty per expanded stance with the same clusters, in steps.
 constexpr double kSameClusters = 0.5;
-/// Penalty per expanded stance with the same holding fingers, in steps. Three fingers can slide to
-/// many contacts, most of which lead nowhere.
+/// Penalty per expanded stance with the same holding fingers, in steps.
+/// Three fingers can slide to many contacts, most of which lead nowhere.
 constexpr double kSameFingers = 0.3;
 
 std::vector<bool> HoldingFingers(const ContactAssignment& assignment) {
@@ -44,8 +44,8 @@ constexpr double kFarAlongSurface = 0.08;
 
 /// Maximum number of candidate contacts of a placed finger.
 constexpr std::size_t kMaxCandidates = 24;
-/// Number of subsets of the contacts. At one grid node further subsets are used only if the first
-/// yields too few candidates.
+/// Number of subsets of the contacts.
+/// At one grid node further subsets are used only if the first yields too few candidates.
 constexpr int kSubsets = 4;
 /// Maximum number of goal assignments and targets for simultaneous sliding.
 constexpr int kMaxJointSlides = 3;

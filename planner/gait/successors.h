@@ -36,8 +36,9 @@ class NoveltyPenalty {
   /// Count an expanded stance.
   /// @param step  track step that it reaches, in [0, steps].
   void Count(const ContactAssignment& assignment, int step);
-  /// Return the score minus the penalty, in track steps. The penalty counts expanded stances with
-  /// the same end step, the same clusters, and the same holding fingers.
+  /// Return the score minus the penalty, in track steps.
+  /// The penalty counts expanded stances with the same end step, the same clusters, and the same
+  /// holding fingers.
   [[nodiscard]] double Penalized(double score, const ContactAssignment& assignment, int step) const;
 
  private:
@@ -70,8 +71,8 @@ class GoalGrasp {
 
   [[nodiscard]] bool IsReachable() const { return points_.empty() || !assignments_.empty(); }
   [[nodiscard]] bool IsHeldBy(const ContactAssignment& assignment) const;
-  /// Return the distance to the nearest goal assignment or target: the number of differing fingers,
-  /// each weighted by the distance between its contacts.
+  /// Return the distance to the nearest goal assignment or target.
+  /// Counts the differing fingers, each weighted by the distance between its contacts.
   [[nodiscard]] double DistanceFrom(const ContactAssignment& assignment) const;
   /// Return the contacts at which a finger may end.
   [[nodiscard]] std::set<int> ContactsOf(FingerIndex finger) const;
@@ -102,17 +103,17 @@ class SuccessorGenerator {
 
   /// Return all assignments after one change at a grid node. They need not be admissible grasps.
   [[nodiscard]] std::vector<ContactAssignment> After(const ContactAssignment& from, int node);
-  /// Return contacts for an idle finger that are clear of the holding fingers: goal contacts first,
-  /// then by the step up to which the finger keeps them.
+  /// Return contacts for an idle finger that are clear of the holding fingers.
+  /// Goal contacts come first, then those that the finger keeps longest.
   [[nodiscard]] std::vector<int> ContactCandidates(FingerIndex finger,
                                                    const ContactAssignment& from, int node);
 
  private:
-  /// Return the contacts of one subset that a finger reaches at a grid node. The subsets rotate
-  /// with the node.
+  /// Return the contacts of one subset that a finger reaches at a grid node.
+  /// The subsets rotate with the node.
   [[nodiscard]] const std::vector<int>& ReachedAt(FingerIndex finger, int node, int subset);
-  /// Add the assignments in which a finger is placed, if valid, and one or none of the others is
-  /// released.
+  /// Add the assignments after a finger switch.
+  /// A finger is placed, if valid, and one or none of the others is released.
   void AddSwitches(const ContactAssignment& from, FingerIndex placed, int point,
                    std::vector<ContactAssignment>& assignments) const;
   /// Add the assignments in which one holding finger slides.

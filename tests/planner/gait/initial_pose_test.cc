@@ -68,8 +68,7 @@ TEST(FindInitialPosesTest, TheContactsOfAGivenGraspAreWithinReach) {
                               {{-0.03, 0.005, 0}, Vector3d::UnitX(), {}},
                               {{-0.03, -0.005, 0}, Vector3d::UnitX(), {}}};
   GaitWorld world(RequestFor("cube", 0.8, 0), grasp);
-  const GaitEnds ends{{kWorldContacts, kWorldContacts + 1, kWorldContacts + 2},
-                      {}};
+  const GaitEnds ends{{kWorldContacts, kWorldContacts + 1, kWorldContacts + 2}, {}};
   const auto is_reached = [&](int contact, const Isometry3d& pose) {
     for (FingerIndex finger{0}; finger < world.scene.finger_count(); ++finger) {
       const auto target = TargetAt(world.scene.finger(finger), world.setup.points[contact], pose);
@@ -99,8 +98,7 @@ TEST(FindInitialPosesTest, AGoalGraspThatNoFingersReachHasNoPose) {
                               {{-0.03, far, far}, Vector3d::UnitX(), {}},
                               {{0.03, -far, -far}, -Vector3d::UnitX(), {}}};
   GaitWorld world(RequestFor("cube", 20, 0), grasp);
-  const std::vector<int> numbers = {kWorldContacts, kWorldContacts + 1,
-                                    kWorldContacts + 2};
+  const std::vector<int> numbers = {kWorldContacts, kWorldContacts + 1, kWorldContacts + 2};
   EXPECT_TRUE(PosesOf(world, {{}, numbers}).empty());
   // Negative control: one of the contacts alone is within reach.
   EXPECT_FALSE(PosesOf(world, {{}, {kWorldContacts}}).empty());
@@ -127,11 +125,10 @@ TEST(FindIdlePosturesTest, PosturesAreClearOfHandAndObject) {
   int blocked = 0;
   for (int i = 0; i < 200; ++i) {
     const FingerIndex finger{i % world.scene.finger_count()};
-    const PlacedFinger placed =
-        world.scene.Place(finger, world.scene.DrawPosture(finger, random));
-    blocked += static_cast<int>(
-        !world.scene.KeepsOffHand(placed) ||
-        !world.scene.KeepsOffObject(placed, track.PoseAt(0), TipContact::kFree));
+    const PlacedFinger placed = world.scene.Place(finger, world.scene.DrawPosture(finger, random));
+    blocked +=
+        static_cast<int>(!world.scene.KeepsOffHand(placed) ||
+                         !world.scene.KeepsOffObject(placed, track.PoseAt(0), TipContact::kFree));
   }
   EXPECT_GT(blocked, 0);
 }
