@@ -45,14 +45,16 @@ std::string ProgressText(const GaitRequest& request, const GaitCounts& counts) {
       counts.steps == 0 ? 1 : static_cast<double>(counts.farthest) / counts.steps;
   if (fraction == 1 && !request.goal_grasp.empty()) return "the goal grasp is not reached";
   if (fraction == 1 && request.goal_pose && counts.at_goal == 0) {
-    return "the object comes near its goal pose, and no grasp is found that holds it there";
+    return "the object comes near its goal pose, but no grasp is found that holds it there";
   }
-  if (fraction == 1) return "every way to the goal fails where its paths are worked out";
+  if (fraction == 1) return "every path to the goal is infeasible";
   if (request.goal_pose) {
-    return "the object comes " + FormatShort(100 * fraction, 3) + " % of the way to its goal pose";
+    return "the object reaches " + FormatShort(100 * fraction, 3) +
+           " % of the path to its goal pose";
   }
-  return "the hand turns the object by " + FormatShort(fraction * Degrees(request.turn.angle), 3) +
-         " of " + FormatShort(Degrees(request.turn.angle), 3) + " degrees";
+  return "the hand rotates the object by " +
+         FormatShort(fraction * Degrees(request.turn.angle), 3) + " of " +
+         FormatShort(Degrees(request.turn.angle), 3) + " degrees";
 }
 
 /// Example: "slipped 5, hand-collides 2".
@@ -69,27 +71,28 @@ std::string FailuresText(const FailureCounts& failures) {
 std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCounts>& counts) {
   if (counts.empty()) {
     std::string text =
-        "the object is nowhere in the hand within reach of the fingers and off the palm";
+        "no initial pose found: the object must be within reach of the fingers and clear of the "
+        "palm";
     if (!request.start_grasp.empty()) text += ", held by the start grasp";
-    if (!request.goal_grasp.empty()) text += ", held by the goal grasp in the end";
+    if (!request.goal_grasp.empty()) text += ", held by the goal grasp at the end";
     return text;
   }
   const GaitCounts& best = *std::ranges::max_element(counts, {}, &GaitCounts::farthest);
-  std::string text = ProgressText(request, best) + "; of " + std::to_string(counts.size()) +
-                     " places in the hand the best one has " + std::to_string(best.evaluated) +
-                     " grasps";
+  std::string text = ProgressText(request, best) + "; the best of " +
+                     std::to_string(counts.size()) + " initial poses has " +
+                     std::to_string(best.evaluated) + " grasps";
   const auto add = [&](std::int64_t count, const std::string& what) {
     if (count > 0) text += ", " + std::to_string(count) + " " + what;
   };
   add(best.colliding, "in which fingers collide");
   add(best.path_failures.no_path, "for which a finger has no free path");
   add(best.path_failures.no_slide, "for which a finger cannot slide");
-  add(best.path_failures.no_move, "with moves that fingers cannot follow");
-  add(best.rolled, "that no longer hold where their contacts roll to");
+  add(best.path_failures.no_move, "with infeasible in-hand motions");
+  add(best.rolled, "that are lost when their contacts roll");
   add(std::accumulate(best.execution_failures.begin(), best.execution_failures.end(),
                       std::int64_t{0},
                       [](std::int64_t sum, const auto& one) { return sum + one.second; }),
-      "to which the hand's motors do not come (" + FailuresText(best.execution_failures) + ")");
+      "whose simulated execution fails (" + FailuresText(best.execution_failures) + ")");
   if (request.reserve == Reserve::kRequired) {
     text += "; without reserve there may be a plan";
   }
@@ -118,7 +121,8 @@ void CheckStartFingers(const GaitRequest& request) {
   const auto is_there = [&](FingerIndex finger) { return finger >= 0 && finger < count; };
   if (fingers.empty()) return;
   if (fingers.size() != request.start_grasp.size() || !std::ranges::all_of(fingers, is_there)) {
-    throw std::invalid_argument("start_fingers: one of the hand for each contact of the start");
+    throw std::invalid_argument(
+        "start_fingers: must name one finger of the hand for each contact of the start grasp");
   }
 }
 
@@ -202,7 +206,7 @@ SimulateExecution SimulatorFor(const HandSetup& setup, const GaitRequest& reques
                                const std::vector<grasp::Contact>& contacts) {
   return [&](const Gait& gait) -> GaitExecution {
     const Gait merged = MergeMoves(setup, gait);
-    request.progress("trying a plan on the hand's own motors");
+    request.progress("simulating a plan");
     const plan::Plan plan = PlanOf(merged, request, contacts);
     const auto execution = request.carry_out(plan, request.deadline);
     if (!execution) return {.is_whole = true};  // the caller detects the missing result

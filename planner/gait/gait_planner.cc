@@ -83,7 +83,7 @@ GaitRequest ProbeOf(const GaitRequest& request, bool with_actuators) {
 
 bool IsLimitedByActuators(const GaitRequest& request) {
   if (request.reserve != Reserve::kRequired) return false;
-  request.progress("trying without the hand's motors");
+  request.progress("searching without simulation");
   return FindGait(ProbeOf(request, false)).gait.has_value();
 }
 
@@ -152,12 +152,12 @@ std::string ExplainGait(const GaitRequest& request) {
     if (relaxation.helps.empty()) no_help += (no_help.empty() ? "" : ", ") + relaxation.no_help;
   }
   std::string text;
-  if (!helps.empty()) text = "would do, each alone: " + helps;
+  if (!helps.empty()) text = "each change alone helps: " + helps;
   if (!no_help.empty()) {
     if (!text.empty()) text += "; ";
     text += "not found to help: " + no_help;
   }
-  if (request.deadline.IsOver()) text += " (the time limit ended the tries)";
+  if (request.deadline.IsOver()) text += " (stopped by the time limit)";
   return text;
 }
 
@@ -176,7 +176,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   GaitRequest request = RequestFor(asked);
   if (request.seeks_most_margin && (!request.carry_out || request.reserve == Reserve::kNone)) {
     throw InputError(OptionName(PlanOption::kMargin) +
-                     ": goes with plans that the hand tries, and none is tried without reserve");
+                     ": requires simulated plans, cannot be used with --reserve none");
   }
   const auto time = request.deadline.left();
   const GaitResult found = FindGait(request);
@@ -186,9 +186,9 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     result.message = found.message;
     if (found.execution) {
       if (!found.execution->is_cut_short) result.trial = found.execution->reason;
-      result.message += "; with --reserve preferred there is a plan all the same";
+      result.message += "; help: --reserve preferred writes the best plan anyway";
     }
-    if (request.deadline.IsOver()) result.message += "; that was when the time was up";
+    if (request.deadline.IsOver()) result.message += "; the time limit was reached";
     if (asked.explain) {
       if (time) request.deadline = request.deadline.In(*time);
       result.message += "; " + ExplainGait(request);
@@ -201,16 +201,16 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   }
   result.plan = PlanOf(*found.gait, request, found.contacts);
   if (found.execution && found.execution->is_whole) {
-    result.notes.push_back("the hand's own motors carry it out in a simulation, with " +
+    result.notes.push_back("the plan executes in simulation with a tolerance margin of " +
                            FormatShort(std::floor(100 * found.execution->spare)) +
-                           " % of the replay's limits to spare at its closest");
+                           " % of the replay's limits");
   } else if (found.execution) {
     const bool is_failure = !found.execution->is_cut_short;
-    result.warnings.push_back(std::string("the hand's own motors do not ") +
-                              (is_failure ? "" : "yet ") + "carry it out in a simulation: " +
-                              FailureText(*found.execution, result.plan->steps.size()) +
-                              "; validate --hand " +
-                              (is_failure ? "shows it" : "says whether they do"));
+    result.warnings.push_back(
+        std::string(is_failure ? "the plan does not execute in simulation: it "
+                               : "the plan is not completely simulated: the simulation ") +
+        FailureText(*found.execution, result.plan->steps.size()) + "; help: validate --hand " +
+        (is_failure ? "shows the failure" : "completes the simulation"));
   }
   const std::vector<planning::Rest> grasps = StaticGraspsOf(*result.plan);
   const criteria::GraspEvaluator evaluator(*asked.object, asked.criteria, FingersOf(request));

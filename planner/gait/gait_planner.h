@@ -13,8 +13,9 @@ namespace regrasp::gait {
 /// smallest change with a gait is reported. Each probe may expand a twentieth of the request's
 /// budget, so an unreported change may still help. All probes share the deadline; progress is
 /// reported as in FindGait.
-/// @returns text, for example "would do: a friction of 0.96 instead of 0.8; the object 0.8 times as
-///     large", or the changes that do not help.
+/// @returns text, for example "each change alone helps: a friction of 0.96 instead of 0.8; not
+/// found
+///     to help: a tilt of the palm".
 [[nodiscard]] std::string ExplainGait(const GaitRequest& request);
 
 /// The planner `gait`: a hand rotates or translates the object, or changes its grasp.

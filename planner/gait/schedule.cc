@@ -78,7 +78,7 @@ void Bound(GaitRequest& request, const Budget& budget) {
   request.deadline = request.deadline.After(budget.time);
 }
 
-constexpr std::string_view kSimulating = "trying a plan on the hand's own motors";
+constexpr std::string_view kSimulating = "simulating a plan";
 
 /// What an attempt simulates.
 enum class Simulate {
@@ -197,12 +197,11 @@ class AttemptRunner {
       if (is_farther) farthest = &outcome;
     });
     if (farthest == nullptr) return {std::move(FirstNotExecuted().found)};
-    std::string text = count == 1
-                           ? "the hand's own motors do not carry out the plan that was found: "
-                           : "of " + std::to_string(count) +
-                                 " plans that were found the hand's own motors carry none out; of "
-                                 "the one that comes farthest ";
-    text += FailureText(*farthest->execution, farthest->steps);
+    std::string text =
+        std::to_string(count) +
+        (count == 1 ? " candidate planned, it does not execute in simulation; it "
+                    : " candidates planned, none executes in simulation; the best ") +
+        FailureText(*farthest->execution, farthest->steps);
     return {{std::nullopt, std::move(text)}, farthest->execution};
   }
 
@@ -304,8 +303,8 @@ std::optional<Gait> MultiStartSearch::Search() {
         start->search->Run(before + kExpandedPerRun, request_.deadline);
     if (gait) return MergeMoves(start->terms.setup, *gait);
     expanded_ += start->search->counts().expanded - before;
-    request_.progress("searching a gait, " + std::to_string(expanded_) + " grasps from " +
-                      std::to_string(starts_.size()) + " places in the hand");
+    request_.progress("searching a gait: " + std::to_string(expanded_) + " stances expanded from " +
+                      std::to_string(starts_.size()) + " initial poses");
   }
   return std::nullopt;
 }
@@ -395,9 +394,9 @@ bool MultiStartSearch::DrawInitialPoses() {
 std::string FailureText(const planning::CarriedOut& execution, std::size_t steps) {
   const std::string where = execution.is_held ? "step " + std::to_string(execution.steps + 1) +
                                                     " of " + std::to_string(steps)
-                                              : "the first hold";
-  if (execution.is_cut_short) return "the time was up in " + where;
-  return where + " fails (" + std::string(plan::ReasonName(execution.reason)) +
+                                              : "the initial grasp";
+  if (execution.is_cut_short) return "reaches the time limit at " + where;
+  return "fails at " + where + " (" + std::string(plan::ReasonName(execution.reason)) +
          "): " + execution.detail;
 }
 

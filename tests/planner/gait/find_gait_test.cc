@@ -21,8 +21,7 @@ namespace find_gait_test {
 using Eigen::Vector3d;
 
 Eigen::Isometry3d LastPose(const Gait& gait) {
-  return gait.segments.empty() ? gait.start.pose
-                               : gait.segments.is_backward().path.is_backward().pose;
+  return gait.segments.empty() ? gait.start.pose : gait.segments.back().path.back().pose;
 }
 
 /// Without margins a rotation may begin at any angle: forward and backward paths are joined.
@@ -78,7 +77,7 @@ TEST_P(TurnTest, SegmentsAreContinuousAndFingertipsStayOnTheirContacts) {
     }
     if (segment.kind == PlanSegment::Kind::kPlace) assignment[segment.finger] = segment.contact;
     for (const PlanSegment::Slid& slid : segment.slid) assignment[slid.finger] = slid.to;
-    last = &segment.path.is_backward();
+    last = &segment.path.back();
   }
   EXPECT_GT(tips, 100);
 }
@@ -255,12 +254,12 @@ TEST(FindGaitTest, HoldingFingersSlideAlongTheSurface) {
     for (const PlanSegment& segment : found.gait->segments) {
       if (segment.kind != PlanSegment::Kind::kSlide) continue;
       ASSERT_EQ(segment.waypoints.size(), segment.waypoint_frames.size());
-      EXPECT_EQ(segment.waypoint_frames.is_backward() + 1, std::ssize(segment.path));
+      EXPECT_EQ(segment.waypoint_frames.back() + 1, std::ssize(segment.path));
       for (std::size_t i = 0; i < segment.slid.size(); ++i) {
         const auto& [finger, from, to] = segment.slid[i];
         ++slides;
         EXPECT_EQ(segment.waypoints.front()[i].p, found.contacts[from].p);
-        EXPECT_EQ(segment.waypoints.is_backward()[i].p, found.contacts[to].p);
+        EXPECT_EQ(segment.waypoints.back()[i].p, found.contacts[to].p);
         const kinematics::Finger& chain = Ring().fingers[finger];
         for (const Keyframe& frame : segment.path) {
           // The fingertip sphere touches the surface of the cube.
@@ -345,7 +344,7 @@ ThreeAndFour FindThreeAndFour() {
     const auto placement =
         std::ranges::find(segments, PlanSegment::Kind::kPlace, &PlanSegment::kind);
     if (placement == segments.end()) continue;
-    found.request.start_pose = found.request.goal_pose = placement->path.is_backward().pose;
+    found.request.start_pose = found.request.goal_pose = placement->path.back().pose;
     found.three = GraspBefore(rotated, placement - segments.begin());
     found.four = found.three;
     found.four.push_back(rotated.contacts[placement->contact]);
@@ -419,7 +418,7 @@ TEST(FindGaitTest, ReportsHowNearTheObjectGetsToItsGoalPose) {
   };
   EXPECT_EQ(message_at(0.020), "found");
   EXPECT_THAT(message_at(0.050), testing::HasSubstr("no grasp is found that holds it there"));
-  EXPECT_THAT(message_at(0.090), testing::HasSubstr("% of the way to its goal pose"));
+  EXPECT_THAT(message_at(0.090), testing::HasSubstr("% of the path to its goal pose"));
 }
 
 /// A cube of 13 cm is too large for this hand, and no tilt of the palm helps.
@@ -428,7 +427,7 @@ TEST(ExplainGaitTest, ReportsTheSizeThatHelpsAndTheChangesThatDoNot) {
   large.most_expanded = 12;
   ASSERT_FALSE(FindGait(large).gait);
   const std::string text = ExplainGait(large);
-  EXPECT_THAT(text, testing::MatchesRegex("would do, each alone: the object 0\\.[0-9]+ times as "
+  EXPECT_THAT(text, testing::MatchesRegex("each change alone helps: the object 0\\.[0-9]+ times as "
                                           "large \\(--scale [0-9.]+\\); not found to help: more "
                                           "friction, a tilt of the palm"));
 }

@@ -129,9 +129,9 @@ TEST_F(GaitPlannerTest, ExplainsAFailureAfterTheTimeLimitToo) {
   auto now = Deadline::Clock::time_point();
   request.deadline = {now + std::chrono::seconds(3),
                       [&] { return now += std::chrono::seconds(1); }};
-  EXPECT_THAT(Solve(request).message, AllOf(HasSubstr("when the time was up"),
+  EXPECT_THAT(Solve(request).message, AllOf(HasSubstr("the time limit was reached"),
                                             HasSubstr("not found to help: more friction"),
-                                            HasSubstr("the time limit ended the tries")));
+                                            HasSubstr("stopped by the time limit")));
 }
 
 }  // namespace gait_planner_test

@@ -258,8 +258,9 @@ TEST(ScheduleTest, IfNoPlanExecutesAGaitIsFoundUnlessRobustnessIsRequired) {
   const GaitResult none = FindGait(request);
   EXPECT_FALSE(none.gait);
   EXPECT_FALSE(ExecutesInSimulation(none));
-  EXPECT_THAT(none.message, testing::HasSubstr("motors carry none out"));
-  EXPECT_THAT(none.message, testing::HasSubstr("the first hold fails (slipped): finger 7 slipped"));
+  EXPECT_THAT(none.message, testing::HasSubstr("none executes in simulation"));
+  EXPECT_THAT(none.message,
+              testing::HasSubstr("fails at the initial grasp (slipped): finger 7 slipped"));
   request.reserve = Reserve::kNone;
   hand.plans.clear();
   EXPECT_TRUE(FindGait(request).gait);
@@ -285,8 +286,8 @@ TEST(ScheduleTest, ReportsTheFailureOfThePlanThatExecutesFarthest) {
   EXPECT_EQ(named % 2, 0U);
   const std::size_t steps = hand.plans.at(named - 1).steps.size();
   ASSERT_GE(steps, 2U);
-  EXPECT_THAT(none.message, testing::HasSubstr("step " + std::to_string(steps / 2 + 1) + " of " +
-                                               std::to_string(steps) + " fails (slipped)"));
+  EXPECT_THAT(none.message, testing::HasSubstr("fails at step " + std::to_string(steps / 2 + 1) +
+                                               " of " + std::to_string(steps) + " (slipped)"));
   ASSERT_TRUE(none.execution);
   EXPECT_EQ(none.execution->reason, plan::Reason::kSlipped);
 }
@@ -300,7 +301,8 @@ TEST(ScheduleTest, FailedEdgesAreCountedByReason) {
   const GaitResult none = FindGait(request);
   EXPECT_FALSE(none.gait);
   EXPECT_FALSE(none.execution);
-  EXPECT_THAT(none.message, testing::ContainsRegex("motors do not come .slipped [1-9]"));
+  EXPECT_THAT(none.message,
+              testing::ContainsRegex("whose simulated execution fails .slipped [1-9]"));
 }
 
 /// Uses a clock that is set by hand.

@@ -86,7 +86,7 @@ class StanceTreeTest : public testing::Test {
                                 criteria::QualityTest::kQuick};
   const IdlePostures no_postures_ = IdlePostures(hand_.fingers.size());
   const PoseGrid grid_{{found_.gait->start.pose, Vector3d::Zero(), {}, Vector3d::Zero(), 0},
-                       hand_.lift_path,
+                       hand_.up,
                        PoseGrid::End::kPose};
   ObjectMotionChecker checker_{setup_, grid_, no_postures_};
   SlideRoutes routes_{memory_};
