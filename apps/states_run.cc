@@ -18,7 +18,7 @@
 #include "planner/base/stopwatch.h"
 #include "planner/base/text_table.h"
 #include "planner/base/write_file.h"
-#include "planner/gait/random_rests.h"
+#include "planner/gait/random_stances.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/reason.h"
 #include "sim/actuation/draw_reset_states.h"
@@ -84,9 +84,9 @@ sim::DrawnStates Draw(const ValidateOptions& options, const StatesTask& task,
     log.Report(text);
   };
   const auto make_draw = [&]() -> sim::DrawRest {
-    const gait::RandomRestOptions fingers{.fewest = kFewestFingers,
-                                          .most = static_cast<int>(request.hand->fingers.size())};
-    const auto rests = std::make_shared<gait::RandomRests>(request, fingers);
+    const gait::RandomStanceOptions fingers{.fewest = kFewestFingers,
+                                            .most = static_cast<int>(request.hand->fingers.size())};
+    const auto rests = std::make_shared<gait::RandomStances>(request, fingers);
     return [rests](RandomStream& random) -> std::optional<sim::RestToHold> {
       auto rest = rests->Draw(random, kMostDraws);
       if (!rest) return std::nullopt;

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/gait/home.h"
+#include "planner/gait/initial_pose.h"
 
 namespace regrasp::bench {
 namespace {
@@ -31,9 +31,9 @@ GoodPoses FindGoodPoses(const gait::GaitRequest& request) {
     points.push_back({request.scale * contact.p, contact.n});
   }
   const gait::HandSetup setup{scene, inverse, points, request.scale};
-  const gait::Journey nowhere(request.scale * request.solid->mass_properties().centroid, {}, {});
+  const gait::ObjectTask nowhere(request.scale * request.solid->mass_properties().centroid, {}, {});
   RandomStream random(request.seed, RandomUse::kHomes);
-  auto homes = gait::FindHomes(setup, nowhere, {}, memory, random);
+  auto homes = gait::FindInitialPoses(setup, nowhere, {}, memory, random);
   if (homes.empty()) throw std::runtime_error("the object is nowhere within reach of the fingers");
   return {std::move(homes), std::move(contacts)};
 }

@@ -29,7 +29,7 @@
 #include "planner/base/random.h"
 #include "planner/base/text_table.h"
 #include "planner/gait/plan_of_gait.h"
-#include "planner/gait/random_rests.h"
+#include "planner/gait/random_stances.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/check.h"
 #include "sim/actuation/carry_out.h"
@@ -93,7 +93,7 @@ std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
   request.turn.angle = 0;
   bench::GoodPoses good = bench::FindGoodPoses(request);
   request.start_pose = good.poses.front();
-  const gait::RandomRests rests(request, {.among = std::move(good.contacts)});
+  const gait::RandomStances rests(request, {.among = std::move(good.contacts)});
   RandomStream random(request.seed, RandomUse::kGoal);
   const auto start = rests.Draw(random, kTries);
   const auto goal = rests.Draw(random, kTries);
@@ -209,7 +209,7 @@ void TimeRest(const kinematics::HandModel& hand, const HandBody& body) {
   request.criteria.half_angle = std::atan(kFriction);
   bench::GoodPoses good = bench::FindGoodPoses(request);
   request.start_pose = good.poses.front();
-  const gait::RandomRests rests(request, {.among = std::move(good.contacts)});
+  const gait::RandomStances rests(request, {.among = std::move(good.contacts)});
   RandomStream random(1, RandomUse::kGaits);
   constexpr int kRests = 2000;
   int free = 0;

@@ -10,11 +10,9 @@
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/gait/fewer_moves.h"
 #include "planner/gait/gait_search.h"
-#include "planner/gait/places_in_hand.h"
 #include "planner/gait/plan_of_gait.h"
-#include "planner/gait/with_reserve.h"
+#include "planner/gait/schedule.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/reason.h"
 #include "planner/sampling/surface_sampler.h"
@@ -23,12 +21,12 @@ namespace regrasp::gait {
 namespace {
 
 constexpr int kContacts = 400;
-/// Least distance of a contact from sharp edges, in diameters: a fingertip that slips a little
-/// stays on its face.
+/// Minimum distance between contacts and sharp edges, in diameters.
+/// A fingertip that slips a little stays on its face.
 constexpr double kEdgeClearance = 0.02;
-/// Grasps in space have at least three contacts.
+/// Spatial grasps have at least three contacts.
 constexpr std::size_t kFewestHoldingFingers = 3;
-/// Distances are exact up to this.
+/// Distances are exact up to this value.
 constexpr double kFarAway_m = 1e3;
 
 std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
@@ -42,21 +40,24 @@ std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
   return contacts;
 }
 
-std::string HowFar(const GaitRequest& request, const GaitCounts& counts) {
-  const double share = counts.steps == 0 ? 1 : static_cast<double>(counts.farthest) / counts.steps;
-  if (share == 1 && !request.goal_grasp.empty()) return "the goal grasp is not reached";
-  if (share == 1 && request.goal_pose && counts.at_goal == 0) {
-    return "the object comes near its goal pose, and no grasp is found that holds it there";
+std::string ProgressText(const GaitRequest& request, const GaitCounts& counts) {
+  const double fraction =
+      counts.steps == 0 ? 1 : static_cast<double>(counts.farthest) / counts.steps;
+  if (fraction == 1 && !request.goal_grasp.empty()) return "the goal grasp is not reached";
+  if (fraction == 1 && request.goal_pose && counts.at_goal == 0) {
+    return "the object comes near its goal pose, but no grasp is found that holds it there";
   }
-  if (share == 1) return "every way to the goal fails where its paths are worked out";
+  if (fraction == 1) return "every path to the goal is infeasible";
   if (request.goal_pose) {
-    return "the object comes " + FormatShort(100 * share, 3) + " % of the way to its goal pose";
+    return "the object reaches " + FormatShort(100 * fraction, 3) +
+           " % of the path to its goal pose";
   }
-  return "the hand turns the object by " + FormatShort(share * Degrees(request.turn.angle), 3) +
-         " of " + FormatShort(Degrees(request.turn.angle), 3) + " degrees";
+  return "the hand rotates the object by " +
+         FormatShort(fraction * Degrees(request.turn.angle), 3) + " of " +
+         FormatShort(Degrees(request.turn.angle), 3) + " degrees";
 }
 
-/// "slipped 5, hand-collides 2"
+/// Example: "slipped 5, hand-collides 2".
 std::string FailuresText(const FailureCounts& failures) {
   std::string text;
   for (const auto& [reason, count] : failures) {
@@ -66,37 +67,40 @@ std::string FailuresText(const FailureCounts& failures) {
   return text;
 }
 
-/// Why no place led to the end, of the one where the object came farthest.
-std::string WhatStopped(const GaitRequest& request, const std::vector<GaitCounts>& counts) {
+/// Describe why no search succeeded, with the counts of the search that moved the object farthest.
+std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCounts>& counts) {
   if (counts.empty()) {
     std::string text =
-        "the object is nowhere in the hand within reach of the fingers and off the palm";
+        "no initial pose found: the object must be within reach of the fingers and clear of the "
+        "palm";
     if (!request.start_grasp.empty()) text += ", held by the start grasp";
-    if (!request.goal_grasp.empty()) text += ", held by the goal grasp in the end";
+    if (!request.goal_grasp.empty()) text += ", held by the goal grasp at the end";
     return text;
   }
   const GaitCounts& best = *std::ranges::max_element(counts, {}, &GaitCounts::farthest);
-  std::string text = HowFar(request, best) + "; of " + std::to_string(counts.size()) +
-                     " places in the hand the best one has " + std::to_string(best.grasps) +
-                     " grasps";
+  std::string text = ProgressText(request, best) + "; the best of " +
+                     std::to_string(counts.size()) + " initial poses has " +
+                     std::to_string(best.evaluated) + " grasps";
   const auto add = [&](std::int64_t count, const std::string& what) {
     if (count > 0) text += ", " + std::to_string(count) + " " + what;
   };
   add(best.colliding, "in which fingers collide");
-  add(best.ways.no_path, "for which a finger has no free path");
-  add(best.ways.no_slide, "for which a finger cannot slide");
-  add(best.ways.no_move, "with moves that fingers cannot follow");
-  add(best.rolled, "that no longer hold where their contacts roll to");
-  add(std::accumulate(best.not_carried.begin(), best.not_carried.end(), std::int64_t{0},
+  add(best.path_failures.no_path, "for which a finger has no free path");
+  add(best.path_failures.no_slide, "for which a finger cannot slide");
+  add(best.path_failures.no_move, "with infeasible in-hand motions");
+  add(best.rolled, "that are lost when their contacts roll");
+  add(std::accumulate(best.execution_failures.begin(), best.execution_failures.end(),
+                      std::int64_t{0},
                       [](std::int64_t sum, const auto& one) { return sum + one.second; }),
-      "to which the hand's motors do not come (" + FailuresText(best.not_carried) + ")");
+      "whose simulated execution fails (" + FailuresText(best.execution_failures) + ")");
   if (request.reserve == Reserve::kRequired) {
     text += "; without reserve there may be a plan";
   }
   return text;
 }
 
-/// Appends a grasp's contacts that are not there yet. @returns their numbers.
+/// Append the contacts of a grasp that are missing.
+/// @returns their contact numbers.
 std::vector<int> AppendGrasp(const grasp::Grasp& grasp, std::vector<grasp::Contact>& contacts) {
   std::vector<int> numbers;
   for (const grasp::Contact& contact : grasp) {
@@ -109,25 +113,27 @@ std::vector<int> AppendGrasp(const grasp::Grasp& grasp, std::vector<grasp::Conta
   return numbers;
 }
 
-/// @throws std::invalid_argument  there are not as many as contacts, or one that the hand lacks.
+/// @throws std::invalid_argument  if the number of fingers differs from the number of contacts, or
+///     the hand has no such finger.
 void CheckStartFingers(const GaitRequest& request) {
   const std::vector<FingerIndex>& fingers = request.start_fingers;
   const int count = static_cast<int>(request.hand->fingers.size());
   const auto is_there = [&](FingerIndex finger) { return finger >= 0 && finger < count; };
   if (fingers.empty()) return;
   if (fingers.size() != request.start_grasp.size() || !std::ranges::all_of(fingers, is_there)) {
-    throw std::invalid_argument("start_fingers: one of the hand for each contact of the start");
+    throw std::invalid_argument(
+        "start_fingers: must name one finger of the hand for each contact of the start grasp");
   }
 }
 
-/// How far a finger is from touching the object.
+/// Gap between a finger's reach and the object.
 struct FingerGap {
   std::string finger;
-  double distance = 0;  ///< of the object's surface from the finger's first joint, metres
-  double reach = 0;     ///< MaximumReach
+  double distance = 0;  ///< distance between the object and the finger's first joint, metres
+  double reach = 0;     ///< MaximumReach, metres
 };
 
-/// @throws InputError  at the pose fewer than three fingers can touch the object.
+/// @throws InputError  if fewer than three fingers can touch the object at the pose.
 void CheckReach(const GaitRequest& request, const collision::SurfaceTree& surface,
                 const std::optional<Eigen::Isometry3d>& pose, const std::string& option) {
   if (!pose) return;
@@ -152,7 +158,7 @@ void CheckReach(const GaitRequest& request, const collision::SurfaceTree& surfac
       FormatShort(first.reach, 3) + " m");
 }
 
-bool Holds(const std::vector<int>& grasp, criteria::GraspMemory& memory) {
+bool IsAdmitted(const std::vector<int>& grasp, criteria::GraspMemory& memory) {
   criteria::ContactSet contacts;
   for (const int number : grasp) {
     if (!contacts.Has(number)) contacts.Insert(number);
@@ -165,73 +171,66 @@ criteria::GraspCriteria WithQuality(criteria::GraspCriteria criteria, double qua
   return criteria;
 }
 
-/// Two fingertips balance a third one that slides, with its force on the edge of its cone, only
-/// where that force's line meets the one through both: motors carry out no such slide.
-constexpr int kBesideSliding = 3;
+/// Two fingertips balance a third one that slides, with its force at the edge of the friction cone,
+/// only if its line of force meets the line through both. Actuators do not achieve this.
+constexpr int kFewestBesideSliding = 3;
 
-/// Gaits with one spare, or without.
-struct Kind {
+/// Search configuration for one set of robustness margins, or for none.
+struct SearchConfig {
   double quality;
   HandScene scene;
   HandSetup setup;
   criteria::GraspMemory memory;
-  CarryOut carry_out = {};
+  SimulateExecution simulate = {};
 
-  Kind(const GaitRequest& request, const Spare* spare, const collision::SurfaceTree& surface,
-       const std::vector<kinematics::InverseKinematics>& inverse,
-       const std::vector<SurfacePoint>& points, const hand::Hand& fingers)
-      : quality(spare == nullptr ? request.criteria.min_quality
-                                 : std::max(request.criteria.min_quality, spare->quality)),
-        scene(*request.hand, surface, request.margin + (spare == nullptr ? 0 : spare->clearance)),
+  SearchConfig(const GaitRequest& request, const RobustnessMargins* margins,
+               const collision::SurfaceTree& surface,
+               const std::vector<kinematics::InverseKinematics>& inverse,
+               const std::vector<SurfacePoint>& points, const hand::Hand& fingers)
+      : quality(margins == nullptr ? request.criteria.min_quality
+                                   : std::max(request.criteria.min_quality, margins->quality)),
+        scene(*request.hand, surface,
+              request.margin + (margins == nullptr ? 0 : margins->clearance)),
         setup{scene, inverse, points, request.scale},
         memory(*request.solid, WithQuality(request.criteria, quality), fingers,
                criteria::QualityTest::kQuick) {
-    if (request.carry_out) setup.fewest_beside_sliding = kBesideSliding;
-    if (spare == nullptr) return;
+    if (request.carry_out) setup.fewest_beside_sliding = kFewestBesideSliding;
+    if (margins == nullptr) return;
     setup.may_slide = false;
-    setup.force_margin = spare->force_margin.value_or(0);
+    setup.force_margin = margins->force_margin.value_or(0);
   }
 };
 
-/// Tries gaits of a setup on the hand's motors, as they would be planned.
-CarryOut TrialOf(const HandSetup& setup, const GaitRequest& request,
-                 const std::vector<grasp::Contact>& contacts) {
-  return [&](const Gait& gait) -> CarriedGait {
-    const Gait fewer = WithFewerMoves(setup, gait);
-    request.progress("trying a plan on the hand's own motors");
-    const plan::Plan plan = PlanOf(fewer, request, contacts);
-    const auto carried = request.carry_out(plan, request.deadline);
-    if (!carried) return {.is_whole = true};  // who asks finds out
-    const bool fails_in_move = carried->is_held && !carried->is_whole &&
-                               std::holds_alternative<plan::Move>(plan.steps[carried->steps]);
-    return {CountChanges(fewer, carried->steps),
-            carried->is_held,
+/// Return a simulator of gaits as they would be planned.
+SimulateExecution SimulatorFor(const HandSetup& setup, const GaitRequest& request,
+                               const std::vector<grasp::Contact>& contacts) {
+  return [&](const Gait& gait) -> GaitExecution {
+    const Gait merged = MergeMoves(setup, gait);
+    request.progress("simulating a plan");
+    const plan::Plan plan = PlanOf(merged, request, contacts);
+    const auto execution = request.carry_out(plan, request.deadline);
+    if (!execution) return {.is_whole = true};  // the caller detects the missing result
+    const bool fails_in_move = execution->is_held && !execution->is_whole &&
+                               std::holds_alternative<plan::Move>(plan.steps[execution->steps]);
+    return {CountChanges(merged, execution->steps),
+            execution->is_held,
             fails_in_move,
-            carried->is_whole,
-            carried->is_cut_short,
-            carried->reason};
+            execution->is_whole,
+            execution->is_cut_short,
+            execution->reason};
   };
 }
 
-/// What of a request can't have reserve, whatever the gait; empty: nothing.
-/// @param quality  that a gait with reserve has.
-std::string GivenWithoutReserve(const GaitEnds& ends, criteria::GraspMemory& memory,
-                                double quality) {
-  const bool start_holds = ends.start.empty() || Holds(ends.start, memory);
-  if (start_holds && (ends.goal.empty() || Holds(ends.goal, memory))) return "";
-  return std::string("the ") + (start_holds ? "goal" : "start") +
+/// Describe the given grasp that cannot be robust in any gait; empty if there is none.
+/// @param quality  grasp quality that a robust gait requires.
+std::string NonRobustEnd(const GaitEnds& ends, criteria::GraspMemory& memory, double quality) {
+  const bool start_is_admitted = ends.start.empty() || IsAdmitted(ends.start, memory);
+  if (start_is_admitted && (ends.goal.empty() || IsAdmitted(ends.goal, memory))) return "";
+  return std::string("the ") + (start_is_admitted ? "goal" : "start") +
          " grasp has no reserve: its quality is below " + FormatShort(quality);
 }
 
 }  // namespace
-
-hand::Hand FingersOf(const planning::InHandTask& task) {
-  double radius = 0;
-  for (const kinematics::Finger& finger : task.hand->fingers) {
-    radius = std::max(radius, finger.tip.radius);
-  }
-  return {static_cast<int>(task.hand->fingers.size()), radius / task.scale};
-}
 
 GaitResult FindGait(const GaitRequest& request) {
   CheckStartFingers(request);
@@ -252,46 +251,48 @@ GaitResult FindGait(const GaitRequest& request) {
   for (const kinematics::Finger& finger : request.hand->fingers) inverse.emplace_back(finger);
   const collision::BallContact rolled_on(*request.solid, request.scale);
   const hand::Hand fingers = FingersOf(request);
-  const FindOne find = [&](const GaitRequest& asked, std::span<const Spare> spares) -> FoundGait {
-    std::vector<std::unique_ptr<Kind>> kinds;
-    std::string without;
-    const auto add = [&](const Spare* spare) {
-      auto kind = std::make_unique<Kind>(asked, spare, surface, inverse, points, fingers);
-      kind->memory.Append(result.contacts);
-      if (spare != nullptr) {
-        if (spare->force_margin) kind->setup.rolled_on = &rolled_on;
-        without = GivenWithoutReserve(ends, kind->memory, kind->quality);
-        if (!without.empty()) return;
-        if (asked.carry_out) kind->carry_out = TrialOf(kind->setup, asked, result.contacts);
+  const FindOne find = [&](const GaitRequest& asked,
+                           std::span<const RobustnessMargins> margin_sets) -> FoundGait {
+    std::vector<std::unique_ptr<SearchConfig>> configs;
+    std::string rejection;
+    const auto add = [&](const RobustnessMargins* margins) {
+      auto config =
+          std::make_unique<SearchConfig>(asked, margins, surface, inverse, points, fingers);
+      config->memory.Append(result.contacts);
+      if (margins != nullptr) {
+        if (margins->force_margin) config->setup.rolled_on = &rolled_on;
+        rejection = NonRobustEnd(ends, config->memory, config->quality);
+        if (!rejection.empty()) return;
+        if (asked.carry_out) config->simulate = SimulatorFor(config->setup, asked, result.contacts);
       }
-      kinds.push_back(std::move(kind));
+      configs.push_back(std::move(config));
     };
-    if (spares.empty()) add(nullptr);
-    for (const Spare& spare : spares) add(&spare);
-    if (kinds.empty()) return {std::nullopt, std::move(without)};
+    if (margin_sets.empty()) add(nullptr);
+    for (const RobustnessMargins& margins : margin_sets) add(&margins);
+    if (configs.empty()) return {std::nullopt, std::move(rejection)};
     std::vector<SearchTerms> terms;
-    for (const auto& kind : kinds) {
-      terms.push_back({kind->setup, kind->memory, kind->carry_out});
+    for (const auto& config : configs) {
+      terms.push_back({config->setup, config->memory, config->simulate});
     }
-    PlacesInHand places(asked, std::move(terms), ends);
-    std::optional<Gait> gait = places.Search();
+    MultiStartSearch search(asked, std::move(terms), ends);
+    std::optional<Gait> gait = search.Search();
     if (gait) return {std::move(gait), ""};
-    return {std::nullopt, WhatStopped(asked, places.counts())};
+    return {std::nullopt, FailureSummary(asked, search.counts())};
   };
-  TriedGait tried;
+  SimulatedGait simulated;
   if (request.reserve == Reserve::kNone) {
-    tried.found = find(request, {});
+    simulated.found = find(request, {});
   } else if (request.carry_out) {
-    tried = FindCarriedOut(request, result.contacts, find);
+    simulated = FindExecutableGait(request, result.contacts, find);
   } else {
-    if (request.reserve == Reserve::kPreferred) tried.found = find(request, {});
-    if (request.reserve == Reserve::kRequired || tried.found.gait) {
-      tried.found = FindWithReserve(request, find, tried.found);
+    if (request.reserve == Reserve::kPreferred) simulated.found = find(request, {});
+    if (request.reserve == Reserve::kRequired || simulated.found.gait) {
+      simulated.found = FindRobustGait(request, find, simulated.found);
     }
   }
-  result.gait = std::move(tried.found.gait);
-  result.message = std::move(tried.found.message);
-  result.trial = std::move(tried.trial);
+  result.gait = std::move(simulated.found.gait);
+  result.message = std::move(simulated.found.message);
+  result.execution = std::move(simulated.execution);
   return result;
 }
 

@@ -1,64 +1,63 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "planner/base/deadline.h"
-#include "planner/criteria/grasp_criteria.h"
 #include "planner/gait/gait.h"
-#include "planner/gait/home.h"
-#include "planner/kinematics/hand_model.h"
-#include "planner/object/polyhedron.h"
-#include "planner/planning/plan_request.h"
+#include "planner/gait/request.h"
+
+// Package overview. The state diagram, the modules and the constants are in docs/gait.md.
+//
+// FindGait(request):                                   // find_gait.cc
+//   contacts := 400 random surface points + given grasps
+//   for each Attempt{margins, budget, simulate}:       // schedule.cc
+//     gait := MultiStartSearch(attempt)
+//     if no simulation is required or gait executes: return gait
+//
+// MultiStartSearch:                                    // schedule.cc
+//   starts := FindInitialPoses(task)                   // START of the search: initial_pose.cc
+//   repeat: add the next start if due; resume the most promising search, which is a
+//     BidirectionalSearch or a TurnSearch              // joined_search.cc, on top of GaitSearch
+//
+// GaitSearch::Run:                                     // gait_search.cc
+//   queue := stances at the start of the pose grid     // AddInitialStances, AddGivenStart
+//   while the queue is not empty and budget remains:
+//     n := pop highest priority                        // NODE: StanceNode in stance_tree.h,
+//                                                      //   contact assignment + grid node
+//     plan the edge from n.parent; if it fails: continue
+//     n.reachable := grid nodes that the holding fingers follow        // object_motion.cc
+//     if n reaches the goal: plan its in-hand motions; if feasible: return gait
+//     if edges are simulated and the path to n fails: prune; continue
+//     for some grid nodes g in n.reachable, for each contact change at g:  // successors.cc
+//       queue the best admissible stances              // ScoreAfter
+//
+// EDGE COST: edges have no additive cost. The priority of a stance, in track steps, is
+//   reached step + 0.3 mean step of single fingers - 0.1 offset units - 3 goal distance
+//   - 2 sliding steps - 2 earlier expansions - similarity to expanded stances
 
 namespace regrasp::gait {
 
-using planning::Reserve;
-
-/// Rests that a search expands, from all places in the hand together, where nothing else is said.
-inline constexpr std::int64_t kDefaultExpanded = 8'000;
-
-/// What is asked of a hand: that the object turns, or goes to a pose, or is held by another grasp
-/// in the end, or both.
-struct GaitRequest : planning::InHandTask {
-  const object::Polyhedron* solid = nullptr;
-  criteria::GraspCriteria criteria;
-  grasp::Grasp start_grasp;  ///< in the file's units; empty: any
-  grasp::Grasp goal_grasp;   ///< the same
-  std::uint64_t seed = 0;
-  std::int64_t most_expanded = kDefaultExpanded;
-  /// Of the gaits with reserve that are found and carried out the one with most to spare
-  /// (planning::CarriedOut::spare), instead of the first; where plans are tried.
-  bool seeks_most_spare = false;
-  Deadline deadline = {};
-  int jobs = 1;  ///< searches at a time where plans are tried, ≥ 1
-  planning::Progress progress = [](std::string_view) {};
-};
-
 struct GaitResult {
   std::optional<Gait> gait;
-  /// How far the hand carries it out, as the request's test has it. Where there is no gait because
-  /// it carries none out, of the one that came farthest. None: nothing was tried, or nothing tells.
-  std::optional<planning::CarriedOut> trial;
-  std::vector<grasp::Contact> contacts;  ///< by the numbers that the gait has, the object's units
-  std::string message;                   ///< where there is none: what stopped it, counted
+  /// Result of the simulated execution (planning::InHandTask::carry_out) of `gait`.
+  /// Without a gait, of the candidate that executes farthest. None if nothing was simulated or the
+  /// simulator gives no result.
+  std::optional<planning::CarriedOut> execution;
+  std::vector<grasp::Contact> contacts;  ///< contacts by number, in object units
+  std::string message;                   ///< if there is no gait: the reason, with counts
 };
 
-/// The fingers that grasps are judged for: as many as the hand has, each with its largest tip.
-/// Lengths in the object's unit.
-[[nodiscard]] hand::Hand FingersOf(const planning::InHandTask& task);
-
-/// Finds a gait of the hand that turns the object: chooses where in the hand it begins and with
-/// which grasp. A preferred reserve is left out where the gait gets much longer by it.
-///
-/// Laws: without a deadline the same request gives the same gait, bit for bit, with any jobs; every
-/// rest is force closure and meets the criteria where it can; every path is certified
-/// (certified_path.h).
-/// @throws std::invalid_argument  start_fingers are not one of the hand for each contact.
-/// @throws InputError  fewer than three fingers can touch the object at the start or goal pose,
-///     however they are bent.
+/// Find a gait of a hand that rotates or translates the object.
+/// Chooses the initial object pose and the initial grasp unless they are given. The robustness
+/// level `preferred` is dropped if it makes the gait much longer.
+/// Laws: without a deadline, equal requests give bit-identical gaits for any number of jobs; every
+/// stance is force closure and meets the criteria if possible; every path is certified (IsClear in
+/// finger_path.h).
+/// @throws std::invalid_argument  if start_fingers does not name one finger of the hand per contact
+///     of the start grasp.
+/// @throws InputError  if fewer than three fingers can touch the object at the start or goal pose
+///     in any joint configuration.
 [[nodiscard]] GaitResult FindGait(const GaitRequest& request);
 
 }  // namespace regrasp::gait

@@ -4,29 +4,147 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include "planner/gait/certified_path.h"
+#include <optional>
 
 namespace regrasp::gait {
+
 namespace {
 
-constexpr double kStride = 0.35;  // radians, over all drives
+/// Finest certified interval: if shapes move less than this between two samples and are still too
+/// close, the path is rejected. Metres.
+constexpr double kFinestInterval = 1e-4;
+
+/// A pair of bodies that must be clear of each other.
+struct Check {
+  enum class Of { kPalmAndObject, kFingerAndHand, kLinksAndObject, kTipAndObject, kTwoFingers };
+  Of of;
+  FingerIndex finger = {};
+  FingerIndex other = {};
+};
+using Checks = std::vector<Check>;
+
+/// Stationary fingers [finger]; null for moving fingers.
+using Stationary = std::vector<const PlacedFinger*>;
+
+/// Midpoint of a path interval, with bounds on the motion within the interval.
+class Midpoint {
+ public:
+  Midpoint(const HandScene& scene, const Stationary& stationary, const Touching& touching,
+           const Keyframe& from, const Keyframe& to)
+      : scene_(scene),
+        stationary_(stationary),
+        touching_(touching),
+        frame_(Between(from, to, 0.5)),
+        bounds_(stationary.size(), 0),
+        object_bound_(scene.MotionBound(from.pose, to.pose)),
+        placed_(stationary.size()) {
+    for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
+      if (stationary[finger] != nullptr) continue;
+      bounds_[finger] = scene.MotionBound(finger, from.postures[finger], to.postures[finger]);
+    }
+  }
+
+  [[nodiscard]] const Keyframe& frame() const { return frame_; }
+  [[nodiscard]] double LargestBound() const {
+    return std::max(object_bound_, *std::ranges::max_element(bounds_));
+  }
+
+  /// Return whether a check passes at the midpoint with clearance for the motion.
+  /// No point of the interval is farther from the midpoint than half of the total motion.
+  /// @param fraction  fraction of the interval; 0 for the midpoint alone.
+  [[nodiscard]] bool Passes(const Check& check, double fraction) {
+    using enum Check::Of;
+    const auto near = [&](double motion) { return fraction * motion / 2; };
+    const auto keeps_off_object = [&](HandScene::Links links) {
+      return scene_.KeepsOffObject(Placed(check.finger), frame_.pose, touching_[check.finger],
+                                   near(bounds_[check.finger] + object_bound_), links);
+    };
+    switch (check.of) {
+      case kPalmAndObject:
+        return scene_.KeepsOffPalm(frame_.pose, near(object_bound_));
+      case kFingerAndHand:
+        // Two links of one finger may both move.
+        return scene_.KeepsOffHand(Placed(check.finger), near(2 * bounds_[check.finger]));
+      case kLinksAndObject:
+        return keeps_off_object(HandScene::Links::kBehindTip);
+      case kTipAndObject:
+        return keeps_off_object(HandScene::Links::kTip);
+      case kTwoFingers:
+        return scene_.KeepApart(Placed(check.finger), Placed(check.other),
+                                near(bounds_[check.finger] + bounds_[check.other]));
+    }
+    return false;
+  }
+
+ private:
+  const PlacedFinger& Placed(FingerIndex finger) {
+    if (stationary_[finger] != nullptr) return *stationary_[finger];
+    if (!placed_[finger]) placed_[finger] = scene_.Place(finger, frame_.postures[finger]);
+    return *placed_[finger];
+  }
+
+  const HandScene& scene_;
+  const Stationary& stationary_;
+  const Touching& touching_;
+  Keyframe frame_;
+  std::vector<double> bounds_;  ///< [finger]
+  double object_bound_;
+  std::vector<std::optional<PlacedFinger>> placed_;
+};
+
+/// Certify all checks between two keyframes.
+/// An interval is halved for the checks that fail at its midpoint. Most checks pass on long
+/// intervals; touching fingertips need short ones.
+bool CertifyOpen(const HandScene& scene, const Stationary& stationary, const Touching& touching,
+                 const Keyframe& from, const Keyframe& to, const Checks& checks) {
+  Midpoint middle(scene, stationary, touching, from, to);
+  const bool is_finest = middle.LargestBound() < kFinestInterval;
+  Checks open;
+  for (const Check& check : checks) {
+    if (middle.Passes(check, 1)) continue;
+    if (is_finest || !middle.Passes(check, 0)) return false;
+    open.push_back(check);
+  }
+  return open.empty() || (CertifyOpen(scene, stationary, touching, from, middle.frame(), open) &&
+                          CertifyOpen(scene, stationary, touching, middle.frame(), to, open));
+}
+
+/// Return the checks whose result can change when these bodies move.
+Checks ChecksOf(const std::vector<bool>& moves, bool object_moves) {
+  using enum Check::Of;
+  Checks checks;
+  if (object_moves) checks.push_back({kPalmAndObject});
+  for (FingerIndex finger{0}; finger < std::ssize(moves); ++finger) {
+    if (moves[finger]) checks.push_back({kFingerAndHand, finger});
+    if (moves[finger] || object_moves) {
+      checks.push_back({kLinksAndObject, finger});
+      checks.push_back({kTipAndObject, finger});
+    }
+    for (FingerIndex other{0}; other < finger; ++other) {
+      if (moves[finger] || moves[other]) checks.push_back({kTwoFingers, finger, other});
+    }
+  }
+  return checks;
+}
+
+constexpr double kStride = 0.35;  // radians, norm over all joints
 constexpr int kShortcuts = 30;
-/// Extensions after which a tree that has not grown at all is given up.
-constexpr int kTrapped = 30;
+/// Number of extensions after which the search stops if one tree has not grown.
+constexpr int kMaxTrapped = 30;
 
-/// Above the contact, metres: as high as the finger can go, but not lower than the first.
-constexpr double kLowestAbove = 0.003;
-constexpr double kHighestAbove = 0.020;
-constexpr double kDescent = 0.002;  // between postures of the way down
-/// So far from its contact a tip may be as near to the object as one that touches, metres; the
-/// checker allows it (sim/hand/check_hand.cc) 2 mm more.
-constexpr double kStillTouching = 0.010;
-/// Where straight up is no way: so much off the normal, radians, to so many sides.
-constexpr double kSideways = 0.8;
-constexpr int kSides = 6;
+/// Height of a lift path above the contact, metres: minimum and maximum.
+constexpr double kMinLift = 0.003;
+constexpr double kMaxLift = 0.020;
+constexpr double kLiftStep = 0.002;  // between configurations of the lift path
+/// Distance from the contact within which a fingertip may be as close to the object as a touching
+/// one, metres. The checker (sim/hand/check_hand.cc) allows 2 mm more.
+constexpr double kTouchingLift = 0.010;
+/// Tilted lift directions, if the normal is blocked: angle from the normal, radians, and number of
+/// directions.
+constexpr double kTiltedLift = 0.8;
+constexpr int kTiltedDirections = 6;
 
-/// Whether a finger's drives may go straight from a posture to another one.
+/// Return whether a finger may move linearly between two joint configurations.
 bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from, const Posture& to,
              TipContact tip, const Surroundings& around) {
   return IsClear(scene, finger, from, to, around.pose, tip, around.others) &&
@@ -55,7 +173,7 @@ struct Tree {
   }
 };
 
-/// One finger that moves through its surroundings.
+/// RRT-Connect for one finger.
 class Connector {
  public:
   Connector(const HandScene& scene, FingerIndex finger, const Surroundings& around,
@@ -66,12 +184,12 @@ class Connector {
     if (IsFree(from, to)) return FingerPath{from, to};
     std::array<Tree, 2> trees = {Tree{{from}, {-1}}, Tree{{to}, {-1}}};
     for (int i = 0; i < most_extensions; ++i) {
-      if (i == kTrapped && std::ranges::any_of(trees, &Tree::IsRoot)) break;
+      if (i == kMaxTrapped && std::ranges::any_of(trees, &Tree::IsRoot)) break;
       Tree& growing = trees[i % 2];
       Tree& other = trees[1 - i % 2];
       if (!Extend(growing, scene_.DrawPosture(finger_, random_))) continue;
       const Posture reached = growing.nodes.back();
-      // As far as it goes.
+      // Extend until blocked or connected.
       while (Extend(other, reached)) {
         if ((other.nodes.back() - reached).norm() > 0) continue;
         FingerPath path = trees[0].PathTo(static_cast<int>(trees[0].nodes.size()) - 1);
@@ -95,7 +213,7 @@ class Connector {
     return scene_.KeepsOffObject(placed, around_.pose, TipContact::kFree) &&
            std::ranges::all_of(around_.others, keeps_apart) && scene_.KeepsOffHand(placed);
   }
-  /// One stride from the tree's nearest node towards a posture.
+  /// Extend the tree by one stride from its nearest node towards a configuration.
   bool Extend(Tree& tree, const Posture& towards) const {
     const int nearest = tree.Nearest(towards);
     const Posture step = towards - tree.nodes[nearest];
@@ -103,7 +221,7 @@ class Connector {
     if (length == 0) return false;
     const Posture next =
         length <= kStride ? towards : Posture(tree.nodes[nearest] + (kStride / length) * step);
-    // Mostly it is at its end that a stride runs into something.
+    // The end is checked first because most collisions occur there.
     if (!IsFreeAt(next) || !IsFree(tree.nodes[nearest], next)) return false;
     tree.nodes.push_back(next);
     tree.parents.push_back(nearest);
@@ -124,20 +242,49 @@ class Connector {
   RandomStream& random_;
 };
 
-/// Directions to leave a surface in: along its normal, or else to one of the sides.
-std::vector<Eigen::Vector3d> WaysOff(const Eigen::Vector3d& normal) {
-  std::vector<Eigen::Vector3d> ways = {normal};
-  const Eigen::Vector3d aslant =
-      std::cos(kSideways) * normal + std::sin(kSideways) * normal.unitOrthogonal();
-  for (int side = 0; side < kSides; ++side) {
-    ways.push_back(Eigen::AngleAxisd(2 * std::numbers::pi * side / kSides, normal) * aslant);
+/// Return the directions for lifting a fingertip: the normal, then tilted ones.
+std::vector<Eigen::Vector3d> LiftDirections(const Eigen::Vector3d& normal) {
+  std::vector<Eigen::Vector3d> directions = {normal};
+  const Eigen::Vector3d tilted =
+      std::cos(kTiltedLift) * normal + std::sin(kTiltedLift) * normal.unitOrthogonal();
+  for (int side = 0; side < kTiltedDirections; ++side) {
+    directions.push_back(
+        Eigen::AngleAxisd(2 * std::numbers::pi * side / kTiltedDirections, normal) * tilted);
   }
-  return ways;
+  return directions;
 }
 
 }  // namespace
 
-Surroundings AllBut(const HandScene& scene, FingerIndex moving, const Keyframe& frame) {
+bool IsClear(const HandScene& scene, const Keyframe& from, const Keyframe& to,
+             const Touching& touching) {
+  std::vector<bool> moves;
+  for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
+    moves.push_back(scene.MotionBound(finger, from.postures[finger], to.postures[finger]) > 0);
+  }
+  const bool object_moves = from.pose.matrix() != to.pose.matrix();
+  return CertifyOpen(scene, Stationary(moves.size(), nullptr), touching, from, to,
+                     ChecksOf(moves, object_moves));
+}
+
+bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from, const Posture& to,
+             const Eigen::Isometry3d& pose, TipContact tip,
+             const std::vector<PlacedFinger>& others) {
+  const int count = scene.finger_count();
+  std::vector<bool> moves(count, false);
+  moves[finger] = true;
+  Stationary stationary(count, nullptr);
+  for (const PlacedFinger& other : others) stationary[other.finger] = &other;
+  Keyframe begin{pose, std::vector<Posture>(count)};
+  Keyframe end = begin;
+  begin.postures[finger] = from;
+  end.postures[finger] = to;
+  Touching touching(count, TipContact::kFree);
+  touching[finger] = tip;
+  return CertifyOpen(scene, stationary, touching, begin, end, ChecksOf(moves, false));
+}
+
+Surroundings AllExcept(const HandScene& scene, FingerIndex moving, const Keyframe& frame) {
   Surroundings around{frame.pose, {}};
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
     if (finger != moving) around.others.push_back(scene.Place(finger, frame.postures[finger]));
@@ -152,22 +299,23 @@ std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finge
   return Connector(scene, finger, around, random).Find(from, to, most_extensions);
 }
 
-std::optional<FingerPath> FindWayUp(const HandScene& scene,
-                                    const kinematics::InverseKinematics& inverse,
-                                    FingerIndex finger, const kinematics::TipTarget& target,
-                                    const Posture& touching, const Surroundings& around) {
-  for (const Eigen::Vector3d& up : WaysOff(-target.towards)) {
+std::optional<FingerPath> FindLiftPath(const HandScene& scene,
+                                       const kinematics::InverseKinematics& inverse,
+                                       FingerIndex finger, const kinematics::TipTarget& target,
+                                       const Posture& touching, const Surroundings& around) {
+  for (const Eigen::Vector3d& direction : LiftDirections(-target.towards)) {
     FingerPath path = {touching};
     double height = 0;
-    while (height < kHighestAbove - kDescent / 2) {
-      const kinematics::TipTarget above{target.centre + (height + kDescent) * up, target.towards};
+    while (height < kMaxLift - kLiftStep / 2) {
+      const kinematics::TipTarget above{target.centre + (height + kLiftStep) * direction,
+                                        target.towards};
       const std::optional<Posture> next = inverse.SolveFrom(above, path.back());
-      const TipContact tip = height < kStillTouching ? TipContact::kTouching : TipContact::kFree;
+      const TipContact tip = height < kTouchingLift ? TipContact::kTouching : TipContact::kFree;
       if (!next || !IsClear(scene, finger, path.back(), *next, tip, around)) break;
       path.push_back(*next);
-      height += kDescent;
+      height += kLiftStep;
     }
-    if (height > kLowestAbove - kDescent / 2) return path;
+    if (height > kMinLift - kLiftStep / 2) return path;
   }
   return std::nullopt;
 }
@@ -178,11 +326,12 @@ std::optional<FingerPath> FindPathToContact(const HandScene& scene,
                                             const kinematics::TipTarget& target,
                                             const Posture& touching, const Surroundings& around,
                                             RandomStream& random) {
-  const auto up = FindWayUp(scene, inverse, finger, target, touching, around);
-  if (!up) return std::nullopt;
-  std::optional<FingerPath> path = FindFreePath(scene, finger, from, up->back(), around, random);
+  const auto lift_path = FindLiftPath(scene, inverse, finger, target, touching, around);
+  if (!lift_path) return std::nullopt;
+  std::optional<FingerPath> path =
+      FindFreePath(scene, finger, from, lift_path->back(), around, random);
   if (!path) return std::nullopt;
-  path->insert(path->end(), up->rbegin() + 1, up->rend());
+  path->insert(path->end(), lift_path->rbegin() + 1, lift_path->rend());
   return path;
 }
 

@@ -4,50 +4,73 @@
 #include <vector>
 
 #include "planner/base/random.h"
+#include "planner/gait/gait.h"
 #include "planner/gait/hand_scene.h"
-#include "planner/gait/keyframe.h"
 #include "planner/kinematics/inverse_kinematics.h"
 
 namespace regrasp::gait {
 
-/// Where a finger goes, posture by posture; between them its drives go straight.
+/// Permitted proximity of each fingertip to the object [finger].
+using Touching = std::vector<TipContact>;
+
+/// Certify that hand and object keep the margin between two consecutive keyframes.
+/// Conservative advancement: an interval is accepted if its midpoint clears the motion bound, and
+/// is halved otherwise. Touching fingertips may penetrate the surface by kTipDepth.
+[[nodiscard]] bool IsClear(const HandScene& scene, const Keyframe& from, const Keyframe& to,
+                           const Touching& touching);
+
+/// Certify the motion of one finger while everything else is stationary.
+/// @param from, to  joint configurations of the finger; interpolated linearly.
+/// @param pose  object pose in the palm's frame.
+/// @param tip  permitted proximity of the fingertip.
+/// @param others  all other fingers, as placed.
+[[nodiscard]] bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from,
+                           const Posture& to, const Eigen::Isometry3d& pose, TipContact tip,
+                           const std::vector<PlacedFinger>& others);
+
+/// Path of one finger: joint configurations, interpolated linearly.
 using FingerPath = std::vector<Posture>;
 
-/// All that stands still while one finger moves.
+/// Stationary scene while one finger moves.
 struct Surroundings {
-  Eigen::Isometry3d pose;            ///< of the object
+  Eigen::Isometry3d pose;            ///< object pose in the palm's frame
   std::vector<PlacedFinger> others;  ///< all other fingers
-  /// These where their tips have rolled to (rolling.h), all of them again; none: they have not.
+  /// All other fingers with their fingertips rolled (rolling.h). Empty if rolling is not modelled.
   std::vector<PlacedFinger> rolled = {};
 };
 
-/// All but one finger, as they stand.
-[[nodiscard]] Surroundings AllBut(const HandScene& scene, FingerIndex moving,
-                                  const Keyframe& frame);
+/// Return the scene of all fingers except one, as placed in a keyframe.
+[[nodiscard]] Surroundings AllExcept(const HandScene& scene, FingerIndex moving,
+                                     const Keyframe& frame);
 
-/// A certified path of a free finger between two postures, by RRT-Connect (Kuffner and LaValle
-/// 2000) over its drives, then shortened.
-/// @param most_extensions  of its two trees; each a tenth of a millisecond or so.
-/// @returns nullopt where none was found.
+/// Plan a certified path of an idle finger between two joint configurations.
+/// Uses RRT-Connect (Kuffner and LaValle 2000) in joint space, followed by shortcutting.
+/// @param most_extensions  maximum number of extensions of both trees, about 0.1 ms each [default:
+///     100].
+/// @returns the path; nullopt if none is found.
 [[nodiscard]] std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finger,
                                                      const Posture& from, const Posture& to,
                                                      const Surroundings& around,
                                                      RandomStream& random,
                                                      int most_extensions = 100);
 
-/// A certified path from a contact up along the normal, as high as the finger goes, or, where that
-/// is no way, aslant to a side.
-/// @param target    of the tip at the contact.
-/// @param touching  the posture there.
-/// @returns none where it does not come far enough off the surface to go elsewhere.
-[[nodiscard]] std::optional<FingerPath> FindWayUp(
+/// Plan a certified path that lifts a fingertip off its contact.
+/// Lifts along the surface normal as far as the finger reaches; if that fails, along a tilted
+/// direction.
+/// @param target  fingertip target at the contact.
+/// @param touching  joint configuration at the contact.
+/// @returns the path; nullopt if the fingertip does not reach a height from which it can move
+///     freely.
+[[nodiscard]] std::optional<FingerPath> FindLiftPath(
     const HandScene& scene, const kinematics::InverseKinematics& inverse, FingerIndex finger,
     const kinematics::TipTarget& target, const Posture& touching, const Surroundings& around);
 
-/// A certified path from a free posture to a contact: freely to a place some millimetres above it,
-/// then down as by FindWayUp.
-/// @param target   of the tip at the contact.
-/// @param touching the posture there.
+/// Plan a certified path of an idle finger to a contact.
+/// Consists of a free path to the end of the lift path (FindLiftPath) and the reversed lift path.
+/// @param from  joint configuration of the idle finger.
+/// @param target  fingertip target at the contact.
+/// @param touching  joint configuration at the contact.
+/// @returns the path; nullopt if none is found.
 [[nodiscard]] std::optional<FingerPath> FindPathToContact(
     const HandScene& scene, const kinematics::InverseKinematics& inverse, FingerIndex finger,
     const Posture& from, const kinematics::TipTarget& target, const Posture& touching,

@@ -4,46 +4,64 @@
 
 namespace regrasp::gait {
 
+Eigen::Isometry3d Between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
+                          double fraction) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::Quaterniond(from.linear())
+                      .slerp(fraction, Eigen::Quaterniond(to.linear()))
+                      .toRotationMatrix();
+  pose.translation() = from.translation() + fraction * (to.translation() - from.translation());
+  return pose;
+}
+
+Keyframe Between(const Keyframe& from, const Keyframe& to, double fraction) {
+  Keyframe frame{Between(from.pose, to.pose, fraction), {}};
+  for (std::size_t i = 0; i < from.postures.size(); ++i) {
+    frame.postures.emplace_back(from.postures[i] + fraction * (to.postures[i] - from.postures[i]));
+  }
+  return frame;
+}
+
 bool AreHeldBy(const std::vector<FingerIndex>& fingers, const std::vector<int>& contacts,
-               const Holding& holding) {
+               const ContactAssignment& assignment) {
   for (std::size_t i = 0; i < fingers.size(); ++i) {
-    if (holding[fingers[i]] != contacts[i]) return false;
+    if (assignment[fingers[i]] != contacts[i]) return false;
   }
   return true;
 }
 
-Stretch Reversed(Stretch stretch) {
-  std::ranges::reverse(stretch.path);
-  std::ranges::reverse(stretch.along);
-  std::ranges::reverse(stretch.along_at);
-  const int last = static_cast<int>(stretch.path.size()) - 1;
-  for (int& at : stretch.along_at) at = last - at;
-  for (Stretch::Slid& slid : stretch.slid) std::swap(slid.from, slid.to);
-  if (stretch.kind == Stretch::Kind::kPlace) {
-    stretch.kind = Stretch::Kind::kRelease;
-  } else if (stretch.kind == Stretch::Kind::kRelease) {
-    stretch.kind = Stretch::Kind::kPlace;
+PlanSegment Reversed(PlanSegment segment) {
+  std::ranges::reverse(segment.path);
+  std::ranges::reverse(segment.waypoints);
+  std::ranges::reverse(segment.waypoint_frames);
+  const int last = static_cast<int>(segment.path.size()) - 1;
+  for (int& at : segment.waypoint_frames) at = last - at;
+  for (PlanSegment::Slid& slid : segment.slid) std::swap(slid.from, slid.to);
+  if (segment.kind == PlanSegment::Kind::kPlace) {
+    segment.kind = PlanSegment::Kind::kRelease;
+  } else if (segment.kind == PlanSegment::Kind::kRelease) {
+    segment.kind = PlanSegment::Kind::kPlace;
   }
-  return stretch;
+  return segment;
 }
 
 const Keyframe& EndOf(const Gait& gait) {
-  return gait.stretches.empty() ? gait.start : gait.stretches.back().path.back();
+  return gait.segments.empty() ? gait.start : gait.segments.back().path.back();
 }
 
-Holding HoldingAtEnd(const Gait& gait) {
-  Holding holding = gait.initial;
-  for (const Stretch& stretch : gait.stretches) {
-    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
-    if (stretch.kind == Stretch::Kind::kRelease) holding[stretch.finger] = kNone;
-    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
+ContactAssignment AssignmentAtEnd(const Gait& gait) {
+  ContactAssignment assignment = gait.initial;
+  for (const PlanSegment& segment : gait.segments) {
+    if (segment.kind == PlanSegment::Kind::kPlace) assignment[segment.finger] = segment.contact;
+    if (segment.kind == PlanSegment::Kind::kRelease) assignment[segment.finger] = kNone;
+    for (const PlanSegment::Slid& slid : segment.slid) assignment[slid.finger] = slid.to;
   }
-  return holding;
+  return assignment;
 }
 
-void AppendReversed(const std::vector<Stretch>& stretches, Gait& gait) {
-  for (auto stretch = stretches.rbegin(); stretch != stretches.rend(); ++stretch) {
-    gait.stretches.push_back(Reversed(*stretch));
+void AppendReversed(const std::vector<PlanSegment>& segments, Gait& gait) {
+  for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) {
+    gait.segments.push_back(Reversed(*segment));
   }
 }
 

@@ -1,65 +1,105 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <vector>
 
-#include "planner/gait/holding.h"
-#include "planner/gait/keyframe.h"
 #include "planner/grasp/contact.h"
+#include "planner/kinematics/hand_model.h"
 
 namespace regrasp::gait {
 
-/// The grasps that a gait begins and ends with, as numbers of contacts; none: any grasp.
+/// Contact assignment: the contact number of each finger, kNone for an idle finger.
+using ContactAssignment = std::vector<int>;
+inline constexpr int kNone = -1;
+
+/// Return the number of fingers in contact.
+[[nodiscard]] inline int CountHoldingFingers(const ContactAssignment& assignment) {
+  return static_cast<int>(
+      std::ranges::count_if(assignment, [](int point) { return point != kNone; }));
+}
+
+[[nodiscard]] inline bool IsAssigned(const ContactAssignment& assignment, int point) {
+  return std::ranges::find(assignment, point) != assignment.end();
+}
+
+/// Call `take` with every assignment of the contacts to distinct fingers.
+/// @pre `points` has at most `fingers` elements.
+template <class Take>
+void ForEachAssignment(const std::vector<int>& points, int fingers, const Take& take) {
+  std::vector<int> order(fingers, kNone);
+  std::ranges::copy(points, order.begin());
+  std::ranges::sort(order);
+  do {
+    take(ContactAssignment(order));
+  } while (std::ranges::next_permutation(order).found);
+}
+
+/// State of object and hand at an instant.
+/// Between consecutive keyframes the joints and the object's origin move linearly, and the object
+/// rotates about one fixed axis.
+struct Keyframe {
+  Eigen::Isometry3d pose =
+      Eigen::Isometry3d::Identity();          ///< object pose in the palm's frame, metres
+  std::vector<kinematics::Posture> postures;  ///< joint configuration [finger]
+};
+
+[[nodiscard]] Eigen::Isometry3d Between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
+                                        double fraction);
+[[nodiscard]] Keyframe Between(const Keyframe& from, const Keyframe& to, double fraction);
+
+/// Grasps at both ends of a gait, as contact numbers; an empty grasp means any grasp.
 struct GaitEnds {
   std::vector<int> start;
   std::vector<int> goal;
-  /// That hold the contacts of the start, and of the goal, in their order; none: whichever can.
+  /// Fingers of the start and goal contacts, in contact order. Empty: any finger.
   std::vector<FingerIndex> start_fingers = {};
   std::vector<FingerIndex> goal_fingers = {};
 };
 
-/// Whether contacts are held by the fingers that are asked for; true where none are.
+/// Return whether each contact is assigned to the required finger; true if none is required.
 [[nodiscard]] bool AreHeldBy(const std::vector<FingerIndex>& fingers,
-                             const std::vector<int>& contacts, const Holding& holding);
+                             const std::vector<int>& contacts, const ContactAssignment& assignment);
 
-/// A stretch of a gait: keyframes, the first of which is the last one of the stretch before.
-struct Stretch {
+/// Segment of a gait: keyframes that begin with the last keyframe of the previous segment.
+struct PlanSegment {
   enum class Kind {
-    kMove,     ///< the object moves, held by all fingers that hold
-    kPlace,    ///< a free finger comes to its contact
+    kMove,     ///< in-hand motion: the object moves with all holding fingers
+    kPlace,    ///< an idle finger reaches its contact
     kRelease,  ///< a finger leaves its contact
-    kSlide,    ///< fingers that hold slide to other contacts, all at once
+    kSlide,    ///< holding fingers slide to other contacts simultaneously
   };
   Kind kind = Kind::kMove;
-  FingerIndex finger;   ///< that is placed or released
-  int contact = kNone;  ///< that it comes to or leaves
+  FingerIndex finger;   ///< finger that is placed or released
+  int contact = kNone;  ///< contact that is reached or left
   std::vector<Keyframe> path;
-  // Of kSlide:
-  /// A finger that slides, and between which contacts.
+  // Members of sliding steps (kSlide):
+  /// A sliding finger with the contact numbers of both ends.
   struct Slid {
     FingerIndex finger;
     int from = kNone;
     int to = kNone;
   };
   std::vector<Slid> slid = {};
-  /// Waypoints, the first and the last one too: where each of them is, in a file's units.
-  std::vector<std::vector<grasp::Contact>> along = {};
-  std::vector<int> along_at = {};  ///< of each the number of its keyframe
+  /// Contacts [waypoint][sliding finger] including both ends, in object units.
+  std::vector<std::vector<grasp::Contact>> waypoints = {};
+  std::vector<int> waypoint_frames = {};  ///< keyframe number [waypoint]
 };
 
-/// A way of fingers and object from a rest to another one.
+/// Gait: an alternating sequence of in-hand motions and contact changes between two stances.
 struct Gait {
-  Holding initial;
+  ContactAssignment initial;
   Keyframe start;
-  std::vector<Stretch> stretches;
+  std::vector<PlanSegment> segments;
 };
 
-/// A stretch the other way round.
-[[nodiscard]] Stretch Reversed(Stretch stretch);
+/// Return the time-reversed segment.
+[[nodiscard]] PlanSegment Reversed(PlanSegment segment);
 
 [[nodiscard]] const Keyframe& EndOf(const Gait& gait);
-[[nodiscard]] Holding HoldingAtEnd(const Gait& gait);
+[[nodiscard]] ContactAssignment AssignmentAtEnd(const Gait& gait);
 
-/// Appends stretches the other way round, the last one first.
-void AppendReversed(const std::vector<Stretch>& stretches, Gait& gait);
+/// Append the time-reversed segments, the last one first.
+void AppendReversed(const std::vector<PlanSegment>& segments, Gait& gait);
 
 }  // namespace regrasp::gait

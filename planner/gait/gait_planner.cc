@@ -1,58 +1,165 @@
 #include "planner/gait/gait_planner.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/gait/explain_gait.h"
+#include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
-#include "planner/gait/with_reserve.h"
+#include "planner/gait/schedule.h"
 #include "planner/planning/rest_summary.h"
 
 namespace regrasp::gait {
+
 namespace {
+
+/// Budget of one probe: fraction of the request's budget, so that all probes together take as long
+/// as a failing search, and its minimum.
+constexpr std::int64_t kProbeFraction = 20;
+constexpr std::int64_t kFewestExpanded = 40;
+
+/// A parameter of the request with its alternative values, smallest change first.
+struct Relaxation {
+  std::string no_help;  ///< for example "more friction"
+  std::vector<double> changes;
+  /// Changes the request. Returns the change in words.
+  std::function<std::string(double, GaitRequest&)> change;
+  std::string helps = {};  ///< smallest change that helps, in words
+};
+
+Relaxation MoreFriction() {
+  return {"more friction", {1.1, 1.2, 1.5, 2}, [](double factor, GaitRequest& request) {
+            const double before = std::tan(request.criteria.half_angle);
+            request.criteria.half_angle = std::atan(factor * before);
+            return "a friction of " + FormatShort(factor * before, 3) + " instead of " +
+                   FormatShort(before, 3);
+          }};
+}
+
+/// Given contacts scale with the object; poses do not.
+Relaxation OtherSize() {
+  return {"another size of the object",
+          {0.9, 1.1, 0.8, 1.25, 0.65, 1.5, 0.5, 2},
+          [](double factor, GaitRequest& request) {
+            request.scale *= factor;
+            return "the object " + FormatShort(factor, 3) + " times as large (--scale " +
+                   FormatShort(request.scale, 4) + ")";
+          }};
+}
+
+/// Tilt the palm about an axis of the hand.
+/// @param hand  storage for the tilted hand.
+Relaxation TiltedPalm(kinematics::HandModel& hand) {
+  return {"a tilt of the palm",
+          {15, -15, 30, -30, 45, -45},
+          [&hand](double degrees, GaitRequest& request) {
+            hand = *request.hand;
+            Eigen::Index least = 0;
+            hand.up.cwiseAbs().minCoeff(&least);
+            const Eigen::Vector3d axis =
+                hand.up.cross(Eigen::Vector3d(Eigen::Vector3d::Unit(least))).normalized();
+            hand.up = Eigen::AngleAxisd(Radians(degrees), axis) * hand.up;
+            request.hand = &hand;
+            return "the palm tilted by " + FormatShort(std::abs(degrees), 3) +
+                   " degrees (\"up\" of the hand file: " + FormatShort(hand.up.x(), 3) + ", " +
+                   FormatShort(hand.up.y(), 3) + ", " + FormatShort(hand.up.z(), 3) + ")";
+          }};
+}
+
+/// Return a probe with a smaller budget. Actuators are ignored unless they limit the request.
+GaitRequest ProbeOf(const GaitRequest& request, bool with_actuators) {
+  GaitRequest probe = request;
+  if (!with_actuators) probe.reserve = Reserve::kNone;
+  probe.most_expanded = std::min(request.most_expanded,
+                                 std::max(kFewestExpanded, request.most_expanded / kProbeFraction));
+  return probe;
+}
+
+bool IsLimitedByActuators(const GaitRequest& request) {
+  if (request.reserve != Reserve::kRequired) return false;
+  request.progress("searching without simulation");
+  return FindGait(ProbeOf(request, false)).gait.has_value();
+}
 
 using planning::GraspChoice;
 using planning::PlanOption;
 using planning::PlanRequest;
 using planning::PlanResult;
 
-/// No hand that is known has more.
+/// No known hand has more fingers.
 constexpr int kMostFingers = 20;
 constexpr int kFewestFingers = 3;
 
 GaitRequest RequestFor(const PlanRequest& asked) {
   GaitRequest request;
   static_cast<planning::InHandTask&>(request) = *asked.in_hand;
-  // There are no other objects of three dimensions (WhyNotServed).
+  // Spatial objects are always polyhedra (WhyNotServed).
   request.solid = &dynamic_cast<const object::Polyhedron&>(*asked.object);
   request.criteria = asked.criteria;
-  // Of those that the planner chooses there is none.
+  // Empty if the planner chooses them.
   request.start_grasp = asked.start.grasp;
   request.goal_grasp = asked.goal.grasp;
   request.seed = asked.seed;
   request.most_expanded = asked.effort.value_or(kDefaultExpanded);
-  request.seeks_most_spare = asked.objective == planning::Objective::kMargin;
+  request.seeks_most_margin = asked.objective == planning::Objective::kMargin;
   request.deadline = asked.deadline;
   request.jobs = asked.jobs;
   request.progress = asked.progress;
   return request;
 }
 
-std::vector<planning::Rest> RestsOf(const plan::Plan& plan) {
-  plan::FingerGrasp holding = plan.initial;
-  std::vector<planning::Rest> rests = {{plan::ContactsOf(holding), {}}};
+std::vector<planning::Rest> StaticGraspsOf(const plan::Plan& plan) {
+  plan::FingerGrasp grasp = plan.initial;
+  std::vector<planning::Rest> grasps = {{plan::ContactsOf(grasp), {}}};
   for (const plan::Step& step : plan.steps) {
-    holding = plan::GraspAfter(holding, step);
-    rests.push_back({plan::ContactsOf(holding), {}});
+    grasp = plan::GraspAfter(grasp, step);
+    grasps.push_back({plan::ContactsOf(grasp), {}});
   }
-  return rests;
+  return grasps;
 }
 
 }  // namespace
+
+std::string ExplainGait(const GaitRequest& request) {
+  const bool with_actuators = IsLimitedByActuators(request);
+  kinematics::HandModel tilted;
+  std::vector<Relaxation> relaxations = {MoreFriction(), OtherSize()};
+  const bool is_upright = !request.start_pose && !request.goal_pose &&
+                          request.start_grasp.empty() && request.goal_grasp.empty();
+  if (is_upright) relaxations.push_back(TiltedPalm(tilted));
+  // Try the smallest change of every relaxation first, so that all share the time.
+  const auto most = std::ranges::max(
+      relaxations, {}, [](const Relaxation& relaxation) { return relaxation.changes.size(); });
+  for (std::size_t i = 0; i < most.changes.size(); ++i) {
+    for (Relaxation& relaxation : relaxations) {
+      if (i >= relaxation.changes.size() || !relaxation.helps.empty()) continue;
+      GaitRequest changed = ProbeOf(request, with_actuators);
+      const std::string words = relaxation.change(relaxation.changes[i], changed);
+      changed.progress = [&](std::string_view) { request.progress("trying " + words); };
+      if (FindGait(changed).gait) relaxation.helps = words;
+    }
+  }
+  std::string helps;
+  std::string no_help;
+  for (const Relaxation& relaxation : relaxations) {
+    if (!relaxation.helps.empty()) helps += (helps.empty() ? "" : "; ") + relaxation.helps;
+    if (relaxation.helps.empty()) no_help += (no_help.empty() ? "" : ", ") + relaxation.no_help;
+  }
+  std::string text;
+  if (!helps.empty()) text = "each change alone helps: " + helps;
+  if (!no_help.empty()) {
+    if (!text.empty()) text += "; ";
+    text += "not found to help: " + no_help;
+  }
+  if (request.deadline.IsOver()) text += " (stopped by the time limit)";
+  return text;
+}
 
 GaitPlanner::GaitPlanner()
     : Planner({.name = "gait",
@@ -67,9 +174,9 @@ GaitPlanner::GaitPlanner()
 
 PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   GaitRequest request = RequestFor(asked);
-  if (request.seeks_most_spare && (!request.carry_out || request.reserve == Reserve::kNone)) {
+  if (request.seeks_most_margin && (!request.carry_out || request.reserve == Reserve::kNone)) {
     throw InputError(OptionName(PlanOption::kMargin) +
-                     ": goes with plans that the hand tries, and none is tried without reserve");
+                     ": requires simulated plans, cannot be used with --reserve none");
   }
   const auto time = request.deadline.left();
   const GaitResult found = FindGait(request);
@@ -77,11 +184,11 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   if (!found.gait) {
     result.status = PlanResult::Status::kNoSequence;
     result.message = found.message;
-    if (found.trial) {
-      if (!found.trial->is_cut_short) result.trial = found.trial->reason;
-      result.message += "; with --reserve preferred there is a plan all the same";
+    if (found.execution) {
+      if (!found.execution->is_cut_short) result.trial = found.execution->reason;
+      result.message += "; help: --reserve preferred writes the best plan anyway";
     }
-    if (request.deadline.IsOver()) result.message += "; that was when the time was up";
+    if (request.deadline.IsOver()) result.message += "; the time limit was reached";
     if (asked.explain) {
       if (time) request.deadline = request.deadline.In(*time);
       result.message += "; " + ExplainGait(request);
@@ -93,21 +200,22 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     return result;
   }
   result.plan = PlanOf(*found.gait, request, found.contacts);
-  if (found.trial && found.trial->is_whole) {
-    result.notes.push_back("the hand's own motors carry it out in a simulation, with " +
-                           FormatShort(std::floor(100 * found.trial->spare)) +
-                           " % of the replay's limits to spare at its closest");
-  } else if (found.trial) {
-    const bool says = !found.trial->is_cut_short;
+  if (found.execution && found.execution->is_whole) {
+    result.notes.push_back("the plan executes in simulation with a tolerance margin of " +
+                           FormatShort(std::floor(100 * found.execution->spare)) +
+                           " % of the replay's limits");
+  } else if (found.execution) {
+    const bool is_failure = !found.execution->is_cut_short;
     result.warnings.push_back(
-        std::string("the hand's own motors do not ") + (says ? "" : "yet ") +
-        "carry it out in a simulation: " + FailureText(*found.trial, result.plan->steps.size()) +
-        "; validate --hand " + (says ? "shows it" : "says whether they do"));
+        std::string(is_failure ? "the plan does not execute in simulation: it "
+                               : "the plan is not completely simulated: the simulation ") +
+        FailureText(*found.execution, result.plan->steps.size()) + "; help: validate --hand " +
+        (is_failure ? "shows the failure" : "completes the simulation"));
   }
-  const std::vector<planning::Rest> rests = RestsOf(*result.plan);
+  const std::vector<planning::Rest> grasps = StaticGraspsOf(*result.plan);
   const criteria::GraspEvaluator evaluator(*asked.object, asked.criteria, FingersOf(request));
-  result.margin = planning::SmallestMargin(rests, evaluator);
-  for (std::string& warning : planning::RestWarnings(rests, evaluator)) {
+  result.margin = planning::SmallestMargin(grasps, evaluator);
+  for (std::string& warning : planning::RestWarnings(grasps, evaluator)) {
     result.warnings.push_back(std::move(warning));
   }
   return result;
@@ -115,9 +223,10 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
 
 void AskInHand(const planning::InHandTask& task, PlanRequest& request) {
   request.in_hand = std::make_shared<planning::InHandTask>(task);
-  // A grasp for another one, and no word of the pose: the object stays where it is.
+  // For a change of grasp without a given goal pose, the object keeps its pose.
   if (task.turn.angle == 0 && !task.goal_pose) request.in_hand->goal_pose = task.start_pose;
-  // What contacts are is not the hand file's to say: soft fingers that are asked for are refused.
+  // The hand file does not define the contact model; a request for soft fingers must still be
+  // rejected.
   const double torsion = request.hand.torsion;
   request.hand = FingersOf(task);
   request.hand.torsion = torsion;

@@ -1,26 +1,36 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
-#include "planner/gait/find_gait.h"
+#include "planner/gait/request.h"
 #include "planner/planning/planner.h"
 
 namespace regrasp::gait {
 
-/// The planner `gait`: a hand turns an object, carries it or changes its grasp, with moves,
-/// switches and aligns, all fingers' ways free and certified (FindGait). Start and goal grasps may
-/// be any.
-///
-/// Failure is not a proof of infeasibility: the message says what stopped it, counted.
+/// Find single changes of an infeasible request that make a gait possible.
+/// For each of friction, object size and palm tilt (the last only if no pose is given), the
+/// smallest change with a gait is reported. Each probe may expand a twentieth of the request's
+/// budget, so an unreported change may still help. All probes share the deadline; progress is
+/// reported as in FindGait.
+/// @returns text, for example "each change alone helps: a friction of 0.96 instead of 0.8; not
+/// found
+///     to help: a tilt of the palm".
+[[nodiscard]] std::string ExplainGait(const GaitRequest& request);
+
+/// The planner `gait`: a hand rotates or translates the object, or changes its grasp.
+/// Plans consist of in-hand motions, finger switches and sliding steps with certified finger paths
+/// (FindGait). Start and goal grasps are optional.
+/// A failure does not prove infeasibility; the message reports counted reasons.
 class GaitPlanner final : public planning::Planner {
  public:
   GaitPlanner();
   [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override;
 };
 
-/// Asks for a plan in a hand: sets the task and the fingers that grasps are judged for, and has the
-/// planner choose start and goal grasp. Without turn and goal pose the object stays at its start
-/// pose, if that is given.
+/// Turn a plan request into a request for planning in a hand.
+/// Sets the task and the hand used by the grasp criteria; the planner chooses start and goal grasp.
+/// Without rotation and goal pose, the object keeps the given start pose.
 void AskInHand(const planning::InHandTask& task, planning::PlanRequest& request);
 
 }  // namespace regrasp::gait

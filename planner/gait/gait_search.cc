@@ -2,40 +2,100 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
-#include "planner/gait/move_path.h"
-#include "planner/gait/slide_path.h"
+#include "planner/gait/change_paths.h"
+#include "planner/gait/object_motion.h"
 
 namespace regrasp::gait {
+
+bool EdgeSimulation::ExecutesInSimulation(int index) {
+  if (!is_enabled()) return true;
+  const int last = tree_.LastExecuted(index);
+  const int from = last < 0 ? grid_.start() : tree_[last].node;
+  if (grid_.StepOf(tree_[index].node) - grid_.StepOf(from) < lookahead_) return true;
+  const std::optional<Gait> gait = tree_.PathTo(index, tree_[index].node);
+  return gait && Simulate(index, *gait);
+}
+
+bool EdgeSimulation::Simulate(int index, const Gait& gait) {
+  const GaitExecution execution = simulate_(gait);
+  if (execution.is_cut_short) return false;  // an interrupted simulation gives no result
+  lookahead_ = execution.is_whole ? std::min(2 * lookahead_, kGreatestLookahead)
+                                  : std::max(lookahead_ / 2, kLeastLookahead);
+  if (execution.is_whole) {
+    MarkExecutedUpTo(index);
+    return true;
+  }
+  ++failures_[execution.reason];
+  const int cut = tree_.PruneAfter(index, execution.is_held ? execution.changes : -1);
+  if (cut < 0) {
+    tree_[index].goal_path_failed = true;
+    LimitToMiddle(index, grid_.steps());
+    tree_.MarkExecuted(index);
+    return false;
+  }
+  const StanceNode& failed = tree_[cut];
+  if (failed.parent >= 0) {
+    MarkExecutedUpTo(failed.parent);
+    failed_.insert({failed.parent, failed.node, failed.stance.assignment});
+    const int step = grid_.StepOf(failed.node);
+    if (execution.fails_in_move) {
+      LimitToMiddle(failed.parent, step);
+    } else {
+      CountFailedChange(failed.parent, step);
+    }
+  }
+  return false;
+}
+
+void EdgeSimulation::LimitToMiddle(int index, int step) {
+  const int from = grid_.StepOf(tree_[index].node);
+  if (step > from) tree_.LimitBefore(index, (from + step) / 2);
+}
+
+void EdgeSimulation::CountFailedChange(int index, int step) {
+  FailedChanges& failed = failed_changes_[index];
+  ++failed.count;
+  failed.first_step = std::min(failed.first_step, step);
+  if (failed.count >= kMaxFailedChanges) tree_.LimitBefore(index, failed.first_step - 1);
+}
+
+void EdgeSimulation::MarkExecutedUpTo(int index) {
+  tree_.MarkExecuted(index);
+  farthest_ = std::max(farthest_, grid_.StepOf(tree_[index].node));
+}
+
 namespace {
 
 constexpr int kFewestHolding = 3;
-/// Of first rests: sets of contacts drawn for each set of fingers.
-constexpr int kDrawnGrasps = 120;
-/// Rests taken up from one place.
-constexpr int kTakenUp = 8;
-/// Times that a grasp is come to by ways that turn out not to be free.
-constexpr int kMostFailures = 3;
-/// With the same fingers placed, released or sliding.
-constexpr int kTakenUpOfAKind = 2;
-/// Times as many from a given start: with it all that comes after is lost.
-constexpr int kMoreAtStart = 6;
-/// What the steps that single fingers could go on are worth, beside those that all go together.
+/// Random assignments per set of fingers at the start.
+constexpr int kInitialDraws = 120;
+/// Maximum number of successors queued from one grid node.
+constexpr int kMaxSuccessors = 8;
+/// Maximum number of failed connections to an assignment before its node is pruned.
+constexpr int kMaxFailures = 3;
+/// Maximum number of successors with the same fingers placed, released and sliding.
+constexpr int kMaxSuccessorsPerChange = 2;
+/// Factor of both maxima at a given start grasp, because no other root can replace it.
+constexpr int kStartFactor = 6;
+/// Weight of the mean step that each finger alone could follow, relative to the step that all
+/// reach.
 constexpr double kSingleFinger = 0.3;
-/// What a unit beside the track costs, in steps.
+/// Penalty per unit of offset from the track, in steps.
 constexpr double kOffTrack = 0.1;
-/// What a finger costs that does not hold what it is to hold in the end, in steps.
-constexpr double kNotYetGoal = 3;
-/// What a slide costs on the way, in steps: a finger that slides holds less well than one that
-/// rests.
+/// Penalty per finger that does not hold its goal contact, in steps.
+constexpr double kGoalDistanceWeight = 3;
+/// Penalty per sliding step on the path, in steps.
+/// A sliding finger holds less reliably than a static one.
 constexpr double kSlide = 2;
-/// Steps that a rest is put back for each turn that it had.
-constexpr double kAnotherTurn = 2;
-/// Of the nodes that a grasp comes to: those drawn to switch fingers at, beside those of its path.
-constexpr int kNodesBeside = 2;
+/// Penalty per earlier expansion of the same node, in steps.
+constexpr double kReexpansionPenalty = 2;
+/// Number of random reachable grid nodes that are expanded, in addition to those on the path.
+constexpr int kRandomNodes = 2;
 
-/// The finger that is placed, the one that is released, and a bit for each that slides.
-std::array<int, 3> KindOf(const Change& change) {
+/// Return the placed finger, the released finger, and a bit mask of the sliding fingers.
+std::array<int, 3> ChangeKey(const Change& change) {
   int slid = 0;
   for (const FingerIndex finger : change.slid) slid |= 1 << finger;
   return {change.placed, change.released, slid};
@@ -43,68 +103,68 @@ std::array<int, 3> KindOf(const Change& change) {
 
 }  // namespace
 
-GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& carrier,
+GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, ObjectMotionChecker& checker,
                        const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random)
     : setup_(setup),
       grid_(grid),
       start_(ends.start),
       start_fingers_(ends.start_fingers),
       goal_(ends.goal, setup.points),
-      most_holding_(static_cast<int>(std::max(
+      max_holding_(static_cast<int>(std::max(
           {static_cast<std::size_t>(kFewestHolding), ends.start.size(), ends.goal.size()}))),
       memory_(memory),
       random_(random),
-      carrier_(carrier),
+      checker_(checker),
       routes_(memory),
-      next_(setup, carrier, goal_, routes_, most_holding_ > kFewestHolding),
-      kinds_(setup.points),
-      crowding_(kinds_, grid.steps()),
+      successors_(setup, checker, goal_, routes_, max_holding_ > kFewestHolding),
+      clusters_(setup.points),
+      novelty_(clusters_, grid.steps()),
       rolling_(setup, memory),
       tree_(
-          setup, grid, carrier, memory, routes_, random,
-          [this](int node, const Holding& holding) {
-            return grid_.IsGoal(node) && goal_.IsHeldBy(holding);
+          setup, grid, checker, memory, routes_, random,
+          [this](int node, const ContactAssignment& assignment) {
+            return grid_.IsGoal(node) && goal_.IsHeldBy(assignment);
           },
           !ends.start.empty()),
-      tried_(grid, tree_) {
+      simulation_(grid, tree_) {
   counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
-  ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
-    if (!AreHeldBy(ends.goal_fingers, ends.goal, holding)) return;
-    Hold hold{std::move(holding)};
-    if (carrier_.LetFreeFingersWait(hold, grid.goal(), &random))
-      goal_.AddWay(std::move(hold.holding));
+  ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](ContactAssignment assignment) {
+    if (!AreHeldBy(ends.goal_fingers, ends.goal, assignment)) return;
+    Stance stance{std::move(assignment)};
+    if (checker_.PlaceIdleFingers(stance, grid.goal(), &random))
+      goal_.AddAssignment(std::move(stance.assignment));
   });
 }
 
 GaitCounts GaitSearch::counts() const {
   GaitCounts counts = counts_;
-  counts.ways = tree_.counts();
-  counts.not_carried = tried_.in_vain();
+  counts.path_failures = tree_.counts();
+  counts.execution_failures = simulation_.failures();
   counts.farthest = farthest();
   return counts;
 }
 
 void GaitCounts::Add(const GaitCounts& other) {
-  grasps += other.grasps;
+  evaluated += other.evaluated;
   expanded += other.expanded;
-  ways.no_path += other.ways.no_path;
-  ways.no_slide += other.ways.no_slide;
-  ways.no_move += other.ways.no_move;
+  path_failures.no_path += other.path_failures.no_path;
+  path_failures.no_slide += other.path_failures.no_slide;
+  path_failures.no_move += other.path_failures.no_move;
   colliding += other.colliding;
   rolled += other.rolled;
-  for (const auto& [reason, count] : other.not_carried) not_carried[reason] += count;
+  for (const auto& [reason, count] : other.execution_failures) execution_failures[reason] += count;
   at_goal += other.at_goal;
 }
 
-void GaitSearch::BeginWith(const Hold& hold) {
-  Add({.hold = hold, .node = grid_.start()});
-  begun_ = true;
+void GaitSearch::StartFrom(const Stance& stance) {
+  Add({.stance = stance, .node = grid_.start()});
+  is_started_ = true;
 }
 
-bool GaitSearch::IsGrasp(const Holding& holding) {
+bool GaitSearch::IsGrasp(const ContactAssignment& assignment) {
   criteria::ContactSet set;
-  for (const int point : holding) {
+  for (const int point : assignment) {
     if (point == kNone) continue;
     if (set.Has(point)) return false;
     set.Insert(point);
@@ -112,13 +172,13 @@ bool GaitSearch::IsGrasp(const Holding& holding) {
   return set.size() >= kFewestHolding && memory_.Admits(set);
 }
 
-GaitSearch::RolledTo GaitSearch::RollTowards(const Rest& rest, int node) {
+GaitSearch::RolledTo GaitSearch::RollTowards(const StanceNode& stance_node, int node) {
   if (setup_.rolled_on == nullptr) return {node, {}};
-  RolledTo rolled{rest.node, rest.rolled};
-  for (const int next : rest.carried.PathTo(node)) {
-    if (next == rest.node) continue;
-    auto tips =
-        rolling_.Carry(rolled.tips, grid_.PoseAt(rolled.node), grid_.PoseAt(next), rest.hold);
+  RolledTo rolled{stance_node.node, stance_node.rolled};
+  for (const int next : stance_node.reachable.PathTo(node)) {
+    if (next == stance_node.node) continue;
+    auto tips = rolling_.Advance(rolled.tips, grid_.PoseAt(rolled.node), grid_.PoseAt(next),
+                                 stance_node.stance);
     if (!tips) {
       ++counts_.rolled;
       break;
@@ -128,251 +188,265 @@ GaitSearch::RolledTo GaitSearch::RollTowards(const Rest& rest, int node) {
   return rolled;
 }
 
-bool GaitSearch::TakeRolledTips(Rest& rest) {
+bool GaitSearch::InitRolledTips(StanceNode& stance_node) {
   if (setup_.rolled_on == nullptr) return true;
-  rest.rolled = rest.rolled_before;
-  rest.rolled.resize(rest.hold.holding.size());
-  for (FingerIndex finger{0}; finger < std::ssize(rest.rolled); ++finger) {
-    const int point = rest.hold.holding[finger];
+  stance_node.rolled = stance_node.rolled_before;
+  stance_node.rolled.resize(stance_node.stance.assignment.size());
+  for (FingerIndex finger{0}; finger < std::ssize(stance_node.rolled); ++finger) {
+    const int point = stance_node.stance.assignment[finger];
     if (point == kNone) {
-      rest.rolled[finger].reset();
-    } else if (!rest.rolled[finger]) {
-      rest.rolled[finger] = {setup_.points[point],
-                             *carrier_.reach().Find(finger, point, rest.node)};
+      stance_node.rolled[finger].reset();
+    } else if (!stance_node.rolled[finger]) {
+      stance_node.rolled[finger] = {setup_.points[point],
+                                    *checker_.reach().Find(finger, point, stance_node.node)};
     }
   }
-  if (rolling_.AreGrasp(rest.rolled, grid_.PoseAt(rest.node))) return true;
+  if (rolling_.AreGrasp(stance_node.rolled, grid_.PoseAt(stance_node.node))) return true;
   ++counts_.rolled;
   return false;
 }
 
-double GaitSearch::ScoreOf(const Holding& holding, int node, int slides, int last) {
+double GaitSearch::ScoreOf(const ContactAssignment& assignment, int node, int slides, int last) {
   double sum = 0;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (holding[finger] == kNone) continue;
-    sum += carrier_.reach().RunEnd(finger, holding[finger], node);
+    if (assignment[finger] == kNone) continue;
+    sum += checker_.reach().RunEnd(finger, assignment[finger], node);
   }
-  return last + kSingleFinger * sum / CountHolding(holding) - kOffTrack * grid_.OffTrack(node) -
-         kNotYetGoal * goal_.DistanceFrom(holding) - (grid_.steps() > 0 ? kSlide * slides : 0);
+  return last + kSingleFinger * sum / CountHoldingFingers(assignment) -
+         kOffTrack * grid_.OffTrack(node) - kGoalDistanceWeight * goal_.DistanceFrom(assignment) -
+         (grid_.steps() > 0 ? kSlide * slides : 0);
 }
 
-bool GaitSearch::IsTaken(const Holding& holding, int node) const {
-  const auto found = taken_.find(holding);
-  return found != taken_.end() && std::ranges::any_of(found->second, [&](const Taken& taken) {
-           return taken.node == node && (taken.rest < 0 || !tree_[taken.rest].is_cut_off);
+bool GaitSearch::IsQueued(const ContactAssignment& assignment, int node) const {
+  const auto found = queued_.find(assignment);
+  return found != queued_.end() &&
+         std::ranges::any_of(found->second, [&](const QueuedGrasp& queued) {
+           return queued.node == node && (queued.index < 0 || !tree_[queued.index].is_pruned);
          });
 }
 
-bool GaitSearch::Add(Rest rest) {
-  if (!IsGrasp(rest.hold.holding) || IsTaken(rest.hold.holding, rest.node)) return false;
-  Taken& taken = taken_[rest.hold.holding].emplace_back(Taken{rest.node});
-  ++counts_.grasps;
-  const Hold* before = rest.parent < 0 ? nullptr : &tree_[rest.parent].hold;
-  if (!carrier_.LetFreeFingersWait(rest.hold, rest.node, nullptr, before)) {
+bool GaitSearch::Add(StanceNode stance_node) {
+  if (!IsGrasp(stance_node.stance.assignment) ||
+      IsQueued(stance_node.stance.assignment, stance_node.node))
+    return false;
+  QueuedGrasp& queued =
+      queued_[stance_node.stance.assignment].emplace_back(QueuedGrasp{stance_node.node});
+  ++counts_.evaluated;
+  const Stance* before = stance_node.parent < 0 ? nullptr : &tree_[stance_node.parent].stance;
+  if (!checker_.PlaceIdleFingers(stance_node.stance, stance_node.node, nullptr, before)) {
     ++counts_.colliding;
     return false;
   }
-  if (!TakeRolledTips(rest)) return false;
-  rest.carried = carrier_.StraightOn(rest.hold, rest.node);
-  rest.score = ScoreOf(rest.hold.holding, rest.node, rest.slides, grid_.StepOf(rest.carried.end));
-  taken.rest = tree_.size();
-  queue_.push({rest.score, taken.rest});
-  tree_.Add(std::move(rest));
+  if (!InitRolledTips(stance_node)) return false;
+  stance_node.reachable = checker_.ExtendAlongTrack(stance_node.stance, stance_node.node);
+  stance_node.score = ScoreOf(stance_node.stance.assignment, stance_node.node, stance_node.slides,
+                              grid_.StepOf(stance_node.reachable.end));
+  queued.index = tree_.size();
+  queue_.push({stance_node.score, queued.index});
+  tree_.Add(std::move(stance_node));
   return true;
 }
 
 void GaitSearch::AddGivenStart() {
-  ForEachAssignment(start_, setup_.scene.finger_count(), [&](Holding holding) {
-    if (!AreHeldBy(start_fingers_, start_, holding)) return;
-    Hold hold{std::move(holding)};
-    if (carrier_.LetFreeFingersWait(hold, grid_.start(), &random_)) {
-      Add({.hold = std::move(hold), .node = grid_.start()});
+  ForEachAssignment(start_, setup_.scene.finger_count(), [&](ContactAssignment assignment) {
+    if (!AreHeldBy(start_fingers_, start_, assignment)) return;
+    Stance stance{std::move(assignment)};
+    if (checker_.PlaceIdleFingers(stance, grid_.start(), &random_)) {
+      Add({.stance = std::move(stance), .node = grid_.start()});
     } else {
       ++counts_.colliding;
     }
   });
 }
 
-void GaitSearch::AddFirstRests() {
+void GaitSearch::AddInitialStances() {
   const int fingers = setup_.scene.finger_count();
-  std::vector<std::vector<int>> places;
+  std::vector<std::vector<int>> candidates;
   for (FingerIndex finger{0}; finger < fingers; ++finger) {
-    places.push_back(next_.PlacesFor(finger, Holding(fingers, kNone), grid_.start()));
+    candidates.push_back(
+        successors_.ContactCandidates(finger, ContactAssignment(fingers, kNone), grid_.start()));
   }
   std::vector<int> chosen(fingers, 0);
   std::fill(chosen.begin(), chosen.begin() + kFewestHolding, 1);
   do {
-    for (int i = 0; i < kDrawnGrasps; ++i) {
-      Holding holding(fingers, kNone);
+    for (int i = 0; i < kInitialDraws; ++i) {
+      ContactAssignment assignment(fingers, kNone);
       for (FingerIndex finger{0}; finger < fingers; ++finger) {
         if (chosen[finger] == 0) continue;
-        const std::vector<int>& points = places[finger];
+        const std::vector<int>& points = candidates[finger];
         if (points.empty()) break;
-        // Those that it keeps longest stand first.
-        const double place = random_.Uniform() * random_.Uniform();
-        holding[finger] = points[static_cast<std::size_t>(place * points.size())];
+        // Contacts that a finger keeps longest come first and are drawn most often.
+        const double rank = random_.Uniform() * random_.Uniform();
+        assignment[finger] = points[static_cast<std::size_t>(rank * points.size())];
       }
-      if (CountHolding(holding) == kFewestHolding) {
-        Add({.hold = {std::move(holding)}, .node = grid_.start()});
+      if (CountHoldingFingers(assignment) == kFewestHolding) {
+        Add({.stance = {std::move(assignment)}, .node = grid_.start()});
       }
     }
   } while (std::ranges::prev_permutation(chosen).found);
 }
 
-std::optional<double> GaitSearch::ScoreAfter(const Rest& from, const Holding& to, int node) {
-  const int count = CountHolding(to);
-  if (count < kFewestHolding || count > most_holding_ || !IsGrasp(to)) return std::nullopt;
+std::optional<double> GaitSearch::ScoreAfter(const StanceNode& from, const ContactAssignment& to,
+                                             int node) {
+  const int count = CountHoldingFingers(to);
+  if (count < kFewestHolding || count > max_holding_ || !IsGrasp(to)) return std::nullopt;
   int last = grid_.steps();
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (to[finger] == kNone) continue;
-    last = std::min(last, carrier_.reach().RunEnd(finger, to[finger], node));
+    last = std::min(last, checker_.reach().RunEnd(finger, to[finger], node));
   }
-  const bool slides = !ChangeBetween(from.hold.holding, to).slid.empty();
+  const bool slides = !ChangeBetween(from.stance.assignment, to).slid.empty();
   return ScoreOf(to, node, from.slides + static_cast<int>(slides), last);
 }
 
-bool GaitSearch::SwitchAt(int index, int node) {
-  const Holding from = tree_[index].hold.holding;
+bool GaitSearch::ExpandAt(int index, int node) {
+  const ContactAssignment from = tree_[index].stance.assignment;
   if (grid_.StepOf(node) > tree_[index].farthest) return false;
   const RolledTo rolled = RollTowards(tree_[index], node);
   if (rolled.node != node) return false;
-  std::vector<std::pair<double, Holding>> found;
-  for (Holding& to : next_.After(from, node)) {
+  std::vector<std::pair<double, ContactAssignment>> found;
+  for (ContactAssignment& to : successors_.After(from, node)) {
     if (const auto score = ScoreAfter(tree_[index], to, node)) {
       found.emplace_back(*score, std::move(to));
     }
   }
-  std::ranges::stable_sort(found, std::greater<>(), &std::pair<double, Holding>::first);
+  std::ranges::stable_sort(found, std::greater<>(), &std::pair<double, ContactAssignment>::first);
   const bool is_start = !start_.empty() && tree_[index].parent < 0;
-  const int many = is_start ? kMoreAtStart : 1;
-  int taken = 0;
-  std::map<std::array<int, 3>, int> taken_by_fingers;
+  const int factor = is_start ? kStartFactor : 1;
+  int queued = 0;
+  std::map<std::array<int, 3>, int> queued_by_change;
   for (const auto& [score, to] : found) {
-    if (taken == many * kTakenUp) break;
+    if (queued == factor * kMaxSuccessors) break;
     const Change change = ChangeBetween(from, to);
-    int& alike = taken_by_fingers[KindOf(change)];
-    if (alike == many * kTakenUpOfAKind) continue;
-    Rest rest = tree_.After(index, to, node);
-    // A switch passes a grasp of all fingers.
-    Hold all = rest.hold;
-    if (change.released.valid()) all.holding[change.released] = from[change.released];
-    if (change.placed.valid() && !carrier_.IsPassable(all, rest.node)) continue;
-    rest.rolled_before = rolled.tips;
-    if (tried_.HasFailed(index, rest.node, rest.hold.holding)) continue;
-    if (!Add(std::move(rest))) continue;
-    ++taken;
-    ++alike;
+    int& of_change = queued_by_change[ChangeKey(change)];
+    if (of_change == factor * kMaxSuccessorsPerChange) continue;
+    StanceNode stance_node = tree_.After(index, to, node);
+    // During a finger switch all these fingers are in contact.
+    Stance all = stance_node.stance;
+    if (change.released.valid()) all.assignment[change.released] = from[change.released];
+    if (change.placed.valid() && !checker_.IsPassable(all, stance_node.node)) continue;
+    stance_node.rolled_before = rolled.tips;
+    if (simulation_.HasFailed(index, stance_node.node, stance_node.stance.assignment)) continue;
+    if (!Add(std::move(stance_node))) continue;
+    ++queued;
+    ++of_change;
   }
-  return taken > 0;
+  return queued > 0;
 }
 
 void GaitSearch::Expand(int index) {
-  const Rest& rest = tree_[index];
-  const std::vector<int> path = rest.carried.PathTo(rest.carried.end);
+  const StanceNode& stance_node = tree_[index];
+  const std::vector<int> path = stance_node.reachable.PathTo(stance_node.reachable.end);
   const std::size_t last = path.size() - 1;
   std::set<int> nodes = {path[last], path[last / 2], path[last - std::min<std::size_t>(last, 2)],
                          path[0]};
-  const int beside = rest.carried.from.size() == 1 ? 0 : kNodesBeside;
-  for (int i = 0; i < beside; ++i) {
-    nodes.insert(std::next(rest.carried.from.begin(),
-                           static_cast<int>(random_.Index(rest.carried.from.size())))
-                     ->first);
+  const int random_nodes = stance_node.reachable.predecessor.size() == 1 ? 0 : kRandomNodes;
+  for (int i = 0; i < random_nodes; ++i) {
+    nodes.insert(
+        std::next(stance_node.reachable.predecessor.begin(),
+                  static_cast<int>(random_.Index(stance_node.reachable.predecessor.size())))
+            ->first);
   }
-  Rest& again = tree_[index];
-  bool is_worth_it = ++again.turns == 1;
+  StanceNode& node_to_expand = tree_[index];
+  bool expands_again = ++node_to_expand.expansions == 1;
   for (const int node : nodes) {
-    again.switched_at.insert(node);
-    is_worth_it = SwitchAt(index, node) || is_worth_it;
+    node_to_expand.expanded_at.insert(node);
+    expands_again = ExpandAt(index, node) || expands_again;
   }
-  // Another turn looks at grasps for which there was no room, and at other nodes.
-  if (is_worth_it || again.switched_at.size() < again.carried.from.size()) {
-    queue_.push({again.score - kAnotherTurn * again.turns, index});
+  // Another expansion considers successors that exceeded the maximum, and other grid nodes.
+  if (expands_again ||
+      node_to_expand.expanded_at.size() < node_to_expand.reachable.predecessor.size()) {
+    queue_.push({node_to_expand.score - kReexpansionPenalty * node_to_expand.expansions, index});
   }
 }
 
-bool GaitSearch::ComesToItsEnd(int index) {
-  while (!tree_[index].is_cut_off) {
-    Carried& carried = tree_[index].carried;
-    const int end = carried.end;
-    if (tree_.WayTo(index, end)) return true;
-    if (carried.end == end && carried.from.contains(end)) carried.end = carried.from.at(end);
+bool GaitSearch::ReachesEnd(int index) {
+  while (!tree_[index].is_pruned) {
+    ReachablePoses& reachable = tree_[index].reachable;
+    const int end = reachable.end;
+    if (tree_.PathTo(index, end)) return true;
+    if (reachable.end == end && reachable.predecessor.contains(end))
+      reachable.end = reachable.predecessor.at(end);
   }
   return false;
 }
 
-/// The whole gait, where a rest's path leads to the goal and is free.
+/// Plan the whole gait if the stance reaches the goal.
 std::optional<Gait> GaitSearch::GaitFrom(int index) {
-  Carried& carried = tree_[index].carried;
-  if (!grid_.IsGoal(carried.end) || !goal_.IsHeldBy(tree_[index].hold.holding)) {
+  ReachablePoses& reachable = tree_[index].reachable;
+  if (!grid_.IsGoal(reachable.end) || !goal_.IsHeldBy(tree_[index].stance.assignment)) {
     return std::nullopt;
   }
   ++counts_.at_goal;
-  const int end = carried.end;
-  if (tree_[index].ends_in_vain || grid_.StepOf(end) > tree_[index].farthest) return std::nullopt;
-  std::optional<Gait> gait = tree_.WayTo(index, end);
-  if (gait && tried_.are_tried() && !tried_.Try(index, *gait)) return std::nullopt;
-  // Else the rest goes on from where it did not fail, or from another place.
-  if (!gait && carried.from.contains(end)) carried.end = carried.from.at(end);
+  const int end = reachable.end;
+  if (tree_[index].goal_path_failed || grid_.StepOf(end) > tree_[index].farthest)
+    return std::nullopt;
+  std::optional<Gait> gait = tree_.PathTo(index, end);
+  if (gait && simulation_.is_enabled() && !simulation_.Simulate(index, *gait)) return std::nullopt;
+  // The stance continues before the failed motion, or elsewhere.
+  if (!gait && reachable.predecessor.contains(end)) reachable.end = reachable.predecessor.at(end);
   return gait;
 }
 
-void GaitSearch::AddTarget(const Holding& holding) {
-  if (targets_.insert(kinds_.KindOf(holding)).second) goal_.AddTarget(holding);
+void GaitSearch::AddTarget(const ContactAssignment& assignment) {
+  if (targets_.insert(clusters_.ClustersOf(assignment)).second) goal_.AddTarget(assignment);
 }
 
 int GaitSearch::PopNext() {
   while (true) {
-    const Waiting top = queue_.top();
+    const QueueEntry top = queue_.top();
     queue_.pop();
-    const Rest& rest = tree_[top.rest];
-    const double score = crowding_.PutBack(rest.score - kAnotherTurn * rest.turns,
-                                           rest.hold.holding, grid_.StepOf(rest.carried.end));
-    if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
-    queue_.push({score, top.rest});
+    const StanceNode& stance_node = tree_[top.index];
+    const double score =
+        novelty_.Penalized(stance_node.score - kReexpansionPenalty * stance_node.expansions,
+                           stance_node.stance.assignment, grid_.StepOf(stance_node.reachable.end));
+    if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.index;
+    queue_.push({score, top.index});
   }
 }
 
-/// Whether the same grasp was expanded that passes the rest's node.
-bool GaitSearch::WasExpandedAt(const Rest& rest) const {
-  const auto found = expanded_.find(rest.hold.holding);
+/// Return whether the assignment was expanded in a stance that reaches this grid node.
+bool GaitSearch::WasExpandedAt(const StanceNode& stance_node) const {
+  const auto found = expanded_.find(stance_node.stance.assignment);
   return found != expanded_.end() && std::ranges::any_of(found->second, [&](int other) {
-           return !tree_[other].is_cut_off && tree_[other].carried.from.contains(rest.node);
+           return !tree_[other].is_pruned &&
+                  tree_[other].reachable.predecessor.contains(stance_node.node);
          });
 }
 
-int GaitSearch::ComeTo(int index) {
-  if (tree_.WorkOutWay(tree_[index])) return index;
-  const int other = tree_.AfterWaitingAbove(index);
-  // From another rest there may be a way.
-  Rest& failed = tree_[index];
-  if (other < 0 && ++failed_[failed.hold.holding] < kMostFailures) failed.is_cut_off = true;
+int GaitSearch::ConnectToParent(int index) {
+  if (tree_.PlanPathFromParent(tree_[index])) return index;
+  const int other = tree_.AfterIdlingAbove(index);
+  // Another parent may lead to a path.
+  StanceNode& failed = tree_[index];
+  if (other < 0 && ++failed_[failed.stance.assignment] < kMaxFailures) failed.is_pruned = true;
   return other;
 }
 
 std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& deadline) {
-  if (!begun_) start_.empty() ? AddFirstRests() : AddGivenStart();
-  begun_ = true;
+  if (!is_started_) start_.empty() ? AddInitialStances() : AddGivenStart();
+  is_started_ = true;
   while (!queue_.empty() && counts_.expanded < most_expanded) {
     if (deadline.IsOver()) return std::nullopt;
     int index = PopNext();
-    const bool is_new = tree_[index].turns == 0;
-    if (tree_[index].is_cut_off || (is_new && WasExpandedAt(tree_[index]))) continue;
-    if (is_new) index = ComeTo(index);
+    const bool is_new = tree_[index].expansions == 0;
+    if (tree_[index].is_pruned || (is_new && WasExpandedAt(tree_[index]))) continue;
+    if (is_new) index = ConnectToParent(index);
     if (index < 0) continue;
-    Rest& rest = tree_[index];
-    // Where the object has nowhere to go it stays while there is something else to do.
-    if (grid_.steps() > 0 || !is_new) tree_.CarryOn(rest);
-    rest.carried.end = RollTowards(rest, rest.carried.end).node;
+    StanceNode& stance_node = tree_[index];
+    // If the object need not move, extend stances over the grid only when they are expanded again.
+    if (grid_.steps() > 0 || !is_new) tree_.ExtendReachable(stance_node);
+    stance_node.reachable.end = RollTowards(stance_node, stance_node.reachable.end).node;
     if (std::optional<Gait> gait = GaitFrom(index)) return gait;
-    if (rest.is_cut_off) continue;
-    // Whose way can't be gone had better be found out before much grows from it.
-    if (grid_.StepOf(rest.carried.end) > reached_ && !ComesToItsEnd(index)) continue;
-    if (!tried_.IsCarriedOut(index)) continue;
-    if (is_new) expanded_[rest.hold.holding].push_back(index);
-    const int last = grid_.StepOf(rest.carried.end);
+    if (stance_node.is_pruned) continue;
+    // Plan the path early if much could grow from it.
+    if (grid_.StepOf(stance_node.reachable.end) > reached_ && !ReachesEnd(index)) continue;
+    if (!simulation_.ExecutesInSimulation(index)) continue;
+    if (is_new) expanded_[stance_node.stance.assignment].push_back(index);
+    const int last = grid_.StepOf(stance_node.reachable.end);
     reached_ = std::max(reached_, last);
     ++counts_.expanded;
-    crowding_.Count(rest.hold.holding, last);
+    novelty_.Count(stance_node.stance.assignment, last);
     last_expanded_ = index;
     Expand(index);
   }

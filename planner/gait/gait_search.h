@@ -1,181 +1,269 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <queue>
 #include <set>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "planner/base/deadline.h"
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_memory.h"
-#include "planner/gait/carrier.h"
-#include "planner/gait/contact_kinds.h"
-#include "planner/gait/crowding.h"
+#include "planner/gait/change_paths.h"
 #include "planner/gait/finger_path.h"
 #include "planner/gait/gait.h"
-#include "planner/gait/goal_grasp.h"
-#include "planner/gait/hand_setup.h"
-#include "planner/gait/next_holdings.h"
+#include "planner/gait/hand_scene.h"
+#include "planner/gait/object_motion.h"
 #include "planner/gait/pose_grid.h"
-#include "planner/gait/rest_tree.h"
 #include "planner/gait/rolling.h"
-#include "planner/gait/slide_path.h"
-#include "planner/gait/tried_ways.h"
+#include "planner/gait/stance_tree.h"
+#include "planner/gait/successors.h"
+#include "planner/plan/reason.h"
 
 namespace regrasp::gait {
 
-/// What a search did, and what stopped it.
-struct GaitCounts {
-  std::int64_t grasps = 0;    ///< rests that were looked at
-  std::int64_t expanded = 0;  ///< from which fingers were switched
-  WayCounts ways;
-  std::int64_t colliding = 0;  ///< grasps in which fingers hit each other
-  std::int64_t rolled = 0;     ///< that are lost where contacts roll, with reserve
-  FailureCounts not_carried;   ///< to which the way was tried in vain
-  std::int64_t at_goal = 0;    ///< with which the object comes to its goal, if there is a way
-  /// Steps of the track: the farthest that was reached, or carried out where ways are tried.
-  int farthest = 0;
-  int steps = 0;  ///< that it has
+/// Result of the simulated execution of a gait.
+struct GaitExecution {
+  int changes = 0;             ///< contact changes completed before the failure
+  bool is_held = true;         ///< the initial grasp holds the object
+  bool fails_in_move = false;  ///< the failure occurs in an in-hand motion
+  bool is_whole = false;       ///< all segments execute
+  bool is_cut_short = false;   ///< the time limit was reached before a failure
+  plan::Reason reason = {};    ///< reason of the failure
+};
+/// Number of failures per reason.
+using FailureCounts = std::map<plan::Reason, std::int64_t>;
+/// Simulates the execution of a gait or of its beginning.
+using SimulateExecution = std::function<GaitExecution(const Gait&)>;
 
-  /// Adds those of a search from another end; what was reached stays.
+/// Lazy evaluation of the edges of a stance tree by simulated execution.
+/// Prunes subtrees whose path fails. The number of track steps that may remain unsimulated doubles
+/// after a success and halves after a failure.
+class EdgeSimulation {
+ public:
+  /// Both arguments outlive this object.
+  EdgeSimulation(const PoseGrid& grid, StanceTree& tree) : grid_(grid), tree_(tree) {}
+
+  /// Enable the simulation. Before, every path is trusted.
+  void SimulateWith(SimulateExecution simulate) { simulate_ = std::move(simulate); }
+  [[nodiscard]] bool is_enabled() const { return simulate_ != nullptr; }
+
+  /// Return whether the path to a stance executes.
+  /// A path that extends the confirmed one by less than the look-ahead is trusted.
+  [[nodiscard]] bool ExecutesInSimulation(int index);
+  /// Simulate a gait; prune the tree at the first failure.
+  /// @param gait  path to the stance, optionally extended to a reachable grid node.
+  /// @returns whether the whole gait executes.
+  [[nodiscard]] bool Simulate(int index, const Gait& gait);
+  /// Return whether the change from a stance at a node to an assignment failed in simulation.
+  [[nodiscard]] bool HasFailed(int index, int node, const ContactAssignment& to) const {
+    return failed_.contains({index, node, to});
+  }
+
+  /// Farthest track step that is confirmed by simulation, plus the look-ahead.
+  [[nodiscard]] int FarthestTrusted() const {
+    return is_enabled() ? farthest_ + lookahead_ : std::numeric_limits<int>::max();
+  }
+  /// Failed simulations by reason.
+  [[nodiscard]] const FailureCounts& failures() const { return failures_; }
+
+ private:
+  static constexpr int kLeastLookahead = 12;  ///< track steps, about 40 degrees
+  static constexpr int kGreatestLookahead = 96;
+  /// Failed changes from one stance after which the stance is limited to earlier steps.
+  static constexpr int kMaxFailedChanges = 3;
+  struct FailedChanges {
+    int count = 0;
+    int first_step = std::numeric_limits<int>::max();
+  };
+
+  /// Limit the in-hand motions of a stance to half the distance to a step that failed.
+  void LimitToMiddle(int index, int step);
+  void CountFailedChange(int index, int step);
+  void MarkExecutedUpTo(int index);
+
+  const PoseGrid& grid_;
+  StanceTree& tree_;
+  SimulateExecution simulate_;
+  int lookahead_ = kLeastLookahead;
+  int farthest_ = 0;
+  FailureCounts failures_;
+  std::set<std::tuple<int, int, ContactAssignment>> failed_;  ///< stance, grid node and assignment
+  std::map<int, FailedChanges> failed_changes_;               ///< by stance
+};
+
+/// Statistics of a search, for messages and for the selection between searches.
+struct GaitCounts {
+  std::int64_t evaluated = 0;  ///< number of evaluated stances
+  std::int64_t expanded = 0;   ///< number of expanded stances
+  PathFailureCounts path_failures;
+  std::int64_t colliding = 0;        ///< stances rejected because fingers collide
+  std::int64_t rolled = 0;           ///< stances rejected because the grasp is lost after rolling
+  FailureCounts execution_failures;  ///< failed simulations by reason
+  std::int64_t at_goal = 0;          ///< stances that reach the goal, before their path is planned
+  /// Farthest reached track step.
+  /// If edges are simulated, clamped to the confirmed steps plus the look-ahead.
+  int farthest = 0;
+  int steps = 0;  ///< number of track steps
+
+  /// Add the counts of a search from the other end; `farthest` and `steps` keep their values.
   void Add(const GaitCounts& other);
 };
 
-/// Searches a gait that takes an object from the start of a grid of poses to its goal: rests are
-/// grasps of three or more fingers; from each the object goes as far as these can follow, somewhere
-/// on that path a free finger is placed and another one lifted, or one that holds slides.
-///
-/// Best first: rests from which the object gets farthest, and from which each single finger could
-/// go on farther, come first; those nearer to the goal grasp before others. The more of them were
-/// expanded that end at one step, or are much alike, the later others come like these, so that a
-/// dead end does not hold the search up. What is costly, paths of fingers and ways round on the
-/// grid, is worked out when a rest's turn comes; certificates of moves when a gait is complete.
+/// Best-first search of a gait from the start of a pose grid to its goal.
+/// A node is a StanceNode: a contact assignment of three or more fingers, entered at one grid node.
+/// From there the object moves to every grid node that all holding fingers can follow. At some of
+/// these grid nodes a successor is generated: an idle finger is placed, a holding finger is
+/// released, or holding fingers slide.
+/// The priority is the track step that the stance reaches, plus a fraction of the steps that each
+/// finger alone could follow, minus penalties for offsets from the track, distance from the goal
+/// grasp, sliding steps, repeated expansion and similarity to expanded stances (NoveltyPenalty). It
+/// is an estimate of progress, not a path cost.
+/// Evaluation is lazy: finger paths and detours on the grid are planned when a node is popped from
+/// the queue, certificates of in-hand motions when a gait is complete.
 class GaitSearch {
  public:
-  /// @param carrier  on the grid.
-  /// @param memory   knows the setup's points as contacts under their numbers. All outlive this
-  ///                 object.
-  GaitSearch(const HandSetup& setup, const PoseGrid& grid, Carrier& carrier, const GaitEnds& ends,
-             criteria::GraspMemory& memory, RandomStream& random);
+  /// @param setup  hand and contacts.
+  /// @param grid  poses of the object, from start to goal.
+  /// @param checker  motion checker on the same grid.
+  /// @param ends  grasps at both ends; empty grasps are unconstrained.
+  /// @param memory  contacts of the setup under the same numbers. All references outlive this
+  ///     object.
+  GaitSearch(const HandSetup& setup, const PoseGrid& grid, ObjectMotionChecker& checker,
+             const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random);
 
-  /// From now on ways are tried before much grows from them, and gaits are carried out as a whole.
-  /// Before the first Run.
-  void TryWays(CarryOut carry_out) { tried_.TryWith(std::move(carry_out)); }
+  /// Enable simulated execution of edges and of complete gaits. Call it before the first Run.
+  void SimulateEdges(SimulateExecution simulate) { simulation_.SimulateWith(std::move(simulate)); }
 
-  /// Whether some fingers can hold the goal grasp, if there is one, at the goal pose.
-  [[nodiscard]] bool GoalIsHeld() const { return goal_.IsWithinReach(); }
+  /// Return whether some fingers can hold the goal grasp, if any, at the goal pose.
+  [[nodiscard]] bool GoalIsHeld() const { return goal_.IsReachable(); }
 
-  /// Goes on until so many rests were expanded in all calls together.
-  /// @returns nullopt where none was found until then, or until the deadline.
+  /// Continue the search until the total number of expansions reaches a limit.
+  /// @param most_expanded  maximum number of expanded stances over all calls.
+  /// @returns the gait; nullopt if the limit or the deadline is reached, or the queue is empty.
   [[nodiscard]] std::optional<Gait> Run(std::int64_t most_expanded, const Deadline& deadline);
-  /// Whether nothing is left to expand.
-  [[nodiscard]] bool IsExhausted() const { return begun_ && queue_.empty(); }
+  /// Return whether the queue is empty.
+  [[nodiscard]] bool IsExhausted() const { return is_started_ && queue_.empty(); }
 
   [[nodiscard]] GaitCounts counts() const;
 
-  // For a search that goes the other way.
+  // Interface of searches from the opposite end.
 
-  /// Begins with a hold at the start of the grid, instead of others.
-  void BeginWith(const Hold& hold);
-  /// The first rest of the way to a rest.
-  [[nodiscard]] int RootOf(int rest) const { return tree_.RootOf(rest); }
-  /// The rest that was expanded last, by number; −1 before.
+  /// Start from one stance at the start of the grid instead of the initial stances.
+  void StartFrom(const Stance& stance);
+  /// Return the root of a stance.
+  [[nodiscard]] int RootOf(int index) const { return tree_.RootOf(index); }
+  /// Index of the last expanded stance; −1 if none.
   [[nodiscard]] int last_expanded() const { return last_expanded_; }
-  [[nodiscard]] const Hold& HoldOf(int rest) const { return tree_[rest].hold; }
-  /// The nodes to which an expanded rest is carried; others where WayTo had to go round something.
-  [[nodiscard]] const std::map<int, int>& NodesOf(int rest) const {
-    return tree_[rest].carried.from;
+  [[nodiscard]] const Stance& StanceOf(int index) const { return tree_[index].stance; }
+  /// Grid nodes that an expanded stance reaches, with predecessors.
+  /// PathTo may change them when it plans a detour.
+  [[nodiscard]] const std::map<int, int>& NodesOf(int index) const {
+    return tree_[index].reachable.predecessor;
   }
-  /// Whether it turned out that the object can't be brought to a rest.
-  [[nodiscard]] bool IsCutOff(int rest) const { return tree_[rest].is_cut_off; }
-  /// The whole way with a rest to one of its nodes, where it is free.
-  [[nodiscard]] std::optional<Gait> WayTo(int rest, int node) { return tree_.WayTo(rest, node); }
-  /// As RestTree::WithWaiting.
-  [[nodiscard]] int WithWaiting(int rest, FingerIndex finger, const Posture& posture) {
-    return tree_.WithWaiting(rest, finger, posture);
+  /// Return whether a stance is known to be unreachable.
+  [[nodiscard]] bool IsPruned(int index) const { return tree_[index].is_pruned; }
+  /// Plan the path to a stance and on to one of its grid nodes; nullopt if it fails.
+  [[nodiscard]] std::optional<Gait> PathTo(int index, int node) {
+    return tree_.PathTo(index, node);
   }
-  /// Finds more nodes to which an expanded rest is carried.
-  void CarryAround(int rest) { tree_.CarryOn(tree_[rest]); }
-  /// From now on grasps near to this one are looked at before others, too.
-  void AddTarget(const Holding& holding);
+  /// Same as StanceTree::WithIdlePosture.
+  [[nodiscard]] int WithIdlePosture(int index, FingerIndex finger, const Posture& posture) {
+    return tree_.WithIdlePosture(index, finger, posture);
+  }
+  /// Search more grid nodes that an expanded stance reaches.
+  void ExtendReachable(int index) { tree_.ExtendReachable(tree_[index]); }
+  /// Prefer stances near this assignment in future expansions, too.
+  void AddTarget(const ContactAssignment& assignment);
 
  private:
-  /// The last node on a way at which tips that roll hold, and where they are there.
+  /// Last grid node at which the rolled grasp is valid, with the fingertips there.
   struct RolledTo {
     int node = 0;
     RolledTips tips;
   };
-  struct Waiting {
+  struct QueueEntry {
     double score;
-    int rest;
-    bool operator<(const Waiting& other) const {
-      return score != other.score ? score < other.score : rest > other.rest;
+    int index;
+    bool operator<(const QueueEntry& other) const {
+      return score != other.score ? score < other.score : index > other.index;
     }
   };
-  /// Of a grasp that was taken up at a node; no rest: it could not be.
-  struct Taken {
+  /// A grasp queued at a grid node; `index` is -1 if it was rejected.
+  struct QueuedGrasp {
     int node;
-    int rest = -1;
+    int index = -1;
   };
 
-  /// The step that counts as reached: of ways that are tried none beyond what is carried out and
-  /// believed.
-  [[nodiscard]] int farthest() const { return std::min(reached_, tried_.MayReach()); }
-  void AddFirstRests();
+  /// Farthest track step considered reached.
+  /// If edges are simulated, clamped to the confirmed steps plus the look-ahead.
+  [[nodiscard]] int farthest() const { return std::min(reached_, simulation_.FarthestTrusted()); }
+  void AddInitialStances();
   void AddGivenStart();
   void Expand(int index);
-  /// @returns whether rests are taken up.
-  bool SwitchAt(int index, int node);
-  /// How good a grasp is that a change leads to; nullopt where it is none.
-  [[nodiscard]] std::optional<double> ScoreAfter(const Rest& from, const Holding& to, int node);
-  /// Whether a grasp was taken up at a node, and is not cut off.
-  [[nodiscard]] bool IsTaken(const Holding& holding, int node) const;
-  /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
-  bool Add(Rest rest);
-  [[nodiscard]] bool IsGrasp(const Holding& holding);
-  /// Where tips roll to when the object is carried towards a node; without reserve it comes there.
-  [[nodiscard]] RolledTo RollTowards(const Rest& rest, int node);
-  /// Of a new rest, from `rolled_before`. @returns whether its tips hold there.
-  [[nodiscard]] bool TakeRolledTips(Rest& rest);
-  [[nodiscard]] bool WasExpandedAt(const Rest& rest) const;
-  [[nodiscard]] double ScoreOf(const Holding& holding, int node, int slides, int last);
-  /// Whether there is a way to a rest and on with it; `carried.end` is where it leads to, which
-  /// may be nearer than before.
-  [[nodiscard]] bool ComesToItsEnd(int index);
-  /// Works out the way to a new rest. @returns the rest as it is come to; −1 where it is not.
-  [[nodiscard]] int ComeTo(int index);
-  /// The next rest in turn.
+  /// Queue the best successors of a stance at one grid node.
+  /// @returns whether any was queued.
+  bool ExpandAt(int index, int node);
+  /// Return the priority of a successor; nullopt if it is not an admissible grasp.
+  [[nodiscard]] std::optional<double> ScoreAfter(const StanceNode& from,
+                                                 const ContactAssignment& to, int node);
+  /// Return whether an assignment is queued at a grid node and not pruned.
+  [[nodiscard]] bool IsQueued(const ContactAssignment& assignment, int node) const;
+  /// Evaluate and queue a stance if it is admissible, new and collision-free.
+  /// @returns whether it was queued.
+  bool Add(StanceNode stance_node);
+  [[nodiscard]] bool IsGrasp(const ContactAssignment& assignment);
+  /// Roll the fingertips while the object moves towards a grid node.
+  /// Without rolling, return the grid node itself.
+  [[nodiscard]] RolledTo RollTowards(const StanceNode& stance_node, int node);
+  /// Initialize the rolled fingertips of a new stance from `rolled_before`.
+  /// @returns whether the grasp is valid there.
+  [[nodiscard]] bool InitRolledTips(StanceNode& stance_node);
+  [[nodiscard]] bool WasExpandedAt(const StanceNode& stance_node) const;
+  [[nodiscard]] double ScoreOf(const ContactAssignment& assignment, int node, int slides, int last);
+  /// Plan the path to a stance and on to `reachable.end`.
+  /// If a motion fails, `reachable.end` moves to its predecessor.
+  /// @returns whether such a path exists.
+  [[nodiscard]] bool ReachesEnd(int index);
+  /// Plan the edge from the parent to a new stance.
+  /// @returns index of the connected stance, possibly a new one; −1 if there is no path.
+  [[nodiscard]] int ConnectToParent(int index);
+  /// Pop the stance with the highest current priority.
   [[nodiscard]] int PopNext();
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
 
   const HandSetup& setup_;
   const PoseGrid& grid_;
-  std::vector<int> start_;  ///< the grasp to begin with; none: any
+  std::vector<int> start_;  ///< contacts of the start grasp; empty: any
   std::vector<FingerIndex> start_fingers_;
   GoalGrasp goal_;
-  int most_holding_;
+  int max_holding_;
   criteria::GraspMemory& memory_;
   RandomStream& random_;
-  Carrier& carrier_;
+  ObjectMotionChecker& checker_;
   SlideRoutes routes_;
-  NextHoldings next_;
-  ContactKinds kinds_;
-  Crowding crowding_;
+  SuccessorGenerator successors_;
+  ContactClusters clusters_;
+  NoveltyPenalty novelty_;
   RollingTips rolling_;
-  RestTree tree_;
-  TriedWays tried_;
-  std::priority_queue<Waiting> queue_;
-  /// Where each grasp was taken up, or could not be.
-  std::map<Holding, std::vector<Taken>> taken_;
-  std::map<Holding, int> failed_;  ///< times that a grasp was not come to
-  /// Of each grasp the rests that were expanded.
-  std::map<Holding, std::vector<int>> expanded_;
+  StanceTree tree_;
+  EdgeSimulation simulation_;
+  std::priority_queue<QueueEntry> queue_;
+  /// Grid nodes at which each assignment was queued or rejected.
+  std::map<ContactAssignment, std::vector<QueuedGrasp>> queued_;
+  std::map<ContactAssignment, int> failed_;  ///< failed connections by assignment
+  /// Expanded stances by assignment.
+  std::map<ContactAssignment, std::vector<int>> expanded_;
   GaitCounts counts_;
-  int reached_ = 0;  ///< the farthest step
+  int reached_ = 0;  ///< farthest reached step
   int last_expanded_ = -1;
-  std::set<Holding> targets_;  ///< kinds of them
-  bool begun_ = false;
+  std::set<ContactAssignment> targets_;  ///< clusters of the added targets
+  bool is_started_ = false;
 };
 
 }  // namespace regrasp::gait

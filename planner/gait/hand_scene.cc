@@ -15,14 +15,24 @@ using kinematics::LinkShape;
 
 namespace {
 
-/// Of a drive's range.
-constexpr double kFromLimit = 0.02;
+/// Fraction of a joint range at each end that sampled configurations avoid.
+constexpr double kLimitClearance = 0.02;
 
 bool AreApart(const ConvexShape& a, const Ball& ball_a, const ConvexShape& b, const Ball& ball_b,
               double distance) {
   const double apart = ball_a.radius + ball_b.radius + distance;
   if ((ball_a.centre - ball_b.centre).squaredNorm() > apart * apart) return true;
   return collision::AreApart(a, b, distance);
+}
+
+/// Maximum change of a joint angle between adjacent grid nodes while a finger keeps its contact,
+/// radians. A larger change indicates another branch of the inverse kinematics.
+constexpr double kMaxJump = 0.35;
+/// First stride of the search for the end of a run, steps; a power of two.
+constexpr int kRunStride = 4;
+
+bool IsContinuous(const Posture& from, const Posture& to, int steps) {
+  return (to - from).cwiseAbs().maxCoeff() <= steps * kMaxJump;
 }
 
 }  // namespace
@@ -69,7 +79,7 @@ Posture HandScene::DrawPosture(FingerIndex finger, RandomStream& random) const {
   const Finger& chain = hand_.fingers[finger];
   Posture posture(chain.drives);
   for (int i = 0; i < chain.drives; ++i) {
-    posture[i] = chain.lower[i] + (kFromLimit + (1 - 2 * kFromLimit) * random.Uniform()) *
+    posture[i] = chain.lower[i] + (kLimitClearance + (1 - 2 * kLimitClearance) * random.Uniform()) *
                                       (chain.upper[i] - chain.lower[i]);
   }
   return posture;
@@ -153,6 +163,60 @@ double HandScene::MotionBound(FingerIndex finger, const Posture& from, const Pos
 double HandScene::MotionBound(const Isometry3d& from, const Isometry3d& to) const {
   const Eigen::AngleAxisd turn(from.linear().transpose() * to.linear());
   return (to.translation() - from.translation()).norm() + std::abs(turn.angle()) * object_reach_;
+}
+
+kinematics::TipTarget TargetAt(const kinematics::Finger& finger, const SurfacePoint& contact,
+                               const Eigen::Isometry3d& pose) {
+  return {pose * (contact.p - finger.tip.radius * contact.n), pose.linear() * contact.n};
+}
+
+std::optional<Posture> ReachMap::Compute(FingerIndex finger, int point, int node) const {
+  const Eigen::Isometry3d pose = grid_.PoseAt(node);
+  const kinematics::TipTarget target = TargetAt(scene_.finger(finger), points_[point], pose);
+  std::optional<Posture> posture = inverse_[finger].Solve(target);
+  if (!posture) return std::nullopt;
+  const PlacedFinger placed = scene_.Place(finger, *posture);
+  if (!scene_.KeepsOffHand(placed)) return std::nullopt;
+  if (!scene_.KeepsOffObject(placed, pose, TipContact::kTouching)) return std::nullopt;
+  return posture;
+}
+
+ReachMap::Cached& ReachMap::CachedAt(FingerIndex finger, int point, int node) {
+  const std::size_t finger_point = static_cast<std::size_t>(finger) * points_.size() + point;
+  const auto [found, is_new] = cache_.try_emplace(finger_point * grid_.size() + node);
+  if (is_new) found->second.posture = Compute(finger, point, node);
+  return found->second;
+}
+
+const Posture* ReachMap::Find(FingerIndex finger, int point, int node) {
+  const Cached& cached = CachedAt(finger, point, node);
+  return cached.posture ? &*cached.posture : nullptr;
+}
+
+bool ReachMap::CanFollow(FingerIndex finger, int point, int node, int neighbour) {
+  const Posture* from = Find(finger, point, node);
+  const Posture* to = Find(finger, point, neighbour);
+  return from != nullptr && to != nullptr && IsContinuous(*from, *to, 1);
+}
+
+int ReachMap::ComputeRunEnd(FingerIndex finger, int point, int node) {
+  const Posture* at = Find(finger, point, node);
+  for (int stride = kRunStride; stride > 0; stride /= 2) {
+    while (true) {
+      const int next = grid_.Onward(node, stride);
+      const Posture* then = next == PoseGrid::kNoNode ? nullptr : Find(finger, point, next);
+      if (then == nullptr || !IsContinuous(*at, *then, stride)) break;
+      node = next;
+      at = then;
+    }
+  }
+  return grid_.StepOf(node);
+}
+
+int ReachMap::RunEnd(FingerIndex finger, int point, int node) {
+  Cached& cached = CachedAt(finger, point, node);
+  if (cached.run_end < 0) cached.run_end = ComputeRunEnd(finger, point, node);
+  return cached.run_end;
 }
 
 }  // namespace regrasp::gait

@@ -2,47 +2,54 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "planner/base/random.h"
+#include "planner/collision/ball_contact.h"
 #include "planner/collision/convex_shape.h"
 #include "planner/collision/surface_tree.h"
+#include "planner/gait/pose_grid.h"
+#include "planner/grasp/contact.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_model.h"
+#include "planner/kinematics/inverse_kinematics.h"
 
 namespace regrasp::gait {
 
 using kinematics::Posture;
 
-/// How near a fingertip may be to the object.
+/// Permitted proximity of a fingertip to the object.
 enum class TipContact {
-  kFree,      ///< as far off as any other link
-  kTouching,  ///< it touches: its ball and the link behind it may be in the surface by kTipDepth
+  kFree,      ///< keeps the same margin as every other link
+  kTouching,  ///< may penetrate the surface by kTipDepth, with the link behind it
 };
 
-/// What a touching fingertip is allowed to overlap with the object, metres: a contact is exact, and
-/// what is certified between samples is not.
+/// Permitted penetration of a touching fingertip, metres.
+/// Contacts are exact, but the postures certified between two samples are not.
 inline constexpr double kTipDepth = 2e-4;
 
-/// The shapes of a finger in some posture, in the palm's frame.
+/// Collision shapes of a finger in one joint configuration, in the palm's frame.
 struct PlacedFinger {
   FingerIndex finger;
-  std::vector<collision::ConvexShape> shapes;  ///< as Finger::shapes
-  std::vector<collision::Ball> balls;          ///< around them
+  std::vector<collision::ConvexShape> shapes;  ///< in the order of Finger::shapes
+  std::vector<collision::Ball> balls;          ///< bounding spheres of the shapes
 };
 
-/// What postures keep beside the margin, metres.
-inline constexpr double kSpare = 5e-4;
+/// Clearance of sampled joint configurations in addition to the margin, metres.
+/// It leaves room to certify the paths between them.
+inline constexpr double kPostureMargin = 5e-4;
 
-/// A hand and an object that run into each other or do not. Lengths in metres; poses of the object
-/// are from its own frame (the file's axes and origin, scaled) to the palm's.
+/// Collision checks between the links of a hand, its palm and an object.
+/// Lengths are in metres. Object poses map the object's frame (the file's axes and origin, scaled)
+/// to the palm's frame.
 class HandScene {
  public:
   using Motion = std::optional<double>;
 
-  /// @param hand, surface  outlive this object.
-  /// @param margin  that links keep from each other, from the palm and from the object. Postures
-  ///                keep kSpare more, so that paths between them can be certified.
+  /// @param hand, surface  hand model and object surface; outlive this object.
+  /// @param margin  minimum distance between links, palm and object, metres. Sampled joint
+  ///     configurations keep kPostureMargin more.
   HandScene(const kinematics::HandModel& hand, const collision::SurfaceTree& surface,
             double margin);
 
@@ -53,59 +60,138 @@ class HandScene {
   [[nodiscard]] int finger_count() const { return static_cast<int>(hand_.fingers.size()); }
   [[nodiscard]] double margin() const { return margin_; }
 
-  /// Each drive anywhere in its range, but for the last bit at both ends.
+  /// Draw a joint configuration uniformly from the joint ranges, without their outermost 2 %.
   [[nodiscard]] Posture DrawPosture(FingerIndex finger, RandomStream& random) const;
   [[nodiscard]] PlacedFinger Place(FingerIndex finger, const Posture& posture) const;
 
-  // Of a posture on a path, `motion` says how far the shapes may come nearer than they are in it,
-  // metres: where the answer is yes, everything within that keeps the margin.
+  // `motion` is a bound on the approach of two shapes within a path interval, metres. If the check
+  // passes, the whole interval keeps the margin.
 
-  /// Whether a finger keeps off the palm and off itself.
+  /// Return whether a finger is clear of the palm and of its own links.
   [[nodiscard]] bool KeepsOffHand(const PlacedFinger& placed, Motion motion = {}) const;
-  /// Of a finger.
+  /// Subset of the links of a finger.
   enum class Links { kAll, kTip, kBehindTip };
-  /// Whether it keeps off the object.
+  /// Return whether the selected links of a finger are clear of the object.
   [[nodiscard]] bool KeepsOffObject(const PlacedFinger& placed, const Eigen::Isometry3d& pose,
                                     TipContact tip, Motion motion = {},
                                     Links links = Links::kAll) const;
-  /// How far a finger is from the object, no more than `limit`.
+  /// Return the distance between a finger and the object, clamped to `limit`, metres.
   [[nodiscard]] double DistanceFromObject(const PlacedFinger& placed, const Eigen::Isometry3d& pose,
                                           double limit) const;
   [[nodiscard]] bool KeepApart(const PlacedFinger& a, const PlacedFinger& b,
                                Motion motion = {}) const;
-  /// Whether the object keeps off the palm.
+  /// Return whether the object is clear of the palm.
   [[nodiscard]] bool KeepsOffPalm(const Eigen::Isometry3d& pose, Motion motion = {}) const;
 
-  /// A bound on how far any point of the finger's links moves between two postures, metres.
+  /// Bound the motion of any point of a finger between two joint configurations.
+  /// Length in metres.
   [[nodiscard]] double MotionBound(FingerIndex finger, const Posture& from,
                                    const Posture& to) const;
-  /// The same of the object between two poses, the shorter screwless way: its origin straight, its
-  /// orientation about one axis.
+  /// Bound the motion of any point of the object between two poses.
+  /// Length in metres. The origin moves linearly, and the object rotates about one axis.
   [[nodiscard]] double MotionBound(const Eigen::Isometry3d& from,
                                    const Eigen::Isometry3d& to) const;
 
  private:
   using Part = kinematics::HandModel::Part;
-  [[nodiscard]] double Needed(Motion motion) const { return margin_ + motion.value_or(kSpare); }
-  /// Of shapes that may run into each other; those that never can are not looked at: they are
-  /// many, and touch, for which GJK takes longest.
+  [[nodiscard]] double Needed(Motion motion) const {
+    return margin_ + motion.value_or(kPostureMargin);
+  }
+  /// Pair of shapes that may collide.
+  /// Excluded are pairs that the hand model ignores: there are many, and they overlap, which is the
+  /// slowest case of GJK.
   struct ShapePair {
     int a;
     int b;
   };
-  /// All pairs that the hand does not ignore. @param a, b  fingers, the same for one with itself;
-  /// not valid: the palm.
+  /// Return all pairs that the hand model does not ignore.
+  /// @param a, b  fingers; equal for self-collision, invalid for the palm.
   [[nodiscard]] std::vector<ShapePair> CheckedPairs(FingerIndex a, FingerIndex b) const;
 
   const kinematics::HandModel& hand_;
   const collision::SurfaceTree& surface_;
   double margin_;
-  double object_reach_;  ///< of its points from its origin
+  double object_reach_;  ///< radius of the object about its origin, metres
   std::vector<collision::Ball> palm_balls_;
-  std::vector<std::vector<collision::Ball>> balls_;  ///< by finger and shape, in the link's frame
-  std::vector<std::vector<ShapePair>> with_palm_;    ///< by finger
-  std::vector<std::vector<std::vector<ShapePair>>> with_fingers_;  ///< by both fingers
-  std::vector<std::vector<std::vector<double>>> reach_;  ///< LinkReach by finger and shape
+  std::vector<std::vector<collision::Ball>>
+      balls_;  ///< bounding spheres [finger][shape], in the link's frame
+  std::vector<std::vector<ShapePair>> with_palm_;                  ///< by finger
+  std::vector<std::vector<std::vector<ShapePair>>> with_fingers_;  ///< by pair of fingers
+  std::vector<std::vector<std::vector<double>>> reach_;            ///< LinkReach [finger][shape]
 };
+
+/// A contact in the object's frame, metres.
+struct SurfacePoint {
+  Eigen::Vector3d p;
+  Eigen::Vector3d n;  ///< unit normal, inward
+};
+
+/// Return the fingertip target at a contact.
+/// The centre of the fingertip sphere is one radius outside the surface.
+/// @param pose  object pose in the palm's frame.
+[[nodiscard]] kinematics::TipTarget TargetAt(const kinematics::Finger& finger,
+                                             const SurfacePoint& contact,
+                                             const Eigen::Isometry3d& pose);
+
+/// Cache of the joint configurations of single fingers at contacts and grid nodes.
+/// Each finger is checked alone, without the other fingers. Entries are computed on demand.
+class ReachMap {
+ public:
+  /// @param inverse  inverse kinematics [finger].
+  /// @param points  contacts by number. All references outlive this object.
+  ReachMap(const HandScene& scene, const std::vector<kinematics::InverseKinematics>& inverse,
+           const std::vector<SurfacePoint>& points, const PoseGrid& grid)
+      : scene_(scene), inverse_(inverse), points_(points), grid_(grid) {}
+
+  /// Return the joint configuration of a finger at a contact and a grid node.
+  /// The configuration is clear of palm, object and the finger's own links.
+  /// @returns pointer valid for the lifetime of this object; null if the finger does not reach the
+  ///     contact.
+  [[nodiscard]] const Posture* Find(FingerIndex finger, int point, int node);
+
+  /// Return whether a finger keeps its contact between adjacent grid nodes.
+  /// The joint configuration must be continuous.
+  /// @param node  grid node at which the finger reaches the contact.
+  [[nodiscard]] bool CanFollow(FingerIndex finger, int point, int node, int neighbour);
+
+  /// Estimate the last track step up to which a finger keeps a contact.
+  /// Moves along the track at the offset of the grid node; not every pose is checked.
+  /// @param node  grid node at which the finger reaches the contact.
+  [[nodiscard]] int RunEnd(FingerIndex finger, int point, int node);
+
+ private:
+  struct Cached {
+    std::optional<Posture> posture;
+    int run_end = -1;  ///< track step; −1 if not computed yet
+  };
+  [[nodiscard]] Cached& CachedAt(FingerIndex finger, int point, int node);
+  [[nodiscard]] std::optional<Posture> Compute(FingerIndex finger, int point, int node) const;
+  [[nodiscard]] int ComputeRunEnd(FingerIndex finger, int point, int node);
+
+  const HandScene& scene_;
+  const std::vector<kinematics::InverseKinematics>& inverse_;
+  const std::vector<SurfacePoint>& points_;
+  const PoseGrid& grid_;
+  std::unordered_map<std::size_t, Cached> cache_;
+};
+
+/// A hand with an object: collision scene, inverse kinematics and candidate contacts.
+struct HandSetup {
+  const HandScene& scene;
+  const std::vector<kinematics::InverseKinematics>& inverse;  ///< [finger]
+  const std::vector<SurfacePoint>& points;
+  double scale = 1;  ///< metres per unit of the object's file
+  /// Surface on which fingertips roll. If set, grasps must be valid at the rolled contacts; null:
+  /// contacts stay at the planned points.
+  const collision::BallContact* rolled_on = nullptr;
+  /// Required force margin under the object's weight at rolled contacts (RollingTips).
+  double force_margin = 0;
+  bool may_slide = true;  ///< whether holding fingers may slide
+  int fewest_beside_sliding =
+      0;  ///< minimum number of stationary holding fingers during a sliding step
+};
+
+/// Candidate joint configurations of an idle finger [finger][candidate], best first.
+using IdlePostures = std::vector<std::vector<Posture>>;
 
 }  // namespace regrasp::gait

@@ -1,11 +1,18 @@
 #include "planner/gait/plan_of_gait.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "planner/gait/object_motion.h"
 #include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::gait {
+
 namespace {
+
+bool IsSameKeyframe(const Keyframe& a, const Keyframe& b) {
+  return a.pose.matrix() == b.pose.matrix() && a.postures == b.postures;
+}
 
 plan::HandState StateOf(const Keyframe& frame, const kinematics::HandModel& hand) {
   plan::HandState state{frame.pose, {}};
@@ -15,51 +22,76 @@ plan::HandState StateOf(const Keyframe& frame, const kinematics::HandModel& hand
   return state;
 }
 
-/// The states of some keyframes of a stretch.
-plan::HandPath PathOf(const Stretch& stretch, int first, int last,
+/// Return the hand states of the keyframes first to last of a segment.
+plan::HandPath PathOf(const PlanSegment& segment, int first, int last,
                       const kinematics::HandModel& hand) {
   plan::HandPath path;
-  for (int i = first; i <= last; ++i) path.push_back(StateOf(stretch.path[i], hand));
+  for (int i = first; i <= last; ++i) path.push_back(StateOf(segment.path[i], hand));
   return path;
 }
 
-plan::HandPath PathOf(const Stretch& stretch, const kinematics::HandModel& hand) {
-  return PathOf(stretch, 0, static_cast<int>(stretch.path.size()) - 1, hand);
+plan::HandPath PathOf(const PlanSegment& segment, const kinematics::HandModel& hand) {
+  return PathOf(segment, 0, static_cast<int>(segment.path.size()) - 1, hand);
 }
 
 plan::FingerGrasp GraspAtEnd(const plan::Plan& plan) {
-  plan::FingerGrasp holding = plan.initial;
-  for (const plan::Step& step : plan.steps) holding = plan::GraspAfter(holding, step);
-  return holding;
+  plan::FingerGrasp grasp = plan.initial;
+  for (const plan::Step& step : plan.steps) grasp = plan::GraspAfter(grasp, step);
+  return grasp;
 }
 
-/// Some fingers slide, the others stay where they are.
-plan::Align SlideOf(const Stretch& stretch, const plan::FingerGrasp& holding,
+/// Return the sliding step: some fingers slide, the others stay.
+plan::Align SlideOf(const PlanSegment& segment, const plan::FingerGrasp& grasp,
                     const kinematics::HandModel& hand) {
   plan::Align align;
   align.motion.emplace();
-  for (std::size_t i = 0; i < stretch.along.size(); ++i) {
-    align.waypoints.push_back(holding);
+  for (std::size_t i = 0; i < segment.waypoints.size(); ++i) {
+    align.waypoints.push_back(grasp);
     for (plan::FingerContact& held : align.waypoints.back()) {
-      const auto slid = std::ranges::find(stretch.slid, held.finger, &Stretch::Slid::finger);
-      if (slid != stretch.slid.end()) {
-        held.contact = stretch.along[i][slid - stretch.slid.begin()];
+      const auto slid = std::ranges::find(segment.slid, held.finger, &PlanSegment::Slid::finger);
+      if (slid != segment.slid.end()) {
+        held.contact = segment.waypoints[i][slid - segment.slid.begin()];
       }
     }
     if (i == 0) continue;
-    align.motion->push_back(PathOf(stretch, stretch.along_at[i - 1], stretch.along_at[i], hand));
+    align.motion->push_back(
+        PathOf(segment, segment.waypoint_frames[i - 1], segment.waypoint_frames[i], hand));
   }
   return align;
 }
 
-/// Whether a stretch is one step with the one before: a placed finger, and then another released.
-bool BelongTogether(const std::vector<Stretch>& stretches, std::size_t i) {
-  using enum Stretch::Kind;
-  return i > 0 && stretches[i].kind == kRelease && stretches[i - 1].kind == kPlace &&
-         stretches[i].finger != stretches[i - 1].finger;
+/// Return whether a segment belongs to the same plan step as the previous one.
+/// True if a finger is placed and then another one is released.
+bool BelongTogether(const std::vector<PlanSegment>& segments, std::size_t i) {
+  using enum PlanSegment::Kind;
+  return i > 0 && segments[i].kind == kRelease && segments[i - 1].kind == kPlace &&
+         segments[i].finger != segments[i - 1].finger;
 }
 
 }  // namespace
+
+Gait MergeMoves(const HandSetup& setup, const Gait& gait) {
+  using enum PlanSegment::Kind;
+  Gait fewer{gait.initial, gait.start, {}};
+  for (std::size_t i = 0; i < gait.segments.size(); ++i) {
+    if (gait.segments[i].kind != kMove) {
+      fewer.segments.push_back(gait.segments[i]);
+      continue;
+    }
+    PlanSegment move = gait.segments[i];
+    for (; i + 1 < gait.segments.size() && gait.segments[i + 1].kind == kMove; ++i) {
+      const std::vector<Keyframe>& more = gait.segments[i + 1].path;
+      move.path.insert(move.path.end(), more.begin() + 1, more.end());
+    }
+    if (setup.rolled_on == nullptr) {
+      if (IsSameKeyframe(move.path.front(), move.path.back())) continue;
+      auto straight = FindMove(setup, AssignmentAtEnd(fewer), move.path.front(), move.path.back());
+      if (straight) move.path = *std::move(straight);
+    }
+    fewer.segments.push_back(std::move(move));
+  }
+  return fewer;
+}
 
 plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
                   const std::vector<grasp::Contact>& contacts) {
@@ -72,33 +104,33 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
   plan.planner = "gait";
   plan.hand =
       plan::HandUse{hand.name, hand.file, hand.sha256, StateOf(gait.start, hand),
-                    (gait.stretches.empty() ? gait.start : gait.stretches.back().path.back()).pose};
+                    (gait.segments.empty() ? gait.start : gait.segments.back().path.back()).pose};
   for (FingerIndex finger{0}; finger < plan.fingers; ++finger) {
     if (gait.initial[finger] == kNone) continue;
     plan.initial.push_back({finger, contacts[gait.initial[finger]]});
   }
-  for (std::size_t i = 0; i < gait.stretches.size(); ++i) {
-    const Stretch& stretch = gait.stretches[i];
-    switch (stretch.kind) {
-      case Stretch::Kind::kMove:
-        plan.steps.emplace_back(plan::Move{PathOf(stretch, hand)});
+  for (std::size_t i = 0; i < gait.segments.size(); ++i) {
+    const PlanSegment& segment = gait.segments[i];
+    switch (segment.kind) {
+      case PlanSegment::Kind::kMove:
+        plan.steps.emplace_back(plan::Move{PathOf(segment, hand)});
         break;
-      case Stretch::Kind::kPlace: {
-        const plan::FingerContact placed{stretch.finger, contacts[stretch.contact]};
+      case PlanSegment::Kind::kPlace: {
+        const plan::FingerContact placed{segment.finger, contacts[segment.contact]};
         plan.steps.emplace_back(
-            plan::Switch{{placed}, {}, plan::SwitchMotion{PathOf(stretch, hand), {}}});
+            plan::Switch{{placed}, {}, plan::SwitchMotion{PathOf(segment, hand), {}}});
         break;
       }
-      case Stretch::Kind::kSlide:
-        plan.steps.emplace_back(SlideOf(stretch, GraspAtEnd(plan), hand));
+      case PlanSegment::Kind::kSlide:
+        plan.steps.emplace_back(SlideOf(segment, GraspAtEnd(plan), hand));
         break;
-      case Stretch::Kind::kRelease: {
-        if (!BelongTogether(gait.stretches, i)) {
+      case PlanSegment::Kind::kRelease: {
+        if (!BelongTogether(gait.segments, i)) {
           plan.steps.emplace_back(plan::Switch{{}, {}, plan::SwitchMotion{{}, {}}});
         }
         auto& last = std::get<plan::Switch>(plan.steps.back());
-        last.release.push_back(stretch.finger);
-        last.motion->release = PathOf(stretch, hand);
+        last.release.push_back(segment.finger);
+        last.motion->release = PathOf(segment, hand);
         break;
       }
     }
@@ -110,10 +142,10 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
 int CountChanges(const Gait& gait, int steps) {
   int changes = 0;
   int count = 0;
-  for (std::size_t i = 0; i < gait.stretches.size(); ++i) {
-    if (!BelongTogether(gait.stretches, i)) ++count;
+  for (std::size_t i = 0; i < gait.segments.size(); ++i) {
+    if (!BelongTogether(gait.segments, i)) ++count;
     if (count > steps) break;
-    if (gait.stretches[i].kind != Stretch::Kind::kMove) ++changes;
+    if (gait.segments[i].kind != PlanSegment::Kind::kMove) ++changes;
   }
   return changes;
 }

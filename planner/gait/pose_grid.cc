@@ -1,17 +1,22 @@
 #include "planner/gait/pose_grid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <numeric>
 
 namespace regrasp::gait {
+
 namespace {
+
+constexpr double kTurnStep = 0.06;    // radians
+constexpr double kShiftStep = 0.004;  // metres
 
 constexpr double kShift = 0.008;  // metres
 constexpr double kTilt = 0.15;    // radians
-/// Units that an offset has in all.
-constexpr int kMostUnits = 3;
+/// Maximum number of units of an offset.
+constexpr int kMaxUnits = 3;
 
 template <typename Offset>
 int Units(const Offset& offset) {
@@ -20,6 +25,21 @@ int Units(const Offset& offset) {
 }
 
 }  // namespace
+
+PoseTrack ObjectTask::From(const Eigen::Isometry3d& start, int steps) const {
+  if (!goal_) return {start, centre_, turn_, Eigen::Vector3d::Zero(), turn_.angle == 0 ? 0 : steps};
+  const Eigen::AngleAxisd turn(start.linear().transpose() * goal_->linear());
+  const Eigen::Vector3d shift = *goal_ * centre_ - start * centre_;
+  const bool stays = turn.angle() == 0 && shift.isZero(0);
+  return {start, centre_, {turn.axis(), turn.angle()}, shift, stays ? 0 : steps};
+}
+
+PoseTrack ObjectTask::From(const Eigen::Isometry3d& start) const {
+  const PoseTrack track = From(start, 1);
+  const double steps =
+      std::max(std::abs(track.turn().angle) / kTurnStep, track.shift().norm() / kShiftStep);
+  return From(start, std::max(1, static_cast<int>(std::ceil(steps))));
+}
 
 PoseGrid::Offsets::Offsets(int dimensions) {
   std::map<Offset, int> numbers = {{{}, 0}};
@@ -35,8 +55,8 @@ PoseGrid::Offsets::Offsets(int dimensions) {
   };
   all.push_back({});
   for (std::size_t from = 0; from < all.size(); ++from) {
-    if (Units(all[from]) == kMostUnits) continue;
-    // A copy: `all` grows meanwhile.
+    if (Units(all[from]) == kMaxUnits) continue;
+    // A copy, because `all` grows in the loop.
     one_off(Offset(all[from]), [&](const Offset& other) {
       if (numbers.try_emplace(other, all.size()).second) all.push_back(other);
     });
@@ -54,10 +74,10 @@ PoseGrid::Offsets::Offsets(int dimensions) {
 }
 
 const PoseGrid::Offsets& PoseGrid::OffsetsBeside(const PoseTrack& track) {
-  static const Offsets all_ways(6);
-  // Along a track objects turn about the last axis anyway.
-  static const Offsets but_the_last(5);
-  return track.steps() == 0 ? all_ways : but_the_last;
+  static const Offsets all_dimensions(6);
+  // On a track the object rotates about the last axis anyway.
+  static const Offsets without_last(5);
+  return track.steps() == 0 ? all_dimensions : without_last;
 }
 
 PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end)

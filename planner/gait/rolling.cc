@@ -8,8 +8,8 @@
 
 namespace regrasp::gait {
 
-Eigen::Matrix3d BallIn(const kinematics::Finger& finger, const Posture& posture,
-                       const Eigen::Isometry3d& pose) {
+Eigen::Matrix3d FingertipOrientation(const kinematics::Finger& finger, const Posture& posture,
+                                     const Eigen::Isometry3d& pose) {
   return pose.linear().transpose() * kinematics::FramesOf(finger, posture).back().linear();
 }
 
@@ -34,7 +34,8 @@ bool RollingTips::AreGrasp(const RolledTips& tips, const Eigen::Isometry3d& pose
   }
   const grasp::Wrench weight{-(pose.linear().transpose() * setup_.scene.hand().up),
                              Eigen::Vector3d::Zero()};
-  return grasp::ComputeGraspForces(grasp, memory_.frame(), memory_.half_angle(), weight, kSqueeze)
+  return grasp::ComputeGraspForces(grasp, memory_.frame(), memory_.half_angle(), weight,
+                                   kGraspForceOverWeight)
              .margin >= setup_.force_margin;
 }
 
@@ -42,25 +43,25 @@ std::optional<RolledTip> RollingTips::Follow(FingerIndex finger, const RolledTip
                                              const Eigen::Isometry3d& from_pose,
                                              const Eigen::Isometry3d& to_pose) const {
   const kinematics::Finger& chain = setup_.scene.finger(finger);
-  const auto stand_at = [&](const SurfacePoint& contact, const Posture& near) {
+  const auto posture_at = [&](const SurfacePoint& contact, const Posture& near) {
     return setup_.inverse[finger].SolveFrom(TargetAt(chain, contact, to_pose), near);
   };
-  const std::optional<Posture> unrolled = stand_at(tip.contact, tip.posture);
+  const std::optional<Posture> unrolled = posture_at(tip.contact, tip.posture);
   if (!unrolled) return std::nullopt;
-  const Eigen::Matrix3d turn =
-      BallIn(chain, *unrolled, to_pose) * BallIn(chain, tip.posture, from_pose).transpose();
+  const Eigen::Matrix3d turn = FingertipOrientation(chain, *unrolled, to_pose) *
+                               FingertipOrientation(chain, tip.posture, from_pose).transpose();
   const SurfacePoint contact = Rolled(tip.contact, turn, chain.tip.radius, *setup_.rolled_on);
-  std::optional<Posture> posture = stand_at(contact, *unrolled);
+  std::optional<Posture> posture = posture_at(contact, *unrolled);
   if (!posture) return std::nullopt;
   return RolledTip{contact, *std::move(posture)};
 }
 
 bool RollingTips::AreClear(const RolledTips& tips, const Eigen::Isometry3d& pose,
-                           const Hold& hold) const {
+                           const Stance& stance) const {
   std::vector<PlacedFinger> placed;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     const auto& tip = tips[finger];
-    placed.push_back(setup_.scene.Place(finger, tip ? tip->posture : hold.waiting[finger]));
+    placed.push_back(setup_.scene.Place(finger, tip ? tip->posture : stance.idle[finger]));
     if (tip && !setup_.scene.KeepsOffHand(placed.back())) return false;
     const TipContact touching = tip ? TipContact::kTouching : TipContact::kFree;
     if (tip && !setup_.scene.KeepsOffObject(placed.back(), pose, touching)) return false;
@@ -71,17 +72,17 @@ bool RollingTips::AreClear(const RolledTips& tips, const Eigen::Isometry3d& pose
   return true;
 }
 
-std::optional<RolledTips> RollingTips::Carry(const RolledTips& from,
-                                             const Eigen::Isometry3d& from_pose,
-                                             const Eigen::Isometry3d& to_pose,
-                                             const Hold& hold) const {
+std::optional<RolledTips> RollingTips::Advance(const RolledTips& from,
+                                               const Eigen::Isometry3d& from_pose,
+                                               const Eigen::Isometry3d& to_pose,
+                                               const Stance& stance) const {
   RolledTips to(from.size());
   for (FingerIndex finger{0}; finger < std::ssize(from); ++finger) {
     if (!from[finger]) continue;
     to[finger] = Follow(finger, *from[finger], from_pose, to_pose);
     if (!to[finger]) return std::nullopt;
   }
-  if (!AreGrasp(to, to_pose) || !AreClear(to, to_pose, hold)) return std::nullopt;
+  if (!AreGrasp(to, to_pose) || !AreClear(to, to_pose, stance)) return std::nullopt;
   return to;
 }
 

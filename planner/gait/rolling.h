@@ -7,73 +7,76 @@
 
 #include "planner/collision/ball_contact.h"
 #include "planner/criteria/grasp_memory.h"
-#include "planner/gait/carrier.h"
 #include "planner/gait/finger_path.h"
-#include "planner/gait/hand_setup.h"
+#include "planner/gait/hand_scene.h"
+#include "planner/gait/object_motion.h"
 
 namespace regrasp::gait {
 
-// A plan's contacts stay where they are on the object; those of balls that do not slip roll, by up
-// to the ball's radius times the angle that the object turns by. What a gait with reserve comes to
-// then is followed here: where its contacts are, and how its fingers stand there.
+// A plan keeps each contact at a fixed point of the object. A fingertip sphere that does not slip
+// rolls instead, by up to its radius times the rotation angle of the object. These functions
+// compute the rolled contacts and the resulting joint configurations.
 
-/// How a fingertip's ball is turned, seen from the object.
-/// @param pose  of the object in the palm's frame.
-[[nodiscard]] Eigen::Matrix3d BallIn(const kinematics::Finger& finger, const Posture& posture,
-                                     const Eigen::Isometry3d& pose);
+/// Return the orientation of the fingertip in the object's frame.
+/// @param pose  object pose in the palm's frame.
+[[nodiscard]] Eigen::Matrix3d FingertipOrientation(const kinematics::Finger& finger,
+                                                   const Posture& posture,
+                                                   const Eigen::Isometry3d& pose);
 
-/// Where a ball touches after it has rolled without slipping: its centre goes by the rotation
-/// vector times the way from the contact to the centre, and touches what is nearest then. Of first
-/// order in the turn; spinning about the normal goes nowhere.
-/// @param turn     of the ball, in the object's frame.
-/// @param radius   of the ball, metres.
-/// @param surface  of the object.
-/// @returns the new contact; the old one where no surface is near.
+/// Compute the contact of a fingertip sphere after rolling without slipping.
+/// First-order model: the centre moves by the rotation vector times the vector from the contact to
+/// the centre, and the new contact is the nearest surface point. Spin about the normal does not
+/// move the contact.
+/// @param turn  rotation of the fingertip in the object's frame.
+/// @param radius  radius of the fingertip, metres.
+/// @param surface  surface of the object.
+/// @returns the new contact; the old one if no surface is within two radii.
 [[nodiscard]] SurfacePoint Rolled(const SurfacePoint& contact, const Eigen::Matrix3d& turn,
                                   double radius, const collision::BallContact& surface);
 
-/// A fingertip that holds, where it has rolled to.
+/// A holding fingertip after rolling.
 struct RolledTip {
   SurfacePoint contact;
   Posture posture;
 };
-/// The sum of the normal forces of a grasp over the object's weight, as hands usually squeeze.
-inline constexpr double kSqueeze = 12;
+/// Assumed grasp force (sum of normal forces) relative to the object's weight.
+inline constexpr double kGraspForceOverWeight = 12;
 
-/// By finger; none where it holds nothing.
+/// Rolled fingertip [finger]; none for idle fingers.
 using RolledTips = std::vector<std::optional<RolledTip>>;
 
-/// Follows how tips roll on the surface of a setup for gaits with reserve.
+/// Rolling model of the fingertips of a setup.
 class RollingTips {
  public:
   RollingTips(const HandSetup& setup, criteria::GraspMemory& memory)
       : setup_(setup), memory_(memory) {}
 
-  /// Whether the grasp where they are is one that the memory admits, and fingers that push with
-  /// kSqueeze times the object's weight can hold it there with the setup's margin inside the cones
-  /// (grasp::GraspForces::margin): what the controller of a hand goes by.
+  /// Return whether the rolled grasp is admitted by the memory and withstands the object's weight.
+  /// With a grasp force of kGraspForceOverWeight times the weight, the force margin
+  /// (grasp::GraspForces::margin), which the controller of a hand uses, must reach the setup's.
   [[nodiscard]] bool AreGrasp(const RolledTips& tips, const Eigen::Isometry3d& pose) const;
-  /// Where they are when the object goes to a pose near by.
-  /// @param hold  whose other fingers wait.
-  /// @returns nullopt where a finger can't follow, something runs into something, or the grasp is
-  /// lost.
-  [[nodiscard]] std::optional<RolledTips> Carry(const RolledTips& from,
-                                                const Eigen::Isometry3d& from_pose,
-                                                const Eigen::Isometry3d& to_pose,
-                                                const Hold& hold) const;
+  /// Roll the fingertips while the object moves to a nearby pose.
+  /// @param stance  stance with the configurations of idle fingers.
+  /// @returns the rolled fingertips; nullopt if a finger cannot follow, a collision occurs, or the
+  ///     grasp is lost.
+  [[nodiscard]] std::optional<RolledTips> Advance(const RolledTips& from,
+                                                  const Eigen::Isometry3d& from_pose,
+                                                  const Eigen::Isometry3d& to_pose,
+                                                  const Stance& stance) const;
 
  private:
   [[nodiscard]] std::optional<RolledTip> Follow(FingerIndex finger, const RolledTip& tip,
                                                 const Eigen::Isometry3d& from_pose,
                                                 const Eigen::Isometry3d& to_pose) const;
   [[nodiscard]] bool AreClear(const RolledTips& tips, const Eigen::Isometry3d& pose,
-                              const Hold& hold) const;
+                              const Stance& stance) const;
 
   const HandSetup& setup_;
   criteria::GraspMemory& memory_;
 };
 
-/// Adds the other fingers where they have rolled to. @param tips  empty: nothing has rolled.
+/// Add the rolled configurations of the other fingers to a scene.
+/// @param tips  rolled fingertips; empty: nothing is added.
 void AddRolled(const HandScene& scene, const RolledTips& tips, Surroundings& around);
 
 }  // namespace regrasp::gait

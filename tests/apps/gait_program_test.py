@@ -509,10 +509,11 @@ class Gait(ProgramCase):
         # Tips that roll slip where the plan needs all the friction that there is.
         turn = ("--object", self.model("cube.obj"), "--mu", "0.3", "--hand", self.hand("ring4"),
                 "--turn", "z 90", "--output", "plan.json")
-        self.assert_refused(1, ("motors", " of the one that comes farthest step ", "fails (slipped)",
-                                "mm allowed", "with --reserve preferred there is a plan"),
+        self.assert_refused(1, ("none executes in simulation", "the best fails at step ",
+                                "(slipped)", "mm allowed",
+                                "help: --reserve preferred writes the best plan anyway"),
                             *turn, "--quiet")
-        self.assertIn("do not carry it out in a simulation: ",
+        self.assertIn("the plan does not execute in simulation: it fails at step ",
                       self.assert_done(*turn, "--reserve", "preferred").stderr)
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json", "--hand",
                                 self.hand("ring4"), "--out", "result", "--no-frames",

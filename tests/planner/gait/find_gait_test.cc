@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planner/base/angle.h"
-#include "planner/gait/explain_gait.h"
+#include "planner/gait/gait_planner.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/kinematics/finger_kinematics.h"
@@ -21,10 +21,10 @@ namespace find_gait_test {
 using Eigen::Vector3d;
 
 Eigen::Isometry3d LastPose(const Gait& gait) {
-  return gait.stretches.empty() ? gait.start.pose : gait.stretches.back().path.back().pose;
+  return gait.segments.empty() ? gait.start.pose : gait.segments.back().path.back().pose;
 }
 
-/// Without reserve a turn may begin anywhere: ways onwards and backwards are joined.
+/// Without margins a rotation may begin at any angle: forward and backward paths are joined.
 class TurnTest : public testing::TestWithParam<Reserve> {};
 
 INSTANTIATE_TEST_SUITE_P(Reserves, TurnTest, testing::Values(Reserve::kNone, Reserve::kPreferred),
@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Reserves, TurnTest, testing::Values(Reserve::kNone, Res
                            return info.param == Reserve::kNone ? "None" : "Preferred";
                          });
 
-TEST_P(TurnTest, TheObjectIsTurnedAsFarAsIsAskedAndStaysAboutWhereItIs) {
+TEST_P(TurnTest, TheObjectRotatesByTheRequiredAngleInPlace) {
   const Reserve reserve = GetParam();
   for (const double degrees : {60.0, -60.0, 270.0}) {
     GaitRequest request = RequestFor("cube", 0.8, degrees);
@@ -40,50 +40,50 @@ TEST_P(TurnTest, TheObjectIsTurnedAsFarAsIsAskedAndStaysAboutWhereItIs) {
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << found.message;
     const Eigen::Isometry3d last = LastPose(*found.gait);
-    const Eigen::Matrix3d turned = found.gait->start.pose.linear().transpose() * last.linear();
-    const Eigen::Matrix3d asked =
+    const Eigen::Matrix3d rotated = found.gait->start.pose.linear().transpose() * last.linear();
+    const Eigen::Matrix3d required =
         Eigen::AngleAxisd(Radians(degrees), Vector3d::UnitZ()).toRotationMatrix();
-    EXPECT_LT((turned - asked).norm(), 1e-12);
+    EXPECT_LT((rotated - required).norm(), 1e-12);
     const Vector3d centre = request.scale * request.solid->mass_properties().centroid;
     EXPECT_LT((last * centre - found.gait->start.pose * centre).norm(), 0.03);
   }
 }
 
-TEST_P(TurnTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
+TEST_P(TurnTest, SegmentsAreContinuousAndFingertipsStayOnTheirContacts) {
   GaitRequest request = RequestFor("prism", 0.5, 150);
   request.reserve = GetParam();
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  Holding holding = found.gait->initial;
+  ContactAssignment assignment = found.gait->initial;
   const Keyframe* last = &found.gait->start;
   int tips = 0;
-  for (const Stretch& stretch : found.gait->stretches) {
-    EXPECT_EQ(stretch.path.front().pose.matrix(), last->pose.matrix());
-    EXPECT_EQ(stretch.path.front().postures, last->postures);
+  for (const PlanSegment& segment : found.gait->segments) {
+    EXPECT_EQ(segment.path.front().pose.matrix(), last->pose.matrix());
+    EXPECT_EQ(segment.path.front().postures, last->postures);
     const bool changes =
-        stretch.kind == Stretch::Kind::kPlace || stretch.kind == Stretch::Kind::kRelease;
-    if (changes) holding[stretch.finger] = kNone;
-    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = kNone;
-    for (const Keyframe& frame : stretch.path) {
-      for (FingerIndex finger{0}; finger < std::ssize(holding); ++finger) {
-        if (holding[finger] == kNone) continue;
+        segment.kind == PlanSegment::Kind::kPlace || segment.kind == PlanSegment::Kind::kRelease;
+    if (changes) assignment[segment.finger] = kNone;
+    for (const PlanSegment::Slid& slid : segment.slid) assignment[slid.finger] = kNone;
+    for (const Keyframe& frame : segment.path) {
+      for (FingerIndex finger{0}; finger < std::ssize(assignment); ++finger) {
+        if (assignment[finger] == kNone) continue;
         const kinematics::Finger& chain = Ring().fingers[finger];
-        const grasp::Contact& contact = found.contacts[holding[finger]];
+        const grasp::Contact& contact = found.contacts[assignment[finger]];
         const Vector3d ball =
             frame.pose * (request.scale * contact.p - chain.tip.radius * contact.n);
         EXPECT_LT((kinematics::TipAt(chain, frame.postures[finger]).centre - ball).norm(), 1e-8);
         ++tips;
       }
     }
-    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
-    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
-    last = &stretch.path.back();
+    if (segment.kind == PlanSegment::Kind::kPlace) assignment[segment.finger] = segment.contact;
+    for (const PlanSegment::Slid& slid : segment.slid) assignment[slid.finger] = slid.to;
+    last = &segment.path.back();
   }
   EXPECT_GT(tips, 100);
 }
 
-/// Each with its own grasp, and somewhere to go.
-TEST_P(TurnTest, NoMoveFollowsAnother) {
+/// Consecutive motions are merged.
+TEST_P(TurnTest, NoMotionFollowsAnother) {
   int moves = 0;
   for (int seed = 1; seed <= 4; ++seed) {
     GaitRequest request = RequestFor("l_block", 0.7, 180);
@@ -92,8 +92,8 @@ TEST_P(TurnTest, NoMoveFollowsAnother) {
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << found.message;
     bool was_move = false;
-    for (const Stretch& stretch : found.gait->stretches) {
-      const bool is_move = stretch.kind == Stretch::Kind::kMove;
+    for (const PlanSegment& segment : found.gait->segments) {
+      const bool is_move = segment.kind == PlanSegment::Kind::kMove;
       EXPECT_FALSE(is_move && was_move);
       was_move = is_move;
       moves += static_cast<int>(is_move);
@@ -102,7 +102,7 @@ TEST_P(TurnTest, NoMoveFollowsAnother) {
   EXPECT_GT(moves, 4);
 }
 
-TEST(FindGaitTest, PlansAreRightAsPlansOfContacts) {
+TEST(FindGaitTest, PlansPassTheChecker) {
   for (const char* model : {"cube", "l_block"}) {
     const GaitRequest request = RequestFor(model, 0.8, 120);
     const GaitResult found = FindGait(request);
@@ -115,36 +115,36 @@ TEST(FindGaitTest, PlansAreRightAsPlansOfContacts) {
   }
 }
 
-/// The contacts that are held before one of the stretches.
+/// Contacts before segment number `end`.
 grasp::Grasp GraspBefore(const GaitResult& found, std::size_t end) {
-  Holding holding = found.gait->initial;
+  ContactAssignment assignment = found.gait->initial;
   for (std::size_t i = 0; i < end; ++i) {
-    const Stretch& stretch = found.gait->stretches[i];
-    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
-    if (stretch.kind == Stretch::Kind::kRelease) holding[stretch.finger] = kNone;
-    for (const Stretch::Slid& slid : stretch.slid) holding[slid.finger] = slid.to;
+    const PlanSegment& segment = found.gait->segments[i];
+    if (segment.kind == PlanSegment::Kind::kPlace) assignment[segment.finger] = segment.contact;
+    if (segment.kind == PlanSegment::Kind::kRelease) assignment[segment.finger] = kNone;
+    for (const PlanSegment::Slid& slid : segment.slid) assignment[slid.finger] = slid.to;
   }
   grasp::Grasp grasp;
-  for (const int contact : holding) {
+  for (const int contact : assignment) {
     if (contact != kNone) grasp.push_back(found.contacts[contact]);
   }
   return grasp;
 }
 
 grasp::Grasp LastGrasp(const GaitResult& found) {
-  return GraspBefore(found, found.gait->stretches.size());
+  return GraspBefore(found, found.gait->segments.size());
 }
 
 grasp::Grasp FirstGrasp(const GaitResult& found) { return GraspBefore(found, 0); }
 
-/// No gait gives reserve to a grasp that has none; time is not spent on it.
-TEST(FindGaitTest, AGivenGraspWithoutReserveIsNamed) {
+/// A given grasp whose quality is too low is rejected before the search.
+TEST(FindGaitTest, ANonRobustStartGraspIsReported) {
   const GaitRequest turn = RequestFor("cube", 0.8, 30);
-  const GaitResult turned = FindGait(turn);
-  ASSERT_TRUE(turned.gait) << turned.message;
+  const GaitResult rotated = FindGait(turn);
+  ASSERT_TRUE(rotated.gait) << rotated.message;
   GaitRequest request = turn;
-  request.start_grasp = FirstGrasp(turned);
-  // Of all friction that it needs, a little more than none.
+  request.start_grasp = FirstGrasp(rotated);
+  // Friction just above the requirement of the grasp.
   const auto needed =
       grasp::ComputeRequiredHalfAngle(request.start_grasp, request.solid->wrench_frame());
   ASSERT_TRUE(needed);
@@ -155,16 +155,16 @@ TEST(FindGaitTest, AGivenGraspWithoutReserveIsNamed) {
   EXPECT_THAT(found.message, testing::HasSubstr("the start grasp has no reserve"));
 }
 
-TEST_P(TurnTest, TheSameRequestGivesTheSameGait) {
+TEST_P(TurnTest, EqualRequestsGiveEqualGaits) {
   GaitRequest request = RequestFor("cube", 0.8, 120);
   request.reserve = GetParam();
   const GaitResult first = FindGait(request);
   const GaitResult second = FindGait(request);
   ASSERT_TRUE(first.gait && second.gait);
-  ASSERT_EQ(first.gait->stretches.size(), second.gait->stretches.size());
-  for (std::size_t i = 0; i < first.gait->stretches.size(); ++i) {
-    const auto& a = first.gait->stretches[i].path;
-    const auto& b = second.gait->stretches[i].path;
+  ASSERT_EQ(first.gait->segments.size(), second.gait->segments.size());
+  for (std::size_t i = 0; i < first.gait->segments.size(); ++i) {
+    const auto& a = first.gait->segments[i].path;
+    const auto& b = second.gait->segments[i].path;
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].postures, b[k].postures);
   }
@@ -179,19 +179,18 @@ std::vector<std::vector<double>> Sorted(const grasp::Grasp& grasp) {
   return points;
 }
 
-/// What a turn came by without being asked is asked for: its last pose and grasp, from its first
-/// ones; and the way back.
-TEST(FindGaitTest, PosesAndGraspsThatAreGivenAreKept) {
+/// Poses and grasps of a first gait become requirements of a second one, in both directions.
+TEST(FindGaitTest, GivenPosesAndGraspsAreKept) {
   const GaitRequest turn = RequestFor("cube", 0.5, 90);
-  const GaitResult turned = FindGait(turn);
-  ASSERT_TRUE(turned.gait) << turned.message;
-  for (const bool back : {false, true}) {
+  const GaitResult rotated = FindGait(turn);
+  ASSERT_TRUE(rotated.gait) << rotated.message;
+  for (const bool is_backward : {false, true}) {
     GaitRequest request = RequestFor("cube", 0.5, 0);
-    request.start_pose = turned.gait->start.pose;
-    request.goal_pose = LastPose(*turned.gait);
-    request.start_grasp = FirstGrasp(turned);
-    request.goal_grasp = LastGrasp(turned);
-    if (back) {
+    request.start_pose = rotated.gait->start.pose;
+    request.goal_pose = LastPose(*rotated.gait);
+    request.start_grasp = FirstGrasp(rotated);
+    request.goal_grasp = LastGrasp(rotated);
+    if (is_backward) {
       std::swap(request.start_pose, request.goal_pose);
       std::swap(request.start_grasp, request.goal_grasp);
     }
@@ -204,7 +203,7 @@ TEST(FindGaitTest, PosesAndGraspsThatAreGivenAreKept) {
   }
 }
 
-/// From one grasp to another one at the same pose, each drawn alone.
+/// Two independent grasps at the same pose.
 GaitRequest PairAtOnePose(std::uint64_t seed) {
   GaitRequest request = RequestFor("cube", 0.8, 0);
   request.seed = seed;
@@ -220,8 +219,8 @@ GaitRequest PairAtOnePose(std::uint64_t seed) {
   return request;
 }
 
-/// In a hand whose fingers are alike each of them may hold each contact.
-TEST(FindGaitTest, BeginsWithTheFingersThatAreAskedFor) {
+/// All fingers of this hand are alike, so each may hold each contact.
+TEST(FindGaitTest, StartsWithTheRequiredFingers) {
   GaitRequest request = RequestFor("cube", 0.8, 0);
   const GaitResult first = FindGait(request);
   ASSERT_TRUE(first.gait) << first.message;
@@ -238,32 +237,32 @@ TEST(FindGaitTest, BeginsWithTheFingersThatAreAskedFor) {
     ASSERT_NE(contact, kNone);
     EXPECT_EQ(found.contacts[contact].p, request.start_grasp[i].p);
   }
-  // The other way round no finger reaches its contact.
+  // With swapped fingers none reaches its contact.
   std::swap(request.start_fingers[0], request.start_fingers[1]);
   EXPECT_FALSE(FindGait(request).gait);
   request.start_fingers.pop_back();
   EXPECT_THROW((void)FindGait(request), std::invalid_argument);
 }
 
-TEST(FindGaitTest, FingersThatHoldSlideAlongTheSurface) {
+TEST(FindGaitTest, HoldingFingersSlideAlongTheSurface) {
   int slides = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
     const GaitRequest request = PairAtOnePose(seed);
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << seed << found.message;
     EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
-    for (const Stretch& stretch : found.gait->stretches) {
-      if (stretch.kind != Stretch::Kind::kSlide) continue;
-      ASSERT_EQ(stretch.along.size(), stretch.along_at.size());
-      EXPECT_EQ(stretch.along_at.back() + 1, std::ssize(stretch.path));
-      for (std::size_t i = 0; i < stretch.slid.size(); ++i) {
-        const auto& [finger, from, to] = stretch.slid[i];
+    for (const PlanSegment& segment : found.gait->segments) {
+      if (segment.kind != PlanSegment::Kind::kSlide) continue;
+      ASSERT_EQ(segment.waypoints.size(), segment.waypoint_frames.size());
+      EXPECT_EQ(segment.waypoint_frames.back() + 1, std::ssize(segment.path));
+      for (std::size_t i = 0; i < segment.slid.size(); ++i) {
+        const auto& [finger, from, to] = segment.slid[i];
         ++slides;
-        EXPECT_EQ(stretch.along.front()[i].p, found.contacts[from].p);
-        EXPECT_EQ(stretch.along.back()[i].p, found.contacts[to].p);
+        EXPECT_EQ(segment.waypoints.front()[i].p, found.contacts[from].p);
+        EXPECT_EQ(segment.waypoints.back()[i].p, found.contacts[to].p);
         const kinematics::Finger& chain = Ring().fingers[finger];
-        for (const Keyframe& frame : stretch.path) {
-          // A ball at the cube's surface, wherever on it.
+        for (const Keyframe& frame : segment.path) {
+          // The fingertip sphere touches the surface of the cube.
           const Vector3d centre =
               frame.pose.inverse() * kinematics::TipAt(chain, frame.postures[finger]).centre;
           const Vector3d outside = (centre.cwiseAbs().array() - 0.8 * 0.03).max(0.0);
@@ -277,8 +276,8 @@ TEST(FindGaitTest, FingersThatHoldSlideAlongTheSurface) {
   EXPECT_GT(slides, 0);
 }
 
-/// A grasp for one whose contacts are 1.2 mm away (0.0015 of the cube's unit), at one pose.
-GaitRequest PairAnAlignApart(Reserve reserve) {
+/// A start grasp and a goal grasp whose contacts are 1.2 mm apart (0.0015 cube units), at one pose.
+GaitRequest PairOneSlideApart(Reserve reserve) {
   GaitRequest request = RequestFor("cube", 0.8, 0);
   request.reserve = reserve;
   const GaitResult first = FindGait(request);
@@ -291,42 +290,42 @@ GaitRequest PairAnAlignApart(Reserve reserve) {
   return request;
 }
 
-/// No finger has to wait for another one where all go to a grasp near by.
-TEST(FindGaitTest, FingersSlideAllAtOnce) {
-  const GaitRequest request = PairAnAlignApart(Reserve::kNone);  // with it no finger slides
+/// Fingers slide simultaneously to a nearby grasp.
+TEST(FindGaitTest, FingersSlideSimultaneously) {
+  const GaitRequest request = PairOneSlideApart(Reserve::kNone);  // with margins no finger slides
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  ASSERT_EQ(found.gait->stretches.size(), 1u);
-  EXPECT_EQ(found.gait->stretches[0].slid.size(), 3u);
+  ASSERT_EQ(found.gait->segments.size(), 1u);
+  EXPECT_EQ(found.gait->segments[0].slid.size(), 3u);
   EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
   const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
   EXPECT_TRUE(plan::CheckPlan(*request.solid, plan).passed());
 }
 
-/// A grasp that is an align away is not worth ten switches.
-TEST(FindGaitTest, APreferredReserveDoesNotMakeAGaitMuchLonger) {
-  GaitRequest request = PairAnAlignApart(Reserve::kRequired);
+/// A grasp one sliding step away does not justify ten finger switches.
+TEST(FindGaitTest, PreferredRobustnessDoesNotMakeAGaitMuchLonger) {
+  GaitRequest request = PairOneSlideApart(Reserve::kRequired);
   const GaitResult with = FindGait(request);
   ASSERT_TRUE(with.gait) << with.message;
-  EXPECT_GT(with.gait->stretches.size(), 15u);
+  EXPECT_GT(with.gait->segments.size(), 15u);
   request.reserve = Reserve::kPreferred;
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  EXPECT_EQ(found.gait->stretches.size(), 1u);
+  EXPECT_EQ(found.gait->segments.size(), 1u);
 }
 
-TEST(FindGaitTest, AGivenGraspFindsAPoseWhereFingersReachIt) {
-  const GaitResult turned = FindGait(RequestFor("prism", 0.5, 30));
-  ASSERT_TRUE(turned.gait) << turned.message;
+TEST(FindGaitTest, AGivenGraspDeterminesTheInitialPose) {
+  const GaitResult rotated = FindGait(RequestFor("prism", 0.5, 30));
+  ASSERT_TRUE(rotated.gait) << rotated.message;
   GaitRequest request = RequestFor("prism", 0.5, 30);
-  request.start_grasp = FirstGrasp(turned);
+  request.start_grasp = FirstGrasp(rotated);
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
   EXPECT_EQ(Sorted(FirstGrasp(found)), Sorted(request.start_grasp));
-  EXPECT_NE(found.gait->start.pose.matrix(), turned.gait->start.pose.matrix());
+  EXPECT_NE(found.gait->start.pose.matrix(), rotated.gait->start.pose.matrix());
 }
 
-/// A pose, three fingers that hold there, and these with a fourth one.
+/// A pose with a grasp of three fingers, and the same grasp with a fourth one.
 struct ThreeAndFour {
   GaitRequest request;
   grasp::Grasp three;
@@ -337,29 +336,30 @@ ThreeAndFour FindThreeAndFour() {
   ThreeAndFour found{RequestFor("cube", 0.8, 0), {}, {}};
   GaitRequest turn = RequestFor("cube", 0.8, 150);
   for (turn.seed = 1; turn.seed < 20; ++turn.seed) {
-    const GaitResult turned = FindGait(turn);
-    EXPECT_TRUE(turned.gait) << turned.message;
-    if (!turned.gait) break;
-    const std::vector<Stretch>& stretches = turned.gait->stretches;
-    // Some need no finger to be placed.
-    const auto place = std::ranges::find(stretches, Stretch::Kind::kPlace, &Stretch::kind);
-    if (place == stretches.end()) continue;
-    found.request.start_pose = found.request.goal_pose = place->path.back().pose;
-    found.three = GraspBefore(turned, place - stretches.begin());
+    const GaitResult rotated = FindGait(turn);
+    EXPECT_TRUE(rotated.gait) << rotated.message;
+    if (!rotated.gait) break;
+    const std::vector<PlanSegment>& segments = rotated.gait->segments;
+    // Some gaits place no finger.
+    const auto placement =
+        std::ranges::find(segments, PlanSegment::Kind::kPlace, &PlanSegment::kind);
+    if (placement == segments.end()) continue;
+    found.request.start_pose = found.request.goal_pose = placement->path.back().pose;
+    found.three = GraspBefore(rotated, placement - segments.begin());
     found.four = found.three;
-    found.four.push_back(turned.contacts[place->contact]);
+    found.four.push_back(rotated.contacts[placement->contact]);
     break;
   }
   return found;
 }
 
-/// Four fingers, then three of them, then four again: a finger leaves alone and comes alone.
-TEST(FindGaitTest, GraspsMayHaveMoreFingersBeforeOrAfter) {
+/// From four fingers to three of them and back: one finger is released or placed alone.
+TEST(FindGaitTest, TheNumberOfHoldingFingersMayChange) {
   auto [request, three, four] = FindThreeAndFour();
   ASSERT_EQ(four.size(), 4U);
-  for (const bool leaves : {true, false}) {
-    request.start_grasp = leaves ? four : three;
-    request.goal_grasp = leaves ? three : four;
+  for (const bool releases : {true, false}) {
+    request.start_grasp = releases ? four : three;
+    request.goal_grasp = releases ? three : four;
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << found.message;
     EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
@@ -370,29 +370,29 @@ TEST(FindGaitTest, GraspsMayHaveMoreFingersBeforeOrAfter) {
   }
 }
 
-/// Two fingertips balance no third one that slides, and where the hand is asked none does.
-TEST(FindGaitTest, WhereTheHandIsAskedAFingerSlidesBesideThreeOthersOnly) {
-  const ThreeAndFour hold = FindThreeAndFour();
-  ASSERT_EQ(hold.four.size(), 4U);
-  const auto slides = [&](const grasp::Grasp& start, bool is_asked) {
-    GaitRequest request = hold.request;
+/// Two fingertips do not balance a sliding third one, so none slides if the hand is simulated.
+TEST(FindGaitTest, WithSimulationAFingerSlidesBesideThreeOthersOnly) {
+  const ThreeAndFour grasps = FindThreeAndFour();
+  ASSERT_EQ(grasps.four.size(), 4U);
+  const auto slides = [&](const grasp::Grasp& start, bool is_simulated) {
+    GaitRequest request = grasps.request;
     request.start_grasp = request.goal_grasp = start;
     request.goal_grasp[0].p += 0.0015 * start[0].n.unitOrthogonal();
     request.most_expanded = 60;
-    if (is_asked) {
+    if (is_simulated) {
       request.carry_out = [](const plan::Plan&, const Deadline&) { return planning::CarriedOut{}; };
     }
     const GaitResult found = FindGait(request);
-    return found.gait &&
-           std::ranges::count(found.gait->stretches, Stretch::Kind::kSlide, &Stretch::kind) > 0;
+    return found.gait && std::ranges::count(found.gait->segments, PlanSegment::Kind::kSlide,
+                                            &PlanSegment::kind) > 0;
   };
-  EXPECT_TRUE(slides(hold.three, false));
-  EXPECT_FALSE(slides(hold.three, true));
-  EXPECT_TRUE(slides(hold.four, true));
+  EXPECT_TRUE(slides(grasps.three, false));
+  EXPECT_FALSE(slides(grasps.three, true));
+  EXPECT_TRUE(slides(grasps.four, true));
 }
 
-/// No hand is as long as that.
-TEST(FindGaitTest, AGraspOutOfReachIsNamed) {
+/// The object is larger than the reach of any hand.
+TEST(FindGaitTest, AGoalGraspOutOfReachIsReported) {
   GaitRequest request = RequestFor("cube", 0.5, 0);
   const double far = 0.0299;
   request.goal_grasp = {{{0.03, far, far}, -Vector3d::UnitX(), {}},
@@ -404,8 +404,8 @@ TEST(FindGaitTest, AGraspOutOfReachIsNamed) {
   EXPECT_THAT(found.message, testing::HasSubstr("held by the goal grasp"));
 }
 
-/// Goal poses 20, 50 and 90 mm above the start; up to 35 mm the hand holds the cube there.
-TEST(FindGaitTest, SaysWhetherTheObjectIsHeldAtItsGoalPoseOrOnlyNearIt) {
+/// Goal poses 20, 50 and 90 mm above the start; the hand holds the cube up to 35 mm.
+TEST(FindGaitTest, ReportsHowNearTheObjectGetsToItsGoalPose) {
   GaitRequest request = RequestFor("cube", 0.8, 0);
   const GaitResult first = FindGait(request);
   ASSERT_TRUE(first.gait) << first.message;
@@ -418,23 +418,22 @@ TEST(FindGaitTest, SaysWhetherTheObjectIsHeldAtItsGoalPoseOrOnlyNearIt) {
   };
   EXPECT_EQ(message_at(0.020), "found");
   EXPECT_THAT(message_at(0.050), testing::HasSubstr("no grasp is found that holds it there"));
-  EXPECT_THAT(message_at(0.090), testing::HasSubstr("% of the way to its goal pose"));
+  EXPECT_THAT(message_at(0.090), testing::HasSubstr("% of the path to its goal pose"));
 }
 
-/// A cube of 13 cm is too large
-/// for this hand, and no tilt of the palm makes it smaller.
-TEST(ExplainGaitTest, NamesTheSizeThatHelpsAndWhatDoesNot) {
+/// A cube of 13 cm is too large for this hand, and no tilt of the palm helps.
+TEST(ExplainGaitTest, ReportsTheSizeThatHelpsAndTheChangesThatDoNot) {
   GaitRequest large = RequestFor("cube", 2.2, 90);
   large.most_expanded = 12;
   ASSERT_FALSE(FindGait(large).gait);
   const std::string text = ExplainGait(large);
-  EXPECT_THAT(text, testing::MatchesRegex("would do, each alone: the object 0\\.[0-9]+ times as "
+  EXPECT_THAT(text, testing::MatchesRegex("each change alone helps: the object 0\\.[0-9]+ times as "
                                           "large \\(--scale [0-9.]+\\); not found to help: more "
                                           "friction, a tilt of the palm"));
 }
 
-/// As large as a house it is in no hand; with next to no friction nothing holds it.
-TEST(FindGaitTest, SaysWhatStoppedIt) {
+/// An object as large as a house, and one with almost no friction.
+TEST(FindGaitTest, ReportsTheReasonOfAFailure) {
   const GaitResult large = FindGait(RequestFor("cube", 100, 90));
   EXPECT_FALSE(large.gait);
   EXPECT_THAT(large.message, testing::HasSubstr("0 of 90 degrees"));
@@ -445,8 +444,8 @@ TEST(FindGaitTest, SaysWhatStoppedIt) {
   EXPECT_THAT(none.message, testing::HasSubstr("0 of 90 degrees"));
 }
 
-/// A fiftieth of the diameter off the borders of their facets there is next to no place on these.
-TEST(FindGaitTest, BodiesOfSmallFacetsHaveContacts) {
+/// Faces narrower than the clearance from borders (2 % of the diameter) still have contacts.
+TEST(FindGaitTest, ObjectsWithSmallTrianglesHaveContacts) {
   for (const auto& [model, scale] : {std::pair("duck1000", 0.63), {"spanner1000", 0.59}}) {
     GaitRequest request = RequestFor(model, scale, 20);
     request.reserve = Reserve::kNone;

@@ -24,7 +24,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// A cube of 48 mm in a hand of four fingers.
+/// A cube of 48 mm in a hand with four fingers.
 class GaitPlannerTest : public testing::Test {
  protected:
   planning::InHandTask TaskOf(double degrees) const {
@@ -48,29 +48,29 @@ class GaitPlannerTest : public testing::Test {
   const GaitPlanner planner_;
 };
 
-/// Grasps at rest and all between hold; the margin is that of the weakest one at rest.
-TEST_F(GaitPlannerTest, PlansPassTheCheckerWithTheMarginThatTheySay) {
+/// All grasps are force closure; the margin of the result is that of the weakest static grasp.
+TEST_F(GaitPlannerTest, PlansPassTheCheckerWithTheReportedMargin) {
   const PlanResult found = Solve(Turning(60));
   ASSERT_TRUE(found.plan) << found.message;
   EXPECT_EQ(found.plan->planner, "gait");
   const plan::PlanCheck check = plan::CheckPlan(*file_.object, *found.plan);
   EXPECT_TRUE(check.passed());
-  plan::FingerGrasp holding = found.plan->initial;
+  plan::FingerGrasp grasp = found.plan->initial;
   double required = 0;
-  const auto look_at = [&] {
-    required = std::max(required, grasp::ComputeRequiredHalfAngle(plan::ContactsOf(holding),
+  const auto update_required = [&] {
+    required = std::max(required, grasp::ComputeRequiredHalfAngle(plan::ContactsOf(grasp),
                                                                   file_.object->wrench_frame())
                                       ->upper);
   };
-  look_at();
+  update_required();
   for (const plan::Step& step : found.plan->steps) {
-    holding = plan::GraspAfter(holding, step);
-    look_at();
+    grasp = plan::GraspAfter(grasp, step);
+    update_required();
   }
   EXPECT_NEAR(found.margin, std::atan(0.8) - required, 1e-9);
 }
 
-TEST_F(GaitPlannerTest, GivenGraspsAreTheEndsAndTheObjectStaysWhereNothingElseIsSaid) {
+TEST_F(GaitPlannerTest, WithoutAGoalPoseTheObjectKeepsItsStartPose) {
   const PlanResult turned = Solve(Turning(30));
   ASSERT_TRUE(turned.plan) << turned.message;
   PlanRequest request = Turning(30);
@@ -86,7 +86,7 @@ TEST_F(GaitPlannerTest, GivenGraspsAreTheEndsAndTheObjectStaysWhereNothingElseIs
   EXPECT_TRUE(found.plan->hand->goal.isApprox(*stays.start_pose));
 }
 
-TEST_F(GaitPlannerTest, GivenGraspsAreCheckedLikeThoseOfOtherPlanners) {
+TEST_F(GaitPlannerTest, GivenGraspsAreChecked) {
   const PlanResult turned = Solve(Turning(30));
   ASSERT_TRUE(turned.plan) << turned.message;
   PlanRequest request = Turning(30);
@@ -102,15 +102,15 @@ TEST_F(GaitPlannerTest, GivenGraspsAreCheckedLikeThoseOfOtherPlanners) {
               ThrowsMessage<InputError>(HasSubstr("given.json: /contacts: not force closure")));
 }
 
-TEST_F(GaitPlannerTest, AHandIsNeededAndOnlyThisPlannerHasOne) {
+TEST_F(GaitPlannerTest, RequiresAHand) {
   PlanRequest request = Turning(30);
   EXPECT_EQ(planning::WhyNotServed(planner_, request), "");
   request.in_hand.reset();
   EXPECT_THAT(planning::WhyNotServed(planner_, request), HasSubstr("none is given (--hand)"));
 }
 
-/// With little effort the search gives up early, and an effort that is enough changes nothing.
-TEST_F(GaitPlannerTest, GivesUpAfterItsEffort) {
+/// A small budget makes the search fail early; a sufficient budget changes nothing.
+TEST_F(GaitPlannerTest, StopsAtItsSearchBudget) {
   PlanRequest request = Turning(300);
   request.effort = 2;
   const PlanResult none = Solve(request);
@@ -121,17 +121,17 @@ TEST_F(GaitPlannerTest, GivesUpAfterItsEffort) {
   EXPECT_TRUE(Solve(request).plan);
 }
 
-TEST_F(GaitPlannerTest, ExplainsWhatWouldDoAfterItsTimeToo) {
+TEST_F(GaitPlannerTest, ExplainsAFailureAfterTheTimeLimitToo) {
   PlanRequest request = Turning(90);
   request.in_hand->scale = 20;  // as large as a person
   request.explain = true;
-  // A clock that goes on by a second whenever it is looked at.
+  // A clock that advances by one second per call.
   auto now = Deadline::Clock::time_point();
   request.deadline = {now + std::chrono::seconds(3),
                       [&] { return now += std::chrono::seconds(1); }};
-  EXPECT_THAT(Solve(request).message, AllOf(HasSubstr("when the time was up"),
+  EXPECT_THAT(Solve(request).message, AllOf(HasSubstr("the time limit was reached"),
                                             HasSubstr("not found to help: more friction"),
-                                            HasSubstr("the time limit ended the tries")));
+                                            HasSubstr("stopped by the time limit")));
 }
 
 }  // namespace gait_planner_test

@@ -11,7 +11,7 @@
 
 namespace regrasp::gait {
 
-// What gaits are asked for in tests.
+// Requests shared by the tests of gaits.
 
 inline const object::Polyhedron& Model(const std::string& name) {
   static std::map<std::string, object::ObjectFile> files;
@@ -22,14 +22,15 @@ inline const object::Polyhedron& Model(const std::string& name) {
   return dynamic_cast<const object::Polyhedron&>(*file.object);
 }
 
-/// Of four fingers.
+/// A ring hand with four fingers.
 inline const kinematics::HandModel& Ring() {
   static const kinematics::HandModel hand =
       kinematics::ReadHand(ProjectPath("models/hands/ring4.json"));
   return hand;
 }
 
-/// To turn a model about z. @param scale  metres per unit of its file.
+/// Return a request to rotate a model about z.
+/// @param scale  metres per unit of the model's file.
 inline GaitRequest RequestFor(const std::string& model, double scale, double degrees) {
   GaitRequest request;
   request.hand = &Ring();

@@ -9,41 +9,42 @@ Keyframe At(double drive) {
   return {Eigen::Isometry3d::Identity(), {kinematics::Posture::Constant(1, drive)}};
 }
 
-/// Finger 1 comes to contact 7, finger 0 leaves contact 4, finger 1 slides to 9.
+/// Finger 1 is placed at contact 7, finger 0 leaves contact 4, finger 1 slides to 9.
 Gait Example() {
-  using Kind = Stretch::Kind;
+  using Kind = PlanSegment::Kind;
   Gait gait{{4, kNone}, At(0), {}};
-  gait.stretches.push_back({Kind::kPlace, FingerIndex{1}, 7, {At(0), At(1)}});
-  gait.stretches.push_back({Kind::kRelease, FingerIndex{0}, 4, {At(1), At(2), At(3)}});
-  Stretch slide{Kind::kSlide, {}, kNone, {At(3), At(4), At(5), At(6)}};
+  gait.segments.push_back({Kind::kPlace, FingerIndex{1}, 7, {At(0), At(1)}});
+  gait.segments.push_back({Kind::kRelease, FingerIndex{0}, 4, {At(1), At(2), At(3)}});
+  PlanSegment slide{Kind::kSlide, {}, kNone, {At(3), At(4), At(5), At(6)}};
   slide.slid = {{FingerIndex{1}, 7, 9}};
-  for (const double x : {1, 2, 3}) slide.along.push_back({grasp::Contact{{x, 0, 0}, {0, 0, 1}}});
-  slide.along_at = {0, 1, 3};
-  gait.stretches.push_back(slide);
+  for (const double x : {1, 2, 3})
+    slide.waypoints.push_back({grasp::Contact{{x, 0, 0}, {0, 0, 1}}});
+  slide.waypoint_frames = {0, 1, 3};
+  gait.segments.push_back(slide);
   return gait;
 }
 
-TEST(GaitTest, TheEndIsWhatTheStretchesLeadTo) {
-  EXPECT_EQ(HoldingAtEnd(Example()), (Holding{kNone, 9}));
+TEST(GaitTest, TheEndFollowsFromTheSegments) {
+  EXPECT_EQ(AssignmentAtEnd(Example()), (ContactAssignment{kNone, 9}));
   EXPECT_EQ(EndOf(Example()).postures[0][0], 6);
   EXPECT_EQ(EndOf(Gait{{4}, At(8), {}}).postures[0][0], 8);
 }
 
-TEST(GaitTest, TheOtherWayRoundItLeadsBack) {
+TEST(GaitTest, TheReversedGaitLeadsBack) {
   const Gait gait = Example();
-  Gait back{HoldingAtEnd(gait), EndOf(gait), {}};
-  AppendReversed(gait.stretches, back);
-  EXPECT_EQ(HoldingAtEnd(back), gait.initial);
+  Gait back{AssignmentAtEnd(gait), EndOf(gait), {}};
+  AppendReversed(gait.segments, back);
+  EXPECT_EQ(AssignmentAtEnd(back), gait.initial);
   EXPECT_EQ(EndOf(back).postures, gait.start.postures);
-  EXPECT_EQ(back.stretches.front().slid[0].to, 7);
-  EXPECT_EQ(back.stretches.front().along.front()[0].p.x(), 3);
-  EXPECT_EQ(back.stretches.front().along_at, (std::vector{0, 2, 3}));
-  EXPECT_EQ(back.stretches[1].kind, Stretch::Kind::kPlace);
-  EXPECT_EQ(back.stretches[2].kind, Stretch::Kind::kRelease);
+  EXPECT_EQ(back.segments.front().slid[0].to, 7);
+  EXPECT_EQ(back.segments.front().waypoints.front()[0].p.x(), 3);
+  EXPECT_EQ(back.segments.front().waypoint_frames, (std::vector{0, 2, 3}));
+  EXPECT_EQ(back.segments[1].kind, PlanSegment::Kind::kPlace);
+  EXPECT_EQ(back.segments[2].kind, PlanSegment::Kind::kRelease);
   const Keyframe* last = &back.start;
-  for (const Stretch& stretch : back.stretches) {
-    EXPECT_EQ(stretch.path.front().postures, last->postures);
-    last = &stretch.path.back();
+  for (const PlanSegment& segment : back.segments) {
+    EXPECT_EQ(segment.path.front().postures, last->postures);
+    last = &segment.path.back();
   }
 }
 

@@ -7,7 +7,7 @@ namespace pose_grid_test {
 
 using Eigen::Vector3d;
 
-/// From its end an object passes the same poses.
+/// Law: the reversed grid has the same poses.
 TEST(PoseGridTest, AReversedGridHasTheSamePoses) {
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   start.translation() = Vector3d(0.01, -0.02, 0.1);
@@ -28,31 +28,31 @@ TEST(PoseGridTest, AReversedGridHasTheSamePoses) {
   }
 }
 
-/// Onwards by some steps, and backwards by the others: what lies between is the whole turn where
-/// both are tilted alike, and no turn about that axis where they are not.
-TEST(PoseGridTest, OnwardsAndBackwardsWithOneTiltMakeUpTheTurn) {
+/// Law: a forward and a backward part with equal tilt add up to the whole rotation; with different
+/// tilts they do not.
+TEST(PoseGridTest, ForwardAndBackwardPartsWithEqualTiltAddUpToTheRotation) {
   constexpr int kSteps = 5;
   const Turn turn{Vector3d(1, -1, 2).normalized(), 1.3};
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   start.linear() = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const PoseTrack track(start, {0.01, 0, 0}, turn, Vector3d::Zero(), kSteps);
   const Vector3d up = Vector3d::UnitZ();
-  const PoseGrid onwards(track, up, PoseGrid::End::kOrientation);
-  const PoseGrid backwards(track.Backwards(), up, PoseGrid::End::kOrientation);
-  ASSERT_EQ(onwards.PoseAt(onwards.start()).matrix(), backwards.PoseAt(backwards.start()).matrix());
+  const PoseGrid forward(track, up, PoseGrid::End::kOrientation);
+  const PoseGrid backward(track.Backwards(), up, PoseGrid::End::kOrientation);
+  ASSERT_EQ(forward.PoseAt(forward.start()).matrix(), backward.PoseAt(backward.start()).matrix());
   const Eigen::Matrix3d whole = Eigen::AngleAxisd(turn.angle, turn.axis).toRotationMatrix();
-  int alike = 0;
-  for (int node = 0; node < onwards.size(); ++node) {
-    for (int back = 0; back < backwards.size(); ++back) {
-      if (onwards.StepOf(node) + backwards.StepOf(back) != kSteps) continue;
+  int equal_tilts = 0;
+  for (int node = 0; node < forward.size(); ++node) {
+    for (int back = 0; back < backward.size(); ++back) {
+      if (forward.StepOf(node) + backward.StepOf(back) != kSteps) continue;
       const Eigen::Matrix3d between =
-          backwards.PoseAt(back).linear().transpose() * onwards.PoseAt(node).linear();
-      const bool same_tilt = onwards.TiltOf(node) == backwards.TiltOf(back);
+          backward.PoseAt(back).linear().transpose() * forward.PoseAt(node).linear();
+      const bool same_tilt = forward.TiltOf(node) == backward.TiltOf(back);
       EXPECT_EQ((between - whole).norm() < 1e-12, same_tilt) << node << " " << back;
-      alike += same_tilt;
+      equal_tilts += same_tilt;
     }
   }
-  EXPECT_GT(alike, onwards.size());
+  EXPECT_GT(equal_tilts, forward.size());
 }
 
 }  // namespace pose_grid_test

@@ -46,7 +46,7 @@ TEST_F(CarryOutTestTest, PlansThatThePlannerTriedAreCarriedOutAndWithLittleFrict
   const planning::PlanResult found = planning::Solve(planner_, Turning(90));
   ASSERT_TRUE(found.plan) << found.message;
   ASSERT_FALSE(found.notes.empty());
-  EXPECT_NE(found.notes.front().find("motors carry it out"), std::string::npos);
+  EXPECT_NE(found.notes.front().find("the plan executes in simulation"), std::string::npos);
   const auto carry_out = CarryOutTest(hand_, cube_);
   const auto carried = carry_out(*found.plan, {});
   ASSERT_TRUE(carried);
@@ -119,11 +119,12 @@ TEST_F(CarryOutTestTest, OfAPlanWhoseTrialWasCutShortItIsSaidThatTheTimeWasUp) {
   const planning::PlanResult found = planning::Solve(planner_, request);
   ASSERT_TRUE(found.plan) << found.message;
   ASSERT_FALSE(found.warnings.empty());
-  EXPECT_NE(found.warnings.front().find("the time was up in the first hold"), std::string::npos);
+  EXPECT_NE(found.warnings.front().find("reaches the time limit at the initial grasp"),
+            std::string::npos);
   request.in_hand->reserve = planning::Reserve::kRequired;
   const planning::PlanResult none = planning::Solve(planner_, request);
   EXPECT_FALSE(none.plan);
-  EXPECT_NE(none.message.find("the time was up in the first hold"), std::string::npos);
+  EXPECT_NE(none.message.find("reaches the time limit at the initial grasp"), std::string::npos);
   EXPECT_FALSE(none.trial);  // which says nothing of what fails
 }
 

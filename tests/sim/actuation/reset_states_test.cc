@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "planner/gait/random_rests.h"
+#include "planner/gait/random_stances.h"
 #include "planner/mujoco/handles.h"
 #include "sim/actuation/draw_reset_states.h"
 #include "sim/actuation/format_reset_states.h"
@@ -36,8 +36,8 @@ class ResetStatesTest : public FolderTest {
     return dynamic_cast<const object::Polyhedron&>(*cube_.object);
   }
   [[nodiscard]] DrawRest MakeDraw(int tries) const {
-    const gait::RandomRestOptions options{.fewest = 3, .most = 5};
-    const auto rests = std::make_shared<gait::RandomRests>(request_, options);
+    const gait::RandomStanceOptions options{.fewest = 3, .most = 5};
+    const auto rests = std::make_shared<gait::RandomStances>(request_, options);
     return [rests, tries](RandomStream& random) -> std::optional<RestToHold> {
       auto rest = rests->Draw(random, tries);
       if (!rest) return std::nullopt;

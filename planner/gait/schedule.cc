@@ -1,0 +1,444 @@
+#include "planner/gait/schedule.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "planner/base/in_blocks.h"
+#include "planner/gait/initial_pose.h"
+#include "planner/gait/joined_search.h"
+#include "planner/gait/plan_of_gait.h"
+#include "planner/plan/reason.h"
+
+namespace regrasp::gait {
+
+namespace {
+
+/// Expansions of one search before the next search continues.
+constexpr int kExpandedPerRun = 6;
+/// Total expansions per initial pose before another one is added: constant, and per track step if
+/// that is larger. Deep searches solve more full rotations than many shallow ones: 19 instead of 16
+/// of 20 within 8 s with an Allegro hand.
+constexpr std::int64_t kExpandedForNext = 20;
+constexpr double kExpandedForStep = 0.75;
+/// Number of times that initial poses are drawn.
+constexpr int kPoseDrawings = 4;
+
+/// Bounds of one search.
+struct Budget {
+  std::int64_t expanded;  ///< expanded stances per quarter turn
+  double time;            ///< fraction of the remaining time
+};
+
+/// Margins with modelled rolling, larger ones first.
+constexpr std::array kRolling = {RobustnessMargins{0.05, 1.5e-3, 0.2},
+                                 RobustnessMargins{0.02, 1.5e-3, 0.1}};
+/// Budget per set of margins if there is a gait without margins.
+constexpr Budget kRollingBudget = {40, 0.4};
+/// Length limit of a robust gait: factor and offset on the number of segments without margins.
+constexpr std::size_t kMaxLengthFactor = 3;
+constexpr std::size_t kMaxExtraSegments = 12;
+
+/// Margins for simulated edges, assigned to initial poses in turn.
+/// Two of three do not model rolling, because these searches are faster; with rolling, more gaits
+/// execute.
+constexpr RobustnessMargins kNotRolling = {0.05, 0.5e-3};
+constexpr std::array kEdgeMargins = {kNotRolling, kNotRolling, kRolling.front()};
+/// Expansions per quarter turn in the first round; doubled in each further round.
+constexpr std::int64_t kExpandedInRound = 300;
+/// Number of rounds; the maximum applies if there is a time limit.
+constexpr int kRounds = 2;
+constexpr int kMaxRounds = 6;
+constexpr int kStreamShift = 32;  ///< of seeds
+/// Complete gaits are simulated first.
+/// For short rotations their rolling is not modelled, so that they may begin at any angle; for
+/// other tasks it is, because ring hands execute most of these.
+constexpr std::array kShortTurnMargins = {kNotRolling, RobustnessMargins{0.02, 0}};
+constexpr double kShortTurn = 1.75;  ///< radians
+constexpr Budget kWholeBudget = {40, 0.15};
+/// Maximum number of such attempts with different initial poses.
+/// Most of these gaits are a single motion, which is found quickly and either executes or not.
+constexpr int kWholeAttempts = 4;
+/// Fraction of the time after which a gait without margins is searched.
+constexpr double kTimeBeforeWithout = 0.85;
+
+void Bound(GaitRequest& request, const Budget& budget) {
+  const double quarters = std::max(1.0, std::abs(request.turn.angle) / (std::numbers::pi / 2));
+  request.most_expanded = std::min<std::int64_t>(
+      request.most_expanded, std::llround(quarters * static_cast<double>(budget.expanded)));
+  request.deadline = request.deadline.After(budget.time);
+}
+
+constexpr std::string_view kSimulating = "simulating a plan";
+
+/// What an attempt simulates.
+enum class Simulate {
+  kEdges,  ///< edges during the search, and the gait
+  kGait,   ///< only the gait that the search finds
+};
+
+/// One search of a gait: a row of the schedule.
+struct Attempt {
+  std::span<const RobustnessMargins> margin_sets;  ///< assigned to the initial poses in turn
+  Budget budget;
+  Simulate simulate;
+  std::uint64_t stream;           ///< random stream, added to the seed
+  bool repeats_previous = false;  ///< skipped if the previous attempt found no gait
+};
+/// Attempts made one after the other. Different schedules may run in parallel.
+using Schedule = std::vector<Attempt>;
+
+/// Return the schedules in order of priority.
+std::vector<Schedule> SchedulesFor(const GaitRequest& request) {
+  const bool is_short_turn = !request.goal_pose && std::abs(request.turn.angle) <= kShortTurn;
+  const std::span<const RobustnessMargins> whole =
+      is_short_turn ? std::span<const RobustnessMargins>(kShortTurnMargins)
+                    : std::span(&kRolling.front(), 1);
+  std::vector<Schedule> schedules;
+  const int rounds = request.deadline.left() ? std::max(kMaxRounds, request.jobs) : kRounds;
+  for (int round = 0; round < rounds; ++round) {
+    const std::uint64_t stream = static_cast<std::uint64_t>(round) * kWholeAttempts;
+    for (const RobustnessMargins& margins : whole) {
+      Schedule& schedule = schedules.emplace_back();
+      for (int again = 0; again < kWholeAttempts; ++again) {
+        schedule.push_back(
+            {{&margins, 1}, kWholeBudget, Simulate::kGait, stream + again, again > 0});
+      }
+    }
+    const int doublings = std::min(round, kMaxRounds - 1);
+    const Budget budget{kExpandedInRound << doublings, 1};
+    schedules.push_back({{kEdgeMargins, budget, Simulate::kEdges, stream}});
+  }
+  return schedules;
+}
+
+SimulatedGait FindWithoutSimulation(GaitRequest request, const FindOne& find) {
+  request.carry_out = nullptr;
+  if (request.reserve == Reserve::kRequired) return {FindRobustGait(request, find, {})};
+  FoundGait without = find(request, {});
+  return {without.gait ? FindRobustGait(request, find, without) : std::move(without)};
+}
+
+/// Runs schedules, several in parallel, until a gait executes.
+/// Without a deadline the result does not depend on the number of threads: the first schedule with
+/// an executing gait determines it.
+class AttemptRunner {
+ public:
+  /// All arguments outlive this object.
+  AttemptRunner(const GaitRequest& request, const std::vector<grasp::Contact>& contacts,
+                const FindOne& find)
+      : request_(request),
+        contacts_(contacts),
+        find_(find),
+        schedules_(SchedulesFor(request)),
+        outcomes_(schedules_.size()),
+        last_schedule_(schedules_.size()) {}
+
+  void Run(const Deadline& deadline) {
+    InBlocks(schedules_.size(), 1, request_.jobs, [&](std::size_t begin, std::size_t end) {
+      try {
+        for (std::size_t i = begin; i < end; ++i) RunSchedule(i, deadline);
+      } catch (...) {
+        is_over_ = true;
+        throw;
+      }
+    });
+  }
+
+  /// Whether the simulator gives no result.
+  [[nodiscard]] bool is_unknown() const { return is_unknown_; }
+
+  /// Return the first executing gait; no gait if none executes.
+  /// If requested, the first one with the largest tolerance margin.
+  [[nodiscard]] SimulatedGait BestExecuted() {
+    Outcome* best = nullptr;
+    ForEachOutcome([&](Outcome& outcome) {
+      if (!outcome.execution || !outcome.execution->is_whole) return;
+      const bool is_better = best == nullptr || (request_.seeks_most_margin &&
+                                                 outcome.execution->spare > best->execution->spare);
+      if (is_better) best = &outcome;
+    });
+    if (best == nullptr) return {};
+    return {std::move(best->found), std::move(best->execution)};
+  }
+
+  /// Return the first gait or, if there is none, the reason.
+  /// Reasons of attempts with simulated edges take precedence.
+  [[nodiscard]] SimulatedGait FirstNotExecuted() {
+    SimulatedGait best;
+    ForEachOutcome([&](Outcome& outcome) {
+      if (best.found.gait) return;
+      if (!outcome.found.gait && !best.found.message.empty() && outcome.simulate == Simulate::kGait)
+        return;
+      best = {std::move(outcome.found), std::move(outcome.execution)};
+    });
+    return best;
+  }
+
+  /// Return why no gait executes.
+  /// The reason is the failure of the candidate that executes farthest, or why there is none.
+  [[nodiscard]] SimulatedGait WhyNoneExecutes() {
+    std::size_t count = 0;
+    const Outcome* farthest = nullptr;
+    ForEachOutcome([&](const Outcome& outcome) {
+      if (!outcome.execution) return;
+      ++count;
+      const bool is_farther =
+          farthest == nullptr || outcome.ExecutedFraction() > farthest->ExecutedFraction();
+      if (is_farther) farthest = &outcome;
+    });
+    if (farthest == nullptr) return {std::move(FirstNotExecuted().found)};
+    std::string text =
+        std::to_string(count) +
+        (count == 1 ? " candidate planned, it does not execute in simulation; it "
+                    : " candidates planned, none executes in simulation; the best ") +
+        FailureText(*farthest->execution, farthest->steps);
+    return {{std::nullopt, std::move(text)}, farthest->execution};
+  }
+
+ private:
+  struct Outcome {
+    FoundGait found;
+    Simulate simulate;                                   ///< of the attempt
+    std::optional<planning::CarriedOut> execution = {};  ///< of the gait, if any
+    std::size_t steps = 0;                               ///< number of plan steps
+
+    [[nodiscard]] double ExecutedFraction() const {
+      return (execution->is_held ? 1.0 + execution->steps : 0.0) /
+             (1.0 + static_cast<double>(steps));
+    }
+  };
+
+  void RunSchedule(std::size_t schedule, const Deadline& until) {
+    const auto is_abandoned = [this, schedule] { return is_over_ || schedule > last_schedule_; };
+    const Deadline deadline = until.OrWhen(is_abandoned);
+    if (schedule > 0 && deadline.IsOver()) return;
+    for (const Attempt& attempt : schedules_[schedule]) {
+      if (attempt.repeats_previous && !outcomes_[schedule].back().found.gait) return;
+      outcomes_[schedule].push_back(Make(attempt, deadline));
+      const Outcome& outcome = outcomes_[schedule].back();
+      if (outcome.execution && outcome.execution->is_whole && !request_.seeks_most_margin) {
+        EndWith(schedule);
+        return;
+      }
+      if (deadline.IsOver()) return;
+    }
+  }
+
+  Outcome Make(const Attempt& attempt, const Deadline& deadline) {
+    GaitRequest asked = request_;
+    asked.seed += attempt.stream << kStreamShift;
+    asked.deadline = deadline;
+    asked.progress = [this](std::string_view text) { Report(text); };
+    if (attempt.simulate == Simulate::kGait) asked.carry_out = nullptr;
+    Bound(asked, attempt.budget);
+    Outcome outcome{find_(asked, attempt.margin_sets), attempt.simulate};
+    if (!outcome.found.gait) return outcome;
+    Report(kSimulating);
+    const plan::Plan plan = PlanOf(*outcome.found.gait, request_, contacts_);
+    outcome.steps = plan.steps.size();
+    outcome.execution = request_.carry_out(plan, deadline);
+    if (!outcome.execution) is_unknown_ = is_over_ = true;
+    return outcome;
+  }
+
+  void Report(std::string_view text) {
+    const std::scoped_lock lock(reporting_);
+    request_.progress(text);
+  }
+
+  /// Abandon later schedules.
+  /// With a deadline, whose result depends on the machine anyway, abandon all.
+  void EndWith(std::size_t schedule) {
+    if (request_.deadline.left()) is_over_ = true;
+    std::size_t last = last_schedule_;
+    while (schedule < last && !last_schedule_.compare_exchange_weak(last, schedule)) {
+    }
+  }
+
+  template <typename F>
+  void ForEachOutcome(const F& call) {
+    for (std::vector<Outcome>& schedule : outcomes_) {
+      for (Outcome& outcome : schedule) call(outcome);
+    }
+  }
+
+  const GaitRequest& request_;
+  const std::vector<grasp::Contact>& contacts_;
+  const FindOne& find_;
+  std::vector<Schedule> schedules_;
+  std::vector<std::vector<Outcome>> outcomes_;  ///< by schedule
+  std::atomic<std::size_t> last_schedule_;
+  std::atomic<bool> is_over_ = false;
+  std::atomic<bool> is_unknown_ = false;
+  std::mutex reporting_;
+};
+
+}  // namespace
+
+MultiStartSearch::MultiStartSearch(const GaitRequest& request, std::vector<SearchTerms> terms,
+                                   GaitEnds ends)
+    : request_(request),
+      terms_(std::move(terms)),
+      ends_(std::move(ends)),
+      random_(request.seed, RandomUse::kHomes),
+      task_(request.scale * request.solid->mass_properties().centroid, request.turn,
+            request.goal_pose) {}
+
+std::optional<Gait> MultiStartSearch::Search() {
+  while (!request_.deadline.IsOver() && expanded_ < request_.most_expanded) {
+    Start* start = Next();
+    if (start == nullptr) return std::nullopt;
+    const std::int64_t before = start->search->counts().expanded;
+    const std::optional<Gait> gait =
+        start->search->Run(before + kExpandedPerRun, request_.deadline);
+    if (gait) return MergeMoves(start->terms.setup, *gait);
+    expanded_ += start->search->counts().expanded - before;
+    request_.progress("searching a gait: " + std::to_string(expanded_) + " stances expanded from " +
+                      std::to_string(starts_.size()) + " initial poses");
+  }
+  return std::nullopt;
+}
+
+std::vector<GaitCounts> MultiStartSearch::counts() const {
+  std::vector<GaitCounts> counts;
+  for (const auto& start : starts_) counts.push_back(start->search->counts());
+  return counts;
+}
+
+std::int64_t MultiStartSearch::BudgetForNextStart() const {
+  if (starts_.empty()) return 0;
+  const int steps = starts_.front()->search->counts().steps;
+  return static_cast<std::int64_t>(starts_.size()) *
+         std::max<std::int64_t>(kExpandedForNext, std::llround(kExpandedForStep * steps));
+}
+
+MultiStartSearch::Start* MultiStartSearch::Next() {
+  if (expanded_ >= BudgetForNextStart() && OpenNextStart()) return starts_.back().get();
+  Start* next = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& start : starts_) {
+    if (start->search->IsExhausted()) continue;
+    const GaitCounts counts = start->search->counts();
+    const double farther = 1.0 + counts.farthest;
+    const double weight = static_cast<double>(counts.expanded) / (farther * farther);
+    if (weight >= least) continue;
+    least = weight;
+    next = start.get();
+  }
+  return next == nullptr && OpenNextStart() ? starts_.back().get() : next;
+}
+
+bool MultiStartSearch::OpenNextStart() {
+  while (true) {
+    if (initial_poses_.empty()) {
+      if (!DrawInitialPoses()) return false;
+      continue;
+    }
+    const PoseTrack track = task_.From(initial_poses_.back());
+    initial_poses_.pop_back();
+    auto start = std::make_unique<Start>(
+        Start{terms_[opened_++ % terms_.size()],
+              RandomStream(request_.seed, RandomUse::kGaits, starts_.size())});
+    start->search = SearchAlong(track, start->terms, start->random);
+    if (!start->search || !start->search->GoalIsHeld()) continue;
+    starts_.push_back(std::move(start));
+    return true;
+  }
+}
+
+std::unique_ptr<StartSearch> MultiStartSearch::SearchAlong(const PoseTrack& track,
+                                                           const SearchTerms& terms,
+                                                           RandomStream& random) {
+  const HandSetup& setup = terms.setup;
+  std::optional<IdlePostures> idle_postures = FindIdlePostures(setup, track, random_);
+  if (!idle_postures) return nullptr;
+  const bool is_turn = !request_.goal_pose && track.steps() > 0;
+  // Contacts roll, and edges are simulated, in the direction of time only.
+  const bool is_one_directional = setup.rolled_on != nullptr || terms.simulate;
+  const bool may_begin_anywhere = is_turn && !request_.start_pose && ends_.start.empty() &&
+                                  ends_.goal.empty() && !is_one_directional;
+  if (may_begin_anywhere) {
+    if (auto backward = FindIdlePostures(setup, track.Backwards(), random_)) {
+      return std::make_unique<TurnSearch>(setup, track, *std::move(idle_postures),
+                                          *std::move(backward), terms.memory, random);
+    }
+  }
+  const PoseGrid grid(track, setup.scene.hand().up,
+                      is_turn ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
+  return std::make_unique<BidirectionalSearch>(setup, grid, *std::move(idle_postures), ends_,
+                                               terms.memory, random, terms.simulate);
+}
+
+bool MultiStartSearch::DrawInitialPoses() {
+  if (++drawings_ > (request_.start_pose ? 1 : kPoseDrawings)) return false;
+  if (request_.start_pose) {
+    initial_poses_.assign(terms_.size(), *request_.start_pose);
+    return true;
+  }
+  const SearchTerms& first = terms_.front();
+  initial_poses_ = FindInitialPoses(first.setup, task_, ends_, first.memory, random_);
+  std::ranges::reverse(initial_poses_);
+  return true;
+}
+
+std::string FailureText(const planning::CarriedOut& execution, std::size_t steps) {
+  const std::string where = execution.is_held ? "step " + std::to_string(execution.steps + 1) +
+                                                    " of " + std::to_string(steps)
+                                              : "the initial grasp";
+  if (execution.is_cut_short) return "reaches the time limit at " + where;
+  return "fails at " + where + " (" + std::string(plan::ReasonName(execution.reason)) +
+         "): " + execution.detail;
+}
+
+FoundGait FindRobustGait(const GaitRequest& request, const FindOne& find,
+                         const FoundGait& without) {
+  FoundGait none = without;
+  for (const RobustnessMargins& margins : kRolling) {
+    GaitRequest asked = request;
+    if (without.gait) {
+      Bound(asked, kRollingBudget);
+    } else {
+      asked.most_expanded /= static_cast<std::int64_t>(kRolling.size());
+    }
+    FoundGait found = find(asked, {&margins, 1});
+    const bool is_much_longer =
+        found.gait && without.gait &&
+        found.gait->segments.size() >
+            kMaxLengthFactor * without.gait->segments.size() + kMaxExtraSegments;
+    if (found.gait && !is_much_longer) return found;
+    if (!none.gait && none.message.empty()) none.message = std::move(found.message);
+  }
+  return none;
+}
+
+SimulatedGait FindExecutableGait(const GaitRequest& request,
+                                 const std::vector<grasp::Contact>& contacts, const FindOne& find) {
+  const bool is_required = request.reserve == Reserve::kRequired;
+  AttemptRunner runner(request, contacts, find);
+  runner.Run(is_required ? request.deadline : request.deadline.After(kTimeBeforeWithout));
+  if (runner.is_unknown()) return FindWithoutSimulation(request, find);
+  if (SimulatedGait best = runner.BestExecuted(); best.found.gait) return best;
+  if (is_required) return runner.WhyNoneExecutes();
+  SimulatedGait best = runner.FirstNotExecuted();
+  SimulatedGait without{find(request, {})};
+  if (without.found.gait) {
+    request.progress(kSimulating);
+    const plan::Plan plan = PlanOf(*without.found.gait, request, contacts);
+    without.execution = request.carry_out(plan, request.deadline);
+    if (!without.execution) return FindWithoutSimulation(request, find);
+    if (without.execution->is_whole) return without;
+  }
+  return std::move(best.found.gait ? best : without);
+}
+
+}  // namespace regrasp::gait
