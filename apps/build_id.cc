@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "planner/base/file.h"
-#include "planner/base/hexadecimal.h"
 
 namespace regrasp::apps {
 

@@ -15,7 +15,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/plan/plan_io.h"
-#include "report/report_seal.h"
+#include "report/report_json.h"
 
 namespace regrasp::apps {
 

@@ -7,7 +7,7 @@
 
 #include "apps/entry_names.h"
 #include "planner/base/file.h"
-#include "render/picture/webp.h"
+#include "render/picture/moving_picture.h"
 
 namespace regrasp::apps {
 

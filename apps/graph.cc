@@ -11,7 +11,6 @@
 #include "apps/planner_options.h"
 #include "apps/program.h"
 #include "apps/progress.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"

@@ -5,7 +5,6 @@
 #include <sstream>
 #include <vector>
 
-#include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "planner/base/json.h"
-#include "planner/planning/graph_summary.h"
+#include "planner/planning/planner.h"
 
 namespace regrasp::apps {
 

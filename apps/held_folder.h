@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/descriptor.h"
+#include "planner/base/file.h"
 
 namespace regrasp::apps {
 

@@ -11,7 +11,6 @@
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/base/stopwatch.h"
 
 namespace regrasp::apps {
 

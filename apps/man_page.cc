@@ -6,7 +6,7 @@
 
 #include "apps/help.h"
 #include "apps/program.h"
-#include "planner/base/utf8.h"
+#include "planner/base/text_table.h"
 
 namespace regrasp::apps {
 

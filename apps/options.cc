@@ -7,7 +7,6 @@
 
 #include "apps/help.h"
 #include "apps/nearest_word.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 

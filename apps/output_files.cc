@@ -10,7 +10,6 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
-#include "planner/base/write_file.h"
 
 namespace regrasp::apps {
 

@@ -17,12 +17,11 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 #include "planner/criteria/reach.h"
 #include "planner/object/body_measures.h"
 #include "planner/object/mesh_defect.h"
 #include "planner/object/polyhedron.h"
-#include "planner/plan/invented_contacts.h"
+#include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 
 namespace {

@@ -9,13 +9,13 @@
 #include "apps/nearest_word.h"
 #include "apps/progress.h"
 #include "planner/base/error.h"
-#include "planner/certificate/finish_plan.h"
+#include "planner/certificate/align_certificate.h"
 #include "planner/gait/gait_planner.h"
 #include "planner/plan/grasp_io.h"
-#include "planner/plan/invented_contacts.h"
+#include "planner/planning/in_hand_task.h"
 #include "planner/planning/solve.h"
 #include "planner/tree/tree_planner.h"
-#include "sim/actuation/carry_out.h"
+#include "sim/actuation/simulate_execution.h"
 
 namespace regrasp::apps {
 
@@ -170,8 +170,8 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
       throw InputError("--hand: hands hold solids, and no planar objects");
     }
     planning::InHandTask task{.hand = &hand_file->hand, .scale = common.scale};
-    task.carry_out =
-        sim::CarryOutTest(*hand_file, dynamic_cast<const object::Polyhedron&>(*object.object));
+    task.simulate = sim::ExecutionSimulator(
+        *hand_file, dynamic_cast<const object::Polyhedron&>(*object.object));
     hand.AskFor(task);
     gait::AskInHand(task, request);
   }

@@ -7,7 +7,6 @@
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/repair_module.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/memory.h"
 #include "planner/base/number.h"

@@ -13,7 +13,7 @@
 #include "apps/repair_options.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"
-#include "planner/object/read_soup.h"
+#include "planner/object/read_object.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "planner/base/error.h"
-#include "planner/base/write_file.h"
+#include "planner/base/file.h"
 
 namespace regrasp::apps {
 

@@ -4,7 +4,7 @@
 
 #include "apps/validate_options.h"
 #include "apps/validate_task.h"
-#include "planner/base/stopwatch.h"
+#include "planner/base/deadline.h"
 #include "planner/grasp/contact.h"
 #include "planner/plan/check.h"
 #include "planner/plan/snapshot.h"

@@ -10,7 +10,6 @@
 #include "apps/help.h"
 #include "apps/validate_modes.h"
 #include "apps/view_options.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "render/picture/moving_picture.h"

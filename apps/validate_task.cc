@@ -20,8 +20,8 @@
 #include "planner/object/reading.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
-#include "report/json_values.h"
 #include "report/report.h"
+#include "report/report_json.h"
 #include "sim/actuation/hand_scene_export.h"
 
 namespace regrasp::apps {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "apps/plan_object.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/json.h"
 #include "planner/base/number.h"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "apps/options.h"
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 
 namespace regrasp::apps {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/motion/check_motion_proof.h"
 #include "planner/motion/find_motion_proof.h"
@@ -22,7 +22,7 @@
 #include "planner/motion/path_force_closure.h"
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
-#include "planner/plan/motion_fault.h"
+#include "planner/plan/check_step.h"
 
 namespace {
 

@@ -4,18 +4,17 @@
 #include <utility>
 
 #include "bench/processor_clock.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/object/polyhedron.h"
-#include "planner/planning/candidate_result.h"
+#include "planner/planning/candidate_sequence.h"
 #include "planner/planning/solve.h"
 #include "planner/registry/registry.h"
 #include "planner/sampling/surface_sampler.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "planner/tree/bidirectional_tree.h"
-#include "planner/tree/path_plan.h"
 #include "planner/tree/subset_search.h"
 #include "planner/tree/tree_planner.h"
 

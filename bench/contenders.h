@@ -7,7 +7,7 @@
 
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
-#include "planner/planning/plan_result.h"
+#include "planner/planning/planner.h"
 
 namespace regrasp {
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "bench/contour_union.h"
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/object.h"
 #include "planner/sets/contour/contour_graph.h"
 #include "planner/sets/contour/region_diagram.h"

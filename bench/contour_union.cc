@@ -5,7 +5,7 @@
 #include <iterator>
 #include <map>
 
-#include "planner/search/components.h"
+#include "planner/search/switching_graph.h"
 #include "planner/sets/contour/contact_space.h"
 
 namespace regrasp {

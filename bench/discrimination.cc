@@ -19,7 +19,6 @@
 #include "bench/sample_table.h"
 #include "bench/scatter_plot.h"
 #include "bench/table_file.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"

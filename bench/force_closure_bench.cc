@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bench/pyramid_force_closure.h"
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/convex_hull.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"

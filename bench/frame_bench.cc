@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/angle.h"
 #include "planner/base/file.h"
+#include "planner/base/number.h"
 #include "planner/gait/gait_planner.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/check.h"

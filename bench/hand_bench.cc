@@ -23,7 +23,6 @@
 #include "bench/hand_trial.h"
 #include "bench/processor_clock.h"
 #include "bench/spread.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
@@ -32,7 +31,7 @@
 #include "planner/gait/random_stances.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/check.h"
-#include "sim/actuation/carry_out.h"
+#include "sim/actuation/simulate_execution.h"
 
 namespace {
 
@@ -138,7 +137,7 @@ Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Hand
     request.solid = &body.solid();
     request.scale = body.scale;
     request.criteria.half_angle = std::atan(contest.plan_mu);
-    if (contest.replay) request.carry_out = sim::CarryOutTest(file, body.solid());
+    if (contest.replay) request.simulate = sim::ExecutionSimulator(file, body.solid());
     request.criteria.min_quality = contest.min_quality;
     request.turn = contest.turn;
     request.reserve = contest.reserve;

@@ -7,7 +7,7 @@
 
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/object/mesh_readers.h"
+#include "planner/object/read_object.h"
 
 namespace regrasp::bench {
 namespace {

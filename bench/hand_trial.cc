@@ -7,8 +7,9 @@
 #include "planner/object/body_measures.h"
 #include "planner/plan/check.h"
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/hand_world.h"
 #include "sim/hand/check_hand.h"
-#include "sim/measure/push.h"
+#include "sim/measure/shake.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::bench {

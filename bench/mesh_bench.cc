@@ -11,11 +11,11 @@
 #include <memory>
 
 #include "bench/pyramid_force_closure.h"
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/subset_force_closure.h"
 #include "planner/object/polyhedron.h"
-#include "planner/roadmap/roadmap_queries.h"
+#include "planner/roadmap/roadmap_planner.h"
 
 namespace {
 

@@ -17,11 +17,10 @@
 #include <vector>
 
 #include "bench/table_file.h"
-#include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/object/polyhedron.h"
-#include "planner/roadmap/roadmap_queries.h"
+#include "planner/roadmap/roadmap_planner.h"
 
 namespace {
 

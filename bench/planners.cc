@@ -16,7 +16,6 @@
 
 #include "bench/contest.h"
 #include "bench/table_file.h"
-#include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/object/object.h"
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "bench/polygon_set_cells.h"
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/object.h"
 #include "planner/sets/polygon/polygon_graph.h"
 

@@ -20,7 +20,7 @@
 #include "bench/polyhedron_program.h"
 #include "bench/polyhedron_query.h"
 #include "bench/polyhedron_stone.h"
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "planner/object/polyhedron.h"
-#include "planner/planning/spanning.h"
+#include "planner/planning/plan_request.h"
 
 namespace regrasp {
 

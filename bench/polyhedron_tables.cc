@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/angle.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"

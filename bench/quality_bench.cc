@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "bench/processor_clock.h"
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/bound_quality.h"
 #include "planner/grasp/convex_hull.h"
 #include "planner/grasp/force_closure.h"

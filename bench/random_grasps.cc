@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"

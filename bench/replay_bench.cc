@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/check.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <filesystem>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/object/polyhedron.h"
 #include "planner/planning/solve.h"

@@ -6,11 +6,10 @@
 #include "planner/base/error.h"
 #include "planner/plan/check.h"
 #include "planner/plan/locate.h"
-#include "planner/plan/locate_grasps.h"
 #include "planner/plan/plan_io.h"
 #include "planner/plan/reason.h"
 #include "python/binding.h"
-#include "render/figures/make_panels.h"
+#include "render/figures/plan_figure.h"
 #include "report/report.h"
 
 namespace regrasp::python {

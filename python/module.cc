@@ -8,7 +8,7 @@
 
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"
-#include "planner/base/write_file.h"
+#include "planner/base/file.h"
 #include "python/binding.h"
 
 PYBIND11_MODULE(_regrasp, module) {

@@ -9,18 +9,19 @@
 
 #include "planner/base/error.h"
 #include "planner/base/memory.h"
-#include "planner/certificate/finish_plan.h"
+#include "planner/certificate/align_certificate.h"
 #include "planner/criteria/reach.h"
 #include "planner/gait/gait_planner.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
+#include "planner/planning/in_hand_task.h"
 #include "planner/planning/solve.h"
 #include "planner/registry/registry.h"
 #include "planner/roadmap/build_roadmap.h"
 #include "python/binding.h"
 #include "python/interrupt.h"
-#include "sim/actuation/carry_out.h"
+#include "sim/actuation/simulate_execution.h"
 
 namespace regrasp::python {
 
@@ -73,7 +74,7 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .turn = {given.turn_axis, given.turn_angle},
           .start_pose = PoseOf(given.start_pose),
           .goal_pose = PoseOf(given.goal_pose),
-          .carry_out = sim::CarryOutTest(
+          .simulate = sim::ExecutionSimulator(
               hand.file, dynamic_cast<const object::Polyhedron&>(*object.file.object))};
 }
 

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
@@ -24,7 +23,7 @@
 #include "report/failure.h"
 #include "report/pictures/report_pictures.h"
 #include "report/report.h"
-#include "report/simulation_json.h"
+#include "report/report_json.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/tip_geometry.h"
 #include "sim/hand/check_hand.h"

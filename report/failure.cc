@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/angle.h"
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 #include "planner/object/given_points.h"
 #include "planner/object/object.h"
 #include "planner/plan/locate.h"
-#include "report/trials_report.h"
+#include "report/report_table.h"
 
 namespace regrasp::report {
 
@@ -146,7 +144,8 @@ std::string MendOf(const ReportStep& step, const Report& report) {
                  ? "joint angles that keep the couplings of the hand's model; plan again with a "
                    "hand file that hand --model writes"
                  : "a model whose coupling is as hard as that of the real hand (solref and solimp "
-                   "of its equality), a smaller --squeeze, or a plan whose states keep the coupling";
+                   "of its equality), a smaller --squeeze, or a plan whose states keep the "
+                   "coupling";
     case Reason::kTipPenetrates:
       return "a fingertip sphere that the model's geometry is inside (hand --model fits one), or a "
              "plan with a larger margin";

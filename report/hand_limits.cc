@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 
 namespace regrasp::report {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "planner/base/utf8.h"
+#include "planner/base/text_table.h"
 
 namespace regrasp::report {
 

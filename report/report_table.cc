@@ -1,22 +1,176 @@
+#include "report/report_table.h"
+
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "planner/base/angle.h"
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
+#include "planner/base/random.h"
 #include "planner/base/text_table.h"
 #include "planner/grasp/quality.h"
 #include "report/failure.h"
 #include "report/hand_limits.h"
 #include "report/report.h"
-#include "report/squeeze_text.h"
-#include "report/stress_table.h"
-#include "report/trials_report.h"
+#include "sim/measure/shake.h"
 #include "sim/measure/weakest_finger.h"
+#include "sim/scene/scaling.h"
 
 namespace regrasp::report {
+
+std::string SqueezeText(const sim::ReplaySettings& settings) {
+  const double weight = settings.mass_kg * sim::kGravity;
+  const std::string squeeze = FormatShort(settings.squeeze_N) + " N, " +
+                              FormatShort(settings.squeeze_N / weight) + " times the weight";
+  switch (settings.squeeze_source) {
+    case sim::SqueezeSource::kShake:
+      return squeeze + ": so much that the weight " +
+             (settings.shake >= sim::kLeastShakeForSqueeze ? "is only a tenth of the shake"
+                                                           : "hardly counts") +
+             ", as verdicts depend on forces over the squeeze alone; no hand presses like that "
+             "(--squeeze realistic does as hands do)";
+    case sim::SqueezeSource::kHand:
+      if (settings.squeeze_N >= sim::kStrongestGrip_N) {
+        return squeeze + ": the most that a hand applies, less than it would take here";
+      }
+      return squeeze + ": as a hand grips, " + FormatShort(sim::kGripSafety) +
+             " times what the weight needs in the grasp that carries it worst";
+    case sim::SqueezeSource::kTorques:
+      return squeeze +
+             ": what the torques of the hand's actuators allow, at most twelve weights or 4 N";
+    case sim::SqueezeSource::kGiven:
+      return squeeze + ": as --squeeze says";
+  }
+  return squeeze;
+}
+
+namespace {
+
+std::string Percent(double share) { return FormatShort(100 * share, 2); }
+
+/// "+x" of a force, "t+x" of a torque.
+std::string ShortName(const sim::Push& push) {
+  return std::string(push.turn ? "t" : "") + (push.sign > 0 ? "+" : "-") + "xyz"[push.axis];
+}
+
+}  // namespace
+
+std::optional<WeakestPush> FindWeakestPush(const Report& report) {
+  std::optional<WeakestPush> weakest;
+  for (const ReportStep& step : report.steps) {
+    if (!step.replay || step.skipped) continue;
+    for (const sim::DirectionStress& stress : step.replay->stress) {
+      if (weakest && stress.replay >= weakest->stress.replay) continue;
+      weakest = WeakestPush{step.check.index, stress};
+    }
+  }
+  return weakest;
+}
+
+std::string FormatStressTable(const Report& report) {
+  const auto weakest = FindWeakestPush(report);
+  if (!weakest) return "";
+  std::vector<TextRow> rows = {{"step"}};
+  for (const sim::Push& push : sim::PushDirections(report.dimension)) {
+    rows.front().push_back(ShortName(push));
+  }
+  for (const ReportStep& step : report.steps) {
+    if (!step.replay || step.skipped || step.replay->stress.empty()) continue;
+    TextRow row = {std::to_string(step.check.index)};
+    for (const sim::DirectionStress& stress : step.replay->stress)
+      row.push_back(Percent(stress.replay));
+    rows.push_back(row);
+  }
+  return "largest push (t: turn) in percent of the squeeze:\n" + FormatRows(rows) + "least: step " +
+         std::to_string(weakest->step) + ", " + sim::PushName(weakest->stress.push) + ", " +
+         Percent(weakest->stress.replay) + " % in the replay, " +
+         Percent(weakest->stress.analysis) + " % by analysis\n";
+}
+
+namespace {
+
+constexpr int kPercentDigits = 3;
+
+std::string TrialPercent(double share) { return FormatShort(100 * share, kPercentDigits); }
+
+}  // namespace
+
+Json TrialsJson(const sim::TrialSummary& summary) {
+  const ShareInterval interval = summary.interval();
+  Json reasons = Json::object();
+  for (const auto& [reason, count] : summary.reasons) {
+    reasons[std::string(plan::ReasonName(reason))] = count;
+  }
+  Json steps = Json::array();
+  for (const auto& [index, count] : summary.steps) {
+    steps.push_back({{"index", int{index}}, {"failed", count}});
+  }
+  Json json = {{"count", summary.options.count},
+               {"seed", summary.options.seed},
+               {"position_noise", summary.options.position_noise},
+               {"friction_error", summary.options.friction_error},
+               {"mass_error", summary.options.mass_error},
+               {"min_pass_rate", summary.options.min_pass_rate},
+               {"passed", summary.passed},
+               {"verdict", summary.enough() ? "pass" : "fail"},
+               {"share", summary.share()},
+               {"confidence", sim::kTrialConfidence},
+               {"interval", {interval.lower, interval.upper}},
+               {"reasons", reasons},
+               {"steps", steps}};
+  if (summary.options.joint_noise) json["joint_noise_deg"] = Degrees(*summary.options.joint_noise);
+  return json;
+}
+
+std::string TrialsPassText(const sim::TrialSummary& summary) {
+  return "in " + std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
+         " trials";
+}
+
+std::string TrialsRequiredText(const sim::TrialSummary& summary) {
+  const auto [share, required] =
+      FormatWithLimit(100 * summary.share(), 100 * summary.options.min_pass_rate, kPercentDigits);
+  return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
+         " trials pass (" + share + " %), and --min-pass-rate requires " + required + " %";
+}
+
+std::string TrialsShareText(const sim::TrialSummary& summary) {
+  const ShareInterval interval = summary.interval();
+  return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
+         " pass: " + TrialPercent(summary.share()) + " %, with " +
+         TrialPercent(sim::kTrialConfidence) + " % confidence between " +
+         TrialPercent(interval.lower) + " and " + TrialPercent(interval.upper) + " %; required " +
+         TrialPercent(summary.options.min_pass_rate) + " %";
+}
+
+std::string TrialsFailureText(const sim::TrialSummary& summary) {
+  const int failed = summary.options.count - summary.passed;
+  if (failed == 0) return "";
+  std::string text = std::to_string(failed) + " of " + std::to_string(summary.options.count) +
+                     " trials with noise fail";
+  const char* between = ": ";
+  for (const auto& [reason, count] : summary.reasons) {
+    text += std::exchange(between, ", ") + std::to_string(count) + " " +
+            std::string(plan::ReasonName(reason));
+  }
+  const char* before = "; first in ";
+  for (const auto& [index, count] : summary.steps) {
+    text += before + ("step " + std::to_string(index)) + ": " + std::to_string(count);
+    before = ", ";
+  }
+  return text;
+}
+
+std::string TrialsNoiseText(const sim::TrialSummary& summary) {
+  const sim::TrialOptions& options = summary.options;
+  const std::string joints =
+      options.joint_noise ? "joints by " + FormatShort(Degrees(*options.joint_noise)) + "°, " : "";
+  return (options.joint_noise ? "object at first off by " : "contacts off by ") +
+         FormatShort(options.position_noise) + " diameters, " + joints + "friction by " +
+         TrialPercent(options.friction_error) + " %, mass by " + TrialPercent(options.mass_error) +
+         " % (standard deviations); seed " + std::to_string(options.seed);
+}
 
 namespace {
 

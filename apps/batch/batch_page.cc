@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
-#include "planner/base/quantity_text.h"
+#include "planner/base/number.h"
 #include "report/markup.h"
-#include "report/page/fact_list.h"
+#include "report/page/facts.h"
 #include "report/page/html_page.h"
-#include "report/page/path_uri.h"
-#include "report/page/quantity.h"
-#include "report/page/step_text.h"
-#include "report/page/table.h"
+#include "report/page/step_table.h"
 
 namespace regrasp::apps {
 

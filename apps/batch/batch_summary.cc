@@ -4,8 +4,8 @@
 
 #include "planner/base/limit_text.h"
 #include "planner/base/text_table.h"
-#include "report/json_values.h"
 #include "report/junit.h"
+#include "report/report_json.h"
 
 namespace regrasp::apps {
 

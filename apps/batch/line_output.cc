@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "planner/base/error.h"
-#include "planner/base/write_file.h"
+#include "planner/base/file.h"
 
 namespace regrasp::apps {
 

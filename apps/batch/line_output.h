@@ -11,7 +11,7 @@
 
 #include "apps/batch/earlier_lines.h"
 #include "apps/batch/line_records.h"
-#include "planner/base/descriptor.h"
+#include "planner/base/file.h"
 
 namespace regrasp::apps {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "planner/base/error.h"
-#include "planner/base/text_encoding.h"
 #include "planner/base/file.h"
+#include "planner/base/text_encoding.h"
 #include "planner/plan/json_reader.h"
 
 namespace regrasp::apps {

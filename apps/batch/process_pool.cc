@@ -18,8 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/descriptor.h"
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 
 namespace regrasp::apps {
 

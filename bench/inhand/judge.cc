@@ -2,10 +2,9 @@
 
 #include <cmath>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/plan/hand_path.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::bench {
 namespace {

@@ -9,11 +9,13 @@
 #include "bench/good_poses.h"
 #include "bench/processor_clock.h"
 #include "planner/base/error.h"
-#include "planner/certificate/finish_plan.h"
+#include "planner/certificate/align_certificate.h"
 #include "planner/gait/gait_planner.h"
-#include "planner/plan/hand_path.h"
+#include "planner/gait/request.h"
+#include "planner/plan/plan.h"
+#include "planner/planning/in_hand_task.h"
 #include "planner/planning/solve.h"
-#include "sim/actuation/carry_out.h"
+#include "sim/actuation/simulate_execution.h"
 
 namespace regrasp::bench {
 namespace {
@@ -49,7 +51,7 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
                                                 const criteria::GraspCriteria& criteria) {
   planning::InHandTask in_hand{
       .hand = &hand.hand, .scale = body.scale, .reserve = planning::Reserve::kRequired};
-  in_hand.carry_out = sim::CarryOutTest(hand, body.solid());
+  in_hand.simulate = sim::ExecutionSimulator(hand, body.solid());
   if (start) {
     in_hand.start_pose = start->pose;
     for (const plan::FingerContact& held : start->holding) {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"
+#include "planner/base/number.h"
 
 namespace regrasp::bench {
 namespace {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "bench/spread.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "bench/csv_table.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/base/number.h"
 
 namespace regrasp::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <random>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 
 using namespace regrasp;
 

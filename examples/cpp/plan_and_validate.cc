@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan_io.h"
 #include "planner/planning/solve.h"

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <memory>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/gait/gait_planner.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
@@ -14,8 +14,8 @@
 #include "planner/planning/solve.h"
 #include "planner/registry/registry.h"
 #include "report/report.h"
-#include "sim/actuation/carry_out.h"
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/simulate_execution.h"
 
 using namespace regrasp;
 
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
 
     planning::InHandTask task{.hand = &hand.hand, .scale = std::atof(argv[3])};
     task.turn = {Eigen::Vector3d::UnitZ(), Radians(std::atof(argv[4]))};
-    task.carry_out = sim::CarryOutTest(hand, *solid);  // simulates candidates
+    task.simulate = sim::ExecutionSimulator(hand, *solid);  // simulates candidates
 
     planning::PlanRequest request;
     request.object = solid;

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <vector>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/object/object.h"
 #include "planner/planning/solve.h"

@@ -11,6 +11,7 @@
 #include <vector>
 
 namespace regrasp {
+
 namespace {
 
 class Blocks {
@@ -69,6 +70,24 @@ void InBlocks(std::size_t count, std::size_t block, int threads,
     blocks.Run();
   }
   blocks.ThrowFailure();
+}
+
+namespace {
+
+/// Reports of one piece of work.
+constexpr std::int64_t kReports = 100;
+
+}  // namespace
+
+CountedProgress::CountedProgress(const Tell& tell, std::string what, std::int64_t total)
+    : tell_(tell), what_(std::move(what)), total_(total) {
+  Report();
+}
+
+void CountedProgress::Report() {
+  // Rounded up, so that there are no more reports than that.
+  next_ = done_ + (total_ + kReports - 1) / kReports;
+  if (tell_) tell_(what_ + ": " + std::to_string(done_) + " of " + std::to_string(total_));
 }
 
 }  // namespace regrasp

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 
 namespace regrasp {
 

@@ -3,16 +3,24 @@
 #include <algorithm>
 #include <bit>
 #include <boost/crc.hpp>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <regex>
 #include <stdexcept>
 #include <string_view>
 
-#include "planner/base/utf8.h"
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/base/text_table.h"
+#include "planner/base/zip_archive.h"
 
 namespace regrasp {
+
 namespace {
 
 /// NPY headers end at a multiple of this.
@@ -125,6 +133,184 @@ std::string FormatNpz(const std::vector<NpzArray>& arrays) {
   Append(static_cast<std::uint32_t>(archive.size()), end);
   Append(std::uint16_t{0}, end);
   return archive + list + end;
+}
+
+namespace {
+
+constexpr std::string_view kMagic = "\x93NUMPY";
+
+/// What stands before the numbers of an NPY file.
+struct Header {
+  std::string type;  ///< "f8": kind and bytes of a number
+  bool big_endian = false;
+  bool fortran_order = false;
+  std::vector<std::size_t> shape;
+  std::size_t begin = 0;  ///< of the numbers, in the file
+};
+
+std::uint64_t UnsignedAt(std::string_view bytes, std::size_t size, bool big_endian) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::size_t at = big_endian ? i : size - 1 - i;
+    value = value << 8 | static_cast<unsigned char>(bytes[at]);
+  }
+  return value;
+}
+
+std::vector<std::size_t> ParseShape(const std::string& text) {
+  std::vector<std::size_t> shape;
+  static const std::regex kNumber("[0-9]+");
+  for (std::sregex_iterator it(text.begin(), text.end(), kNumber), end; it != end; ++it) {
+    if (it->str().size() > 15) throw InputError("the shape (" + text + ") is too large");
+    shape.push_back(std::stoull(it->str()));
+  }
+  return shape;
+}
+
+/// The dictionary that numpy writes; nothing else is one.
+Header ParseDictionary(const std::string& text) {
+  static const std::regex kDescription(R"('descr':\s*'([<>|=])([a-zA-Z]\d*)')");
+  static const std::regex kOrder(R"('fortran_order':\s*(True|False))");
+  static const std::regex kShape(R"('shape':\s*\(([0-9, ]*)\))");
+  std::smatch description, order, shape;
+  if (!std::regex_search(text, description, kDescription) ||
+      !std::regex_search(text, order, kOrder) || !std::regex_search(text, shape, kShape)) {
+    throw InputError("its header says no type, order and shape of numbers");
+  }
+  Header header;
+  header.type = description[2];
+  header.big_endian = description[1] == ">";
+  header.fortran_order = order[1] == "True";
+  header.shape = ParseShape(shape[1]);
+  return header;
+}
+
+Header ParseHeader(std::string_view bytes) {
+  constexpr std::size_t kMostHeader = 4096;  // numpy writes some 100
+  if (bytes.size() < 12 || !bytes.starts_with(kMagic)) throw InputError("no NPY array");
+  const bool is_short = bytes[6] == 1;
+  const std::size_t width = is_short ? 2 : 4;
+  const std::size_t begin = 8 + width;
+  const std::uint64_t size = UnsignedAt(bytes.substr(8), width, false);
+  if (size > std::min(bytes.size() - begin, kMostHeader)) throw InputError("its header is cut off");
+  Header header = ParseDictionary(std::string(bytes.substr(begin, size)));
+  header.begin = begin + size;
+  return header;
+}
+
+/// A number as its bytes have it.
+using Number = double (*)(std::uint64_t);
+
+template <typename Integer>
+double FromInteger(std::uint64_t bits) {
+  return static_cast<double>(static_cast<Integer>(bits));
+}
+
+/// Of a half-precision number (IEEE 754-2008, binary16): a sign, 5 bits of exponent, 10 of
+/// fraction.
+double FromHalf(std::uint64_t bits) {
+  const int exponent = static_cast<int>(bits >> 10 & 31);
+  const auto fraction = static_cast<double>(bits & 1023);
+  double size = std::ldexp(1024 + fraction, exponent - 25);
+  if (exponent == 0) size = std::ldexp(fraction, -24);
+  if (exponent == 31) {
+    size = fraction == 0 ? std::numeric_limits<double>::infinity()
+                         : std::numeric_limits<double>::quiet_NaN();
+  }
+  return (bits >> 15 & 1) != 0 ? -size : size;
+}
+
+Number NumberOf(const std::string& type) {
+  if (type == "f8") return [](std::uint64_t bits) { return std::bit_cast<double>(bits); };
+  if (type == "f4") {
+    return [](std::uint64_t bits) -> double {
+      return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    };
+  }
+  if (type == "f2") return FromHalf;
+  if (type == "i8") return FromInteger<std::int64_t>;
+  if (type == "i4") return FromInteger<std::int32_t>;
+  if (type == "i2") return FromInteger<std::int16_t>;
+  if (type == "i1") return FromInteger<std::int8_t>;
+  if (type == "u8" || type == "u4" || type == "u2" || type == "u1" || type == "b1") {
+    return FromInteger<std::uint64_t>;
+  }
+  if (type.starts_with("O")) {
+    throw InputError("Python objects, which are not read as reading them may run anything");
+  }
+  throw InputError("numbers are needed, found the type " + type);
+}
+
+/// From the order in which the first index runs fastest to that in which the last one does.
+std::vector<double> Transpose(const std::vector<double>& values,
+                              const std::vector<std::size_t>& shape) {
+  std::vector<double> result(values.size());
+  std::vector<std::size_t> index(shape.size(), 0);
+  for (const double value : values) {
+    std::size_t place = 0;
+    for (std::size_t axis = 0; axis < shape.size(); ++axis)
+      place = place * shape[axis] + index[axis];
+    result[place] = value;
+    for (std::size_t axis = 0; axis < shape.size() && ++index[axis] == shape[axis]; ++axis) {
+      index[axis] = 0;
+    }
+  }
+  return result;
+}
+
+NpzArray ParseNpy(std::string_view bytes, const std::string& name) {
+  Header header = ParseHeader(bytes);
+  const Number number = NumberOf(header.type);
+  const std::size_t width = std::stoul(header.type.substr(1));
+  const std::string_view data = bytes.substr(header.begin);
+  std::size_t count = 1;
+  for (const std::size_t length : header.shape) {
+    if (length > 0 && count > data.size() / length) {
+      throw InputError("its shape needs more bytes than there are");
+    }
+    count *= length;
+  }
+  if (data.size() != count * width) {
+    throw InputError("its shape needs " + std::to_string(count * width) + " bytes, found " +
+                     std::to_string(data.size()));
+  }
+  NpzArray array{name, header.shape};
+  array.values.resize(count);
+  const bool plain = header.type == "f8" && !header.big_endian;
+  if (plain && std::endian::native == std::endian::little) {
+    if (count > 0) std::memcpy(array.values.data(), data.data(), data.size());
+  } else {
+    for (std::size_t i = 0; i < count; ++i) {
+      array.values[i] = number(UnsignedAt(data.substr(i * width), width, header.big_endian));
+    }
+  }
+  if (header.fortran_order) array.values = Transpose(array.values, array.shape);
+  return array;
+}
+
+}  // namespace
+
+NpzArray ReadNpy(std::string_view bytes, const std::string& name) {
+  try {
+    return ParseNpy(bytes, name);
+  } catch (const InputError& error) {
+    throw InputError(name + ": " + error.what());
+  }
+}
+
+std::vector<NpzArray> ReadNpz(std::string_view bytes, const std::string& file,
+                              const std::vector<std::string>& wanted) {
+  std::vector<NpzArray> arrays;
+  try {
+    ZipArchive archive(bytes);
+    for (const std::string& name : wanted) {
+      const std::optional<std::string> npy = archive.Read(name + ".npy", kMaxInputBytes);
+      if (npy) arrays.push_back(ReadNpy(*npy, name));
+    }
+  } catch (const InputError& error) {
+    throw InputError(file + ": " + error.what());
+  }
+  return arrays;
 }
 
 }  // namespace regrasp

@@ -1,8 +1,10 @@
 #include "planner/base/random.h"
 
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cassert>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace regrasp {
@@ -59,6 +61,19 @@ std::vector<int> RandomStream::Choose(int count, int drawn) {
   for (int k = 0; k < drawn; ++k) std::swap(chosen[k], chosen[k + Index(count - k)]);
   chosen.resize(drawn);
   return chosen;
+}
+
+ShareInterval ComputeShareInterval(int successes, int trials, double confidence) {
+  if (trials < 1 || successes < 0 || successes > trials) {
+    throw std::invalid_argument("ComputeShareInterval: not 0 <= successes <= trials");
+  }
+  if (!(confidence > 0 && confidence < 1)) {
+    throw std::invalid_argument("ComputeShareInterval: the confidence is not between 0 and 1");
+  }
+  using Binomial = boost::math::binomial_distribution<double>;
+  const double left_out = (1 - confidence) / 2;
+  return {Binomial::find_lower_bound_on_p(trials, successes, left_out),
+          Binomial::find_upper_bound_on_p(trials, successes, left_out)};
 }
 
 }  // namespace regrasp

@@ -4,7 +4,7 @@
 
 #include "planner/certificate/force_proof.h"
 #include "planner/grasp/contact.h"
-#include "planner/motion/proof_verdict.h"
+#include "planner/motion/motion_segment.h"
 
 namespace regrasp::certificate {
 

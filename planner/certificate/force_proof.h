@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <vector>
 
+#include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
 
 namespace regrasp::certificate {
@@ -34,5 +36,12 @@ struct EntryProof {
   /// By pair of waypoints that follow each other; empty where no proof was found.
   std::vector<motion::MotionSegments> motions;
 };
+
+/// A proof of force closure where there is one with slack, otherwise of the opposite; kNone for
+/// grasps too close to the limit.
+/// @param dimension   3, or 2 for planar contacts. @param half_angle  radians.
+/// @throws std::invalid_argument  as TestForceClosure.
+[[nodiscard]] GraspProof FindGraspProof(std::span<const grasp::Contact> contacts, int dimension,
+                                        double half_angle);
 
 }  // namespace regrasp::certificate

@@ -7,9 +7,9 @@
 
 #include "planner/certificate/align_certificate.h"
 #include "planner/certificate/check_proof.h"
-#include "planner/certificate/find_proof.h"
+#include "planner/certificate/force_proof.h"
 #include "planner/motion/check_motion_proof.h"
-#include "planner/plan/motion_segment_json.h"
+#include "planner/plan/json_reader.h"
 
 namespace regrasp::certificate {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/certificate/force_proof.h"
-#include "planner/motion/proof_verdict.h"
+#include "planner/motion/motion_segment.h"
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan.h"
 

@@ -14,14 +14,14 @@ ConvexShape Moved(const Eigen::Isometry3d& pose, const ConvexShape& shape) {
   return moved;
 }
 
-Ball BallAround(const ConvexShape& shape) {
+BoundingSphere BoundingSphereOf(const ConvexShape& shape) {
   Vector3d lower = shape.points.front();
   Vector3d upper = lower;
   for (const Vector3d& point : shape.points) {
     lower = lower.cwiseMin(point);
     upper = upper.cwiseMax(point);
   }
-  Ball ball{(lower + upper) / 2, 0};
+  BoundingSphere ball{(lower + upper) / 2, 0};
   for (const Vector3d& point : shape.points) {
     ball.radius = std::max(ball.radius, (point - ball.centre).norm());
   }

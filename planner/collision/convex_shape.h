@@ -18,11 +18,11 @@ struct ConvexShape {
 [[nodiscard]] ConvexShape Moved(const Eigen::Isometry3d& pose, const ConvexShape& shape);
 
 /// A ball that contains the shape.
-struct Ball {
+struct BoundingSphere {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;
 };
-[[nodiscard]] Ball BallAround(const ConvexShape& shape);
+[[nodiscard]] BoundingSphere BoundingSphereOf(const ConvexShape& shape);
 
 /// Certified bounds on the distance of two shapes: 0 where they overlap or their hulls do.
 struct DistanceBounds {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/collision/farthest.h"
-#include "planner/collision/nearest_on_simplex.h"
+#include "planner/collision/nearest_points.h"
 
 namespace regrasp::collision {
 namespace {
@@ -28,7 +27,7 @@ double SizeOf(Points points) {
 HullBounds HullDistance(Points a, Points b, std::optional<double> decided) {
   const double slack = kRounding * (SizeOf(a) + SizeOf(b));
   HullBounds bounds;
-  Simplex simplex;
+  HullSimplex simplex;
   // Points of the difference a − b; the nearest one to the origin is looked for.
   Vector3d nearest = a.front() - b.front();
   simplex.points[0] = nearest;

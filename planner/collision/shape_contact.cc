@@ -63,7 +63,7 @@ void AddPoint(const BallContact& surface, const Vector3d& point, double radius,
 /// the shape.
 std::optional<SurfaceContact> Overlap(const BallContact& surface, const ConvexShape& shape,
                                       const std::vector<int>& among) {
-  const Ball around = BallAround(shape);
+  const BoundingSphere around = BoundingSphereOf(shape);
   const std::vector<NearPoint> found = surface.Find(around.centre, around.radius, among);
   if (found.empty()) return std::nullopt;
   const NearPoint& near = found.front();

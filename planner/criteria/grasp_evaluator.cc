@@ -4,11 +4,10 @@
 #include <array>
 #include <numbers>
 
-#include "planner/criteria/clearance.h"
 #include "planner/criteria/reach.h"
 #include "planner/grasp/force_closure_core.h"
 #include "planner/grasp/required_half_angle.h"
-#include "planner/grasp/soft_contacts.h"
+#include "planner/grasp/unit_contacts.h"
 
 namespace regrasp::criteria {
 

@@ -7,7 +7,6 @@
 #include <span>
 #include <stdexcept>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/gait/gait_search.h"
@@ -194,7 +193,7 @@ struct SearchConfig {
         setup{scene, inverse, points, request.scale},
         memory(*request.solid, WithQuality(request.criteria, quality), fingers,
                criteria::QualityTest::kQuick) {
-    if (request.carry_out) setup.fewest_beside_sliding = kFewestBesideSliding;
+    if (request.simulate) setup.fewest_beside_sliding = kFewestBesideSliding;
     if (margins == nullptr) return;
     setup.may_slide = false;
     setup.force_margin = margins->force_margin.value_or(0);
@@ -208,7 +207,7 @@ SimulateExecution SimulatorFor(const HandSetup& setup, const GaitRequest& reques
     const Gait merged = MergeMoves(setup, gait);
     request.progress("simulating a plan");
     const plan::Plan plan = PlanOf(merged, request, contacts);
-    const auto execution = request.carry_out(plan, request.deadline);
+    const auto execution = request.simulate(plan, request.deadline);
     if (!execution) return {.is_whole = true};  // the caller detects the missing result
     const bool fails_in_move = execution->is_held && !execution->is_whole &&
                                std::holds_alternative<plan::Move>(plan.steps[execution->steps]);
@@ -263,7 +262,7 @@ GaitResult FindGait(const GaitRequest& request) {
         if (margins->force_margin) config->setup.rolled_on = &rolled_on;
         rejection = NonRobustEnd(ends, config->memory, config->quality);
         if (!rejection.empty()) return;
-        if (asked.carry_out) config->simulate = SimulatorFor(config->setup, asked, result.contacts);
+        if (asked.simulate) config->simulate = SimulatorFor(config->setup, asked, result.contacts);
       }
       configs.push_back(std::move(config));
     };
@@ -282,7 +281,7 @@ GaitResult FindGait(const GaitRequest& request) {
   SimulatedGait simulated;
   if (request.reserve == Reserve::kNone) {
     simulated.found = find(request, {});
-  } else if (request.carry_out) {
+  } else if (request.simulate) {
     simulated = FindExecutableGait(request, result.contacts, find);
   } else {
     if (request.reserve == Reserve::kPreferred) simulated.found = find(request, {});

@@ -40,10 +40,10 @@ namespace regrasp::gait {
 
 struct GaitResult {
   std::optional<Gait> gait;
-  /// Result of the simulated execution (planning::InHandTask::carry_out) of `gait`.
+  /// Result of the simulated execution (planning::InHandTask::simulate) of `gait`.
   /// Without a gait, of the candidate that executes farthest. None if nothing was simulated or the
   /// simulator gives no result.
-  std::optional<planning::CarriedOut> execution;
+  std::optional<planning::ExecutionResult> execution;
   std::vector<grasp::Contact> contacts;  ///< contacts by number, in object units
   std::string message;                   ///< if there is no gait: the reason, with counts
 };

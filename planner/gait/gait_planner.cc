@@ -7,12 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
+#include "planner/gait/request.h"
 #include "planner/gait/schedule.h"
+#include "planner/planning/in_hand_task.h"
 #include "planner/planning/rest_summary.h"
 
 namespace regrasp::gait {
@@ -174,7 +175,7 @@ GaitPlanner::GaitPlanner()
 
 PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   GaitRequest request = RequestFor(asked);
-  if (request.seeks_most_margin && (!request.carry_out || request.reserve == Reserve::kNone)) {
+  if (request.seeks_most_margin && (!request.simulate || request.reserve == Reserve::kNone)) {
     throw InputError(OptionName(PlanOption::kMargin) +
                      ": requires simulated plans, cannot be used with --reserve none");
   }

@@ -3,10 +3,15 @@
 #include <cstdint>
 #include <string>
 
-#include "planner/gait/request.h"
 #include "planner/planning/planner.h"
 
+namespace regrasp::planning {
+struct InHandTask;
+}
+
 namespace regrasp::gait {
+
+struct GaitRequest;
 
 /// Find single changes of an infeasible request that make a gait possible.
 /// For each of friction, object size and palm tilt (the last only if no pose is given), the

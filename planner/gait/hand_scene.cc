@@ -7,7 +7,7 @@
 namespace regrasp::gait {
 
 using collision::AreApart;
-using collision::Ball;
+using collision::BoundingSphere;
 using collision::ConvexShape;
 using Eigen::Isometry3d;
 using kinematics::Finger;
@@ -18,8 +18,8 @@ namespace {
 /// Fraction of a joint range at each end that sampled configurations avoid.
 constexpr double kLimitClearance = 0.02;
 
-bool AreApart(const ConvexShape& a, const Ball& ball_a, const ConvexShape& b, const Ball& ball_b,
-              double distance) {
+bool AreApart(const ConvexShape& a, const BoundingSphere& ball_a, const ConvexShape& b,
+              const BoundingSphere& ball_b, double distance) {
   const double apart = ball_a.radius + ball_b.radius + distance;
   if ((ball_a.centre - ball_b.centre).squaredNorm() > apart * apart) return true;
   return collision::AreApart(a, b, distance);
@@ -43,7 +43,7 @@ HandScene::HandScene(const kinematics::HandModel& hand, const collision::Surface
       surface_(surface),
       margin_(margin),
       object_reach_(surface.ReachFrom(Eigen::Vector3d::Zero())) {
-  for (const LinkShape& link : hand.palm) palm_balls_.push_back(BallAround(link.shape));
+  for (const LinkShape& link : hand.palm) palm_balls_.push_back(BoundingSphereOf(link.shape));
   for (FingerIndex a{0}; a < std::ssize(hand.fingers); ++a) {
     with_palm_.push_back(CheckedPairs(a, {}));
     with_fingers_.emplace_back();
@@ -55,7 +55,7 @@ HandScene::HandScene(const kinematics::HandModel& hand, const collision::Surface
     balls_.emplace_back();
     reach_.emplace_back();
     for (const LinkShape& link : finger.shapes) {
-      balls_.back().push_back(BallAround(link.shape));
+      balls_.back().push_back(BoundingSphereOf(link.shape));
       reach_.back().push_back(kinematics::LinkReach(finger, link));
     }
   }
@@ -92,7 +92,7 @@ PlacedFinger HandScene::Place(FingerIndex finger, const Posture& posture) const 
   placed.finger = finger;
   for (const LinkShape& link : chain.shapes) {
     const Isometry3d& frame = frames[link.after - 1];
-    const Ball& ball = balls_[finger][placed.shapes.size()];
+    const BoundingSphere& ball = balls_[finger][placed.shapes.size()];
     placed.shapes.push_back(collision::Moved(frame, link.shape));
     placed.balls.push_back({frame * ball.centre, ball.radius});
   }

@@ -32,8 +32,8 @@ inline constexpr double kTipDepth = 2e-4;
 /// Collision shapes of a finger in one joint configuration, in the palm's frame.
 struct PlacedFinger {
   FingerIndex finger;
-  std::vector<collision::ConvexShape> shapes;  ///< in the order of Finger::shapes
-  std::vector<collision::Ball> balls;          ///< bounding spheres of the shapes
+  std::vector<collision::ConvexShape> shapes;    ///< in the order of Finger::shapes
+  std::vector<collision::BoundingSphere> balls;  ///< bounding spheres of the shapes
 };
 
 /// Clearance of sampled joint configurations in addition to the margin, metres.
@@ -112,8 +112,8 @@ class HandScene {
   const collision::SurfaceTree& surface_;
   double margin_;
   double object_reach_;  ///< radius of the object about its origin, metres
-  std::vector<collision::Ball> palm_balls_;
-  std::vector<std::vector<collision::Ball>>
+  std::vector<collision::BoundingSphere> palm_balls_;
+  std::vector<std::vector<collision::BoundingSphere>>
       balls_;  ///< bounding spheres [finger][shape], in the link's frame
   std::vector<std::vector<ShapePair>> with_palm_;                  ///< by finger
   std::vector<std::vector<std::vector<ShapePair>>> with_fingers_;  ///< by pair of fingers

@@ -122,7 +122,7 @@ std::vector<Schedule> SchedulesFor(const GaitRequest& request) {
 }
 
 SimulatedGait FindWithoutSimulation(GaitRequest request, const FindOne& find) {
-  request.carry_out = nullptr;
+  request.simulate = nullptr;
   if (request.reserve == Reserve::kRequired) return {FindRobustGait(request, find, {})};
   FoundGait without = find(request, {});
   return {without.gait ? FindRobustGait(request, find, without) : std::move(without)};
@@ -208,9 +208,9 @@ class AttemptRunner {
  private:
   struct Outcome {
     FoundGait found;
-    Simulate simulate;                                   ///< of the attempt
-    std::optional<planning::CarriedOut> execution = {};  ///< of the gait, if any
-    std::size_t steps = 0;                               ///< number of plan steps
+    Simulate simulate;                                        ///< of the attempt
+    std::optional<planning::ExecutionResult> execution = {};  ///< of the gait, if any
+    std::size_t steps = 0;                                    ///< number of plan steps
 
     [[nodiscard]] double ExecutedFraction() const {
       return (execution->is_held ? 1.0 + execution->steps : 0.0) /
@@ -239,14 +239,14 @@ class AttemptRunner {
     asked.seed += attempt.stream << kStreamShift;
     asked.deadline = deadline;
     asked.progress = [this](std::string_view text) { Report(text); };
-    if (attempt.simulate == Simulate::kGait) asked.carry_out = nullptr;
+    if (attempt.simulate == Simulate::kGait) asked.simulate = nullptr;
     Bound(asked, attempt.budget);
     Outcome outcome{find_(asked, attempt.margin_sets), attempt.simulate};
     if (!outcome.found.gait) return outcome;
     Report(kSimulating);
     const plan::Plan plan = PlanOf(*outcome.found.gait, request_, contacts_);
     outcome.steps = plan.steps.size();
-    outcome.execution = request_.carry_out(plan, deadline);
+    outcome.execution = request_.simulate(plan, deadline);
     if (!outcome.execution) is_unknown_ = is_over_ = true;
     return outcome;
   }
@@ -391,7 +391,7 @@ bool MultiStartSearch::DrawInitialPoses() {
   return true;
 }
 
-std::string FailureText(const planning::CarriedOut& execution, std::size_t steps) {
+std::string FailureText(const planning::ExecutionResult& execution, std::size_t steps) {
   const std::string where = execution.is_held ? "step " + std::to_string(execution.steps + 1) +
                                                     " of " + std::to_string(steps)
                                               : "the initial grasp";
@@ -434,7 +434,7 @@ SimulatedGait FindExecutableGait(const GaitRequest& request,
   if (without.found.gait) {
     request.progress(kSimulating);
     const plan::Plan plan = PlanOf(*without.found.gait, request, contacts);
-    without.execution = request.carry_out(plan, request.deadline);
+    without.execution = request.simulate(plan, request.deadline);
     if (!without.execution) return FindWithoutSimulation(request, find);
     if (without.execution->is_whole) return without;
   }

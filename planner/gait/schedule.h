@@ -106,13 +106,14 @@ using FindOne = std::function<FoundGait(const GaitRequest& asked,
 /// gives no result or nothing was simulated.
 struct SimulatedGait {
   FoundGait found;
-  std::optional<planning::CarriedOut> execution = {};
+  std::optional<planning::ExecutionResult> execution = {};
 };
 
 /// Return which of `steps` plan steps fails in simulation, and why: "fails at step 2 of 7 …".
-[[nodiscard]] std::string FailureText(const planning::CarriedOut& execution, std::size_t steps);
+[[nodiscard]] std::string FailureText(const planning::ExecutionResult& execution,
+                                      std::size_t steps);
 
-/// Search a gait that executes in simulation (planning::InHandTask::carry_out).
+/// Search a gait that executes in simulation (planning::InHandTask::simulate).
 /// Runs the schedules of attempts with varying margins and random streams. If none executes and
 /// robustness is only preferred, searches a gait without margins. If the simulator gives no result,
 /// the search runs without simulation. With `seeks_most_margin`, all attempts run, and the first

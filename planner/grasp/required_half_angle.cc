@@ -1,12 +1,16 @@
 #include "planner/grasp/required_half_angle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "planner/grasp/cone_support.h"
+#include "planner/grasp/force_closure_core.h"
 #include "planner/grasp/friction_search.h"
 
 namespace regrasp::grasp {
+
 namespace {
 
 /// Friction beyond this is not looked for: the header's 1e-6 rad below π/2.

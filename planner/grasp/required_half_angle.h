@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -7,6 +9,11 @@
 #include "planner/object/wrench_frame.h"
 
 namespace regrasp::grasp {
+
+/// The angle between two vectors, radians in [0, π], accurate near 0 and π too.
+[[nodiscard]] inline double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 /// Certified bounds on the smallest friction half-angle at which a grasp is force closure, radians.
 /// At `upper` the grasp is force closure; at and below `lower` it is not.

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
+#include "planner/base/in_blocks.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 

@@ -5,9 +5,14 @@
 #include <span>
 
 #include "planner/grasp/contact.h"
+#include "planner/object/polygon.h"
 #include "planner/object/wrench_frame.h"
 
 namespace regrasp::grasp {
+
+/// The contact at a parameter of an edge, 0 at its first end and 1 at its last, and back.
+[[nodiscard]] Contact ContactAt(const object::Polygon& polygon, FaceIndex edge, double parameter);
+[[nodiscard]] double ParameterOf(const object::Polygon& polygon, const Contact& contact);
 
 /// A contact as the mathematics of one grasp uses it: moved to a frame's origin, divided by its
 /// radius, with the rim of its friction cone as numbers.
@@ -72,5 +77,25 @@ void SetUnitForces(UnitContacts& contacts, double half_angle);
 
 /// Sets the rims of all contacts to half-angle θ with normal forces of 1.
 void SetUnitNormalForces(UnitContacts& contacts, double half_angle);
+
+/// Contacts as fingertips of one torsion make them (Contact::torsion): a view of copies, and of the
+/// contacts themselves where the torsion is 0. The contacts must stay alive.
+class SoftContacts {
+ public:
+  SoftContacts(std::span<const Contact> contacts, double torsion) : view_(contacts) {
+    if (torsion == 0) return;
+    soft_.assign(contacts.begin(), contacts.end());
+    for (Contact& contact : soft_) contact.torsion = torsion;
+    view_ = {soft_.data(), soft_.size()};
+  }
+  SoftContacts(const SoftContacts&) = delete;
+  SoftContacts& operator=(const SoftContacts&) = delete;
+
+  [[nodiscard]] std::span<const Contact> view() const { return view_; }
+
+ private:
+  boost::container::small_vector<Contact, kInlineContacts> soft_;
+  std::span<const Contact> view_;
+};
 
 }  // namespace regrasp::grasp

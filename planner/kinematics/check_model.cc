@@ -11,9 +11,9 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/kinematics/geom_shape.h"
+#include "planner/kinematics/derive_couplings.h"
+#include "planner/kinematics/fit_tip.h"
 #include "planner/kinematics/joint_relations.h"
-#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {
@@ -101,7 +101,8 @@ std::vector<ConvexShape> ShapesOfLink(const mjModel& model, const mjData& rest, 
 }
 
 /// How far a sphere reaches beyond the convex hull of shapes, metres: by support functions.
-double ProtrusionOf(const collision::Ball& sphere, const std::vector<ConvexShape>& shapes) {
+double ProtrusionOf(const collision::BoundingSphere& sphere,
+                    const std::vector<ConvexShape>& shapes) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Vector3d& direction : EvenDirections()) {
     double support = -std::numeric_limits<double>::infinity();

@@ -14,7 +14,7 @@
 #include "planner/base/number.h"
 #include "planner/kinematics/missing_meshes.h"
 #include "planner/kinematics/mjcf_defaults.h"
-#include "planner/kinematics/mujoco_schema.h"
+#include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {
 namespace {

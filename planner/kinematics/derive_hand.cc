@@ -9,13 +9,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/fit_tip.h"
-#include "planner/kinematics/geom_shape.h"
-#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {
@@ -182,7 +179,7 @@ int HandDeriver::TipGeom(int link, const Vector3d& anchor) const {
     double end = 0;
     for (const Vector3d& point : shape.points) end = std::max(end, (point - anchor).norm());
     ends.push_back({geom, end + shape.radius, shape.radius,
-                    collision::BallAround(shape).radius < kMarkerRadius});
+                    collision::BoundingSphereOf(shape).radius < kMarkerRadius});
   }
   if (std::ranges::any_of(ends, [](const End& end) { return !end.is_marker; })) {
     std::erase_if(ends, [](const End& end) { return end.is_marker; });

@@ -10,11 +10,11 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/kinematics/check_model.h"
+#include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/finger_kinematics.h"
-#include "planner/kinematics/geom_shape.h"
+#include "planner/kinematics/fit_tip.h"
 #include "planner/kinematics/hand_description.h"
 #include "planner/kinematics/joint_actuators.h"
-#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {

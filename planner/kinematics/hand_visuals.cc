@@ -6,9 +6,9 @@
 #include <set>
 #include <tuple>
 
+#include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_file.h"
-#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {

@@ -5,14 +5,13 @@
 #include <cmath>
 #include <map>
 
-#include "planner/base/angle.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
+#include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/derive_hand.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_file.h"
-#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/finger_kinematics.h"
-#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {

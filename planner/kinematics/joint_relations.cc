@@ -10,7 +10,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/kinematics/model_names.h"
+#include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {

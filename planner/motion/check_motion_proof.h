@@ -5,7 +5,6 @@
 
 #include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
-#include "planner/motion/proof_verdict.h"
 
 namespace regrasp::motion {
 

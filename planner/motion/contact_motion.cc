@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "planner/grasp/angle_between.h"
+#include "planner/grasp/required_half_angle.h"
 
 namespace regrasp::motion {
 

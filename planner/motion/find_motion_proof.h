@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -7,6 +9,25 @@
 #include "planner/motion/motion_segment.h"
 
 namespace regrasp::motion {
+
+/// Work that searches for proofs along motions may still do: pieces looked at, times their
+/// contacts. Counted, not timed, so that the same input has the same answer on every machine; a
+/// unit takes some ten microseconds.
+class ProofBudget {
+ public:
+  explicit ProofBudget(std::int64_t units) : left_(units) {}
+
+  /// @returns false where nothing is left.
+  bool SpendPiece(std::size_t contacts) {
+    if (left_ <= 0) return false;
+    left_ -= static_cast<std::int64_t>(contacts);
+    return true;
+  }
+  [[nodiscard]] std::int64_t left() const { return left_; }
+
+ private:
+  std::int64_t left_;
+};
 
 /// Of a motion of length 1: pieces are not halved below this.
 inline constexpr double kShortestProofPiece = 1.0 / 4096;

@@ -1,9 +1,24 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 namespace regrasp::motion {
+
+/// What exact arithmetic says of a proof.
+struct ProofVerdict {
+  enum class Kind {
+    kForceClosure,     ///< proved
+    kNotForceClosure,  ///< refuted
+    kNothing,          ///< the proof proves neither
+  };
+  Kind kind = Kind::kNothing;
+  std::string why;  ///< of kNothing, for people
+
+  /// Force closure is proved.
+  [[nodiscard]] bool proves() const { return kind == Kind::kForceClosure; }
+};
 
 /// Why a grasp is force closure everywhere on a piece of a motion of its contacts: forces that go
 /// linearly from `start` to `end`, one a contact, balanced throughout up to rounding and inside

@@ -5,8 +5,8 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/motion/contact_motion.h"
+#include "planner/motion/find_motion_proof.h"
 #include "planner/motion/motion_segment.h"
-#include "planner/motion/proof_budget.h"
 #include "planner/object/wrench_frame.h"
 
 namespace regrasp::motion {

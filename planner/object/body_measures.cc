@@ -1,12 +1,91 @@
 #include "planner/object/body_measures.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Orthogonal_k_neighbor_search.h>
+#include <CGAL/Search_traits_3.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 
 namespace regrasp::object {
+
+namespace {
+
+using DiameterKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Search = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<DiameterKernel>>;
+
+/// Below this the plain double loop is faster than building a tree.
+constexpr std::size_t kFewPoints = 256;
+
+double LargestSquaredByPairs(std::span<const Eigen::Vector3d> points) {
+  double largest = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      largest = std::max(largest, (points[i] - points[j]).squaredNorm());
+    }
+  }
+  return largest;
+}
+
+/// Roundings of distances, relative to them.
+constexpr double kSlack = 1e-9;
+
+const Eigen::Vector3d& FarthestFrom(const Eigen::Vector3d& point,
+                                    std::span<const Eigen::Vector3d> points) {
+  return *std::ranges::max_element(
+      points, {}, [&](const Eigen::Vector3d& p) { return (p - point).squaredNorm(); });
+}
+
+/// A point at an end of the box of all, in the direction in which it is longest.
+const Eigen::Vector3d& EndOfBox(std::span<const Eigen::Vector3d> points) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : points) box.extend(p);
+  Eigen::Index longest = 0;
+  box.sizes().maxCoeff(&longest);
+  return *std::ranges::min_element(points, {},
+                                   [&](const Eigen::Vector3d& p) { return p[longest]; });
+}
+
+/// The points that may be ends of the diameter. With all points within r of a centre and two of
+/// them L apart, an end is no nearer to the centre than L − r: on long bodies few are left.
+std::vector<DiameterKernel::Point_3> FindOuter(std::span<const Eigen::Vector3d> points) {
+  const Eigen::Vector3d& one = FarthestFrom(EndOfBox(points), points);
+  const Eigen::Vector3d& other = FarthestFrom(one, points);
+  const Eigen::Vector3d centre = one / 2 + other / 2;
+  const double radius = (FarthestFrom(centre, points) - centre).norm();
+  const double least = (other - one).norm() - radius - kSlack * radius;
+  std::vector<DiameterKernel::Point_3> outer;
+  for (const auto& p : points) {
+    if ((p - centre).norm() >= least) outer.emplace_back(p.x(), p.y(), p.z());
+  }
+  return outer;
+}
+
+double LargestSquaredByTree(std::span<const Eigen::Vector3d> points) {
+  const std::vector<DiameterKernel::Point_3> copies = FindOuter(points);
+  Search::Tree tree(copies.begin(), copies.end());
+  constexpr bool kNearest = false;  // farthest
+  double largest = 0;
+  for (const auto& p : copies) {
+    const Search farthest(tree, p, 1, 0.0, kNearest);
+    // Measured again rather than taken from the search, which adds up its distance in pieces.
+    const DiameterKernel::Vector_3 difference = farthest.begin()->first - p;
+    largest = std::max(largest, difference.squared_length());
+  }
+  return largest;
+}
+
+}  // namespace
+
+double ComputeDiameter(std::span<const Eigen::Vector3d> points) {
+  return std::sqrt(points.size() <= kFewPoints ? LargestSquaredByPairs(points)
+                                               : LargestSquaredByTree(points));
+}
 
 namespace {
 

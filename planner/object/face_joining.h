@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "planner/object/surface_topology.h"
 #include "planner/object/triangle_mesh.h"
 
 namespace regrasp::object {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/object/read_soup.h"
+#include "planner/object/read_object.h"
 
 namespace regrasp::object {
 

@@ -10,12 +10,10 @@
 #include <span>
 
 #include "planner/base/number.h"
-#include "planner/object/diameter.h"
-#include "planner/object/edge_sides.h"
+#include "planner/object/body_measures.h"
 #include "planner/object/facet_triangulation.h"
-#include "planner/object/same_corners.h"
+#include "planner/object/mend_soup.h"
 #include "planner/object/self_intersection.h"
-#include "planner/object/size_limits.h"
 #include "planner/object/surface_parts.h"
 #include "planner/object/triangle_mesh.h"
 #include "planner/object/weld.h"

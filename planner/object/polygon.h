@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -7,6 +9,19 @@
 #include "planner/object/object.h"
 
 namespace regrasp::object {
+
+/// Rings of a polygon, the outer one first; a ring's last point is not repeated.
+using PolygonRings = std::vector<std::vector<Eigen::Vector2d>>;
+
+/// Checks that rings bound one connected sheet and turns the outer one counter-clockwise and holes
+/// clockwise (their first points stay first). As Polygon::FromRings says.
+/// @throws InputError
+void CheckAndOrientRings(PolygonRings& rings, const std::string& name);
+
+/// The rings of a WKT POLYGON or a MULTIPOLYGON of one polygon, unchecked. As Polygon::FromWkt
+/// says.
+/// @throws InputError
+[[nodiscard]] PolygonRings ReadWktRings(std::string_view text, const std::string& name);
 
 /// A simple polygon, with or without holes, in the plane z = 0.
 ///
@@ -54,5 +69,10 @@ class Polygon final : public Object {
   /// By edge, its ends: side by side in memory, as searches look at them all.
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> edges_;
 };
+
+/// Cuts a polygon into counter-clockwise triangles without new vertices (a constrained Delaunay
+/// triangulation with exact predicates).
+/// @returns three vertices each, numbered over the rings in their order.
+[[nodiscard]] std::vector<std::array<int, 3>> TriangulatePolygon(const Polygon& polygon);
 
 }  // namespace regrasp::object

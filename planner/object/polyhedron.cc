@@ -6,18 +6,17 @@
 #include <cmath>
 #include <utility>
 
-#include "planner/object/diameter.h"
+#include "planner/object/body_measures.h"
 #include "planner/object/face_joining.h"
 #include "planner/object/face_tree.h"
 #include "planner/object/facet_triangulation.h"
-#include "planner/object/largest_shell.h"
 #include "planner/object/mend_soup.h"
 #include "planner/object/mesh_survey.h"
 #include "planner/object/patch_normal.h"
 #include "planner/object/self_intersection.h"
-#include "planner/object/size_limits.h"
 #include "planner/object/solid.h"
-#include "planner/object/surface_topology.h"
+#include "planner/object/surface_parts.h"
+#include "planner/object/triangle_mesh.h"
 #include "planner/object/weld.h"
 
 namespace regrasp::object {

@@ -11,8 +11,8 @@
 
 #include "planner/base/error.h"
 #include "planner/object/package_3mf.h"
-#include "planner/object/size_limits.h"
 #include "planner/object/text_scanner.h"
+#include "planner/object/weld.h"
 #include "planner/object/xml_scan.h"
 
 namespace regrasp::object {

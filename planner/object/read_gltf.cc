@@ -9,8 +9,8 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/object/gltf_document.h"
-#include "planner/object/size_limits.h"
 #include "planner/object/text_scanner.h"
+#include "planner/object/weld.h"
 
 namespace regrasp::object {
 

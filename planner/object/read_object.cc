@@ -1,15 +1,15 @@
+#include "planner/object/read_object.h"
+
 #include <algorithm>
 #include <chrono>
 #include <memory>
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
-#include "planner/object/mesh_readers.h"
+#include "planner/object/assimp_scene.h"
 #include "planner/object/object.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
-#include "planner/object/read_soup.h"
-#include "planner/object/read_with_assimp.h"
 #include "planner/object/reading.h"
 #include "planner/object/surface_format.h"
 #include "planner/object/text_scanner.h"

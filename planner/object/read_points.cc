@@ -11,7 +11,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/base/text_encoding.h"
-#include "planner/object/mesh_readers.h"
+#include "planner/object/read_object.h"
 #include "planner/object/text_scanner.h"
 
 namespace regrasp::object {

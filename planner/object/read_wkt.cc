@@ -1,7 +1,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/base/text_encoding.h"
-#include "planner/object/polygon_rings.h"
+#include "planner/object/polygon.h"
 #include "planner/object/text_scanner.h"
 
 namespace regrasp::object {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "planner/object/mesh_defect.h"
-#include "planner/object/size_limits.h"
+#include "planner/object/weld.h"
 
 namespace regrasp::object {
 

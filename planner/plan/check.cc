@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 #include "planner/object/given_points.h"
 #include "planner/plan/check_step.h"
 #include "planner/plan/locate.h"
-#include "planner/plan/same_grasp.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::plan {
 

@@ -1,24 +1,73 @@
 #include "planner/plan/check_step.h"
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 
-#include "planner/base/angle.h"
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
-#include "planner/grasp/angle_between.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/grasp/required_half_angle.h"
 #include "planner/motion/path_force_closure.h"
 #include "planner/object/patch_normal.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/locate.h"
-#include "planner/plan/motion_fault.h"
+#include "planner/plan/plan.h"
 #include "planner/plan/plan_reach.h"
-#include "planner/plan/same_grasp.h"
-#include "planner/plan/tolerance.h"
 
 namespace regrasp::plan {
+
+const RestClosure::Found& RestClosure::Of(const FingerGrasp& grasp) {
+  if (AreIdentical(grasp, last_)) return found_;
+  last_ = grasp;
+  found_ = {};
+  if (grasp.empty()) return found_;
+  const grasp::Grasp contacts = ContactsOf(grasp);
+  found_.required = grasp::ComputeRequiredHalfAngle(contacts, frame_);
+  found_.holds = grasp::IsForceClosure(contacts, frame_, half_angle_);
+  if (found_.holds && found_.required) {
+    found_.required->lower = std::min(found_.required->lower, half_angle_);
+    found_.required->upper = std::min(found_.required->upper, half_angle_);
+  }
+  return found_;
+}
+
+namespace {
+
+/// Whether a contact can turn from a face to another at a point of both: it reaches that point, and
+/// leaves it, without leaving the faces.
+bool TurnsAtCommonPoint(const object::Object& object, const grasp::Contact& from,
+                        const grasp::Contact& to, double tolerance) {
+  // Each of two points that should be one may be off by the tolerance.
+  const auto common = object.CommonPoints(from.face, to.face, from.p, 2 * tolerance);
+  return std::ranges::any_of(common, [&](const Eigen::Vector3d& p) {
+    return object.ContainsSegment(from.face, from.p, p, tolerance) &&
+           object.ContainsSegment(to.face, p, to.p, tolerance);
+  });
+}
+
+}  // namespace
+
+std::optional<std::string> FindMotionFault(const object::Object& object, const grasp::Contact& from,
+                                           const grasp::Contact& to) {
+  const double tolerance = object::kPointTolerance * object.diameter();
+  if (from.face == to.face) {
+    if (object.ContainsSegment(from.face, from.p, to.p, tolerance)) return std::nullopt;
+    return "leaves face " + std::to_string(from.face);
+  }
+  const std::string faces =
+      "from face " + std::to_string(from.face) + " to face " + std::to_string(to.face);
+  if (!((from.p - to.p).norm() <= tolerance)) {
+    return "moves " + faces + " without turning at a point that both contain";
+  }
+  if (!TurnsAtCommonPoint(object, from, to, tolerance)) {
+    return "turns " + faces + ", which do not meet there";
+  }
+  if (grasp::AngleBetween(from.n, to.n) > std::numbers::pi - kNormalTolerance) {
+    return "turns " + faces + ", whose normals are opposite";
+  }
+  return std::nullopt;
+}
 
 namespace {
 

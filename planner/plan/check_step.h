@@ -1,14 +1,49 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
-#include "planner/motion/proof_budget.h"
+#include "planner/grasp/contact.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/motion/find_motion_proof.h"
 #include "planner/object/object.h"
+#include "planner/object/wrench_frame.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan.h"
-#include "planner/plan/rest_closure.h"
 
 namespace regrasp::plan {
+
+/// Force closure of the grasps at rest of a plan, one after the other: what one step ends with the
+/// next one begins with, and is not decided twice.
+class RestClosure {
+ public:
+  struct Found {
+    bool holds = false;
+    /// No larger than the friction where the grasp holds; nullopt where no half-angle is enough.
+    std::optional<grasp::RequiredHalfAngle> required;
+  };
+
+  /// @param half_angle  friction, radians.
+  RestClosure(const object::WrenchFrame& frame, double half_angle)
+      : frame_(frame), half_angle_(half_angle) {}
+
+  /// @param grasp  located, or without contacts: it does not hold then.
+  [[nodiscard]] const Found& Of(const FingerGrasp& grasp);
+
+ private:
+  object::WrenchFrame frame_;
+  double half_angle_;
+  FingerGrasp last_;
+  Found found_;  ///< of that
+};
+
+/// What is wrong with a motion between two contacts that lie on the object: nullopt where the
+/// contact stays on one face all the way, or keeps its point (to within kPointTolerance · D) and
+/// turns from one face to another at a point that both have in common. Faces that are merely near
+/// each other, on the two sides of a thin wall or of a slit, have none.
+[[nodiscard]] std::optional<std::string> FindMotionFault(const object::Object& object,
+                                                         const grasp::Contact& from,
+                                                         const grasp::Contact& to);
 
 /// The faults of one step: the first of the report's order counts.
 class StepFault {

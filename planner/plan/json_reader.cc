@@ -1,6 +1,9 @@
 #include "planner/plan/json_reader.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <limits>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -108,6 +111,196 @@ Json VectorJson(const Eigen::Vector3d& vector, int dimension) {
   // Adding 0 turns −0 into 0, which reads better.
   for (int i = 0; i < dimension; ++i) json.push_back(vector[i] + 0.0);
   return json;
+}
+
+grasp::Contact ReadContact(const JsonReader& json, int dimension) {
+  return {json.Member("point").Vector(dimension), json.Member("normal").Vector(dimension)};
+}
+
+FingerIndex ReadFinger(const JsonReader& json) {
+  return FingerIndex(json.Integer(0, std::numeric_limits<int>::max()));
+}
+
+namespace {
+
+std::optional<double> ReadRegion(const JsonReader& contact) {
+  if (!contact.Has("region")) return std::nullopt;
+  const JsonReader region = contact.Member("region");
+  const double half_width = region.Number();
+  if (half_width < 0) region.Fail("expected a number from 0, found " + region.Quoted());
+  return half_width;
+}
+
+}  // namespace
+
+FingerGrasp ReadFingerGrasp(const JsonReader& json, int dimension) {
+  FingerGrasp grasp;
+  for (const JsonReader& element : json.Elements()) {
+    grasp.push_back({ReadFinger(element.Member("finger")), ReadContact(element, dimension),
+                     ReadRegion(element)});
+  }
+  return grasp;
+}
+
+Json ContactJson(const grasp::Contact& contact, int dimension) {
+  Json json = Json::object();
+  json["point"] = VectorJson(contact.p, dimension);
+  json["normal"] = VectorJson(contact.n, dimension);
+  return json;
+}
+
+Json GraspJson(const grasp::Grasp& grasp, int dimension) {
+  Json json = Json::array();
+  for (const grasp::Contact& contact : grasp) json.push_back(ContactJson(contact, dimension));
+  return json;
+}
+
+Json FingerGraspJson(const FingerGrasp& grasp, int dimension) {
+  Json json = Json::array();
+  for (const FingerContact& held : grasp) {
+    Json contact = Json::object();
+    contact["finger"] = held.finger;
+    contact.update(ContactJson(held.contact, dimension));
+    if (held.region) contact["region"] = *held.region;
+    json.push_back(std::move(contact));
+  }
+  return json;
+}
+
+Json ForcesJson(const std::vector<Eigen::Vector3d>& forces, int dimension) {
+  Json json = Json::array();
+  for (const Eigen::Vector3d& force : forces) json.push_back(VectorJson(force, dimension));
+  return json;
+}
+
+Json MotionSegmentsJson(const motion::MotionSegments& pieces, int dimension) {
+  Json json = Json::array();
+  for (const motion::MotionSegment& piece : pieces) {
+    json.push_back({{"from", piece.from},
+                    {"to", piece.to},
+                    {"start", ForcesJson(piece.start, dimension)},
+                    {"end", ForcesJson(piece.end, dimension)}});
+    if (piece.start_torques.empty()) continue;
+    json.back()["start_torques"] = piece.start_torques;
+    json.back()["end_torques"] = piece.end_torques;
+  }
+  return json;
+}
+
+std::vector<Eigen::Vector3d> ReadForces(const JsonReader& json, int dimension) {
+  std::vector<Eigen::Vector3d> forces;
+  for (const JsonReader& force : json.Elements()) forces.push_back(force.Vector(dimension));
+  return forces;
+}
+
+std::vector<double> ReadTorques(const JsonReader& json, const char* name) {
+  std::vector<double> torques;
+  if (!json.Has(name)) return torques;
+  for (const JsonReader& torque : json.Member(name).Elements()) torques.push_back(torque.Number());
+  return torques;
+}
+
+motion::MotionSegments ReadMotionSegments(const JsonReader& json, int dimension) {
+  motion::MotionSegments pieces;
+  for (const JsonReader& piece : json.Elements()) {
+    pieces.push_back({piece.Member("from").Number(), piece.Member("to").Number(),
+                      ReadForces(piece.Member("start"), dimension),
+                      ReadForces(piece.Member("end"), dimension),
+                      ReadTorques(piece, "start_torques"), ReadTorques(piece, "end_torques")});
+  }
+  return pieces;
+}
+
+namespace {
+
+constexpr std::size_t kSha256Digits = 64;
+/// Of quaternions in files; they are then made unit ones.
+constexpr double kUnitTolerance = 1e-6;
+
+std::vector<double> ReadNumbers(const JsonReader& json) {
+  std::vector<double> numbers;
+  for (const JsonReader& number : json.Elements()) numbers.push_back(number.Number());
+  return numbers;
+}
+
+Eigen::Isometry3d ReadPose(const JsonReader& json) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = json.Member("position").Vector(3);
+  const JsonReader turn = json.Member("quaternion");
+  const std::vector<double> wxyz = ReadNumbers(turn);
+  if (wxyz.size() != 4) {
+    turn.Fail("expected w, x, y and z, found " + std::to_string(wxyz.size()) + " numbers");
+  }
+  const Eigen::Quaterniond quaternion(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  if (!(std::abs(quaternion.norm() - 1) <= kUnitTolerance)) {
+    turn.Fail("expected a quaternion of length 1, found " + turn.Quoted());
+  }
+  pose.linear() = quaternion.normalized().toRotationMatrix();
+  return pose;
+}
+
+Json PoseJson(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond turn(pose.linear());
+  return {{"position", VectorJson(pose.translation(), 3)},
+          {"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}};
+}
+
+HandState ReadState(const JsonReader& json) {
+  HandState state{ReadPose(json.Member("pose")), {}};
+  for (const JsonReader& finger : json.Member("joints").Elements()) {
+    state.joints.push_back(ReadNumbers(finger));
+  }
+  return state;
+}
+
+Json StateJson(const HandState& state) {
+  return {{"pose", PoseJson(state.pose)}, {"joints", state.joints}};
+}
+
+}  // namespace
+
+std::string ReadSha256(const JsonReader& json) {
+  std::string digits = json.String();
+  const auto is_digit = [](unsigned char c) { return std::isxdigit(c) && !std::isupper(c); };
+  if (digits.size() != kSha256Digits || !std::ranges::all_of(digits, is_digit)) {
+    json.Fail("expected 64 lower-case hexadecimal digits, found " + json.Quoted());
+  }
+  return digits;
+}
+
+HandUse ReadHandUse(const JsonReader& json) {
+  return {json.Member("name").String(), json.Member("file").String(),
+          ReadSha256(json.Member("sha256")), ReadState(json.Member("initial")),
+          ReadPose(json.Member("goal"))};
+}
+
+HandPath ReadHandPath(const JsonReader& json) {
+  HandPath path;
+  for (const JsonReader& state : json.Elements()) path.push_back(ReadState(state));
+  if (path.empty()) json.Fail("expected at least one state of the hand");
+  return path;
+}
+
+SwitchMotion ReadSwitchMotion(const JsonReader& json) {
+  return {ReadHandPath(json.Member("place")), ReadHandPath(json.Member("release"))};
+}
+
+Json HandUseJson(const HandUse& hand) {
+  return {{"name", hand.name},
+          {"file", hand.file},
+          {"sha256", hand.sha256},
+          {"initial", StateJson(hand.initial)},
+          {"goal", PoseJson(hand.goal)}};
+}
+
+Json HandPathJson(const HandPath& path) {
+  Json json = Json::array();
+  for (const HandState& state : path) json.push_back(StateJson(state));
+  return json;
+}
+
+Json SwitchMotionJson(const SwitchMotion& motion) {
+  return {{"place", HandPathJson(motion.place)}, {"release", HandPathJson(motion.release)}};
 }
 
 }  // namespace regrasp::plan

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "planner/base/json.h"
+#include "planner/grasp/contact.h"
+#include "planner/motion/motion_segment.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::plan {
 
@@ -58,5 +61,40 @@ class JsonReader {
 
 /// Numbers of a vector as JSON, two in the plane.
 [[nodiscard]] Json VectorJson(const Eigen::Vector3d& vector, int dimension);
+
+/// Reads `{"point": […], "normal": […]}`, both of `dimension` numbers; further fields are ignored.
+[[nodiscard]] grasp::Contact ReadContact(const JsonReader& json, int dimension);
+
+/// Reads an array of contacts, each with its `finger` and, if it has one, its `region`.
+[[nodiscard]] FingerGrasp ReadFingerGrasp(const JsonReader& json, int dimension);
+
+/// Reads a finger's number. Numbers outside the hand are left to the checker.
+[[nodiscard]] FingerIndex ReadFinger(const JsonReader& json);
+
+[[nodiscard]] Json ContactJson(const grasp::Contact& contact, int dimension);
+[[nodiscard]] Json GraspJson(const grasp::Grasp& grasp, int dimension);
+[[nodiscard]] Json FingerGraspJson(const FingerGrasp& grasp, int dimension);
+
+[[nodiscard]] Json ForcesJson(const std::vector<Eigen::Vector3d>& forces, int dimension);
+[[nodiscard]] Json MotionSegmentsJson(const motion::MotionSegments& pieces, int dimension);
+/// @throws InputError
+[[nodiscard]] std::vector<Eigen::Vector3d> ReadForces(const JsonReader& json, int dimension);
+/// A list of numbers where there is one of that name; otherwise empty. @throws InputError
+[[nodiscard]] std::vector<double> ReadTorques(const JsonReader& json, const char* name);
+[[nodiscard]] motion::MotionSegments ReadMotionSegments(const JsonReader& json, int dimension);
+
+/// The parts of a plan's file that say how a hand moves (docs/plan.schema.json).
+/// @throws InputError
+[[nodiscard]] HandUse ReadHandUse(const JsonReader& json);
+[[nodiscard]] HandPath ReadHandPath(const JsonReader& json);
+[[nodiscard]] SwitchMotion ReadSwitchMotion(const JsonReader& json);
+
+/// Doubles read back as the same bits.
+[[nodiscard]] Json HandUseJson(const HandUse& hand);
+[[nodiscard]] Json HandPathJson(const HandPath& path);
+[[nodiscard]] Json SwitchMotionJson(const SwitchMotion& motion);
+
+/// 64 lower-case hexadecimal digits.
+[[nodiscard]] std::string ReadSha256(const JsonReader& json);
 
 }  // namespace regrasp::plan

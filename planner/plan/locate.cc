@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "planner/base/in_blocks.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
-#include "planner/grasp/angle_between.h"
-#include "planner/plan/locate_align.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/plan/check_step.h"
+#include "planner/plan/plan.h"
 #include "planner/plan/surface_tolerance.h"
-#include "planner/plan/tolerance.h"
 
 namespace regrasp::plan {
 
@@ -126,6 +130,171 @@ Plan LocatePlan(const object::Object& object, const Plan& plan) {
   }
   for (grasp::Contact& contact : located.goal) contact = LocateContact(object, contact).contact;
   SetTorsion(plan.torsion, located);
+  return located;
+}
+
+namespace {
+
+/// No more places of a contact are looked at: where so many faces meet in one plane, almost, the
+/// nearest normals are as good as any.
+constexpr std::size_t kMostChoices = 16;
+
+/// Points this near each other, over the diameter, are one up to rounding.
+constexpr double kRounding = 1e-12;
+
+/// One place of a contact, and the best path of the finger to it.
+struct Choice {
+  grasp::Contact place;
+  int faults = 0;     ///< on the best path
+  int ranks = 0;      ///< places before the chosen ones in their lists, summed
+  int previous = -1;  ///< choice at the waypoint before
+};
+
+using Choices = std::vector<Choice>;
+
+Choices FindChoices(const object::Object& object, const grasp::Contact& contact) {
+  Choices choices;
+  for (const grasp::Contact& place : LocateEverywhere(object, contact)) {
+    if (choices.size() == kMostChoices) break;
+    choices.push_back({place, 0, static_cast<int>(choices.size())});
+  }
+  if (choices.empty()) choices.push_back({LocateContact(object, contact).contact});
+  return choices;
+}
+
+bool IsFault(const object::Object& object, const grasp::Contact& from, const grasp::Contact& to) {
+  return from.face.valid() && to.face.valid() && FindMotionFault(object, from, to).has_value();
+}
+
+bool IsBetter(const Choice& a, const Choice& b) {
+  return a.faults != b.faults ? a.faults < b.faults : a.ranks < b.ranks;
+}
+
+/// Extends the best paths to the waypoint before by one motion.
+void Extend(const object::Object& object, const Choices& before, Choices& choices) {
+  for (Choice& choice : choices) {
+    Choice best;
+    best.faults = std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      Choice path = choice;
+      path.faults = before[i].faults + IsFault(object, before[i].place, choice.place);
+      path.ranks = before[i].ranks + choice.ranks;
+      path.previous = static_cast<int>(i);
+      if (IsBetter(path, best)) best = path;
+    }
+    choice = best;
+  }
+}
+
+/// A point of an edge has its projections on both faces, which rounding may keep apart: a finger
+/// that turns there would move by next to nothing, and nothing could be proved of that. It keeps
+/// the first one.
+void KeepTurningPoints(const object::Object& object, const std::vector<grasp::Contact*>& chain) {
+  for (std::size_t j = 1; j < chain.size(); ++j) {
+    const grasp::Contact& before = *chain[j - 1];
+    if (!before.face.valid() || !chain[j]->face.valid() || before.face == chain[j]->face) continue;
+    if ((before.p - chain[j]->p).norm() <= kRounding * object.diameter()) chain[j]->p = before.p;
+  }
+}
+
+/// The contacts of one finger, in the order of the waypoints.
+void LocateChain(const object::Object& object, const std::vector<grasp::Contact*>& chain) {
+  std::vector<Choices> choices;
+  for (const grasp::Contact* contact : chain) {
+    choices.push_back(FindChoices(object, *contact));
+    if (choices.size() > 1) Extend(object, choices[choices.size() - 2], choices.back());
+  }
+  int chosen =
+      static_cast<int>(std::ranges::min_element(choices.back(), IsBetter) - choices.back().begin());
+  for (std::size_t j = chain.size(); j-- > 0;) {
+    *chain[j] = choices[j][chosen].place;
+    chosen = choices[j][chosen].previous;
+  }
+  KeepTurningPoints(object, chain);
+}
+
+}  // namespace
+
+void LocateAlign(const object::Object& object, Align& align) {
+  // A finger that a waypoint names twice, by mistake, is two chains.
+  std::map<std::pair<FingerIndex, int>, std::vector<grasp::Contact*>> chains;
+  for (FingerGrasp& waypoint : align.waypoints) {
+    std::map<FingerIndex, int> named;
+    for (FingerContact& held : waypoint) {
+      chains[{held.finger, named[held.finger]++}].push_back(&held.contact);
+    }
+  }
+  for (const auto& [finger, chain] : chains) LocateChain(object, chain);
+}
+
+namespace {
+
+constexpr std::size_t kBlock = 256;  // grasps that a thread takes at a time
+
+using Vector = Eigen::Map<Eigen::Vector3d>;
+
+/// The contact of a point alone; nullopt off the surface and on borders.
+LocatedContact LocatePoint(const object::Object& object, const Eigen::Vector3d& point) {
+  const double tolerance = SurfaceTolerance(object);
+  const std::vector<FaceIndex> faces = object.FacesNear(point, tolerance);
+  if (faces.empty()) return {{point, {}}, Reason::kOffSurface, ""};
+  const FaceIndex face = faces.front();
+  if (faces.size() > 1 || object.DistanceToBorder(face, point) <= tolerance) {
+    return {{point, {}}, Reason::kWrongNormal, ""};
+  }
+  return {{object.ClosestPoint(face, point), object.inward_normal(face), face}, Reason::kNone, ""};
+}
+
+bool Coincide(std::span<const double> points, double tolerance) {
+  for (std::size_t i = 0; i < points.size(); i += 3) {
+    for (std::size_t j = 0; j < i; j += 3) {
+      const auto apart = Eigen::Vector3d::Map(&points[i]) - Eigen::Vector3d::Map(&points[j]);
+      if (apart.norm() <= tolerance) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+LocatedGrasps LocateGrasps(const object::Object& object, std::span<const double> points,
+                           std::span<const double> normals, int contacts, int threads) {
+  const bool has_normals = !normals.empty();
+  if (contacts < 1 || points.size() % (3 * static_cast<std::size_t>(contacts)) != 0 ||
+      (has_normals && normals.size() != points.size())) {
+    throw std::invalid_argument(std::to_string(points.size()) + " and " +
+                                std::to_string(normals.size()) + " values for grasps of " +
+                                std::to_string(contacts) + " contacts");
+  }
+  const auto k = static_cast<std::size_t>(contacts);
+  const double tolerance = object::kPointTolerance * object.diameter();
+  LocatedGrasps located;
+  located.points.assign(points.begin(), points.end());
+  located.normals.assign(normals.begin(), normals.end());
+  located.normals.resize(points.size());
+  located.reasons.resize(points.size() / (3 * k));
+  located.contacts.resize(located.reasons.size(), -1);
+  InBlocks(located.reasons.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t grasp = begin; grasp < end; ++grasp) {
+      for (std::size_t c = 0; c < k && located.reasons[grasp] == Reason::kNone; ++c) {
+        const std::size_t at = 3 * (grasp * k + c);
+        Vector p(&located.points[at]), n(&located.normals[at]);
+        const LocatedContact found =
+            has_normals ? LocateContact(object, {p, n}) : LocatePoint(object, p);
+        located.reasons[grasp] = found.reason;
+        p = found.contact.p;
+        n = found.contact.n;
+        if (found.reason == Reason::kNone && object.IsEnclosed(found.contact.face)) {
+          located.reasons[grasp] = Reason::kUnreachable;
+        }
+        if (located.reasons[grasp] != Reason::kNone) located.contacts[grasp] = static_cast<int>(c);
+      }
+      const auto own = std::span(located.points).subspan(3 * grasp * k, 3 * k);
+      if (located.reasons[grasp] == Reason::kNone && Coincide(own, tolerance)) {
+        located.reasons[grasp] = Reason::kCoincidentFingers;
+      }
+    }
+  });
   return located;
 }
 

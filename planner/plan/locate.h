@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,5 +40,35 @@ struct LocatedContact {
 
 /// Places every contact of a plan on the object, without judging; docs at PlanCheck::located.
 [[nodiscard]] Plan LocatePlan(const object::Object& object, const Plan& plan);
+
+/// Places the contacts of an align on the object, as LocateContact does. Where a contact lies on
+/// several faces that its normal cannot tell apart (at a vertex between collinear edges, for
+/// instance) each finger's faces are chosen so that its motion from waypoint to waypoint has the
+/// fewest faults (FindMotionFault), then by the nearest normals.
+void LocateAlign(const object::Object& object, Align& align);
+
+/// Many grasps of k contacts each on an object, in the layout of grasp::GraspArrays.
+struct LocatedGrasps {
+  std::vector<double> points;   ///< projected onto the surface
+  std::vector<double> normals;  ///< unit, into the object: the faces' own
+  /// Of each grasp kNone, or why it cannot be held: kOffSurface or kWrongNormal (also of a point on
+  /// a border without a normal) of its first contact that has no place, which is left as it was
+  /// given, as are those after it; kUnreachable of one in a sealed cavity; kCoincidentFingers.
+  std::vector<Reason> reasons;
+  /// Of each grasp the index of the contact that the reason is of; −1 with kNone and
+  /// kCoincidentFingers.
+  std::vector<int> contacts;
+};
+
+/// Places every contact as a grasp file's is (LocateContact); without normals on the only face at
+/// its point.
+/// @param points   N x k x 3 finite values.
+/// @param normals  as many, or none.
+/// @param threads  0: as many as the machine has cores.
+/// @throws std::invalid_argument  another number of values, or fewer than 0 threads.
+[[nodiscard]] LocatedGrasps LocateGrasps(const object::Object& object,
+                                         std::span<const double> points,
+                                         std::span<const double> normals, int contacts,
+                                         int threads = 0);
 
 }  // namespace regrasp::plan

@@ -1,7 +1,11 @@
 #include "planner/plan/plan.h"
 
 #include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/max_cardinality_matching.hpp>
+#include <vector>
 
+#include "planner/grasp/required_half_angle.h"
 #include "planner/motion/contact_motion.h"
 
 namespace regrasp::plan {
@@ -74,6 +78,58 @@ grasp::Grasp ContactsOf(const FingerGrasp& grasp) {
   contacts.reserve(grasp.size());
   for (const FingerContact& held : grasp) contacts.push_back(held.contact);
   return contacts;
+}
+
+bool AreSameContact(const grasp::Contact& a, const grasp::Contact& b, double tolerance) {
+  return (a.p - b.p).norm() <= tolerance && grasp::AngleBetween(a.n, b.n) <= kNormalTolerance;
+}
+
+bool AreSameGrasp(const grasp::Grasp& a, const grasp::Grasp& b, double tolerance) {
+  if (a.size() != b.size()) return false;
+  using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
+  Graph graph(a.size() + b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      if (AreSameContact(a[i], b[j], tolerance)) boost::add_edge(i, a.size() + j, graph);
+    }
+  }
+  std::vector<Graph::vertex_descriptor> mate(a.size() + b.size());
+  boost::edmonds_maximum_cardinality_matching(graph, mate.data());
+  return boost::matching_size(graph, mate.data()) == a.size();
+}
+
+bool AreIdentical(const FingerGrasp& a, const FingerGrasp& b) {
+  return std::ranges::equal(a, b, [](const FingerContact& x, const FingerContact& y) {
+    return x.finger == y.finger && x.contact.p == y.contact.p && x.contact.n == y.contact.n &&
+           x.contact.torsion == y.contact.torsion;
+  });
+}
+
+HandState StateBetween(const HandState& from, const HandState& to, double share) {
+  HandState state = from;
+  state.pose.translation() += share * (to.pose.translation() - from.pose.translation());
+  const Eigen::AngleAxisd turn(from.pose.linear().transpose() * to.pose.linear());
+  state.pose.linear() =
+      from.pose.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
+  for (std::size_t i = 0; i < from.joints.size(); ++i) {
+    for (std::size_t k = 0; k < from.joints[i].size(); ++k) {
+      state.joints[i][k] += share * (to.joints[i][k] - from.joints[i][k]);
+    }
+  }
+  return state;
+}
+
+std::vector<const HandPath*> PathsOf(const Step& step) {
+  std::vector<const HandPath*> paths;
+  if (const auto* move = std::get_if<Move>(&step)) paths.push_back(&move->path);
+  if (const auto* align = std::get_if<Align>(&step); align != nullptr && align->motion) {
+    for (const HandPath& path : *align->motion) paths.push_back(&path);
+  }
+  if (const auto* change = std::get_if<Switch>(&step); change != nullptr && change->motion) {
+    paths.push_back(&change->motion->place);
+    paths.push_back(&change->motion->release);
+  }
+  return paths;
 }
 
 }  // namespace regrasp::plan

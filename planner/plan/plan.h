@@ -7,11 +7,18 @@
 #include <variant>
 #include <vector>
 
+#include "planner/base/number.h"
 #include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
 #include "planner/object/object.h"
 
 namespace regrasp::plan {
+
+/// Normals in files must be of unit length within this (docs/formats.md).
+inline constexpr double kNormalLengthTolerance = 1e-4;
+
+/// Normals in files must be within this of a face's own normal, radians: 0.1° (docs/formats.md).
+inline constexpr double kNormalTolerance = Radians(0.1);
 
 /// A contact and the finger that makes it; fingers are numbered from 0.
 struct FingerContact {
@@ -163,5 +170,23 @@ void SetTorsion(double torsion, Plan& plan);
 
 /// The contacts without their fingers.
 [[nodiscard]] grasp::Grasp ContactsOf(const FingerGrasp& grasp);
+
+/// True iff points are within `tolerance` of each other and normals within kNormalTolerance.
+[[nodiscard]] bool AreSameContact(const grasp::Contact& a, const grasp::Contact& b,
+                                  double tolerance);
+
+/// True iff the contacts of two grasps can be paired so that each pair is the same contact, in any
+/// order. A maximum matching: within tolerance one contact may fit several.
+[[nodiscard]] bool AreSameGrasp(const grasp::Grasp& a, const grasp::Grasp& b, double tolerance);
+
+/// True iff the same fingers, in the same order, have the same bits of point, normal and torsion.
+[[nodiscard]] bool AreIdentical(const FingerGrasp& a, const FingerGrasp& b);
+
+/// The state between two that follow each other on a path (HandPath).
+/// @param share  0: `from`, 1: `to`.
+[[nodiscard]] HandState StateBetween(const HandState& from, const HandState& to, double share);
+
+/// All paths of a step as a hand does it, in their order; none where the plan does not say.
+[[nodiscard]] std::vector<const HandPath*> PathsOf(const Step& step);
 
 }  // namespace regrasp::plan

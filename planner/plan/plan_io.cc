@@ -5,11 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "planner/base/angle.h"
 #include "planner/base/file.h"
-#include "planner/plan/contact_json.h"
-#include "planner/plan/hand_motion_json.h"
-#include "planner/plan/motion_segment_json.h"
+#include "planner/base/number.h"
+#include "planner/plan/json_reader.h"
 
 namespace regrasp::plan {
 

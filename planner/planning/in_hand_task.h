@@ -29,7 +29,7 @@ struct Turn {
 /// Whether a plan for a hand is to have something to spare, so that motors can carry it out: forces
 /// well inside their cones, better grasps, more clearance, grasps that hold where their contacts
 /// have rolled to, and no slides, whose drag the fingers that hold can seldom balance. Where plans
-/// are tried (InHandTask::carry_out) what counts is that the hand carries one out.
+/// are tried (InHandTask::simulate) what counts is that the hand carries one out.
 enum class Reserve {
   kNone,       ///< is not looked for
   kPreferred,  ///< is looked for, for a while, where there is a plan; not at any length
@@ -37,7 +37,7 @@ enum class Reserve {
 };
 
 /// How far a hand carries a plan out.
-struct CarriedOut {
+struct ExecutionResult {
   bool is_held = false;   ///< the start grasp, before the first step
   int steps = 0;          ///< that pass before one fails, or all
   bool is_whole = false;  ///< the plan's last rest is come to
@@ -60,9 +60,9 @@ struct InHandTask {
   /// That hold the contacts of a given start grasp, in its order; none: whichever can.
   std::vector<FingerIndex> start_fingers = {};
   /// Where reserve is looked for: how far the hand carries a plan out, nullopt where that can't be
-  /// told, until the deadline (sim/actuation/carry_out.h); as many threads ask as the request has
-  /// jobs. None: reserve is all that is asked for.
-  std::function<std::optional<CarriedOut>(const plan::Plan&, const Deadline&)> carry_out = {};
+  /// told, until the deadline (sim/actuation/simulate_execution.h); as many threads ask as the
+  /// request has jobs. None: reserve is all that is asked for.
+  std::function<std::optional<ExecutionResult>(const plan::Plan&, const Deadline&)> simulate = {};
 };
 
 }  // namespace regrasp::planning

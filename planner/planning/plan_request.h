@@ -15,9 +15,14 @@
 #include "planner/grasp/contact.h"
 #include "planner/hand/hand.h"
 #include "planner/object/object.h"
-#include "planner/planning/spanning.h"
 
 namespace regrasp::planning {
+
+/// Half-angle φ of the cones of concurrent grasps, θ being the friction's.
+enum class Spanning {
+  kAdaptive,  ///< φ = min(θ, φ*), φ* the supremum of angles for which the normals φ-positively span
+  kUniform,  ///< φ = θ where the normals θ-positively span, no set where they don't
+};
 
 struct InHandTask;
 

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "planner/base/memory.h"
-#include "planner/planning/graph_summary.h"
 
 namespace regrasp::planning {
 

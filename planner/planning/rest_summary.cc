@@ -6,7 +6,7 @@
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/grasp/required_half_angle.h"
-#include "planner/grasp/soft_contacts.h"
+#include "planner/grasp/unit_contacts.h"
 
 namespace regrasp::planning {
 

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/limit_text.h"
 #include "planner/base/memory.h"
@@ -14,11 +13,10 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
-#include "planner/grasp/soft_contacts.h"
+#include "planner/grasp/unit_contacts.h"
 #include "planner/object/given_points.h"
 #include "planner/plan/plan_reach.h"
 #include "planner/sampling/draw_grasp.h"
-#include "planner/sampling/no_grasp.h"
 
 namespace regrasp::planning {
 

@@ -11,6 +11,8 @@
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "planner/tree/tree_planner.h"
 
+// What `--planner auto` takes: the one place where that is decided.
+
 namespace regrasp::registry {
 
 namespace {
@@ -51,6 +53,52 @@ std::string PlannerNames() {
 const planning::Planner* FindPlanner(const std::string& name) {
   const auto found = std::ranges::find(AllPlanners(), name, &planning::Planner::name);
   return found == AllPlanners().end() ? nullptr : *found;
+}
+
+namespace {
+
+const planning::Planner* FirstThatServes(const planning::PlanRequest& request) {
+  const auto found = std::ranges::find_if(AllPlanners(), [&](const planning::Planner* planner) {
+    return planning::WhyNotServed(*planner, request).empty();
+  });
+  return found == AllPlanners().end() ? nullptr : *found;
+}
+
+/// Which planners have an option of a request, for objects of its dimension.
+std::string ThoseThatHave(planning::PlanOption option, const planning::PlanRequest& request) {
+  std::string names;
+  for (const planning::Planner* planner : AllPlanners()) {
+    if (!planner->ScopeIn(request.object->dimension())) continue;
+    const auto& options = planner->traits().options;
+    if (std::ranges::find(options, option) == options.end()) continue;
+    names += (names.empty() ? "" : ", ") + planner->name();
+  }
+  return names.empty() ? "no planner" : names;
+}
+
+}  // namespace
+
+const planning::Planner& ChoosePlanner(const planning::PlanRequest& request) {
+  if (const planning::Planner* planner = FirstThatServes(request)) return *planner;
+  std::string why = "no planner has all of";
+  const std::string object = request.object->dimension() == 2 ? "a planar object" : "a solid";
+  for (const planning::PlanOption option : planning::OptionsOf(request)) {
+    why += " " + planning::OptionName(option) + " (" + ThoseThatHave(option, request) + ")";
+  }
+  throw InputError(why + " for " + object);
+}
+
+const planning::Planner& PlannerFor(const std::string& name, const planning::PlanRequest& request) {
+  if (name == "auto") return ChoosePlanner(request);
+  const planning::Planner* planner = FindPlanner(name);
+  if (planner == nullptr) {
+    throw InputError("the planner \"" + name + "\" does not exist in this version; there are " +
+                     PlannerNames());
+  }
+  const std::string why = planning::WhyNotServed(*planner, request);
+  if (why.empty()) return *planner;
+  const planning::Planner* other = FirstThatServes(request);
+  throw InputError(why + (other == nullptr ? "" : "; use --planner " + other->name()));
 }
 
 }  // namespace regrasp::registry

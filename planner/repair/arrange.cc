@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "planner/repair/cgal_mesh.h"
-#include "planner/repair/exact_point.h"
 #include "planner/repair/resolve_touching.h"
 #include "planner/repair/stages.h"
+#include "planner/repair/unite_shells.h"
 
 namespace regrasp::repair {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "planner/object/polygon_soup.h"
-#include "planner/object/surface_mesh.h"
+#include "planner/object/solid.h"
 
 namespace regrasp::repair {
 

@@ -1,17 +1,32 @@
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
-#include "planner/object/diameter.h"
+#include "planner/object/body_measures.h"
 #include "planner/repair/cgal_mesh.h"
 #include "planner/repair/stages.h"
 
@@ -115,6 +130,154 @@ StageResult CleanSurface(const object::PolygonSoup& soup) {
   result.facts["facets_dropped"] = cut - kept;
   result.facts["consistently_oriented"] = oriented;
   result.soup = SoupOf(Tidied(MeshOf(ToSoup(points, triangles))));
+  return result;
+}
+
+namespace {
+
+namespace sms = CGAL::Surface_mesh_simplification;
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+/// Where facets meet less is collapsed; so often at most.
+constexpr int kMostSimplifications = 12;
+/// Where so many pairs of facets meet it is no matter of some places.
+constexpr std::size_t kMostClosePairs = 2000;
+
+using IsKept = Mesh::Property_map<Mesh::Edge_index, bool>;
+using Boxes = std::vector<CGAL::Bbox_3>;
+
+enum class Care {
+  kAsItComes,
+  kNoTurns,  ///< no facet turns over; flat faces are then hardly made coarser
+};
+
+/// @param kept  edges that come into one of these stay.
+Mesh Collapsed(const Mesh& fine, Care care, const Boxes& kept, int facets) {
+  Mesh mesh = fine;
+  IsKept is_kept = mesh.add_property_map<Mesh::Edge_index, bool>("e:kept", false).first;
+  for (const auto edge : mesh.edges()) {
+    const CGAL::Bbox_3 box =
+        mesh.point(mesh.vertex(edge, 0)).bbox() + mesh.point(mesh.vertex(edge, 1)).bbox();
+    is_kept[edge] = std::ranges::any_of(
+        kept, [&](const CGAL::Bbox_3& other) { return CGAL::do_overlap(box, other); });
+  }
+  // A closed surface of triangles has three edges for two facets.
+  const sms::Count_stop_predicate<Mesh> stop(std::size_t(facets) * 3 / 2 + 1);
+  const sms::Constrained_placement<sms::LindstromTurk_placement<Mesh>, IsKept> placement(is_kept);
+  const auto how = CGAL::parameters::edge_is_constrained_map(is_kept).get_placement(placement);
+  if (care == Care::kNoTurns) {
+    sms::edge_collapse(mesh, stop, how.filter(sms::Bounded_normal_change_filter<>()));
+  } else {
+    sms::edge_collapse(mesh, stop, how);
+  }
+  mesh.collect_garbage();
+  return mesh;
+}
+
+/// Where facets meet that are no neighbours there: what the boxes of both have in common.
+Boxes MeetingIn(const Mesh& mesh) {
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  pmp::self_intersections(faces(mesh), mesh, std::back_inserter(pairs),
+                          CGAL::parameters::maximum_number(kMostClosePairs));
+  Boxes boxes;
+  for (const auto& [one, other] : pairs) {
+    const CGAL::Bbox_3 a = pmp::face_bbox(one, mesh);
+    const CGAL::Bbox_3 b = pmp::face_bbox(other, mesh);
+    boxes.emplace_back(std::max(a.xmin(), b.xmin()), std::max(a.ymin(), b.ymin()),
+                       std::max(a.zmin(), b.zmin()), std::min(a.xmax(), b.xmax()),
+                       std::min(a.ymax(), b.ymax()), std::min(a.zmax(), b.zmax()));
+  }
+  return boxes;
+}
+
+/// Nullopt where facets meet all the same, or where that takes more facets.
+std::optional<Mesh> CollapsedApart(const Mesh& fine, Care care, int facets) {
+  Boxes kept;
+  for (int round = 0; round < kMostSimplifications; ++round) {
+    Mesh mesh = Collapsed(fine, care, kept, facets);
+    if (std::ssize(mesh.faces()) > facets) return std::nullopt;
+    const Boxes meeting = MeetingIn(mesh);
+    if (meeting.empty()) return mesh;
+    if (meeting.size() == kMostClosePairs) return std::nullopt;
+    kept.insert(kept.end(), meeting.begin(), meeting.end());
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+StageResult Simplify(const object::PolygonSoup& soup, int facets) {
+  const Mesh fine = MeshOf(soup);
+  std::optional<Mesh> coarse = CollapsedApart(fine, Care::kAsItComes, facets);
+  if (!coarse) coarse = CollapsedApart(fine, Care::kNoTurns, facets);
+  // What is wrong with it is said by who looks at it.
+  if (!coarse) coarse = Collapsed(fine, Care::kAsItComes, {}, facets);
+  StageResult result{SoupOf(*coarse)};
+  result.facts["facets"] = coarse->num_faces();
+  return result;
+}
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+namespace {
+
+/// Shells of less than this share of the largest's volume are scraps that fold back on themselves.
+constexpr double kScrapVolume = 1e-6;
+
+/// At most so many holes are listed, the widest.
+constexpr std::size_t kListedHoles = 20;
+
+struct Hole {
+  double length = 0;
+  double width = 0;
+};
+
+Hole Measure(const Mesh& mesh, Mesh::Halfedge_index border) {
+  Hole hole;
+  std::vector<Eigen::Vector3d> corners;
+  for (const auto h : CGAL::halfedges_around_face(border, mesh)) {
+    const auto& p = mesh.point(mesh.target(h));
+    corners.emplace_back(p.x(), p.y(), p.z());
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    hole.length += (corners[(i + 1) % corners.size()] - corners[i]).norm();
+  }
+  hole.width = object::ComputeDiameter(corners);
+  return hole;
+}
+
+/// Drops closed parts without volume, if others have one.
+void DropScraps(Mesh& mesh) {
+  const std::vector<Mesh> parts = PartsOf(mesh);
+  std::vector<double> volumes;
+  for (const Mesh& part : parts) volumes.push_back(std::abs(VolumeOf(part)));
+  const double least = kScrapVolume * *std::ranges::max_element(volumes);
+  Mesh kept;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (volumes[i] >= least) CGAL::copy_face_graph(parts[i], kept);
+  }
+  mesh = std::move(kept);
+}
+
+}  // namespace
+
+StageResult FillHoles(const object::PolygonSoup& soup) {
+  Mesh mesh = MeshOf(soup);
+  std::vector<Mesh::Halfedge_index> borders;
+  pmp::extract_boundary_cycles(mesh, std::back_inserter(borders));
+  std::vector<Hole> holes;
+  for (const auto border : borders) {
+    holes.push_back(Measure(mesh, border));
+    if (!FillHole(mesh, border)) throw std::runtime_error("a hole cannot be filled");
+  }
+  DropScraps(mesh);
+  std::ranges::sort(holes, std::ranges::greater(), &Hole::width);
+  StageResult result{SoupOf(mesh)};
+  result.facts["holes"] = holes.size();
+  Json& widest = result.facts["widest"] = Json::array();
+  for (std::size_t i = 0; i < std::min(holes.size(), kListedHoles); ++i) {
+    widest.push_back({{"border_length", holes[i].length}, {"width", holes[i].width}});
+  }
   return result;
 }
 

@@ -7,7 +7,7 @@
 #include "planner/object/polygon_soup.h"
 #include "planner/object/reading.h"
 #include "planner/repair/comparison.h"
-#include "planner/repair/stage_report.h"
+#include "planner/repair/stages.h"
 
 namespace regrasp::repair {
 

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "planner/base/number.h"
-#include "planner/object/diameter.h"
+#include "planner/object/body_measures.h"
 #include "planner/repair/canonical_order.h"
 #include "planner/repair/invented_marks.h"
 #include "planner/repair/judgement.h"
+#include "planner/repair/reconstruct.h"
 #include "planner/repair/run_stage.h"
-#include "planner/repair/soup_shells.h"
 #include "planner/repair/stages.h"
 
 namespace regrasp::repair {

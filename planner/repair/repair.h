@@ -9,10 +9,10 @@
 #include "planner/base/json.h"
 #include "planner/object/polygon_soup.h"
 #include "planner/object/polyhedron.h"
-#include "planner/object/read_soup.h"
+#include "planner/object/read_object.h"
 #include "planner/object/reading.h"
 #include "planner/repair/comparison.h"
-#include "planner/repair/stage_report.h"
+#include "planner/repair/stages.h"
 
 namespace regrasp::repair {
 

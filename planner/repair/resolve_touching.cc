@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/object/diameter.h"
+#include "planner/object/body_measures.h"
 
 namespace regrasp::repair {
 

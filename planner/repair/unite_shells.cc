@@ -1,3 +1,5 @@
+#include "planner/repair/unite_shells.h"
+
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -11,7 +13,6 @@
 #include <vector>
 
 #include "planner/repair/cgal_mesh.h"
-#include "planner/repair/exact_point.h"
 #include "planner/repair/stages.h"
 
 namespace regrasp::repair {

@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "planner/object/diameter.h"
+#include "planner/object/body_measures.h"
 #include "planner/object/face_joining.h"
 #include "planner/repair/cgal_mesh.h"
 #include "planner/repair/stages.h"

@@ -1,13 +1,19 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "planner/grasp/contact.h"
 #include "planner/hand/hand.h"
 #include "planner/planning/plan_request.h"
 #include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap.h"
 
 namespace regrasp::roadmap {
+
+/// The first of `points` that is the same contact: on the same face, no farther than `tolerance`.
+[[nodiscard]] std::optional<int> FindContact(const std::vector<grasp::Contact>& points,
+                                             const grasp::Contact& contact, double tolerance);
 
 /// Contacts of a grasp of a roadmap, and fingers of the hand: the fifth switches.
 inline constexpr int kRoadmapContacts = 4;

@@ -6,11 +6,10 @@
 
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
-#include "planner/planning/random_goal.h"
+#include "planner/planning/candidate_sequence.h"
 #include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/contact_chain.h"
 #include "planner/roadmap/contact_point_search.h"
-#include "planner/roadmap/find_contact.h"
 #include "planner/sampling/draw_grasp.h"
 
 namespace regrasp::roadmap {

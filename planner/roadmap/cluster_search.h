@@ -1,7 +1,7 @@
 #pragma once
 
 #include "planner/planning/plan_request.h"
-#include "planner/planning/plan_result.h"
+#include "planner/planning/planner.h"
 
 namespace regrasp::roadmap {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "planner/criteria/clearance.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/criteria/reach.h"
 #include "planner/sampling/contact_points.h"

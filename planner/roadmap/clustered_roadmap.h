@@ -10,7 +10,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/roadmap/contact_clusters.h"
 #include "planner/roadmap/roadmap.h"
-#include "planner/search/components.h"
+#include "planner/search/switching_graph.h"
 
 namespace regrasp::roadmap {
 

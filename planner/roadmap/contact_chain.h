@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/roadmap/clustered_roadmap.h"
-#include "planner/roadmap/grasp_oracle.h"
+#include "planner/roadmap/grasp_tree.h"
 #include "planner/roadmap/local_planners.h"
 
 namespace regrasp::roadmap {

@@ -5,15 +5,86 @@
 #include <span>
 #include <vector>
 
-#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
+#include "planner/base/in_blocks.h"
 #include "planner/base/index.h"
+#include "planner/base/random.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
-#include "planner/roadmap/spectral_embedding.h"
-#include "planner/roadmap/wrench_affinity.h"
 
 namespace regrasp::roadmap {
+
+/// Points in clusters, each nearest the centre of its own.
+struct KMeansClusters {
+  Eigen::MatrixXd centers;      ///< k × d, the means of the clusters
+  std::vector<int> cluster_of;  ///< by point
+  double cost = 0;              ///< Σ squared distance of a point to its centre
+};
+
+/// Clusters points by Lloyd's iteration (1982) from centres drawn as in k-means++ (Arthur and
+/// Vassilvitskii 2007), the cheapest of `restarts` runs. No cluster is empty: one that would be
+/// takes the point farthest from its centre.
+///
+/// Laws: the same stream gives the same clusters; moving or turning all points turns the answer.
+/// @param points  n × d. @param count  k, 1 … n. @param restarts  >= 1.
+/// @throws std::invalid_argument  a number is out of range.
+[[nodiscard]] KMeansClusters KMeans(const Eigen::MatrixXd& points, int count, int restarts,
+                                    RandomStream& random, const Tell& tell = {});
+
+/// Sides of the pyramid that stands for a friction cone where wrenches are compared.
+inline constexpr int kPyramidSides = 8;
+
+/// The unit wrenches of a contact's friction pyramid in the frame, torques over its radius: one a
+/// column, counter-clockwise about the inward normal.
+using WrenchPyramid = Eigen::Matrix<double, 6, kPyramidSides>;
+
+/// @param half_angle  radians; edges of the pyramid lie on the cone.
+/// @param towards     the first edge leans to where this vector points along the surface; must not
+///                    be parallel to the normal.
+[[nodiscard]] WrenchPyramid PyramidOf(const grasp::Contact& contact,
+                                      const object::WrenchFrame& frame, double half_angle,
+                                      const Eigen::Vector3d& towards);
+
+/// The pyramid of a contact, its first edge leaning away from the frame's origin, so that it turns
+/// with the object.
+/// @param others  where the contact is straight above the origin, the first of these that is not
+///                decides.
+[[nodiscard]] WrenchPyramid PyramidOf(const grasp::Contact& contact,
+                                      const object::WrenchFrame& frame, double half_angle,
+                                      std::span<const grasp::Contact> others);
+
+/// How differently two contacts act on the object (Phoka 2010, 6.2.2.1): the mean angle between
+/// wrenches of the two pyramids matched in order, for the cyclic shift that makes it least;
+/// radians.
+///
+/// Laws: symmetric; 0 for equal pyramids (to 1e-7, the root of a rounding of the cosine);
+/// independent of the unit of length and of the object's pose. Angles are right to 7e-5.
+[[nodiscard]] double WrenchDistance(const WrenchPyramid& a, const WrenchPyramid& b);
+
+/// All distances between pyramids, N × N.
+[[nodiscard]] Eigen::MatrixXd WrenchDistances(std::span<const WrenchPyramid> pyramids,
+                                              const Tell& tell = {});
+
+/// Points of a graph of affinities placed so that those that belong together lie close (Ng, Jordan
+/// and Weiss 2001).
+struct SpectralEmbedding {
+  Eigen::MatrixXd rows;         ///< n × k, unit rows: the points
+  Eigen::MatrixXd vectors;      ///< n × k, eigenvectors of D^(−1/2) A D^(−1/2)
+  Eigen::VectorXd eigenvalues;  ///< the k largest, descending
+  Eigen::VectorXd degrees;      ///< row sums of A
+};
+
+/// @param affinity  n × n, symmetric, entries in (0, 1]. @param dimension  k, 1 … n − 1.
+/// @throws std::invalid_argument  k is out of range.
+[[nodiscard]] SpectralEmbedding EmbedAffinity(const Eigen::MatrixXd& affinity, int dimension);
+
+/// Where a point that the embedding does not know belongs (Nyström's extension, Bengio et al.
+/// 2004).
+///
+/// Law: the affinities of one of the embedding's own points give its row.
+/// @param affinity  n, to the embedding's points.
+[[nodiscard]] Eigen::RowVectorXd EmbedAnother(const SpectralEmbedding& embedding,
+                                              const Eigen::VectorXd& affinity);
 
 using ClusterIndex = Index<struct ClusterTag>;
 

@@ -9,14 +9,10 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
-#include "planner/planning/candidate_result.h"
-#include "planner/planning/switch_sequence.h"
+#include "planner/planning/candidate_sequence.h"
 #include "planner/roadmap/build_roadmap.h"
-#include "planner/roadmap/find_contact.h"
-#include "planner/roadmap/known_vertices.h"
-#include "planner/sampling/no_grasp.h"
-#include "planner/search/fewest_switches.h"
-#include "planner/search/widest_path.h"
+#include "planner/sampling/draw_grasp.h"
+#include "planner/search/switching_graph.h"
 
 namespace regrasp::roadmap {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/roadmap/contact_clusters.h"
-#include "planner/roadmap/grasp_oracle.h"
+#include "planner/roadmap/grasp_tree.h"
 #include "planner/roadmap/roadmap.h"
 
 namespace regrasp::roadmap {

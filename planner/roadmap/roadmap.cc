@@ -6,7 +6,6 @@
 
 #include "planner/criteria/grasp_criteria.h"
 #include "planner/grasp/subset_force_closure.h"
-#include "planner/roadmap/combination_rank.h"
 
 namespace regrasp::roadmap {
 

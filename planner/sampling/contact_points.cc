@@ -1,12 +1,123 @@
 #include "planner/sampling/contact_points.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <queue>
 #include <stdexcept>
 
-#include "planner/sampling/sample_elimination.h"
 #include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::sampling {
+
+namespace {
+
+// The parameters that the paper recommends.
+constexpr int kAlpha = 8;
+constexpr double kBeta = 0.65;
+constexpr double kGamma = 1.5;
+
+/// How strongly two contacts crowd each other, as a function of their distance.
+class Crowding {
+ public:
+  Crowding(std::size_t from, int to, double area)
+      : reach_(2 * LargestRadius(to, area)),
+        floor_(reach_ * (1 - std::pow(double(to) / double(from), kGamma)) * kBeta) {}
+
+  [[nodiscard]] double reach() const { return reach_; }
+
+  [[nodiscard]] double operator()(const grasp::Contact& a, const grasp::Contact& b) const {
+    const double distance = (a.p - b.p).norm();
+    if (distance >= reach_ || a.n.dot(b.n) < std::cos(kOppositeAngle)) return 0;
+    return std::pow(1 - std::max(distance, floor_) / reach_, kAlpha);
+  }
+
+ private:
+  /// Of `count` equal discs in the densest packing on the area.
+  static double LargestRadius(int count, double area) {
+    return std::sqrt(area / (2 * std::numbers::sqrt3 * count));
+  }
+
+  double reach_;
+  double floor_;
+};
+
+/// A contact that another one crowds, and how strongly.
+struct Neighbour {
+  std::size_t index;
+  double weight;
+};
+
+/// Of each contact those that crowd it, in ascending order, so that sums of their weights do not
+/// depend on how they were found: by a sweep along x, as only those within reach count.
+std::vector<std::vector<Neighbour>> FindNeighbours(const std::vector<grasp::Contact>& contacts,
+                                                   const Crowding& crowding) {
+  std::vector<std::size_t> along_x(contacts.size());
+  std::iota(along_x.begin(), along_x.end(), std::size_t{0});
+  std::sort(along_x.begin(), along_x.end(),
+            [&](auto a, auto b) { return contacts[a].p.x() < contacts[b].p.x(); });
+  std::vector<std::vector<Neighbour>> neighbours(contacts.size());
+  for (std::size_t i = 0; i < along_x.size(); ++i) {
+    const std::size_t a = along_x[i];
+    const double last_x = contacts[a].p.x() + crowding.reach();
+    for (std::size_t j = i + 1; j < along_x.size(); ++j) {
+      const std::size_t b = along_x[j];
+      if (contacts[b].p.x() > last_x) break;
+      const double weight = crowding(contacts[a], contacts[b]);
+      if (weight == 0) continue;
+      neighbours[a].push_back({b, weight});
+      neighbours[b].push_back({a, weight});
+    }
+  }
+  for (auto& list : neighbours) {
+    std::sort(list.begin(), list.end(),
+              [](const Neighbour& a, const Neighbour& b) { return a.index < b.index; });
+  }
+  return neighbours;
+}
+
+/// A contact with the weight that it had at some time.
+struct Weighed {
+  double weight;
+  std::size_t index;
+  /// The heaviest is on top of a heap, of equals the first.
+  bool operator<(const Weighed& other) const {
+    return weight != other.weight ? weight < other.weight : index > other.index;
+  }
+};
+
+}  // namespace
+
+std::vector<grasp::Contact> EliminateSamples(const std::vector<grasp::Contact>& contacts, int count,
+                                             double area) {
+  if (contacts.size() <= static_cast<std::size_t>(count)) return contacts;
+  const auto neighbours = FindNeighbours(contacts, {contacts.size(), count, area});
+  std::vector<double> weight(contacts.size(), 0);
+  std::priority_queue<Weighed> heaviest;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    for (const Neighbour& other : neighbours[i]) weight[i] += other.weight;
+    heaviest.push({weight[i], i});
+  }
+  std::vector<bool> gone(contacts.size(), false);
+  for (std::size_t left = contacts.size(); left > static_cast<std::size_t>(count);) {
+    const auto [weight_then, i] = heaviest.top();
+    heaviest.pop();
+    // Weights only sink: one that is still as it was is the largest.
+    if (weight[i] != weight_then) {
+      heaviest.push({weight[i], i});
+      continue;
+    }
+    gone[i] = true;
+    --left;
+    for (const Neighbour& other : neighbours[i]) weight[other.index] -= other.weight;
+  }
+  std::vector<grasp::Contact> result;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (!gone[i]) result.push_back(contacts[i]);
+  }
+  return result;
+}
 
 namespace {
 

@@ -8,9 +8,14 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
-#include "planner/sampling/no_grasp.h"
 
 namespace regrasp::sampling {
+
+/// Thrown for a negative answer: a random grasp could not be drawn, or a planner has no place for a
+/// grasp that it is given. PlanResult::Status::kNoGrasp where planners end.
+struct NoGrasp {
+  std::string message;
+};
 
 /// Draws grasps until the evaluator accepts one.
 /// @param draw  gives a grasp.

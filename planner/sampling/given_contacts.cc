@@ -8,8 +8,8 @@
 
 #include "planner/base/random.h"
 #include "planner/object/given_points.h"
-#include "planner/sampling/no_grasp.h"
-#include "planner/sampling/sample_elimination.h"
+#include "planner/sampling/contact_points.h"
+#include "planner/sampling/draw_grasp.h"
 #include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::sampling {

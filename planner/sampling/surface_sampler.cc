@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/criteria/clearance.h"
 #include "planner/criteria/reach.h"
-#include "planner/grasp/edge_contact.h"
+#include "planner/grasp/unit_contacts.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 

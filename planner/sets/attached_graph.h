@@ -3,7 +3,7 @@
 #include <set>
 #include <vector>
 
-#include "planner/search/vertex_pair.h"
+#include "planner/search/switching_graph.h"
 #include "planner/sets/set_graph.h"
 
 namespace regrasp::sets {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "planner/planning/candidate_result.h"
-#include "planner/search/shortest_paths.h"
+#include "planner/planning/candidate_sequence.h"
+#include "planner/search/switching_graph.h"
 
 namespace regrasp::sets {
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "planner/planning/switch_sequence.h"
+#include "planner/planning/candidate_sequence.h"
 
 namespace regrasp::sets {
 

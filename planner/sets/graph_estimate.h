@@ -7,6 +7,7 @@
 #include "planner/base/memory.h"
 #include "planner/base/random.h"
 #include "planner/object/object.h"
+#include "planner/planning/planner.h"
 
 namespace regrasp::sets {
 
@@ -44,5 +45,20 @@ struct JoinedGraph {
 /// What a planner's graph takes. @param bytes_for  for so many faces.
 [[nodiscard]] MemoryNeed NeedOfGraph(const std::string& planner, const object::Object& object,
                                      std::function<double(double)> bytes_for);
+
+/// What is the same in the summary of every graph of grasp sets: all but types and edges.
+template <class Graph>
+[[nodiscard]] planning::GraphSummary SummaryOf(const Graph& graph, const object::Object& object,
+                                               const std::string& planner) {
+  planning::GraphSummary summary;
+  summary.planner = planner;
+  summary.faces = object.face_count();
+  summary.face_name = object.dimension() == 2 ? "edges" : "faces";
+  summary.vertices = graph.vertex_count();
+  summary.components = graph.components().count();
+  summary.vertex_seconds = graph.vertex_seconds();
+  summary.edge_seconds = graph.edge_seconds();
+  return summary;
+}
 
 }  // namespace regrasp::sets

@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/base/index.h"
-#include "planner/base/stopwatch.h"
-#include "planner/search/components.h"
 #include "planner/search/switching_graph.h"
 
 namespace regrasp::sets {

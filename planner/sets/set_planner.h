@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "planner/criteria/grasp_evaluator.h"
-#include "planner/plan/same_grasp.h"
-#include "planner/planning/candidate_result.h"
+#include "planner/plan/plan.h"
+#include "planner/planning/candidate_sequence.h"
 #include "planner/planning/plan_request.h"
-#include "planner/planning/random_goal.h"
-#include "planner/sampling/no_grasp.h"
+#include "planner/sampling/draw_grasp.h"
 #include "planner/sets/attached_graph.h"
 #include "planner/sets/candidate_search.h"
 #include "planner/sets/sequence_builder.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "planner/base/number.h"
-#include "planner/sampling/no_grasp.h"
+#include "planner/sampling/draw_grasp.h"
 
 namespace regrasp::sets {
 

@@ -7,7 +7,7 @@
 
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
-#include "planner/search/components.h"
+#include "planner/search/switching_graph.h"
 #include "planner/sets/set_graph.h"
 
 namespace regrasp::sets {

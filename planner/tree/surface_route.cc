@@ -4,8 +4,8 @@
 #include <queue>
 #include <set>
 
-#include "planner/criteria/clearance.h"
-#include "planner/grasp/angle_between.h"
+#include "planner/criteria/reach.h"
+#include "planner/grasp/required_half_angle.h"
 #include "planner/motion/check_motion_proof.h"
 
 namespace regrasp::tree {

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
-#include "planner/base/angle.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_overview.h"
 #include "render/figures/contact_space_switch.h"
-#include "render/figures/contact_space_switch_page.h"
-#include "render/figures/plan_diagram.h"
+#include "render/figures/plan_figure.h"
 #include "render/picture/caption.h"
 
 namespace regrasp::render {

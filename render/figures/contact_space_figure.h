@@ -8,9 +8,9 @@
 #include "planner/object/polygon.h"
 #include "planner/plan/plan.h"
 #include "planner/sets/contour/set_geometry.h"
-#include "render/figures/contact_space_axis.h"
+#include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_track.h"
-#include "render/figures/figure_format.h"
+#include "render/figures/figure_page.h"
 
 namespace regrasp::render {
 

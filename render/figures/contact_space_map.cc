@@ -1,15 +1,217 @@
 #include "render/figures/contact_space_map.h"
 
+#include <cairo.h>
+
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string_view>
 
-#include "render/figures/contact_space_unfolding.h"
+#include "planner/base/number.h"
+#include "render/figures/contact_space_track.h"
+#include "render/figures/panel_text.h"
+#include "render/picture/cairo_paint.h"
+#include "render/picture/caption.h"
+#include "render/picture/color_table.h"
 
 namespace regrasp::render {
 
 using Eigen::Vector2d;
+
+namespace {
+
+// Points.
+constexpr double kVertexTick = 2;
+constexpr double kLabelTick = 4;
+constexpr double kTickWidth = 0.35;
+constexpr double kFrameWidth = 0.5;
+constexpr double kLabelDistance = 2;  ///< from the tick to the label
+constexpr double kBelowGap = 28;      ///< least distance of labels below a plot
+constexpr double kBesideGap = 16;     ///< and beside it
+constexpr double kTitleBelow = 23;    ///< from a plot to the base of the title below it
+constexpr double kTitleBeside = 36;   ///< and to the title beside it
+
+constexpr int kVertexDigits = 3;
+/// Lengths of more vertices than this are harder to read than round ones.
+constexpr int kFewVertices = 8;
+
+/// Places this close, over the perimeter, are one: rounding.
+constexpr double kRounding = 1e-9;
+
+struct Vertex {
+  double place;   ///< as the axis has it
+  double length;  ///< on the ring
+  bool begins;    ///< the ring begins here
+};
+
+std::vector<Vertex> ShownVertices(const contour::Boundary& boundary, contour::RingIndex ring,
+                                  const contour::PlaceRange& shown) {
+  const double perimeter = boundary.perimeter(ring);
+  const double slack = kRounding * perimeter;
+  std::vector<Vertex> vertices;
+  for (double turn = std::floor(shown.low / perimeter); turn * perimeter <= shown.high; ++turn) {
+    for (FaceIndex edge = boundary.first_edge(ring); edge < boundary.end_edge(ring); ++edge) {
+      const double length = boundary.begin(edge);
+      const double place = turn * perimeter + length;
+      if (place < shown.low - slack || place > shown.high + slack) continue;
+      vertices.push_back({place, length, edge == boundary.first_edge(ring)});
+    }
+  }
+  return vertices;
+}
+
+std::string LengthLabel(double length) { return FormatShort(length, kVertexDigits); }
+
+/// The length that an axis shows where a ring begins: its end, where it shows one turn.
+std::string BeginLabel(const contour::Boundary& boundary, contour::RingIndex ring,
+                       const contour::PlaceRange& shown, double place, const AxisUnit& unit) {
+  const double perimeter = boundary.perimeter(ring);
+  const double slack = kRounding * perimeter;
+  const bool end = place > perimeter / 2 && shown.low >= -slack && shown.high <= perimeter + slack;
+  return end ? LengthLabel(unit.per_unit * perimeter) : "0";
+}
+
+/// Vertices that print keeps apart; where a ring begins is always kept.
+std::vector<Vertex> Thin(const std::vector<Vertex>& vertices, double gap) {
+  std::vector<Vertex> kept;
+  for (const Vertex& vertex : vertices) {
+    while (vertex.begins && !kept.empty() && !kept.back().begins &&
+           vertex.place - kept.back().place < gap) {
+      kept.pop_back();
+    }
+    if (vertex.begins || kept.empty() || vertex.place - kept.back().place >= gap) {
+      kept.push_back(vertex);
+    }
+  }
+  return kept;
+}
+
+/// True iff vertices are few, far apart and have lengths that their labels tell apart.
+bool CanBeLabelled(const std::vector<Vertex>& vertices, double gap) {
+  if (vertices.size() < 2 || vertices.size() > kFewVertices) return false;
+  for (std::size_t i = 1; i < vertices.size(); ++i) {
+    const Vertex& before = vertices[i - 1];
+    if (vertices[i].place - before.place < gap) return false;
+    if (LengthLabel(vertices[i].length) == LengthLabel(before.length)) return false;
+  }
+  return true;
+}
+
+/// The shortest of 1, 2 or 5 times a power of ten that is no shorter than `least`.
+double RoundLengthAbove(double least) {
+  // From one round length to the next the factor is 2 or 2.5.
+  const double step = RoundLength(2 * least);
+  return step >= least ? step : RoundLength(2.5 * least);
+}
+
+/// Round lengths on an axis, but near where the ring begins.
+std::vector<AxisTick> RoundTicks(double perimeter, const contour::PlaceRange& shown, double gap,
+                                 const AxisUnit& unit) {
+  const double told = RoundLengthAbove(unit.per_unit * gap);
+  const double step = told / unit.per_unit;
+  // As many digits as tell the largest length from the one a step below, and no fewer than it has
+  // before the point.
+  const int first = static_cast<int>(std::floor(std::log10(unit.per_unit * perimeter)));
+  const int digits = 1 + first - std::min(static_cast<int>(std::floor(std::log10(told))), 0);
+  std::vector<AxisTick> ticks;
+  for (double turn = std::floor(shown.low / perimeter); turn * perimeter <= shown.high; ++turn) {
+    for (double k = 1; k * step <= perimeter - gap; ++k) {
+      const double place = turn * perimeter + k * step;
+      if (place >= shown.low && place <= shown.high)
+        ticks.push_back({place, FormatShort(k * told, std::max(digits, 1))});
+    }
+  }
+  return ticks;
+}
+
+}  // namespace
+
+std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary, contour::RingIndex ring,
+                                const contour::PlaceRange& shown, double points_per_unit,
+                                double label_gap, const AxisUnit& unit) {
+  assert(points_per_unit > 0 && shown.low < shown.high);
+  const double gap = label_gap / points_per_unit;
+  const std::vector<Vertex> vertices = ShownVertices(boundary, ring, shown);
+  const bool all = CanBeLabelled(vertices, gap);
+  std::vector<AxisTick> ticks;
+  if (!all) ticks = RoundTicks(boundary.perimeter(ring), shown, gap, unit);
+  for (const Vertex& vertex : Thin(vertices, kTickGap / points_per_unit)) {
+    std::string label;
+    if (vertex.begins) {
+      label = BeginLabel(boundary, ring, shown, vertex.place, unit);
+    } else if (all) {
+      label = LengthLabel(unit.per_unit * vertex.length);
+    }
+    ticks.push_back({vertex.place, label});
+  }
+  std::ranges::stable_sort(ticks, {}, &AxisTick::place);
+  return ticks;
+}
+
+AxisUnit UnitOfAxes(const contour::Boundary& boundary, double metres_per_unit) {
+  double longest = 0;
+  for (contour::RingIndex ring{0}; ring < boundary.ring_count(); ++ring) {
+    longest = std::max(longest, boundary.perimeter(ring));
+  }
+  const LengthUnit unit = UnitOfLength(metres_per_unit * longest);
+  return {metres_per_unit / unit.metres, unit.name};
+}
+
+std::string AxisTitle(const contour::Boundary& boundary, const std::string& length,
+                      contour::RingIndex ring, const AxisUnit& unit) {
+  std::string title = length;
+  if (boundary.ring_count() > 1) {
+    title += ring == 0 ? ", outer ring" : ", hole " + std::to_string(ring);
+  }
+  return unit.name.empty() ? title : title + " (" + unit.name + ")";
+}
+
+void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingIndex ring,
+                    const PlotWindow& window, const std::string& length, const AxisUnit& unit) {
+  const double bottom = window.corner.y() + window.size().y();
+  SetColor(cr, kInk);
+  for (const AxisTick& tick : MakeTicks(boundary, ring, {window.low.x(), window.high.x()},
+                                        window.scale.x(), kBelowGap, unit)) {
+    const double x = window.ToPage({tick.place, window.low.y()}).x();
+    const double tick_length = tick.label.empty() ? kVertexTick : kLabelTick;
+    StrokeLine(cr, {x, bottom}, {x, bottom + tick_length}, kTickWidth);
+    const Vector2d base(x, bottom + kLabelTick + kLabelDistance + kLabelFont);
+    DrawLabel(cr, tick.label, base, TextAlign::kCentre);
+  }
+  const std::string title = AxisTitle(boundary, length, ring, unit);
+  // To the right of a plot the page may end.
+  const double width = std::max(window.size().x(), LabelWidth(cr, title));
+  const Vector2d middle(window.corner.x() + window.size().x() - width / 2, bottom + kTitleBelow);
+  DrawLabel(cr, title, middle, TextAlign::kCentre);
+}
+
+void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingIndex ring,
+                  const PlotWindow& window, const std::string& length, const AxisUnit& unit) {
+  const double left = window.corner.x();
+  SetColor(cr, kInk);
+  for (const AxisTick& tick : MakeTicks(boundary, ring, {window.low.y(), window.high.y()},
+                                        window.scale.y(), kBesideGap, unit)) {
+    const double y = window.ToPage({window.low.x(), tick.place}).y();
+    const double tick_length = tick.label.empty() ? kVertexTick : kLabelTick;
+    StrokeLine(cr, {left, y}, {left - tick_length, y}, kTickWidth);
+    // Digits are about as high as this share of the font: they are centred on the tick.
+    constexpr double kDigitShare = 0.36;
+    const Vector2d base(left - kLabelTick - kLabelDistance, y + kDigitShare * kLabelFont);
+    DrawLabel(cr, tick.label, base, TextAlign::kRight);
+  }
+  cairo_save(cr);
+  cairo_translate(cr, left - kTitleBeside, window.corner.y() + window.size().y() / 2);
+  cairo_rotate(cr, -std::numbers::pi / 2);
+  DrawLabel(cr, AxisTitle(boundary, length, ring, unit), {0, 0}, TextAlign::kCentre);
+  cairo_restore(cr);
+}
+
+void DrawFrame(cairo_t* cr, const PlotWindow& window) {
+  SetBox(cr, window.corner, window.size());
+  Stroke(cr, kInk, kFrameWidth);
+}
 
 namespace {
 

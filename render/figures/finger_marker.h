@@ -6,7 +6,7 @@
 #include <span>
 
 #include "planner/base/index.h"
-#include "render/picture/palette.h"
+#include "render/picture/color_table.h"
 
 namespace regrasp::render {
 

@@ -5,12 +5,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "planner/sets/polygon/common_cone.h"
+#include "planner/sets/polygon/concurrent.h"
 #include "planner/sets/polygon/convex_region.h"
-#include "planner/sets/polygon/focus_cell.h"
-#include "planner/sets/polygon/grasp_set.h"
 #include "planner/sets/polygon/plane.h"
-#include "render/picture/plane_geometry.h"
+#include "planner/sets/polygon/set_cells.h"
+#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 

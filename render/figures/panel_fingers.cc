@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "render/figures/finger_marker.h"
-#include "render/figures/finger_numbers.h"
 #include "render/figures/panel_grasp.h"
 #include "render/figures/panel_path.h"
+#include "render/figures/panel_sheet.h"
 #include "render/figures/panel_text.h"
 #include "render/picture/cairo_paint.h"
-#include "render/picture/palette.h"
-#include "render/picture/plane_geometry.h"
+#include "render/picture/color_table.h"
+#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 

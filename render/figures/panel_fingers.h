@@ -3,8 +3,9 @@
 #include <cairo.h>
 
 #include "planner/object/polygon.h"
+#include "render/figures/panel_sheet.h"
 #include "render/figures/panel_view.h"
-#include "render/figures/plan_diagram.h"
+#include "render/figures/plan_figure.h"
 
 namespace regrasp::render {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "render/picture/cairo_paint.h"
-#include "render/picture/palette.h"
+#include "render/picture/color_table.h"
 
 namespace regrasp::render {
 

@@ -5,8 +5,9 @@
 #include <span>
 
 #include "render/figures/grasp_diagram.h"
+#include "render/figures/panel_sheet.h"
 #include "render/figures/panel_view.h"
-#include "render/figures/plan_diagram.h"
+#include "render/figures/plan_figure.h"
 
 namespace regrasp::render {
 

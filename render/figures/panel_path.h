@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/figures/panel_view.h"
-#include "render/figures/plan_diagram.h"
+#include "render/figures/plan_figure.h"
 
 namespace regrasp::render {
 

@@ -1,13 +1,13 @@
 #include "render/figures/panel_sheet.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
 #include "render/figures/figure_page.h"
 #include "render/figures/panel_text.h"
-#include "render/figures/print_size.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "render/figures/figure_format.h"
+#include "planner/object/polygon.h"
+#include "render/figures/figure_page.h"
 
 /// Cairo's, so that who names panels needs no Cairo.
 using cairo_t = struct _cairo;

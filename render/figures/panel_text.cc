@@ -4,11 +4,74 @@
 #include <cctype>
 #include <string>
 
+#include "planner/base/number.h"
 #include "render/figures/figure_page.h"
 #include "render/picture/cairo_paint.h"
-#include "render/picture/palette.h"
+#include "render/picture/caption.h"
+#include "render/picture/color_table.h"
 
 namespace regrasp::render {
+
+namespace {
+
+// Points.
+constexpr double kInset = 5;  ///< from the panel's right border
+constexpr double kWidth = 0.6;
+constexpr double kBarTick = 1.5;
+constexpr double kTextAbove = 2.5;
+
+constexpr double kLongest = 0.25;  ///< of the panel's width
+
+}  // namespace
+
+double ScaleBarLength(double width, double points_per_metre) {
+  return RoundLength(kLongest * width / points_per_metre);
+}
+
+void DrawScaleBar(cairo_t* cr, const Eigen::Vector2d& panel, double points_per_metre) {
+  const double metres = ScaleBarLength(panel.x(), points_per_metre);
+  const double right = panel.x() - kInset;
+  const double left = right - metres * points_per_metre;
+  const double y = panel.y() - kWidth;
+  SetColor(cr, kInk);
+  StrokeLine(cr, {left, y}, {right, y}, kWidth);
+  for (const double x : {left, right}) StrokeLine(cr, {x, y - kBarTick}, {x, y}, kWidth);
+  DrawLabel(cr, FormatLength(metres), {(left + right) / 2, y - kTextAbove}, TextAlign::kCentre);
+}
+
+using Eigen::Vector2d;
+
+namespace {
+
+/// A name nearer than this to what it belongs to needs no line, in radii.
+constexpr double kBeside = 3.2;
+constexpr double kLeaderWidth = 0.4;   ///< points
+constexpr double kLeaderHalo = 0.8;    ///< on either side
+constexpr double kLeaderStart = 0.75;  ///< from the name's centre, in radii
+constexpr double kLeaderEnd = 3.6;     ///< from the contact, beside its marker, points
+
+void DrawLeader(cairo_t* cr, const Vector2d& name, const Vector2d& owner) {
+  const Vector2d way = owner - name;
+  if (way.norm() < kBeside * kNumberRadius) return;
+  const Vector2d from = name + kLeaderStart * kNumberRadius * way.normalized();
+  const Vector2d to = owner - kLeaderEnd * way.normalized();
+  SetColor(cr, kWhite);
+  StrokeLine(cr, from, to, kLeaderWidth + 2 * kLeaderHalo);
+  SetColor(cr, kInk);
+  StrokeLine(cr, from, to, kLeaderWidth);
+}
+
+}  // namespace
+
+std::vector<Vector2d> DrawNumbers(cairo_t* cr, std::span<const std::string> names,
+                                  std::span<const LabelAnchor> anchors,
+                                  std::span<const Obstacle> obstacles, const Vector2d& panel) {
+  std::vector<Vector2d> centres = PlaceLabels(
+      anchors, obstacles, kNumberRadius, static_cast<int>(panel.x()), static_cast<int>(panel.y()));
+  for (std::size_t i = 0; i < names.size(); ++i) DrawLeader(cr, centres[i], anchors[i].Owner());
+  for (std::size_t i = 0; i < names.size(); ++i) DrawMark(cr, names[i], centres[i]);
+  return centres;
+}
 
 namespace {
 

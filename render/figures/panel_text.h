@@ -4,12 +4,36 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "render/figures/figure_format.h"
+#include "render/figures/figure_page.h"
+#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
+
+/// Height that a panel gives to its scale bar, below the object, points.
+inline constexpr double kScaleBarSpace = 14;
+
+/// How long the scale bar of a panel `width` points wide is, metres: the longest round length
+/// (RoundLength) of at most a quarter of the panel.
+[[nodiscard]] double ScaleBarLength(double width, double points_per_metre);
+
+/// Draws it with its length at the bottom right of a panel.
+void DrawScaleBar(cairo_t* cr, const Eigen::Vector2d& panel, double points_per_metre);
+
+/// Of the circle that a finger's number needs, points.
+inline constexpr double kNumberRadius = 4.8;
+
+/// Writes names of fingers or grasps next to what they belong to (PlaceLabels), with a line to it
+/// where that is not beside the name.
+/// @param panel  its size, points; names stay in it.
+/// @returns the centres of the names.
+std::vector<Eigen::Vector2d> DrawNumbers(cairo_t* cr, std::span<const std::string> names,
+                                         std::span<const LabelAnchor> anchors,
+                                         std::span<const Obstacle> obstacles,
+                                         const Eigen::Vector2d& panel);
 
 /// Size of captions and of finger numbers, points: readable at the size the page is printed.
 inline constexpr double kCaptionFont = 7.5;

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "planner/object/polygon.h"
-#include "render/figures/plan_diagram.h"
+#include "render/figures/plan_figure.h"
 
 namespace regrasp::render {
 

@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/plan/planned_snapshot.h"
+#include "planner/plan/snapshot.h"
 #include "render/figures/finger_marker.h"
-#include "render/figures/finger_numbers.h"
 #include "render/figures/hidden_lines.h"
 #include "render/figures/panel_text.h"
-#include "render/figures/plan_diagram.h"
-#include "render/figures/scale_bar.h"
+#include "render/figures/plan_figure.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"
-#include "render/picture/palette.h"
+#include "render/picture/color_table.h"
 
 namespace regrasp::render {
 

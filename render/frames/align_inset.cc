@@ -4,8 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "planner/base/quantity_text.h"
-#include "render/picture/cairo_image.h"
+#include "planner/base/number.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {

@@ -10,11 +10,10 @@
 #include <sstream>
 #include <vector>
 
-#include "planner/base/quantity_text.h"
-#include "render/picture/cairo_image.h"
+#include "planner/base/number.h"
 #include "render/picture/cairo_paint.h"
-#include "render/picture/plane_geometry.h"
-#include "render/picture/round_length.h"
+#include "render/picture/caption.h"
+#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 

@@ -6,8 +6,8 @@
 
 #include "render/frames/camera.h"
 #include "render/frames/finger_glyph.h"
+#include "render/picture/color_table.h"
 #include "render/picture/label_layout.h"
-#include "render/picture/palette.h"
 
 namespace regrasp::render {
 

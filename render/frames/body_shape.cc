@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "planner/object/polygon.h"
-#include "planner/object/polygon_triangulation.h"
 #include "planner/object/polyhedron.h"
 
 namespace regrasp::render {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/object.h"
 #include "render/frames/facet_mesh.h"
 #include "render/frames/ray_tree.h"

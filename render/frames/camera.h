@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <variant>
+#include <vector>
 
 namespace regrasp::render {
 

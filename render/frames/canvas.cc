@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 
-#include "render/frames/gl.h"
 #include "render/frames/offscreen_context.h"
 
 namespace regrasp::render {

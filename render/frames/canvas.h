@@ -8,8 +8,8 @@
 
 #include "render/frames/camera.h"
 #include "render/frames/facet_mesh.h"
+#include "render/picture/color_table.h"
 #include "render/picture/image.h"
-#include "render/picture/palette.h"
 
 namespace regrasp::render {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "render/picture/cairo_image.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {

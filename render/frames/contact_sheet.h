@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "render/picture/color_table.h"
 #include "render/picture/image.h"
-#include "render/picture/palette.h"
 
 namespace regrasp::render {
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "render/frames/annotation.h"
-#include "render/picture/cairo_image.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/angle.h"
 #include "planner/base/limit_text.h"
-#include "planner/base/quantity_text.h"
-#include "planner/grasp/angle_between.h"
+#include "planner/base/number.h"
+#include "planner/grasp/required_half_angle.h"
 
 namespace regrasp::render {
 

@@ -70,7 +70,7 @@ struct FaultPicture {
   FaultMarks marks;
 };
 
-/// @param snapshot  what the replay saw, or what is planned (planner/plan/planned_snapshot.h).
+/// @param snapshot  what the replay saw, or what is planned (planner/plan/snapshot.h).
 /// @param heading   what failed, in a line.
 /// @param scale     metres per unit of the object.
 [[nodiscard]] FaultPicture MakeFaultPicture(const object::Object& object, double scale,

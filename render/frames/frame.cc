@@ -7,7 +7,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "planner/sets/polyhedron/focus_view.h"
+#include "planner/sets/polyhedron/focus_contacts.h"
 #include "render/frames/align_inset.h"
 #include "render/frames/annotation.h"
 #include "render/frames/body_shape.h"
@@ -16,10 +16,10 @@
 #include "render/frames/extent.h"
 #include "render/frames/fault_overlay.h"
 #include "render/frames/finger_glyph.h"
-#include "render/frames/turn_arrow.h"
+#include "render/frames/step_scene.h"
 #include "render/frames/viewpoint.h"
-#include "render/picture/cairo_image.h"
-#include "render/picture/palette.h"
+#include "render/picture/cairo_paint.h"
+#include "render/picture/color_table.h"
 
 namespace regrasp::render {
 

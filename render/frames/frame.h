@@ -13,8 +13,8 @@
 #include "render/frames/finger_glyph.h"
 #include "render/frames/hand_view.h"
 #include "render/frames/viewpoint.h"
+#include "render/picture/color_table.h"
 #include "render/picture/image.h"
-#include "render/picture/palette.h"
 
 namespace regrasp::render {
 
@@ -46,7 +46,7 @@ struct FrameOptions {
   /// The camera sees these points too: metres, world frame.
   std::vector<Eigen::Vector3d> also_seen = {};
   /// Of a concurrent grasp of a solid: the focus point, the lines to it, and the contact regions
-  /// that it gives on the faces (planner/sets/polyhedron/focus_view.h).
+  /// that it gives on the faces (planner/sets/polyhedron/focus_contacts.h).
   bool show_focus = false;
   /// Of a solid: its surface in the colours of these clusters, and their representatives as dots.
   std::optional<roadmap::ClusterView> clusters = std::nullopt;

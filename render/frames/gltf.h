@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/frames/facet_mesh.h"
-#include "render/picture/palette.h"
+#include "render/picture/color_table.h"
 
 namespace regrasp::render {
 

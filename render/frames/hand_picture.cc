@@ -14,10 +14,9 @@
 #include "render/frames/camera.h"
 #include "render/frames/canvas.h"
 #include "render/frames/facet_mesh.h"
-#include "render/picture/cairo_image.h"
 #include "render/picture/cairo_paint.h"
+#include "render/picture/color_table.h"
 #include "render/picture/label_layout.h"
-#include "render/picture/palette.h"
 
 namespace regrasp::render {
 namespace {

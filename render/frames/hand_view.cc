@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "render/picture/palette.h"
+#include "render/picture/color_table.h"
 
 namespace regrasp::render {
 namespace {

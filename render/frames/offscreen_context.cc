@@ -5,7 +5,6 @@
 
 #include "planner/base/error.h"
 #include "planner/base/shared_library.h"
-#include "render/frames/gl.h"
 
 namespace regrasp::render {
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "planner/base/angle.h"
-#include "render/picture/plane_geometry.h"
+#include "planner/base/number.h"
+#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 

@@ -3,11 +3,13 @@
 #include <cairo.h>
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 
-#include "render/picture/palette.h"
+#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
 
@@ -74,5 +76,24 @@ void StrokeArrow(cairo_t* cr, std::span<const Eigen::Vector2d> path, double widt
 /// The same with a head in proportion to the width, on a halo.
 void DrawArrow(cairo_t* cr, std::span<const Eigen::Vector2d> path, double width, Color color,
                Color halo);
+
+/// An image that Cairo draws on.
+class CairoImage {
+ public:
+  /// @throws std::runtime_error  Cairo has no memory, or the image is larger than it can hold
+  ///                             (32767 pixels a side).
+  explicit CairoImage(const Image& image);
+
+  [[nodiscard]] cairo_t* context() const { return context_.get(); }
+  [[nodiscard]] cairo_surface_t* surface() const { return surface_.get(); }
+  [[nodiscard]] Image ToImage() const;
+
+ private:
+  [[nodiscard]] std::uint32_t* Row(int y) const;
+
+  int width_, height_;
+  CairoSurface surface_;
+  CairoContext context_;
+};
 
 }  // namespace regrasp::render

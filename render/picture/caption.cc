@@ -1,13 +1,22 @@
 #include "render/picture/caption.h"
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
-#include "planner/base/angle.h"
-#include "planner/base/quantity_text.h"
+#include "planner/base/number.h"
 
 namespace regrasp::render {
+
+double RoundLength(double limit) {
+  const double power = std::pow(10.0, std::floor(std::log10(limit)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= limit) return digit * power;
+  }
+  return power;
+}
 
 namespace {
 

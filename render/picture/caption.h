@@ -6,6 +6,9 @@
 
 namespace regrasp::render {
 
+/// The longest of 1, 2 or 5 times a power of ten that is no longer than `limit` (> 0).
+[[nodiscard]] double RoundLength(double limit);
+
 /// What happens in an entry of a plan: "hold: fingers 0, 1, 2, 3", "switch: place 4, release 0",
 /// "align: move 1, 3".
 /// @param entry  0 the hold, k the plan's k-th step.

@@ -9,9 +9,21 @@
 #include <string>
 
 #include "planner/base/file.h"
-#include "render/picture/png_chunk.h"
 
 namespace regrasp::render {
+
+std::string PngInteger(std::uint32_t number) {
+  std::string bytes;
+  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(number >> shift & 0xff);
+  return bytes;
+}
+
+std::string PngChunk(const std::string& type, const std::string& data) {
+  const std::string typed = type + data;
+  const uLong sum = crc32_z(0, reinterpret_cast<const Bytef*>(typed.data()), typed.size());
+  return PngInteger(static_cast<std::uint32_t>(data.size())) + typed +
+         PngInteger(static_cast<std::uint32_t>(sum));
+}
 
 Image MakeImage(int width, int height, unsigned char brightness) {
   const std::size_t bytes = std::size_t{3} * width * height;

@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "render/picture/plane_geometry.h"
-
 namespace regrasp::render {
 
 namespace {

@@ -1,11 +1,26 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace regrasp::render {
+
+/// The z component of the cross product: positive where b is to the left of a.
+[[nodiscard]] inline double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// How far p is from the segment from a to b, which may be a point.
+[[nodiscard]] inline double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
+                                              const Eigen::Vector2d& b) {
+  const Eigen::Vector2d segment = b - a;
+  const double square = segment.squaredNorm();
+  const double t = square > 0 ? std::clamp((p - a).dot(segment) / square, 0.0, 1.0) : 0;
+  return (p - a - t * segment).norm();
+}
 
 /// What a label belongs to, in pixels: it is best placed next to `anchor` on the side of
 /// `direction` (not necessarily unit; zero where any side is as good), and must not be nearer to

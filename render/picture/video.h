@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "render/picture/color_table.h"
 #include "render/picture/moving_picture.h"
-#include "render/picture/palette.h"
 
 namespace regrasp::render {
 

@@ -3,15 +3,11 @@
 #include <cmath>
 #include <string>
 
-#include "planner/base/angle.h"
 #include "planner/base/limit_text.h"
-#include "planner/base/quantity_text.h"
+#include "planner/base/number.h"
 #include "report/hand_limits.h"
-#include "report/page/fact_list.h"
-#include "report/page/quantity.h"
-#include "report/page/step_text.h"
-#include "report/squeeze_text.h"
-#include "report/trials_report.h"
+#include "report/page/step_table.h"
+#include "report/report_table.h"
 
 namespace regrasp::report {
 

@@ -5,17 +5,14 @@
 #include <optional>
 #include <vector>
 
-#include "planner/base/angle.h"
 #include "planner/base/limit_text.h"
-#include "planner/base/quantity_text.h"
-#include "report/page/quantity.h"
+#include "planner/base/number.h"
 #include "report/page/step_plot.h"
-#include "report/page/step_text.h"
-#include "report/page/table.h"
-#include "report/stress_table.h"
-#include "sim/measure/push.h"
+#include "report/page/step_table.h"
+#include "report/report_table.h"
+#include "sim/measure/shake.h"
 #include "sim/measure/weakest_finger.h"
-#include "sim/world/cone_margin.h"
+#include "sim/world/motion_monitor.h"
 
 namespace regrasp::report {
 namespace {

@@ -1,8 +1,36 @@
 #include "report/page/html_page.h"
 
+#include <openssl/evp.h>
+
 #include "page_style.h"
 
 namespace regrasp::report {
+
+std::string DataUri(std::string_view media_type, std::string_view bytes) {
+  // Three bytes become four characters; the encoder adds a zero.
+  std::string base64((bytes.size() + 2) / 3 * 4 + 1, '\0');
+  const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(base64.data()),
+                                   reinterpret_cast<const unsigned char*>(bytes.data()),
+                                   static_cast<int>(bytes.size()));
+  base64.resize(size);
+  return "data:" + std::string(media_type) + ";base64," + base64;
+}
+
+std::string PathUri(std::string_view path) {
+  constexpr std::string_view kAsTheyAre =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+  constexpr std::string_view kHex = "0123456789ABCDEF";
+  std::string uri;
+  for (const char byte : path) {
+    if (kAsTheyAre.find(byte) != std::string_view::npos) {
+      uri += byte;
+      continue;
+    }
+    const auto value = static_cast<unsigned char>(byte);
+    uri += {'%', kHex[value / 16], kHex[value % 16]};
+  }
+  return uri;
+}
 
 namespace {
 

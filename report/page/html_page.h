@@ -8,6 +8,14 @@
 
 namespace regrasp::report {
 
+/// Bytes as a URI that holds them, "data:image/webp;base64,…".
+[[nodiscard]] std::string DataUri(std::string_view media_type, std::string_view bytes);
+
+/// A relative path as a link to it, "plan%231/report.html": bytes other than unreserved characters
+/// (RFC 3986, 2.3) and slashes are written in percent, so that none is taken for a scheme, a query
+/// or a fragment.
+[[nodiscard]] std::string PathUri(std::string_view path);
+
 /// Where a page may take its pictures from; it loads nothing else.
 enum class PictureSource {
   kInPage,   ///< from the page alone (DataUri)

@@ -5,21 +5,15 @@
 #include <cmath>
 #include <utility>
 
-#include "planner/base/angle.h"
-#include "planner/base/quantity_text.h"
+#include "planner/base/number.h"
 #include "render/picture/caption.h"
 #include "report/failure.h"
-#include "report/page/data_uri.h"
 #include "report/page/facts.h"
 #include "report/page/findings.h"
 #include "report/page/html_page.h"
-#include "report/page/quantity.h"
-#include "report/page/step_measures.h"
 #include "report/page/step_plot.h"
 #include "report/page/step_table.h"
-#include "report/page/step_text.h"
-#include "report/page/table.h"
-#include "report/trials_report.h"
+#include "report/report_table.h"
 
 namespace regrasp::report {
 

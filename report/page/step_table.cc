@@ -1,15 +1,132 @@
 #include "report/page/step_table.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
-#include "planner/base/angle.h"
 #include "planner/base/limit_text.h"
-#include "planner/base/quantity_text.h"
-#include "report/page/quantity.h"
-#include "report/page/step_text.h"
-#include "report/page/table.h"
+#include "planner/base/number.h"
+#include "render/picture/caption.h"
+#include "report/page/step_plot.h"
+#include "sim/world/motion_monitor.h"
 
 namespace regrasp::report {
+
+Element HeadCell(std::string_view name, std::string_view style) {
+  return Element("th", {{"scope", "col"}, {"class", std::string(style)}}, name);
+}
+
+std::vector<Element> HeadCells(const std::vector<std::string_view>& names) {
+  std::vector<Element> cells;
+  for (const std::string_view name : names) cells.push_back(HeadCell(name));
+  return cells;
+}
+
+Element NumberCell(std::string_view text) { return Element("td", {{"class", "number"}}, text); }
+
+Element ScrolledTable(const std::vector<Element>& head, const std::vector<Element>& rows) {
+  const Element table("table", {}, Element("thead", {}, Element("tr", {}, head)),
+                      Element("tbody", {}, rows));
+  return Element("div", {{"class", "scroll"}}, table);
+}
+
+Element Figure(const Attributes& attributes, const Element& picture, std::string_view name,
+               const std::string& text) {
+  return Element("figure", attributes, picture,
+                 Element("figcaption", {}, Element("b", {}, name), " " + text));
+}
+
+Element Note(std::string_view text) { return Element("p", {{"class", "note"}}, text); }
+
+namespace {
+
+constexpr int kDigits = 3;
+
+/// Numbers from here on, and below there, are written with a power of ten.
+constexpr double kPlainFrom = 1e-3;
+constexpr double kPlainTo = 1e6;
+
+/// Less than an atom says nothing.
+constexpr double kShortest_m = 1e-10;
+
+constexpr char kNothing[] = "–";
+
+/// The number without the zeros at its end, and without a point at its end.
+std::string WithoutZeros(std::string text) {
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::string NumberText(double value) {
+  if (!std::isfinite(value)) return kNothing;
+  if (value == 0) return "0";
+  const double size = std::abs(value);
+  const int exponent = static_cast<int>(std::floor(std::log10(size)));
+  if (size >= kPlainFrom && size < kPlainTo) {
+    return WithoutZeros(FormatFixed(value, std::max(0, kDigits - 1 - exponent)));
+  }
+  const double mantissa = value / std::pow(10.0, exponent);
+  return WithoutZeros(FormatFixed(mantissa, kDigits - 1)) + "\u00a0×\u00a0" +
+         FormatPowerOfTen(exponent);
+}
+
+std::string LengthText(double metres) {
+  if (!std::isfinite(metres)) return kNothing;
+  if (metres < kShortest_m) return "0";
+  std::string text = FormatLength(metres);
+  return text.replace(text.find(' '), 1, "\u00a0");
+}
+
+namespace {
+
+/// A replay that became unstable may have measured infinity.
+std::optional<double> IfFinite(double value) {
+  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+void AddReplay(const sim::StepReplay& replay, StepMeasures& measures) {
+  measures.moved_m = IfFinite(replay.moved_m);
+  measures.slip_m = IfFinite(replay.slip_m);
+  if (const auto margin = sim::SmallestMargin(replay.rest_margins)) {
+    measures.rest_margin_deg = IfFinite(Degrees(*margin));
+  }
+}
+
+}  // namespace
+
+std::vector<StepMeasures> MeasureSteps(const Report& report) {
+  std::vector<StepMeasures> all;
+  for (const ReportStep& step : report.steps) {
+    StepMeasures& measures = all.emplace_back();
+    if (!step.skipped && step.check.required) {
+      measures.margin_deg = Degrees(report.half_angle - step.check.required->upper);
+    }
+    if (!step.skipped && step.replay) AddReplay(*step.replay, measures);
+  }
+  return all;
+}
+
+std::string StepTitle(const plan::Plan& plan, plan::EntryIndex index) {
+  return Capitalized(render::EntryTitle(plan, index));
+}
+
+std::string StepName(plan::EntryIndex index) {
+  return index == 0 ? "the hold" : "step " + std::to_string(index);
+}
+
+std::string WhyAndMend(const std::string& why, const std::string& mend) {
+  return (why.empty() ? "" : " Why: " + why + ".") +
+         (mend.empty() ? "" : " What would mend it: " + mend + ".");
+}
+
+std::string Capitalized(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] += 'A' - 'a';
+  return text;
+}
 
 namespace {
 

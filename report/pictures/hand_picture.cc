@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "planner/base/angle.h"
-#include "planner/plan/hand_path.h"
+#include "planner/base/number.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::report {
 namespace {

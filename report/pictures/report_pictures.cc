@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "planner/plan/locate.h"
-#include "planner/plan/planned_snapshot.h"
+#include "planner/plan/snapshot.h"
 #include "render/frames/contact_sheet.h"
 #include "render/frames/fault_overlay.h"
-#include "render/frames/frame_sequence.h"
 #include "render/frames/replay_animation.h"
 #include "render/picture/caption.h"
 #include "report/failure.h"

@@ -8,16 +8,15 @@
 #include <string>
 #include <utility>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/kinematics/finger_kinematics.h"
-#include "planner/plan/hand_path.h"
+#include "planner/plan/plan.h"
 #include "sim/actuation/hand_control.h"
 #include "sim/actuation/hand_judge.h"
 #include "sim/actuation/sliding_tips.h"
-#include "sim/actuation/timed_path.h"
 #include "sim/actuation/torque_squeeze.h"
-#include "sim/measure/push.h"
+#include "sim/measure/shake.h"
 #include "sim/scene/engine.h"
 #include "sim/scene/scaling.h"
 

@@ -5,6 +5,7 @@
 #include "sim/actuation/hand_control.h"
 #include "sim/actuation/hand_judge.h"
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/hand_world.h"
 
 namespace regrasp::sim {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/grasp/sliding_forces.h"
+#include "planner/grasp/grasp_forces.h"
 #include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::sim {

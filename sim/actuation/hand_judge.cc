@@ -4,10 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "planner/base/angle.h"
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "sim/hand/hand_finding.h"
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/finger_kinematics.h"
-#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/tip_geometry.h"
 
@@ -107,7 +107,7 @@ std::vector<HandLinks::Placed> HandLinks::Place(
     one.link = &link;
     one.shape = link.after == 0 ? link.shape
                                 : collision::Moved(frames[link.finger][link.after - 1], link.shape);
-    one.ball = collision::BallAround(one.shape);
+    one.ball = collision::BoundingSphereOf(one.shape);
   }
   return placed;
 }

@@ -30,8 +30,8 @@ class HandLinks {
   };
   struct Placed {
     const Link* link = nullptr;
-    collision::ConvexShape shape;  ///< in the palm's frame
-    collision::Ball ball;          ///< around it
+    collision::ConvexShape shape;    ///< in the palm's frame
+    collision::BoundingSphere ball;  ///< around it
   };
 
   explicit HandLinks(const kinematics::HandFile& file);

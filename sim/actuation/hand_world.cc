@@ -11,15 +11,14 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/finger_kinematics.h"
-#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/drive_servo.h"
-#include "sim/actuation/hand_scene_text.h"
+#include "sim/actuation/hand_scene_export.h"
 #include "sim/actuation/scene_model.h"
-#include "sim/actuation/tip_contact.h"
-#include "sim/actuation/tip_surface.h"
-#include "sim/scene/engine_hooks.h"
+#include "sim/actuation/tip_geometry.h"
+#include "sim/scene/engine.h"
 
 namespace regrasp::sim {
 namespace {

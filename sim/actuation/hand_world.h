@@ -16,7 +16,7 @@
 #include "sim/actuation/drive_servo.h"
 #include "sim/actuation/hand_links.h"
 #include "sim/actuation/joint_couplings.h"
-#include "sim/scene/engine_state.h"
+#include "sim/scene/engine.h"
 #include "sim/scene/settings.h"
 
 struct mjModel_;

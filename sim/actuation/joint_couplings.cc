@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "planner/kinematics/model_names.h"
+#include "planner/kinematics/derive_couplings.h"
 
 namespace regrasp::sim {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/kinematics/xml_tree.h"
+#include "planner/kinematics/model_text.h"
 
 struct mjModel_;
 

@@ -2,14 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
 #include <utility>
+#include <vector>
 
+#include "planner/base/in_blocks.h"
+#include "planner/base/npz.h"
+#include "planner/base/random.h"
 #include "planner/grasp/grasp_forces.h"
+#include "planner/plan/reason.h"
 #include "sim/actuation/torque_squeeze.h"
+#include "sim/replay/trials.h"
 #include "sim/scene/engine.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::sim {
+
 namespace {
 
 using Eigen::Isometry3d;
@@ -159,6 +169,268 @@ std::optional<Reason> ResetStates::Validate(ResetState& state) {
   state.off_m = judge_.measures().off_m;
   state.off_rad = judge_.measures().off_rad;
   return Failure();
+}
+
+namespace {
+
+using Values = std::vector<double>;
+
+void AppendVector(const Eigen::VectorXd& vector, Values& values) {
+  values.insert(values.end(), vector.begin(), vector.end());
+}
+
+/// An array with a row for each state.
+/// @param shape   of a row.
+/// @param append  a state's row to values.
+template <typename AppendRow>
+NpzArray RowsOf(const DrawnStates& drawn, const std::string& name, std::vector<std::size_t> shape,
+                const AppendRow& append) {
+  shape.insert(shape.begin(), drawn.states.size());
+  NpzArray array{name, std::move(shape)};
+  for (const ResetState& state : drawn.states) append(state, array.values);
+  return array;
+}
+
+/// The same, with a row in it for each finger.
+template <typename AppendTip>
+NpzArray TipsOf(const DrawnStates& drawn, const std::string& name, std::vector<std::size_t> shape,
+                const AppendTip& append) {
+  return RowsOf(drawn, name, std::move(shape), [&](const ResetState& state, Values& values) {
+    for (const ResetState::Tip& tip : state.tips) append(tip, values);
+  });
+}
+
+/// Of fingers that hold; the others have none.
+NpzArray VectorsOf(const DrawnStates& drawn, const std::string& name, std::size_t fingers,
+                   Eigen::Vector3d ResetState::Tip::*vector) {
+  const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  return TipsOf(drawn, name, {fingers, 3}, [&](const ResetState::Tip& tip, Values& values) {
+    AppendVector(tip.holds ? tip.*vector : none, values);
+  });
+}
+
+NpzArray ListsOf(const DrawnStates& drawn, const std::string& name,
+                 std::vector<double> ResetState::*list) {
+  const std::size_t length = drawn.states.empty() ? 0 : (drawn.states.front().*list).size();
+  return RowsOf(drawn, name, {length}, [list](const ResetState& state, Values& values) {
+    values.insert(values.end(), (state.*list).begin(), (state.*list).end());
+  });
+}
+
+NpzArray ResetNumbersOf(const DrawnStates& drawn, const std::string& name,
+                        double ResetState::*number) {
+  return RowsOf(drawn, name, {}, [number](const ResetState& state, Values& values) {
+    values.push_back(state.*number);
+  });
+}
+
+NpzArray Names(const std::string& name, const std::vector<std::string>& texts) {
+  return {name, {texts.size()}, {}, texts};
+}
+NpzArray Number(const std::string& name, double value) { return {name, {}, {value}}; }
+NpzArray Text(const std::string& name, const std::string& text) { return {name, {}, {}, {text}}; }
+
+void AddStates(const DrawnStates& drawn, std::size_t fingers, std::vector<NpzArray>& arrays) {
+  arrays.push_back(ListsOf(drawn, "joints", &ResetState::joints));
+  arrays.push_back(ListsOf(drawn, "controls", &ResetState::controls));
+  arrays.push_back(ListsOf(drawn, "qpos", &ResetState::qpos));
+  arrays.push_back(RowsOf(
+      drawn, "object_position", {3},
+      [](const ResetState& state, Values& values) { AppendVector(state.position, values); }));
+  arrays.push_back(RowsOf(
+      drawn, "object_quaternion", {4},
+      [](const ResetState& state, Values& values) { AppendVector(state.quaternion, values); }));
+  arrays.push_back(
+      TipsOf(drawn, "holds", {fingers},
+             [](const ResetState::Tip& tip, Values& values) { values.push_back(tip.holds); }));
+  arrays.back().is_truth = true;
+  arrays.push_back(VectorsOf(drawn, "contact_points", fingers, &ResetState::Tip::contact_O));
+  arrays.push_back(VectorsOf(drawn, "contact_forces", fingers, &ResetState::Tip::force_O));
+  arrays.push_back(ResetNumbersOf(drawn, "squeeze_N", &ResetState::squeeze_N));
+  arrays.push_back(ResetNumbersOf(drawn, "off_m", &ResetState::off_m));
+  arrays.push_back(ResetNumbersOf(drawn, "off_rad", &ResetState::off_rad));
+}
+
+void AddSettings(const kinematics::HandModel& hand, const ResetStateOptions& options,
+                 const ResetStatesOrigin& origin, std::vector<NpzArray>& arrays) {
+  NpzArray gravity{"gravity", {3}};
+  AppendVector(-kGravity * hand.up, gravity.values);
+  arrays.push_back(std::move(gravity));
+  arrays.push_back(Number("mu", std::tan(options.half_angle)));
+  arrays.push_back(Number("mass_kg", options.mass_kg));
+  arrays.push_back(Number("scale", origin.scale));
+  arrays.push_back(Number("held_s", ResetStates::kHeld));
+  const HandTolerance& tolerance = options.tolerance;
+  arrays.push_back(Number("tolerance_m", tolerance.at_rest * tolerance.length_m));
+  arrays.push_back(Number("tolerance_rad", tolerance.at_rest * tolerance.angle_rad));
+  arrays.push_back(Text("seed", std::to_string(origin.seed)));  // of 64 bits
+  arrays.push_back(Text("object", origin.object));
+  arrays.push_back(Text("object_sha256", origin.object_sha256));
+  arrays.push_back(Text("hand", hand.file));
+  arrays.push_back(Text("hand_sha256", hand.sha256));
+}
+
+void AddFallen(const DrawnStates& drawn, std::vector<NpzArray>& arrays) {
+  std::vector<std::string> reasons;
+  Values fallen;
+  for (const plan::Reason reason :
+       {plan::Reason::kContactLost, plan::Reason::kSlipped, plan::Reason::kObjectMoved,
+        plan::Reason::kHandCollides, plan::Reason::kTorqueLimit, plan::Reason::kSimulationUnstable,
+        plan::Reason::kJointLimit, plan::Reason::kCouplingViolated, plan::Reason::kTipPenetrates}) {
+    const auto found = drawn.fallen.find(reason);
+    reasons.emplace_back(plan::ReasonName(reason));
+    fallen.push_back(found == drawn.fallen.end() ? 0 : static_cast<double>(found->second));
+  }
+  arrays.push_back(Names("fallen_reasons", reasons));
+  arrays.push_back({"fallen", {fallen.size()}, fallen});
+  arrays.push_back(Number("unbalanced", static_cast<double>(drawn.unbalanced)));
+}
+
+}  // namespace
+
+std::string FormatResetStates(const DrawnStates& drawn, const kinematics::HandModel& hand,
+                              const ResetStateOptions& options, const ResetStatesOrigin& origin) {
+  std::vector<std::string> fingers;
+  for (const kinematics::Finger& finger : hand.fingers) fingers.push_back(finger.name);
+  std::vector<NpzArray> arrays;
+  AddStates(drawn, fingers.size(), arrays);
+  arrays.push_back(Names("joint_names", drawn.joint_names));
+  arrays.push_back(Names("control_names", drawn.control_names));
+  arrays.push_back(Names("finger_names", fingers));
+  arrays.push_back(Number("timestep_s", drawn.timestep_s));
+  AddSettings(hand, options, origin, arrays);
+  AddFallen(drawn, arrays);
+  return FormatNpz(arrays);
+}
+
+namespace {
+
+/// What one thread works with.
+struct Worker {
+  ResetStates states;
+  DrawRest draw;
+};
+
+/// Hands each thread a worker that no other one has.
+class Workers {
+ public:
+  void Put(std::unique_ptr<Worker> worker) {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(worker));
+  }
+  std::unique_ptr<Worker> Take() {
+    const std::scoped_lock lock(mutex_);
+    auto worker = std::move(idle_.back());
+    idle_.pop_back();
+    return worker;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Worker>> idle_;
+};
+
+/// A state, and the rests that were drawn for it before.
+struct Found {
+  ResetState state;
+  std::map<plan::Reason, std::int64_t> fallen;
+  std::int64_t unbalanced = 0;
+};
+
+/// No state was found; nothing more is to be done.
+struct NoState {
+  std::string message;
+};
+
+std::string CountText(const Found& tried) {
+  std::string text = std::to_string(tried.unbalanced) +
+                     " have no contact forces that the fingers give and that carry the weight";
+  for (const auto& [reason, count] : tried.fallen) {
+    text += ", " + std::to_string(count) + " " + std::string(plan::ReasonName(reason));
+  }
+  return text;
+}
+
+Found FindState(RandomStream random, int most_tried, Worker& worker) {
+  Found found;
+  for (int i = 0; i < most_tried; ++i) {
+    const auto rest = worker.draw(random);
+    if (!rest) throw NoState{"no random grasp that the hand reaches holds the object"};
+    const auto squeeze = worker.states.SqueezeOf(rest->state, rest->grasp);
+    if (!squeeze) {
+      ++found.unbalanced;
+      continue;
+    }
+    auto made = worker.states.Make(rest->state, rest->grasp, *squeeze);
+    if (auto* state = std::get_if<ResetState>(&made)) {
+      found.state = std::move(*state);
+      return found;
+    }
+    ++found.fallen[std::get<plan::Reason>(made)];
+  }
+  throw NoState{"of " + std::to_string(most_tried) +
+                " random grasps that the hand reaches it holds none: " + CountText(found)};
+}
+
+DrawnStates Collect(std::vector<Found> found, const HandWorld& world) {
+  DrawnStates drawn;
+  drawn.joint_names = world.joint_names();
+  drawn.control_names = world.control_names();
+  drawn.timestep_s = world.timestep();
+  for (Found& one : found) {
+    drawn.states.push_back(std::move(one.state));
+    drawn.unbalanced += one.unbalanced;
+    for (const auto& [reason, count] : one.fallen) drawn.fallen[reason] += count;
+  }
+  return drawn;
+}
+
+}  // namespace
+
+std::int64_t DrawnStates::fallen_count() const {
+  std::int64_t count = 0;
+  for (const auto& [reason, times] : fallen) count += times;
+  return count;
+}
+
+double DrawnStates::fallen_share() const {
+  const auto fell = static_cast<double>(fallen_count());
+  return fell / std::max(1.0, fell + static_cast<double>(states.size()));
+}
+
+ShareInterval DrawnStates::interval() const {
+  const auto fell = static_cast<int>(fallen_count());
+  return ComputeShareInterval(fell, fell + static_cast<int>(states.size()), kTrialConfidence);
+}
+
+DrawnStates DrawResetStates(const kinematics::HandFile& file, const object::Polyhedron& solid,
+                            double scale, const ResetStateOptions& states,
+                            const DrawnStatesOptions& options,
+                            const std::function<DrawRest()>& make_draw) {
+  const EngineHooks hooks;  // what others put back is in no order
+  Workers workers;
+  for (int i = 0; i < std::min(options.jobs, options.count); ++i) {
+    workers.Put(std::unique_ptr<Worker>(new Worker{{file, solid, scale, states}, make_draw()}));
+  }
+  std::vector<Found> found(options.count);
+  std::mutex telling;
+  int done = 0;
+  try {
+    InBlocks(found.size(), 1, options.jobs, [&](std::size_t begin, std::size_t /*end*/) {
+      auto worker = workers.Take();
+      found[begin] = FindState(RandomStream(options.seed, RandomUse::kResetStates, begin),
+                               options.most_tried, *worker);
+      workers.Put(std::move(worker));
+      const std::scoped_lock lock(telling);
+      ++done;
+      if (options.told) options.told(done);
+    });
+  } catch (const NoState& none) {
+    DrawnStates nothing;
+    nothing.message = none.message;
+    return nothing;
+  }
+  return Collect(std::move(found), workers.Take()->states.world());
 }
 
 }  // namespace regrasp::sim

@@ -2,20 +2,160 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "planner/base/error.h"
-#include "planner/kinematics/geom_shape.h"
-#include "planner/kinematics/model_names.h"
+#include "planner/kinematics/derive_couplings.h"
+#include "planner/kinematics/fit_tip.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/hand/hand_finding.h"
 
 namespace regrasp::sim {
+
 namespace {
 
 using Eigen::Vector3d;
+using kinematics::VectorAt;
+
+/// What is deeper in the object is pushed out as if it were this deep, or tips that overlap it
+/// where their balls do not were thrown off, metres: five times what presses at rest.
+constexpr double kDeepestContact = 3e-4;
+
+/// Two directions at right angles to a unit vector and to each other.
+std::pair<Vector3d, Vector3d> Tangents(const Vector3d& normal) {
+  const Vector3d first = normal.unitOrthogonal();
+  return {first, normal.cross(first)};
+}
+
+}  // namespace
+
+mjContact MakeTipContact(const collision::SurfaceContact& touching, const Eigen::Isometry3d& pose,
+                         double mu) {
+  mjContact contact = {};
+  contact.dist = std::max(touching.gap, -kDeepestContact);
+  const Vector3d normal = pose.linear() * touching.outward;
+  const Vector3d at = pose * touching.point + contact.dist / 2 * normal;
+  const auto [first, second] = Tangents(normal);
+  std::copy_n(at.data(), 3, contact.pos);
+  std::copy_n(normal.data(), 3, contact.frame);
+  std::copy_n(first.data(), 3, contact.frame + 3);
+  std::copy_n(second.data(), 3, contact.frame + 6);
+  contact.friction[0] = contact.friction[1] = mu;
+  contact.friction[2] = contact.friction[3] = contact.friction[4] = mjMINMU;
+  contact.solref[0] = kTipContactTime;
+  contact.solref[1] = 1;
+  std::ranges::copy(kTipImpedance, contact.solimp);
+  contact.dim = 3;
+  contact.efc_address = -1;  // it has no force before a step
+  return contact;
+}
+
+ContactSum SumTipContacts(const mjModel& model, const mjData& data, int object_geom, int tip_geom) {
+  ContactSum sum;
+  for (int i = 0; i < data.ncon; ++i) {
+    const mjContact& contact = data.contact[i];
+    if (contact.geom1 != object_geom || contact.geom2 != tip_geom) continue;
+    mjtNum local[6];
+    mj_contactForce(&model, &data, i, local);
+    // The engine gives the force on the second geom.
+    for (int k = 0; k < 3; ++k) sum.force -= local[k] * VectorAt(contact.frame, k);
+    const Vector3d normal = VectorAt(contact.frame, 0);
+    sum.pressing += local[0];
+    sum.point += local[0] * (VectorAt(contact.pos, 0) - contact.dist / 2 * normal);
+    sum.normal += local[0] * normal;
+  }
+  return sum;
+}
+
+namespace {
+
+using collision::SurfaceContact;
+using Eigen::Isometry3d;
+
+/// A tip goes this far before the triangles near it are looked for anew, metres.
+constexpr double kNeighbourhood = 3e-3;
+/// Nothing bounds those of a ball, which on smooth bodies has one or two.
+constexpr int kMostOfShape = 2 * collision::kMostContacts;
+
+}  // namespace
+
+TipSurface::TipSurface(const kinematics::HandFile& file, TipShape tip,
+                       const object::Polyhedron& solid, double scale)
+    : surface_(solid, scale), centroid_(scale * solid.mass_properties().centroid) {
+  for (const Vector3d& vertex : solid.vertices()) {
+    object_reach_ = std::max(object_reach_, (scale * vertex - centroid_).norm());
+  }
+  const std::vector<TipShapes> shapes = TipShapesOf(file, tip);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const auto& ball = file.description.tips[i];
+    Tip& made = tips_.emplace_back(Tip{shapes[i], ball.centre, ball.radius});
+    for (const collision::ConvexShape& shape : made.shapes) {
+      for (const Vector3d& point : shape.points) {
+        made.reach = std::max(made.reach, (point - made.centre).norm() + shape.radius);
+      }
+    }
+  }
+}
+
+int TipSurface::most_contacts() const {
+  std::size_t shapes = 0;
+  for (const Tip& tip : tips_) shapes += tip.shapes.size();
+  return kMostOfShape * static_cast<int>(shapes);
+}
+
+void TipSurface::Forget() {
+  for (Tip& tip : tips_) tip.triangles.reset();
+}
+
+std::vector<SurfaceContact> TipSurface::FindContacts(FingerIndex finger, const Isometry3d& link,
+                                                     const Isometry3d& to_object) {
+  Tip& tip = tips_[finger];
+  const Vector3d centre = to_object * (link * tip.centre);
+  tip.nearest.reset();
+  const double reach = tip.reach + kNear;
+  if ((centre - centroid_).norm() > object_reach_ + reach) return {};
+  if (!tip.triangles || (centre - tip.around).norm() > kNeighbourhood) {
+    tip.around = centre;
+    tip.triangles = surface_.Around(centre, reach + kNeighbourhood);
+  }
+  TipShapes placed = tip.shapes;
+  std::vector<SurfaceContact> contacts;
+  for (collision::ConvexShape& shape : placed) {
+    for (Vector3d& point : shape.points) point = to_object * (link * point);
+    const auto found = collision::FindContacts(surface_, shape, *tip.triangles);
+    contacts.insert(contacts.end(), found.begin(), found.end());
+  }
+  const auto deepest = std::ranges::min_element(contacts, {}, &SurfaceContact::gap);
+  tip.nearest = deepest != contacts.end() ? std::optional(*deepest) : NearestTo(placed, tip);
+  if (tip.nearest) return contacts;
+  for (const collision::NearPoint& ball :
+       surface_.Find(centre, tip.radius + kNear, *tip.triangles)) {
+    tip.nearest = {ball.point, ball.outward, ball.distance - tip.radius};
+    break;
+  }
+  return contacts;
+}
+
+std::optional<SurfaceContact> TipSurface::NearestTo(const TipShapes& placed, const Tip& tip) const {
+  std::optional<SurfaceContact> best;
+  for (const collision::ConvexShape& shape : placed) {
+    const auto near = collision::FindNearest(surface_, shape, shape.radius + kNear, *tip.triangles);
+    if (near && (!best || near->gap < best->gap)) best = near;
+  }
+  return best;
+}
+
+std::optional<collision::NearPoint> TipSurface::NearBall(FingerIndex finger,
+                                                         const Vector3d& centre) const {
+  const auto found = surface_.Find(centre, tips_[finger].radius + kNear);
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+namespace {
 
 Eigen::Isometry3d PoseInBody(const mjModel& model, int geom) {
   mjtNum matrix[9];

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/grasp/grasp_forces.h"
-#include "planner/plan/hand_path.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::sim {
 namespace {

@@ -3,17 +3,194 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
-#include "planner/grasp/sliding_forces.h"
-#include "sim/control/align.h"
-#include "sim/control/grasp_control.h"
+#include "planner/base/number.h"
+#include "planner/grasp/grasp_forces.h"
+#include "planner/grasp/required_half_angle.h"
 #include "sim/control/motions.h"
-#include "sim/scene/align_path.h"
+#include "sim/scene/align_script.h"
+#include "sim/world/motion_monitor.h"
 #include "sim/world/stillness.h"
 
 namespace regrasp::sim {
 
 using Eigen::Vector3d;
+
+namespace {
+
+/// Forces are planned anew after this share of D of travel of the tip that goes farthest, and
+/// after this turn of a normal, radians: in between they are mixed, and have to fit the cones.
+constexpr double kRollSegment = 0.01;
+constexpr double kTurnSegment = Radians(2);
+/// The engine misses a touch at an edge now and then, so that turns are short.
+constexpr double kLeastRollTime = 0.08;  ///< natural times
+
+Vector3d Tip(const grasp::Contact& contact, double radius) {
+  return contact.p - radius * contact.n;
+}
+
+/// What the fingers have to do at most.
+struct Extent {
+  double travel = 0;  ///< of a contact, metres
+  double turn = 0;    ///< of a normal, radians
+};
+
+Extent FindExtent(const plan::FingerGrasp& from, const plan::FingerGrasp& to) {
+  Extent most;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const grasp::Contact& a = from[i].contact;
+    const grasp::Contact& b = to[i].contact;
+    most.travel = std::max(most.travel, (b.p - a.p).norm());
+    most.turn = std::max(most.turn, grasp::AngleBetween(a.n, b.n));
+  }
+  return most;
+}
+
+/// Forces that hold the object in a grasp: inside narrower cones where there are such.
+HandForces PlanForces(const ReplayWorld& world, const plan::FingerGrasp& grasp_B) {
+  const Eigen::Matrix3d R_SB = world.X_SB().linear();
+  const grasp::Wrench load{R_SB.transpose() * world.weight_S(), Vector3d::Zero()};
+  HandForces hand(world.fingers().size(), Vector3d::Zero());
+  for (const double friction_share : {kSlideFriction, 1.0}) {
+    const grasp::GraspForces planned = grasp::ComputeGraspForces(
+        plan::ContactsOf(grasp_B), world.frame_B(), std::atan(friction_share * world.settings().mu),
+        load, world.settings().squeeze_N);
+    for (std::size_t i = 0; i < grasp_B.size(); ++i) {
+      hand[grasp_B[i].finger] = R_SB * planned.forces[i];
+    }
+    if (planned.balanced && planned.margin > 0) break;
+  }
+  return hand;
+}
+
+/// Takes a tip along with its contact; whatever it is off the plan stays.
+void MoveAlong(ReplayWorld& world, FingerIndex finger, const grasp::Contact& contact_B) {
+  WorldFinger& state = world.fingers()[finger];
+  const double radius = world.settings().fingertip_radius_m;
+  const Vector3d offset_S =
+      world.X_SB().linear() * (Tip(contact_B, radius) - Tip(state.contact, radius));
+  world.engine().ShiftTip(finger, offset_S);
+  state.anchor_S += offset_S;
+  state.touch_B += contact_B.p - state.contact.p;
+  state.contact = contact_B;
+}
+
+}  // namespace
+
+void RollFingers(ReplayWorld& world, const plan::FingerGrasp& from_B,
+                 const plan::FingerGrasp& to_B) {
+  const Extent extent = FindExtent(from_B, to_B);
+  const double travel = extent.travel / world.settings().diameter_m;
+  const int segments =
+      static_cast<int>(std::ceil(std::max(travel / kRollSegment, extent.turn / kTurnSegment)));
+  if (segments == 0) return;
+  const double duration = std::max(kLeastRollTime, travel / (segments * kSlideSpeed));
+  std::vector<SiteIndex> sites;
+  for (std::size_t i = 0; i < to_B.size(); ++i) {
+    sites.push_back(FindSite(world.scene(), from_B[i].contact, to_B[i].contact));
+    world.engine().AddSite(to_B[i].finger, sites.back());
+  }
+  BlendForces(world, PlanForces(world, from_B));
+  plan::FingerGrasp at = from_B;
+  for (int i = 1; i <= segments; ++i) {
+    const plan::FingerGrasp next = Interpolate(from_B, to_B, static_cast<double>(i) / segments);
+    const HandForces before = CurrentForces(world);
+    const HandForces after = PlanForces(world, next);
+    world.Run(duration, [&](double share) {
+      for (const plan::FingerContact& held : Interpolate(at, next, share)) {
+        MoveAlong(world, held.finger, held.contact);
+      }
+      MixForces(world, before, after, share);
+    });
+    at = next;
+  }
+  (void)WaitUntilStill(world);
+  for (std::size_t i = 0; i < to_B.size(); ++i) {
+    world.engine().SetSite(to_B[i].finger, sites[i]);
+  }
+  TransferForces(world, world.HoldingFingers());
+}
+
+namespace {
+
+/// Contacts this close, over D, are one: the finger stays.
+constexpr double kSamePoint = 1e-9;
+
+bool Stays(const ReplayWorld& world, const grasp::Contact& from, const grasp::Contact& to) {
+  return from.face == to.face && (from.p - to.p).norm() <= kSamePoint * world.settings().diameter_m;
+}
+
+std::vector<FingerIndex> FingersOf(const plan::FingerGrasp& grasp) {
+  std::vector<FingerIndex> fingers;
+  for (const plan::FingerContact& held : grasp) fingers.push_back(held.finger);
+  return fingers;
+}
+
+/// The verdict stands; to go on with an object that is lost takes long and tells nothing.
+bool HasFailed(ReplayWorld& world) { return world.monitor().reason() != plan::Reason::kNone; }
+
+void HandOver(ReplayWorld& world, const FingerHandover& move) {
+  SwitchFingers(world, move.support_fingers, FingersOf(move.targets));
+  SwitchFingers(world, move.targets, FingersOf(move.support_fingers));
+}
+
+/// The finger that the others balance best goes first.
+void Slide(ReplayWorld& world, const plan::FingerGrasp& from, const plan::FingerGrasp& to) {
+  std::vector<std::size_t> waiting;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (!Stays(world, from[i].contact, to[i].contact)) waiting.push_back(i);
+  }
+  while (!waiting.empty()) {
+    const auto next = std::ranges::max_element(waiting, {}, [&](std::size_t i) {
+      return SlideMargin(world, from[i].finger, from[i].contact, to[i].contact);
+    });
+    SlideFinger(world, from[*next].finger, from[*next].contact, to[*next].contact);
+    waiting.erase(next);
+  }
+}
+
+}  // namespace
+
+AlignMode PerformAlign(ReplayWorld& world, const AlignScript& script_B) {
+  bool handed_over = false;
+  bool slid = false;
+  for (const AlignMove& move : script_B.moves) {
+    if (HasFailed(world)) break;
+    if (const auto* fingers = std::get_if<FingerHandover>(&move)) {
+      handed_over = true;
+      HandOver(world, *fingers);
+    } else if (const auto* roll = std::get_if<FingersRoll>(&move)) {
+      slid = true;
+      RollFingers(world, roll->from, roll->to);
+    } else {
+      slid = true;
+      const auto& grasps = std::get<FingersSlide>(move).grasps;
+      for (std::size_t i = 1; i < grasps.size() && !HasFailed(world); ++i) {
+        Slide(world, grasps[i - 1], grasps[i]);
+      }
+    }
+  }
+  if (!slid) return AlignMode::kImitated;
+  return handed_over ? AlignMode::kMixed : AlignMode::kSlid;
+}
+
+void TellMoved(ReplayWorld& world, const std::vector<plan::FingerGrasp>& waypoints_B) {
+  for (WorldFinger& finger : world.fingers()) {
+    finger.role = finger.holding ? plan::FingerRole::kHolding : plan::FingerRole::kFree;
+  }
+  for (const plan::FingerContact& start : waypoints_B.front()) {
+    const plan::FingerContact* end = plan::FindFinger(waypoints_B.back(), start.finger);
+    if (end == nullptr || Stays(world, start.contact, end->contact)) continue;
+    WorldFinger& finger = world.fingers()[start.finger];
+    finger.role = plan::FingerRole::kMoved;
+    finger.path_B.clear();
+    for (const plan::FingerGrasp& grasp_B : waypoints_B) {
+      const plan::FingerContact* at = plan::FindFinger(grasp_B, start.finger);
+      if (at != nullptr) finger.path_B.push_back(at->contact.p);
+    }
+  }
+}
 
 namespace {
 

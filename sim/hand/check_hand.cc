@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "planner/base/error.h"
-#include "planner/plan/hand_path.h"
+#include "planner/plan/plan.h"
 #include "sim/hand/hand_body.h"
 #include "sim/hand/hand_finding.h"
 
@@ -76,7 +76,7 @@ class Checker {
     for (const auto& corners : solid.triangles()) {
       std::vector<Vector3d> points;
       for (const int corner : corners) points.push_back(plan.scale * solid.vertices()[corner]);
-      triangles_.push_back(MakeSolid(std::move(points), 0));
+      triangles_.push_back(MakeConvexBody(std::move(points), 0));
       for (const Vector3d& point : triangles_.back().points) {
         object_reach_ = std::max(object_reach_, point.norm());
       }
@@ -152,7 +152,7 @@ class Checker {
   HandBody& body_;
   const plan::Plan& plan_;
   double clearance_;
-  std::vector<Solid> triangles_;
+  std::vector<ConvexBody> triangles_;
   double object_reach_ = 0;
   plan::FingerGrasp holding_;
   HandState state_;
@@ -261,7 +261,7 @@ std::optional<NearPair> Checker::FindNear(const Instant& middle, const std::vect
                                           double object_bound, const plan::FingerGrasp& others) {
   body_.SetJoints(middle.state.joints);
   const int count = static_cast<int>(body_.parts().size());
-  std::vector<Solid> placed;
+  std::vector<ConvexBody> placed;
   for (int part = 0; part < count; ++part) placed.push_back(body_.Place(part));
   const Isometry3d to_object = middle.state.pose.inverse();
   for (int a = 0; a < count; ++a) {
@@ -274,10 +274,10 @@ std::optional<NearPair> Checker::FindNear(const Instant& middle, const std::vect
     const plan::FingerContact* touched = plan::FindFinger(middle.holding, finger);
     if (touched == nullptr) touched = plan::FindFinger(others, finger);
     const double needed = NeededFromObject(a, middle.state.pose, touched);
-    Solid part = placed[a];
+    ConvexBody part = placed[a];
     for (Vector3d& point : part.points) point = to_object * point;
     part.centre = to_object * part.centre;
-    for (const Solid& triangle : triangles_) {
+    for (const ConvexBody& triangle : triangles_) {
       if (HaveGap(part, triangle, needed + (bounds[a] + object_bound) / 2)) continue;
       return NearPair{a, -1, needed};
     }

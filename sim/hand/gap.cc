@@ -72,7 +72,7 @@ class MeanOfCorners {
   Vector3d mean_;
 };
 
-Nearness Measure(const Solid& a, const Solid& b) {
+Nearness Measure(const ConvexBody& a, const ConvexBody& b) {
   MeanOfCorners between(a.points.front(), b.points.front());
   for (int step = 0; step < kMeasureSteps; ++step) {
     const Vector3d& mean = between.mean();
@@ -87,7 +87,7 @@ Nearness Measure(const Solid& a, const Solid& b) {
   return {gap, between.InFirst() + (a.radius + gap / 2) * from_a};
 }
 
-Solid Moved(Solid solid, const Vector3d& way) {
+ConvexBody Moved(ConvexBody solid, const Vector3d& way) {
   for (Vector3d& point : solid.points) point += way;
   solid.centre += way;
   return solid;
@@ -95,8 +95,8 @@ Solid Moved(Solid solid, const Vector3d& way) {
 
 }  // namespace
 
-Solid MakeSolid(std::vector<Vector3d> points, double radius) {
-  Solid solid{std::move(points), radius, Vector3d::Zero(), 0};
+ConvexBody MakeConvexBody(std::vector<Vector3d> points, double radius) {
+  ConvexBody solid{std::move(points), radius, Vector3d::Zero(), 0};
   for (const Vector3d& point : solid.points) solid.centre += point;
   solid.centre /= static_cast<double>(solid.points.size());
   for (const Vector3d& point : solid.points) {
@@ -106,7 +106,7 @@ Solid MakeSolid(std::vector<Vector3d> points, double radius) {
   return solid;
 }
 
-bool HaveGap(const Solid& a, const Solid& b, double gap) {
+bool HaveGap(const ConvexBody& a, const ConvexBody& b, double gap) {
   if ((a.centre - b.centre).norm() - a.reach - b.reach > gap) return true;
   const double needed = gap + a.radius + b.radius;
   if (needed < 0) return true;
@@ -124,9 +124,9 @@ bool HaveGap(const Solid& a, const Solid& b, double gap) {
   return false;
 }
 
-Nearness NearestOf(const Solid& solid, std::span<const Solid> others) {
+Nearness NearestOf(const ConvexBody& solid, std::span<const ConvexBody> others) {
   Nearness nearest = {std::numeric_limits<double>::infinity(), solid.centre};
-  for (const Solid& other : others) {
+  for (const ConvexBody& other : others) {
     if ((solid.centre - other.centre).norm() - solid.reach - other.reach > nearest.gap) continue;
     const Nearness found = Measure(solid, other);
     if (found.gap < nearest.gap) nearest = found;
@@ -134,12 +134,12 @@ Nearness NearestOf(const Solid& solid, std::span<const Solid> others) {
   return nearest;
 }
 
-double FreeingDistance(const Solid& solid, std::span<const Solid> others,
+double FreeingDistance(const ConvexBody& solid, std::span<const ConvexBody> others,
                        std::span<const Vector3d> directions) {
   const auto is_free = [&](const Vector3d& way) {
-    const Solid moved = Moved(solid, way);
+    const ConvexBody moved = Moved(solid, way);
     return std::ranges::all_of(others,
-                               [&](const Solid& other) { return HaveGap(moved, other, 0); });
+                               [&](const ConvexBody& other) { return HaveGap(moved, other, 0); });
   };
   double shortest = kLongestWay;
   for (const Vector3d& direction : directions) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "planner/kinematics/geom_shape.h"
+#include "planner/kinematics/fit_tip.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::sim {
@@ -200,12 +200,12 @@ std::optional<HandBody::Uncoupled> HandBody::LargestCouplingResidual() const {
   return std::nullopt;
 }
 
-Solid HandBody::Place(int part) const {
+ConvexBody HandBody::Place(int part) const {
   const Impl::Shape& shape = impl_->shapes[part];
   const Isometry3d pose = impl_->BodyPose(shape.body);
   std::vector<Vector3d> points;
   for (const Vector3d& point : shape.points) points.push_back(pose * point);
-  return MakeSolid(std::move(points), shape.radius);
+  return MakeConvexBody(std::move(points), shape.radius);
 }
 
 Vector3d HandBody::JointAnchor(FingerIndex finger, int joint) const {

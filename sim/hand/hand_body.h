@@ -46,7 +46,7 @@ class HandBody {
   };
   /// Return the largest residual of the couplings; none if no joint of a finger is coupled.
   [[nodiscard]] std::optional<Uncoupled> LargestCouplingResidual() const;
-  [[nodiscard]] Solid Place(int part) const;
+  [[nodiscard]] ConvexBody Place(int part) const;
   /// A point of a joint's hinge.
   [[nodiscard]] Eigen::Vector3d JointAnchor(FingerIndex finger, int joint) const;
   /// The centre of a fingertip's ball.

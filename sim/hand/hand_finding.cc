@@ -5,10 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/angle.h"
-#include "planner/base/number.h"
 #include "planner/base/limit_text.h"
-#include "planner/base/quantity_text.h"
+#include "planner/base/number.h"
 
 namespace regrasp::sim {
 namespace {
@@ -106,16 +104,16 @@ std::vector<Vector3d> AllDirections() {
   return directions;
 }
 
-Solid MovedSolid(const Isometry3d& pose, Solid solid) {
+ConvexBody MovedSolid(const Isometry3d& pose, ConvexBody solid) {
   for (Vector3d& point : solid.points) point = pose * point;
   solid.centre = pose * solid.centre;
   return solid;
 }
 
 /// Ways out of the surface that a solid is in: the normals of its triangles.
-std::vector<Vector3d> WaysOut(const Solid& solid, std::span<const Solid> surface) {
+std::vector<Vector3d> WaysOut(const ConvexBody& solid, std::span<const ConvexBody> surface) {
   std::vector<Vector3d> ways;
-  for (const Solid& triangle : surface) {
+  for (const ConvexBody& triangle : surface) {
     if (ways.size() == kMostFaces) break;
     if (HaveGap(solid, triangle, 0)) continue;
     const auto& p = triangle.points;
@@ -234,12 +232,12 @@ HandFinding TipOff(HandBody& body, const HandState& state, FingerIndex finger,
 
 double GapBetween(HandBody& body, const HandState& state, int a, int b) {
   body.SetJoints(state.joints);
-  const Solid other = body.Place(b);
+  const ConvexBody other = body.Place(b);
   return NearestOf(body.Place(a), {&other, 1}).gap;
 }
 
 double GapToObject(HandBody& body, const HandState& state, int part,
-                   std::span<const Solid> surface) {
+                   std::span<const ConvexBody> surface) {
   body.SetJoints(state.joints);
   return NearestOf(MovedSolid(state.pose.inverse(), body.Place(part)), surface).gap;
 }
@@ -247,8 +245,8 @@ double GapToObject(HandBody& body, const HandState& state, int part,
 HandFinding PartsCollide(HandBody& body, const HandState& state, int a, int b, double clearance,
                          const std::string& when) {
   body.SetJoints(state.joints);
-  const Solid first = body.Place(a);
-  const Solid second = body.Place(b);
+  const ConvexBody first = body.Place(a);
+  const ConvexBody second = body.Place(b);
   Nearness nearness = NearestOf(first, {&second, 1});
   if (nearness.gap < 0) {
     nearness.gap = -FreeingDistance(first, {&second, 1}, AllDirections());
@@ -261,10 +259,10 @@ HandFinding PartsCollide(HandBody& body, const HandState& state, int a, int b, d
 }
 
 HandFinding PartMeetsObject(HandBody& body, const HandState& state, int part,
-                            std::span<const Solid> surface, double needed,
+                            std::span<const ConvexBody> surface, double needed,
                             const std::string& when) {
   body.SetJoints(state.joints);
-  const Solid solid = MovedSolid(state.pose.inverse(), body.Place(part));
+  const ConvexBody solid = MovedSolid(state.pose.inverse(), body.Place(part));
   Nearness nearness = NearestOf(solid, surface);
   const std::vector<Vector3d> ways = WaysOut(solid, surface);
   if (nearness.gap < 0 && !ways.empty()) nearness.gap = -FreeingDistance(solid, surface, ways);

@@ -64,12 +64,12 @@ struct HandFinding {
 /// @param surface  the object's triangles in its own frame, counter-clockwise from outside.
 /// @param needed   how near it may be; negative: how deep.
 [[nodiscard]] HandFinding PartMeetsObject(HandBody& body, const plan::HandState& state, int part,
-                                          std::span<const Solid> surface, double needed,
+                                          std::span<const ConvexBody> surface, double needed,
                                           const std::string& when);
 
 /// How near two parts are, or a part and the object: as above, but for the depth.
 [[nodiscard]] double GapBetween(HandBody& body, const plan::HandState& state, int a, int b);
 [[nodiscard]] double GapToObject(HandBody& body, const plan::HandState& state, int part,
-                                 std::span<const Solid> surface);
+                                 std::span<const ConvexBody> surface);
 
 }  // namespace regrasp::sim

@@ -4,11 +4,53 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "sim/control/grasp_control.h"
-#include "sim/measure/push.h"
+#include "planner/grasp/largest_load.h"
+#include "sim/control/motions.h"
+#include "sim/world/motion_monitor.h"
+#include "sim/world/replay_world.h"
 #include "sim/world/stillness.h"
 
 namespace regrasp::sim {
+
+namespace {
+
+/// In the plane there are two forces and one torque.
+bool IsAxis(int dimension, bool turn, int axis) { return dimension == 3 || turn == (axis == 2); }
+
+/// "+x"
+std::string AxisName(const Push& push) {
+  return std::string(push.sign > 0 ? "+" : "-") + "xyz"[push.axis];
+}
+
+}  // namespace
+
+std::vector<Push> PushDirections(int dimension) {
+  std::vector<Push> pushes;
+  for (const bool turn : {false, true}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!IsAxis(dimension, turn, axis)) continue;
+      for (const double sign : {1.0, -1.0}) pushes.push_back({turn, axis, sign});
+    }
+  }
+  return pushes;
+}
+
+std::string PushName(const Push& push) {
+  return (push.turn ? "torque " : "force ") + AxisName(push);
+}
+
+std::string PushText(const Push& push, double size, double radius) {
+  constexpr int kDigits = 2;
+  const std::string axis = AxisName(push);
+  return push.turn ? "a twist of " + FormatShort(size * radius, kDigits) + " N·m about " + axis
+                   : "a push of " + FormatShort(size, kDigits) + " N along " + axis;
+}
+
+grasp::Wrench PushWrench(const Push& push, double size) {
+  const Eigen::Vector3d along = push.sign * size * Eigen::Vector3d::Unit(push.axis);
+  return push.turn ? grasp::Wrench{Eigen::Vector3d::Zero(), along}
+                   : grasp::Wrench{along, Eigen::Vector3d::Zero()};
+}
 
 using Eigen::Vector3d;
 
@@ -96,6 +138,65 @@ void CheckShake(const ReplaySettings& settings) {
                    FormatShort(settings.shake) + " (--shake) with a tolerance of " +
                    FormatShort(settings.tolerance) +
                    " (--tolerance); the shake has to be larger than " + FormatShort(least));
+}
+
+namespace {
+
+/// The first push that is tried, over the squeeze; doubled as long as the object stands it.
+constexpr double kFirstStress = 0.01;
+
+/// No grasp resists more: forces inside the cones sum to less than the squeeze over cos θ, and half
+/// angles near 90 degrees, where that is more, are not what a hand has.
+constexpr double kMostStress = 10;
+
+/// Whether the object stands a push of `share` of the squeeze.
+bool Resists(ReplayWorld& world, KeepRest& rest, const Push& push, double share) {
+  world.StartMonitoring();
+  bool stands = false;
+  try {
+    PushOnce(world, PushWrench(push, share * world.settings().squeeze_N),
+             DisturbanceResponse::kAdapted);
+    stands = world.monitor().reason() == plan::Reason::kNone;
+  } catch (const UnstableError&) {
+    // A push under which the simulation falls apart is not resisted.
+  }
+  rest.Restore();
+  return stands;
+}
+
+double SearchReplay(ReplayWorld& world, KeepRest& rest, const Push& push) {
+  double stands = 0;
+  double fails = kFirstStress;
+  while (fails < kMostStress && Resists(world, rest, push, fails)) {
+    stands = fails;
+    fails *= 2;
+  }
+  while (fails - stands > std::max(kLeastStress, kStressGap * stands)) {
+    const double middle = (stands + fails) / 2;
+    (Resists(world, rest, push, middle) ? stands : fails) = middle;
+  }
+  return stands;
+}
+
+double SearchAnalysis(const ReplayWorld& world, const Push& push) {
+  grasp::Grasp contacts;
+  for (const FingerIndex f : world.HoldingFingers()) contacts.push_back(world.fingers()[f].contact);
+  if (contacts.empty()) return 0;
+  const auto largest = grasp::ComputeLargestLoad(contacts, world.frame_B(), world.half_angle(),
+                                                 {world.weight_S(), {0, 0, 0}}, PushWrench(push, 1),
+                                                 world.settings().squeeze_N);
+  return largest ? largest->lower : 0;
+}
+
+}  // namespace
+
+std::vector<DirectionStress> MeasureStress(ReplayWorld& world) {
+  KeepRest rest(world);
+  std::vector<DirectionStress> all;
+  for (const Push& push : PushDirections(world.scene().dimension)) {
+    all.push_back({push, SearchReplay(world, rest, push), SearchAnalysis(world, push)});
+  }
+  return all;
 }
 
 }  // namespace regrasp::sim

@@ -1,6 +1,6 @@
 #include "sim/measure/weakest_finger.h"
 
-#include "planner/plan/same_grasp.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::sim {
 

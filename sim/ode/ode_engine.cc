@@ -5,9 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "sim/ode/friction_box.h"
 #include "sim/ode/ode_world.h"
-#include "sim/ode/patch_touch.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::sim {

@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/angle.h"
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
-#include "planner/criteria/clearance.h"
+#include "planner/criteria/reach.h"
 #include "planner/grasp/grasp_forces.h"
 #include "planner/grasp/largest_load.h"
 #include "planner/grasp/quality.h"
-#include "sim/measure/push.h"
+#include "sim/measure/shake.h"
 #include "sim/measure/weakest_finger.h"
 #include "sim/scene/scaling.h"
-#include "sim/world/cone_margin.h"
+#include "sim/world/motion_monitor.h"
 
 namespace regrasp::sim {
 namespace {

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/grasp/grasp_forces.h"
-#include "sim/control/align.h"
 #include "sim/control/motions.h"
+#include "sim/control/slide.h"
 #include "sim/measure/shake.h"
-#include "sim/measure/stress.h"
 #include "sim/scene/align_script.h"
 #include "sim/scene/scene.h"
-#include "sim/world/cone_margin.h"
+#include "sim/world/motion_monitor.h"
 #include "sim/world/replay_world.h"
 #include "sim/world/stillness.h"
 

@@ -26,7 +26,7 @@ struct StepMotion {
   double slip_m = 0;          ///< largest slide of a holding fingertip along the surface
   bool contact_lost = false;  ///< a holding finger left the surface
   FingerMargins
-      shake_margins;  ///< smallest cone margins (sim/world/cone_margin.h) during the shakes
+      shake_margins;  ///< smallest cone margins (sim/world/motion_monitor.h) during the shakes
   /// The rest state after the step, or the state under the push that the grasp does not stand; no
   /// fingers where the engine came to no end.
   plan::Snapshot snapshot;

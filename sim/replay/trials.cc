@@ -1,14 +1,138 @@
 #include "sim/replay/trials.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
-#include "planner/base/binomial.h"
 #include "planner/base/random.h"
-#include "sim/replay/contact_noise.h"
+#include "planner/criteria/reach.h"
+#include "planner/object/surface_walk.h"
+#include "sim/replay/finger_ways.h"
 #include "sim/replay/replay.h"
 
 namespace regrasp::sim {
+
+namespace {
+
+using Eigen::Vector3d;
+using object::SurfaceLeg;
+
+/// The fingers as they are meant to be and as they are.
+class NoisyHand {
+ public:
+  NoisyHand(const object::Object& object, const ContactNoise& noise, RandomStream& random)
+      : object_(object), noise_(noise), random_(random) {}
+
+  /// A free finger touches.
+  void Place(plan::FingerContact& held) {
+    const grasp::Contact actual = Draw(held.contact);
+    held_[held.finger] = {held.contact, actual};
+    held.contact = actual;
+  }
+
+  /// The fingers that hold go from waypoint to waypoint.
+  void Move(plan::Align& align) {
+    std::vector<plan::FingerGrasp> noisy;
+    for (const plan::FingerGrasp& waypoint : align.waypoints) {
+      FingerWays ways;
+      for (const plan::FingerContact& held : waypoint) ways.Add(held, WayTo(held));
+      ways.AppendTo(object_, noisy);
+    }
+    // Where no finger moves.
+    if (noisy.size() == 1) noisy.push_back(noisy.front());
+    align.waypoints = std::move(noisy);
+  }
+
+ private:
+  struct Held {
+    grasp::Contact meant;
+    grasp::Contact actual;
+  };
+
+  [[nodiscard]] std::vector<Vector3d> Directions(const grasp::Contact& contact) const {
+    const Vector3d n = contact.n;
+    if (object_.dimension() == 2) return {Vector3d(-n.y(), n.x(), 0)};
+    const Vector3d across = n.unitOrthogonal();
+    return {across, n.cross(across)};
+  }
+
+  [[nodiscard]] bool CanTouch(const grasp::Contact& at) const {
+    return criteria::ComputeClearance(object_, at, noise_.fingertip) >= noise_.fingertip;
+  }
+
+  [[nodiscard]] std::optional<grasp::Contact> DrawOnce(const grasp::Contact& meant) {
+    Vector3d off = Vector3d::Zero();
+    for (const Vector3d& along : Directions(meant)) {
+      off += noise_.deviation * random_.Normal() * along;
+    }
+    const auto legs = object::WalkStraight(object_, meant.face, meant.p, off);
+    if (!legs) return std::nullopt;
+    const SurfaceLeg& last = legs->back();
+    const grasp::Contact drawn{last.to, object_.inward_normal(last.face), last.face, meant.torsion};
+    return CanTouch(drawn) ? std::optional(drawn) : std::nullopt;
+  }
+
+  [[nodiscard]] grasp::Contact Draw(const grasp::Contact& meant) {
+    if (noise_.deviation == 0) return meant;
+    for (int i = 0; i < kMostNoiseDraws; ++i) {
+      if (const auto drawn = DrawOnce(meant)) return *drawn;
+    }
+    return meant;
+  }
+
+  /// The way of a finger to where it is to be at a waypoint; a single leg without length where it
+  /// stays.
+  [[nodiscard]] std::vector<SurfaceLeg> WayTo(const plan::FingerContact& to) {
+    const auto at = held_.find(to.finger);
+    if (at == held_.end()) {
+      plan::FingerContact placed = to;
+      Place(placed);
+      return {{placed.contact.face, placed.contact.p, placed.contact.p}};
+    }
+    auto& [meant, actual] = at->second;
+    const double same = object::kPointTolerance * object_.diameter();
+    const bool stays = (meant.p - to.contact.p).norm() <= same;
+    meant = to.contact;
+    if (stays) return {{actual.face, actual.p, actual.p}};
+    for (int i = 0; i < kMostNoiseDraws; ++i) {
+      const grasp::Contact drawn = Draw(meant);
+      const auto way = object::HeadFor(object_, actual.face, actual.p, drawn.face, drawn.p);
+      if (!way) continue;
+      actual = drawn;
+      return *way;
+    }
+    // No way along the surface is known: straight there, as the plan has it.
+    const Vector3d from = actual.p;
+    actual = meant;
+    return {{meant.face, from, meant.p}};
+  }
+
+  const object::Object& object_;
+  ContactNoise noise_;
+  RandomStream& random_;
+  std::map<FingerIndex, Held> held_;
+};
+
+}  // namespace
+
+plan::Plan AddContactNoise(const object::Object& object, const plan::Plan& plan,
+                           const ContactNoise& noise, RandomStream& random) {
+  if (noise.deviation == 0) return plan;
+  plan::Plan noisy = plan;
+  NoisyHand hand(object, noise, random);
+  for (plan::FingerContact& held : noisy.initial) hand.Place(held);
+  for (plan::Step& step : noisy.steps) {
+    if (auto* change = std::get_if<plan::Switch>(&step)) {
+      for (plan::FingerContact& held : change->place) hand.Place(held);
+    } else if (auto* align = std::get_if<plan::Align>(&step)) {
+      hand.Move(*align);
+    }
+  }
+  return noisy;
+}
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "planner/base/random.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"
@@ -12,10 +13,34 @@
 #include "sim/scene/settings.h"
 
 namespace regrasp {
-struct ShareInterval;  // planner/base/binomial.h
+struct ShareInterval;  // planner/base/random.h
 }
 
 namespace regrasp::sim {
+
+/// How far off fingers are when they are put to a point of the surface.
+struct ContactNoise {
+  double deviation = 0;  ///< standard deviation along the surface, each direction; object's unit
+  double fingertip = 0;  ///< radius of the fingertip; object's unit
+};
+
+/// The plan as a hand carries it out that puts its fingers beside where it should: every contact
+/// is moved along the surface by a normal deviate in each direction of its face, straight and
+/// across borders (object/surface_walk.h), so that it does not matter how small faces are. It has
+/// the normal of the face that it comes to.
+///
+/// A finger is off by one draw as long as it is to stay at a point, through rests and aligns and
+/// when its normal is to turn there; whenever it comes to another point it is drawn anew. In an
+/// align it goes along the surface from one place to the next, which can add waypoints. A draw
+/// where no ball of the fingertip's radius fits, or to which no way is found, is drawn again,
+/// kMostNoiseDraws times at most; then the contact stays.
+///
+/// Deterministic; without deviation the plan as it is.
+/// @param plan  located on the object (PlanCheck::located); its goal is left as it is.
+[[nodiscard]] plan::Plan AddContactNoise(const object::Object& object, const plan::Plan& plan,
+                                         const ContactNoise& noise, RandomStream& random);
+
+inline constexpr int kMostNoiseDraws = 100;
 
 /// Replays of a plan in worlds that differ a little from what the hand believes.
 struct TrialOptions {
@@ -28,7 +53,7 @@ struct TrialOptions {
   double friction_error = 0.1;  ///< relative standard deviation of the friction coefficient
   double mass_error = 0.1;      ///< relative standard deviation of the mass
   /// Standard deviation of what a joint's angle is off from what the hand believes, radians; of
-  /// replays by a hand alone (sim/actuation/hand_trials.h).
+  /// replays by a hand alone (sim/actuation/hand_replay.h).
   std::optional<double> joint_noise = std::nullopt;
   /// Smallest share of trials that must pass for the plan to pass, in (0, 1].
   double min_pass_rate = 1;
@@ -55,7 +80,7 @@ struct TrialSummary {
 };
 
 /// Replays the plan `trials.count` times. In each trial contacts are off where the fingers were put
-/// (sim/replay/contact_noise.h), and friction and mass of the world differ from those that the hand
+/// (sim/replay/trials.h), and friction and mass of the world differ from those that the hand
 /// plans its forces with; it knows where its fingers touch, as in any replay. A trial passes where
 /// every entry of the replay does.
 ///

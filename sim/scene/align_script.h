@@ -10,6 +10,28 @@
 
 namespace regrasp::sim {
 
+/// The contacts `share` of the path between two waypoints; normals turn on the great circle.
+[[nodiscard]] plan::FingerGrasp Interpolate(const plan::FingerGrasp& from,
+                                            const plan::FingerGrasp& to, double share);
+
+/// The path of an align as one motion: t from 0 to end(), a whole number at each waypoint.
+class AlignPath {
+ public:
+  /// @param align  at least one waypoint; each has the fingers of the first, in any order.
+  explicit AlignPath(const plan::Align& align);
+
+  [[nodiscard]] int end() const { return static_cast<int>(waypoints_.size()) - 1; }
+  /// Fingers in the order of the first waypoint.
+  [[nodiscard]] plan::FingerGrasp At(double t) const;
+  /// How far the contacts move from `from` to `to`, all added up; turns of normals add nothing.
+  [[nodiscard]] double Travel(double from, double to) const;
+  /// True iff the k-th contact is between the normals of two faces at t.
+  [[nodiscard]] bool IsTurning(std::size_t k, double t) const;
+
+ private:
+  std::vector<plan::FingerGrasp> waypoints_;
+};
+
 /// Fingers move to other contacts by switches: spare ones, the support fingers, touch, the fingers
 /// lift and come down at their targets, the support fingers leave. The k-th of them is for the k-th
 /// target.
@@ -25,7 +47,7 @@ struct FingersSlide {
   std::vector<plan::FingerGrasp> grasps;
 };
 
-/// All fingers roll along the surface together (sim/control/roll.h), between two waypoints.
+/// All fingers roll along the surface together (sim/control/slide.h), between two waypoints.
 struct FingersRoll {
   plan::FingerGrasp from;
   plan::FingerGrasp to;
@@ -44,7 +66,7 @@ struct AlignLimits {
   double half_angle = 0;           ///< friction, radians
   std::vector<FingerIndex> spare;  ///< fingers that hold nothing
   /// Wherever a finger comes to rest a ball of this radius should fit
-  /// (planner/criteria/clearance.h), the unit that of the object.
+  /// (planner/criteria/reach.h), the unit that of the object.
   double clearance = 0;
   /// Where there is no script with that, a ball of this one.
   double least_clearance = 0;

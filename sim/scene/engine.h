@@ -1,12 +1,21 @@
 #pragma once
 
+#include <mujoco/mujoco.h>
+
 #include <Eigen/Geometry>
 #include <stdexcept>
+#include <vector>
 
 #include "planner/base/index.h"
-#include "sim/scene/engine_state.h"
 
 namespace regrasp::sim {
+
+/// Everything that the next steps of a simulation depend on, in the engine's units: replaying from
+/// a saved state gives the same bits.
+struct EngineState {
+  double time = 0;
+  std::vector<double> qpos, qvel, act, qacc_warmstart;
+};
 
 /// The engine warned of the state of a simulation or refused to go on, or a state is not finite.
 class UnstableError : public std::runtime_error {
@@ -76,5 +85,23 @@ class Engine {
   /// Also after UnstableError.
   virtual void Restore(const State& state) = 0;
 };
+
+/// Takes MuJoCo's two global hooks while any simulation lives, in whatever thread: its errors
+/// become UnstableError, its warnings neither reach the terminal nor leave a log file.
+class EngineHooks {
+ public:
+  EngineHooks();
+  ~EngineHooks();
+  EngineHooks(const EngineHooks&) = delete;
+  EngineHooks& operator=(const EngineHooks&) = delete;
+};
+
+/// @throws UnstableError  a warning says that the last step is not to be trusted, or the state is
+///                        not finite.
+void CheckState(const mjModel& model, const mjData& data);
+
+[[nodiscard]] EngineState SaveState(const mjModel& model, const mjData& data);
+/// Of the same model. Warnings of what happened since are forgotten.
+void RestoreState(const EngineState& state, mjData& data);
 
 }  // namespace regrasp::sim

@@ -8,7 +8,7 @@
 #include "planner/base/error.h"
 #include "planner/mujoco/handles.h"
 #include "planner/mujoco/memory_files.h"
-#include "sim/scene/engine_hooks.h"
+#include "sim/scene/engine.h"
 
 namespace regrasp::sim {
 

@@ -6,11 +6,10 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/criteria/clearance.h"
+#include "planner/criteria/reach.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "sim/scene/align_script.h"
-#include "sim/scene/hand_squeeze.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::sim {

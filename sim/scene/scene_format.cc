@@ -3,9 +3,9 @@
 
 #include "planner/base/number.h"
 #include "scene_template.h"
+#include "sim/scene/contact_patches.h"
 #include "sim/scene/scaling.h"
 #include "sim/scene/scene.h"
-#include "sim/scene/visible_surface.h"
 
 namespace regrasp::sim {
 

@@ -52,7 +52,7 @@ struct ReplayOptions {
   bool hand_squeeze = false;
   double shake = 0.01;  ///< ρ: shake force over squeeze, and torque over squeeze·R
   Protocol protocol = Protocol::kAdapted;
-  bool stress = false;  ///< also look for the largest push in each direction (sim/measure/stress.h)
+  bool stress = false;  ///< also look for the largest push in each direction (sim/measure/shake.h)
   double tolerance = 1e-3;  ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
   AlignChoice align = AlignChoice::kImitate;
   double stiffness_factor = 1;  ///< of the fingers, times what is derived

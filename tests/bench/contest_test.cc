@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "tests/fixtures/models.h"
 
 namespace regrasp {

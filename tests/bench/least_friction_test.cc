@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/grasp/required_half_angle.h"
 

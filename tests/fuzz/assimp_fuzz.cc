@@ -10,8 +10,8 @@
 
 #include "hostile_input.h"
 #include "planner/base/error.h"
+#include "planner/object/assimp_scene.h"
 #include "planner/object/polyhedron.h"
-#include "planner/object/read_with_assimp.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "hostile_input.h"
-#include "planner/object/mesh_readers.h"
 #include "planner/object/polyhedron.h"
+#include "planner/object/read_object.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace regrasp;

@@ -9,7 +9,7 @@
 #include "apps/batch/report_summary.h"
 #include "apps/verify_report.h"
 #include "hostile_input.h"
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/polyhedron.h"
 #include "small_objects.h"
 

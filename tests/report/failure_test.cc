@@ -6,9 +6,9 @@
 #include <set>
 #include <string>
 
-#include "planner/base/angle.h"
 #include "planner/base/limit_text.h"
-#include "report/squeeze_text.h"
+#include "planner/base/number.h"
+#include "report/report_table.h"
 
 namespace regrasp::report {
 namespace failure_test {

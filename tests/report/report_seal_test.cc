@@ -1,9 +1,8 @@
-#include "report/report_seal.h"
-
 #include <gtest/gtest.h>
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "report/report_json.h"
 
 namespace regrasp::report {
 namespace report_seal_test {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "planner/base/angle.h"
 #include "planner/base/json.h"
+#include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/plan/locate.h"
 #include "report/junit.h"

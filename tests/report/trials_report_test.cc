@@ -1,6 +1,6 @@
-#include "report/trials_report.h"
-
 #include <gtest/gtest.h>
+
+#include "report/report_table.h"
 
 namespace regrasp::report {
 namespace trials_report_test {

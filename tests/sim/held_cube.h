@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/control/motions.h"
+#include "sim/world/motion_monitor.h"
 #include "sim/world/replay_world.h"
 #include "sim/world/stillness.h"
 #include "tests/sim/replay_cases.h"

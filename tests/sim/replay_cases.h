@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"

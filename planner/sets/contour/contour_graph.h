@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
+#include "planner/base/in_blocks.h"
 #include "planner/object/polygon.h"
 #include "planner/sets/contour/boundary.h"
 #include "planner/sets/set_graph.h"

@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
-#include "planner/sets/polygon/common_cone.h"
-#include "planner/sets/polygon/two_finger.h"
+#include "planner/sets/polygon/plane.h"
+#include "planner/sets/polygon/polygon_vertices.h"
 
 namespace regrasp::contour {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
+#include "planner/base/in_blocks.h"
 #include "planner/sets/contour/contour_graph.h"
 #include "planner/sets/polygon/candidates.h"
 #include "planner/sets/polygon/contact_range.h"

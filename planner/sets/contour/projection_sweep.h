@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
+#include "planner/base/in_blocks.h"
 #include "planner/sets/contour/contour_graph.h"
-#include "planner/sets/polygon/edge_table.h"
+#include "planner/sets/polygon/candidates.h"
 
 namespace regrasp::contour {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/grasp/angle_between.h"
+#include "planner/grasp/required_half_angle.h"
 
 namespace regrasp::contour {
 

@@ -1,17 +1,29 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "planner/object/polygon.h"
 #include "planner/sets/polygon/candidates.h"
 #include "planner/sets/polygon/contact_range.h"
 #include "planner/sets/polygon/filtered_region.h"
-#include "planner/sets/polygon/grasp_set.h"
+#include "planner/sets/polygon/set_cells.h"
 
 namespace regrasp::polygon {
+
+/// The focus cell of a concurrent set, rounded to doubles for drawing: a convex counter-clockwise
+/// polygon for each of the set's parts, in their order.
+///
+/// At φ = φ* a cell may reach infinity; what is farther than `kFarthestFocus` diameters from the
+/// centroid is cut off.
+[[nodiscard]] std::vector<std::vector<Eigen::Vector2d>> FocusCell(const object::Polygon& polygon,
+                                                                  const GraspSet& set);
+
+inline constexpr double kFarthestFocus = 100;  ///< over D
 
 /// The focus points of one part of a concurrent set: those on fixed sides of its edges' lines.
 struct FocusPart {

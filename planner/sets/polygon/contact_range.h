@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "planner/sets/polygon/number_type.h"
+#include "planner/sets/polygon/plane.h"
 
 namespace regrasp::polygon {
 

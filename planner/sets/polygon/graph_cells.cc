@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/sets/polygon/substitution.h"
+#include "planner/sets/polygon/slack_program.h"
 #include "planner/sets/set_sampling.h"
 
 namespace regrasp::polygon {

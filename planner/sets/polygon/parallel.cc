@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "planner/sets/polygon/common_cone.h"
+#include "planner/sets/polygon/plane.h"
 
 namespace regrasp::polygon {
 

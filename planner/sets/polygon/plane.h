@@ -1,8 +1,52 @@
 #pragma once
 
-#include "planner/sets/polygon/number_type.h"
+#include <CGAL/Interval_nt.h>
+#include <CGAL/Mpzf.h>
+#include <CGAL/number_utils.h>
+
+#include <array>
+#include <optional>
 
 namespace regrasp::polygon {
+
+/// Predicates are written once, as templates over the number type, and evaluated with intervals of
+/// doubles first. Where an interval cannot tell the sign, CGAL throws, and the exact type decides.
+/// All of them are polynomials in doubles, so no division is needed.
+using Interval = CGAL::Interval_nt<false>;
+using Exact = CGAL::Mpzf;
+
+/// While one of these lives, the processor rounds upward, as Interval needs.
+class IntervalScope {
+ private:
+  CGAL::Protect_FPU_rounding<true> upward_;
+};
+
+/// While one of these lives inside an IntervalScope, the processor rounds to nearest again.
+class ExactScope {
+ public:
+  ExactScope() : nearest_(CGAL_FE_TONEAREST) {}
+
+ private:
+  CGAL::Protect_FPU_rounding<true> nearest_;
+};
+
+/// The sign of a number: −1, 0 or 1.
+/// @throws CGAL::Uncertain_conversion_exception  an interval about 0.
+template <class NT>
+int Sign(const NT& x) {
+  return static_cast<int>(static_cast<CGAL::Sign>(CGAL::sign(x)));
+}
+
+/// `predicate(NT())` by intervals, or exactly where they cannot tell. Inside an IntervalScope.
+template <class Predicate>
+auto DecideFiltered(const Predicate& predicate) {
+  try {
+    return predicate(Interval());
+  } catch (const CGAL::Uncertain_conversion_exception&) {
+  }
+  const ExactScope exact;
+  return predicate(Exact());
+}
 
 /// A vector of the plane over any number type.
 template <class NT>
@@ -95,6 +139,52 @@ EdgeFrame<NT> MakeEdgeFrame(const EdgeEnds& ends, double tangent) {
   frame.right = normal + lean;
   frame.left = normal - lean;
   return frame;
+}
+
+/// A convex cone of directions, less than π wide: those left of `right` and right of `left`.
+template <class NT>
+struct DirectionCone {
+  Vector2<NT> right;
+  Vector2<NT> left;
+
+  friend DirectionCone operator-(const DirectionCone& c) { return {-c.right, -c.left}; }
+};
+
+/// The cone about an edge's inward normal.
+template <class NT>
+DirectionCone<NT> ConeOf(const EdgeFrame<NT>& frame) {
+  return {frame.right, frame.left};
+}
+
+/// The intersection of two cones; nullopt where they have no common interior.
+template <class NT>
+std::optional<DirectionCone<NT>> Intersect(const DirectionCone<NT>& a, const DirectionCone<NT>& b) {
+  // A border of the intersection is a border of one that lies in the other.
+  const auto begins_in = [](const Vector2<NT>& v, const DirectionCone<NT>& cone) {
+    return Sign(Cross(cone.right, v)) >= 0 && Sign(Cross(v, cone.left)) > 0;
+  };
+  const auto ends_in = [](const Vector2<NT>& v, const DirectionCone<NT>& cone) {
+    return Sign(Cross(cone.right, v)) > 0 && Sign(Cross(v, cone.left)) >= 0;
+  };
+  DirectionCone<NT> common;
+  if (begins_in(a.right, b)) {
+    common.right = a.right;
+  } else if (begins_in(b.right, a)) {
+    common.right = b.right;
+  } else {
+    return std::nullopt;
+  }
+  common.left = ends_in(a.left, b) ? a.left : b.left;
+  return common;
+}
+
+/// The common cone of parallel grasps: directions in the cones of `b` and `c` and against that of
+/// the centre.
+template <class NT>
+std::optional<DirectionCone<NT>> CommonCone(const EdgeFrame<NT>& centre, const EdgeFrame<NT>& b,
+                                            const EdgeFrame<NT>& c) {
+  const auto outer = Intersect(ConeOf(b), ConeOf(c));
+  return outer ? Intersect(*outer, -ConeOf(centre)) : std::nullopt;
 }
 
 }  // namespace regrasp::polygon

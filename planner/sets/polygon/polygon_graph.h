@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
+#include "planner/base/in_blocks.h"
 #include "planner/object/polygon.h"
-#include "planner/sets/polygon/grasp_set.h"
+#include "planner/sets/polygon/set_cells.h"
 #include "planner/sets/set_graph.h"
 
 namespace regrasp::polygon {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "planner/sets/polygon/substitution.h"
+#include "planner/sets/polygon/slack_program.h"
 
 namespace regrasp::polygon {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "planner/sets/polyhedron/common_triples.h"
+#include "planner/sets/polyhedron/normal_quadruples.h"
 
 namespace regrasp::polyhedron {
 

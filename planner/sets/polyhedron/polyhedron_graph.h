@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
-#include "planner/planning/spanning.h"
+#include "planner/base/in_blocks.h"
+#include "planner/planning/plan_request.h"
 #include "planner/sets/polyhedron/focus_cells.h"
 #include "planner/sets/set_graph.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/sets/passage_search.h"
+#include "planner/sets/candidate_search.h"
 #include "planner/sets/polyhedron/focus_contacts.h"
 #include "planner/sets/set_sampling.h"
 

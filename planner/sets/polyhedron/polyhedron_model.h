@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/sets/candidate_search.h"
 #include "planner/sets/grasp_set_model.h"
-#include "planner/sets/passage_search.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
 namespace regrasp::polyhedron {

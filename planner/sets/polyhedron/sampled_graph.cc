@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include "planner/base/random.h"
-#include "planner/sets/polyhedron/common_triples.h"
+#include "planner/sets/polyhedron/normal_quadruples.h"
 
 namespace regrasp::polyhedron {
 

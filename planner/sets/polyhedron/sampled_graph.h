@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
-#include "planner/planning/graph_summary.h"
+#include "planner/base/in_blocks.h"
+#include "planner/planning/planner.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
 namespace regrasp::polyhedron {

@@ -8,9 +8,9 @@
 
 #include "bench/csv_table.h"
 #include "bench/hand_bodies.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/base/number.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/project_path.h"
 

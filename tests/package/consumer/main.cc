@@ -2,7 +2,7 @@
 // reads a plan that holds it, and validates the plan.
 #include <cstdio>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/object/object.h"
 #include "planner/plan/check.h"

@@ -1,9 +1,9 @@
-#include "planner/base/binomial.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
+
+#include "planner/base/random.h"
 
 namespace regrasp {
 namespace binomial_test {

@@ -1,9 +1,9 @@
-#include "planner/base/counted_progress.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
+
+#include "planner/base/in_blocks.h"
 
 namespace regrasp {
 namespace counted_progress_test {

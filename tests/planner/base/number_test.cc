@@ -10,7 +10,6 @@
 #include <locale>
 #include <random>
 
-#include "planner/base/angle.h"
 #include "planner/base/json.h"
 
 namespace regrasp {

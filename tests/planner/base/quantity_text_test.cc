@@ -1,8 +1,8 @@
-#include "planner/base/quantity_text.h"
-
 #include <gtest/gtest.h>
 
 #include <utility>
+
+#include "planner/base/number.h"
 
 namespace regrasp {
 namespace quantity_text_test {

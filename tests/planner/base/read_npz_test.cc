@@ -1,5 +1,3 @@
-#include "planner/base/read_npz.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/base/npz.h"
 #include "planner/base/zip_archive.h"
 #include "tests/fixtures/project_path.h"
 

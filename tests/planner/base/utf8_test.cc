@@ -1,10 +1,10 @@
-#include "planner/base/utf8.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 #include <string>
 #include <vector>
+
+#include "planner/base/text_table.h"
 
 namespace regrasp {
 namespace utf8_test {

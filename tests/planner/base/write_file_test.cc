@@ -1,5 +1,3 @@
-#include "planner/base/write_file.h"
-
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

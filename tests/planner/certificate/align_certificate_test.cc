@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/object.h"
 #include "tests/fixtures/project_path.h"
 #include "tests/planner/motion/random_boxes.h"

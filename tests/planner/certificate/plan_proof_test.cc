@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/json.h"
+#include "planner/base/number.h"
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "tests/fixtures/project_path.h"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/certificate/check_proof.h"
-#include "planner/certificate/find_proof.h"
+#include "planner/certificate/force_proof.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
 #include "tests/planner/motion/random_boxes.h"

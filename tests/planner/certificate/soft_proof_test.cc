@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/certificate/check_proof.h"
-#include "planner/certificate/find_proof.h"
+#include "planner/certificate/force_proof.h"
 #include "planner/grasp/force_closure.h"
 #include "tests/fixtures/random_grasps.h"
 

@@ -160,7 +160,7 @@ TEST(ConvexShapeTest, TheBallContainsTheShape) {
   for (int i = 0; i < 100; ++i) {
     ConvexShape shape = RandomHull(random, 9);
     shape.radius = 0.25;
-    const Ball ball = BallAround(shape);
+    const BoundingSphere ball = BoundingSphereOf(shape);
     for (const Vector3d& point : shape.points) {
       EXPECT_LE((point - ball.centre).norm() + shape.radius, ball.radius * (1 + 1e-12));
     }

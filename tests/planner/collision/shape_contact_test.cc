@@ -25,7 +25,7 @@ const BallContact& Cube() {
 }
 
 std::vector<int> Among(const ConvexShape& shape) {
-  const Ball ball = BallAround(shape);
+  const BoundingSphere ball = BoundingSphereOf(shape);
   return Cube().Around(ball.centre, ball.radius + 0.01);
 }
 

@@ -1,9 +1,8 @@
-#include "planner/criteria/clearance.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "planner/criteria/reach.h"
 #include "planner/object/polygon.h"
 
 namespace regrasp::criteria {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/quality.h"
 #include "planner/object/polygon.h"
 #include "tests/fixtures/polygons.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::criteria {

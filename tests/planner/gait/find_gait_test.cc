@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/gait/gait_planner.h"
 #include "planner/gait/plan_of_gait.h"
+#include "planner/gait/request.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/check.h"
@@ -380,7 +381,9 @@ TEST(FindGaitTest, WithSimulationAFingerSlidesBesideThreeOthersOnly) {
     request.goal_grasp[0].p += 0.0015 * start[0].n.unitOrthogonal();
     request.most_expanded = 60;
     if (is_simulated) {
-      request.carry_out = [](const plan::Plan&, const Deadline&) { return planning::CarriedOut{}; };
+      request.simulate = [](const plan::Plan&, const Deadline&) {
+        return planning::ExecutionResult{};
+      };
     }
     const GaitResult found = FindGait(request);
     return found.gait && std::ranges::count(found.gait->segments, PlanSegment::Kind::kSlide,

@@ -10,6 +10,7 @@
 #include "planner/grasp/required_half_angle.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/check.h"
+#include "planner/planning/in_hand_task.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/project_path.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/gait/find_gait.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"

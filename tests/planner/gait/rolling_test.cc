@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/object.h"
 #include "tests/fixtures/project_path.h"
 

@@ -112,9 +112,9 @@ struct FakeHand {
   std::vector<plan::Plan> plans = {};
 
   void SimulateIn(GaitRequest& request) {
-    request.carry_out = [this](const plan::Plan& plan, const Deadline&) {
+    request.simulate = [this](const plan::Plan& plan, const Deadline&) {
       plans.push_back(plan);
-      planning::CarriedOut execution{initial_grasp_holds, 0, false};
+      planning::ExecutionResult execution{initial_grasp_holds, 0, false};
       execution.reason = plan::Reason::kSlipped;
       execution.detail = "finger 7 slipped, plan " + std::to_string(plans.size());
       if (!initial_grasp_holds) return std::optional(execution);
@@ -185,7 +185,7 @@ TEST(ScheduleTest, IfMotionsFailHalfwayFingersAreSwitchedEarlier) {
   double most = 0;
   for (const plan::Step& step : plan.steps) most = std::max(most, TurnIn(step));
   EXPECT_LE(most, kMostTurn);
-  request.carry_out = nullptr;
+  request.simulate = nullptr;
   const GaitResult usual = FindGait(request);
   ASSERT_TRUE(usual.gait);
   most = 0;
@@ -203,11 +203,11 @@ TEST(ScheduleTest, SelectsTheExecutableGaitWithTheLargestToleranceMarginIfReques
     return 1.0 / static_cast<double>(2 + (7 * plan.steps.size()) % 5);
   };
   double most = 0;
-  request.carry_out = [&](const plan::Plan& plan, const Deadline&) {
+  request.simulate = [&](const plan::Plan& plan, const Deadline&) {
     const int steps = static_cast<int>(plan.steps.size());
     plans.push_back(plan::FormatPlan(plan));
     most = std::max(most, margin_of(plan));
-    return std::optional(planning::CarriedOut{true, steps, true, margin_of(plan)});
+    return std::optional(planning::ExecutionResult{true, steps, true, margin_of(plan)});
   };
   const auto find = [&] {
     plans.clear();
@@ -311,11 +311,11 @@ TEST(ScheduleTest, ASimulationCutShortByTheTimeLimitIsNotAFailure) {
   Deadline::Clock::time_point now;
   request.deadline = {now + std::chrono::seconds(10), [&] { return now; }};
   int simulations = 0;
-  request.carry_out = [&](const plan::Plan&, const Deadline& deadline) {
+  request.simulate = [&](const plan::Plan&, const Deadline& deadline) {
     ++simulations;
     now += std::chrono::seconds(20);
     EXPECT_TRUE(deadline.IsOver());
-    return std::optional(planning::CarriedOut{.is_held = true, .is_cut_short = true});
+    return std::optional(planning::ExecutionResult{.is_held = true, .is_cut_short = true});
   };
   const GaitResult cut_short = FindGait(request);
   ASSERT_TRUE(cut_short.gait) << cut_short.message;
@@ -324,9 +324,9 @@ TEST(ScheduleTest, ASimulationCutShortByTheTimeLimitIsNotAFailure) {
   EXPECT_EQ(simulations, 1);
 
   now = {};
-  request.carry_out = [&](const plan::Plan&, const Deadline&) {
+  request.simulate = [&](const plan::Plan&, const Deadline&) {
     now += std::chrono::seconds(20);
-    return std::optional(planning::CarriedOut{.is_held = true});
+    return std::optional(planning::ExecutionResult{.is_held = true});
   };
   const GaitResult failed = FindGait(request);
   ASSERT_TRUE(failed.gait) << failed.message;
@@ -335,12 +335,12 @@ TEST(ScheduleTest, ASimulationCutShortByTheTimeLimitIsNotAFailure) {
 }
 
 /// Simulated hand that executes one of `many` plans, selected by hash.
-std::function<std::optional<planning::CarriedOut>(const plan::Plan&, const Deadline&)> OneOf(
+std::function<std::optional<planning::ExecutionResult>(const plan::Plan&, const Deadline&)> OneOf(
     std::size_t one_in, std::atomic<int>& simulations) {
   return [one_in, &simulations](const plan::Plan& plan, const Deadline&) {
     ++simulations;
     const bool executes = std::hash<std::string>()(plan::FormatPlan(plan)) % one_in == 0;
-    return std::optional(planning::CarriedOut{
+    return std::optional(planning::ExecutionResult{
         true, executes ? static_cast<int>(plan.steps.size()) : 0, executes, 0.5});
   };
 }
@@ -356,7 +356,7 @@ TEST(ScheduleTest, WithoutADeadlineTheGaitDoesNotDependOnTheNumberOfJobs) {
     const auto find = [&](int jobs, int& simulated) {
       std::atomic<int> simulations = 0;
       request.jobs = jobs;
-      request.carry_out = OneOf(4, simulations);
+      request.simulate = OneOf(4, simulations);
       const GaitResult found = FindGait(request);
       simulated = simulations;
       return found;
@@ -384,9 +384,9 @@ TEST(ScheduleTest, AnExceptionInOneSearchEndsAll) {
   request.jobs = 3;
   request.deadline = DeadlineAfter(Deadline::Clock::now(), 3600);
   std::atomic<int> simulations = 0;
-  request.carry_out = [&](const plan::Plan&, const Deadline&) {
+  request.simulate = [&](const plan::Plan&, const Deadline&) {
     if (++simulations == 5) throw std::runtime_error("the fifth");
-    return std::optional(planning::CarriedOut{.is_held = true});
+    return std::optional(planning::ExecutionResult{.is_held = true});
   };
   EXPECT_THROW(static_cast<void>(FindGait(request)), std::runtime_error);
   EXPECT_GE(simulations, 5);
@@ -403,7 +403,7 @@ TEST(ScheduleTest, WithADeadlineTheFirstExecutingGaitEndsAllSearches) {
   // bound only prevents an endless wait if the test fails.
   constexpr std::chrono::minutes kForEver(2);
   std::atomic<bool> is_abandoned = true;
-  request.carry_out = [&](const plan::Plan& plan, const Deadline& deadline) {
+  request.simulate = [&](const plan::Plan& plan, const Deadline& deadline) {
     bool is_first = false;
     {
       const std::scoped_lock lock(mutex);
@@ -415,11 +415,11 @@ TEST(ScheduleTest, WithADeadlineTheFirstExecutingGaitEndsAllSearches) {
       is_abandoned = std::chrono::steady_clock::now() < until;
       std::this_thread::yield();
     }
-    return std::optional(planning::CarriedOut{.is_held = true,
-                                              .steps = static_cast<int>(plan.steps.size()),
-                                              .is_whole = is_first,
-                                              .spare = 0.5,
-                                              .is_cut_short = !is_first});
+    return std::optional(planning::ExecutionResult{.is_held = true,
+                                                   .steps = static_cast<int>(plan.steps.size()),
+                                                   .is_whole = is_first,
+                                                   .spare = 0.5,
+                                                   .is_cut_short = !is_first});
   };
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
@@ -430,7 +430,7 @@ TEST(ScheduleTest, WithADeadlineTheFirstExecutingGaitEndsAllSearches) {
 TEST(ScheduleTest, WithoutASimulationResultTheSearchRunsWithoutSimulation) {
   GaitRequest request = RequestFor("cube", 0.8, 60);
   const GaitResult usual = FindGait(request);
-  request.carry_out = [](const plan::Plan&, const Deadline&) { return std::nullopt; };
+  request.simulate = [](const plan::Plan&, const Deadline&) { return std::nullopt; };
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(usual.gait && found.gait);
   EXPECT_FALSE(found.execution);

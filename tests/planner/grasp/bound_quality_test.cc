@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/convex_hull.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"

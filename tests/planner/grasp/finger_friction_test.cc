@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"

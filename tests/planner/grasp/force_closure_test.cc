@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "pyramid_program.h"
 #include "tests/fixtures/random_grasps.h"
 

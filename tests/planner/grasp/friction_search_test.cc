@@ -7,9 +7,10 @@
 #include <cmath>
 #include <cstddef>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/cone_support.h"
 #include "planner/grasp/force_closure_core.h"
+#include "planner/grasp/required_half_angle.h"
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/quality.h"
 
 namespace regrasp::grasp {

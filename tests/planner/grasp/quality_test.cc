@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
 #include "tests/fixtures/random_grasps.h"

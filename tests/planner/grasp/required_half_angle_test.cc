@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "tests/fixtures/random_grasps.h"
 

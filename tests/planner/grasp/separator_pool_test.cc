@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/cone_support.h"
 #include "tests/fixtures/random_grasps.h"
 

@@ -1,10 +1,9 @@
-#include "planner/grasp/sliding_forces.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "planner/grasp/grasp_forces.h"
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/cone_support.h"
 #include "planner/grasp/finger_friction.h"
 #include "planner/grasp/force_closure.h"

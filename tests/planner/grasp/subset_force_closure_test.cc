@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "tests/fixtures/random_grasps.h"
 

@@ -8,7 +8,6 @@
 
 #include "planner/base/error.h"
 #include "planner/kinematics/mujoco_model.h"
-#include "planner/kinematics/mujoco_schema.h"
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::kinematics {

@@ -9,10 +9,10 @@
 
 #include "planner/base/error.h"
 #include "planner/base/random.h"
+#include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/kinematics/inspect_hand.h"
-#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/planner/kinematics/ring_model.h"

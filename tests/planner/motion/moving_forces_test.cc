@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp::motion {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/motion/check_motion_proof.h"
 #include "planner/motion/find_motion_proof.h"

@@ -10,10 +10,10 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
-#include "planner/object/mesh_readers.h"
 #include "planner/object/object.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
+#include "planner/object/read_object.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {

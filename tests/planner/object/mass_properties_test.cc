@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "planner/object/diameter.h"
+#include "planner/object/body_measures.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/soups.h"
 

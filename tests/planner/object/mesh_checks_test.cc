@@ -13,7 +13,7 @@
 #include "planner/object/face_joining.h"
 #include "planner/object/facet_triangulation.h"
 #include "planner/object/polyhedron.h"
-#include "planner/object/size_limits.h"
+#include "planner/object/weld.h"
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {

@@ -1,5 +1,3 @@
-#include "planner/object/mesh_readers.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -15,6 +13,7 @@
 #include "planner/object/limited_child.h"
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
+#include "planner/object/read_object.h"
 #include "planner/object/soup_bytes.h"
 #include "tests/fixtures/project_path.h"
 

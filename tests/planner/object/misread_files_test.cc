@@ -11,7 +11,7 @@
 
 #include "planner/base/error.h"
 #include "planner/object/object.h"
-#include "planner/object/read_soup.h"
+#include "planner/object/read_object.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/planner/object/known_gltf.h"
 #include "tests/planner/object/known_solid.h"

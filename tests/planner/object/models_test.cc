@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/angle.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"

@@ -1,6 +1,6 @@
-#include "planner/object/polygon_triangulation.h"
-
 #include <gtest/gtest.h>
+
+#include "planner/object/polygon.h"
 
 namespace regrasp::object {
 namespace polygon_triangulation_test {

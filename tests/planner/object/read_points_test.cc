@@ -3,7 +3,7 @@
 #include <cstring>
 #include <string>
 
-#include "planner/object/mesh_readers.h"
+#include "planner/object/read_object.h"
 
 namespace regrasp::object {
 namespace read_points_test {

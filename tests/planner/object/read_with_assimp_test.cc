@@ -1,5 +1,3 @@
-#include "planner/object/read_with_assimp.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -10,6 +8,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/object/assimp_scene.h"
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/folder_test.h"

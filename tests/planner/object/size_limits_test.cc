@@ -1,9 +1,9 @@
-#include "planner/object/size_limits.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "planner/object/weld.h"
 
 namespace regrasp::object {
 namespace size_limits_test {

@@ -1,5 +1,3 @@
-#include "planner/object/surface_topology.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <set>
 
 #include "planner/object/mesh_defect.h"
+#include "planner/object/triangle_mesh.h"
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "planner/object/mesh_defect.h"
-#include "planner/object/size_limits.h"
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {

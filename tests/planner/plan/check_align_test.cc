@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/plan/check.h"
 #include "sample_plans.h"
 #include "tests/fixtures/polygons.h"

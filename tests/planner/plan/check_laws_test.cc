@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/plan/check.h"
 #include "sample_plans.h"
 #include "tests/fixtures/solids.h"

@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "check_expectations.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/object/given_points.h"
 #include "sample_plans.h"
 #include "tests/fixtures/polygons.h"

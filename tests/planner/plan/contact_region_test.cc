@@ -10,9 +10,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/plan/switch_region.h"
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::plan {

@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "planner/base/angle.h"
-#include "planner/grasp/angle_between.h"
+#include "planner/base/number.h"
+#include "planner/grasp/required_half_angle.h"
 #include "planner/plan/check.h"
 #include "sample_plans.h"
 #include "tests/fixtures/solids.h"

@@ -1,9 +1,8 @@
-#include "planner/plan/invented_contacts.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "planner/object/polyhedron.h"
+#include "planner/plan/grasp_io.h"
 #include "planner/plan/locate.h"
 #include "tests/fixtures/soups.h"
 

@@ -1,10 +1,9 @@
-#include "planner/plan/locate_align.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "planner/object/object.h"
+#include "planner/plan/locate.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::plan {

@@ -1,5 +1,3 @@
-#include "planner/plan/locate_grasps.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,12 +1,11 @@
-#include "planner/plan/motion_fault.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/polygon.h"
+#include "planner/plan/check_step.h"
 #include "planner/plan/locate.h"
 #include "tests/fixtures/solids.h"
 

@@ -5,9 +5,9 @@
 #include <functional>
 #include <random>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/json.h"
+#include "planner/base/number.h"
 #include "sample_plans.h"
 
 namespace regrasp::plan {

@@ -1,10 +1,9 @@
-#include "planner/plan/planned_snapshot.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "planner/plan/check.h"
+#include "planner/plan/snapshot.h"
 #include "sample_plans.h"
 #include "tests/fixtures/solids.h"
 

@@ -1,11 +1,10 @@
-#include "planner/plan/rest_closure.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/plan/check_step.h"
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::plan {

@@ -1,11 +1,9 @@
-#include "planner/plan/same_grasp.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "planner/plan/tolerance.h"
+#include "planner/plan/plan.h"
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::plan {

@@ -1,6 +1,6 @@
 #include "sample_plans.h"
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 
 namespace regrasp::plan {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "check_expectations.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/json.h"
+#include "planner/base/number.h"
 #include "planner/motion/find_motion_proof.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"

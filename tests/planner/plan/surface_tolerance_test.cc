@@ -27,8 +27,7 @@ TEST(SurfaceTolerance, PointsInSinglePrecisionAreOnAnObjectFarFromTheOrigin) {
     const object::Polyhedron cube = MakeCube(kHalf, offset);
     int moved = 0;
     for (int i = 0; i < 200; ++i) {
-      const Eigen::Vector3d exact =
-          offset + Eigen::Vector3d(kHalf, across(engine), across(engine));
+      const Eigen::Vector3d exact = offset + Eigen::Vector3d(kHalf, across(engine), across(engine));
       const Eigen::Vector3d single = exact.cast<float>().cast<double>();
       EXPECT_EQ(ReasonOf(cube, single), Reason::kNone) << offset.transpose();
       moved += std::abs(single.x() - exact.x()) > 1e-6 * cube.diameter() ? 1 : 0;
@@ -54,9 +53,10 @@ TEST(SurfaceTolerance, IsNeverMoreThanAThousandthOfTheDiameter) {
 }
 
 TEST(SurfaceTolerance, TheTextHasTheDistanceAndTheTolerance) {
-  EXPECT_EQ(OffSurfaceText(MakeCube(), {1.001, 0, 0}),
-            "0.001 of the object file's units off the surface, 0.0002887 of the object's diameter; up "
-            "to 1e-06 of it counts as on it");
+  EXPECT_EQ(
+      OffSurfaceText(MakeCube(), {1.001, 0, 0}),
+      "0.001 of the object file's units off the surface, 0.0002887 of the object's diameter; up "
+      "to 1e-06 of it counts as on it");
   const std::string far = OffSurfaceText(MakeCube(kHalf, {3, 0, 0}), {3.04, 0, 0});
   EXPECT_THAT(far, testing::StartsWith("0.01 of the object file's units off the surface, "));
   EXPECT_THAT(far, testing::HasSubstr("up to 1.424e-05 of it counts as on it"));

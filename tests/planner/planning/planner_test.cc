@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/planning/in_hand_task.h"
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/solids.h"

@@ -1,10 +1,9 @@
-#include "planner/planning/random_goal.h"
-
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "planner/base/deadline.h"
+#include "planner/planning/candidate_sequence.h"
 
 namespace regrasp::planning {
 namespace random_goal_test {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <random>
 
-#include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"

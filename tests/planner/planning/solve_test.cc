@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/memory.h"
-#include "planner/sampling/no_grasp.h"
+#include "planner/base/number.h"
+#include "planner/sampling/draw_grasp.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"
 

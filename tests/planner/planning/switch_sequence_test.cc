@@ -1,9 +1,9 @@
-#include "planner/planning/switch_sequence.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+
+#include "planner/planning/candidate_sequence.h"
 
 namespace regrasp::planning {
 namespace switch_sequence_test {

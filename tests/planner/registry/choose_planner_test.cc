@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "planner/base/error.h"
-#include "planner/planning/graph_summary.h"
 #include "planner/planning/in_hand_task.h"
+#include "planner/planning/planner.h"
 #include "planner/registry/registry.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"

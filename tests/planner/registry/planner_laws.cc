@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/check.h"

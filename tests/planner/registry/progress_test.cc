@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/counted_progress.h"
-#include "planner/planning/graph_summary.h"
+#include "planner/base/in_blocks.h"
+#include "planner/planning/planner.h"
 #include "planner/registry/registry.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"

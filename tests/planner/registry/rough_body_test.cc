@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/check.h"
 #include "planner/planning/solve.h"

@@ -1,8 +1,7 @@
-#include "planner/repair/exact_point.h"
-
 #include <gtest/gtest.h>
 
 #include "planner/base/random.h"
+#include "planner/repair/unite_shells.h"
 
 namespace regrasp::repair {
 namespace exact_point_test {

@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "planner/repair/soup_shells.h"
+#include "planner/repair/reconstruct.h"
 #include "planner/repair/stages.h"
 
 namespace regrasp::repair {

@@ -12,7 +12,7 @@
 
 #include "planner/base/error.h"
 #include "planner/object/mesh_defect.h"
-#include "planner/object/mesh_readers.h"
+#include "planner/object/read_object.h"
 #include "planner/repair/invented_marks.h"
 #include "planner/sampling/surface_sampler.h"
 #include "tests/fixtures/soups.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/polyhedron.h"
 #include "planner/object/reading.h"
 #include "planner/roadmap/build_roadmap.h"

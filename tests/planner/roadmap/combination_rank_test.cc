@@ -1,8 +1,8 @@
-#include "planner/roadmap/combination_rank.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "planner/roadmap/roadmap.h"
 
 namespace regrasp::roadmap {
 namespace combination_rank_test {

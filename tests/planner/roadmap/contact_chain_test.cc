@@ -4,9 +4,9 @@
 
 #include <numeric>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/criteria/grasp_evaluator.h"
-#include "planner/roadmap/roadmap_queries.h"
+#include "planner/roadmap/roadmap_planner.h"
 #include "tests/fixtures/deadline_laws.h"
 #include "tests/planner/roadmap/grasp_graph.h"
 #include "tests/planner/roadmap/small_meshes.h"

@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {

@@ -1,6 +1,6 @@
-#include "planner/roadmap/find_contact.h"
-
 #include <gtest/gtest.h>
+
+#include "planner/roadmap/build_roadmap.h"
 
 namespace regrasp::roadmap {
 namespace find_contact_test {

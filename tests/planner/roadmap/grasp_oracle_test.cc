@@ -1,14 +1,13 @@
-#include "planner/roadmap/grasp_oracle.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <set>
 #include <stdexcept>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
+#include "planner/roadmap/grasp_tree.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {

@@ -1,10 +1,10 @@
-#include "planner/roadmap/k_means.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <set>
 #include <stdexcept>
+
+#include "planner/roadmap/contact_clusters.h"
 
 namespace regrasp::roadmap {
 namespace k_means_test {

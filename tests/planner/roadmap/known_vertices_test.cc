@@ -1,6 +1,6 @@
-#include "planner/roadmap/known_vertices.h"
-
 #include <gtest/gtest.h>
+
+#include "planner/roadmap/contact_point_search.h"
 
 namespace regrasp::roadmap {
 namespace known_vertices_test {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <ostream>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "tests/planner/roadmap/grasp_graph.h"
 #include "tests/planner/roadmap/small_meshes.h"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/grasp/quality.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"

@@ -6,14 +6,14 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/check.h"
 #include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/contact_point_search.h"
 #include "planner/roadmap/roadmap_planner.h"
-#include "planner/search/fewest_switches.h"
+#include "planner/search/switching_graph.h"
 #include "tests/fixtures/good_plan.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"

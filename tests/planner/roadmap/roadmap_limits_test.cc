@@ -1,9 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/roadmap/build_roadmap.h"
-#include "planner/roadmap/roadmap_memory.h"
 #include "planner/roadmap/roadmap_planner.h"
 #include "tests/fixtures/counted_deadline.h"
 #include "tests/fixtures/peak_memory.h"

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/sampling/contact_points.h"
-#include "planner/search/fewest_switches.h"
+#include "planner/search/switching_graph.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::roadmap {

@@ -1,5 +1,3 @@
-#include "planner/roadmap/spectral_embedding.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -8,6 +6,7 @@
 #include <stdexcept>
 
 #include "planner/base/random.h"
+#include "planner/roadmap/contact_clusters.h"
 
 namespace regrasp::roadmap {
 namespace spectral_embedding_test {

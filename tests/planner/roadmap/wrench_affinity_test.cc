@@ -1,5 +1,3 @@
-#include "planner/roadmap/wrench_affinity.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -8,7 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "planner/roadmap/contact_clusters.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp::roadmap {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/given_points.h"
-#include "planner/sampling/no_grasp.h"
+#include "planner/sampling/draw_grasp.h"
 #include "planner/sampling/surface_sampler.h"
 #include "tests/fixtures/solids.h"
 #include "tests/fixtures/soups.h"

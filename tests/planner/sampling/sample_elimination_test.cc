@@ -1,5 +1,3 @@
-#include "planner/sampling/sample_elimination.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <limits>
 
 #include "planner/base/random.h"
+#include "planner/sampling/contact_points.h"
 
 namespace regrasp::sampling {
 namespace sample_elimination_test {

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "planner/criteria/clearance.h"
+#include "planner/criteria/reach.h"
 #include "planner/object/polygon.h"
 #include "tests/fixtures/solids.h"
 

@@ -1,8 +1,6 @@
-#include "planner/search/components.h"
-
 #include <gtest/gtest.h>
 
-#include "planner/search/fewest_switches.h"
+#include "planner/search/switching_graph.h"
 #include "tests/planner/search/subset_graph.h"
 
 namespace regrasp::search {

@@ -1,7 +1,6 @@
-#include "planner/search/shortest_paths.h"
-
 #include <gtest/gtest.h>
 
+#include "planner/search/switching_graph.h"
 #include "tests/planner/search/subset_graph.h"
 
 namespace regrasp::search {

@@ -1,9 +1,8 @@
-#include "planner/search/widest_path.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "planner/search/switching_graph.h"
 #include "tests/planner/search/subset_graph.h"
 
 namespace regrasp::search {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "tests/fixtures/edge_grasp.h"
 #include "tests/fixtures/polygons.h"
 

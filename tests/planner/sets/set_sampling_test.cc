@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planner/base/angle.h"
-#include "planner/sampling/no_grasp.h"
+#include "planner/base/number.h"
+#include "planner/sampling/draw_grasp.h"
 #include "tests/fixtures/edge_grasp.h"
 #include "tests/fixtures/polygons.h"
 

@@ -5,8 +5,8 @@
 #include "planner/motion/check_motion_proof.h"
 #include "planner/plan/check.h"
 #include "planner/tree/improve_path.h"
-#include "planner/tree/path_plan.h"
 #include "planner/tree/subset_search.h"
+#include "planner/tree/tree_planner.h"
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {

@@ -5,10 +5,8 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/tree/bidirectional_tree.h"
-#include "planner/tree/least_travel.h"
-#include "planner/tree/path_plan.h"
-#include "planner/tree/repair_quality.h"
 #include "planner/tree/subset_search.h"
+#include "planner/tree/tree_planner.h"
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/sampling/contact_points.h"
 #include "planner/sampling/surface_sampler.h"

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/sampling/surface_sampler.h"
+#include "planner/tree/bidirectional_tree.h"
 #include "planner/tree/search_space.h"
 #include "tests/fixtures/models.h"
 

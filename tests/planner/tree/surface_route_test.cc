@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "planner/object/polygon.h"
-#include "planner/plan/motion_fault.h"
+#include "planner/plan/check_step.h"
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {

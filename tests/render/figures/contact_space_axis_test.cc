@@ -1,7 +1,6 @@
-#include "render/figures/contact_space_axis.h"
-
 #include <gmock/gmock.h>
 
+#include "render/figures/contact_space_map.h"
 #include "tests/render/figures/contact_space_scenes.h"
 #include "tests/render/figures/planar_scenes.h"
 

@@ -7,7 +7,7 @@
 #include <regex>
 #include <string>
 
-#include "render/figures/contact_space_paint.h"
+#include "render/figures/contact_space_overview.h"
 #include "tests/render/figures/contact_space_scenes.h"
 #include "tests/render/figures/planar_scenes.h"
 

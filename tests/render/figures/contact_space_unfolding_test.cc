@@ -1,10 +1,9 @@
-#include "render/figures/contact_space_unfolding.h"
-
 #include <gmock/gmock.h>
 
 #include <numeric>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "render/figures/contact_space_track.h"
 #include "tests/render/figures/contact_space_scenes.h"
 #include "tests/render/figures/planar_scenes.h"
 

@@ -1,5 +1,3 @@
-#include "render/figures/figure_mark.h"
-
 #include <gtest/gtest.h>
 #include <png.h>
 

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "render/figures/print_size.h"
-#include "render/picture/cairo_image.h"
+#include "render/figures/figure_page.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {

@@ -1,8 +1,7 @@
-#include "render/figures/finger_numbers.h"
-
 #include <gtest/gtest.h>
 
-#include "render/figures/print_size.h"
+#include "render/figures/figure_page.h"
+#include "render/figures/panel_text.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {

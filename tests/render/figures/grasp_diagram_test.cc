@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "tests/render/figures/planar_scenes.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/figures/panel_sheet.h"
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {

@@ -1,10 +1,9 @@
-#include "render/figures/plan_diagram.h"
-
 #include <gmock/gmock.h>
 
 #include <set>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "render/figures/plan_figure.h"
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {

@@ -12,9 +12,10 @@
 
 #include "render/figures/panel_fingers.h"
 #include "render/figures/panel_grasp.h"
+#include "render/figures/panel_sheet.h"
 #include "render/figures/panel_text.h"
 #include "render/figures/panel_view.h"
-#include "render/picture/palette.h"
+#include "render/picture/color_table.h"
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {

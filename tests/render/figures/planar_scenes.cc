@@ -1,6 +1,6 @@
 #include "tests/render/figures/planar_scenes.h"
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 
 namespace regrasp::render {
 

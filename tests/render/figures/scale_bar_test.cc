@@ -1,10 +1,10 @@
-#include "render/figures/scale_bar.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
+#include "render/figures/panel_sheet.h"
+#include "render/figures/panel_text.h"
 #include "render/figures/panel_view.h"
 #include "render/figures/plan_figure.h"
 #include "render/picture/cairo_paint.h"

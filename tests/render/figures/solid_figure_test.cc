@@ -5,8 +5,9 @@
 
 #include <regex>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/plan/locate.h"
+#include "render/figures/panel_sheet.h"
 #include "render/figures/panel_view.h"
 #include "tests/fixtures/solids.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "render/frames/frame.h"
 #include "tests/render/frames/scenes.h"
 

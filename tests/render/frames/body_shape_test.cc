@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polygon_soup.h"
 #include "tests/render/frames/scenes.h"

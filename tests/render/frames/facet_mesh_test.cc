@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "render/frames/body_shape.h"
 #include "tests/render/frames/scenes.h"
 

@@ -8,11 +8,11 @@
 #include <tuple>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "render/frames/annotation.h"
 #include "render/frames/fault_overlay.h"
 #include "render/frames/frame.h"
-#include "render/picture/cairo_image.h"
+#include "render/picture/cairo_paint.h"
 #include "tests/fixtures/solids.h"
 #include "tests/render/frames/scenes.h"
 

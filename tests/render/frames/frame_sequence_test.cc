@@ -1,12 +1,11 @@
-#include "render/frames/frame_sequence.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
 #include <stdexcept>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "render/frames/replay_animation.h"
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {

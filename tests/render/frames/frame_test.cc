@@ -6,10 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/polygon.h"
 #include "render/frames/fault_overlay.h"
-#include "render/picture/palette.h"
+#include "render/picture/color_table.h"
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "render/frames/frame.h"
-#include "render/picture/palette.h"
+#include "render/picture/color_table.h"
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 
 namespace regrasp::render {
 

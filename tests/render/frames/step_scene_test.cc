@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <assimp/Importer.hpp>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/plan/locate.h"
 #include "tests/fixtures/solids.h"
 

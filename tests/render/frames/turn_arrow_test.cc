@@ -1,9 +1,8 @@
-#include "render/frames/turn_arrow.h"
-
 #include <gtest/gtest.h>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "render/frames/body_shape.h"
+#include "render/frames/step_scene.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {

@@ -1,8 +1,8 @@
-#include "render/picture/round_length.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "render/picture/caption.h"
 
 namespace regrasp::render {
 namespace round_length_test {

@@ -1,5 +1,3 @@
-#include "render/picture/webp.h"
-
 #include <gtest/gtest.h>
 #include <webp/decode.h>
 #include <webp/demux.h>
@@ -9,6 +7,8 @@
 #include <memory>
 #include <stdexcept>
 #include <vector>
+
+#include "render/picture/moving_picture.h"
 
 namespace regrasp::render {
 namespace webp_test {

@@ -1,6 +1,6 @@
-#include "report/page/data_uri.h"
-
 #include <gtest/gtest.h>
+
+#include "report/page/html_page.h"
 
 namespace regrasp::report {
 namespace data_uri_test {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planner/base/angle.h"
-#include "sim/measure/push.h"
+#include "planner/base/number.h"
+#include "sim/measure/shake.h"
 
 namespace regrasp::report {
 namespace findings_test {

@@ -5,8 +5,8 @@
 
 #include <limits>
 
-#include "planner/base/angle.h"
 #include "planner/base/json.h"
+#include "planner/base/number.h"
 #include "report/page/report_page.h"
 #include "report/report.h"
 

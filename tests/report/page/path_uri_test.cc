@@ -1,6 +1,6 @@
-#include "report/page/path_uri.h"
-
 #include <gtest/gtest.h>
+
+#include "report/page/html_page.h"
 
 namespace regrasp::report {
 namespace path_uri_test {

@@ -1,10 +1,10 @@
-#include "report/page/plot_axis.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "report/page/step_plot.h"
 
 namespace regrasp::report {
 namespace plot_axis_test {

@@ -1,9 +1,9 @@
-#include "report/page/quantity.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "report/page/step_table.h"
 
 namespace regrasp::report {
 namespace quantity_test {

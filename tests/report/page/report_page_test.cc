@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/base/angle.h"
-#include "report/page/step_measures.h"
+#include "planner/base/number.h"
+#include "report/page/step_table.h"
 
 namespace regrasp::report {
 namespace report_page_test {

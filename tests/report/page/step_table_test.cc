@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 
 namespace regrasp::report {
 namespace step_table_test {

@@ -1,6 +1,6 @@
-#include "report/page/step_text.h"
-
 #include <gtest/gtest.h>
+
+#include "report/page/step_table.h"
 
 namespace regrasp::report {
 namespace step_text_test {

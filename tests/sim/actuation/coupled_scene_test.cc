@@ -9,7 +9,7 @@
 #include "planner/kinematics/inspect_hand.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "planner/object/object.h"
-#include "sim/actuation/hand_scene_text.h"
+#include "sim/actuation/hand_scene_export.h"
 #include "sim/actuation/hand_world.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/project_path.h"

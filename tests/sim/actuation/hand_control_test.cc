@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/hand_world.h"
 #include "tests/sim/actuation/held_in_hand.h"
 
 namespace regrasp::sim {

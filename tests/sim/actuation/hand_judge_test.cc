@@ -7,6 +7,7 @@
 #include <random>
 
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/hand_world.h"
 #include "tests/sim/actuation/held_in_hand.h"
 
 namespace regrasp::sim {

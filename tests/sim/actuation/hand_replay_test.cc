@@ -8,7 +8,6 @@
 #include <functional>
 #include <string>
 
-#include "planner/base/angle.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/gait/plan_of_gait.h"

@@ -11,6 +11,7 @@
 #include "planner/mujoco/handles.h"
 #include "planner/plan/locate.h"
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/hand_world.h"
 #include "sim/scene/scaling.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/project_path.h"

@@ -1,5 +1,3 @@
-#include "sim/actuation/hand_trials.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/plan/locate.h"
+#include "sim/actuation/hand_replay.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {

@@ -13,7 +13,7 @@
 
 #include "planner/base/number.h"
 #include "planner/mujoco/handles.h"
-#include "planner/plan/hand_path.h"
+#include "planner/plan/plan.h"
 #include "sim/actuation/hand_control.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/hand_scene_export.h"

@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/mujoco/handles.h"
 #include "sim/actuation/hand_judge.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/hand_scene_export.h"
+#include "sim/actuation/hand_world.h"
 #include "sim/scene/scaling.h"
 #include "tests/sim/actuation/edited_hand.h"
 #include "tests/sim/actuation/model_fields.h"

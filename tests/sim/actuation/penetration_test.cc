@@ -9,6 +9,7 @@
 
 #include "sim/actuation/hand_judge.h"
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/hand_world.h"
 #include "tests/sim/actuation/edited_hand.h"
 
 namespace regrasp::sim {

@@ -9,8 +9,6 @@
 
 #include "planner/gait/random_stances.h"
 #include "planner/mujoco/handles.h"
-#include "sim/actuation/draw_reset_states.h"
-#include "sim/actuation/format_reset_states.h"
 #include "sim/actuation/hand_scene_export.h"
 #include "sim/scene/scaling.h"
 #include "tests/fixtures/folder_test.h"

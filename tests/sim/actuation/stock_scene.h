@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "planner/base/write_file.h"
+#include "planner/base/file.h"
 #include "planner/mujoco/handles.h"
 #include "sim/actuation/hand_scene_export.h"
 

@@ -1,8 +1,8 @@
-#include "sim/actuation/timed_path.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "sim/actuation/sliding_tips.h"
 
 namespace regrasp::sim {
 namespace timed_path_test {

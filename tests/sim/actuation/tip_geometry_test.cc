@@ -15,6 +15,7 @@
 #include "planner/kinematics/mujoco_model.h"
 #include "planner/plan/locate.h"
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/hand_world.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
@@ -82,7 +83,8 @@ const plan::Plan& Turn() {
 
 struct Replayed {
   ReplayResult result;
-  /// At the first rest, or just before it fails: how far the centres of the balls of fingers that hold are from the surface.
+  /// At the first rest, or just before it fails: how far the centres of the balls of fingers that
+  /// hold are from the surface.
   std::vector<double> heights;
 
   [[nodiscard]] Reason reason() const { return result.steps.back().reason; }

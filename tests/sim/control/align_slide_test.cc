@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "sim/control/align.h"
-#include "sim/scene/align_path.h"
+#include "sim/control/slide.h"
+#include "sim/scene/align_script.h"
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {

@@ -1,8 +1,6 @@
-#include "sim/control/align.h"
-
 #include <gtest/gtest.h>
 
-#include "sim/scene/align_path.h"
+#include "sim/control/slide.h"
 #include "sim/scene/align_script.h"
 #include "tests/sim/replay_cases.h"
 

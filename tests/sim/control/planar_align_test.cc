@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/control/align.h"
+#include "sim/control/slide.h"
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "planner/plan/check.h"
-#include "sim/control/align.h"
+#include "sim/control/slide.h"
 #include "sim/scene/align_script.h"
 #include "tests/sim/control/boundary_walk.h"
 

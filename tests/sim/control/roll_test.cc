@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/plan/check.h"
-#include "sim/control/align.h"
+#include "sim/control/slide.h"
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {

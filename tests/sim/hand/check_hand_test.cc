@@ -8,11 +8,10 @@
 #include <functional>
 #include <map>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"
-#include "planner/base/quantity_text.h"
+#include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/collision/convex_shape.h"
 #include "planner/gait/plan_of_gait.h"
@@ -419,28 +418,29 @@ TEST(GapTest, KnownGaps) {
     }
     return points;
   };
-  const Solid at_origin = MakeSolid(box({0, 0, 0}), 0);
+  const ConvexBody at_origin = MakeConvexBody(box({0, 0, 0}), 0);
   for (const double gap : {0.01, 0.5, 3.0}) {
     for (const Vector3d& along : {Vector3d(1, 0, 0), Vector3d(0, 0.6, 0.8)}) {
       // Face to face, or edge to edge.
       const double size = along.x() == 1 ? 2 : 0;
-      const Solid other = size > 0 ? MakeSolid(box((size + gap) * along), 0)
-                                   : MakeSolid({Vector3d(0, 1, 1) + gap * along}, 0);
+      const ConvexBody other = size > 0 ? MakeConvexBody(box((size + gap) * along), 0)
+                                        : MakeConvexBody({Vector3d(0, 1, 1) + gap * along}, 0);
       EXPECT_TRUE(HaveGap(at_origin, other, 0.99 * gap)) << gap;
       EXPECT_FALSE(HaveGap(at_origin, other, 1.01 * gap)) << gap;
     }
-    const Solid ball = MakeSolid({Vector3d(0, 0, 1 + 0.25 + gap)}, 0.25);
+    const ConvexBody ball = MakeConvexBody({Vector3d(0, 0, 1 + 0.25 + gap)}, 0.25);
     EXPECT_TRUE(HaveGap(at_origin, ball, 0.999 * gap));
     EXPECT_FALSE(HaveGap(at_origin, ball, 1.001 * gap));
   }
   EXPECT_FALSE(HaveGap(at_origin, at_origin, 0));
-  EXPECT_FALSE(HaveGap(at_origin, MakeSolid({Vector3d(0.1, 0.2, 0.3)}, 0), 0));
+  EXPECT_FALSE(HaveGap(at_origin, MakeConvexBody({Vector3d(0.1, 0.2, 0.3)}, 0), 0));
 }
 
 TEST(GapTest, TheNearestOfSomeAndThePlaceBetween) {
-  const Solid ball = MakeSolid({Vector3d(0, 0, 0)}, 0.5);
-  const std::vector<Solid> others = {MakeSolid({Vector3d(9, 0, 0)}, 1),
-                                     MakeSolid({Vector3d(3, -2, 0), Vector3d(3, 2, 0)}, 1)};
+  const ConvexBody ball = MakeConvexBody({Vector3d(0, 0, 0)}, 0.5);
+  const std::vector<ConvexBody> others = {
+      MakeConvexBody({Vector3d(9, 0, 0)}, 1),
+      MakeConvexBody({Vector3d(3, -2, 0), Vector3d(3, 2, 0)}, 1)};
   const Nearness nearest = NearestOf(ball, others);
   EXPECT_NEAR(nearest.gap, 1.5, 1e-2);
   EXPECT_NEAR((nearest.at - Vector3d(1.25, 0, 0)).norm(), 0, 0.1);
@@ -453,14 +453,14 @@ TEST(GapTest, AWayOutIsAsLongAsTheOverlap) {
       points.emplace_back(x + ((i & 1) != 0 ? 1 : -1), (i & 2) != 0 ? 1 : -1,
                           (i & 4) != 0 ? 1 : -1);
     }
-    return MakeSolid(points, 0);
+    return MakeConvexBody(points, 0);
   };
   const std::vector<Vector3d> ways = {Vector3d::UnitY(), -Vector3d::UnitX(), Vector3d::UnitX()};
   for (const double overlap : {0.01, 0.3, 0.9}) {
-    const Solid other = box(2 - overlap);
+    const ConvexBody other = box(2 - overlap);
     EXPECT_NEAR(FreeingDistance(box(0), {&other, 1}, ways), overlap, 0.01 * overlap + 1e-6);
   }
-  const Solid apart = box(3);
+  const ConvexBody apart = box(3);
   EXPECT_LE(FreeingDistance(box(0), {&apart, 1}, ways), 1e-6);
 }
 
@@ -482,8 +482,8 @@ TEST(GapTest, IsDecidedCloseToTheDistance) {
     // A clearance is no thousandth of a link.
     if (distance < 0.05) continue;
     ++apart;
-    EXPECT_TRUE(HaveGap(MakeSolid(a, 0), MakeSolid(b, 0), distance * (1 - 1e-3))) << i;
-    EXPECT_FALSE(HaveGap(MakeSolid(a, 0), MakeSolid(b, 0), distance * (1 + 1e-3))) << i;
+    EXPECT_TRUE(HaveGap(MakeConvexBody(a, 0), MakeConvexBody(b, 0), distance * (1 - 1e-3))) << i;
+    EXPECT_FALSE(HaveGap(MakeConvexBody(a, 0), MakeConvexBody(b, 0), distance * (1 + 1e-3))) << i;
   }
   EXPECT_GT(apart, 50);
 }

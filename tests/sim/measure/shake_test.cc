@@ -5,8 +5,7 @@
 #include <iostream>
 #include <set>
 
-#include "sim/measure/push.h"
-#include "sim/world/cone_margin.h"
+#include "sim/world/motion_monitor.h"
 #include "tests/sim/planar_cases.h"
 #include "tests/sim/replay_cases.h"
 

@@ -1,5 +1,3 @@
-#include "sim/measure/stress.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +5,7 @@
 #include <iostream>
 
 #include "planner/grasp/quality.h"
-#include "sim/measure/push.h"
+#include "sim/measure/shake.h"
 #include "tests/sim/planar_cases.h"
 #include "tests/sim/replay_cases.h"
 

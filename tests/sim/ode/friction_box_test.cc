@@ -1,10 +1,10 @@
-#include "sim/ode/friction_box.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
+
+#include "sim/ode/ode_world.h"
 
 namespace regrasp::sim {
 namespace friction_box_test {

@@ -9,6 +9,7 @@
 #include "sim/control/motions.h"
 #include "sim/ode/ode_world.h"
 #include "sim/scene/scaling.h"
+#include "sim/world/motion_monitor.h"
 #include "sim/world/stillness.h"
 #include "tests/sim/held_cube.h"
 #include "tests/sim/replay_cases.h"

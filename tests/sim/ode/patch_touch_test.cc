@@ -1,9 +1,9 @@
-#include "sim/ode/patch_touch.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <random>
+
+#include "sim/ode/ode_world.h"
 
 namespace regrasp::sim {
 namespace patch_touch_test {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "planner/criteria/clearance.h"
+#include "planner/criteria/reach.h"
 #include "sim/scene/contact_patches.h"
 #include "tests/sim/replay/replay_expectations.h"
 #include "tests/sim/replay_cases.h"

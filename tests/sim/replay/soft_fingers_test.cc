@@ -8,9 +8,9 @@
 
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
-#include "sim/measure/push.h"
+#include "sim/measure/shake.h"
 #include "sim/scene/scaling.h"
-#include "sim/world/cone_margin.h"
+#include "sim/world/motion_monitor.h"
 #include "tests/fixtures/solids.h"
 #include "tests/sim/mujoco_file.h"
 #include "tests/sim/replay/replay_expectations.h"

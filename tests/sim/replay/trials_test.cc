@@ -5,11 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "planner/base/binomial.h"
 #include "planner/base/number.h"
+#include "planner/base/random.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/check.h"
-#include "sim/replay/contact_noise.h"
 #include "tests/fixtures/soups.h"
 #include "tests/sim/planar_cases.h"
 

@@ -1,8 +1,8 @@
-#include "sim/scene/engine_hooks.h"
-
 #include <gtest/gtest.h>
 
 #include <memory>
+
+#include "sim/scene/engine.h"
 
 namespace regrasp::sim {
 namespace engine_hooks_test {

@@ -1,5 +1,3 @@
-#include "sim/scene/hand_squeeze.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

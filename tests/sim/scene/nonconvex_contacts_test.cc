@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/criteria/clearance.h"
+#include "planner/criteria/reach.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "sim/scene/contact_patches.h"

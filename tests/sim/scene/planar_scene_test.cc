@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
-#include "planner/criteria/clearance.h"
+#include "planner/criteria/reach.h"
 #include "sim/scene/contact_patches.h"
-#include "sim/scene/visible_surface.h"
 #include "tests/sim/mujoco_file.h"
 #include "tests/sim/planar_cases.h"
 

@@ -1,8 +1,7 @@
-#include "sim/world/cone_margin.h"
-
 #include <gtest/gtest.h>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "sim/world/motion_monitor.h"
 
 namespace regrasp::sim {
 namespace cone_margin_test {

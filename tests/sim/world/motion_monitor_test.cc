@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "planner/base/quantity_text.h"
+#include "planner/base/number.h"
 
 namespace regrasp::sim {
 namespace motion_monitor_test {

@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/control/align.h"
-#include "sim/measure/push.h"
+#include "sim/control/slide.h"
 #include "sim/measure/shake.h"
 #include "tests/sim/held_cube.h"
 #include "tests/sim/planar_cases.h"

@@ -5,8 +5,8 @@
 #include "planner/base/error.h"
 #include "planner/grasp/largest_load.h"
 #include "planner/grasp/required_half_angle.h"
-#include "sim/measure/push.h"
 #include "sim/measure/shake.h"
+#include "sim/world/motion_monitor.h"
 #include "tests/sim/held_cube.h"
 #include "tests/sim/planar_cases.h"
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/search/components.h"
+#include "planner/search/switching_graph.h"
 #include "planner/sets/contour/contact_space.h"
 
 namespace regrasp::contour {

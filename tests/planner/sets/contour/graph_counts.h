@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <ostream>
 
-#include "planner/base/angle.h"
-#include "planner/search/components.h"
+#include "planner/base/number.h"
+#include "planner/search/switching_graph.h"
 #include "planner/sets/contour/contour_graph.h"
 
 namespace regrasp::contour {

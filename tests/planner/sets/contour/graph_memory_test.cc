@@ -1,12 +1,10 @@
-#include "planner/sets/contour/graph_memory.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "planner/object/polygon_rings.h"
+#include "planner/object/polygon.h"
 #include "planner/sets/contour/contour_graph.h"
 #include "planner/sets/contour/contour_planner.h"
 #include "tests/fixtures/peak_memory.h"

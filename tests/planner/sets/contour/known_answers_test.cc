@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "planner/search/components.h"
+#include "planner/search/switching_graph.h"
 #include "planner/sets/contour/contact_space.h"
 #include "planner/sets/contour/region_diagram.h"
 #include "tests/planner/sets/contour/graph_counts.h"

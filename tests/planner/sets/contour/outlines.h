@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/roundings.h"
 

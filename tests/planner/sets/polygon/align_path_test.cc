@@ -1,11 +1,10 @@
-#include "planner/sets/polygon/align_path.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 
 #include "planner/motion/path_force_closure.h"
 #include "planner/sets/polygon/graph_cells.h"
+#include "planner/sets/polygon/polygon_planner.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {

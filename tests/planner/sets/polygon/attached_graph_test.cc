@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "planner/search/fewest_switches.h"
+#include "planner/search/switching_graph.h"
 #include "planner/sets/candidate_search.h"
 #include "planner/sets/polygon/graph_cells.h"
 #include "tests/planner/sets/polygon/shapes.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/sets/polygon/focus_cell.h"
+#include "planner/sets/polygon/concurrent.h"
 
 namespace regrasp::polygon {
 namespace {

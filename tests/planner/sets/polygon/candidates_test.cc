@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 
 namespace regrasp::polygon {
 namespace candidates_test {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/grasp/contact.h"
-#include "planner/sets/polygon/grasp_set.h"
+#include "planner/sets/polygon/set_cells.h"
 
 namespace regrasp::polygon {
 

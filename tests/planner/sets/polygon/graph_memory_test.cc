@@ -1,5 +1,3 @@
-#include "planner/sets/polygon/graph_memory.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "planner/object/polygon.h"
-#include "planner/sets/polygon/grasp_set.h"
 #include "planner/sets/polygon/polygon_graph.h"
+#include "planner/sets/polygon/set_cells.h"
 
 namespace regrasp::polygon {
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <random>
 
-#include "planner/base/angle.h"
-#include "planner/sets/polygon/common_cone.h"
+#include "planner/base/number.h"
+#include "planner/sets/polygon/plane.h"
 
 namespace regrasp::polygon {
 namespace parallel_test {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/sets/polygon/polygon_graph.h"
 #include "tests/fixtures/polygons.h"
 

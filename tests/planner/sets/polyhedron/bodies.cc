@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bench/polyhedron_stone.h"
-#include "planner/object/polygon_triangulation.h"
+#include "planner/object/polygon.h"
 #include "tests/fixtures/moved.h"
 
 namespace regrasp::polyhedron {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/object/polyhedron.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 

@@ -1,10 +1,8 @@
-#include "planner/sets/polyhedron/graph_memory.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bench/polyhedron_stone.h"
-#include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/peak_memory.h"

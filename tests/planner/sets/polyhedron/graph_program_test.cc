@@ -8,7 +8,7 @@
 #include <set>
 
 #include "bench/polyhedron_stone.h"
-#include "planner/search/components.h"
+#include "planner/search/switching_graph.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 #include "tests/planner/sets/polyhedron/cone_program.h"
 

@@ -1,0 +1,183 @@
+#include "sim/actuation/simulate_execution.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "planner/base/file.h"
+#include "planner/base/in_blocks.h"
+#include "planner/base/number.h"
+#include "planner/gait/gait_planner.h"
+#include "planner/plan/reason.h"
+#include "tests/fixtures/folder_test.h"
+#include "tests/fixtures/models.h"
+#include "tests/fixtures/plan_with.h"
+#include "tests/fixtures/project_path.h"
+
+namespace regrasp::sim {
+namespace simulate_execution_test {
+
+/// A cube of 5 cm in a hand of five fingers.
+class ExecutionSimulatorTest : public FolderTest {
+ protected:
+  planning::PlanRequest Turning(double degrees) const {
+    planning::PlanRequest request;
+    request.object = &cube_;
+    request.criteria.half_angle = std::atan(0.8);
+    gait::AskInHand({.hand = &hand_.hand,
+                     .scale = 0.8333,
+                     .turn = {Eigen::Vector3d::UnitZ(), Radians(degrees)},
+                     .simulate = ExecutionSimulator(hand_, cube_)},
+                    request);
+    return request;
+  }
+
+  const kinematics::HandFile hand_ =
+      kinematics::ReadHandFile(ProjectPath("models/hands/ring5.json"));
+  const object::ObjectFile file_ = ReadModel("cube.obj");
+  const object::Polyhedron& cube_ = dynamic_cast<const object::Polyhedron&>(*file_.object);
+  const gait::GaitPlanner planner_;
+};
+
+TEST_F(ExecutionSimulatorTest, PlansThatThePlannerTriedAreCarriedOutAndWithLittleFrictionNot) {
+  const planning::PlanResult found = planning::Solve(planner_, Turning(90));
+  ASSERT_TRUE(found.plan) << found.message;
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_NE(found.notes.front().find("the plan executes in simulation"), std::string::npos);
+  const auto simulate = ExecutionSimulator(hand_, cube_);
+  const auto carried = simulate(*found.plan, {});
+  ASSERT_TRUE(carried);
+  EXPECT_TRUE(carried->is_held);
+  EXPECT_TRUE(carried->is_whole);
+  EXPECT_EQ(carried->steps, std::ssize(found.plan->steps));
+  EXPECT_EQ(carried->reason, plan::Reason::kNone);
+  plan::Plan slippery = *found.plan;
+  slippery.half_angle = std::atan(0.05);
+  const auto slipped = simulate(slippery, {});
+  ASSERT_TRUE(slipped);
+  EXPECT_FALSE(slipped->is_whole);
+  EXPECT_LT(slipped->steps, std::ssize(found.plan->steps));
+  EXPECT_NE(slipped->reason, plan::Reason::kNone);
+  EXPECT_NE(slipped->detail, "");
+}
+
+/// By a clock that goes on by a second whenever it is looked at: before every entry.
+TEST_F(ExecutionSimulatorTest, AtItsDeadlineATrialEndsAndLaterGoesOnFromThere) {
+  const planning::PlanResult found = planning::Solve(planner_, Turning(90));
+  ASSERT_TRUE(found.plan) << found.message;
+  const std::ptrdiff_t steps = std::ssize(found.plan->steps);
+  ASSERT_GT(steps, 0);
+  const auto simulate = ExecutionSimulator(hand_, cube_);
+  Deadline::Clock::time_point now;
+  const Deadline after_one_entry(now + std::chrono::seconds(2),
+                                 [&now] { return now += std::chrono::seconds(1); });
+  const auto cut_short = simulate(*found.plan, after_one_entry);
+  ASSERT_TRUE(cut_short);
+  EXPECT_TRUE(cut_short->is_cut_short);
+  EXPECT_FALSE(cut_short->is_whole);
+  EXPECT_TRUE(cut_short->is_held);
+  EXPECT_EQ(cut_short->steps, 0);
+  const auto over = simulate(*found.plan, after_one_entry);
+  ASSERT_TRUE(over);
+  EXPECT_TRUE(over->is_cut_short);
+  const auto whole = simulate(*found.plan, {});
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE(whole->is_whole);
+  EXPECT_FALSE(whole->is_cut_short);
+  EXPECT_EQ(whole->spare, ExecutionSimulator(hand_, cube_)(*found.plan, {})->spare);
+}
+
+TEST_F(ExecutionSimulatorTest, SeveralThreadsGetWhatOneGets) {
+  const planning::PlanResult found = planning::Solve(planner_, Turning(90));
+  ASSERT_TRUE(found.plan) << found.message;
+  plan::Plan slippery = *found.plan;
+  slippery.half_angle = std::atan(0.05);
+  const std::vector<const plan::Plan*> plans = {&*found.plan, &slippery, &*found.plan, &slippery};
+  const auto together = ExecutionSimulator(hand_, cube_);
+  std::vector<std::optional<planning::ExecutionResult>> carried(plans.size());
+  InBlocks(plans.size(), 1, 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) carried[i] = together(*plans[i], {});
+  });
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    const auto alone = ExecutionSimulator(hand_, cube_)(*plans[i], {});
+    ASSERT_TRUE(alone && carried[i]);
+    EXPECT_EQ(carried[i]->steps, alone->steps);
+    EXPECT_EQ(carried[i]->is_whole, alone->is_whole);
+    EXPECT_EQ(carried[i]->spare, alone->spare);
+  }
+}
+
+TEST_F(ExecutionSimulatorTest, OfAPlanWhoseTrialWasCutShortItIsSaidThatTheTimeWasUp) {
+  planning::PlanRequest request = Turning(90);
+  request.effort = 4;
+  request.in_hand->simulate = [](const plan::Plan&, const Deadline&) {
+    return std::optional(planning::ExecutionResult{.is_cut_short = true});
+  };
+  const planning::PlanResult found = planning::Solve(planner_, request);
+  ASSERT_TRUE(found.plan) << found.message;
+  ASSERT_FALSE(found.warnings.empty());
+  EXPECT_NE(found.warnings.front().find("reaches the time limit at the initial grasp"),
+            std::string::npos);
+  request.in_hand->reserve = planning::Reserve::kRequired;
+  const planning::PlanResult none = planning::Solve(planner_, request);
+  EXPECT_FALSE(none.plan);
+  EXPECT_NE(none.message.find("reaches the time limit at the initial grasp"), std::string::npos);
+  EXPECT_FALSE(none.trial);  // which says nothing of what fails
+}
+
+TEST_F(ExecutionSimulatorTest, WhatTheMotorsDoNotCarryOutIsNoPlanWhereReserveIsRequired) {
+  planning::PlanRequest request = Turning(90);
+  request.effort = 4;
+  request.in_hand->reserve = planning::Reserve::kRequired;
+  request.in_hand->simulate = [](const plan::Plan&, const Deadline&) {
+    return std::optional(planning::ExecutionResult{.reason = plan::Reason::kTorqueLimit,
+                                                   .detail = "finger 1 is at its limit"});
+  };
+  const planning::PlanResult none = planning::Solve(planner_, request);
+  EXPECT_EQ(none.status, planning::PlanResult::Status::kNoSequence);
+  EXPECT_EQ(none.trial, plan::Reason::kTorqueLimit);
+  EXPECT_NE(none.message.find("(torque-limit): finger 1 is at its limit"), std::string::npos)
+      << none.message;
+  request.in_hand->reserve = planning::Reserve::kPreferred;
+  EXPECT_TRUE(planning::Solve(planner_, request).plan);
+}
+
+TEST_F(ExecutionSimulatorTest, ThePlanWithTheLargestMarginHasAtLeastThatOfTheFirst) {
+  planning::PlanRequest request = Turning(90);
+  const auto simulate = ExecutionSimulator(hand_, cube_);
+  const auto spare = [&] {
+    const planning::PlanResult found = planning::Solve(planner_, request);
+    EXPECT_TRUE(found.plan) << found.message;
+    const auto carried = simulate(*found.plan, {});
+    EXPECT_TRUE(carried && carried->is_whole);
+    return carried->spare;
+  };
+  const double first = spare();
+  request.objective = planning::Objective::kMargin;
+  const double most = spare();
+  EXPECT_GT(first, 0);
+  EXPECT_GT(most, first);
+  EXPECT_LT(most, 1);
+}
+
+TEST_F(ExecutionSimulatorTest, OfAHandWithoutActuatorsItCanNotTell) {
+  std::string model = ReadFile(ProjectPath("models/hands/ring5.xml"));
+  const std::string end = "</actuator>";
+  const auto begin = model.find("<actuator>");
+  ASSERT_NE(begin, std::string::npos);
+  model.erase(begin, model.find(end) + end.size() - begin);
+  static_cast<void>(Write("ring5.xml", model));
+  const std::string path =
+      Write("ring5.json", ReadFile(ProjectPath("models/hands/ring5.json"))).string();
+  planning::PlanRequest request = Turning(20);
+  request.in_hand->reserve = planning::Reserve::kNone;
+  const planning::PlanResult found = planning::Solve(planner_, request);
+  ASSERT_TRUE(found.plan) << found.message;
+  EXPECT_FALSE(ExecutionSimulator(kinematics::ReadHandFile(path), cube_)(*found.plan, {}));
+}
+
+}  // namespace simulate_execution_test
+}  // namespace regrasp::sim
