@@ -15,7 +15,8 @@ import urllib.parse
 SOURCE, MKDOCS = sys.argv[1:3]
 
 PAGES = ["index", "first_picture", "trust_a_plan", "guard_a_library", "make_a_figure", "python", "hands",
-         "formats", "method", "validation"]
+         "formats", "method", "force_closure", "planner_general", "planner_contour", "planner_polygon",
+         "planner_polyhedron", "planner_roadmap", "hand_model", "validation", "reference"]
 
 
 class Page(html.parser.HTMLParser):
