@@ -89,7 +89,7 @@ int RunOne(PlanProgram program) {
   FinishedPlan finished = program.Plan(object, given);
   planning::PlanResult& result = finished.result;
   if (!result.plan) {
-    PrintError(kPlanName, result.message);
+    PrintError(kPlanName, "no plan found: " + result.message);
     return kExitNegative;
   }
   if (given) {

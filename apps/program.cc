@@ -45,7 +45,7 @@ void PrepareProcess() {
 int FlushResults(const std::string& program, int exit_code) {
   std::cout.flush();
   if (std::cout) return exit_code;
-  PrintMessage(program, "standard output cannot be written");
+  PrintError(program, "error: standard output cannot be written");
   return kExitEnvironment;
 }
 
@@ -152,19 +152,19 @@ int RunGuarded(const std::string& program, const std::function<int()>& run) {
   try {
     return FlushResults(program, run());
   } catch (const InputError& error) {
-    PrintError(program, error.what());
+    PrintError(program, std::string("error: ") + error.what());
     return kExitBadInput;
   } catch (const TimeUp& time_up) {
     PrintError(program, time_up.what());
     return kExitNegative;
   } catch (const EnvironmentError& error) {
-    PrintError(program, error.what());
+    PrintError(program, std::string("error: ") + error.what());
     return kExitEnvironment;
   } catch (const std::bad_alloc&) {
-    PrintError(program, "not enough memory");
+    PrintError(program, "error: not enough memory");
     return kExitEnvironment;
   } catch (const std::exception& error) {
-    PrintError(program, std::string("internal error: ") + error.what());
+    PrintError(program, std::string("error: internal error: ") + error.what());
     return kExitEnvironment;
   }
 }

@@ -1,4 +1,5 @@
-// regrasp: all programs under one name, `regrasp plan` for `plan`; `regrasp help plan` for its help.
+// regrasp: all programs under one name, `regrasp plan` for `plan`; `regrasp help plan` for its
+// help.
 
 #include <unistd.h>
 

@@ -1,7 +1,9 @@
 #include "planner/registry/registry.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "planner/base/error.h"
 #include "planner/gait/gait_planner.h"
 #include "planner/roadmap/roadmap_planner.h"
 #include "planner/sets/contour/contour_planner.h"
@@ -11,16 +13,31 @@
 
 namespace regrasp::registry {
 
-const std::vector<const planning::Planner*>& AllPlanners() {
+namespace {
+
+std::vector<const planning::Planner*>& Planners() {
   static const tree::TreePlanner tree;
   static const contour::ContourPlanner contour;
   static const polygon::PolygonPlanner polygon;
   static const polyhedron::PolyhedronPlanner polyhedron;
   static const roadmap::RoadmapPlanner roadmap;
   static const gait::GaitPlanner gait;
-  static const std::vector<const planning::Planner*> all = {&tree,    &polygon,    &contour,
-                                                            &roadmap, &polyhedron, &gait};
+  static std::vector<const planning::Planner*> all = {&tree,    &polygon,    &contour,
+                                                      &roadmap, &polyhedron, &gait};
   return all;
+}
+
+}  // namespace
+
+const std::vector<const planning::Planner*>& AllPlanners() { return Planners(); }
+
+void RegisterPlanner(std::unique_ptr<const planning::Planner> planner) {
+  static std::vector<std::unique_ptr<const planning::Planner>> owned;
+  if (planner->name() == "auto" || FindPlanner(planner->name()) != nullptr) {
+    throw InputError("planner " + planner->name() + " is registered already");
+  }
+  Planners().push_back(planner.get());
+  owned.push_back(std::move(planner));
 }
 
 std::string PlannerNames() {

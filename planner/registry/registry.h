@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,11 @@ namespace regrasp::registry {
 /// which the first one in the plane and the first one in space are those whose graph is built where
 /// none is named; and `gait`, for hands.
 [[nodiscard]] const std::vector<const planning::Planner*>& AllPlanners();
+
+/// Adds a planner after all others, for programs that bring their own (examples/planner). Call it
+/// before planning: no other thread may use this header meanwhile.
+/// @throws InputError  there is a planner of that name already, or it is "auto".
+void RegisterPlanner(std::unique_ptr<const planning::Planner> planner);
 
 /// Their names and "auto", in the order of AllPlanners, for messages: "auto, general, polygon …".
 [[nodiscard]] std::string PlannerNames();

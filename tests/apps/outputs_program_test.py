@@ -226,7 +226,7 @@ class Outputs(ProgramCase):
         before = sorted(os.listdir(self.folder))
         done = self.shell("plan", self.plan_arguments("plan.json"), "", "ulimit -f 1;")
         self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertEqual(done.stderr, b"plan: plan.json: cannot be written: File too large\n")
+        self.assertEqual(done.stderr, b"plan: error: plan.json: cannot be written: File too large\n")
         self.assertEqual(sorted(os.listdir(self.folder)), before)
 
     def test_the_rendering_library_keeps_nothing(self):

@@ -548,7 +548,7 @@ class Plan(ProgramCase):
         with open("/dev/full", "w", encoding="utf-8") as full:
             done = self.run_program(*self.arguments(output="-"), "--quiet", stdout=full)
         self.assertEqual(done.returncode, 3)
-        self.assertEqual(done.stderr, "plan: standard output cannot be written\n")
+        self.assertEqual(done.stderr, "plan: error: standard output cannot be written\n")
 
 
 if __name__ == "__main__":

@@ -143,7 +143,9 @@ class ProgramCase(unittest.TestCase):
         self.assertEqual(done.returncode, code, said)
         self.assertEqual(done.stderr.count("\n"), 1, said)
         self.assertTrue(done.stderr.endswith("\n"), said)
-        self.assertTrue(done.stderr.startswith(options.get("program", self.program) + ": "), said)
+        level = "error: " if code in (2, 3) else ""
+        self.assertTrue(
+            done.stderr.startswith(options.get("program", self.program) + ": " + level), said)
         for word in [words] if isinstance(words, str) else words:
             self.assertIn(word, done.stderr, said)
         self.assertFalse(done.stdout, said)

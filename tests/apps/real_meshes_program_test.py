@@ -70,7 +70,7 @@ class RealMeshes(ProgramCase):
         self.assertIn(done.returncode, (0, 2), said)
         if done.returncode == 2:
             self.assertEqual(done.stderr.count("\n"), 1, said)
-            self.assertTrue(done.stderr.startswith("graph: " + path), said)
+            self.assertTrue(done.stderr.startswith("graph: error: " + path), said)
             self.assertFalse(done.stdout, said)
         return done
 

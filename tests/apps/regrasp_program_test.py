@@ -36,7 +36,7 @@ class Regrasp(ProgramCase):
         self.assert_refused(2, "(plan --help lists all)", "--objct", "x")
         done = self.run_program("plan", "--objct", "x", program="regrasp")
         self.assertEqual((done.returncode, done.stderr), (
-            2, "plan: unknown option --objct; did you mean --object? (regrasp plan --help lists all)\n"))
+            2, "plan: error: unknown option --objct; did you mean --object? (regrasp plan --help lists all)\n"))
 
     def test_help_of_a_command_is_the_commands_own(self):
         self.assertEqual(self.assert_done("help").stdout, self.assert_done("--help").stdout)

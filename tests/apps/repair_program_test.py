@@ -63,7 +63,7 @@ class Repair(ProgramCase):
         report = json.loads(self.read("sheet.json"))
         self.assertEqual(report["verdict"], "refused")
         self.assertIn("--solidify", report["reason"])
-        self.assertEqual(done.stderr, f"repair: {report['reason']}\n")
+        self.assertEqual(done.stderr, f"repair: error: {report['reason']}\n")
         self.assertEqual(report["stages"][0]["stage"], "read")
         self.assertIn("not closed", report["stages"][0]["outcome"])
         self.assertFalse(os.path.exists(self.path("s.obj")))

@@ -298,7 +298,7 @@ class Validate(ProgramCase):
         self.assertEqual(json.loads(done.stdout)["verdict"], "pass")
         self.assertEqual(done.stdout.encode(), self.read("out/plan/report.json"))
         # No plan there, and two plans.
-        self.refuse("validate: -: not JSON", plan="-", out="none")
+        self.refuse("validate: error: -: not JSON", plan="-", out="none")
         self.refuse("--plan - goes with a single plan", "--plan", "plan.json", plan="-")
 
     def test_a_failed_plan_is_on_standard_output_too_and_json_goes_to_files(self):

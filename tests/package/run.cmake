@@ -18,6 +18,20 @@ run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_BU
     -DREGRASP_INCLUDE=${prefix}/include/regrasp)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer ${MODEL})
+# The examples, each with a result that is known.
+foreach(example cpp planner)
+  run(${CMAKE_COMMAND} -S ${EXAMPLES_DIR}/${example} -B ${WORK_DIR}/${example} -G Ninja -DCMAKE_BUILD_TYPE=Debug
+      -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_PREFIX_PATH=${prefix})
+  run(${CMAKE_COMMAND} --build ${WORK_DIR}/${example})
+endforeach()
+run(${WORK_DIR}/cpp/plan_and_validate ${MODEL})
+run(${WORK_DIR}/cpp/force_closure 2000)
+if(NOT output MATCHES "friction angle 30 deg: [1-9][0-9]* of 2000")
+  message(FATAL_ERROR "examples/cpp/force_closure: ${output}")
+endif()
+cmake_path(GET MODEL PARENT_PATH models)
+run(${WORK_DIR}/cpp/rotate_in_hand ${models}/hands/ring4.json ${MODEL} 0.8 30)
+run(${WORK_DIR}/planner/exchange_planner ${MODEL} 1)
 foreach(program regrasp plan validate graph figure repair hand)
   run(${prefix}/bin/${program} --version)
   foreach(text man/man1/${program}.1.gz bash-completion/completions/${program}

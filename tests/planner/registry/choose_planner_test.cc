@@ -181,5 +181,31 @@ TEST(Registry, EveryPlannerCountsTheGraphThatItSaysItHas) {
   EXPECT_EQ(graphs, 4);
 }
 
+/// A planner of somebody else's, with a name that is taken.
+class OtherPlanner final : public planning::Planner {
+ public:
+  explicit OtherPlanner(const std::string& name) : Planner({.name = name, .what = "nothing"}) {}
+  [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& /*request*/) const override {
+    return {};
+  }
+};
+
+TEST(RegisterPlanner, RefusesNamesThatAreTaken) {
+  const std::size_t before = AllPlanners().size();
+  for (const std::string name : {"auto", "general", "gait"}) {
+    EXPECT_THROW(RegisterPlanner(std::make_unique<OtherPlanner>(name)), InputError) << name;
+  }
+  EXPECT_EQ(AllPlanners().size(), before);
+}
+
+TEST(RegisterPlanner, APlannerIsFoundByItsName) {
+  EXPECT_EQ(FindPlanner("somebody's"), nullptr);
+  RegisterPlanner(std::make_unique<OtherPlanner>("somebody's"));
+  ASSERT_NE(FindPlanner("somebody's"), nullptr);
+  EXPECT_EQ(AllPlanners().back()->name(), "somebody's");
+  EXPECT_NE(PlannerNames().find("and somebody's"), std::string::npos);
+  EXPECT_THROW(RegisterPlanner(std::make_unique<OtherPlanner>("somebody's")), InputError);
+}
+
 }  // namespace choose_planner_test
 }  // namespace regrasp::registry

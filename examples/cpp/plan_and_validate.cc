@@ -1,0 +1,50 @@
+// Plans a regrasp between two random grasps and validates it: plan_and_validate OBJECT [SEED]
+#include <cstdlib>
+#include <iostream>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/object/object.h"
+#include "planner/plan/plan_io.h"
+#include "planner/planning/solve.h"
+#include "planner/registry/registry.h"
+#include "report/report.h"
+
+using namespace regrasp;
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << "usage: plan_and_validate OBJECT [SEED]\n";
+    return 2;
+  }
+  try {
+    const object::ObjectFile file = object::ReadObject(argv[1]);
+
+    planning::PlanRequest request;
+    request.object = file.object.get();
+    request.object_name = file.file;
+    request.criteria.half_angle = Radians(20);  // the friction angle
+    request.start.kind = planning::GraspChoice::Kind::kRandom;
+    request.goal.kind = planning::GraspChoice::Kind::kRandom;
+    request.seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+
+    const planning::Planner& planner = registry::ChoosePlanner(request);
+    const planning::PlanResult result = planning::Solve(planner, request);
+    if (!result.plan) {
+      std::cout << "no plan found: " << result.message << '\n';
+      return 1;
+    }
+    // Files and their digests are the caller's to set.
+    plan::Plan plan = *result.plan;
+    plan.object_file = file.file;
+    plan.object_sha256 = file.sha256;
+    std::cout << planner.name() << ": " << plan.steps.size() << " steps\n";
+
+    const report::Report report = report::Validate(*file.object, plan, {}, {});
+    std::cout << report::FormatReportTable(report);
+    return report.passed() ? 0 : 1;
+  } catch (const InputError& error) {
+    std::cerr << "plan_and_validate: error: " << error.what() << '\n';
+    return 2;
+  }
+}
