@@ -40,7 +40,7 @@ CONTROLS = {
     "to-spare": (["friction to spare", "plans with reserve"], ["in-hand motions", "use --reserve none"]),
     "asked": (["is asked for", "ask for less"], ["is requested", "a task"]),
     "ways": (["finds no way", "two ways"], ["one-way", "always", "a path"]),
-    "distributive-a": (["17 plans a second", "a line a query", "one a core"], ["17 plans per second", "a core"]),
+    "distributive-a": (["17 plans a second", "a line a query", "one a core"], ["17 plans per second", "a core", "1. On a piece"]),
     "so-many": (["by so many points"], ["by N points", "so that many"]),
     "fronted-of": (["Of each finger, it prints one.", "It ends. Of two, one."], ["one of each", "Of course"]),
     "beside": (["beside the plan", "besides, it works"], ["next to the plan"]),
@@ -125,8 +125,11 @@ class Texts(unittest.TestCase):
     def test_code_in_sources_is_not_read(self):
         self.assertEqual(rules("a.cc", "int motors = 1;  // `motors`\nchar c = '\"'; int motors;\n"), [])
         self.assertEqual(rules("a.py", "motors = 1\n"), [])
+        self.assertEqual(rules("a.cc", 'Key("motor"); Format("<motor name='"'x'/>"'");\n'), [])
+        self.assertEqual(rules("a.cc", 'Print("a " "motor");\n'), ["term-motor"])
+        self.assertEqual(rules("a.py", 'd["motor"] = 1\n'), [])
         self.assertEqual(rules("a.py", '"""Return it.\n\n>>> motors\nmotors\n\nDone."""\n'), [])
-        self.assertEqual(rules("a.py", '"""Return it.\n\nmotors\n"""\n'), ["term-motor"])
+        self.assertEqual(rules("a.py", '"""Return it.\n\nthe motors\n"""\n'), ["term-motor"])
 
     def test_phrases_are_found_across_lines_with_their_line(self):
         for name, text in (("a.md", "One\n\nthe natural\ntime\n"), ("a.h", "int a;\n\n// the natural\n// time\n"),
