@@ -1,4 +1,4 @@
-"""Grasps and plans in the formats of other projects (docs/formats.md has the table)."""
+"""Grasps and plans in the formats of other projects (docs/interchange.md has the table)."""
 
 from ._dexgraspbench import read_bodex, read_dexgraspbench
 from ._finger_grasps import FingerGrasps

@@ -18,11 +18,16 @@ SHORTER = [("--export-states 100000", "--export-states 3")]
 CUBE = """plan --quiet --object models/cube.obj --friction-angle 20 --start models/cube.start.json \
 --goal models/cube.goal.json --output plan.json
 """
+TURN = """plan --quiet --hand models/hands/ring4.json --object models/cube.obj --mu 0.8 --turn "z 30" \
+--output turn.json
+"""
 
 # Files that pages name as somebody's own, by page: how they come to be.
 GIVEN = {
+    "analytic_check": CUBE,
+    "export_hand_plan": TURN,
     "figures": "cp models/mug1000.obj .\n",
-    "formats": "cp models/hands/* .\n",
+    "hand_replay": TURN,
     "make_a_figure": CUBE,
     "options": "cp models/*.obj models/*.wkt .; cp models/cube.start.json start.json; "
                "cp models/cube.goal.json goal.json; cp models/cube.obj part.obj; mkdir plans\n"
@@ -35,7 +40,8 @@ GIVEN = {
                "right_hand.xml\nplan --quiet --object models/polygon15.wkt --friction-angle 20 --planner "
                "polygon --start models/polygon15.start.json --goal models/polygon15.goal.json "
                "--output polygon15.json\n",
-    "validation": CUBE + "cp models/cube.obj .\n",
+    "protocols_and_engines": CUBE,
+    "robustness_trials": CUBE,
 }
 
 # What pages leave behind, by page.
@@ -46,11 +52,17 @@ LEFT = {
     "many_plans": ["plans.jsonl", "out/plans/reports.jsonl", "merged.jsonl", "reports.jsonl"],
     "make_a_figure": ["figures/sheet.pdf", "out/large/000_hold.png"],
     "hands": ["hand.png", "scene/scene.xml", "turn.mcap", "turn.yaml", "states/states.npz"],
-    "formats": ["grasps.npz", "turn.mcap", "hidex.json"],
+    "interchange": ["grasps.npz", "turn.mcap", "hidex.json"],
     "figures": ["figures/sheet.pdf", "figures/contact_space.png"],
     "objects": ["solid.obj", "repair.json"],
     "options": ["solid.obj", "graph.json", "hand.json", "junit.xml", "reports.jsonl"],
-    "validation": ["states/states.npz", "scene/scene.xml"],
+    "analytic_check": ["out/plan/report.json"],
+    "diagnose_a_failure": ["out/cube.start/report.html"],
+    "export_hand_plan": ["turn.npz", "scene/scene.xml"],
+    "hand_replay": ["out/turn/report.html"],
+    "robustness_trials": ["out/plan/report.json"],
+    "protocols_and_engines": ["out/plan/report.json"],
+    "reset_states": ["states/states.npz", "scene/scene.xml"],
 }
 
 

@@ -15,8 +15,9 @@ import urllib.parse
 SOURCE, MKDOCS = sys.argv[1:3]
 
 PAGES = ["index", "first_picture", "trust_a_plan", "guard_a_library", "make_a_figure", "python", "hands",
-         "formats", "method", "force_closure", "planner_general", "planner_contour", "planner_polygon",
-         "planner_polyhedron", "planner_roadmap", "hand_model", "validation", "reference"]
+         "formats", "interchange", "method", "force_closure", "planner_general", "planner_contour",
+         "planner_polygon", "planner_polyhedron", "planner_roadmap", "hand_model", "validation", "failure_reasons",
+         "limitations", "reference"]
 
 
 class Page(html.parser.HTMLParser):
@@ -78,6 +79,22 @@ def faults(folder):
     return found, followed
 
 
+# Pages above the limit of size: generated, and the tables of constants of one planner.
+LONG = {"options.md", "gait.md"}
+MOST_BYTES = 12000
+
+
+def long_pages(folder):
+    """Return the names of the pages in a folder that are larger than MOST_BYTES, sorted."""
+    return sorted(name for name in os.listdir(folder) if name.endswith(".md")
+                  and os.path.getsize(os.path.join(folder, name)) > MOST_BYTES)
+
+
+def names_of(kind, text):
+    """Return the names that a C++ function gives to the values of an enumeration, in order."""
+    return re.findall(rf'case {kind}::k\w+:\s+return "([^"]+)";', text)
+
+
 class SiteTest(unittest.TestCase):
 
     @classmethod
@@ -97,6 +114,32 @@ class SiteTest(unittest.TestCase):
         found, followed = faults(self.folder.name)
         self.assertEqual(found, [])
         self.assertGreater(followed, 300)
+
+    def test_every_failure_reason_and_cause_has_an_anchor(self):
+        names = []
+        for kind, path in (("Reason", "planner/plan/reason.cc"), ("Cause", "sim/replay/disagreement.cc")):
+            with open(os.path.join(SOURCE, path), encoding="utf-8") as file:
+                found = names_of(kind, file.read())
+            self.assertGreater(len(found), 10, path)
+            names += found
+        with open(os.path.join(self.folder.name, "failure_reasons.html"), encoding="utf-8") as file:
+            anchors = Page(file.read()).anchors
+        self.assertEqual([name for name in names if name not in anchors], [])
+
+    def test_names_of_an_enumeration_are_found(self):
+        text = 'case Reason::kNone:\n  return "";\ncase Reason::kOffPoint:\n  return "off-point";\n'
+        self.assertEqual(names_of("Reason", text), ["off-point"])
+        self.assertEqual(names_of("Cause", text), [])
+
+    def test_pages_are_short(self):
+        self.assertEqual(set(long_pages(os.path.join(SOURCE, "docs"))) - LONG, set())
+
+    def test_a_long_page_is_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, size in (("a.md", MOST_BYTES), ("b.md", MOST_BYTES + 1), ("c.json", 2 * MOST_BYTES)):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write("x" * size)
+            self.assertEqual(long_pages(folder), ["b.md"])
 
     def test_what_is_wrong_is_found(self):
         with tempfile.TemporaryDirectory() as folder:
