@@ -3,14 +3,17 @@
 usage: language_test.py SOURCE_FOLDER [unittest's own arguments]
 """
 
+import contextlib
 import importlib.machinery
 import importlib.util
+import io
 import json
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 
 SCRIPT = pathlib.Path(sys.argv[1]) / "scripts" / "check-language"
@@ -161,8 +164,11 @@ class Project(unittest.TestCase):
             return json.load(file)
 
     def run_script(self, *arguments):
-        return subprocess.run([sys.executable, str(SCRIPT), "--root", self.folder, *arguments], text=True,
-                              capture_output=True, check=False)
+        """Run the script in this process; return its exit code and output."""
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = CHECK.main(["--root", self.folder, *arguments])
+        return types.SimpleNamespace(returncode=code, stdout=out.getvalue(), stderr=err.getvalue())
 
     def git(self, *arguments):
         subprocess.run(["git", "-C", self.folder, "-c", "user.name=A", "-c", "user.email=a@b.c", *arguments], check=True,
@@ -243,6 +249,14 @@ class Budgets(Project):
         self.budget()
         for arguments in (["none.md"], ["--update", "scripts/x.md"]):
             self.assertEqual(self.run_script(*arguments).returncode, 2)
+
+    def test_the_program_ends_with_the_exit_code(self):
+        self.write("a.md", "motor\n")
+        for budget, code in ((1, 0), (0, 1)):
+            self.budget(a=budget)
+            done = subprocess.run([sys.executable, str(SCRIPT), "--root", self.folder], text=True, capture_output=True,
+                                  check=False)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (code, code), done.stderr)
 
     def test_findings_are_listed_and_counted(self):
         self.write("a.md", "# One\n\nmotor\n")
