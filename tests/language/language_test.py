@@ -49,7 +49,7 @@ CONTROLS = {
     "beside": (["beside the plan", "besides, it works"], ["next to the plan"]),
     "goes-with": (["--jobs goes with --batch", "the run goes on"], ["--jobs requires --batch", "it goes to B"]),
     "is-to": (["the body is to be within 1 mm", "has to be closed"], ["must be within 1 mm", "needs to be"]),
-    "of-others": (["formats of others", "those of others", "the other one"], ["third-party formats", "of other users", "unlike those of MuJoCo"]),
+    "of-others": (["formats of others are read", "a finger from the other.", "those of others", "the other one"], ["third-party formats", "of other users", "unlike those of MuJoCo"]),
     "vague-passive": (["it is told in a line", "was tried"], ["is printed", "is tested"]),
     "semicolons": (["one; two; three"], ["one; two. Three; four", "one, two"]),
     "idiom": (["closed all along", "At first it holds.", "in the end"], ["throughout", "at the end", "first"]),
