@@ -46,7 +46,7 @@ GIVEN = {
 
 # What pages leave behind, by page.
 LEFT = {
-    "first_picture": ["out/plan/report.html", "out/plan/overview.png", "out/turn/replay.webp"],
+    "first_picture": ["out/plan/report.html", "out/plan/overview.png", "out/weak/report.json", "out/turn/replay.webp"],
     "trust_a_plan": ["out/plan/report.html", "out/weak/report.json", "out/proof/report.json"],
     "guard_a_library": ["out/junit.xml", "out/plans/summary.json", "out/plans/index.html"],
     "many_plans": ["plans.jsonl", "out/plans/reports.jsonl", "merged.jsonl", "reports.jsonl"],
