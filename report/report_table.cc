@@ -38,7 +38,8 @@ std::string SqueezeText(const sim::ReplaySettings& settings) {
              " times what the weight needs in the grasp that carries it worst";
     case sim::SqueezeSource::kTorques:
       return squeeze +
-             ": what the torques of the hand's actuators allow, at most twelve weights or 4 N";
+             ": what the torques of the hand's actuators allow, at most twelve weights, six if a "
+             "force limit is unknown, or 4 N";
     case sim::SqueezeSource::kGiven:
       return squeeze + ": as --squeeze says";
   }

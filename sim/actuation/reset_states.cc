@@ -71,7 +71,7 @@ std::optional<double> ResetStates::SqueezeOf(const plan::HandState& rest,
   const double squeeze = options_.squeeze_N
                              ? *options_.squeeze_N
                              : RestSqueeze(world_, solid_, scale_, rest, grasp, options_.half_angle,
-                                           weight_N_, MostSqueeze(weight_N_));
+                                           weight_N_, MostSqueeze(world_, weight_N_));
   const Vector3d down = -weight_N_ * (rest.pose.linear().transpose() * world_.hand().up);
   const grasp::GraspForces forces =
       grasp::ComputeGraspForces(plan::ContactsOf(grasp), solid_.wrench_frame(), options_.half_angle,

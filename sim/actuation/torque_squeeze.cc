@@ -33,7 +33,15 @@ std::vector<PlannedRest> RestsOf(const plan::Plan& plan, int entries) {
 
 }  // namespace
 
-double MostSqueeze(double weight) { return std::max(kMostWeights * weight, kEnough); }
+double MostSqueeze(const HandWorld& world, double weight) {
+  bool known = true;
+  for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
+    for (int drive = 0; drive < world.hand().fingers[f].drives; ++drive) {
+      known = known && std::isfinite(world.servo(f, drive).limit);
+    }
+  }
+  return std::max((known ? kMostWeights : kMostWeightsOfUnknown) * weight, kEnough);
+}
 
 double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double scale,
                    const plan::HandState& state, const plan::FingerGrasp& grasp, double half_angle,
@@ -69,7 +77,7 @@ double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double sca
 
 double TorqueSqueeze(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
                      int entries, double half_angle, double weight) {
-  double squeeze = MostSqueeze(weight);
+  double squeeze = MostSqueeze(world, weight);
   for (const PlannedRest& rest : RestsOf(plan, entries)) {
     squeeze =
         RestSqueeze(world, solid, plan.scale, rest.state, rest.grasp, half_angle, weight, squeeze);

@@ -8,7 +8,7 @@ namespace regrasp::sim {
 
 /// The sum of the normal forces with which a hand holds an object, newtons: as much as
 /// kTorqueShare of the limits of its actuators allow in every rest of the plan, and no more than
-/// kMostWeights, or kEnough where that is more.
+/// MostSqueeze.
 /// @param world    its hand and object are moved to the rests.
 /// @param entries  how many of the plan count, the hold first.
 [[nodiscard]] double TorqueSqueeze(HandWorld& world, const object::Polyhedron& solid,
@@ -21,11 +21,13 @@ namespace regrasp::sim {
                                  const plan::HandState& state, const plan::FingerGrasp& grasp,
                                  double half_angle, double weight, double most);
 
-/// No rest is squeezed more than this, newtons.
-[[nodiscard]] double MostSqueeze(double weight);
+/// The largest grasp force of any rest, newtons: kMostWeights, kMostWeightsOfUnknown if the hand's
+/// model leaves out the force limit of any actuator, or kEnough if that is more.
+[[nodiscard]] double MostSqueeze(const HandWorld& world, double weight);
 
 inline constexpr double kTorqueShare = 0.4;
 inline constexpr double kMostWeights = 12;
-inline constexpr double kEnough = 4;  ///< newtons
+inline constexpr double kMostWeightsOfUnknown = 6;  ///< of a hand of unknown strength
+inline constexpr double kEnough = 4;                ///< newtons
 
 }  // namespace regrasp::sim

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "sim/actuation/hand_world.h"
 #include "tests/sim/actuation/held_in_hand.h"
 
@@ -23,6 +25,17 @@ TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTh
   // Ten halvings leave a thousandth of the most: once of the one, twice of the other.
   EXPECT_NEAR(squeeze(2), 2 * usual, 3e-3 * kMost);
   EXPECT_EQ(squeeze(1e6), kMost);
+}
+
+TEST_F(HeldInHand, AHandOfUnknownStrengthSqueezesWithLess) {
+  constexpr double kWeight = 10;
+  const HandWorld known(hand_, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
+  EXPECT_EQ(MostSqueeze(known, kWeight), kMostWeights * kWeight);
+  const HandWorld unknown(
+      hand_, solid(), kScale,
+      {.mu = kMu, .mass_kg = kMass, .force_factor = std::numeric_limits<double>::infinity()});
+  EXPECT_EQ(MostSqueeze(unknown, kWeight), kMostWeightsOfUnknown * kWeight);
+  EXPECT_EQ(MostSqueeze(unknown, 0.1), kEnough);
 }
 
 }  // namespace torque_squeeze_test
