@@ -11,6 +11,7 @@
 #include "planner/base/error.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/gait/gait_planner.h"
+#include "planner/gait/request.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/planning/in_hand_task.h"
 #include "planner/planning/solve.h"

@@ -9,6 +9,7 @@
 #include "render/figures/contact_space_map.h"
 #include "render/figures/figure_page.h"
 #include "render/figures/panel_text.h"
+#include "render/figures/print_size.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/label_layout.h"
 

@@ -9,6 +9,7 @@
 #include "planner/sets/contour/boundary.h"
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_track.h"
+#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
 #include "render/picture/color_table.h"
 

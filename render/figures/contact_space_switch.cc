@@ -8,6 +8,7 @@
 #include "render/figures/contact_space_overview.h"
 #include "render/figures/figure_page.h"
 #include "render/figures/panel_text.h"
+#include "render/figures/print_size.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {

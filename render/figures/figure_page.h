@@ -5,29 +5,10 @@
 #include <memory>
 #include <string>
 
+#include "render/figures/figure_format.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
-
-/// The file formats of figures.
-enum class FigureFormat { kSvg, kPdf, kPng };
-
-/// The widths that journals print figures at, in points: a column, 85 mm, and two, 174 mm.
-inline constexpr double kPointsPerMillimetre = 72 / 25.4;
-inline constexpr double kColumnWidth = 85 * kPointsPerMillimetre;
-inline constexpr double kTwoColumnWidth = 174 * kPointsPerMillimetre;
-
-/// Who made a figure, as its file says: the creator of a PDF, the software of a PNG, the name of
-/// the root of a glTF scene.
-inline constexpr char kFigureMaker[] = "regrasp figure";
-
-/// Writes the maker into the bytes of an SVG or a PNG, where their programs look for it: a comment
-/// after the first line, a text chunk after the header. A PDF gets it from Cairo as it is made.
-/// @param bytes  a whole file of the format.
-void MarkFigure(FigureFormat format, std::string& bytes);
-
-/// Whether these are the bytes of a marked figure of any format.
-[[nodiscard]] bool IsMarkedFigure(const std::string& bytes);
 
 /// A white page that Cairo draws on, in points (1/72 inch) from the top left, and the bytes of a
 /// file of it.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planner/object/polygon.h"
-#include "render/figures/figure_page.h"
+#include "render/figures/figure_format.h"
 
 /// Cairo's, so that who names panels needs no Cairo.
 using cairo_t = struct _cairo;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "render/figures/figure_page.h"
+#include "render/figures/figure_format.h"
 #include "render/picture/label_layout.h"
 
 namespace regrasp::render {

@@ -31,7 +31,7 @@ using plan::HandState;
 constexpr double kTakeHold = 0.3;
 constexpr double kHandover = 0.25;
 constexpr double kSettle = 0.3;
-constexpr double kPushRamp = 0.05;
+constexpr double kHandPushRamp = 0.05;
 constexpr double kPushHold = 0.1;
 // A finger comes straight down from this height, until it feels this, metres and newtons.
 constexpr double kHeight = 8e-3;
@@ -381,7 +381,7 @@ void EntryReplay::Shake() {
     const grasp::Wrench wrench = PushWrench(push, shake_);
     const Vector3d torque = radius_ * wrench.torque_over_radius;
     judge_.SetPush({wrench.force, torque, name});
-    Run(kPushRamp, [&](double share) { world_.SetLoad(share * wrench.force, share * torque); });
+    Run(kHandPushRamp, [&](double share) { world_.SetLoad(share * wrench.force, share * torque); });
     Run(kPushHold, [](double) {});
     judge_.WatchRest(state_.pose);
     if (judge_.breach()) throw StepFails();

@@ -1,3 +1,5 @@
+#include "render/figures/figure_mark.h"
+
 #include <gtest/gtest.h>
 #include <png.h>
 

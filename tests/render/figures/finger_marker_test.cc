@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/figures/figure_page.h"
+#include "render/figures/print_size.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
