@@ -651,7 +651,7 @@ class Gait(ProgramCase):
         for more in ((), ("--quiet",)):
             done = self.run_program("--object", "cube_mm.obj", "--mu", "0.8", "--hand",
                                     self.hand("ring4"), "--turn", "z 90", "--output", "plan.json",
-                                    *more)
+                                    "--effort", "20", *more)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn("plan: warning: the object is 104 m across, 2.16e+08 kg: millimetres? "
                           "use --scale 0.001 (10.4 cm across)\n", done.stderr)

@@ -59,16 +59,23 @@ std::string Widened(const std::string& text, const std::string& unit, std::size_
   return bytes;
 }
 
+std::string KnownPcd() {
+  return "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nPOINTS 4\nDATA ascii\n" +
+         VertexText("", "\n");
+}
+
 TEST_F(MisreadFilesTest, TextInOtherEncodings) {
   const std::string two(2, '\0'), four(4, '\0');
   const std::map<std::string, std::string> files = {
       {".obj", KnownObj()},          {".off", KnownOff()},
       {".ply", KnownPly()},          {".stl", KnownTextStl("a", false)},
-      {".xyz", "0 0 0\n"},           {".pcd", "VERSION 0.7\nDATA ascii\n"},
+      {".xyz", "0 0 0\n"},           {".pcd", KnownPcd()},
       {".pwn", "0 0 0\n"},           {".wkt", "POLYGON((0 0,1 0,0 1,0 0))"},
       {".gltf", KnownGltf().Gltf()}, {".dae", KnownCollada().Text()}};
   for (const auto& [ending, text] : files) {
-    EXPECT_EQ(Refusal("plain" + ending, text), ending == ".pcd" ? Refusal("plain.pcd", text) : "");
+    // Negative controls: ASCII, and UTF-8 with its mark.
+    EXPECT_EQ(Refusal("plain" + ending, text), "");
+    EXPECT_EQ(Refusal("mark" + ending, "\xEF\xBB\xBF" + text), "");
     const std::string utf16 = "expected UTF-8, found UTF-16; help: save the file as UTF-8";
     ExpectRefused("little" + ending, "\xFF\xFE" + Widened(text, two, 0), utf16);
     ExpectRefused("big" + ending, "\xFE\xFF" + Widened(text, two, 1), utf16);
