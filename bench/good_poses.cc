@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/gait/find_gait.h"
 #include "planner/gait/initial_pose.h"
 
 namespace regrasp::bench {

@@ -27,6 +27,7 @@
 #include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/base/text_table.h"
+#include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/random_stances.h"
 #include "planner/kinematics/hand_file.h"

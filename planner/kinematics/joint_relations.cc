@@ -220,15 +220,20 @@ void RelationReader::ReadTendonEquality(int equality) {
   const int second = model_.eq_obj2id[equality];
   const mjtNum* polynomial = model_.eq_data + std::ptrdiff_t{mjNEQDATA} * equality;
   const std::string name = "equality constraint of " + TendonText(first);
-  for (const int tendon : {first, second}) {
-    if (tendon >= 0 && !IsFixed(tendon)) RefuseSpatial(name, tendon);
-  }
-  if (!IsFixed(first) || (second >= 0 && !IsFixed(second))) return;
   JointEquation equation{{}, polynomial[0], name};
-  AddTendon(first, 1, equation);
-  if (second >= 0) AddTendon(second, -polynomial[1], equation);
+  bool is_spatial = false;
+  for (const auto& [tendon, factor] : {std::pair(first, 1.0), {second, -polynomial[1]}}) {
+    if (tendon < 0) continue;
+    if (IsFixed(tendon)) {
+      AddTendon(tendon, factor, equation);
+    } else {
+      RefuseSpatial(name, tendon);
+      is_spatial = true;
+    }
+  }
   const auto& terms = equation.coefficients;
   if (std::ranges::none_of(terms, [&](const auto& term) { return IsOfFinger(term.first); })) return;
+  if (is_spatial) Fail(name + ": expected fixed tendons, found a spatial tendon");
   if (second >= 0 && !IsLinear(polynomial)) {
     Fail(name + ": expected a linear relation, found " + PolynomialText(polynomial));
   }

@@ -86,7 +86,9 @@ TEST(Failure, NamesTheRequiredFrictionOnceAndInTheSameDigits) {
     const Report report = FailingFor(Reason::kNotForceClosure, required);
     const std::string number = FormatRequiredDegrees(required, 6).value;
     EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--friction-angle " + number + " "));
-    if (required > 6) EXPECT_GT(std::stod(number), 6);
+    if (required > 6) {
+      EXPECT_GT(std::stod(number), 6);
+    }
   }
 }
 

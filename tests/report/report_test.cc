@@ -340,7 +340,9 @@ TEST(ReportTest, NoVerdictOnTrialsIsAPlainPass) {
                                  : "verdict: fail, trials-failed: " + failed +
                                        std::to_string(20 - passed) + " slipped; first in step 1: " +
                                        std::to_string(20 - passed) + "\n"));
-      if (!enough) EXPECT_THAT(table, StartsWith("trials-failed: " + failed));
+      if (!enough) {
+        EXPECT_THAT(table, StartsWith("trials-failed: " + failed));
+      }
       const JunitSuite suite = MakeJunitSuite(report, "out");
       ASSERT_EQ(suite.cases.size(), 4u);
       EXPECT_EQ(suite.cases.back().outcome == JunitOutcome::kFailed, !enough);

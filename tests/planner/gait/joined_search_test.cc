@@ -44,7 +44,8 @@ class BidirectionalSearchTest : public testing::Test {
                                random, {});
     if (goal_is_held != nullptr) *goal_is_held = search.GoalIsHeld();
     std::optional<Gait> gait = search.Run(budget, {});
-    EXPECT_LE(search.counts().expanded, budget + 1);
+    expanded_ = search.counts().expanded;
+    EXPECT_LE(expanded_, budget + 1);
     return gait;
   }
 
@@ -53,6 +54,7 @@ class BidirectionalSearchTest : public testing::Test {
   grasp::Grasp nearby_;  ///< contacts of the goal
   std::vector<int> start_;
   std::vector<int> goal_;
+  std::int64_t expanded_ = 0;  ///< expansions of the last search
 };
 
 std::vector<int> Sorted(std::vector<int> numbers) {
@@ -81,12 +83,12 @@ TEST_F(BidirectionalSearchTest, ANearbyGraspIsOneSlidingStepAway) {
   }
 }
 
-/// Negative control: fingers that must not slide need more than two expansions.
+/// Negative control: fingers that must not slide need more expansions.
 TEST_F(BidirectionalSearchTest, WithoutSlidingANearbyGraspIsFarAway) {
   GaitWorld world(request_, nearby_);
-  EXPECT_TRUE(Search(world, {start_, goal_}, 2));
+  EXPECT_TRUE(Search(world, {start_, goal_}));
   world.setup.may_slide = false;
-  EXPECT_FALSE(Search(world, {start_, goal_}, 2));
+  EXPECT_FALSE(Search(world, {start_, goal_}, expanded_));
 }
 
 /// Known answer: equal ends need no segment.

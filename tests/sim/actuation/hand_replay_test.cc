@@ -10,6 +10,7 @@
 
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/locate.h"

@@ -14,6 +14,7 @@
 #include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/collision/convex_shape.h"
+#include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/locate.h"
