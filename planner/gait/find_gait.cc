@@ -234,8 +234,8 @@ std::string NonRobustEnd(const GaitEnds& ends, criteria::GraspMemory& memory, do
 GaitResult FindGait(const GaitRequest& request) {
   CheckStartFingers(request);
   const collision::SurfaceTree surface(*request.solid, request.scale);
-  CheckReach(request, surface, request.start_pose, "--start-pose");
-  CheckReach(request, surface, request.goal_pose, "--goal-pose");
+  CheckReach(request, surface, request.start_pose, "start pose");
+  CheckReach(request, surface, request.goal_pose, "goal pose");
   GaitResult result;
   result.contacts = DrawContacts(request);
   request.progress("searching a gait");

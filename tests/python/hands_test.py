@@ -62,10 +62,9 @@ class HandsTest(RegraspCase):
                                      turn=("z", 10), reserve="none")
         np.testing.assert_allclose(again.data["hand"]["initial"]["pose"]["position"],
                                    start_pose[:3], atol=1e-12)
-        with self.assertRaises((regrasp.NoPlan, TimeoutError)) as caught:
+        with self.assertRaisesRegex(regrasp.InputError, "goal pose: .* out of reach of every"):
             regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, start_pose=start_pose,
-                                 goal_pose=[5, 0, 0, 1, 0, 0, 0], reserve="none", time_limit=0.5)
-        self.assertTrue(str(caught.exception))
+                                 goal_pose=[5, 0, 0, 1, 0, 0, 0], reserve="none")
 
     def test_any_number_of_searches_at_a_time_finds_the_same_plan(self):
         told = []
