@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planner/base/number.h"
@@ -201,7 +202,7 @@ TEST_F(HandWorldTest, LimitsAreThoseOfTheModel) {
   EXPECT_EQ(coupled.limits().size(), 15U);
 }
 
-/// Two fingers of two joints each, as a URDF has them.
+/// Three fingers of two joints each, as a URDF has them.
 std::string UrdfText(const std::string& effort) {
   const std::string inertial =
       R"(<inertial><mass value="0.02"/><inertia ixx="1e-5" iyy="1e-5" izz="1e-5" ixy="0" ixz="0"
@@ -217,11 +218,12 @@ std::string UrdfText(const std::string& effort) {
            "\"/><axis xyz=\"0 1 0\"/><limit lower=\"-1\" upper=\"1\" velocity=\"1\" effort=\"" +
            effort + "\"/></joint>";
   };
-  std::string text = "<robot name=\"two\">" + link("palm", "-0.03", "0.02");
-  for (const std::string finger : {"a", "b"}) {
-    const std::string x = finger == "a" ? "0.06" : "-0.06";
+  std::string text = "<robot name=\"three\">" + link("palm", "-0.03", "0.02");
+  const std::vector<std::pair<std::string, std::string>> fingers = {
+      {"a", "0.06 0 0"}, {"b", "-0.06 0 0"}, {"c", "0 0.06 0"}};
+  for (const auto& [finger, place] : fingers) {
     text += link(finger + "_near", "0.02", "0.01") + link(finger + "_tip", "0.03", "0.01") +
-            joint(finger + "_1", "palm", finger + "_near", x + " 0 0") +
+            joint(finger + "_1", "palm", finger + "_near", place) +
             joint(finger + "_2", finger + "_near", finger + "_tip", "0 0 0.04");
   }
   return text + "</robot>";
@@ -229,15 +231,16 @@ std::string UrdfText(const std::string& effort) {
 
 TEST_F(HandWorldTest, TheStrengthOfAUrdfsJointsIsItsEffort) {
   const auto path =
-      Write("two.json",
-            R"({"format": "regrasp-hand", "version": 1, "name": "two", "model": "two.urdf",
+      Write("three.json",
+            R"({"format": "regrasp-hand", "version": 1, "name": "three", "model": "three.urdf",
           "palm": "palm", "up": [0, 0, 1], "fingers": [
           {"name": "a", "tip": {"body": "a_tip", "centre": [0, 0, 0.03], "radius": 0.01}},
-          {"name": "b", "tip": {"body": "b_tip", "centre": [0, 0, 0.03], "radius": 0.01}}]})");
+          {"name": "b", "tip": {"body": "b_tip", "centre": [0, 0, 0.03], "radius": 0.01}},
+          {"name": "c", "tip": {"body": "c_tip", "centre": [0, 0, 0.03], "radius": 0.01}}]})");
   for (const std::string effort : {"0.75", " 0.75", "\t0.75 "}) {
-    static_cast<void>(Write("two.urdf", UrdfText(effort)));
+    static_cast<void>(Write("three.urdf", UrdfText(effort)));
     const HandWorld world(kinematics::ReadHandFile(path), solid(), kScale, WorldOptions());
-    ASSERT_EQ(world.limits().size(), 4U);
+    ASSERT_EQ(world.limits().size(), 6U);
     for (const DriveLimits& limit : world.limits()) EXPECT_EQ(limit.torque_Nm, 0.75) << effort;
   }
 }
