@@ -56,7 +56,9 @@ SupportPoint<kDim> FarthestWrench(const UnitContacts& contacts,
 /// The distance at which a facet need not be refined any more. A hundredth of the gap is left for
 /// what rounding takes from the lower bound.
 double GoalOf(double upper, double relative_gap) {
-  return upper - 0.99 * std::max(relative_gap * upper, kQualityGap);
+  const double goal = upper - 0.99 * std::max(relative_gap * upper, kQualityGap);
+  // Up to the radius of the core a distance proves nothing.
+  return upper <= kQualityGap ? goal : std::max(goal, 1.001 * kLeastCore);
 }
 
 /// Grows a hull from a simplex of a radius until its ball is within the gap.

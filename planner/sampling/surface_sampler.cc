@@ -90,7 +90,7 @@ double SurfaceSampler::MeasureOf(int facet) const {
 bool SurfaceSampler::IsOffBorder(const grasp::Contact& contact) const {
   const double distance = object_.DistanceToBorder(contact.face, contact.p);
   if (distance >= clearance_) return true;
-  if (distance < kFromBorder * object_.diameter()) return false;
+  if (solid_ == nullptr || distance < kFromBorder * object_.diameter()) return false;
   const double sharp =
       std::min(clearance_, kSmallFaceClearance * AreaOverPerimeter(object_, contact.face));
   return distance >= sharp || DistanceToSharpEdge(object_, contact) >= sharp;

@@ -36,7 +36,8 @@ class SurfaceSampler {
   /// @param clearance  least distance of a valid contact from the sharp edges of its face, in
   ///     diameters. On a face too small for that the distance is kSmallFaceClearance of the face's
   ///     area over its perimeter, so every face keeps part of its area. At least kFromBorder, if
-  ///     that is less than `clearance`, also applies to nearly flat edges.
+  ///     that is less than `clearance`, also applies to nearly flat edges. In the plane the
+  ///     distance is `clearance` from both ends of an edge.
   explicit SurfaceSampler(const object::Object& object, double finger_radius = 0,
                           double clearance = kFromBorder);
 

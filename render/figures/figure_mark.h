@@ -4,7 +4,6 @@
 
 #include "render/figures/figure_format.h"
 
-
 namespace regrasp::render {
 
 /// Who made a figure, as its file says: the creator of a PDF, the software of a PNG, the name of

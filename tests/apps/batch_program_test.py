@@ -629,7 +629,7 @@ class Batch(ProgramCase):
         with open(path, "rb") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
             done = self.run_batch(3)
-        self.assertIn("validate: square_01: result/square_01: process 7 on elsewhere", done.stderr)
+        self.assertIn("validate: square_01: error: result/square_01: process 7 on elsewhere", done.stderr)
         self.assertEqual(self.verdicts()["square_01"], "error")
         self.assertEqual(self.verdicts()["triangle_00"], "pass")
         self.run_batch(1)

@@ -288,7 +288,7 @@ class Gait(ProgramCase):
         # What later versions of MuJoCo refuse is not there.
         self.assertIsNone(scene.find("size"))
         self.assertFalse({name for element in scene.iter("option") for name in element.attrib}
-                         - {"timestep", "gravity", "cone", "impratio"})
+                         - {"timestep", "gravity", "cone", "impratio", "integrator", "tolerance"})
         # A file is no folder, and stays.
         self.write("taken", "mine")
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
@@ -513,7 +513,7 @@ class Gait(ProgramCase):
                                 "(slipped)", "mm allowed",
                                 "help: --reserve preferred writes the best plan anyway"),
                             *turn, "--quiet")
-        self.assertIn("the plan does not execute in simulation: it fails at step ",
+        self.assertIn("the plan does not execute in simulation: it fails at ",
                       self.assert_done(*turn, "--reserve", "preferred").stderr)
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json", "--hand",
                                 self.hand("ring4"), "--out", "result", "--no-frames",
@@ -538,7 +538,7 @@ class Gait(ProgramCase):
                  ("--turn", "z 90", "--planner", "general")),
                 ("no planner has all of --optimize travel (general) --hand (gait)",
                  ("--turn", "z 90", "--optimize", "travel")),
-                ("--optimize margin: goes with plans that the hand tries",
+                ("--optimize margin: requires simulated plans",
                  ("--turn", "z 90", "--optimize", "margin", "--reserve", "none"))):
             self.assert_refused(2, words, *self.arguments(*more))
         self.assert_refused(2, "plans for a hand, and none is given (--hand)", "--object",

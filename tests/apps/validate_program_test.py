@@ -889,7 +889,7 @@ class Validate(ProgramCase):
         self.refuse(["plan.json", place + "/0/0/end", "expected 4 forces"], object=solid)
         self.plan["steps"][aligns[0]]["certificate"] = "sure"
         self.write_plan()
-        self.refuse(["plan.json", place, "expected an array"], object=solid)
+        self.refuse(["plan.json", place, "expected a JSON array"], object=solid)
 
     def test_refuses_reports_that_cannot_be_verified(self):
         _, report = self.assert_passes("--no-frames")

@@ -102,7 +102,7 @@ TEST(Failure, SaysForEveryReasonWhatItIsHeldAgainstAndWhatWouldMendIt) {
     EXPECT_NE(failure.mend, "") << failure.reason;
     said.insert(failure.reason);
   }
-  EXPECT_EQ(said.size(), 23u);
+  EXPECT_EQ(said.size(), 25u);
 }
 
 TEST(Failure, AsksForTheFrictionThatIsNeededRoundedUp) {

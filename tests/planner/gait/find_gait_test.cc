@@ -422,7 +422,7 @@ TEST(FindGaitTest, ReportsHowNearTheObjectGetsToItsGoalPose) {
   };
   EXPECT_EQ(message_at(0.020), "found");
   EXPECT_THAT(message_at(0.050), testing::HasSubstr("no grasp is found that holds it there"));
-  EXPECT_THAT(message_at(0.085), testing::HasSubstr("% of the path to its goal pose"));
+  EXPECT_THAT(message_at(0.080), testing::HasSubstr("% of the path to its goal pose"));
 }
 
 /// A cube of 13 cm is too large for this hand, and no tilt of the palm helps.

@@ -280,7 +280,7 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
        "plan.json: /steps/0/place/0/region: expected a number, found null"},
       {"/initial", Json::array(),
        "plan.json: /initial: expected a JSON object, found a JSON array"},
-      {"/goal/contacts", nullptr, "plan.json: /goal/contacts: expected an array, found null"},
+      {"/goal/contacts", nullptr, "plan.json: /goal/contacts: expected a JSON array, found null"},
   };
   int checked = 0;
   for (const Case& one : cases) {

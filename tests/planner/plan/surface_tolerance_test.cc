@@ -24,17 +24,20 @@ TEST(SurfaceTolerance, PointsInSinglePrecisionAreOnAnObjectFarFromTheOrigin) {
   std::uniform_real_distribution<double> across(-0.9 * kHalf, 0.9 * kHalf);
   for (const Eigen::Vector3d& offset :
        {Eigen::Vector3d(3, 0, 0), Eigen::Vector3d(-3, 2.5, 1), Eigen::Vector3d(40, 0, 7)}) {
-    const object::Polyhedron cube = MakeCube(kHalf, offset);
     int moved = 0;
     for (int i = 0; i < 200; ++i) {
-      const Eigen::Vector3d exact = offset + Eigen::Vector3d(kHalf, across(engine), across(engine));
+      // Each size has another rounding error of its face.
+      const double half = kHalf * (1 + 1e-3 * i);
+      const object::Polyhedron cube = MakeCube(half, offset);
+      const Eigen::Vector3d exact = offset + Eigen::Vector3d(half, across(engine), across(engine));
       const Eigen::Vector3d single = exact.cast<float>().cast<double>();
       EXPECT_EQ(ReasonOf(cube, single), Reason::kNone) << offset.transpose();
       moved += std::abs(single.x() - exact.x()) > 1e-6 * cube.diameter() ? 1 : 0;
     }
     // The control: some of them are farther off than the tolerance of an object at the origin.
     EXPECT_GT(moved, 0) << offset.transpose();
-    EXPECT_EQ(ReasonOf(cube, offset + Eigen::Vector3d(kHalf + 1e-4, 0, 0)), Reason::kOffSurface);
+    EXPECT_EQ(ReasonOf(MakeCube(kHalf, offset), offset + Eigen::Vector3d(kHalf + 1e-4, 0, 0)),
+              Reason::kOffSurface);
   }
 }
 

@@ -130,7 +130,7 @@ TEST(Solve, NamesTheHalfAngleThatIsNeeded) {
   EXPECT_THAT([] { Check(OppositePairs(0.02), 15); },
               ThrowsMessage<InputError>(
                   "given.json: /contacts: not force closure: needs a friction half-angle of "
-                  "18.44°, given 15°"));
+                  "18.44°, given 15.00°"));
   EXPECT_NO_THROW(Check(OppositePairs(0.02), 18.45));
 }
 

@@ -88,7 +88,7 @@ TEST_F(CoupledSceneTest, AJointWithoutAnActuatorIsNamed) {
   const kinematics::HandFile hand =
       Hand({.after = CoupleAll("2", "1", "0 0.9 0 0 0") + Servos("1")});
   try {
-    const HandWorld world(hand, Cube(), 0.05, {});
+    const HandWorld world(hand, Cube(), 0.05, {.mu = 0.8, .mass_kg = 0.1});
     ADD_FAILURE() << "taken";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("moves joint f3"));
@@ -97,7 +97,7 @@ TEST_F(CoupledSceneTest, AJointWithoutAnActuatorIsNamed) {
               testing::ElementsAre("joints f3, g3, h3 have no actuator: plans are not simulated"));
   const kinematics::HandFile whole =
       Hand({.after = CoupleAll("2", "1", "0 0.9 0 0 0") + Servos("13")});
-  EXPECT_NO_THROW(HandWorld(whole, Cube(), 0.05, {}));
+  EXPECT_NO_THROW(HandWorld(whole, Cube(), 0.05, {.mu = 0.8, .mass_kg = 0.1}));
   EXPECT_TRUE(whole.warnings.empty());
 }
 
