@@ -238,9 +238,7 @@ void AddTrialOptions(CLI::App& app, ValidateOptions& options) {
                  "the verdict names how many");
   AddNumber(app, "--min-pass-rate", options.trials.min_pass_rate,
             {.lower = 0, .upper = 1, .lower_included = false},
-            "Smallest share of the trials that must pass for the plan to pass, above 0 and at most "
-            "1 (default "
-            "1: all of them)",
+            "Share of the trials that must pass, above 0 and at most 1 (default 1: all of them)",
             "RATE")
       ->needs(trials);
   AddSeed(app, options.trials.seed,

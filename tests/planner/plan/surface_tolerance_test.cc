@@ -19,6 +19,11 @@ Reason ReasonOf(const object::Object& cube, const Eigen::Vector3d& point) {
   return LocateContact(cube, {point, -Eigen::Vector3d::UnitX()}).reason;
 }
 
+double InSinglePrecision(double value) {
+  volatile float single = static_cast<float>(value);
+  return static_cast<double>(single);
+}
+
 TEST(SurfaceTolerance, PointsInSinglePrecisionAreOnAnObjectFarFromTheOrigin) {
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> across(-0.9 * kHalf, 0.9 * kHalf);
@@ -30,7 +35,7 @@ TEST(SurfaceTolerance, PointsInSinglePrecisionAreOnAnObjectFarFromTheOrigin) {
       const double half = kHalf * (1 + 1e-3 * i);
       const object::Polyhedron cube = MakeCube(half, offset);
       const Eigen::Vector3d exact = offset + Eigen::Vector3d(half, across(engine), across(engine));
-      const Eigen::Vector3d single = exact.cast<float>().cast<double>();
+      const Eigen::Vector3d single = exact.unaryExpr(&InSinglePrecision);
       EXPECT_EQ(ReasonOf(cube, single), Reason::kNone) << offset.transpose();
       moved += std::abs(single.x() - exact.x()) > 1e-6 * cube.diameter() ? 1 : 0;
     }
