@@ -19,6 +19,7 @@
 #include "planner/gait/gait_planner.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/check.h"
+#include "planner/planning/in_hand_task.h"
 #include "planner/planning/solve.h"
 #include "planner/registry/registry.h"
 #include "render/frames/frame.h"
