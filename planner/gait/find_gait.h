@@ -7,7 +7,8 @@
 #include "planner/gait/gait.h"
 #include "planner/gait/request.h"
 
-// Package overview. The state diagram, the modules and the constants are in docs/gait.md.
+// Package overview. The state diagram and the modules are in docs/gait.md, the constants in
+// docs/gait_constants.md.
 //
 // FindGait(request):                                   // find_gait.cc
 //   contacts := 400 random surface points + given grasps
