@@ -10,6 +10,18 @@ namespace regrasp::kinematics {
 /// Convert MJCF of a newer MuJoCo version to the linked version, and list its mesh files.
 /// Elements and attributes that the linked version's schema (MujocoSchema) lacks are converted:
 ///
+/// | found | becomes |
+/// | --- | --- |
+/// | integrator implicitfast | implicit |
+/// | ccd_iterations, ccd_tolerance | mpr_iterations, mpr_tolerance |
+/// | compiler assetdir | meshdir and texturedir |
+/// | no autolimits (true in newer versions) | autolimits true, if an element has a range |
+/// | position kv, timeconst | general with gainprm, biasprm "0 −kp −kv", a filter |
+/// | position dampratio | the same with kv = 2 ratio √(kp m), m the inertia that it moves |
+/// | position inheritrange r | ctrlrange: that of the joint, r times as wide |
+/// | joint actuatorfrcrange | forcerange of its actuators, by their gear |
+/// | dyntype filterexact | filter |
+/// | frame | a body without joints |
 ///
 /// Attributes of default classes are included. All other unknown attributes, sensors, plugins and
 /// solver settings are removed. Keyframes lose their controls if an actuator is removed. Visual
