@@ -62,8 +62,8 @@ class Deadline {
     };
     return either;
   }
-  /// Return a deadline of the same clock at `time` from the present; without a time if this one has
-  /// none.
+  /// Return a deadline of the same clock at `time` from the present.
+  /// It has no time if this deadline has none.
   [[nodiscard]] Deadline In(Clock::duration time) const {
     Deadline other = *this;
     if (at_) other.at_ = now_() + time;

@@ -42,8 +42,8 @@ class Descriptor {
 ///     `kMaxInputBytes`.
 [[nodiscard]] std::string ReadFile(const std::filesystem::path& path);
 
-/// Largest accepted size of input files, far above any usable mesh and far below the memory of a
-/// small machine.
+/// Largest accepted size of input files.
+/// It is far above any usable mesh, and far below the memory of a small machine.
 inline constexpr std::size_t kMaxInputBytes = std::size_t{1} << 30;
 
 /// Return the SHA-256 digest of `bytes` as 64 lower-case hexadecimal digits.
@@ -99,12 +99,13 @@ void CheckWritable(const std::filesystem::path& path);
 /// @throws EnvironmentError  if not, or if the path is not a folder.
 void CheckFolderWritable(const std::filesystem::path& folder);
 
-/// Return the file that WriteFile(path) replaces or creates: the target of the path's links, even
-/// if it does not exist. Returns `path` if that cannot be determined.
+/// Return the file that WriteFile(path) replaces or creates.
+/// It is the target of the path's links, even if it does not exist.
+/// Returns `path` if that cannot be determined.
 [[nodiscard]] std::filesystem::path EndOfLinks(const std::filesystem::path& path);
 
-/// Return the name of the file to which a temporary file belongs that WriteFile left behind after
-/// SIGKILL.
+/// Return the file name to which a temporary file of WriteFile belongs.
+/// WriteFile leaves such a file behind after SIGKILL.
 /// @returns empty if `name` is not the name of such a file. A name near the length limit of the
 ///     file system is truncated.
 [[nodiscard]] std::string NameBesideAside(const std::string& name);

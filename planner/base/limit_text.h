@@ -18,8 +18,8 @@ struct LimitText {
 /// Format a length and its limit as FormatWithLimit, in metres. Each has the unit of FormatLength.
 [[nodiscard]] LimitText FormatLengthWithLimit(double metres, double limit, int digits = 3);
 
-/// Format an angle and its limit as FormatWithLimit, in degrees with at least two decimals:
-/// "5.02°".
+/// Format an angle and its limit in degrees, as FormatWithLimit: "5.02°".
+/// They have at least two decimals.
 [[nodiscard]] LimitText FormatDegreesWithLimit(double degrees, double limit);
 
 /// Format a required angle in degrees, without a unit, rounded up to a hundredth.
@@ -29,8 +29,8 @@ struct LimitText {
 /// All programs, reports and images format required friction angles by this function.
 [[nodiscard]] std::string FormatRequiredDegrees(double degrees);
 
-/// Format required and available angle, with additional decimals if their texts would be in the
-/// wrong order.
+/// Format a required and an available angle, in degrees.
+/// They have additional decimals if their texts would be in the wrong order.
 [[nodiscard]] LimitText FormatRequiredDegrees(double required, double available);
 
 }  // namespace regrasp

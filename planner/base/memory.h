@@ -23,8 +23,8 @@ struct MemoryNeed {
   [[nodiscard]] double bytes() const { return bytes_for(count); }
 };
 
-/// Describe why a data structure is too large, and how many units fit; empty if `limit` bytes
-/// suffice.
+/// Describe why a data structure is too large, and how many units fit.
+/// @returns empty if `limit` bytes suffice.
 [[nodiscard]] std::string MemoryComplaint(const MemoryNeed& need, double limit);
 
 }  // namespace regrasp

@@ -44,8 +44,8 @@ class RandomStream {
   /// @param count  positive.
   [[nodiscard]] std::uint64_t Index(std::uint64_t count);
 
-  /// Draw distinct numbers of {0, …, count − 1}, uniformly over all choices, in the order of the
-  /// draws.
+  /// Draw distinct numbers of {0, …, count − 1}, uniformly over all choices.
+  /// They are in the order of the draws.
   /// @param drawn  number of numbers, in [0, count].
   [[nodiscard]] std::vector<int> Choose(int count, int drawn);
 

@@ -24,10 +24,9 @@ struct GraspProof {
   };
   Kind kind = Kind::kNone;
   std::vector<Eigen::Vector3d> forces;  ///< kForces: one per contact, balanced up to rounding
-  /// kForces: torques about the normals of soft-finger contacts, one per contact; empty if there
-  /// are none.
+  /// Torques about the normals for kForces, one per contact; empty without soft fingers.
   std::vector<double> torques = {};
-  /// kTwist: (v, ω); a point p of the object has the velocity v + ω × p.
+  /// Twist for kTwist: a point p of the object has the velocity v + ω × p.
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   Eigen::Vector3d omega = Eigen::Vector3d::Zero();
   std::array<int, 2> line = {0, 0};  ///< kLine: the two contacts

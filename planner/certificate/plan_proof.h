@@ -11,8 +11,8 @@
 
 namespace regrasp::certificate {
 
-/// Find proofs of the first `entries` entries of a plan, starting with the hold of the initial
-/// grasp.
+/// Find proofs of the first `entries` entries of a plan.
+/// The first entry is the hold of the initial grasp.
 /// Valid certificates of the plan are reused.
 /// @param located  plan with contacts placed on the object (LocatePlan).
 /// @param half_angle  friction angle, radians.

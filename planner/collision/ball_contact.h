@@ -24,8 +24,9 @@ class BallContact {
   /// @param scale  metres per object unit.
   BallContact(const object::Polyhedron& solid, double scale);
 
-  /// Return the points at which the distance from `centre` is a local minimum over the surface and
-  /// at most `reach`, nearest first.
+  /// Return the points nearest to a sphere's centre, nearest first.
+  /// At these points the distance from `centre` is a local minimum over the surface and at most
+  /// `reach`.
   /// There is one such point over a face or an edge, and two in a groove. Triangles that face away
   /// are ignored: the centre must be outside, or inside by less than the sphere's radius.
   /// @param centre  centre in the solid's frame, metres.

@@ -40,8 +40,7 @@ struct DistanceBounds {
 /// additional point or a larger radius never increases it.
 [[nodiscard]] DistanceBounds Distance(const ConvexShape& a, const ConvexShape& b);
 
-/// Return true only if the shapes are certainly farther apart than `distance`, which must be at
-/// least 0.
+/// Return true only if the shapes are certainly farther apart than `distance` ≥ 0.
 /// This is faster than Distance because it stops when the answer is known.
 [[nodiscard]] bool AreApart(const ConvexShape& a, const ConvexShape& b, double distance);
 

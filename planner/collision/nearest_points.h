@@ -39,8 +39,8 @@ struct NearestPair {
   Eigen::Vector3d on_b = Eigen::Vector3d::Zero();
 };
 
-/// Find the nearest points of two convex hulls by the algorithm of Gilbert, Johnson and Keerthi
-/// (1988).
+/// Find the nearest points of two convex hulls.
+/// Uses the algorithm of Gilbert, Johnson and Keerthi (1988).
 /// Their distance is minimal to a relative 1e-9 on convergence.
 /// @param a, b  at least one point each.
 /// @returns nullopt if the hulls intersect, up to rounding.

@@ -28,8 +28,8 @@ struct GraspCriteria {
 
   /// Return whether more than force closure is required.
   [[nodiscard]] bool AsksMore() const;
-  /// Return relaxed criteria: a share of 1 keeps all requirements beyond force closure, 0 drops
-  /// them.
+  /// Return relaxed criteria, with a share of the requirements beyond force closure.
+  /// A share of 1 keeps all of them, 0 drops them.
   [[nodiscard]] GraspCriteria Relaxed(double share) const;
 };
 
@@ -56,8 +56,8 @@ struct UnmetCriterion {
                                                     const object::WrenchFrame& frame,
                                                     const GraspCriteria& criteria);
 
-/// Format criteria for messages: " with a quality of at least 0.01"; empty if only force closure is
-/// required.
+/// Format criteria for messages: " with a quality of at least 0.01".
+/// The text is empty if only force closure is required.
 [[nodiscard]] std::string WithWhatIsAsked(const GraspCriteria& criteria);
 
 /// Distance over the diameter within which contacts coincide. It is twice the tolerance for

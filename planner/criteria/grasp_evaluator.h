@@ -84,8 +84,9 @@ class GraspEvaluator {
   [[nodiscard]] bool CanMeet(const grasp::Contact& a, const grasp::Contact& b) const {
     return criteria::CanMeet(a, b, same_point_, finger_radius());
   }
-  /// Return whether the hand can be at a grasp, good or not: fingers at different points (CanMeet),
-  /// each with clearance for a fingertip (CanRest) and reachable (CanReach).
+  /// Return whether the hand can be at a grasp, good or not.
+  /// Its fingers must be at different points (CanMeet), each with clearance for a fingertip
+  /// (CanRest) and reachable (CanReach).
   [[nodiscard]] bool IsReachable(const grasp::Grasp& grasp) const;
   /// Return whether a grasp is force closure at any friction angle, radians. No other criterion is
   /// tested.
@@ -132,8 +133,7 @@ class GraspEvaluator {
   /// Accuracy of required friction angles that are only compared, radians.
   static constexpr double kAngleAccuracy = 1e-5;
 
-  /// Return whether a grasp is admitted according to cached results; nullopt if they do not
-  /// suffice.
+  /// Return whether cached results admit a grasp; nullopt if they do not suffice.
   [[nodiscard]] std::optional<bool> Recall(const KnownGrasp& known) const {
     if (half_angle_ <= known.fails_at || share_ >= known.poor_at) return false;
     if (half_angle_ < known.holds_at) return std::nullopt;

@@ -16,8 +16,8 @@
 
 namespace regrasp::criteria {
 
-/// Set of contacts that a hand holds at the same time, by their numbers in a GraspMemory, in
-/// ascending order.
+/// Set of contacts that a hand holds at the same time.
+/// They are given by their numbers in a GraspMemory, in ascending order.
 class ContactSet {
  public:
   static constexpr int kMostHeld = hand::kFingersInSpace;

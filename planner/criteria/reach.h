@@ -20,18 +20,17 @@ namespace regrasp::criteria {
 [[nodiscard]] double ComputeClearance(const object::Object& object, const grasp::Contact& contact,
                                       double limit);
 
-/// Required clearance of a fingertip: radius over the diameter of a sphere that touches at the
-/// contact. A concave corner has no clearance. The smallest fingertips of the replay require half
-/// of it.
+/// Required clearance: radius over the diameter of a sphere that touches at the contact.
+/// A concave corner has no clearance. The smallest fingertips of the replay require half of it.
 inline constexpr double kFingertipClearance = 5e-4;
 
-/// Return true iff a sphere of the clearance's radius touches the object only at the contact, from
-/// outside.
+/// Return true iff a contact has the required clearance.
+/// The sphere of that radius must touch the object from outside, at the contact only.
 /// @param contact  contact with its face.
 [[nodiscard]] bool HasClearance(const object::Object& object, const grasp::Contact& contact);
 
-/// Return true iff a finger may hold the contact: it has clearance, and the surface there is not
-/// rough (Object::IsRough).
+/// Return true iff a finger may hold the contact.
+/// The contact must have clearance, and the surface there must not be rough (Object::IsRough).
 [[nodiscard]] bool CanRest(const object::Object& object, const grasp::Contact& contact);
 
 /// Model of a finger with positive radius: a straight rod with a hemispherical end, along the
@@ -51,8 +50,8 @@ inline constexpr double kFingertipClearance = 5e-4;
 [[nodiscard]] bool CanReach(const object::Object& object, const grasp::Contact& contact,
                             double radius);
 
-/// Return true iff no two fingers overlap: their spheres' centres are at least 2 r apart, up to
-/// rounding.
+/// Return true iff no two fingers overlap.
+/// The centres of their spheres must be at least 2 r apart, up to rounding.
 /// Law: the result is independent of the order of the contacts.
 [[nodiscard]] bool KeepApart(std::span<const grasp::Contact> contacts, double radius);
 
@@ -64,8 +63,8 @@ void CheckFingerRadius(const object::Object& object, double radius, const std::s
 /// Return the centre of the finger's sphere at a contact.
 [[nodiscard]] Eigen::Vector3d BallCentre(const grasp::Contact& contact, double radius);
 
-/// Describe why a finger cannot reach a contact: the radius that fits, or the free length of its
-/// path.
+/// Describe why a finger cannot reach a contact.
+/// The text has the radius that fits, or the free length of the finger's path.
 /// @returns nullopt if it can.
 [[nodiscard]] std::optional<std::string> FindObstacle(const object::Object& object,
                                                       const grasp::Contact& contact, double radius);

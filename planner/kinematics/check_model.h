@@ -9,8 +9,8 @@ namespace regrasp::kinematics {
 
 struct CompiledModel;
 
-/// Check that a model has exactly the physics that the replay assumes: gravity, joints with their
-/// limits and springs, actuators of joints.
+/// Check that a model has exactly the physics that the replay assumes.
+/// These are gravity, joints with their limits and springs, and actuators of joints.
 ///
 /// Flags and options that change only how a step is computed are accepted.
 /// @throws InputError  if a flag disables a part of the physics (gravity, limits, equality, …) or
@@ -19,8 +19,7 @@ struct CompiledModel;
 ///     element.
 void CheckPhysics(const CompiledModel& compiled);
 
-/// Check that the couplings of a hand include all couplings that its model imposes
-/// (joint_relations.h).
+/// Check that a hand has all couplings that its model imposes (joint_relations.h).
 /// @param file  name of the hand's file in messages.
 /// @throws InputError  as ReadJointRelations, and if a coupling of the model is missing or differs.
 void CheckCouplings(const HandModel& hand, const std::string& palm, const CompiledModel& compiled,

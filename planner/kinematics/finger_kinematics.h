@@ -27,8 +27,9 @@ using JointFrames = std::vector<Eigen::Isometry3d>;
 
 [[nodiscard]] JointFrames FramesOf(const Finger& finger, const Posture& posture);
 
-/// Position of the centre of a fingertip sphere in the palm's frame, metres, and its Jacobian with
-/// respect to the independent joints, metres per radian.
+/// Position of a fingertip and its Jacobian.
+/// The position is the centre of the fingertip sphere in the palm's frame, metres. The Jacobian is
+/// with respect to the independent joints, metres per radian.
 struct TipState {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< Fingertip::axis in the palm's frame
@@ -36,20 +37,20 @@ struct TipState {
 };
 [[nodiscard]] TipState TipAt(const Finger& finger, const Posture& posture);
 
-/// Return an upper bound of the motion of any point of a link, metres, while a finger moves
-/// straight from one joint configuration to another.
+/// Return an upper bound of the motion of any point of a link, metres.
+/// The finger moves straight from one joint configuration to another.
 /// The bound is Σ |Δq| times the largest distance of a point of the shape from the joint's axis.
 /// @param after  number of joints that move the link.
 /// @param reach  result of LinkReach.
 [[nodiscard]] double MotionBound(const Finger& finger, const Posture& from, const Posture& to,
                                  int after, const std::vector<double>& reach);
 
-/// Return, for each joint that moves a shape, the largest distance of the shape's points from the
-/// joint's axis in any configuration, metres.
+/// Return the reach of a link by joint, metres.
+/// It is the largest distance of the shape's points from the joint's axis in any configuration, for
+/// each joint that moves the shape.
 [[nodiscard]] std::vector<double> LinkReach(const Finger& finger, const LinkShape& shape);
 
-/// Return an upper bound of the distance of a contact of the fingertip from the finger's first
-/// joint, metres.
+/// Return an upper bound of the distance of contacts from a finger's first joint, metres.
 /// It is the sum of the lengths of all links and ignores joint limits.
 [[nodiscard]] double MaximumReach(const Finger& finger);
 

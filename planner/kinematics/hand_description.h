@@ -7,8 +7,8 @@
 
 namespace regrasp::kinematics {
 
-/// Contents of `hand.json` (docs/formats.md): roles of the model's bodies, and the fingertip
-/// spheres.
+/// Contents of `hand.json`: roles of the model's bodies, and the fingertip spheres.
+/// The format is in docs/formats.md.
 /// Lengths are in metres, in the frames of the model's bodies.
 struct HandDescription {
   struct Tip {

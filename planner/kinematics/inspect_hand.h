@@ -27,8 +27,8 @@ struct InspectedHand {
 /// @throws InputError  as ReadHand and DeriveHand.
 [[nodiscard]] InspectedHand InspectHand(const std::filesystem::path& path);
 
-/// Return the largest distance of a fingertip's centre from the palm's origin within the joint
-/// limits, metres.
+/// Return the largest distance of a fingertip's centre from the palm's origin, metres.
+/// The configurations are those within the joint limits.
 /// The accuracy is about 1 mm: the best sampled configuration is improved by coordinate search.
 [[nodiscard]] double LargestReach(const Finger& finger);
 

@@ -9,8 +9,8 @@
 
 namespace regrasp::kinematics {
 
-/// Target of a fingertip in the palm's frame: centre of its sphere, and direction from there to the
-/// contact.
+/// Target of a fingertip in the palm's frame.
+/// It is the centre of the fingertip sphere, and the direction from there to the contact.
 struct TipTarget {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Vector3d towards = Eigen::Vector3d::Zero();  ///< unit vector
@@ -19,8 +19,8 @@ struct TipTarget {
 /// Constraints on a joint configuration in addition to the fingertip's position.
 struct PostureLimits {
   double from_limits = 0.02;  ///< distance of joints from their limits, radians
-  /// Largest angle between the finger's pointing direction (Fingertip::axis) and the contact,
-  /// radians. A finger touches with its end and its pad, not with its back.
+  /// Largest angle between pointing direction (Fingertip::axis) and contact, radians.
+  /// A finger touches with its end and its pad, not with its back.
   double approach = 1.92;
 };
 

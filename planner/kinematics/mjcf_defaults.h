@@ -20,8 +20,8 @@ class MjcfDefaults {
   /// Return the class of an element: its own, otherwise `otherwise`.
   [[nodiscard]] static std::string ClassOf(const XmlElement& element, const std::string& otherwise);
 
-  /// Return an attribute of an element, of its class or of an ancestor of the class; nullptr if
-  /// none has it.
+  /// Return an attribute of an element; nullptr if there is none.
+  /// If the element omits it, its class and the ancestors of the class are searched.
   /// @param tags  element names of the classes that can have the attribute.
   [[nodiscard]] const std::string* Find(const XmlElement& element, const std::string& default_class,
                                         const std::vector<const char*>& tags,

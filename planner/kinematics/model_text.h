@@ -63,8 +63,7 @@ struct DampingRatio {
 /// Mesh file that a model names.
 struct MeshFile {
   std::filesystem::path path;
-  /// Name of the mesh in the model's text, under which MuJoCo gets its bytes; empty if MuJoCo finds
-  /// the file itself.
+  /// Name under which MuJoCo gets the mesh's bytes; empty if it finds the file.
   std::string alias;
 };
 
@@ -81,8 +80,8 @@ struct ModelText {
   std::vector<DampingRatio> damping_ratios;
 };
 
-/// Read an MJCF model with its includes, or a URDF model, and convert it to the linked MuJoCo
-/// version.
+/// Read an MJCF or URDF model and convert it to the linked MuJoCo version.
+/// The includes of an MJCF model are read, too.
 ///
 /// Elements that affect the hand are converted (convert_mjcf.h, convert_urdf.h). Elements that
 /// affect neither its motion nor its visuals are removed. All conversions are listed. A model that

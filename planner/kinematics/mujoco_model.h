@@ -35,8 +35,8 @@ struct CompiledModel {
   ModelText text;  ///< compiled text
 };
 
-/// Compile an MJCF or URDF model with its meshes, converted to the linked MuJoCo version
-/// (model_text.h).
+/// Compile an MJCF or URDF model with its meshes.
+/// The model is converted to the linked MuJoCo version (model_text.h).
 /// MuJoCo runs in a limited child process, so that no model can crash the caller.
 /// @throws InputError  if the model is invalid. The message names the file and has MuJoCo's reason.
 [[nodiscard]] CompiledModel CompileModel(const std::filesystem::path& path);
@@ -50,8 +50,7 @@ struct CompiledModel {
 /// @throws InputError  if MuJoCo rejects it.
 [[nodiscard]] ModelText AsMjcf(const std::filesystem::path& path, const ModelText& text);
 
-/// Compute positions of bodies, geoms and joints in the reference configuration (qpos0), in world
-/// coordinates.
+/// Compute positions in the reference configuration (qpos0), in world coordinates.
 [[nodiscard]] DataPtr AtRest(const mjModel& model);
 
 }  // namespace regrasp::kinematics

@@ -6,8 +6,8 @@
 
 namespace regrasp::lp {
 
-/// Return the inverse of a small matrix by Gauss-Jordan elimination with partial pivoting (Golub
-/// and Van Loan).
+/// Return the inverse of a small matrix by Gauss-Jordan elimination.
+/// Pivoting is partial (Golub and Van Loan).
 /// It is as accurate as LU factorization for simplex bases. For seven rows it is three times as
 /// fast as Eigen, which uses blocked algorithms. The result is not finite if a pivot is 0.
 /// @tparam kStride  number of stored rows, of which the first kRows are the matrix. An even number

@@ -10,12 +10,12 @@
 
 namespace regrasp::lp {
 
-/// Smallest pivot: entries of B⁻¹ w, typically of order 1, below which the inverse would lose more
-/// than half of its digits.
+/// Smallest pivot among the entries of B⁻¹ w, which are typically of order 1.
+/// Below it the inverse would lose more than half of its digits.
 inline constexpr double kPivot = 1e-9;
 
-/// Tolerance of negative basic weights in the ratio test, so that a larger pivot can be chosen
-/// among nearly equal ratios.
+/// Tolerance of negative basic weights in the ratio test.
+/// It allows a larger pivot among nearly equal ratios.
 inline constexpr double kRatioSlack = 1e-13;
 
 /// Limits of Simplex::Run.

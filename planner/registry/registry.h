@@ -18,15 +18,14 @@ namespace regrasp::registry {
 /// @throws InputError  if there is a planner with that name, or the name is "auto".
 void RegisterPlanner(std::unique_ptr<const planning::Planner> planner);
 
-/// Return the names of the planners and "auto", in the order of AllPlanners, for messages: "auto,
-/// general, polygon …".
+/// Return the names of "auto" and all planners, for messages: "auto, general, polygon …".
 [[nodiscard]] std::string PlannerNames();
 
 /// Return the planner with a name; nullptr if there is none.
 [[nodiscard]] const planning::Planner* FindPlanner(const std::string& name);
 
-/// Return the planner for `--planner auto`: the first of AllPlanners that supports all options of a
-/// request.
+/// Return the planner for `--planner auto`.
+/// It is the first of AllPlanners that supports all options of a request.
 /// This is `general` unless an option requires another planner, because it solves at least as many
 /// pairs of grasps as any other, and faster (bench/planners). Such options are contact regions
 /// (contour), uniform spanning (polygon, polyhedron), contact points or clusters (roadmap), and a

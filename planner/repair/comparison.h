@@ -26,8 +26,8 @@ struct Comparison {
   /// Mean angle in radians between a visible triangle and the solid's nearest triangle.
   double normal_mean = 0;
   double normal_most = 0;  ///< 95th percentile of these angles
-  /// Marks of the solid's triangles that are filled surface: some point of the triangle is farther
-  /// than kInventedDistance from the original.
+  /// Marks of the solid's filled triangles.
+  /// A triangle is filled if some point of it is farther than kInventedDistance from the original.
   std::vector<bool> invented;
   double invented_share = 0;  ///< share of the solid's area
   double thin_share = 0;      ///< share of the solid's area with a wall thinner than kThinWall

@@ -18,8 +18,8 @@ struct Climbed {
   Comparison comparison;                     ///< comparison of the solid with the original
 };
 
-/// Run the repair stages until one gives a solid that the reader accepts and that satisfies the
-/// limits in `options` (repair.h).
+/// Run the repair stages until one gives a valid solid.
+/// A solid is valid if the reader accepts it and it satisfies the limits in `options` (repair.h).
 /// @throws TimeUp  if the deadline passes.
 [[nodiscard]] Climbed Climb(const object::PolygonSoup& soup, const std::string& name,
                             const object::RepairOptions& options, const object::Reading& reading);

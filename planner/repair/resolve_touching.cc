@@ -166,7 +166,7 @@ class Resolver {
   std::vector<Sides> pairs_;
   std::vector<Vector3d> middles_;
   std::set<int> touching_;  ///< end vertices of edges with more than two triangles
-  /// new middle vertex by side, at edges with more than two triangles
+  /// New middle vertex by side, at edges with more than two triangles.
   std::map<Side, int> middle_of_;
   std::vector<Vector3d> vertices_;
   std::vector<int> vertex_of_;  ///< new vertex by triangle corner

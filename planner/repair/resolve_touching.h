@@ -10,8 +10,8 @@ enum class Touching {
   kPart,  ///< separate solids: each surface is moved inwards at the edge
 };
 
-/// Separate the surface of a solid at non-manifold edges and vertices, so that each edge has two
-/// triangles and each vertex one fan of triangles.
+/// Separate the surface of a solid at its non-manifold edges and vertices.
+/// In the result each edge has two triangles and each vertex one fan of triangles.
 /// Moves the surface by kTouchingMoved · D along edges of more than two triangles and at vertices
 /// where parts touch. Parts that touch at vertices only are always moved apart.
 /// @param soup  triangles that bound a solid: each edge has equally many triangles in both

@@ -102,8 +102,7 @@ struct StageResult {
 /// Scatter beyond which a point cloud is not a surface.
 inline constexpr double kMostScatter = 0.5;
 
-/// Distance over the diameter within which vertices are welded: the rounding error of 32-bit
-/// coordinates.
+/// Welding distance over the diameter: the rounding error of 32-bit coordinates.
 inline constexpr double kWeldDistance = 1e-6;
 
 /// Radius of the wrapping sphere over the diameter. Narrower openings are closed.

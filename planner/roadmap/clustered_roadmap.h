@@ -38,8 +38,9 @@ struct ClusteredRoadmapOptions {
 [[nodiscard]] ContactClusters ClusterContacts(const object::Polyhedron& solid,
                                               const ClusteredRoadmapOptions& options);
 
-/// Clustered contact points of a mesh, and roadmap of all force-closure grasps of four
-/// representatives (Phoka 2010, 6.2.2 and 6.2.3). It is constant and can be shared by queries.
+/// Clustered contact points of a mesh, with the roadmap of their representatives.
+/// The roadmap has all force-closure grasps of four representatives (Phoka 2010, 6.2.2 and 6.2.3).
+/// It is constant and can be shared by queries.
 struct ClusteredRoadmap {
   /// @throws std::invalid_argument  if an option is out of range.
   ClusteredRoadmap(const object::Polyhedron& solid, const ClusteredRoadmapOptions& options);

@@ -21,9 +21,9 @@ struct ContactChain {
   std::vector<Quadruple> grasps;  ///< from start to goal, both included; empty if none
   RoadmapLink start_link = RoadmapLink::kNone;
   RoadmapLink goal_link = RoadmapLink::kNone;
-  /// Set by a failed last resort: `exhausted` is whether one side was searched completely, so that
-  /// no sequence exists over these contact points. The sizes are the numbers of grasps reached from
-  /// both sides.
+  /// Whether a failed last resort searched one side completely.
+  /// Then no sequence exists over these contact points.
+  /// The sizes are the numbers of grasps reached from both sides.
   bool exhausted = false;
   std::size_t start_size = 0;
   std::size_t goal_size = 0;

@@ -21,8 +21,8 @@ struct KMeansClusters {
   double cost = 0;              ///< sum of squared distances of points to their centres
 };
 
-/// Cluster points by Lloyd's iteration (1982), initialized by k-means++ (Arthur and Vassilvitskii
-/// 2007).
+/// Cluster points by k-means.
+/// Lloyd's iteration (1982) starts from k-means++ centres (Arthur and Vassilvitskii 2007).
 /// The result is the cheapest of `restarts` runs. No cluster is empty: an empty one gets the point
 /// farthest from its centre.
 ///
@@ -37,8 +37,9 @@ struct KMeansClusters {
 /// Number of sides of the pyramid that approximates a friction cone for comparisons.
 inline constexpr int kPyramidSides = 8;
 
-/// Unit wrenches of a contact's friction pyramid in the wrench frame, torques divided by its
-/// radius. One per column, counter-clockwise about the inward normal.
+/// Unit wrenches of a contact's friction pyramid in the wrench frame.
+/// Torques are divided by the frame's radius.
+/// One per column, counter-clockwise about the inward normal.
 using WrenchPyramid = Eigen::Matrix<double, 6, kPyramidSides>;
 
 /// Return the pyramid of a contact.
@@ -69,8 +70,8 @@ using WrenchPyramid = Eigen::Matrix<double, 6, kPyramidSides>;
 [[nodiscard]] Eigen::MatrixXd WrenchDistances(std::span<const WrenchPyramid> pyramids,
                                               const Tell& tell = {});
 
-/// Spectral embedding of a graph of affinities, which places similar points close together (Ng,
-/// Jordan and Weiss 2001).
+/// Spectral embedding of a graph of affinities (Ng, Jordan and Weiss 2001).
+/// It places similar points close together.
 struct SpectralEmbedding {
   Eigen::MatrixXd rows;         ///< n × k, points as unit rows
   Eigen::MatrixXd vectors;      ///< n × k, eigenvectors of D^(−1/2) A D^(−1/2)

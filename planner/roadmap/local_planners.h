@@ -31,8 +31,9 @@ enum class RoadmapLink {
 /// Return the name of a link in plans: "vertex", "algorithm-1", …
 [[nodiscard]] const char* RoadmapLinkName(RoadmapLink link);
 
-/// Local planners from a grasp of any contact points to the representative roadmap (Phoka 2010,
-/// 6.2.4, algorithms 1, 2 and 3). They evaluate a grasp only when they reach it.
+/// Local planners from a grasp of any contact points to the representative roadmap.
+/// They are algorithms 1, 2 and 3 of Phoka 2010, 6.2.4.
+/// They evaluate a grasp only when they reach it.
 class LocalPlanners {
  public:
   /// @param clusters  clusters with all contacts of the grasps. All arguments outlive this object.

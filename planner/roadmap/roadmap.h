@@ -25,8 +25,8 @@ template <int K>
   }
 }
 
-/// Return the rank of an ascending triple in colexicographic order: Σ (c_i over i + 1), the
-/// combinatorial number system (Knuth, TAOCP 4A, 7.2.1.3).
+/// Return the rank of an ascending triple in colexicographic order.
+/// The rank is Σ (c_i over i + 1), the combinatorial number system (Knuth, TAOCP 4A, 7.2.1.3).
 ///
 /// Law: a bijection between the triples of {0, …, n − 1} and {0, …, (n over 3) − 1}.
 [[nodiscard]] constexpr std::int64_t CombinationRank(const std::array<int, 3>& ascending) {
@@ -82,8 +82,8 @@ class Roadmap final : public search::SwitchingGraph {
   void ListByTriples();
   [[nodiscard]] int triple_count() const;
   [[nodiscard]] std::span<const int> VerticesWith(int triple) const;
-  /// Return whether the switch between two grasps with a common triple is impossible, because it
-  /// exchanges contacts that exclude each other.
+  /// Return whether the switch between two grasps with a common triple is impossible.
+  /// It is if the exchanged contacts exclude each other.
   [[nodiscard]] bool IsExcluded(int vertex, int other) const;
   [[nodiscard]] bool ExcludeEachOther(int a, int b) const {
     return excluded_[a * points_.size() + b];

@@ -43,8 +43,8 @@ struct RandomQuery {
   double seconds = 0;
 };
 
-/// Run queries between random force-closure grasps of all contact points (tables 6.1 to 6.6 of
-/// Phoka 2010).
+/// Run queries between random force-closure grasps of all contact points.
+/// They correspond to tables 6.1 to 6.6 of Phoka 2010.
 /// Equal seeds give equal queries, whatever the clusters.
 /// @param solid  solid of the roadmap.
 /// @returns solved and unsolved queries; fewer than `count` if no grasps can be drawn.
@@ -55,8 +55,8 @@ struct RandomQuery {
                                                         const Deadline& deadline = {},
                                                         const Tell& tell = {});
 
-/// Planner of finger switches between grasps of four contact points of a solid (Phoka 2010, chapter
-/// 6).
+/// Planner of finger switches between grasps of four contact points of a solid.
+/// The method is that of Phoka 2010, chapter 6.
 /// The hand has kRoadmapFingers fingers. The roadmap contains all such grasps and all switches
 /// between them.
 class RoadmapPlanner final : public planning::Planner {

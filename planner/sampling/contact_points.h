@@ -54,8 +54,7 @@ inline constexpr double kOppositeAngle = 1.7453292519943295;
 [[nodiscard]] std::vector<grasp::Contact> MeshContacts(const object::Polyhedron& solid, int most,
                                                        std::uint64_t seed);
 
-/// Number of contact points per face beyond which a solid counts as a polyhedron with few planar
-/// faces.
+/// Number of contact points per face beyond which a solid has few planar faces.
 inline constexpr int kFewFaces = 4;
 /// Number of candidates per contact point. Yuksel (2015) recommends at least five.
 inline constexpr int kCandidatesPerPoint = 20;

@@ -42,8 +42,9 @@ class SurfaceSampler {
   explicit SurfaceSampler(const object::Object& object, double finger_radius = 0,
                           double clearance = kFromBorder);
 
-  /// Return whether a finger can be placed at a contact (CanRest, CanReach), away from the border
-  /// of its face: by kFromBorder from every edge, by the clearance from sharp edges.
+  /// Return whether a finger can be placed at a contact (CanRest, CanReach).
+  /// The contact must be away from the border of its face: by kFromBorder from every edge, by the
+  /// clearance from sharp edges.
   [[nodiscard]] bool IsValid(const grasp::Contact& contact) const;
 
   /// Draw a triangle of a solid by area.
@@ -51,8 +52,8 @@ class SurfaceSampler {
 
   /// Draw a contact uniformly over the whole surface, valid or not.
   [[nodiscard]] grasp::Contact DrawAnywhere(RandomStream& random) const;
-  /// Draw a valid contact uniformly over the whole surface; nullopt if none of kMostDraws draws is
-  /// valid.
+  /// Draw a valid contact uniformly over the whole surface.
+  /// @returns nullopt if none of kMostDraws draws is valid.
   [[nodiscard]] std::optional<grasp::Contact> TryDraw(RandomStream& random) const;
 
   /// Draw a contact uniformly over the whole surface, or over one face outside cavities.
