@@ -31,9 +31,9 @@ inline constexpr std::size_t kLongestLine = 2000;
 
 /// Format text as one line that shows all its characters.
 /// ASCII control characters become spaces, without trailing ones. Other invisible characters
-/// (IsInvisible) and invalid bytes are written as \u202e and \xff. Beyond `kLongestLine` characters
-/// the middle is replaced by "…". This is required because file names can contain any bytes,
-/// terminals act on some of them, and scripts count lines.
+/// (IsInvisible) and invalid bytes are written as `\u202e` and `\xff`. Beyond `kLongestLine`
+/// characters the middle is replaced by "…". This is required because file names can contain any
+/// bytes, terminals act on some of them, and scripts count lines.
 [[nodiscard]] std::string OneLine(std::string_view text);
 
 using TextRow = std::vector<std::string>;

@@ -7,7 +7,7 @@
 namespace regrasp::kinematics {
 
 /// Prepare a URDF model for MuJoCo.
-/// Adds a <compiler> that keeps visual geoms and links fixed to other links, keeps the folders of
+/// Adds a `<compiler>` that keeps visual geoms and links fixed to other links, keeps the folders of
 /// mesh paths, and accepts inertias that no rigid body has. Settings in the file take precedence.
 ///
 /// MuJoCo identifies meshes by their file name without folders. Meshes with the same file name in

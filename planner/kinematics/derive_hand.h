@@ -25,8 +25,8 @@ struct DerivedHand {
 /// - Up is the direction to which more than two thirds of the fingers flex. If there is none, it is
 ///   the direction in which the fingers point in the reference configuration. Up is replaced by an
 ///   axis of the palm within 10° of it.
-/// - Couplings come from equality constraints, <mimic> elements, and tendons by which one actuator
-///   moves two joints. The independent joint is the one with an actuator.
+/// - Couplings come from equality constraints, `<mimic>` elements, and tendons by which one
+///   actuator moves two joints. The independent joint is the one with an actuator.
 /// - Names come from the bodies, without common beginnings and endings.
 /// @throws InputError  if there are fewer than three fingers, or no common body but the world.
 [[nodiscard]] DerivedHand DeriveHand(const CompiledModel& compiled, const std::string& file);

@@ -145,8 +145,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Replaces <include> elements as MuJoCo does: paths are relative to the model's folder, and each
-/// file is included once.
+/// Resolver of `<include>` elements, as in MuJoCo: paths are relative to the model's folder, and
+/// each file is included once.
 class Includer {
  public:
   Includer(fs::path folder, std::vector<fs::path>& files)

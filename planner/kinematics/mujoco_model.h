@@ -24,7 +24,7 @@ struct SchemaElement {
                                            const std::string& child) const;
 };
 
-/// Return the schema of the element <mujoco>, from mj_printSchema.
+/// Return the schema of the element `<mujoco>`, from mj_printSchema.
 [[nodiscard]] const SchemaElement& MujocoSchema();
 
 using mujoco::DataPtr;
