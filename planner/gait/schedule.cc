@@ -80,7 +80,7 @@ void Bound(GaitRequest& request, const Budget& budget) {
 
 constexpr std::string_view kSimulating = "simulating a plan";
 
-/// What an attempt simulates.
+/// Part of an attempt that is simulated.
 enum class Simulate {
   kEdges,  ///< edges during the search, and the gait
   kGait,   ///< only the gait that the search finds
