@@ -22,8 +22,9 @@ enum class Turn : unsigned char {
 [[nodiscard]] Turn TurnAboutLine(const UnitContact& a, const UnitContact& b, const UnitContact& c);
 
 /// Return whether the segment from a to b is strictly inside both cones or both mirrored cones.
-/// The inward cones grasp by compression, their mirrors by expansion. The two contacts alone
-/// balance, and resist every wrench except a torque about their line.
+/// With the inward cones the contacts press the object together, with the mirrored ones they
+/// stretch it. The two contacts alone balance, and resist every wrench except a torque about their
+/// line.
 [[nodiscard]] bool IsAntipodal(const UnitContact& a, const UnitContact& b);
 
 /// Decision on force closure in space from the lines through two contacts.

@@ -44,8 +44,8 @@ inline constexpr double kUnitTolerance = 1e-6;
 /// Check a grasp.
 ///
 /// @throws std::invalid_argument  if there is no contact, a value is not finite, a normal is not a
-///     unit vector, a torsion is negative, z or torsion is not 0 in the plane, the dimension is
-///     neither 2 nor 3, or the radius is not positive.
+///     unit vector, or a torsion is negative; if z or torsion is not 0 in the plane; if the
+///     dimension is neither 2 nor 3, or the radius is not positive.
 void CheckGrasp(std::span<const Contact> contacts, const object::WrenchFrame& frame);
 
 /// Check a friction angle.

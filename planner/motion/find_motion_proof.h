@@ -40,9 +40,9 @@ inline constexpr double kShortestProofPiece = 1.0 / 4096;
 /// While a normal turns, forces must be inside the cones of all its directions. The search uses the
 /// largest circular cone inside those of both ends of the piece: about the direction halfway
 /// between them, narrower by half of the turn. (A force inside both cones is inside all cones in
-/// between, because the directions within θ of a force are a convex part of the sphere.) A soft
-/// finger counts as a hard-finger contact while its normal turns. The search goes closer to the
-/// limit than FindMotionProof (kLargestWeightNearLimit).
+/// between. The reason is that the directions within θ of a force are a convex part of the sphere.)
+/// A soft finger counts as a hard-finger contact while its normal turns. The search goes closer to
+/// the limit than FindMotionProof (kLargestWeightNearLimit).
 ///
 /// @param dimension   3, or 2 for planar contacts.
 /// @param half_angle  friction angle in radians, in (0, π/2).

@@ -64,8 +64,8 @@ inline constexpr double kPathAngleAccuracy = 1e-4;
 /// Compute bounds on the largest required friction angle along a motion.
 /// `lower` is attained at an instant. `upper` is proved for the whole path, piece by piece, by
 /// proofs that exact arithmetic accepts. `upper` is within kPathAngleAccuracy of `lower`, with two
-/// exceptions: a narrow place of the path may need proofs with more slack, or the path may need
-/// hundreds of pieces at that slack. If the budget is exhausted, `upper` is `proven`.
+/// exceptions. A narrow place of the path may require proofs with more slack, or the path may
+/// require hundreds of pieces at that slack. If the budget is exhausted, `upper` is `proven`.
 /// @param proven  friction angle at which the whole motion is known to be force closure, if any;
 ///     upper limit of `upper`.
 /// @returns bounds; nullopt if an instant is force closure at no angle, or no angle below π/2 could

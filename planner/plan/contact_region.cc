@@ -108,7 +108,7 @@ class RingPlace {
   double place_ = 0;
 };
 
-/// Return whether a grasp acts by compression: its contacts point towards each other.
+/// Return whether a grasp presses inwards: its normals point towards each other.
 bool IsSqueezing(const grasp::Contact& a, const grasp::Contact& b) {
   return (b.p - a.p).dot(a.n) > 0;
 }

@@ -29,13 +29,13 @@ struct SwitchRegion {
                                                               double half_angle);
 
 /// Compute the half-width of the independent contact region of a 2-finger grasp on a polygon.
-/// This is the largest h for which both contacts may move independently by up to h along the
-/// boundary, across its vertices, and the grasp stays force closure of the same kind, by
-/// compression or by expansion (Phoka 2010, section 4.6.2).
+/// Both contacts may move independently by up to the half-width h along the boundary, across its
+/// vertices (Phoka 2010, section 4.6.2). The grasp then stays force closure of the same kind:
+/// pressing inwards, or outwards in a notch or hole (stretching). The result is the largest such h.
 ///
 /// An interval [s − h, s + h] of the boundary length is cut at the vertices. For two pieces, one on
-/// each of two edges, the force-closure grasps of one kind are a convex set of the two lengths,
-/// because p_b − p_a is linear in them and must be in a convex cone. The rectangle of the pieces is
+/// each of two edges, the force-closure grasps of one kind are a convex set of the two lengths:
+/// p_b − p_a is linear in them, and must be in a convex cone. The rectangle of the pieces is
 /// therefore inside the set iff its four corners are. A contact at a vertex must satisfy the
 /// condition with the normals of both edges. The condition is monotone in h, hence a bisection.
 ///

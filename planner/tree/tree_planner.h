@@ -21,8 +21,9 @@ namespace regrasp::tree {
 [[nodiscard]] double TravelOf(const GraspPath& path, const SearchSpace& space);
 
 /// Planner `general`: connects any two force-closure grasps that the hand can hold, on any object.
-/// It uses finger switches and sliding steps, in space (three to five contacts, with soft fingers
-/// also two; a hand of five fingers) and in the plane (two to four contacts, four fingers).
+/// It uses finger switches and sliding steps. In space, grasps have three to five contacts, with
+/// soft fingers also two, and the hand has five fingers by default. In the plane, grasps have two
+/// to four contacts, and the default is four fingers.
 ///
 /// It first searches the grasps of the contacts of start and goal. Then it grows a tree from each,
 /// by switches with contacts of the whole surface and by sliding steps, until they meet

@@ -24,7 +24,7 @@ struct FrictionBox {
 /// narrower the closer this force is to the circle.
 ///
 /// ODE bounds friction by a box. A box with the sides 2 μ N permits forces √2 times too large, even
-/// if it is turned towards the last force: three contacts together turn their boxes from step to
+/// if it is turned towards the last force. Three contacts together turn their boxes from step to
 /// step so that each uses a corner. A box inside the circle never permits that. Because it is
 /// computed again from each resulting force, that force can reach kLongest of the circle, in every
 /// direction.

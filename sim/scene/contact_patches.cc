@@ -79,8 +79,8 @@ constexpr double kLeastOfLargest = 1e-3;
 /// Half the side of the smallest patch, over D: closer points are equal when files are read.
 constexpr double kPointPatch = object::kPointTolerance;
 
-/// Largest number of halvings of rectangles near the corners of a face, as long as another shape is
-/// valid: to 3e-4 of the diameter for a path and 8e-5 for a point. Holding fingers slip by a
+/// Largest number of halvings of rectangles near the corners of a face, if another shape is valid.
+/// They shrink to 3e-4 of the diameter for a path and 8e-5 for a point. Holding fingers slip by a
 /// thousandth of that, and a fingertip of 0.04 D rolls that far within the rotation limit of the
 /// object.
 constexpr int kPathHalvings = 6, kPointHalvings = 8;

@@ -12,10 +12,10 @@ namespace regrasp::sim {
 /// This is kGripSafety times the force that the object's weight requires in the worst grasp of the
 /// plan, at most kStrongestGrip_N.
 ///
-/// With s the largest weight over the grasp force that forces inside the cones balance, smallest
-/// over the static grasps and the waypoints of sliding steps, a weight W requires W / s. A planar
-/// object is supported by the plane. To lift it out requires W / μ from fingers that stand upright
-/// around it. This value is used for planar objects, and if no grasp carries any weight.
+/// Let s be the largest weight over the grasp force that forces inside the cones balance, smallest
+/// over the static grasps and the waypoints of sliding steps. A weight W then requires W / s. A
+/// planar object is supported by the plane. To lift it out requires W / μ from fingers that stand
+/// upright around it. This value is used for planar objects, and if no grasp carries any weight.
 /// @param located     plan with contacts placed on the object.
 /// @param entries     number of entries that count, the initial grasp first.
 /// @param half_angle  friction angle in radians.
@@ -47,7 +47,7 @@ inline constexpr double kStrongestGrip_N = 200;
 /// - finger stiffness k = kStiffness · F / D. Below 5 F / D a grasp buckles under its own grasp
 ///   force.
 /// - finger mass m = kFingerMass · M. Heavier fingers eject a light object from good grasps in the
-///   disturbance test: of 56 good random grasps 8 were lost at 50 M, of 536 two at M / 2 and none
+///   disturbance test. Of 56 good random grasps 8 were lost at 50 M; of 536 two at M / 2 and none
 ///   at M / 5.
 /// - time step dt so that damping · dt / m = 2 √(k / m) dt is kDampingStep: above 0.6 the explicit
 ///   damping of the finger's motion is unstable. Times are thus proportional to √(M D / F): a

@@ -30,11 +30,11 @@ inline constexpr double kStillTime = 0.4;
 /// Longest wait in characteristic times. An object slides if a disturbance exceeds the resisted
 /// wrench by 1 / 800,000 of the grasp force; in this time it has moved by the default tolerance.
 inline constexpr double kLongestWait = 40;
-/// Limit of still motion over D. Contacts creep by less than 5e-8 in kStillTime: the engine softens
-/// friction so that it yields by (1 − solimp) / impratio = 1e-6 of (1 / m + 1 / M) f, with half the
-/// contacts' time constant of two time steps. An unsupported object moves 8e-4 in this time under
-/// the default disturbance. An object that the grasp holds except for a thousandth of the
-/// disturbance moves nearly 1e-6.
+/// Limit of still motion over D. Contacts creep by less than 5e-8 in kStillTime. The engine softens
+/// friction so that it yields by (1 − solimp) / impratio = 1e-6 of (1 / m + 1 / M) f. Its time
+/// constant is half that of the contacts, which is two time steps. An unsupported object moves 8e-4
+/// in this time under the default disturbance. An object that the grasp holds except for a
+/// thousandth of the disturbance moves nearly 1e-6.
 inline constexpr double kStill = 1e-6;
 /// Upper bound on the extent of the object from an axis over its radius of gyration about that
 /// axis: 1.4 for a rod's own axis, 2 for a cube's diagonal. Creeping contacts rotate a needle about
