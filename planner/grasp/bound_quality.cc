@@ -22,7 +22,7 @@ constexpr double kCore = 1e-3;
 /// Radius if ε proves to be smaller than kCore: below every gap that is refined.
 constexpr double kLeastCore = kQualityGap / 2;
 
-/// Largest distance of facets from their corners, relative to the gap over the facet distance.
+/// Largest Residual of the hull (growing_hull.h), over the relative gap.
 constexpr double kLargestResidual = 1e-3;
 
 /// Friction coefficient above which the set is so flat that Qhull takes minutes.

@@ -97,8 +97,8 @@ template <int kDim>
       .normalized();
 }
 
-/// Ratio of sliding to approach velocity below which cancellation makes the sliding direction
-/// inaccurately perpendicular.
+/// Ratio of sliding to approach velocity below which cancellation makes the computed sliding
+/// direction imprecise.
 inline constexpr double kSlowSliding = 1e-4;
 
 /// Return the direction in which a contact with velocity u slides, exactly perpendicular to n.
@@ -126,7 +126,8 @@ template <int kDim>
 }
 
 /// Return the load on the rim that attains ConeSupport, for any contact.
-/// The friction force and torque are proportional to sliding and spin along the ellipsoid's normal.
+/// Friction force and torque are those of the ellipsoid's point whose normal is along sliding and
+/// spin.
 template <int kDim>
 [[nodiscard]] inline ContactWrench SupportWrench(const UnitContact& contact,
                                                  const Eigen::Vector3d& u, double spin) {

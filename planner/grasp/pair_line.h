@@ -30,7 +30,7 @@ enum class Turn : unsigned char {
 /// Decision on force closure in space from the lines through two contacts.
 enum class PairLineVerdict {
   kNo,  ///< there is a line about which all other contacts turn the object in the same direction
-  /// there is an antipodal pair, and the others turn the object in both directions about its line
+  /// There is an antipodal pair, and the others turn the object in both directions about its line.
   kYes,
   kOpen,  ///< neither
 };

@@ -43,7 +43,7 @@ class QualityFilter {
 
   object::WrenchFrame frame_;
   double half_angle_;
-  /// stored twists; those that refuted a grasp recently are nearer to the front
+  /// Stored twists; those that refuted a grasp recently are nearer to the front.
   std::vector<Twist> twists_;
   std::int64_t shot_count_ = 0;
 };

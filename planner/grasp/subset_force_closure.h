@@ -20,7 +20,7 @@ struct SubsetCounts {
   std::int64_t rejected_by_twists = 0;   ///< held off by the twist that refuted another subset
   std::int64_t by_simplex = 0;           ///< decided by a linear program
   std::int64_t subsets = 0;
-  /// part of by_simplex that is too close to call, not among the results
+  /// Part of by_simplex that is too close to call, not among the results.
   std::int64_t too_close = 0;
 };
 

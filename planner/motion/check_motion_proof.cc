@@ -335,9 +335,9 @@ bool StaysInsideCone(const VectorOf<Number>& force, const Number& twist, const N
 
 /// Contact on a piece, as doubles for conversion to number types.
 struct GivenContact {
-  Eigen::Vector3d from;  ///< of the whole motion
+  Eigen::Vector3d from;  ///< point at the start of the whole motion
   Eigen::Vector3d to;
-  Eigen::Vector3d start_n;  ///< of the piece
+  Eigen::Vector3d start_n;  ///< normal at the start of the piece
   Eigen::Vector3d end_n;
   bool turns;
   double torsion;

@@ -41,7 +41,7 @@ class Elimination {
   Integer& At(int row, int column) { return m_[row * (columns_ + 1) + column]; }
   Integer& Right(int row) { return At(row, columns_); }
 
-  /// numerators / denominator; the denominator is positive.
+  /// Solution numerators / denominator; the denominator is positive.
   struct Solution {
     std::vector<Integer> numerators;
     Integer denominator = 1;

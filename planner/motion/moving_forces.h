@@ -14,8 +14,8 @@ namespace regrasp::motion {
 struct MovingContact {
   Eigen::Vector3d start;
   Eigen::Vector3d end;
-  /// end − start, times any factor common to all contacts. On short pieces the difference of
-  /// rounded points would lose the digits that determine which torques are redundant.
+  /// Difference end − start, times any factor common to all contacts. On short pieces the
+  /// difference of rounded points would lose the digits that determine which torques are redundant.
   Eigen::Vector3d velocity;
   Eigen::Vector3d n;
   /// Rim of the cone: axial · n + tangential · t, of unit length.

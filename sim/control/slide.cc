@@ -33,8 +33,8 @@ Vector3d Tip(const grasp::Contact& contact, double radius) {
 
 /// Largest motions of the fingers.
 struct Extent {
-  double travel = 0;  ///< of a contact, metres
-  double turn = 0;    ///< of a normal, radians
+  double travel = 0;  ///< travel of a contact, metres
+  double turn = 0;    ///< turn of a normal, radians
 };
 
 Extent FindExtent(const plan::FingerGrasp& from, const plan::FingerGrasp& to) {

@@ -39,7 +39,7 @@ struct Nearness {
 [[nodiscard]] Nearness NearestOf(const ConvexBody& solid, std::span<const ConvexBody> others);
 
 /// Return the distance by which a solid must move to be free of other solids, along the best
-/// direction. The accuracy is 1 %, at least 1 µm.
+/// direction. The accuracy is 1 %, but no finer than 1 µm.
 /// @param directions  unit vectors.
 [[nodiscard]] double FreeingDistance(const ConvexBody& solid, std::span<const ConvexBody> others,
                                      std::span<const Eigen::Vector3d> directions);
