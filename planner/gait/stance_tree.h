@@ -127,8 +127,9 @@ class StanceTree {
   /// Plans detours around infeasible edges; nullopt if there is none.
   [[nodiscard]] std::optional<std::vector<Keyframe>> MoveFrom(StanceNode& stance_node, int node);
   void Prune(int index);
-  /// Reset the configurations of fingers that idle before and after the change to those of the
-  /// parent. They may differ if a released finger found no path to its idle configuration.
+  /// Reset the idle configurations before and after the change to those of the parent.
+  /// Applies to fingers that idle both before and after. They may differ if a released finger found
+  /// no path to its idle configuration.
   void IdleAsBefore(StanceNode& stance_node) const;
 
   const HandSetup& setup_;

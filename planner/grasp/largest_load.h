@@ -10,8 +10,7 @@
 
 namespace regrasp::grasp {
 
-/// Compute the largest s at which forces inside the friction cones balance a load along a
-/// direction.
+/// Compute the largest s at which forces inside the friction cones balance a load.
 /// The forces with Σ n_i·f_i = total_normal balance `load` + s · total_normal · `direction`:
 ///
 ///     max s   subject to   Σ G_i f_i + load + s · total_normal · direction = 0,   f_i ∈ C(n_i).

@@ -413,10 +413,9 @@ ProofVerdict CheckPiece(const std::vector<GivenContact>& given, int dimension, c
   return {Kind::kForceClosure, ""};
 }
 
-/// Check a piece by intervals if they can decide, otherwise by rational numbers, which are far
-/// slower.
-/// Both use the same steps, and each proves only true statements. If two supports are equally good,
-/// they may use different ones.
+/// Check a piece by intervals if they can decide, otherwise by rational numbers.
+/// Rational numbers are far slower. Both use the same steps, and each proves only true statements.
+/// If two supports are equally good, they may use different ones.
 ProofVerdict CheckFiltered(const std::vector<GivenContact>& given, int dimension, double mu,
                            const MotionSegment& piece) {
   try {

@@ -23,8 +23,8 @@ inline constexpr double kRootAbove = 1 + 5e-7;
 
 [[nodiscard]] bool IsZero(const Vector& a);
 
-/// Return an upper bound on √x, larger by at most a millionth of it: the root of a double times
-/// kRootAbove.
+/// Return an upper bound on √x, larger by at most a millionth of it.
+/// It is the root of a double times kRootAbove.
 /// @param x  number ≥ 0.
 [[nodiscard]] Rational RootAbove(const Rational& x);
 

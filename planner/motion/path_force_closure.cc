@@ -185,8 +185,8 @@ class PathAngle {
     return required->upper;
   }
 
-  /// Return the required friction angle, but at least that of earlier instants, which is
-  /// sufficient.
+  /// Return the required friction angle, but at least that of earlier instants.
+  /// This suffices for the bound.
   [[nodiscard]] std::optional<grasp::RequiredHalfAngle> RequiredAt(double t) const {
     const grasp::Grasp grasp = GraspAt(motion_, t);
     if (!proven_ || *proven_ > kLargestHalfAngle) {

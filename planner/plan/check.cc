@@ -25,8 +25,8 @@ StepCheck CheckStep(const CheckContext& context, const FingerGrasp& before, cons
   return CheckAlign(context, before, std::get<Align>(step));
 }
 
-/// Return the fingers whose contacts match no expected contact, and the contacts that no finger
-/// has.
+/// Return the fingers whose contacts match no expected contact.
+/// `expected` has the contacts that no finger has.
 Fault CompareGrasps(const FingerGrasp& held, const grasp::Grasp& expected, double tolerance) {
   Fault fault;
   for (const FingerContact& finger : held) {
@@ -89,8 +89,8 @@ std::vector<FingerContact> ContactsMade(const Plan& plan, EntryIndex entry) {
   return {};
 }
 
-/// Check a plan at given points: every contact is at one of them, and no finger slides, because a
-/// sliding finger passes other points.
+/// Check that every contact of a plan at given points is at one of them.
+/// No finger may slide, because a sliding finger passes other points.
 void CheckPoints(const CheckContext& context, const CheckOptions& options,
                  const FingerGrasp& before, StepCheck& check) {
   if (!Passed(check) || !context.plan.at_given_points || options.given_points == nullptr) return;
@@ -131,8 +131,8 @@ StepCheck Skipped(EntryIndex index, const char* kind) {
   return check;
 }
 
-/// Return a budget that is enough for any plan whose sliding steps have a friction margin. They
-/// need tens of pieces per motion, and some may need thousands.
+/// Return a budget that is enough for any plan whose sliding steps have a friction margin.
+/// They need tens of pieces per motion, and some may need thousands.
 motion::ProofBudget BudgetOf(const Plan& plan) {
   constexpr std::int64_t kUnitsOfAPlan = 200'000;
   constexpr std::int64_t kUnitsOfAContact = 250;

@@ -72,8 +72,8 @@ struct CheckOptions {
 /// Not valid if no step that is not skipped has a required friction angle.
 [[nodiscard]] EntryIndex WeakestStep(const std::vector<StepCheck>& steps);
 
-/// Describe WeakestStep, with its required friction angle, for messages of all programs. /// Empty
-/// if there is none.
+/// Describe WeakestStep, with its required friction angle, for messages of all programs.
+/// Empty if there is none.
 /// @param half_angle  friction angle of the check, radians.
 [[nodiscard]] std::string WeakestStepText(const std::vector<StepCheck>& steps, double half_angle);
 

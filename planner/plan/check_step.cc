@@ -34,8 +34,8 @@ const RestClosure::Found& RestClosure::Of(const FingerGrasp& grasp) {
 
 namespace {
 
-/// Return whether a contact can change from one face to another at a common point. It reaches and
-/// leaves that point without leaving the faces.
+/// Return whether a contact can change from one face to another at a common point.
+/// It reaches and leaves that point without leaving the faces.
 bool TurnsAtCommonPoint(const object::Object& object, const grasp::Contact& from,
                         const grasp::Contact& to, double tolerance) {
   // Each of the two points may be off by the tolerance.
@@ -117,8 +117,9 @@ void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, int way
   }
 }
 
-/// Check a finger's number. If more fingers are in contact than the hand has, one of them is named
-/// twice or is outside the hand.
+/// Check a finger's number.
+/// If more fingers are in contact than the hand has, one of them is named twice or is outside the
+/// hand.
 void CheckFingerNumber(const CheckContext& context, FingerIndex finger, int waypoint,
                        StepFault& fault) {
   if (finger >= 0 && finger < context.plan.fingers) return;
@@ -156,7 +157,7 @@ void CheckNamedOnce(const FingerGrasp& grasp, int waypoint, StepFault& fault) {
   }
 }
 
-/// Return bounds on the larger of two required friction angles; none if either is none.
+/// Return bounds on the larger of two required friction angles; nullopt if either is nullopt.
 std::optional<grasp::RequiredHalfAngle> Larger(const std::optional<grasp::RequiredHalfAngle>& a,
                                                const std::optional<grasp::RequiredHalfAngle>& b) {
   if (!a || !b) return std::nullopt;

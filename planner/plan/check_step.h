@@ -82,8 +82,8 @@ struct CheckContext {
 
   [[nodiscard]] double tolerance() const { return object::kPointTolerance * object.diameter(); }
 
-  /// Finger radius reduced by the tolerance of points, so that overlaps smaller than the tolerance
-  /// do not count.
+  /// Finger radius reduced by the tolerance of points.
+  /// Overlaps smaller than the tolerance therefore do not count.
   [[nodiscard]] double least_radius() const { return finger_radius - tolerance(); }
 };
 

@@ -66,8 +66,8 @@ class RingPlace {
     }
   }
 
-  /// Return the pieces within `reach` of the contact, both ends included. The farthest pieces are
-  /// first, because they are the first to leave a convex set.
+  /// Return the pieces within `reach` of the contact, both ends included.
+  /// The farthest pieces are first, because they are the first to leave a convex set.
   [[nodiscard]] std::vector<Piece> Cut(double reach) const {
     const double perimeter = begins_.back();
     const double half = std::min(reach, perimeter / 2);

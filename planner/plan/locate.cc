@@ -49,8 +49,8 @@ grasp::Contact Project(const object::Object& object, const grasp::Contact& conta
   return {object.ClosestPoint(face, contact.p), object.inward_normal(face), face};
 }
 
-/// Return the distance of a point to the surface. Most points are near the surface; only other
-/// points require a search of all faces.
+/// Return the distance of a point to the surface.
+/// Most points are near the surface; only other points require a search of all faces.
 double DistanceToSurface(const object::Object& object, const Eigen::Vector3d& p) {
   constexpr double kNear = 0.05;
   for (double radius = 0.0125; radius <= kNear; radius *= 2) {
@@ -188,9 +188,10 @@ void Extend(const object::Object& object, const Choices& before, Choices& choice
   }
 }
 
-/// Merge the two projections of a turning point. A point of an edge has a projection on each of
-/// both faces, and rounding may separate them. The finger would then have a tiny motion between
-/// them that cannot be proved. It keeps the first projection.
+/// Merge the two projections of a turning point.
+/// A point of an edge has a projection on each of both faces, and rounding may separate them. The
+/// finger would then have a tiny motion between them that cannot be proved. It keeps the first
+/// projection.
 void KeepTurningPoints(const object::Object& object, const std::vector<grasp::Contact*>& chain) {
   for (std::size_t j = 1; j < chain.size(); ++j) {
     const grasp::Contact& before = *chain[j - 1];

@@ -157,8 +157,8 @@ double ReadHalfAngle(const JsonReader& json) {
   return angle;
 }
 
-/// Return degrees that read back as the same radians, if there are such, and round if possible: 20
-/// instead of 19.999999999999996.
+/// Return degrees that read back as the same radians, if there are such.
+/// They are round if possible: 20 instead of 19.999999999999996.
 double WrittenDegrees(double radians) {
   constexpr double kRounding = 1e9;
   const double degrees = Degrees(radians);

@@ -21,8 +21,8 @@ struct Obstacle {
 /// there is none. Contacts are on the object and have faces. Fingers with a radius of 0 or less are
 /// points, for which only sealed cavities are unreachable.
 
-/// Find an obstacle of a static grasp: a contact out of reach of its finger, or an overlap of two
-/// fingers.
+/// Find an obstacle of a static grasp.
+/// It is a contact out of reach of its finger, or an overlap of two fingers.
 [[nodiscard]] std::optional<Obstacle> FindRestObstacle(const object::Object& object,
                                                        const FingerGrasp& grasp, double radius);
 

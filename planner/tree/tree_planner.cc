@@ -52,8 +52,9 @@ void AddAlign(const std::vector<plan::FingerGrasp>& waypoints,
   candidate.rests.push_back({after, std::nullopt});
 }
 
-/// Sum, over the contacts of `from` that are not in `to`, of the distance to the nearest new
-/// contact.
+/// Return the travel of a finger switch.
+/// It is the sum, over the contacts of `from` that are not in `to`, of the distance to the nearest
+/// new contact.
 double TravelOfSwitch(const criteria::ContactSet& from, const criteria::ContactSet& to,
                       const SearchSpace& space) {
   double travel = 0;
@@ -254,8 +255,8 @@ class TreeSearch {
     return {"the first sequence had " + before + ", this one has " + Achieved(path, from, space)};
   }
 
-  /// Describe the value of the objective, including sliding steps; empty for the number of steps,
-  /// which is obvious from the plan.
+  /// Describe the value of the objective, including sliding steps.
+  /// Empty for the number of steps, which is obvious from the plan.
   [[nodiscard]] std::string Achieved(const GraspPath& path, const grasp::Grasp& from,
                                      const SearchSpace& space) const {
     switch (request_.objective) {

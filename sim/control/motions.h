@@ -26,8 +26,8 @@ using HandForces = std::vector<Eigen::Vector3d>;
 /// Linear interpolation, because combinations of balanced forces are balanced.
 void MixForces(ReplayWorld& world, const HandForces& from, const HandForces& to, double share);
 
-/// Place the fingers at their contacts and take hold of the object: grasp force and weight grow
-/// together.
+/// Place the fingers at their contacts and take hold of the object.
+/// Grasp force and weight grow together.
 void TakeHold(ReplayWorld& world, const plan::FingerGrasp& grasp_B);
 
 /// Move free fingers along the normals to their contacts, all at once.

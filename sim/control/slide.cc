@@ -261,8 +261,8 @@ Vector3d Direction(const grasp::Contact& from, const grasp::Contact& to) {
   return along.norm() > 0 ? Vector3d(along.normalized()) : Vector3d::Zero();
 }
 
-/// Move along one straight segment of the path; fingertip and forces change together at constant
-/// rates.
+/// Move along one straight segment of the path.
+/// Fingertip and forces change together at constant rates.
 void MoveTip(ReplayWorld& world, FingerIndex finger, const grasp::Contact& from,
              const grasp::Contact& to, const HandForces& forces_after, double duration) {
   const HandForces forces_before = CurrentForces(world);

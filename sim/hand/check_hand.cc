@@ -258,8 +258,8 @@ double Checker::NeededFromObject(int part, const Isometry3d& pose,
   return off <= kApproach ? -kTipDepth : clearance_;
 }
 
-/// Find a pair whose gap at the middle of an interval is smaller than its motion in the interval
-/// allows.
+/// Find a pair that is too close at the middle of an interval.
+/// Its gap there is smaller than its motion in the interval requires.
 std::optional<NearPair> Checker::FindNear(const Instant& middle, const std::vector<double>& bounds,
                                           double object_bound, const plan::FingerGrasp& others) {
   body_.SetJoints(middle.state.joints);

@@ -38,8 +38,8 @@ struct Nearness {
 /// @param others  solids, at least one.
 [[nodiscard]] Nearness NearestOf(const ConvexBody& solid, std::span<const ConvexBody> others);
 
-/// Return the distance by which a solid must move to be free of other solids, along the best
-/// direction. The accuracy is 1 %, but no finer than 1 µm.
+/// Return the distance by which a solid must move to be free of other solids.
+/// It is that of the best direction, to 1 % but no finer than 1 µm.
 /// @param directions  unit vectors.
 [[nodiscard]] double FreeingDistance(const ConvexBody& solid, std::span<const ConvexBody> others,
                                      std::span<const Eigen::Vector3d> directions);

@@ -32,8 +32,8 @@ class HandBody {
 
   [[nodiscard]] const kinematics::HandModel& hand() const;
   [[nodiscard]] const std::vector<HandPart>& parts() const;
-  /// Return whether parts may touch: neighbours along a finger, and parts that are close in the
-  /// reference configuration.
+  /// Return whether parts may touch.
+  /// These are neighbours along a finger, and parts that are close in the reference configuration.
   [[nodiscard]] bool MayTouch(int a, int b) const;
 
   /// Set the joints.

@@ -11,10 +11,9 @@
 
 namespace regrasp::sim {
 
-/// Return the directions of disturbances: ± a force along every axis, then ± a torque about every
-/// axis.
-/// There are twelve in space. In the plane there are six: forces along x and y, and torques about
-/// z.
+/// Return the directions of disturbances.
+/// They are ± a force along every axis, then ± a torque about every axis. There are twelve in
+/// space. In the plane there are six: forces along x and y, and torques about z.
 [[nodiscard]] std::vector<Push> PushDirections(int dimension);
 
 /// Return "force +x" or "torque -z".

@@ -264,8 +264,8 @@ class ScriptWriter {
     }
   }
 
-  /// Return whether finger `k` may slide: the other contacts hold the object without it, with a
-  /// margin.
+  /// Return whether finger `k` may slide.
+  /// The other contacts must hold the object without it, with a margin.
   [[nodiscard]] bool OthersHold(const grasp::Grasp& grasp, std::size_t k) const {
     grasp::Grasp others = grasp;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
@@ -273,9 +273,8 @@ class ScriptWriter {
     return grasp::QualityAtLeast(others, frame_, half_angle, kSlideQuality);
   }
 
-  /// Find an order in which the contacts `left` of `grasps.back()` can slide to their positions in
-  /// `to`.
-  /// Appends the grasps in between.
+  /// Find an order in which the contacts `left` can slide to their positions in `to`.
+  /// They start at `grasps.back()`. Appends the grasps in between.
   [[nodiscard]] bool OrderSlides(const plan::FingerGrasp& to, const Places& left,
                                  std::vector<plan::FingerGrasp>& grasps) const {
     if (left.empty()) return true;
@@ -330,8 +329,7 @@ class ScriptWriter {
     return std::nullopt;
   }
 
-  /// Return the first point after `begin`, up to `reach`, from which fingers can slide; `reach` if
-  /// none.
+  /// Return the first point after `begin` from which fingers can slide; `reach` if there is none.
   [[nodiscard]] int FindNextSlide(double begin, int reach) const {
     const int first = static_cast<int>(std::floor(begin * kSharesOfPath)) + 1;
     for (int steps = first; steps < reach; ++steps) {
@@ -363,8 +361,8 @@ class ScriptWriter {
     return longest;
   }
 
-  /// Return a shorter segment instead of the longest one, whose intermediate grasps may be at the
-  /// limit.
+  /// Return a shorter segment instead of the longest one.
+  /// The intermediate grasps of the longest one may be at the limit.
   [[nodiscard]] Segment MakeEasier(double begin, int reach, Segment longest) const {
     const double length = longest.end - begin;
     for (const double share : kEasyFriction) {

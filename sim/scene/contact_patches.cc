@@ -99,8 +99,8 @@ struct Chart {
   [[nodiscard]] Vector3d Lift(const Point& p) const { return origin + p.x() * u + p.y() * v; }
 };
 
-/// Return the direction of the path; for a point, that of the nearest border, so that a rectangle
-/// can be aligned with it.
+/// Return the direction of the path.
+/// For a point, it is that of the nearest border, so that a rectangle can be aligned with it.
 Vector3d ChartAxis(const object::Polyhedron& body, const ContactSite& site) {
   const Vector3d path = site.to - site.from;
   if (path.norm() > object::kPointTolerance * body.diameter()) return path;

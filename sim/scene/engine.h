@@ -74,8 +74,8 @@ class Engine {
   virtual void AddSite(FingerIndex finger, SiteIndex site) = 0;
   /// Set the acceleration along −z, m/s².
   virtual void SetGravity(double gravity) = 0;
-  /// Set the force and torque on the object about its centre of mass, in addition to gravity and
-  /// fingers.
+  /// Set the load on the object about its centre of mass.
+  /// It acts in addition to gravity and fingers.
   virtual void SetLoad(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) = 0;
 
   /// Simulate one time step.

@@ -30,8 +30,8 @@ std::vector<grasp::Grasp> GraspsOf(const plan::Plan& plan, int entries) {
   return grasps;
 }
 
-/// Return the largest weight over the grasp force that all grasps carry; ignores those that carry
-/// none.
+/// Return the largest weight over the grasp force that all grasps carry.
+/// Ignores grasps that carry none.
 double CarriedShare(const object::Object& object, const std::vector<grasp::Grasp>& grasps,
                     double half_angle) {
   const grasp::Wrench down{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
@@ -90,8 +90,8 @@ void CheckBody(const object::Object& object, const ReplayOptions& options,
   CheckRange("mass", body.mass_kg, kLeastMass, kLargestMass, "kg");
 }
 
-/// Return the smallest radius of gyration over all axes, in the object's unit; in the plane there
-/// is one axis only.
+/// Return the smallest radius of gyration over all axes, in the object's unit.
+/// In the plane there is one axis only.
 double LeastGyration(const object::Object& object) {
   const object::MassProperties& mass = object.mass_properties();
   const double least = object.dimension() == 2 ? mass.inertia(2, 2)
@@ -101,8 +101,8 @@ double LeastGyration(const object::Object& object) {
   return std::sqrt(std::max(least, 0.0) / mass.volume);
 }
 
-/// Return √(I / (F · arm)), seconds: the time of the object's rotation about its long axis under a
-/// grasp force with a moment arm, which it has once fingertips roll.
+/// Return √(I / (F · arm)), seconds, the characteristic time of rotation about the long axis.
+/// The grasp force has a moment arm about this axis once fingertips roll.
 double RollingTime(const ReplaySettings& s, double gyration) {
   const double arm = std::max(s.fingertip_radius_m, gyration);
   return gyration * std::sqrt(s.mass_kg / (s.squeeze_N * arm));

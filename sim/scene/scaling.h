@@ -47,7 +47,7 @@ inline constexpr double kStrongestGrip_N = 200;
 /// - finger stiffness k = kStiffness · F / D. Below 5 F / D a grasp buckles under its own grasp
 ///   force.
 /// - finger mass m = kFingerMass · M. Heavier fingers eject a light object from good grasps in the
-///   disturbance test. Of 56 good random grasps 8 were lost at 50 M; of 536 two at M / 2 and none
+///   disturbance test. The test lost 8 of 56 good random grasps at 50 M, 2 of 536 at M / 2 and none
 ///   at M / 5.
 /// - time step dt so that damping · dt / m = 2 √(k / m) dt is kDampingStep: above 0.6 the explicit
 ///   damping of the finger's motion is unstable. Times are thus proportional to √(M D / F): a
@@ -74,12 +74,12 @@ inline constexpr double kStrongestGrip_N = 200;
                                             double half_angle, double clearance,
                                             const ReplayOptions& options);
 
-/// Return units in which every object has the diameter kEngineDiameter, mass 1 and the
-/// characteristic time kEngineTime.
-/// The engine treats volumes and inertias below 1e-15 as zero: pieces of surface of a millionth of
-/// D on each side have 1e-14. With a diameter of 100, capsules miss contacts at corners. The engine
-/// solves for accelerations until they change by less than 1e-10. F / M is 1e4, the value of an
-/// object of 10 cm and 0.1 kg at 1000 weights.
+/// Return units in which every object looks alike to the engine.
+/// It has the diameter kEngineDiameter, mass 1 and the characteristic time kEngineTime. The engine
+/// treats volumes and inertias below 1e-15 as zero: pieces of surface of a millionth of D on each
+/// side have 1e-14. With a diameter of 100, capsules miss contacts at corners. The engine solves
+/// for accelerations until they change by less than 1e-10. F / M is 1e4, the value of an object of
+/// 10 cm and 0.1 kg at 1000 weights.
 [[nodiscard]] EngineUnits UnitsOf(const ReplaySettings& settings);
 
 inline constexpr double kEngineDiameter = 1;

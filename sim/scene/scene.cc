@@ -290,8 +290,8 @@ void PlaceFingersAtStart(const object::Object& object, Scene& scene) {
   }
 }
 
-/// Assign collision bits to the fingers with contacts only, because a hand may have many more
-/// fingers.
+/// Assign collision bits to the fingers with contacts.
+/// A hand may have many more fingers.
 void AssignCollisionBits(Scene& scene) {
   std::set<FingerIndex> touching;
   for (const SceneSite& site : scene.sites) {

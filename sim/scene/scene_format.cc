@@ -184,8 +184,8 @@ std::string Fill(const std::map<std::string, std::string>& values) {
   }
 }
 
-/// Return the collision options of this version of the engine; later ones call them ccd_… and
-/// reject these names.
+/// Return the collision options of this version of the engine.
+/// Later versions call them ccd_… and reject these names.
 std::string CollisionOptions(double tolerance_m) {
   return " mpr_iterations=\"500\" mpr_tolerance=\"" + FormatDouble(tolerance_m) + "\"";
 }
@@ -203,10 +203,9 @@ constexpr int kContactsPerFinger = 8;
 /// A contact has one normal and two tangential constraints, and for a soft finger a torsional one.
 constexpr int kConstraintsPerContact = 4;
 
-/// Return a memory size that is enough for all contacts of the fingers, so that no step fails for
-/// lack of memory (CheckState).
-/// The engine clears its memory, which grows with the square. Later versions choose the size
-/// themselves.
+/// Return a memory size that is enough for all contacts of the fingers.
+/// No step then fails for lack of memory (CheckState). The engine clears its memory, which grows
+/// with the square. Later versions choose the size themselves.
 std::string EngineSize(std::size_t fingers) {
   const std::size_t contacts = kContactsPerFinger * fingers;
   return "  <size njmax=\"" + std::to_string(kConstraintsPerContact * contacts) + "\" nconmax=\"" +

@@ -58,16 +58,16 @@ class MotionMonitor {
 
   /// Reset all measurements, and measure from this pose.
   void Start(const Eigen::Isometry3d& X_SB);
-  /// Set the name of the part of the step to which later measurements belong, for messages, such as
-  /// "during the align".
+  /// Set the name of the part of the step to which later measurements belong.
+  /// It appears in messages, such as "during the align".
   void SetPhase(std::string phase) { phase_ = std::move(phase); }
 
   [[nodiscard]] const std::string& phase() const { return phase_; }
 
   void AddPose(const Eigen::Isometry3d& X_SB);
-  /// Set whether the motion of the object is the compliance displacement of the servos under a
-  /// disturbance. It is measured separately and has no limit: the object has moved if it does not
-  /// return.
+  /// Set whether the motion of the object is a compliance displacement.
+  /// This is the displacement of the servos under a disturbance. It is measured separately and has
+  /// no limit: the object has moved if it does not return.
   void SetGiving(bool on) { giving_ = on; }
   /// Record that the object did not become still; it then counts as moved, whatever its motion.
   void AddUnrest();
@@ -85,8 +85,8 @@ class MotionMonitor {
 
   /// Return kNone, or the first of contact-lost, slipped and object-moved that applies.
   [[nodiscard]] plan::Reason reason() const;
-  /// Describe the reason with its largest value so far and its first occurrence: "finger 2 slipped
-  /// by 300 µm during the align". Empty without a reason.
+  /// Describe the reason with its largest value so far and its first occurrence.
+  /// Example: "finger 2 slipped by 300 µm during the align". Empty without a reason.
   [[nodiscard]] std::string detail() const;
   /// Return the finger that lost its contact or slipped first; not valid for other reasons.
   [[nodiscard]] FingerIndex finger() const;

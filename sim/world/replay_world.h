@@ -50,19 +50,19 @@ class ReplayWorld {
   [[nodiscard]] Eigen::Isometry3d X_SB() const { return engine_->object_pose(); }
   /// Return the contact point on the surface from the measured fingertip and the planned normal.
   [[nodiscard]] Eigen::Vector3d ContactPoint_B(FingerIndex finger) const;
-  /// Return the torque of a finger about its normal over its torsion (ConeMargin); 0 for
-  /// hard-finger contacts.
+  /// Return the torque of a finger about its normal over its torsion (ConeMargin).
+  /// 0 for hard-finger contacts.
   [[nodiscard]] double Twist(FingerIndex finger) const;
-  /// Return the fingertip position at a distance `gap` from `contact_B` on the object in its
-  /// current pose.
+  /// Return the fingertip position at a distance `gap` from `contact_B`.
+  /// The object is in its current pose.
   [[nodiscard]] Eigen::Vector3d TipAt_S(const grasp::Contact& contact_B, double gap) const;
   /// Current weight of the object, newtons along −z of S.
   [[nodiscard]] Eigen::Vector3d weight_S() const;
 
   void SetGravity(double gravity);
   void Step();
-  /// Return the number of steps of a duration in characteristic times (ReplaySettings), at least
-  /// one.
+  /// Return the number of steps of a duration, at least one.
+  /// @param duration  duration in characteristic times (ReplaySettings).
   [[nodiscard]] int StepsIn(double duration) const;
   /// Simulate for `duration` characteristic times.
   /// @param drive  callback before each step with the share of the duration after the step.
@@ -75,8 +75,8 @@ class ReplayWorld {
   MotionMonitor& monitor() { return monitor_; }
   [[nodiscard]] const MotionMonitor& monitor() const { return monitor_; }
 
-  /// Set whether samples go to the observer; off during disturbance tests, which are not part of
-  /// the motion.
+  /// Set whether samples go to the observer.
+  /// Off during disturbance tests, which are not part of the motion.
   void SetSampling(bool on) { sampling_ = on; }
   [[nodiscard]] plan::Snapshot TakeSnapshot() const;
 
