@@ -27,7 +27,7 @@ def namespace_of(folders):
 
 
 def foreign_names(folders, text):
-    """The namespaces that a file opens outside its own; a forward declaration is no opening."""
+    """The namespaces that a file opens outside its own; a forward declaration does not count."""
     own = namespace_of(folders)
     text = re.sub(r"namespace [\w:]+ \{\n((class|struct|enum class) \w+;[^\n]*\n)+\}", "", text)
     opened = re.findall(r"^namespace (regrasp[\w:]*) \{", text, re.MULTILINE)
@@ -75,12 +75,12 @@ class Names(unittest.TestCase):
         self.assertEqual({name: where for name, where in files.items() if len(where) > 1}, {})
 
     def test_types_are_found_with_their_full_names(self):
-        text = ("namespace regrasp::plan {\nclass Plan;\nstruct Step {\n  struct Inner {\n  };\n};\n"
-                "namespace {\nstruct Hidden {\n};\n}  // namespace\nnamespace detail {\n"
-                "template <typename T> class Of final : public Base<T> {\n};\n}  // namespace detail\n"
-                "enum class Kind : char { kA };\nstruct Outer::Impl {\n};\nstruct Empty {};\n"
-                "template <>\nstruct Hash<Step> {\n};\nclass Long\n    : public Base {\n};\n"
-                "}  // namespace regrasp::plan\n")
+        text = "\n".join([
+            "namespace regrasp::plan {", "class Plan;", "struct Step {", "  struct Inner {", "  };", "};",
+            "namespace {", "struct Hidden {", "};", "}  // namespace", "namespace detail {",
+            "template <typename T> class Of final : public Base<T> {", "};", "}  // namespace detail",
+            "enum class Kind : char { kA };", "struct Outer::Impl {", "};", "struct Empty {};", "template <>",
+            "struct Hash<Step> {", "};", "class Long", "    : public Base {", "};", "}  // namespace regrasp::plan"])
         self.assertEqual(types_in(text), ["regrasp::plan::Step", "regrasp::plan::detail::Of", "regrasp::plan::Kind",
                                           "regrasp::plan::Empty", "regrasp::plan::Long"])
 
