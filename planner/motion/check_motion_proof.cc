@@ -283,7 +283,7 @@ Linear<Number> MiddleOf(const CheckedContacts<Number>& moving, const Support<Num
 template <class Number>
 struct Correction {
   Number force;  ///< force of each of them
-  Number twist;  ///< torque of the soft finger about its normal, over the normal
+  Number twist;  ///< torque of the soft finger about its normal, as a factor of the normal
 };
 
 /// Return an upper bound on the correction at any instant of a piece.

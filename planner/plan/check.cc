@@ -26,7 +26,6 @@ StepCheck CheckStep(const CheckContext& context, const FingerGrasp& before, cons
 }
 
 /// Return the fingers whose contacts match no expected contact.
-/// `expected` has the contacts that no finger has.
 Fault CompareGrasps(const FingerGrasp& held, const grasp::Grasp& expected, double tolerance) {
   Fault fault;
   for (const FingerContact& finger : held) {

@@ -7,7 +7,7 @@
 namespace regrasp::sim {
 
 /// Roll all holding fingers along the surface at once, from one grasp to another.
-/// Their contacts move and none slips, so friction needs no force to overcome. The fingers apply
+/// Their contacts move and none slips, so no force has to overcome friction. The fingers apply
 /// balanced forces inside cones of kSlideFriction μ, or of the whole μ if there are none.
 ///
 /// A fingertip is a sphere that does not rotate. It is moved together with its stationary contact,

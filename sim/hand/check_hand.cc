@@ -239,7 +239,8 @@ MaybeFault Checker::CheckRest() {
   return CheckPath(path, 1, {state_, holding_}, {state_, holding_}, {});
 }
 
-/// Without a joint configuration for this hand in the plan, the image shows that of its model.
+/// Return the finding with the joint configuration of the hand model.
+/// Used for images if the plan has no joint configuration for this hand.
 HandFinding Checker::AtModelsRest(HandFinding finding) const {
   HandState& state = finding.fault.hand->state;
   state.joints.clear();

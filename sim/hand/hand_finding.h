@@ -20,48 +20,48 @@ struct HandFinding {
 /// Return "finger 1 (middle)".
 [[nodiscard]] std::string FingerText(const kinematics::HandModel& hand, FingerIndex finger);
 
-/// Path or state that does not match the hand.
+/// Report a path or state that does not match the hand.
 /// @param state  state of the hand before it.
 [[nodiscard]] HandFinding NoSuchPath(const std::string& what, const plan::HandState& state);
 
-/// Contact for a finger that the hand does not have.
+/// Report a contact for a finger that the hand does not have.
 [[nodiscard]] HandFinding NoSuchFinger(FingerIndex finger, const plan::HandState& state);
 
-/// Discontinuous object pose.
+/// Report a discontinuous object pose.
 [[nodiscard]] HandFinding ObjectJumps(const plan::HandState& now, const Eigen::Isometry3d& before,
                                       const std::string& when);
 
-/// Final object pose that differs from the goal.
+/// Report a final object pose that differs from the goal.
 [[nodiscard]] HandFinding GoalMissed(const plan::HandState& last, const Eigen::Isometry3d& goal);
 
-/// Discontinuous joint angle.
+/// Report a discontinuous joint angle.
 /// @param joint  joint of the finger, from the palm on.
 [[nodiscard]] HandFinding JointJumps(HandBody& body, const plan::HandState& now, FingerIndex finger,
                                      int joint, double before);
 
-/// Joint outside its limits.
+/// Report a joint outside its limits.
 /// @param when  "in state 3 of its path", or empty.
 [[nodiscard]] HandFinding JointOutside(HandBody& body, const plan::HandState& state,
                                        FingerIndex finger, int joint, const std::string& when);
 
-/// Joint that deviates from its coupling.
+/// Report a joint that deviates from its coupling.
 /// @param most  allowed residual, radians.
 [[nodiscard]] HandFinding JointUncoupled(HandBody& body, const plan::HandState& state,
                                          const HandBody::Uncoupled& uncoupled, double most,
                                          const std::string& when);
 
-/// Fingertip away from its contact.
+/// Report a fingertip away from its contact.
 /// @param expected   centre of the fingertip at its contact, in the palm's frame.
 /// @param tolerance  allowed distance.
 [[nodiscard]] HandFinding TipOff(HandBody& body, const plan::HandState& state, FingerIndex finger,
                                  const Eigen::Vector3d& expected, double tolerance,
                                  const std::string& when);
 
-/// Two parts of the hand that are too close to each other.
+/// Report two parts of the hand that are too close to each other.
 [[nodiscard]] HandFinding PartsCollide(HandBody& body, const plan::HandState& state, int a, int b,
                                        double clearance, const std::string& when);
 
-/// Part of the hand that is too close to the object, or too deep in it.
+/// Report a part of the hand that is too close to the object, or too deep in it.
 /// @param surface  triangles of the object in its own frame, counter-clockwise from outside.
 /// @param needed   required gap; negative: allowed depth.
 [[nodiscard]] HandFinding PartMeetsObject(HandBody& body, const plan::HandState& state, int part,
