@@ -26,7 +26,7 @@ struct LargestShell {
 /// Connected parts of a surface. An edge with more than two polygons does not connect them.
 struct SurfaceParts {
   std::vector<int> of_facet;  ///< part of each polygon; −1 if it was dropped
-  std::vector<bool> closed;   ///< whether each part, by itself, has no open edge
+  std::vector<bool> closed;   ///< whether each part, by itself, is closed
   std::vector<std::vector<int>> facets;
 };
 
