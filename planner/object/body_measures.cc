@@ -53,8 +53,8 @@ const Eigen::Vector3d& EndOfBox(std::span<const Eigen::Vector3d> points) {
 
 /// Return the points that can be ends of the diameter.
 ///
-/// If all points are within r of a center and two of them are L apart, then an end is at least L −
-/// r from the center. Elongated objects have few such points.
+/// If all points are within r of a centre and two of them are L apart, then an end is at least L −
+/// r from the centre. Elongated objects have few such points.
 std::vector<DiameterKernel::Point_3> FindOuter(std::span<const Eigen::Vector3d> points) {
   const Eigen::Vector3d& one = FarthestFrom(EndOfBox(points), points);
   const Eigen::Vector3d& other = FarthestFrom(one, points);

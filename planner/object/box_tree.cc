@@ -48,7 +48,7 @@ class BoxTree::Builder {
     return 1 + NodesOver(things / 2) + NodesOver(things - things / 2);
   }
 
-  /// Split items at the median along the direction in which their centers differ most.
+  /// Split items at the median along the direction in which their centres differ most.
   void SortHalves(std::span<std::int32_t> things, std::size_t half) const {
     Box centres;
     for (const int i : things) centres.extend(centres_[i]);

@@ -24,7 +24,7 @@ class BoxTree {
 
   /// Call `visit` with the number of each item whose box may intersect `box`, borders included.
   ///
-  /// All intersecting items are visited, and some of their neighbors.
+  /// All intersecting items are visited, and some of their neighbours.
   template <class Visit>
   void VisitNear(const Box& box, const Visit& visit) const {
     if (!nodes_.empty()) VisitNear(0, box, visit);

@@ -57,7 +57,7 @@ Triangle TriangleOf(const Polyhedron& solid, TriangleIndex t) {
 
 /// Return whether a point can be projected onto a triangle.
 ///
-/// The normal of a sliver is undefined if its square underflows. Its neighbors then contain all of
+/// The normal of a sliver is undefined if its square underflows. Its neighbours then contain all of
 /// its points up to an error far below rounding.
 bool HasPlane(const Triangle& triangle) {
   const auto normal = CGAL::normal(triangle[0], triangle[1], triangle[2]);

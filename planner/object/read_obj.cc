@@ -37,7 +37,7 @@ bool IsOneOf(std::span<const std::string_view> statements, std::string_view stat
 /// Group of polygons that a repair added (repair/repair.h).
 constexpr std::string_view kInventedGroup = "invented";
 
-/// Read the first three numbers of a vertex; a weight or a color may follow.
+/// Read the first three numbers of a vertex; a weight or a colour may follow.
 Eigen::Vector3d ReadObjVertex(TextScanner& scanner, std::size_t index) {
   const std::string what = "vertex " + std::to_string(index);
   Eigen::Vector3d vertex;

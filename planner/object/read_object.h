@@ -11,7 +11,7 @@ namespace regrasp::object {
 
 // Readers of common surface formats, in double precision and independent of the locale.
 //
-// They read vertices and polygons and skip all other elements (normals, colors, textures).
+// They read vertices and polygons and skip all other elements (normals, colours, textures).
 // They never allocate memory by an unverified header. The readers of CGAL and assimp are not used
 // because they report only that a file is bad; here, messages name the element. All throw
 // InputError with one line that names the line, polygon or vertex. Polyhedron checks the surface
@@ -34,7 +34,7 @@ namespace regrasp::object {
 [[nodiscard]] PolygonSoup ReadStl(std::string_view bytes, const std::string& name);
 
 // Readers of point clouds: vertices without polygons. Only a repair makes a solid from them.
-// Normals, colors and all other properties of points are skipped.
+// Normals, colours and all other properties of points are skipped.
 
 /// Read XYZ or PWN: one point per line, its first three numbers.
 [[nodiscard]] PolygonSoup ReadXyz(std::string_view text, const std::string& name);

@@ -14,7 +14,7 @@ struct OffHeader {
   long long vertices = 0, facets = 0;
 };
 
-/// Return whether the format is [ST][C][N]OFF: texture coordinates, colors and normals after the
+/// Return whether the format is [ST][C][N]OFF: texture coordinates, colours and normals after the
 /// three numbers of a vertex. "4OFF" and "nOFF" have other dimensions.
 bool IsKnownKind(const std::string& kind) {
   std::string_view rest = kind;
@@ -49,7 +49,7 @@ std::vector<int> ReadOffFacet(TextScanner& scanner, const OffHeader& header, lon
     }
     indices.push_back(static_cast<int>(index));
   }
-  scanner.SkipLine();  // color
+  scanner.SkipLine();  // colour
   return indices;
 }
 

@@ -65,7 +65,7 @@ std::optional<Crossing> FirstCrossing(const Object& object, FaceIndex face, cons
                                  : FirstSide(object, face, point, way);
 }
 
-/// Find the border point of the shortest path to a goal on a neighboring face, across their common
+/// Find the border point of the shortest path to a goal on a neighbouring face, across their common
 /// border; nullopt if no such path is straight on both faces.
 std::optional<Vector3d> CrossTo(const Object& object, FaceIndex face, const Vector3d& point,
                                 FaceIndex goal_face, const Vector3d& goal) {

@@ -33,7 +33,7 @@ struct SurfaceLeg {
 /// Find a path along the surface from a point to another one near it.
 ///
 /// In the plane it is the shorter path along the boundary. In space it is straight on one face and
-/// across a border of two neighbors. Between more distant points it may not be the shortest: on
+/// across a border of two neighbours. Between more distant points it may not be the shortest: on
 /// each face the path continues to the border in the direction of the goal.
 /// @returns nullopt if none is found. In a valley the path can oscillate until kMostLegs.
 [[nodiscard]] std::optional<std::vector<SurfaceLeg>> HeadFor(const Object& object, FaceIndex face,
