@@ -17,7 +17,7 @@ namespace regrasp::object {
 inline constexpr double kAtGivenPoint = 1e-3;
 
 /// Read the points of a file: those of a point cloud, or the vertices of a surface.
-/// @throws InputError  if the file cannot be read or contains a polygon.
+/// @throws InputError  if the file cannot be read or is a WKT polygon.
 /// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] std::vector<Eigen::Vector3d> ReadGivenPoints(const std::filesystem::path& path,
                                                            const Reading& reading);

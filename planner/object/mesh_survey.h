@@ -66,7 +66,7 @@ inline constexpr std::size_t kMostPairsSurveyed = 3'000'000;
 /// Law: a soup that Polyhedron::FromSoup accepts without changes has no defect, with two
 /// exceptions. Polygons may be bent within the tolerance, and cavities are counted as shells inside
 /// another.
-/// @throws MeshError  if no polygon remains or there are more than kMaxFacets.
+/// @throws MeshError  if there is no polygon, or more than kMaxFacets.
 /// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] MeshSurvey SurveyMesh(const PolygonSoup& soup, const Deadline& deadline = {});
 

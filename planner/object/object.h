@@ -117,7 +117,8 @@ class Object {
   /// unless Reading::allow_invented is set.
   [[nodiscard]] bool TakesFingers(FaceIndex face) const { return !faces_[face].barred; }
 
-  /// Return whether a fingertip at a point would feel a normal that differs from the face's normal.
+  /// Return whether the normal of a contact patch deviates from the face's normal by more than
+  /// FeltPatch::most_angle.
   ///
   /// This happens on scans and near edges (patch_normal.h); planners place no finger there. Always
   /// false in the plane and without Reading::patch.

@@ -50,7 +50,7 @@ struct SoupFile {
 };
 
 /// Read a surface without checking it.
-/// @throws InputError  if the file cannot be read or contains a polygon.
+/// @throws InputError  if the file cannot be read or is a WKT polygon.
 /// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] SoupFile ReadSoup(const std::filesystem::path& path, const Reading& reading);
 
