@@ -108,9 +108,9 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
   frame.height = options.animation_height;
   frame.crop = options.animation_crop;
   std::vector<MovingFile> files;
-  if (options.animate) files.push_back({folder / kAnimationName, render::MovingFormat::kWebp});
+  if (options.animate) files.push_back({folder / kAnimationName, render::AnimationFormat::kWebp});
   if (!options.video.empty()) {
-    files.push_back({options.video, *render::MovingFormatOf(options.video)});
+    files.push_back({options.video, *render::FindAnimationFormat(options.video)});
   }
   DrawingCount count("drawing the moving picture", options.quiet);
   return WriteAnimation(

@@ -14,33 +14,32 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A frame is drawn in bands of at most this many samples, so that memory stays bounded (64 MB).
+/// Maximum number of samples per band. A frame is drawn in bands to bound its memory (64 MB).
 constexpr int kMaxBandSamples = 1 << 24;
-/// The depth range, in distances from the camera to the origin.
+/// Limits of the depth range, relative to the distance from camera to origin.
 constexpr double kNearFactor = 0.1;
 constexpr double kFarFactor = 4;
 
-/// Of a surface's own colour: in shade, and what the light adds where it falls straight on it.
+/// Share of a surface's colour in shade, and the additional share at normal incidence of light.
 constexpr float kAmbient = 0.60F;
 constexpr float kDiffuse = 0.48F;
-/// Where the light comes from, in the camera's axes.
+/// Direction towards the light, in camera axes.
 constexpr float kLightFrom[4] = {-0.45F, 0.75F, 0.8F, 0};
 
 /// Weights of layers are multiples of 1 / kOne.
 constexpr int kOne = 256;
 constexpr int kFullAlpha = 255;
 
-/// How much less a veil hides in the middle of a window, and over how much of its radius that comes
-/// about.
+/// Reduction of a veil's opacity in the middle of a window, and width of the transition per radius.
 constexpr double kWindowClearness = 0.7;
 constexpr double kWindowRim = 0.55;
 
-/// What OpenGL draws triangles from.
+/// Vertex arrays of OpenGL.
 struct Vertices {
   std::vector<float> points;
   std::vector<float> normals;
 
-  explicit Vertices(const FacetMesh& mesh) {
+  explicit Vertices(const ShadedMesh& mesh) {
     Append(mesh.triangles, points);
     Append(mesh.normals, normals);
   }
@@ -59,7 +58,7 @@ struct Vertices {
   }
 };
 
-/// Rows from `top` to `top + rows` of an image `height` rows high.
+/// Rows from `top` to `top + rows` of an image with `height` rows.
 struct Band {
   int top, rows, height;
 };
@@ -95,17 +94,17 @@ void SetColor(Color color, double opacity) {
   gl().Color4ub(color.r, color.g, color.b, static_cast<GLubyte>(std::lround(255 * opacity)));
 }
 
-/// Draws shapes with the colour that is set.
+/// Draws shapes in the current colour.
 class FormPainter {
  public:
   FormPainter(const Camera& camera, const std::vector<Vertices>& meshes)
       : camera_(camera), meshes_(meshes) {}
 
-  void operator()(const Ball& ball) const {
-    Vertices(MakeCapsule(ball.centre, ball.centre, ball.radius)).Draw();
+  void operator()(const Sphere& sphere) const {
+    Vertices(MakeCapsule(sphere.centre, sphere.centre, sphere.radius)).Draw();
   }
-  void operator()(const Rod& rod) const {
-    Vertices(MakeCapsule(rod.from, rod.to, rod.radius)).Draw();
+  void operator()(const Capsule& capsule) const {
+    Vertices(MakeCapsule(capsule.from, capsule.to, capsule.radius)).Draw();
   }
   void operator()(const Line& line) const {
     gl().Disable(GL_LIGHTING);
@@ -134,11 +133,11 @@ class FormPainter {
   const std::vector<Vertices>& meshes_;
 };
 
-/// Translucent shapes, the farthest first.
+/// Return the translucent shapes in order of decreasing distance.
 std::vector<Shape> SortTranslucent(const Camera& camera, const std::vector<Shape>& shapes) {
   struct Middle {
-    Vector3d operator()(const Ball& ball) const { return ball.centre; }
-    Vector3d operator()(const Rod& rod) const { return (rod.from + rod.to) / 2; }
+    Vector3d operator()(const Sphere& sphere) const { return sphere.centre; }
+    Vector3d operator()(const Capsule& capsule) const { return (capsule.from + capsule.to) / 2; }
     Vector3d operator()(const Line& line) const { return (line.from + line.to) / 2; }
     Vector3d operator()(const MeshInstance& mesh) const { return mesh.pose.translation(); }
   };
@@ -162,16 +161,16 @@ void InitState() {
   gl().EnableClientState(GL_NORMAL_ARRAY);
 }
 
-/// Whether what is drawn sets the colours, and the samples' alpha.
+/// Set whether drawing changes the colours and the alpha values of samples.
 void SetMask(bool colors, bool alpha) {
   gl().ColorMask(colors ? GL_TRUE : GL_FALSE, colors ? GL_TRUE : GL_FALSE,
                  colors ? GL_TRUE : GL_FALSE, alpha ? GL_TRUE : GL_FALSE);
 }
 
-/// The shapes' picture with others, opaque, among them. Where one of those is seen the sample's
-/// alpha is its opacity, elsewhere 0.
-void DrawPicture(const FormPainter& painter, const Drawing& drawing,
-                 const std::vector<Shape>& translucent, std::span<const Shape> more) {
+/// Draw the shapes together with more shapes, which are opaque. The alpha of a sample is the
+/// opacity of one of these if it is visible there, and 0 otherwise.
+void DrawPass(const FormPainter& painter, const Drawing& drawing,
+              const std::vector<Shape>& translucent, std::span<const Shape> more) {
   SetMask(true, true);
   gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   SetMask(true, false);
@@ -191,7 +190,7 @@ void DrawPicture(const FormPainter& painter, const Drawing& drawing,
   gl().Finish();
 }
 
-/// How much of each picture is seen: that of the shapes alone, then those of the layers. Sums to
+/// Return the weights of the image without layer and of the images with each layer. Their sum is
 /// kOne.
 std::vector<int> WeightsOf(const std::vector<Layer>& layers) {
   std::vector<int> weights;
@@ -205,11 +204,11 @@ std::vector<int> WeightsOf(const std::vector<Layer>& layers) {
   return weights;
 }
 
-/// Adds a band of samples, RGBA from the bottom, to the sums of the pixels that they belong to.
+/// Add a band of RGBA samples, from bottom to top, to the sums of their pixels.
 void AddSamples(const unsigned char* samples, int width, int rows, int factor, int weight,
                 std::vector<std::uint32_t>& sums) {
   const int row = 4 * width;
-  std::vector<std::uint16_t> column(row);  // of rows that belong to one row of pixels
+  std::vector<std::uint16_t> column(row);  // sums over the sample rows of one pixel row
   std::uint32_t* out = sums.data();
   for (int bottom = rows; bottom > 0; bottom -= factor) {
     std::ranges::fill(column, 0);
@@ -229,7 +228,7 @@ void AddSamples(const unsigned char* samples, int width, int rows, int factor, i
 
 class Canvas::Impl {
  public:
-  Impl(const std::vector<FacetMesh>& meshes, int width, int height, int supersampling)
+  Impl(const std::vector<ShadedMesh>& meshes, int width, int height, int supersampling)
       : width_(width),
         height_(height),
         factor_(supersampling),
@@ -261,24 +260,24 @@ class Canvas::Impl {
   }
 
  private:
-  /// Samples of an image from row `top` on, the last one first.
+  /// A band of samples that starts at row `top` of the image, stored from the last row up.
   struct SampleBand {
     int width, top, rows, factor;
   };
 
-  /// All pictures over each other, sample by sample.
+  /// Blend all images sample by sample.
   std::vector<unsigned char> Compose(const FormPainter& painter, const Drawing& drawing,
                                      const std::vector<Shape>& translucent,
                                      const SampleBand& band) const {
     const std::size_t count = std::size_t{4} * band.width * band.rows;
     const auto draw = [&](std::span<const Shape> more) {
-      DrawPicture(painter, drawing, translucent, more);
+      DrawPass(painter, drawing, translucent, more);
       return context_.pixels().data();
     };
     const unsigned char* seen = draw(drawing.veil->shapes);
     std::vector<unsigned char> veil(seen, seen + count);
     FadeInWindows(drawing.veil->windows, band, veil);
-    // What is before the covers keeps its alpha.
+    // Samples in front of the covers keep their alpha.
     SetMask(false, true);
     gl().Color4ub(0, 0, 0, 0);
     for (const MeshInstance& cover : drawing.veil->covers) painter(cover);
@@ -312,7 +311,7 @@ class Canvas::Impl {
     }
   }
 
-  /// What is in a window hides less.
+  /// Reduce the opacity of samples inside windows.
   static void FadeInWindows(const std::vector<Window>& windows, const SampleBand& band,
                             std::vector<unsigned char>& samples) {
     for (const Window& window : windows) {
@@ -358,8 +357,8 @@ class Canvas::Impl {
     } else {
       const std::vector<int> weights = WeightsOf(drawing.layers);
       for (std::size_t i = 0; i < weights.size(); ++i) {
-        DrawPicture(painter, drawing, translucent,
-                    i == 0 ? std::span<const Shape>() : drawing.layers[i - 1].shapes);
+        DrawPass(painter, drawing, translucent,
+                 i == 0 ? std::span<const Shape>() : drawing.layers[i - 1].shapes);
         AddSamples(context_.pixels().data(), width_ * factor_, rows, factor_, weights[i], sums);
       }
     }
@@ -371,11 +370,11 @@ class Canvas::Impl {
 
   int width_, height_, factor_;
   int band_rows_;
-  std::shared_ptr<const std::vector<Vertices>> meshes_;  ///< copies have the same
+  std::shared_ptr<const std::vector<Vertices>> meshes_;  ///< shared with copies
   OffscreenContext context_;
 };
 
-Canvas::Canvas(const std::vector<FacetMesh>& meshes, int width, int height, int supersampling)
+Canvas::Canvas(const std::vector<ShadedMesh>& meshes, int width, int height, int supersampling)
     : impl_(std::make_unique<Impl>(meshes, width, height, supersampling)) {}
 Canvas::Canvas(const Canvas& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Canvas::~Canvas() = default;

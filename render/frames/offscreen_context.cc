@@ -14,7 +14,7 @@ constexpr int kDepthBits = 24;
 constexpr int kBytesPerPixel = 4;
 
 Gl LoadGl() {
-  // Mesa 22 (Debian 12) and older.
+  // Mesa 22 (Debian 12) and older versions.
   const SharedLibrary mesa({"libOSMesa.so.8", "libOSMesa.so.6"});
   Gl gl;
 #define REGRASP_GL_FIND(name) mesa.Find("gl" #name, gl.name);
@@ -27,7 +27,7 @@ Gl LoadGl() {
 }
 
 OSMesaContext CreateContext() {
-  // Mesa would keep shaders in the home folder. Its versions have two names for this.
+  // Mesa would store shaders in the home folder. The name of this variable depends on its version.
   constexpr char kName[] = "MESA_SHADER_CACHE_DISABLE";
   constexpr char kOldName[] = "MESA_GLSL_CACHE_DISABLE";
   if (std::getenv(kName) == nullptr && std::getenv(kOldName) == nullptr) {

@@ -8,7 +8,7 @@ struct osmesa_context;
 
 namespace regrasp::render {
 
-/// The functions of OpenGL that frames are drawn with, without their prefix.
+/// OpenGL functions that draw frames, without their prefix.
 // clang-format off
 #define REGRASP_GL_FUNCTIONS(F) \
   F(BlendFunc) F(Clear) F(ClearColor) F(Color4ub) F(ColorMask) F(ColorMaterial) F(DepthFunc) F(DepthMask) \
@@ -17,7 +17,7 @@ namespace regrasp::render {
   F(PushMatrix) F(VertexPointer) F(Viewport)
 // clang-format on
 
-/// OpenGL as OSMesa has it, loaded at the first call of gl().
+/// OpenGL functions of OSMesa, loaded at the first call of gl().
 struct Gl {
 #define REGRASP_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
   REGRASP_GL_FUNCTIONS(REGRASP_GL_MEMBER)
@@ -31,18 +31,19 @@ struct Gl {
 /// @throws EnvironmentError  if OSMesa is not installed.
 [[nodiscard]] const Gl& gl();
 
-/// An OSMesa context of OpenGL (compatibility profile) with the memory that it draws in: RGBA, 8
-/// bits a channel, rows from the bottom, and a depth buffer.
+/// An OSMesa context of OpenGL (compatibility profile) with its buffers: RGBA with 8 bits per
+/// channel, rows from bottom to top, and depth.
 class OffscreenContext {
  public:
-  /// @throws EnvironmentError  it cannot be made, or not in this size.
+  /// Create a context.
+  /// @throws EnvironmentError  if the context cannot be created in this size.
   OffscreenContext(int width, int height);
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-  /// While it exists, OpenGL's functions of this thread draw here. Another thread's may do so
-  /// afterwards.
+  /// A scope in which OpenGL functions of this thread draw into the context. Another thread can use
+  /// the context afterwards.
   class Use {
    public:
     explicit Use(OffscreenContext& context) { context.MakeCurrent(); }
@@ -50,7 +51,7 @@ class OffscreenContext {
     Use(const Use&) = delete;
     Use& operator=(const Use&) = delete;
   };
-  /// What was drawn, once glFinish was called.
+  /// Return the drawn pixels. Requires a preceding glFinish.
   [[nodiscard]] const std::vector<unsigned char>& pixels() const { return pixels_; }
 
  private:

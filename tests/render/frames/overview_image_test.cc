@@ -1,4 +1,4 @@
-#include "render/frames/contact_sheet.h"
+#include "render/frames/overview_image.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 namespace regrasp::render {
-namespace contact_sheet_test {
+namespace overview_image_test {
 
-/// How many pixels have this colour.
+/// Return the number of pixels with this colour.
 int Count(const Image& image, unsigned char r, unsigned char g, unsigned char b) {
   int count = 0;
   for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
@@ -23,8 +23,8 @@ Image MakeFlat(int width, int height, unsigned char r) {
   return image;
 }
 
-TEST(ContactSheetTest, EveryPictureHasItsPlaceInTheGrid) {
-  ContactSheet sheet(5, 640, 480);
+TEST(OverviewImageTest, EveryImageHasItsCell) {
+  OverviewImage sheet(5, 640, 480);
   const Image empty = sheet.ToImage();
   EXPECT_EQ(Count(empty, 255, 255, 255), empty.width * empty.height);
   for (int i = 0; i < 5; ++i) sheet.Add(MakeFlat(640, 480, 50 + 10 * i), {"", "", kInk});
@@ -35,8 +35,8 @@ TEST(ContactSheetTest, EveryPictureHasItsPlaceInTheGrid) {
   }
 }
 
-TEST(ContactSheetTest, LabelsAreWrittenInTheirColour) {
-  ContactSheet plain(1, 320, 240), labelled(1, 320, 240);
+TEST(OverviewImageTest, LabelsAreWrittenInTheirColour) {
+  OverviewImage plain(1, 320, 240), labelled(1, 320, 240);
   const Color red = {179, 38, 30};
   plain.Add(MakeImage(320, 240, 255), {});
   labelled.Add(MakeImage(320, 240, 255), {"3  switch", "slipped", red});
@@ -45,10 +45,10 @@ TEST(ContactSheetTest, LabelsAreWrittenInTheirColour) {
   EXPECT_GT(Count(labelled.ToImage(), kInk.r, kInk.g, kInk.b), 20);
 }
 
-TEST(ContactSheetTest, AFailureIsFramedAndWhatComesAfterItIsGrey) {
+TEST(OverviewImageTest, AFailureIsFramedAndLaterCellsAreGrey) {
   const Color red = {179, 38, 30};
   const auto draw = [&](bool failed) {
-    ContactSheet sheet(2, 320, 240);
+    OverviewImage sheet(2, 320, 240);
     sheet.Add(MakeImage(320, 240, 255), {"", "", red, failed});
     if (failed) sheet.AddEmpty({"", "", kInk}, "not replayed");
     return sheet.ToImage();
@@ -58,53 +58,53 @@ TEST(ContactSheetTest, AFailureIsFramedAndWhatComesAfterItIsGrey) {
   EXPECT_GT(Count(draw(true), 238, 240, 244), 320 * 240 * 9 / 10);
 }
 
-TEST(ContactSheetTest, TheHeadingStandsAboveAllPictures) {
+TEST(OverviewImageTest, TheHeadingIsAboveAllImages) {
   const Color green = {29, 107, 60};
-  const Image plain = ContactSheet(4, 320, 240).ToImage();
-  const Image headed = ContactSheet(4, 320, 240, kSheetWidth, {"PASS", "", green}).ToImage();
+  const Image plain = OverviewImage(4, 320, 240).ToImage();
+  const Image headed = OverviewImage(4, 320, 240, kOverviewWidth, {"PASS", "", green}).ToImage();
   EXPECT_EQ(headed.width, plain.width);
   EXPECT_GT(headed.height, plain.height);
   EXPECT_GT(Count(headed, green.r, green.g, green.b), 20);
-  // However long, it is not cut off: no ink at the right border.
+  // A long heading is not cut off: the right border has no ink.
   const Image longer =
-      ContactSheet(1, 320, 240, kSheetWidth, {std::string(300, 'm'), "", kInk}).ToImage();
+      OverviewImage(1, 320, 240, kOverviewWidth, {std::string(300, 'm'), "", kInk}).ToImage();
   for (int y = 0; y < longer.height; ++y) {
     EXPECT_EQ(longer.rgb[3 * (std::size_t(y + 1) * longer.width - 1)], 255);
   }
 }
 
-TEST(ContactSheetTest, ManyPicturesAreSmallSoThatTheSheetCanBeOpened) {
-  const Image image = ContactSheet(1000, 1280, 960).ToImage();
-  EXPECT_LE(image.width, kSheetWidth);
+TEST(OverviewImageTest, ManyImagesAreSmallSoThatTheOverviewFitsCairo) {
+  const Image image = OverviewImage(1000, 1280, 960).ToImage();
+  EXPECT_LE(image.width, kOverviewWidth);
   EXPECT_LE(image.height, 12'000);
   // Cairo's limit is 32767 pixels.
-  const SheetGrid most(20'000, 1280, 960, kSheetWidth);
-  EXPECT_LE(most.sheet_height(), 12'000);
-  EXPECT_LT(most.sheet_width(), 20'000);
+  const OverviewGrid most(20'000, 1280, 960, kOverviewWidth);
+  EXPECT_LE(most.total_height(), 12'000);
+  EXPECT_LT(most.total_width(), 20'000);
 }
 
-TEST(ContactSheetTest, TheSheetIsAsWideAsAskedAndItsLabelsAreAsLarge) {
+TEST(OverviewImageTest, TheOverviewHasTheRequestedWidthAndLabelSize) {
   for (const int width : {400, 1600, 3200}) {
     for (const int count : {1, 4, 9, 30}) {
-      const SheetGrid grid(count, 6400, 4800, width);
-      EXPECT_LE(grid.sheet_width(), width);
-      EXPECT_GT(grid.sheet_width(), 0.9 * width) << width << " " << count;
+      const OverviewGrid grid(count, 6400, 4800, width);
+      EXPECT_LE(grid.total_width(), width);
+      EXPECT_GT(grid.total_width(), 0.9 * width) << width << " " << count;
       EXPECT_GE(grid.font, 11);
     }
   }
-  EXPECT_EQ(SheetGrid(1, 640, 480, 1600).width, 640);  // not enlarged
-  // Long pictures stand in fewer columns.
-  EXPECT_EQ(SheetGrid(4, 1280, 320, 1600).columns, 2);
-  EXPECT_EQ(SheetGrid(9, 1280, 320, 1600).columns, 2);
-  EXPECT_EQ(SheetGrid(9, 1280, 960, 1600).columns, 3);
-  // Two by two, and no empty cells beside them.
-  EXPECT_EQ(SheetGrid(4, 1100, 960, 1600).columns, 2);
-  EXPECT_EQ(SheetGrid(6, 1280, 960, 1600).columns, 3);
-  EXPECT_EQ(SheetGrid(8, 1280, 960, 1600).columns, 3);
+  EXPECT_EQ(OverviewGrid(1, 640, 480, 1600).width, 640);  // not enlarged
+  // Wide images have fewer columns.
+  EXPECT_EQ(OverviewGrid(4, 1280, 320, 1600).columns, 2);
+  EXPECT_EQ(OverviewGrid(9, 1280, 320, 1600).columns, 2);
+  EXPECT_EQ(OverviewGrid(9, 1280, 960, 1600).columns, 3);
+  // Two by two, without empty cells.
+  EXPECT_EQ(OverviewGrid(4, 1100, 960, 1600).columns, 2);
+  EXPECT_EQ(OverviewGrid(6, 1280, 960, 1600).columns, 3);
+  EXPECT_EQ(OverviewGrid(8, 1280, 960, 1600).columns, 3);
 }
 
-TEST(ContactSheetTest, OnADarkGroundThereIsNoWhite) {
-  ContactSheet sheet(1, 320, 240, kSheetWidth, {"PASS", "", {29, 200, 60}}, kDarkGround);
+TEST(OverviewImageTest, OnADarkGroundThereIsNoWhite) {
+  OverviewImage sheet(1, 320, 240, kOverviewWidth, {"PASS", "", {29, 200, 60}}, kDarkGround);
   sheet.Add(MakeFlat(320, 240, 50), {"1  switch", "pass", {29, 200, 60}});
   const Image image = sheet.ToImage();
   EXPECT_EQ(Count(image, 255, 255, 255), 0);
@@ -112,14 +112,14 @@ TEST(ContactSheetTest, OnADarkGroundThereIsNoWhite) {
   EXPECT_GT(Count(image, paper.r, paper.g, paper.b), 320 * 20);
 }
 
-TEST(ContactSheetTest, PicturesThatWereNotAnnouncedAreRefused) {
-  EXPECT_THROW(ContactSheet(0, 10, 10), std::invalid_argument);
-  EXPECT_THROW(ContactSheet(1, 0, 10), std::invalid_argument);
-  ContactSheet sheet(1, 64, 48);
+TEST(OverviewImageTest, UnannouncedImagesAreRefused) {
+  EXPECT_THROW(OverviewImage(0, 10, 10), std::invalid_argument);
+  EXPECT_THROW(OverviewImage(1, 0, 10), std::invalid_argument);
+  OverviewImage sheet(1, 64, 48);
   EXPECT_THROW(sheet.Add(MakeImage(48, 64), {}), std::invalid_argument);
   sheet.Add(MakeImage(64, 48), {});
   EXPECT_THROW(sheet.Add(MakeImage(64, 48), {}), std::invalid_argument);
 }
 
-}  // namespace contact_sheet_test
+}  // namespace overview_image_test
 }  // namespace regrasp::render

@@ -6,7 +6,7 @@
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
-namespace turn_arrow_test {
+namespace rotation_arrow_test {
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
@@ -18,14 +18,14 @@ std::vector<Vector3d> ArrowOf(double degrees, const Vector3d& axis) {
   static const BodyShape cube = MakeBodyShape(MakeCube());
   const Isometry3d before(AngleAxisd(0.3, Vector3d::UnitX()));
   const Isometry3d after = AngleAxisd(Radians(degrees), axis) * before;
-  return TurnArrow(cube.surface, before, after, kToEye);
+  return RotationArrow(cube.surface, before, after, kToEye);
 }
 
 double AngleBetween(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-TEST(TurnArrow, IsAsLongAsTheTurnAndGoesItsWay) {
+TEST(RotationArrow, HasTheAngleAndTheSenseOfTheRotation) {
   int checked = 0;
   for (const Vector3d& axis : {Vector3d(0, 0, 1), Vector3d(0, 0, -1), Vector3d(0.6, 0, 0.8)}) {
     for (const double degrees : {10.0, 60.0, 150.0}) {
@@ -42,7 +42,7 @@ TEST(TurnArrow, IsAsLongAsTheTurnAndGoesItsWay) {
   EXPECT_EQ(checked, 9);
 }
 
-TEST(TurnArrow, StandsOverTheObjectOnTheSideOfTheEye) {
+TEST(RotationArrow, IsAboveTheObjectOnTheSideOfTheEye) {
   for (const double sign : {1.0, -1.0}) {
     for (const Vector3d& p : ArrowOf(40, sign * Vector3d::UnitZ())) {
       EXPECT_GT(p.z(), 0.5 / std::sqrt(3)) << "a cube of diameter 1";
@@ -52,10 +52,10 @@ TEST(TurnArrow, StandsOverTheObjectOnTheSideOfTheEye) {
   EXPECT_GT(arrow[arrow.size() / 2].dot(kToEye), 0.3);
 }
 
-TEST(TurnArrow, OfWhatHardlyTurnsThereIsNone) {
+TEST(RotationArrow, IsOmittedForSmallRotations) {
   EXPECT_TRUE(ArrowOf(0, Vector3d::UnitZ()).empty());
   EXPECT_TRUE(ArrowOf(1, Vector3d::UnitZ()).empty());
 }
 
-}  // namespace turn_arrow_test
+}  // namespace rotation_arrow_test
 }  // namespace regrasp::render

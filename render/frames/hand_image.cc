@@ -1,4 +1,4 @@
-#include "render/frames/hand_picture.h"
+#include "render/frames/hand_image.h"
 
 #include <cairo.h>
 
@@ -13,12 +13,13 @@
 #include "render/frames/annotation.h"
 #include "render/frames/camera.h"
 #include "render/frames/canvas.h"
-#include "render/frames/facet_mesh.h"
+#include "render/frames/shaded_mesh.h"
 #include "render/picture/cairo_paint.h"
-#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 #include "render/picture/label_layout.h"
 
 namespace regrasp::render {
+
 namespace {
 
 using Eigen::Isometry3d;
@@ -27,24 +28,25 @@ using Eigen::Vector3d;
 using Visuals = std::vector<kinematics::LinkVisual>;
 
 constexpr double kLinkOpacity = 0.68;
-/// How much of white is mixed into the links' colours: what lies in black plastic would be lost.
+/// Share of white in link colours: details inside black plastic would be invisible.
 constexpr double kPaler = 0.45;
-/// Where a link is round like the ball, the ball is seen.
+/// Factor on sphere radii, so that the sphere is visible in front of a link of the same shape.
 constexpr double kOutside = 1.02;
-/// Of arrows, in sizes of the hand.
+/// Lengths of arrows per size of the hand.
 constexpr double kArrowLength = 0.22;
 constexpr double kAxisLength = 0.15;
-/// x red, y green, z blue.
+/// Colours of the axes: x red, y green, z blue.
 constexpr std::array<Color, 3> kAxisColors = {{{196, 40, 40}, {30, 130, 60}, {40, 80, 190}}};
 constexpr double kArrowRadius = 0.006;
 constexpr double kHandArrowHeadLength = 0.05;
 constexpr double kHandArrowHeadHalfAngle = 0.35;
-/// Where the fingers point this much one way, they are seen from the side to which they bend.
+/// Mean direction of fingers, per finger length, above which the hand is seen from the side to
+/// which fingers bend.
 constexpr double kPointsOneWay = 0.35;
-/// Cosines of directions that count as one, and as at right angles.
+/// Cosines of angles that count as parallel and as perpendicular.
 constexpr double kSameAxis = 0.8;
 constexpr double kAcross = 1e-3;
-// In font sizes.
+// Lengths in multiples of the font size.
 constexpr double kHandLabelRadius = 1.9;
 constexpr double kSmallFont = 0.8;
 constexpr double kHandLineHeight = 1.15;
@@ -53,30 +55,31 @@ constexpr double kRing = 0.11;
 constexpr double kHandLeader = 0.09;
 constexpr double kHandShade = 0.75;
 
-/// Where a hand is in its picture: of size 1 about the origin, turned as it is seen best.
-struct Placing {
-  Isometry3d palm = Isometry3d::Identity();  ///< its pose, in units of the picture
-  double size = 1;                           ///< metres a unit
-  Vector3d back = Vector3d::UnitX();         ///< towards the eye
+/// Placement of a hand in its image: size 1, centred at the origin.
+struct HandPlacement {
+  Isometry3d palm = Isometry3d::Identity();  ///< pose of the palm, in image units
+  double size = 1;                           ///< metres per unit
+  Vector3d back = Vector3d::UnitX();         ///< direction towards the eye
 
   Vector3d operator()(const Vector3d& p) const { return palm * (p / size); }
 };
 
-Vector3d OriginAtRest(const kinematics::HandModel& hand, const kinematics::LinkVisual& look) {
+Vector3d OriginAtZero(const kinematics::HandModel& hand, const kinematics::LinkVisual& visual) {
   Vector3d origin = Vector3d::Zero();
-  if (!look.finger.valid()) return origin;
-  const auto& joints = hand.fingers[look.finger].joints;
-  for (int i = 0; i < look.after; ++i) origin += joints[i].offset;
+  if (!visual.finger.valid()) return origin;
+  const auto& joints = hand.fingers[visual.finger].joints;
+  for (int i = 0; i < visual.after; ++i) origin += joints[i].offset;
   return origin;
 }
 
-Vector3d TipAtRest(const kinematics::Finger& finger) {
+Vector3d FingertipAtZero(const kinematics::Finger& finger) {
   Vector3d tip = finger.tip.centre;
   for (const kinematics::Joint& joint : finger.joints) tip += joint.offset;
   return tip;
 }
 
-/// The axis of the palm across `up` that is nearest to a direction, where one is near.
+/// Return the palm axis perpendicular to `up` nearest to a direction, or the direction if none is
+/// near.
 Vector3d NearestAxis(const Vector3d& direction, const Vector3d& up) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const int sign : {-1, 1}) {
@@ -88,16 +91,16 @@ Vector3d NearestAxis(const Vector3d& direction, const Vector3d& up) {
   return direction.normalized();
 }
 
-/// Up is towards the eye where the fingers point across it, otherwise upwards.
-Placing PlaceHand(const kinematics::HandModel& hand, const Visuals& visuals) {
+/// Place a hand with `up` towards the eye if the fingers point across it, and upwards otherwise.
+HandPlacement PlaceHand(const kinematics::HandModel& hand, const Visuals& visuals) {
   Eigen::AlignedBox3d box;
-  for (const kinematics::LinkVisual& look : visuals) {
-    if (look.above_palm) continue;
-    const Vector3d origin = OriginAtRest(hand, look);
-    for (const auto& corners : look.triangles) {
+  for (const kinematics::LinkVisual& visual : visuals) {
+    if (visual.above_palm) continue;
+    const Vector3d origin = OriginAtZero(hand, visual);
+    for (const auto& corners : visual.triangles) {
       for (const Vector3d& p : corners) box.extend(origin + p);
     }
-    for (const auto& capsule : look.capsules) {
+    for (const auto& capsule : visual.capsules) {
       for (const Vector3d& end : {capsule.from, capsule.to}) {
         box.extend(Vector3d((origin + end).array() - capsule.radius));
         box.extend(Vector3d((origin + end).array() + capsule.radius));
@@ -107,7 +110,7 @@ Placing PlaceHand(const kinematics::HandModel& hand, const Visuals& visuals) {
   Vector3d ahead = Vector3d::Zero();
   double reach = 0;
   for (const kinematics::Finger& finger : hand.fingers) {
-    const Vector3d tip = TipAtRest(finger);
+    const Vector3d tip = FingertipAtZero(finger);
     box.extend(tip);
     ahead += tip / static_cast<double>(hand.fingers.size());
     reach = std::max(reach, tip.norm());
@@ -116,16 +119,16 @@ Placing PlaceHand(const kinematics::HandModel& hand, const Visuals& visuals) {
   const bool lies = ahead.norm() > kPointsOneWay * reach;
   const Vector3d other = hand.up.unitOrthogonal();
   const Vector3d z = lies ? NearestAxis(ahead, hand.up) : hand.up;
-  const Vector3d y = lies ? Vector3d(-hand.up) : other;  // away from the eye, or anywhere
-  Placing placing;
-  placing.size = box.isEmpty() ? 1 : box.diagonal().norm();
+  const Vector3d y = lies ? Vector3d(-hand.up) : other;  // away from the eye, or arbitrary
+  HandPlacement placement;
+  placement.size = box.isEmpty() ? 1 : box.diagonal().norm();
   Eigen::Matrix3d axes;
   axes << y.cross(z), y, z;
-  placing.palm.linear() = axes.transpose();
-  placing.palm.translation() = -(axes.transpose() * box.center()) / placing.size;
-  placing.back =
+  placement.palm.linear() = axes.transpose();
+  placement.palm.translation() = -(axes.transpose() * box.center()) / placement.size;
+  placement.back =
       lies ? Vector3d(0.35, -1, 0.25).normalized() : Vector3d(0.45, -1, 0.8).normalized();
-  return placing;
+  return placement;
 }
 
 Color LinkColor(const std::array<float, 3>& rgba) {
@@ -141,34 +144,34 @@ Color Shaded(Color color) {
   return {shade(color.r), shade(color.g), shade(color.b)};
 }
 
-struct HandPictureScene {
-  std::vector<FacetMesh> meshes;
+struct HandImageScene {
+  std::vector<ShadedMesh> meshes;
   Drawing drawing;
-  std::vector<Vector3d> points;  ///< that bound it
+  std::vector<Vector3d> points;  ///< points that bound the scene
 };
 
-/// Points that bound a rod.
-void AddEnds(const Rod& rod, std::vector<Vector3d>& points) {
-  for (const Vector3d& end : {rod.from, rod.to}) {
+/// Add points that bound a capsule.
+void AddEnds(const Capsule& capsule, std::vector<Vector3d>& points) {
+  for (const Vector3d& end : {capsule.from, capsule.to}) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const int sign : {-1, 1}) {
-        points.push_back(end + sign * rod.radius * Vector3d::Unit(axis));
+        points.push_back(end + sign * capsule.radius * Vector3d::Unit(axis));
       }
     }
   }
 }
 
-HandPictureScene MakeHandScene(const kinematics::HandModel& hand, const Visuals& visuals,
-                               const Placing& place) {
-  HandPictureScene scene;
+HandImageScene MakeHandScene(const kinematics::HandModel& hand, const Visuals& visuals,
+                             const HandPlacement& place) {
+  HandImageScene scene;
   Layer links{{}, kLinkOpacity};
-  for (const kinematics::LinkVisual& look : visuals) {
-    if (look.above_palm) continue;
-    const Vector3d origin = OriginAtRest(hand, look);
-    FacetMesh mesh;
-    for (std::size_t i = 0; i < look.triangles.size(); ++i) {
-      auto corners = look.triangles[i];
-      auto normals = look.normals[i];
+  for (const kinematics::LinkVisual& visual : visuals) {
+    if (visual.above_palm) continue;
+    const Vector3d origin = OriginAtZero(hand, visual);
+    ShadedMesh mesh;
+    for (std::size_t i = 0; i < visual.triangles.size(); ++i) {
+      auto corners = visual.triangles[i];
+      auto normals = visual.normals[i];
       for (int k = 0; k < 3; ++k) {
         corners[k] = place(origin + corners[k]);
         normals[k] = place.palm.linear() * normals[k];
@@ -176,36 +179,37 @@ HandPictureScene MakeHandScene(const kinematics::HandModel& hand, const Visuals&
       }
       mesh.Add(corners, normals);
     }
-    for (const auto& [from, to, radius] : look.capsules) {
-      const Rod rod{place(origin + from), place(origin + to), radius / place.size};
-      links.shapes.push_back({rod, LinkColor(look.color)});
-      AddEnds(rod, scene.points);
+    for (const auto& [from, to, radius] : visual.capsules) {
+      const Capsule capsule{place(origin + from), place(origin + to), radius / place.size};
+      links.shapes.push_back({capsule, LinkColor(visual.color)});
+      AddEnds(capsule, scene.points);
     }
     if (mesh.triangles.empty()) continue;
     links.shapes.push_back(
-        {MeshInstance{static_cast<int>(scene.meshes.size())}, LinkColor(look.color)});
+        {MeshInstance{static_cast<int>(scene.meshes.size())}, LinkColor(visual.color)});
     scene.meshes.push_back(std::move(mesh));
   }
   for (int i = 0; i < static_cast<int>(hand.fingers.size()); ++i) {
     const kinematics::Finger& finger = hand.fingers[i];
-    const Vector3d centre = place(TipAtRest(finger));
+    const Vector3d centre = place(FingertipAtZero(finger));
     const double radius = finger.tip.radius / place.size;
-    scene.drawing.shapes.push_back({Ball{centre, kOutside * radius}, FingerColor(FingerIndex(i))});
+    scene.drawing.shapes.push_back(
+        {Sphere{centre, kOutside * radius}, FingerColor(FingerIndex(i))});
     AddEnds({centre, centre, radius}, scene.points);
   }
   scene.drawing.layers.push_back(std::move(links));
   return scene;
 }
 
-/// An arrow from the palm's origin.
+/// An arrow from the origin of the palm frame.
 struct PalmArrow {
-  Vector3d direction;  ///< of length 1, in the palm's frame
-  double length;       ///< in sizes of the hand
+  Vector3d direction;  ///< unit vector in the palm frame
+  double length;       ///< length per size of the hand
   Color color;
   std::string label;
 };
 
-/// The axes of the palm's frame, in which poses of objects are given, and the direction up.
+/// Return the axes of the palm frame, in which object poses are given, and the direction up.
 std::vector<PalmArrow> PalmArrows(const Vector3d& up) {
   std::vector<PalmArrow> arrows;
   bool is_up_drawn = false;
@@ -219,15 +223,15 @@ std::vector<PalmArrow> PalmArrows(const Vector3d& up) {
   return arrows;
 }
 
-void AddArrow(const PalmArrow& arrow, const Placing& place, HandPictureScene& scene) {
+void AddArrow(const PalmArrow& arrow, const HandPlacement& place, HandImageScene& scene) {
   const Vector3d from = place(Vector3d::Zero());
   const Vector3d along = place.palm.linear() * arrow.direction;
   const Vector3d tip = from + arrow.length * along;
   const double head_length = kHandArrowHeadLength * arrow.length / kArrowLength;
   scene.drawing.shapes.push_back(
-      {Rod{from, tip - 0.9 * head_length * along, kArrowRadius}, arrow.color});
+      {Capsule{from, tip - 0.9 * head_length * along, kArrowRadius}, arrow.color});
   Isometry3d head = Isometry3d::Identity();
-  // The cone opens along its z from its apex.
+  // The cone opens along its z axis from its apex.
   head.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), -along).toRotationMatrix();
   head.translation() = tip;
   scene.drawing.shapes.push_back(
@@ -236,16 +240,16 @@ void AddArrow(const PalmArrow& arrow, const Placing& place, HandPictureScene& sc
   scene.points.push_back(tip);
 }
 
-void WriteArrowLabels(const CairoImage& page, const Camera& camera, const Placing& place,
+void WriteArrowLabels(const CairoImage& image, const Camera& camera, const HandPlacement& place,
                       const std::vector<PalmArrow>& arrows, const TextStyle& style) {
-  cairo_t* cr = page.context();
+  cairo_t* cr = image.context();
   const double font = kSmallFont * style.font;
   const Vector2d origin = camera.Project(place(Vector3d::Zero()));
   for (const PalmArrow& arrow : arrows) {
     const Vector3d along = place.palm.linear() * arrow.direction;
     const Vector2d tip = camera.Project(place(Vector3d::Zero()) + arrow.length * along);
     const Vector2d away = tip - origin;
-    // An arrow towards the eye has its label beside it.
+    // An arrow towards the eye has its label next to it.
     const Vector2d beyond =
         away.norm() > font ? Vector2d(away.normalized()) : Vector2d(1, 1).normalized();
     SelectFont(cr, font, true);
@@ -256,19 +260,19 @@ void WriteArrowLabels(const CairoImage& page, const Camera& camera, const Placin
   }
 }
 
-/// Name and radius of each ball beside it, away from the middle of the hand.
-class TipLabels {
+/// Writes name and radius next to each fingertip, away from the middle of the hand.
+class FingertipLabels {
  public:
-  TipLabels(const CairoImage& page, const Camera& camera, const TextStyle& style)
-      : page_(page), camera_(camera), style_(style) {}
+  FingertipLabels(const CairoImage& image, const Camera& camera, const TextStyle& style)
+      : image_(image), camera_(camera), style_(style) {}
 
-  void Draw(const kinematics::HandModel& hand, const Placing& place,
+  void Draw(const kinematics::HandModel& hand, const HandPlacement& place,
             std::vector<Obstacle> covered) const {
     const Vector2d middle = camera_.Project(Vector3d::Zero());
     std::vector<LabelAnchor> anchors;
     std::vector<double> radii;
     for (const kinematics::Finger& finger : hand.fingers) {
-      const Vector3d centre = place(TipAtRest(finger));
+      const Vector3d centre = place(FingertipAtZero(finger));
       const Vector2d at = camera_.Project(centre);
       const double radius = finger.tip.radius / place.size * camera_.PixelsPerUnit(centre);
       const Vector2d outward =
@@ -276,8 +280,8 @@ class TipLabels {
       anchors.push_back({at + radius * outward, outward, at});
       radii.push_back(radius);
       covered.push_back({at, at, radius});
-      // The link behind it.
-      const Vector3d last = place(TipAtRest(finger) - finger.tip.centre);
+      // The link behind the fingertip.
+      const Vector3d last = place(FingertipAtZero(finger) - finger.tip.centre);
       covered.push_back({at, camera_.Project(last), radius});
     }
     const std::vector<Vector2d> centres = PlaceLabels(
@@ -291,19 +295,19 @@ class TipLabels {
   }
 
  private:
-  /// The ball's outline, so that it is seen whole where a link hides it.
+  /// Draw the outline of a fingertip sphere over links that hide it.
   void DrawRing(const Vector2d& centre, double radius, Color color) const {
-    SetCircle(page_.context(), centre, radius);
-    Stroke(page_.context(), Shaded(color), kRing * style_.font);
+    SetCircle(image_.context(), centre, radius);
+    Stroke(image_.context(), Shaded(color), kRing * style_.font);
   }
 
-  void DrawLeader(const Vector2d& ball, double radius, const Vector2d& label, Color color) const {
-    const Vector2d away = label - ball;
+  void DrawLeader(const Vector2d& sphere, double radius, const Vector2d& label, Color color) const {
+    const Vector2d away = label - sphere;
     const double gap = away.norm() - radius - kHandLabelRadius * style_.font;
     if (gap < 0.5 * style_.font) return;
-    SetColor(page_.context(), color);
-    StrokeLine(page_.context(), ball + radius * away.normalized(),
-               ball + (radius + gap) * away.normalized(), kHandLeader * style_.font);
+    SetColor(image_.context(), color);
+    StrokeLine(image_.context(), sphere + radius * away.normalized(),
+               sphere + (radius + gap) * away.normalized(), kHandLeader * style_.font);
   }
 
   void Write(const kinematics::Finger& finger, const Vector2d& centre, Color color) const {
@@ -315,7 +319,7 @@ class TipLabels {
 
   void WriteLine(const std::string& text, const Vector2d& centre, double font, bool bold,
                  Color color) const {
-    cairo_t* cr = page_.context();
+    cairo_t* cr = image_.context();
     SelectFont(cr, font, bold);
     Vector2d start = CentredText(cr, text, centre);
     const double width = TextWidth(cr, text);
@@ -326,7 +330,7 @@ class TipLabels {
     FillWithHalo(cr, color, kHandHalo * font, style_.ground.halo);
   }
 
-  const CairoImage& page_;
+  const CairoImage& image_;
   const Camera& camera_;
   const TextStyle& style_;
 };
@@ -334,9 +338,9 @@ class TipLabels {
 }  // namespace
 
 Image DrawHand(const kinematics::HandModel& hand, const Visuals& visuals,
-               const std::string& caption, const HandPictureOptions& options) {
-  const Placing place = PlaceHand(hand, visuals);
-  HandPictureScene scene = MakeHandScene(hand, visuals, place);
+               const std::string& caption, const HandImageOptions& options) {
+  const HandPlacement place = PlaceHand(hand, visuals);
+  HandImageScene scene = MakeHandScene(hand, visuals, place);
   const std::vector<PalmArrow> arrows = PalmArrows(hand.up);
   for (const PalmArrow& arrow : arrows) AddArrow(arrow, place, scene);
   const TextStyle style{FontSize(options.width, options.height), kWhiteGround};
@@ -347,11 +351,11 @@ Image DrawHand(const kinematics::HandModel& hand, const Visuals& visuals,
                             scene.points);
   camera = Crop(camera, margins, scene.points, options.width / 2, options.height / 2);
   Canvas canvas(scene.meshes, camera.width, camera.height, options.supersampling);
-  const CairoImage page(canvas.Draw(camera, scene.drawing));
-  const std::vector<Obstacle> covered = DrawCaption(page, camera, caption, place.size, style);
-  TipLabels(page, camera, style).Draw(hand, place, covered);
-  WriteArrowLabels(page, camera, place, arrows, style);
-  return page.ToImage();
+  const CairoImage image(canvas.Draw(camera, scene.drawing));
+  const std::vector<Obstacle> covered = DrawCaption(image, camera, caption, place.size, style);
+  FingertipLabels(image, camera, style).Draw(hand, place, covered);
+  WriteArrowLabels(image, camera, place, arrows, style);
+  return image.ToImage();
 }
 
 }  // namespace regrasp::render

@@ -1,4 +1,4 @@
-#include "render/frames/fault_picture.h"
+#include "render/frames/fault_marks.h"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +10,13 @@
 
 #include "planner/base/number.h"
 #include "render/frames/annotation.h"
-#include "render/frames/fault_overlay.h"
 #include "render/frames/frame.h"
 #include "render/picture/cairo_paint.h"
 #include "tests/fixtures/solids.h"
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace fault_picture_test {
+namespace fault_marks_test {
 
 using Eigen::Vector3d;
 using plan::Fault;
@@ -25,83 +24,82 @@ using plan::Reason;
 
 constexpr int kFinger = 2;
 
-/// A finger on the face +x of [−1, 1]³, `away` off it, and another one where it belongs.
-FaultPicture OffSurface(double away) {
+/// Return a finger at distance `away` from the face +x of [−1, 1]³, and another one in contact.
+FaultScene OffSurface(double away) {
   plan::Snapshot snapshot;
   snapshot.fingers = {MakeFinger(kFinger, plan::FingerRole::kHolding, {1 + away, 0, 0}, {-1, 0, 0}),
                       MakeFinger(0, plan::FingerRole::kHolding, {-1, 0, 0}, {1, 0, 0})};
   const Fault fault = {.fingers = {FingerIndex(kFinger)},
                        .found = grasp::Contact{{1 + away, 0, 0}, {-1, 0, 0}},
                        .expected = {{{1, 0, 0}, {-1, 0, 0}}}};
-  return MakeFaultPicture(MakeCube(), 1, Reason::kOffSurface, fault, snapshot, "what failed");
+  return MakeFaultScene(MakeCube(), 1, Reason::kOffSurface, fault, snapshot, "the reason");
 }
 
-TEST(FaultPicture, ADistanceIsDrawnAsItIsWhereItCanBeSeen) {
-  const FaultPicture picture = OffSurface(0.5);
-  ASSERT_EQ(picture.marks.dimensions.size(), 1u);
-  EXPECT_EQ(picture.marks.dimensions[0].text, "50 cm");
-  EXPECT_LT((picture.marks.dimensions[0].from - Vector3d(1, 0, 0)).norm(), 1e-9);
-  EXPECT_LT((picture.marks.dimensions[0].to - Vector3d(1.5, 0, 0)).norm(), 1e-9);
-  EXPECT_EQ(picture.marks.heading, "what failed");
+TEST(FaultScene, VisibleDistancesAreDrawnToScale) {
+  const FaultScene scene = OffSurface(0.5);
+  ASSERT_EQ(scene.marks.dimensions.size(), 1u);
+  EXPECT_EQ(scene.marks.dimensions[0].text, "50 cm");
+  EXPECT_LT((scene.marks.dimensions[0].from - Vector3d(1, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((scene.marks.dimensions[0].to - Vector3d(1.5, 0, 0)).norm(), 1e-9);
+  EXPECT_EQ(scene.marks.heading, "the reason");
 }
 
-TEST(FaultPicture, AFingerNearOrFarOffTheSurfaceIsDrawnBesideIt) {
+TEST(FaultScene, AFingerNearOrFarOffTheSurfaceIsDrawnBesideIt) {
   const double D = MakeCube().diameter();
   for (const double away : {0.01, 10.0, 4e3, 1e9, 1e200}) {
-    const FaultPicture picture = OffSurface(away);
-    ASSERT_EQ(picture.snapshot.fingers.size(), 2u) << away;
-    const double drawn = picture.snapshot.fingers[0].contact_W.x() - 1;
+    const FaultScene scene = OffSurface(away);
+    ASSERT_EQ(scene.snapshot.fingers.size(), 2u) << away;
+    const double drawn = scene.snapshot.fingers[0].contact_W.x() - 1;
     EXPECT_GT(drawn, 0.04 * D) << away;
     EXPECT_LT(drawn, 0.4 * D) << away;
-    EXPECT_NE(picture.marks.dimensions.at(0).text.find("drawn"), std::string::npos) << away;
-    EXPECT_EQ(picture.snapshot.fingers[1].contact_W, Vector3d(-1, 0, 0));
+    EXPECT_NE(scene.marks.dimensions.at(0).text.find("drawn"), std::string::npos) << away;
+    EXPECT_EQ(scene.snapshot.fingers[1].contact_W, Vector3d(-1, 0, 0));
   }
 }
 
-TEST(FaultPicture, OtherFingersThatAreFarAwayAreLeftOut) {
+TEST(FaultScene, OtherFingersThatAreFarAwayAreLeftOut) {
   plan::Snapshot snapshot;
   for (const double x : {1.0, 1e6, 1e300}) {
     snapshot.fingers.push_back(MakeFinger(0, plan::FingerRole::kHolding, {x, 0, 0}, {-1, 0, 0}));
   }
-  const FaultPicture picture =
-      MakeFaultPicture(MakeCube(), 1, Reason::kTooManyFingers, {}, snapshot, "");
-  EXPECT_EQ(picture.snapshot.fingers.size(), 1u);
+  const FaultScene scene = MakeFaultScene(MakeCube(), 1, Reason::kTooManyFingers, {}, snapshot, "");
+  EXPECT_EQ(scene.snapshot.fingers.size(), 1u);
 }
 
-TEST(FaultPicture, TheGhostOfAnObjectThatHardlyMovedIsFarEnoughBackToBeSeen) {
+TEST(FaultScene, TheGhostOfAnObjectThatMovedSlightlyIsVisiblyDisplaced) {
   const object::Polyhedron cube = MakeCube();
   plan::Snapshot snapshot;
   snapshot.X_WO.translation().z() = -1e-2;
   Fault fault;
   fault.X_WO_before = Eigen::Isometry3d::Identity();
-  const FaultPicture picture = MakeFaultPicture(cube, 1, Reason::kObjectMoved, fault, snapshot, "");
-  ASSERT_TRUE(picture.marks.X_WO_before.has_value());
-  const double back = picture.marks.X_WO_before->translation().z() + 1e-2;
+  const FaultScene scene = MakeFaultScene(cube, 1, Reason::kObjectMoved, fault, snapshot, "");
+  ASSERT_TRUE(scene.marks.X_WO_before.has_value());
+  const double back = scene.marks.X_WO_before->translation().z() + 1e-2;
   EXPECT_NEAR(back, 0.05 * cube.diameter(), 1e-9);
-  EXPECT_NE(picture.marks.ghost_text.find("drawn × "), std::string::npos);
+  EXPECT_NE(scene.marks.ghost_text.find("drawn × "), std::string::npos);
 }
 
-TEST(FaultPicture, AnObjectThatFellHasItsGhostWhateverFailedFirst) {
+TEST(FaultScene, AFallenObjectHasAGhostForEveryReason) {
   const object::Polyhedron cube = MakeCube();
   const auto has_ghost = [&](double fall) {
     plan::Snapshot snapshot;
     snapshot.X_WO.translation().z() = -fall;
     Fault fault;
     fault.X_WO_before = Eigen::Isometry3d::Identity();
-    return MakeFaultPicture(cube, 1, Reason::kContactLost, fault, snapshot, "")
+    return MakeFaultScene(cube, 1, Reason::kContactLost, fault, snapshot, "")
         .marks.X_WO_before.has_value();
   };
   EXPECT_TRUE(has_ghost(0.3));
   EXPECT_FALSE(has_ghost(0.003));
 }
 
-TEST(FaultPicture, AFactorIsTwoDigitsWithoutAPowerOfTen) {
+TEST(FaultScene, AFactorIsTwoDigitsWithoutAPowerOfTen) {
   const auto text = [](double away) { return OffSurface(away).marks.dimensions.at(0).text; };
   EXPECT_EQ(text(0.1), "10 cm (drawn × 1.7)");
   EXPECT_EQ(text(0.001), "1 mm (drawn × 170)");
 }
 
-TEST(FaultPicture, AFingerWhoseNormalIsWrongStandsOutsideAllTheSame) {
+TEST(FaultScene, AFingerWithAWrongNormalIsDrawnOutside) {
   for (const Vector3d& given : {Vector3d(1, 0, 0), Vector3d(0, 0, 0), Vector3d(-3, 0, 0)}) {
     plan::Snapshot snapshot;
     snapshot.fingertip_radius_m = 0.1;
@@ -109,17 +107,17 @@ TEST(FaultPicture, AFingerWhoseNormalIsWrongStandsOutsideAllTheSame) {
     const Fault fault = {.fingers = {FingerIndex(kFinger)},
                          .found = grasp::Contact{{1, 0, 0}, given},
                          .expected = {{{1, 0, 0}, {-1, 0, 0}}}};
-    const FaultPicture picture =
-        MakeFaultPicture(MakeCube(), 1, Reason::kWrongNormal, fault, snapshot, "");
-    ASSERT_EQ(picture.snapshot.fingers.size(), 1u) << given.transpose();
-    EXPECT_EQ(picture.snapshot.fingers[0].normal_W, Vector3d(-1, 0, 0));
-    EXPECT_NEAR(picture.snapshot.fingers[0].tip_W.x(), 1.1, 1e-12);
-    EXPECT_TRUE(picture.marks.normals.back().expected) << "the true normal is drawn";
-    EXPECT_EQ(picture.marks.normals.size(), given.x() > 0 ? 2u : 1u);
+    const FaultScene scene =
+        MakeFaultScene(MakeCube(), 1, Reason::kWrongNormal, fault, snapshot, "");
+    ASSERT_EQ(scene.snapshot.fingers.size(), 1u) << given.transpose();
+    EXPECT_EQ(scene.snapshot.fingers[0].normal_W, Vector3d(-1, 0, 0));
+    EXPECT_NEAR(scene.snapshot.fingers[0].tip_W.x(), 1.1, 1e-12);
+    EXPECT_TRUE(scene.marks.normals.back().expected) << "the true normal is drawn";
+    EXPECT_EQ(scene.marks.normals.size(), given.x() > 0 ? 2u : 1u);
   }
 }
 
-TEST(FaultPicture, TheFirstConeThatIsNeededSaysHowWide) {
+TEST(FaultScene, TheFirstRequiredConeHasAText) {
   const grasp::Contact contact{{1, 0, 0}, {-1, 0, 0}}, opposite{{-1, 0, 0}, {1, 0, 0}};
   plan::Snapshot snapshot;
   snapshot.fingers = {MakeFinger(0, plan::FingerRole::kHolding, contact.p, contact.n),
@@ -127,13 +125,13 @@ TEST(FaultPicture, TheFirstConeThatIsNeededSaysHowWide) {
   const Fault fault = {.grasp = {{FingerIndex(0), contact}, {FingerIndex(1), opposite}},
                        .required = Radians(7.34)};
   const auto cones =
-      MakeFaultPicture(MakeCube(), 1, Reason::kNotForceClosure, fault, snapshot, "").marks.cones;
+      MakeFaultScene(MakeCube(), 1, Reason::kNotForceClosure, fault, snapshot, "").marks.cones;
   ASSERT_EQ(cones.size(), 2u);
-  EXPECT_EQ(cones[0].text, "needs 7.34°");
+  EXPECT_EQ(cones[0].text, "requires 7.34°");
   EXPECT_EQ(cones[1].text, "");
 }
 
-/// Pixels of a small frame that are red of what is wrong.
+/// Count the pixels of a small frame in the colour of faults.
 int CountRed(const plan::Snapshot& snapshot, const FaultMarks* marks) {
   const object::Polyhedron cube = MakeCube();
   FrameRenderer renderer(cube, 1, Radians(20), {snapshot}, {320, 240, 1});
@@ -146,13 +144,13 @@ int CountRed(const plan::Snapshot& snapshot, const FaultMarks* marks) {
   return count;
 }
 
-TEST(FaultPicture, MakesTheFrameRed) {
-  const FaultPicture picture = OffSurface(0.3);
-  EXPECT_EQ(CountRed(picture.snapshot, nullptr), 0);
-  EXPECT_GT(CountRed(picture.snapshot, &picture.marks), 100);
+TEST(FaultScene, MakesTheFrameRed) {
+  const FaultScene scene = OffSurface(0.3);
+  EXPECT_EQ(CountRed(scene.snapshot, nullptr), 0);
+  EXPECT_GT(CountRed(scene.snapshot, &scene.marks), 100);
 }
 
-/// Something of a hand on a cube of 2 m across whose palm stands 3 m below it.
+/// Return the marks of a hand's fault on a cube of 2 m, with the palm 3 m below it.
 FaultMarks OfHand(const plan::HandFaultPlace& place, Reason reason) {
   plan::Snapshot snapshot;
   snapshot.X_WP = Eigen::Isometry3d(Eigen::Translation3d(0, 0, -3));
@@ -161,10 +159,10 @@ FaultMarks OfHand(const plan::HandFaultPlace& place, Reason reason) {
   fault.fingers = {FingerIndex(kFinger)};
   fault.hand = place;
   if (place.pose) fault.X_WO_before = *snapshot.X_WP * *place.pose;
-  return MakeFaultPicture(MakeCube(), 1, reason, fault, snapshot, "what failed").marks;
+  return MakeFaultScene(MakeCube(), 1, reason, fault, snapshot, "the reason").marks;
 }
 
-TEST(FaultPicture, LinksAtFaultAreMarkedWhereTheyAreWithTheirNumber) {
+TEST(FaultScene, FaultyLinksAreMarkedWithTheirNumber) {
   plan::HandFaultPlace place;
   place.links = {{FingerIndex(kFinger), 3}, {FingerIndex(), 0}};
   place.at = Vector3d(0.5, 0, 3);
@@ -176,20 +174,20 @@ TEST(FaultPicture, LinksAtFaultAreMarkedWhereTheyAreWithTheirNumber) {
   EXPECT_EQ(marks.spots[0].text, "1.5 mm inside");
 }
 
-TEST(FaultPicture, ATipOffItsContactHasItsBallThereAndALengthThatIsSeen) {
+TEST(FaultScene, AFingertipOffItsContactHasASphereAndAVisibleLength) {
   plan::HandFaultPlace place;
   place.number = "1 mm";
   place.tip = {{1.301, 0, 3}, {1.3, 0, 3}, 0.3};
   const FaultMarks marks = OfHand(place, Reason::kTipOffContact);
-  ASSERT_EQ(marks.tips.size(), 1u);
-  EXPECT_LT((marks.tips[0].centre - Vector3d(1.3, 0, 0)).norm(), 1e-12);
+  ASSERT_EQ(marks.fingertips.size(), 1u);
+  EXPECT_LT((marks.fingertips[0].centre - Vector3d(1.3, 0, 0)).norm(), 1e-12);
   ASSERT_EQ(marks.dimensions.size(), 1u);
   EXPECT_GT((marks.dimensions[0].to - marks.dimensions[0].from).norm(),
             0.04 * MakeCube().diameter());
   EXPECT_EQ(marks.dimensions[0].text.find("1 mm (drawn"), 0u);
 }
 
-TEST(FaultPicture, AnObjectThatIsElsewhereInTheHandHasAGhostWhereItShouldBe) {
+TEST(FaultScene, AnObjectAtAWrongPoseInTheHandHasAGhostAtTheExpectedPose) {
   plan::HandFaultPlace place;
   place.number = "1 mm";
   place.pose = Eigen::Isometry3d(Eigen::Translation3d(0.001, 0, 3));
@@ -199,7 +197,7 @@ TEST(FaultPicture, AnObjectThatIsElsewhereInTheHandHasAGhostWhereItShouldBe) {
   EXPECT_EQ(OfHand(place, Reason::kGoalNotReached).ghost_text.find("goal, 1 mm"), 0u);
 }
 
-TEST(FaultPicture, AFingerAtFaultThatIsNowhereIsInTheFrame) {
+TEST(FaultScene, AFaultyFingerWithoutPositionIsListedInTheFrame) {
   const plan::Snapshot snapshot = OffSurface(0.3).snapshot;
   const FaultMarks none{.heading = "", .fingers = {}};
   const FaultMarks absent{.heading = "", .fingers = {FingerIndex(7)}};
@@ -207,8 +205,8 @@ TEST(FaultPicture, AFingerAtFaultThatIsNowhereIsInTheFrame) {
   EXPECT_GT(CountRed(snapshot, &absent), 30);
 }
 
-/// Pixels of numbers that are clearly of another colour in `all`: what is behind shines through at
-/// the rims of thin lines alone.
+/// Count the pixels of numbers that clearly have another colour in `all`. The background is visible
+/// only at the rims of thin lines.
 int CountCovered(const Image& numbers, const Image& all) {
   constexpr int kClearly = 48;
   int covered = 0;
@@ -223,11 +221,11 @@ int CountCovered(const Image& numbers, const Image& all) {
   return covered;
 }
 
-TEST(FaultPicture, NumbersStandOverTheMarks) {
-  // Where numbers go first, the arc of a twist passes over one of them.
+TEST(FaultScene, NumbersStandOverTheMarks) {
+  // If numbers were placed first, the arc of a torque would cross one of them.
   const object::Polyhedron cube = MakeCube();
   const BodyShape body = MakeBodyShape(cube);
-  const PictureFrame frame = {cube.diameter(), Vector3d::Zero()};
+  const NormalizedFrame frame = {cube.diameter(), Vector3d::Zero()};
   plan::Snapshot snapshot;
   for (int i = 0; i < 12; ++i) {
     const Vector3d along(std::cos(Radians(30.0 * i)), 0, std::sin(Radians(30.0 * i)));
@@ -261,5 +259,5 @@ TEST(FaultPicture, NumbersStandOverTheMarks) {
   EXPECT_EQ(covered(/*numbers_first=*/false), 0);
 }
 
-}  // namespace fault_picture_test
+}  // namespace fault_marks_test
 }  // namespace regrasp::render

@@ -1,4 +1,4 @@
-#include "render/frames/facet_mesh.h"
+#include "render/frames/shaded_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -12,20 +12,20 @@
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
-namespace facet_mesh_test {
+namespace shaded_mesh_test {
 
 using Eigen::Vector3d;
 
-TEST(FacetMeshTest, TurnedInsideOutHasTheOppositeVolumeAndNormals) {
-  const FacetMesh cube = MakeBodyShape(MakeCube(0.03)).surface;
-  const FacetMesh turned = TurnInsideOut(cube);
+TEST(ShadedMeshTest, InvertedMeshesHaveTheOppositeVolumeAndNormals) {
+  const ShadedMesh cube = MakeBodyShape(MakeCube(0.03)).surface;
+  const ShadedMesh turned = TurnInsideOut(cube);
   EXPECT_DOUBLE_EQ(Volume(turned), -Volume(cube));
   EXPECT_EQ(turned.normals[0][0], -cube.normals[0][0]);
 }
 
-TEST(FacetMeshTest, AWedgeIsAClosedPlateOfItsHalfAngle) {
+TEST(ShadedMeshTest, AWedgeIsAClosedPlateOfItsHalfAngle) {
   const double half_angle = Radians(25), slant = 0.15;
-  const FacetMesh wedge = MakeWedge(half_angle, slant);
+  const ShadedMesh wedge = MakeWedge(half_angle, slant);
   Vector3d flux = Vector3d::Zero();
   double low = 1, high = 0;
   for (const auto& corners : wedge.triangles) {
@@ -45,9 +45,9 @@ TEST(FacetMeshTest, AWedgeIsAClosedPlateOfItsHalfAngle) {
   EXPECT_NEAR(Volume(wedge), area * (high - low), 1e-15);
 }
 
-TEST(FacetMeshTest, AConeHasItsHalfAngleAndOpensUpwards) {
+TEST(ShadedMeshTest, AConeHasItsHalfAngleAndOpensUpwards) {
   const double half_angle = Radians(25);
-  const FacetMesh cone = MakeCone(half_angle, 2);
+  const ShadedMesh cone = MakeCone(half_angle, 2);
   int rim = 0;
   for (const auto& corners : cone.triangles) {
     for (const Vector3d& p : corners) {
@@ -61,12 +61,12 @@ TEST(FacetMeshTest, AConeHasItsHalfAngleAndOpensUpwards) {
   EXPECT_GT(Volume(cone), 0);
 }
 
-TEST(FacetMeshTest, ACapsuleHasTheVolumeOfItsCylinderAndItsBall) {
+TEST(ShadedMeshTest, ACapsuleHasTheVolumeOfACylinderAndASphere) {
   const Vector3d from(0.2, -0.1, 0.4), to(0.5, 0.3, -0.2);
   const double radius = 0.1;
   const double ball = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
   const double cylinder = std::numbers::pi * radius * radius * (to - from).norm();
-  // Its facets lie inside it: a little less.
+  // Triangles lie inside the capsule, so that the volume is slightly smaller.
   for (const Vector3d& end : {to, from}) {
     const double wanted = end == to ? ball + cylinder : ball;
     const double volume = Volume(MakeCapsule(from, end, radius));
@@ -75,9 +75,9 @@ TEST(FacetMeshTest, ACapsuleHasTheVolumeOfItsCylinderAndItsBall) {
   }
 }
 
-TEST(FacetMeshTest, NormalsOfACapsuleLeaveItsAxis) {
+TEST(ShadedMeshTest, NormalsOfACapsuleLeaveItsAxis) {
   const Vector3d from(0, 0, 0), to(0, 0, 1);
-  const FacetMesh capsule = MakeCapsule(from, to, 0.1);
+  const ShadedMesh capsule = MakeCapsule(from, to, 0.1);
   for (std::size_t i = 0; i < capsule.triangles.size(); ++i) {
     for (int corner = 0; corner < 3; ++corner) {
       const Vector3d& p = capsule.triangles[i][corner];
@@ -87,14 +87,14 @@ TEST(FacetMeshTest, NormalsOfACapsuleLeaveItsAxis) {
   }
 }
 
-TEST(FacetMeshTest, ABandIsFlatAcrossTheLineOfSightAndAsWideAsItsCapsule) {
+TEST(ShadedMeshTest, ABandIsFlatAcrossTheLineOfSightAndAsWideAsItsCapsule) {
   const Vector3d back = Vector3d(1, 2, 3).normalized();
   const Vector3d from(0, 0, 0), to(1, 0, 0);
-  const FacetMesh band = MakeBand(from, to, 0.05, back);
+  const ShadedMesh band = MakeBand(from, to, 0.05, back);
   double widest = 0;
   for (const auto& corners : band.triangles) {
     const auto& [a, b, c] = corners;
-    EXPECT_GE((b - a).cross(c - a).dot(back), 0);  // seen from its front
+    EXPECT_GE((b - a).cross(c - a).dot(back), 0);  // visible from the front
     for (const Vector3d& p : corners) {
       const Vector3d flat = p - 0.05 * back;
       const double along = std::clamp(flat.dot(to), 0.0, 1.0);
@@ -105,12 +105,12 @@ TEST(FacetMeshTest, ABandIsFlatAcrossTheLineOfSightAndAsWideAsItsCapsule) {
   EXPECT_NEAR(widest, 0.05, 1e-12);
 }
 
-TEST(FacetMeshTest, ABandAlongTheLineOfSightIsADisc) {
-  const FacetMesh band = MakeBand({0, 0, 0}, {0, 0, 1}, 0.05, Vector3d::UnitZ());
+TEST(ShadedMeshTest, ABandAlongTheLineOfSightIsADisc) {
+  const ShadedMesh band = MakeBand({0, 0, 0}, {0, 0, 1}, 0.05, Vector3d::UnitZ());
   for (const auto& corners : band.triangles) {
     for (const Vector3d& p : corners) EXPECT_NEAR(p.head<2>().norm(), 0.05, 1e-12);
   }
 }
 
-}  // namespace facet_mesh_test
+}  // namespace shaded_mesh_test
 }  // namespace regrasp::render

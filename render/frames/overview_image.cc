@@ -1,4 +1,4 @@
-#include "render/frames/contact_sheet.h"
+#include "render/frames/overview_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,35 +10,35 @@ namespace regrasp::render {
 
 namespace {
 
-/// The narrowest pictures (pixels), and those of a sheet that would be higher than this otherwise:
-/// it is wider than asked for then.
-constexpr int kNarrow = 190;
-constexpr int kNarrowestSheet = 100;
+/// Minimum widths of images (pixels), also for an overview that would otherwise exceed the maximum
+/// height. The overview is then wider than requested.
+constexpr int kNarrowColumn = 190;
+constexpr int kNarrowestImage = 100;
 constexpr int kHighest = 12'000;
-constexpr double kSheetAspect = 4.0 / 3;
+constexpr double kOverviewAspect = 4.0 / 3;
 
-/// The font of labels: a share of the picture's width, but no smaller (pixels), and no larger than
-/// this share of the sheet's width.
-constexpr double kSheetFontSize = 0.05;
-constexpr double kSmallestSheetFont = 11;
+/// Font size of labels per image width, its minimum (pixels), and its maximum per width of the
+/// overview.
+constexpr double kOverviewFontSize = 0.05;
+constexpr double kSmallestOverviewFont = 11;
 constexpr double kLargestFont = 1.0 / 70;
 
-constexpr double kGap = 0.04;         ///< widths of a picture
-constexpr double kLabelHeight = 1.5;  ///< font sizes
+constexpr double kGap = 0.04;         ///< per width of an image
+constexpr double kLabelHeight = 1.5;  ///< per font size
 
-constexpr double kBaseLine = 0.72;  ///< of a label's height
-constexpr double kRule = 1;         ///< pixels, around each picture
+constexpr double kBaseLine = 0.72;  ///< per height of a label
+constexpr double kRule = 1;         ///< width of the border of each image, pixels
 constexpr Color kRuleColor = {213, 218, 227};
-constexpr double kThickRule = 0.012;  ///< widths of a picture, around one that is framed
+constexpr double kThickRule = 0.012;  ///< width of a thick frame per width of an image
 constexpr Color kEmpty = {238, 240, 244};
 constexpr Color kEmptyText = {112, 120, 134};
 
-/// The heading, in label heights: the line and its font at most.
+/// Height of the heading per height of a label.
 constexpr double kHeadingHeight = 1.7;
-constexpr double kHeadingFont = 1.1;    ///< fonts of labels
-constexpr double kSmallestShare = 0.6;  ///< of the font, for a heading that is too wide
+constexpr double kHeadingFont = 1.1;    ///< per font size of labels
+constexpr double kSmallestShare = 0.6;  ///< minimum factor on the font size of a long heading
 
-/// The text, cut off where it is wider than `most`.
+/// Truncate a text to the width `most`.
 std::string Elide(cairo_t* cr, std::string text, double most) {
   if (TextWidth(cr, text) <= most) return text;
   const auto continues = [&] { return (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80; };
@@ -49,8 +49,8 @@ std::string Elide(cairo_t* cr, std::string text, double most) {
   return text + "…";
 }
 
-/// The next number above, or that below where it is nearer and leaves fewer cells empty; not one
-/// where there are several pictures.
+/// Round up the number of columns, or down if that is nearer and leaves fewer empty cells. Several
+/// images never have a single column.
 int ChooseColumns(int count, double about) {
   const auto more = static_cast<int>(std::ceil(about));
   const int fewer = more - 1;
@@ -61,59 +61,59 @@ int ChooseColumns(int count, double about) {
 
 }  // namespace
 
-SheetGrid::SheetGrid(int count, int picture_width, int picture_height, int sheet_width,
-                     bool has_heading) {
-  if (count < 1 || picture_width < 1 || picture_height < 1 || sheet_width < 1) {
-    throw std::invalid_argument("ContactSheet: a number is not positive");
+OverviewGrid::OverviewGrid(int count, int image_width, int image_height, int total_width,
+                           bool has_heading) {
+  if (count < 1 || image_width < 1 || image_height < 1 || total_width < 1) {
+    throw std::invalid_argument("OverviewImage: every number must be positive");
   }
-  const double aspect = static_cast<double>(picture_height) / picture_width;
+  const double aspect = static_cast<double>(image_height) / image_width;
   const auto set_columns = [&](int number) {
     columns = std::clamp(number, 1, count);
     rows = (count + columns - 1) / columns;
-    width = std::clamp(static_cast<int>(sheet_width / (columns + (columns + 1) * kGap)),
-                       std::min(kNarrowestSheet, picture_width), picture_width);
+    width = std::clamp(static_cast<int>(total_width / (columns + (columns + 1) * kGap)),
+                       std::min(kNarrowestImage, image_width), image_width);
     height = std::max(1, static_cast<int>(std::lround(aspect * width)));
     gap = std::max(1, static_cast<int>(kGap * width));
-    font = std::clamp(kSheetFontSize * width, kSmallestSheetFont,
-                      std::max(kSmallestSheetFont, kLargestFont * sheet_width));
+    font = std::clamp(kOverviewFontSize * width, kSmallestOverviewFont,
+                      std::max(kSmallestOverviewFont, kLargestFont * total_width));
     label = static_cast<int>(std::lround(kLabelHeight * font));
     if (has_heading) heading = static_cast<int>(std::lround(kHeadingHeight * label));
   };
-  const int wished = ChooseColumns(count, std::sqrt(count * aspect * kSheetAspect));
-  set_columns(std::min(wished, std::max(1, sheet_width / kNarrow)));
-  while (sheet_height() > kHighest && columns < count) set_columns(columns + 1);
+  const int wished = ChooseColumns(count, std::sqrt(count * aspect * kOverviewAspect));
+  set_columns(std::min(wished, std::max(1, total_width / kNarrowColumn)));
+  while (total_height() > kHighest && columns < count) set_columns(columns + 1);
 }
 
-ContactSheet::ContactSheet(int count, int width, int height, int sheet_width,
-                           const SheetLabel& heading, const Ground& ground)
+OverviewImage::OverviewImage(int count, int width, int height, int total_width,
+                             const OverviewLabel& heading, const Ground& ground)
     : count_(count),
       width_(width),
       height_(height),
-      grid_(count, width, height, sheet_width, !heading.title.empty()),
+      grid_(count, width, height, total_width, !heading.title.empty()),
       ground_(ground),
-      sheet_(std::make_unique<CairoImage>(MakeImage(grid_.sheet_width(), grid_.sheet_height()))) {
-  SetBox(sheet_->context(), {0, 0}, {grid_.sheet_width(), grid_.sheet_height()});
-  Fill(sheet_->context(), ground_.paper);
+      image_(std::make_unique<CairoImage>(MakeImage(grid_.total_width(), grid_.total_height()))) {
+  SetBox(image_->context(), {0, 0}, {grid_.total_width(), grid_.total_height()});
+  Fill(image_->context(), ground_.paper);
   DrawHeading(heading);
 }
 
-ContactSheet::~ContactSheet() = default;
+OverviewImage::~OverviewImage() = default;
 
-Image ContactSheet::ToImage() const { return sheet_->ToImage(); }
+Image OverviewImage::ToImage() const { return image_->ToImage(); }
 
-void ContactSheet::Add(const Image& picture, const SheetLabel& label) {
-  if (picture.width != width_ || picture.height != height_) {
-    throw std::invalid_argument("ContactSheet: a picture of another size");
+void OverviewImage::Add(const Image& image, const OverviewLabel& label) {
+  if (image.width != width_ || image.height != height_) {
+    throw std::invalid_argument("OverviewImage: all images must have the announced size");
   }
   const int cell = TakeCell(label);
-  DrawPicture(grid_.x(cell), grid_.y(cell) + grid_.label, picture, label);
+  DrawImage(grid_.x(cell), grid_.y(cell) + grid_.label, image, label);
 }
 
-void ContactSheet::AddEmpty(const SheetLabel& label, const std::string& text) {
+void OverviewImage::AddEmpty(const OverviewLabel& label, const std::string& text) {
   const int cell = TakeCell(label);
   const Eigen::Vector2d corner(grid_.x(cell), grid_.y(cell) + grid_.label);
   const Eigen::Vector2d size(grid_.width, grid_.height);
-  cairo_t* cr = sheet_->context();
+  cairo_t* cr = image_->context();
   SetBox(cr, corner, size);
   Fill(cr, kEmpty);
   SelectFont(cr, grid_.font, /*bold=*/false);
@@ -123,10 +123,10 @@ void ContactSheet::AddEmpty(const SheetLabel& label, const std::string& text) {
   cairo_show_text(cr, text.c_str());
 }
 
-void ContactSheet::DrawHeading(const SheetLabel& heading) {
+void OverviewImage::DrawHeading(const OverviewLabel& heading) {
   if (heading.title.empty()) return;
-  cairo_t* cr = sheet_->context();
-  const double most = grid_.sheet_width() - 2 * grid_.gap;
+  cairo_t* cr = image_->context();
+  const double most = grid_.total_width() - 2 * grid_.gap;
   const double font = kHeadingFont * grid_.font;
   SelectFont(cr, font, /*bold=*/true);
   const double fits = std::max(kSmallestShare, most / TextWidth(cr, heading.title));
@@ -137,12 +137,12 @@ void ContactSheet::DrawHeading(const SheetLabel& heading) {
   cairo_show_text(cr, title.c_str());
 }
 
-int ContactSheet::TakeCell(const SheetLabel& label) {
+int OverviewImage::TakeCell(const OverviewLabel& label) {
   if (added_ == count_) {
-    throw std::invalid_argument("ContactSheet: a picture that was not announced");
+    throw std::invalid_argument("OverviewImage: more images than announced");
   }
   const int x = grid_.x(added_);
-  cairo_t* cr = sheet_->context();
+  cairo_t* cr = image_->context();
   const double base = grid_.y(added_) + kBaseLine * grid_.label;
   SelectFont(cr, grid_.font, /*bold=*/true);
   SetColor(cr, ground_.ink);
@@ -156,17 +156,17 @@ int ContactSheet::TakeCell(const SheetLabel& label) {
   return added_++;
 }
 
-void ContactSheet::DrawPicture(int x, int y, const Image& picture, const SheetLabel& label) {
-  cairo_t* cr = sheet_->context();
-  const CairoImage image(picture);
+void OverviewImage::DrawImage(int x, int y, const Image& image, const OverviewLabel& label) {
+  cairo_t* cr = image_->context();
+  const CairoImage source(image);
   cairo_save(cr);
   cairo_translate(cr, x, y);
   cairo_rectangle(cr, 0, 0, grid_.width, grid_.height);
   cairo_clip(cr);
   cairo_scale(cr, static_cast<double>(grid_.width) / width_,
               static_cast<double>(grid_.height) / height_);
-  cairo_set_source_surface(cr, image.surface(), 0, 0);
-  // Averages pixels where a picture shrinks, and does not fade at its border.
+  cairo_set_source_surface(cr, source.surface(), 0, 0);
+  // Averages pixels when images shrink, without fading at their borders.
   cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_GOOD);
   cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD);
   cairo_paint(cr);

@@ -1,4 +1,4 @@
-#include "render/figures/figure_mark.h"
+#include "render/figures/figure_format.h"
 
 #include <cassert>
 #include <cstddef>
@@ -12,14 +12,14 @@ namespace {
 
 using namespace std::literals;
 
-/// PNG specification, 5.2 and 5.3: the signature, then the header chunk.
+/// Length of the signature and the header chunk (PNG specification, 5.2 and 5.3).
 constexpr std::size_t kEndOfPngHeader = 8 + 4 + 4 + 13 + 4;
 
 std::string SvgMark() { return "<!-- Creator: " + std::string(kFigureMaker) + " -->\n"; }
 
 std::string PdfMark() { return "/Creator (" + std::string(kFigureMaker) + ")"; }
 
-/// A text chunk: the registered keyword, a zero, the text.
+/// A text chunk contains a registered keyword, a zero byte and the text.
 std::string PngMark() { return PngChunk("tEXt", "Software"s + '\0' + kFigureMaker); }
 
 }  // namespace
