@@ -144,7 +144,7 @@ std::string CountsText(const BatchSummary& summary) {
   }
   // No count of passes hides trials that failed.
   const long partly = std::ranges::count_if(summary.plans, PassesInPart);
-  if (partly > 0) text += "; " + std::to_string(partly) + " pass in a part of their trials only";
+  if (partly > 0) text += "; " + std::to_string(partly) + " pass in only a part of their trials";
   return text;
 }
 

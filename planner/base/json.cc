@@ -12,7 +12,8 @@ namespace regrasp {
 Json ParseJson(std::string_view text, const std::string& name) {
   text = TextOf(text, name);
   // nlohmann takes a NUL for the end of its input and does not look behind it.
-  if (text.find('\0') != std::string_view::npos) throw InputError(name + ": not JSON: a NUL byte");
+  if (text.find('\0') != std::string_view::npos)
+    throw InputError(name + ": not valid JSON: contains a NUL byte");
   // nlohmann keeps the last of two equal keys without a word, recurses into any depth when a value
   // is destroyed, and compares a key with all before it: the callback sees them before they do
   // harm.
@@ -29,10 +30,10 @@ Json ParseJson(std::string_view text, const std::string& name) {
     if (event == Event::object_end) keys.pop_back();
     if (event == Event::key && !keys.back().insert(value.get<std::string>()).second) {
       const std::string key = value.dump(-1, ' ', /*ensure_ascii=*/true);
-      throw InputError(name + ": the key " + key + " is repeated");
+      throw InputError(name + ": key " + key + ": repeated");
     }
     if (event == Event::key && keys.back().size() > kMaxJsonMembers) {
-      throw InputError(name + ": an object of more than " + std::to_string(kMaxJsonMembers) +
+      throw InputError(name + ": object with more than " + std::to_string(kMaxJsonMembers) +
                        " members");
     }
     return true;
@@ -48,7 +49,7 @@ Json ParseJson(std::string_view text, const std::string& name) {
     // It quotes what it read last, broken UTF-8 and the delete character included.
     std::ranges::replace_if(
         what, [](char c) { return static_cast<unsigned char>(c) >= 0x7f; }, '?');
-    throw InputError(name + ": not JSON: " + what);
+    throw InputError(name + ": not valid JSON: " + what);
   }
 }
 

@@ -160,7 +160,7 @@ ModelPtr Compile(const fs::path& path, const ModelText& text) {
 }
 
 InputError Refused(const fs::path& path, const std::runtime_error& error) {
-  return InputError(path.string() + ": MuJoCo does not take the model: " + error.what());
+  return InputError(path.string() + ": rejected by MuJoCo: " + error.what());
 }
 
 /// As newer versions do it: critical damping of the inertia at rest that an actuator moves, times
