@@ -32,6 +32,9 @@ namespace regrasp::apps {
 
 namespace {
 
+/// Version of the file format: 2 has `valid` and `is_force_closure` instead of `holds`.
+constexpr double kVerdictsVersion = 2;
+
 /// The last that a grasp can fail for.
 constexpr auto kLastReason = plan::Reason::kObjectMoved;
 
@@ -44,11 +47,13 @@ struct OffSurface {
 
 /// The verdicts on those grasps that are on the object, at their places among all.
 struct Verdicts {
-  std::vector<double> holds, too_close, margin, required_deg, quality, reason, replayed;
+  std::vector<double> is_force_closure, valid, too_close, margin, required_deg, quality, reason,
+      replayed;
   std::optional<OffSurface> off_surface;  ///< of the first grasp of the file that has one
 
   explicit Verdicts(std::size_t count)
-      : holds(count, 0),
+      : is_force_closure(count, 0),
+        valid(count, 0),
         too_close(count, 0),
         margin(count, std::numeric_limits<double>::quiet_NaN()),
         required_deg(margin),
@@ -106,7 +111,8 @@ void Judge(const object::Object& object, const PlacedGrasps& placed, int contact
   for (std::size_t i = 0; i < placed.places.size(); ++i) {
     const std::size_t g = placed.places[i];
     const grasp::Decision decision = found.force_closure[i].decision;
-    verdicts.holds[g] = decision == grasp::Decision::kYes ? 1 : 0;
+    verdicts.is_force_closure[g] = decision == grasp::Decision::kYes ? 1 : 0;
+    verdicts.valid[g] = verdicts.is_force_closure[g];
     verdicts.too_close[g] = decision == grasp::Decision::kTooClose ? 1 : 0;
     verdicts.margin[g] = found.force_closure[i].margin_lower;
     if (options.required_angle) verdicts.required_deg[g] = Degrees(found.required_half_angle[i]);
@@ -133,7 +139,7 @@ void Replay(const object::Object& object, const PlacedGrasps& placed, int contac
             const ValidateOptions& options, ProgressLine& progress, Verdicts& verdicts) {
   std::vector<std::size_t> held;
   for (std::size_t i = 0; i < placed.places.size(); ++i) {
-    if (verdicts.holds[placed.places[i]] == 1) held.push_back(i);
+    if (verdicts.is_force_closure[placed.places[i]] == 1) held.push_back(i);
   }
   std::size_t done = 0;
   std::mutex telling;
@@ -147,7 +153,7 @@ void Replay(const object::Object& object, const PlacedGrasps& placed, int contac
       hold.torsion = options.contact.torsion().value_or(0);
       const report::Report report = report::Validate(object, hold, {}, options.replay);
       verdicts.reason[g] = static_cast<double>(report.steps.front().reason());
-      verdicts.holds[g] = report.passed() ? 1 : 0;
+      verdicts.valid[g] = report.passed() ? 1 : 0;
       verdicts.replayed[g] = 1;
       const std::lock_guard lock(telling);
       progress.Report("replayed " + std::to_string(++done) + " of " + std::to_string(held.size()) +
@@ -181,11 +187,14 @@ std::vector<std::string> ReasonWords() {
 }
 
 std::string FormatVerdicts(Verdicts verdicts, const ValidateOptions& options) {
-  const std::size_t count = verdicts.holds.size();
-  std::vector<NpzArray> arrays = {{"holds", {count}, std::move(verdicts.holds), {}, true},
-                                  {"too_close", {count}, std::move(verdicts.too_close), {}, true},
-                                  {"margin", {count}, std::move(verdicts.margin)},
-                                  {"reason", {count}, std::move(verdicts.reason)}};
+  const std::size_t count = verdicts.valid.size();
+  std::vector<NpzArray> arrays = {
+      {"format_version", {}, {kVerdictsVersion}},
+      {"is_force_closure", {count}, std::move(verdicts.is_force_closure), {}, true},
+      {"valid", {count}, std::move(verdicts.valid), {}, true},
+      {"too_close", {count}, std::move(verdicts.too_close), {}, true},
+      {"margin", {count}, std::move(verdicts.margin)},
+      {"reason", {count}, std::move(verdicts.reason)}};
   if (options.required_angle) {
     arrays.push_back({"required_angle_deg", {count}, std::move(verdicts.required_deg)});
   }
@@ -209,7 +218,7 @@ std::string CountsText(const Verdicts& verdicts) {
     if (n > 0) rows.push_back({what, std::to_string(n)});
   };
   const std::size_t too_close = Count(verdicts.too_close, 1);
-  add("pass", Count(verdicts.holds, 1));
+  add("pass", Count(verdicts.valid, 1));
   for (int i = 1; i <= static_cast<int>(kLastReason); ++i) {
     const auto reason = static_cast<plan::Reason>(i);
     const bool closure = reason == plan::Reason::kNotForceClosure;
@@ -244,7 +253,7 @@ int RunGrasps(const ValidateOptions& options) {
   Verdicts verdicts = JudgeAll(*object.object, table, options, progress);
   progress.Clear();
   const std::string counts = CountsText(verdicts) + OffSurfaceLine(*object.object, verdicts);
-  const bool passed = Count(verdicts.holds, 1) == table.count;
+  const bool passed = Count(verdicts.valid, 1) == table.count;
   std::error_code error;
   std::filesystem::create_directories(options.Folder(), error);
   if (error) throw EnvironmentError(options.Folder().string() + ": " + error.message());

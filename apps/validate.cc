@@ -3,6 +3,7 @@
 // object.
 
 #include "apps/commands.h"
+#include "apps/explain.h"
 #include "apps/grasps_run.h"
 #include "apps/program.h"
 #include "apps/states_run.h"
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
   CLI::App app(CommandText(kValidateName), kValidateName);
   ValidateOptions options;
   options.AddTo(app);
+  AddExplain(app);
   return RunProgram(app, argc, argv, [&] {
     options.Finish(app);
     if (options.for_states()) return RunStates(options);

@@ -248,7 +248,7 @@ void Print(const ValidateOptions& options, const ValidateTask& task,
     PrintMessage(kValidateName, "warning: " + warning);
   }
   if (!options.quiet && options.trials.count > 0 && !report.trials) {
-    PrintMessage(kValidateName, "no trials: the replay without noise does not pass");
+    PrintMessage(kValidateName, "note: no trials, because the replay without noise fails");
   }
   if (!options.quiet && options.json != kStandardStream) {
     PrintTable(report::FormatReportTable(report), FilesText(folder, report));

@@ -59,18 +59,17 @@ OutputFiles OutputsOf(const ValidateOptions& options) {
 /// A plan says itself how its object was repaired, and which of its shells it is.
 void CheckRepair(const ValidateOptions& options, const plan::Plan& plan) {
   if (options.repair.shells() && options.repair.shells() != plan.shells) {
-    throw InputError("--shells: " + options.plan_path + ": /object/shells says " +
-                     (plan.shells ? "otherwise" : "nothing: the plan's object is one solid"));
+    throw InputError("--shells must match " + options.plan_path + ": /object/shells" +
+                     (plan.shells ? "" : ", which the plan does not have"));
   }
   if (!options.repair.wanted()) return;
   if (!plan.repair) {
-    throw InputError("--repair: " + options.plan_path +
-                     " was made for an object as its file has it");
+    throw InputError("--repair cannot be used with " + options.plan_path +
+                     ", which was made for an unrepaired object");
   }
   const object::RepairOptions given = options.repair.Get();
   if (given != object::RepairOptions() && given != plan.repair->options) {
-    throw InputError("--repair: " + options.plan_path +
-                     ": /object/repair says how its object was repaired, and it was otherwise");
+    throw InputError("--repair must match " + options.plan_path + ": /object/repair");
   }
 }
 

@@ -23,7 +23,7 @@ void ExpectDigest(const plan::JsonReader& json, const std::string& sha256, const
   const plan::JsonReader digest = json.Member("sha256");
   if (digest.String() == sha256) return;
   const std::string file = json.Has("file") ? json.Member("file").String() : "";
-  digest.Fail(std::string("the report is about another ") + what + ", expected " +
+  digest.Fail(std::string("the report is for another ") + what + ", expected " +
               DescribeFile(file, digest.String()) + ", found SHA-256 " + sha256.substr(0, 12) +
               "…");
 }
@@ -35,7 +35,8 @@ std::vector<certificate::EntryProof> ReadProofs(const plan::JsonReader& steps, i
     if (!step.Has("proof")) break;
     proofs.push_back(certificate::ReadEntryProof(step.Member("proof"), dimension));
   }
-  if (proofs.empty()) steps.Fail("holds no proofs; validate --certificates writes them");
+  if (proofs.empty())
+    steps.Fail("proofs not found; help: write the report with validate --certificates");
   return proofs;
 }
 
@@ -64,37 +65,36 @@ std::string DescribeProofs(const certificate::EntryVerdict& entry) {
 void ExpectFriction(const plan::JsonReader& json, double half_angle) {
   const double degrees = json.Number();
   if (std::abs(Radians(degrees) - half_angle) <= kSameFriction) return;
-  json.Fail("the report is about the friction half-angle " + FormatShort(degrees) +
-            "°, which is not that of the plan or of --friction-angle, " +
-            FormatShort(Degrees(half_angle)) +
-            "°; give --friction-angle where the report was made with it");
+  json.Fail("expected " + FormatShort(Degrees(half_angle)) +
+            "° as of the plan or --friction-angle, found " + FormatShort(degrees) +
+            "°; help: pass the --friction-angle of the report");
 }
 
 /// The same of another torsion.
 void ExpectTorsion(const plan::JsonReader& settings, double torsion) {
   const double found = settings.Has("torsion") ? settings.Member("torsion").Number() : 0;
   if (found == torsion) return;
-  settings.Fail("the report is about a torsion of " + FormatShort(found) +
-                ", which is not that of the plan or of --torsion, " + FormatShort(torsion) +
-                "; give --contact and --torsion where the report was made with them");
+  settings.Fail("torsion: expected " + FormatShort(torsion) +
+                " as of the plan or --torsion, found " + FormatShort(found) +
+                "; help: pass the --torsion of the report");
 }
 
 std::string Summary(const std::vector<plan::StepCheck>& checks, std::size_t proved,
                     double half_angle) {
   const std::string entries = std::to_string(checks.size());
   std::string text = std::to_string(proved) + " of " + entries +
-                     " entries proved force closure in exact arithmetic, friction half-angle " +
+                     " entries proved force closure in exact arithmetic, friction angle " +
                      FormatShort(Degrees(half_angle)) + "°\n";
   const auto fault = std::ranges::find_if(
       checks, [](const plan::StepCheck& check) { return check.reason != plan::Reason::kNone; });
   if (fault != checks.end()) {
-    return text + "not proved: the plan is at fault in entry " + std::to_string(fault->index) +
-           "\n";
+    return text + "not proved: the plan fails the analytic check in entry " +
+           std::to_string(fault->index) + "\n";
   }
-  if (proved < checks.size()) return text + "not proved: not every entry has a proof that holds\n";
+  if (proved < checks.size()) return text + "not proved: not every entry has a valid proof\n";
   return text +
-         "proved: contacts on the surface, fingers free and holding where they must be, steps "
-         "without jumps, aligns on their faces, the goal, and force closure all the way\n";
+         "proved: contacts on the surface, fingers free and in contact as required, steps without "
+         "jumps, aligns on their faces, the goal, and force closure at every instant\n";
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
     const plan::StepCheck& entry = check.steps[i];
     const std::string fault = FaultOf(entry);
     verification.text += std::to_string(i) + " " + entry.kind + "  " +
-                         (fault.empty() ? "not proved: the report holds no proof of it" : fault) +
+                         (fault.empty() ? "not proved: the report has no proof of it" : fault) +
                          "\n";
   }
   verification.text += Summary(check.steps, proved, half_angle);

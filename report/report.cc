@@ -168,7 +168,7 @@ std::vector<std::string> Report::warnings() const {
                          ", but it is " + width);
     }
     if (step.certificate && !step.certificate->proves()) {
-      warnings.push_back(name + ": the plan's certificate does not hold: " + step.certificate->why);
+      warnings.push_back(name + ": the plan's certificate is not valid: " + step.certificate->why);
     }
   }
   AddHandWarnings(*this, warnings);

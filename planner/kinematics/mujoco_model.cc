@@ -162,7 +162,7 @@ ModelPtr Compile(const fs::path& path, const ModelText& text) {
 }
 
 InputError Refused(const fs::path& path, const std::runtime_error& error) {
-  return InputError(path.string() + ": MuJoCo does not take the model: " + error.what());
+  return InputError(path.string() + ": rejected by MuJoCo: " + error.what());
 }
 
 /// Compute dampings as newer MuJoCo versions do: the ratio times the critical damping of the

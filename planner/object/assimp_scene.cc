@@ -186,13 +186,13 @@ PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
   constexpr unsigned int kNoPostProcessing = 0;
   const aiScene* scene = importer.ReadFile(file, kNoPostProcessing);
   if (const std::string& other = files->missed(); !other.empty()) {
-    throw InputError("its surface comes from another file, " + Quoted(other) +
-                     "; an object is one file: convert it (to .glb or .ply)");
+    throw InputError("surface in another file, " + Quoted(other) +
+                     ": not supported; help: convert the object to .glb or .ply");
   }
   if (scene == nullptr) throw InputError(importer.GetErrorString());
   PolygonSoup soup = SoupOf(*scene);
   // Vertices of lines are not a point cloud.
-  if (soup.facets.empty()) throw InputError("its scene has no polygon");
+  if (soup.facets.empty()) throw InputError("scene: expected at least one polygon");
   if (!is_collada) ApplyFbxUnit(*scene, soup);
   if (collada_unit) soup.unit = UnitOf(*collada_unit).name;
   return soup;

@@ -123,7 +123,7 @@ std::string MeasuresText(const BodyMeasures& body) {
 
 std::string UnitText(const std::string& unit) {
   if (unit.empty()) return "";
-  return "; its file is in " + unit + (unit == "metres" ? "" : ", read as metres");
+  return "; the file is in " + unit + (unit == "metres" ? "" : ", read as metres");
 }
 
 std::string SizeWarning(const BodyMeasures& body, double scale) {
@@ -132,14 +132,14 @@ std::string SizeWarning(const BodyMeasures& body, double scale) {
   const auto unit = std::ranges::find_if(kUnits, [&](const LengthUnit& guess) {
     return units * guess.metres >= kSmallestGuess && units * guess.metres <= kLargestGuess;
   });
-  const std::string size = "the object is " + MeasuresText(body) + ": ";
+  const std::string size = "the object is " + MeasuresText(body) + "; help: ";
   if (unit == kUnits.end()) {
     return size +
-           "is that meant? --scale says how many metres a unit of length of its file is, 0.001 for "
+           "pass the length of a file unit in metres with --scale, for example 0.001 for "
            "millimetres";
   }
-  return size + unit->name + "? use --scale " + FormatShort(unit->metres) + " (" +
-         FormatLength(units * unit->metres) + " across)";
+  return size + "if the file is in " + unit->name + ", pass --scale " + FormatShort(unit->metres) +
+         " (" + FormatLength(units * unit->metres) + " across)";
 }
 
 }  // namespace regrasp::object

@@ -40,8 +40,8 @@ std::optional<double> CheckCollada(std::string_view bytes) {
     if (std::ranges::find(kInstances, tag.name()) != kInstances.end()) {
       const std::string url = tag.Text("url");
       if (!url.starts_with('#')) {
-        throw InputError("its surface comes from another file, " + Quoted(url) +
-                         "; an object is one file: convert it (to .glb or .ply)");
+        throw InputError("surface in another file, " + Quoted(url) +
+                         ": not supported; help: convert the object to .glb or .ply");
       }
     }
     if (tag.name() != "unit") return;

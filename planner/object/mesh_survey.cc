@@ -219,7 +219,7 @@ std::string SurveyText(const MeshSurvey& survey) {
                        const std::string& behind = "") {
     if (count > 0) texts.push_back(Count(count, one, more) + behind);
   };
-  add(survey.spoilt_facets, "facet of spoilt vertices", "facets of spoilt vertices");
+  add(survey.spoilt_facets, "facet with invalid vertices", "facets with invalid vertices");
   add(survey.degenerate_facets, "facet without area", "facets without area");
   add(survey.duplicate_facets, "duplicate facet", "duplicate facets");
   add(survey.opposite_facets, "facet on the back of another", "facets on the back of others");

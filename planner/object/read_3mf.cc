@@ -171,7 +171,7 @@ const Unit3mf& UnitOf3mf(const std::string& unit) {
                                                         {"foot", {0.3048, "feet"}},
                                                         {"meter", {1, "metres"}}};
   const auto found = kUnits.find(unit);
-  if (found == kUnits.end()) throw InputError("its unit " + Quoted(unit) + " is not one of 3MF");
+  if (found == kUnits.end()) throw InputError("unit: not supported, found " + Quoted(unit));
   return found->second;
 }
 
@@ -191,7 +191,7 @@ class Models {
     const Model& model = Part(name.part);
     const auto found = model.objects.find(name.id);
     if (found != model.objects.end()) return found->second;
-    throw InputError(name.part + ": there is no object " + Quoted(name.id));
+    throw InputError(name.part + ": object " + Quoted(name.id) + " not found");
   }
 
  private:
@@ -226,7 +226,7 @@ class Placer {
     if (depth == kDeepest || ++placed_ > kMostPlaced ||
         soup_.facets.size() + mesh.facets.size() > kMaxFacets ||
         soup_.vertices.size() + mesh.vertices.size() > 3 * kMaxFacets) {
-      throw InputError("its components are too many, or contain each other");
+      throw InputError("components: too many, or recursive");
     }
     Add(mesh, placed.transform);
     for (const Placed& component : object.components) {

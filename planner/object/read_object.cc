@@ -61,8 +61,7 @@ ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
   ObjectFile file{path.filename().string(), Sha256(bytes), nullptr};
   if (ending == ".wkt") {
     if (reading.shells) {
-      throw InputError(path.string() +
-                       ": a polygon, which has no shells to choose from (--shells)");
+      throw InputError(path.string() + ": --shells cannot be used with a polygon");
     }
     file.object = std::make_unique<Polygon>(Polygon::FromWkt(bytes, path.string()));
   } else {
@@ -81,15 +80,16 @@ SoupFile ReadSoup(const std::filesystem::path& path, const Reading& reading) {
   reading.Begin("reading " + path.string());
   const std::string bytes = ReadFile(path);
   const std::string ending = LowerCase(path.extension().string());
-  if (ending == ".wkt") throw InputError(path.string() + ": a polygon; only surfaces are repaired");
+  if (ending == ".wkt")
+    throw InputError(path.string() + ": --repair cannot be used with a polygon");
   return {path.filename().string(), Sha256(bytes), ParseSoup(path, bytes, reading.deadline)};
 }
 
 ObjectFile ReadObject(const std::filesystem::path& path, const Reading& reading) {
   try {
     return Read(path, reading);
-  } catch (const TimeUp& time_up) {
-    throw TimeUp(path.string() + ": " + time_up.what() + " while it was read");
+  } catch (const TimeUp&) {
+    throw TimeUp(path.string() + ": time limit reached while reading it");
   }
 }
 

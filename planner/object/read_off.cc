@@ -68,8 +68,7 @@ PolygonSoup ReadOff(std::string_view text, const std::string& name) {
     soup.facets.push_back(ReadOffFacet(scanner, header, f));
   }
   if (const auto word = scanner.Next()) {
-    scanner.Fail(Quoted(*word) + " behind the last of " + std::to_string(header.facets) +
-                 " facets");
+    scanner.Fail(Quoted(*word) + " after the last of " + std::to_string(header.facets) + " facets");
   }
   return soup;
 }

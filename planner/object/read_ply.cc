@@ -392,9 +392,9 @@ PolygonSoup ReadPly(std::string_view bytes, const std::string& name) {
       }
     }
   }
-  if (!values.AtEnd()) throw InputError(name + ": the file goes on behind the last element");
+  if (!values.AtEnd()) throw InputError(name + ": unexpected data after the last element");
   if (soup.facets.empty() && std::ranges::any_of(header.elements, HasFacets)) {
-    throw InputError(name + ": element \"tristrips\": there is no triangle in it");
+    throw InputError(name + ": element \"tristrips\": expected at least one triangle");
   }
   return soup;
 }

@@ -22,7 +22,7 @@ class WktReader {
   PolygonRings Read() {
     const std::string kind = LowerCase(Word());
     if (kind != "polygon" && kind != "multipolygon") {
-      Fail(Quoted(kind) + " where POLYGON or MULTIPOLYGON should be");
+      Fail(Quoted(kind) + ", expected POLYGON or MULTIPOLYGON");
     }
     RefuseWords();
     const bool several = kind == "multipolygon";
@@ -31,7 +31,7 @@ class WktReader {
     PolygonRings rings = ReadPolygon();
     if (several && Peek() == ',') Fail("a MULTIPOLYGON of more than one polygon");
     if (several) Expect(')');
-    if (Peek() != '\0' || !rest_.empty()) Fail(Quoted(rest_) + " behind the polygon");
+    if (Peek() != '\0' || !rest_.empty()) Fail(Quoted(rest_) + " after the polygon");
     return rings;
   }
 
@@ -79,7 +79,7 @@ class WktReader {
   void RefuseWords() {
     const std::string word = LowerCase(PeekWord());
     if (word == "empty") Fail("empty");
-    if (!word.empty()) Fail(Quoted(word) + " where \"(\" should be");
+    if (!word.empty()) Fail(Quoted(word) + ", expected \"(\"");
   }
 
   /// Return the next character that is not blank; '\0' at the end.
@@ -97,8 +97,8 @@ class WktReader {
   void Expect(char c) {
     if (Take(c)) return;
     const std::string expected = std::string("\"") + c + "\"";
-    if (rest_.empty()) Fail("the text ends where " + expected + " should be");
-    Fail(Quoted(rest_.substr(0, 1)) + " where " + expected + " should be");
+    if (rest_.empty()) Fail("truncated, expected " + expected);
+    Fail(Quoted(rest_.substr(0, 1)) + ", expected " + expected);
   }
 
   std::string_view PeekWord() {

@@ -121,10 +121,10 @@ void CheckCavities(const TriangleMesh& mesh, const std::vector<Shell>& shells, s
   for (std::size_t s = 0; s < shells.size(); ++s) {
     if (s == outside) continue;
     if (!in_outside.Contains(shells[s])) {
-      RejectShell(mesh, shells[s], "lies beside another", name);
+      RejectShell(mesh, shells[s], "is beside another one", name);
     }
     if (orientation * shells[s].volume >= 0) {
-      RejectShell(mesh, shells[s], "lies inside another and is not oriented as a cavity", name);
+      RejectShell(mesh, shells[s], "is inside another one and not oriented as a cavity", name);
     }
   }
   for (std::size_t s = 0; s < shells.size(); ++s) {
@@ -132,7 +132,7 @@ void CheckCavities(const TriangleMesh& mesh, const std::vector<Shell>& shells, s
     const Inside in_cavity(mesh, shells[s]);
     for (std::size_t other = 0; other < shells.size(); ++other) {
       if (other == outside || other == s || !in_cavity.Contains(shells[other])) continue;
-      RejectShell(mesh, shells[other], "lies inside a cavity", name);
+      RejectShell(mesh, shells[other], "is inside a cavity", name);
     }
   }
 }

@@ -165,7 +165,7 @@ std::string WeakestStepText(const std::vector<StepCheck>& steps, double half_ang
   const auto [needed, available] =
       FormatRequiredDegrees(Degrees(steps[weakest].required->upper), Degrees(half_angle));
   return "step " + std::to_string(weakest) + " (" + steps[weakest].kind +
-         "), which needs a friction half-angle of " + needed + " of " + available + " degrees";
+         "), which requires a friction angle of " + needed + " of " + available + " degrees";
 }
 
 bool PlanCheck::passed() const { return !steps.empty() && std::ranges::all_of(steps, Passed); }
@@ -183,12 +183,12 @@ double FarthestFromPoints(const Plan& plan, const std::vector<Eigen::Vector3d>& 
 
 PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckOptions& options) {
   if (plan.dimension != object.dimension()) {
-    throw InputError("plan: /object/dimension: is " + std::to_string(plan.dimension) +
-                     ", but the object has dimension " + std::to_string(object.dimension()));
+    throw InputError("plan: /object/dimension: expected " + std::to_string(object.dimension()) +
+                     " as of the object, found " + std::to_string(plan.dimension));
   }
   const double torsion = options.torsion.value_or(plan.torsion);
   if (torsion != 0 && plan.dimension == 2) {
-    throw InputError("plan: /torsion: contacts of a planar object have none about their normals");
+    throw InputError("plan: /torsion: cannot be used with a planar object");
   }
   PlanCheck result;
   result.located = LocatePlan(object, plan);

@@ -125,7 +125,7 @@ void CheckFingerNumber(const CheckContext& context, FingerIndex finger, int wayp
   if (finger >= 0 && finger < context.plan.fingers) return;
   fault.Add(Reason::kTooManyFingers,
             At(waypoint, finger) + " does not exist: the hand has " +
-                std::to_string(context.plan.fingers) + ", numbered from 0",
+                std::to_string(context.plan.fingers) + " fingers, numbered from 0",
             FaultOf(finger, waypoint));
 }
 
@@ -139,7 +139,7 @@ void CheckCoincidence(const CheckContext& context, const FingerGrasp& grasp, Ste
       if (distance <= context.tolerance()) {
         fault.Add(Reason::kCoincidentFingers,
                   FingerName(grasp[i].finger) + " and " + FingerName(grasp[j].finger) +
-                      " hold at the same point",
+                      " are in contact at the same point",
                   {.fingers = {grasp[i].finger, grasp[j].finger}});
       }
     }
@@ -166,11 +166,11 @@ std::optional<grasp::RequiredHalfAngle> Larger(const std::optional<grasp::Requir
 
 std::string AngleNeeded(const CheckContext& context,
                         const std::optional<grasp::RequiredHalfAngle>& required) {
-  if (!required) return "is not force closure, and would be at no friction";
+  if (!required) return "is not force closure at any friction";
   const auto [needed, available] =
       FormatRequiredDegrees(Degrees(required->upper), Degrees(context.half_angle));
-  return "is not force closure: it needs a friction half-angle of " + needed + "°, and has " +
-         available + "°";
+  return "is not force closure: requires a friction angle of " + needed + "°, found " + available +
+         "°";
 }
 
 /// Return the fault of a grasp without force closure.
@@ -220,9 +220,8 @@ void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const ch
     fault.Add(Reason::kNotForceClosure, std::string(name) + " " + AngleNeeded(context, required),
               LossOfClosure(context, grasp, required));
   } else if (!required) {
-    LeaveUnproved(
-        std::string(name) + " is force closure at no friction half-angle that is surely below 90°",
-        LossOfClosure(context, grasp, required), check, fault);
+    LeaveUnproved(std::string(name) + " has no required friction angle that is certainly below 90°",
+                  LossOfClosure(context, grasp, required), check, fault);
   }
   if (holds) IncludePatches(context, grasp, name, check, fault);
 }
@@ -255,17 +254,18 @@ void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
       fault.Add(
           Reason::kDiscontinuous,
           At(0, held.finger) + " is " + LengthText(context, held.contact.p, moved->contact.p) +
-              " from where it was" +
-              (angle > kNormalTolerance ? ", its normal turned by " + FormatDegrees(Degrees(angle))
+              " from its contact before the step" +
+              (angle > kNormalTolerance ? ", its normal rotated by " + FormatDegrees(Degrees(angle))
                                         : ""),
           Misplaced(held.finger, 0, moved->contact, held.contact));
     } else if (moved->contact.face.valid() &&
                FindMotionFault(context.object, held.contact, moved->contact)) {
-      fault.Add(Reason::kDiscontinuous,
-                At(0, held.finger) +
-                    " is not where it was: beyond a gap in the surface, or a wall, thinner than "
-                    "points are known to",
-                Misplaced(held.finger, 0, moved->contact, held.contact));
+      fault.Add(
+          Reason::kDiscontinuous,
+          At(0, held.finger) +
+              " is not at its contact before the step: it is beyond a gap in the surface, or a "
+              "wall, thinner than the tolerance of points",
+          Misplaced(held.finger, 0, moved->contact, held.contact));
     }
   }
 }
@@ -282,7 +282,7 @@ void CheckSameFingers(const FingerGrasp& before, const FingerGrasp& waypoint, in
   }
   for (const FingerContact& held : waypoint) {
     if (FindFinger(before, held.finger) == nullptr) {
-      fault.Add(Reason::kDiscontinuous, At(index, held.finger) + " did not hold before",
+      fault.Add(Reason::kDiscontinuous, At(index, held.finger) + " was not in contact before",
                 FaultOf(held.finger, index));
     }
   }
@@ -303,7 +303,8 @@ void CheckMotions(const CheckContext& context, const Align& step, StepFault& fau
       const FingerContact* to = FindFinger(step.waypoints[w + 1], from.finger);
       if (const auto wrong = FindMotionFault(context.object, from.contact, to->contact)) {
         const auto index = static_cast<int>(w);
-        fault.Add(Reason::kLeavesFace, "on the way to " + At(index + 1, from.finger) + " " + *wrong,
+        fault.Add(Reason::kLeavesFace,
+                  "on the path to " + At(index + 1, from.finger) + " " + *wrong,
                   Misplaced(from.finger, index + 1, to->contact, from.contact));
       }
     }
@@ -328,19 +329,19 @@ motion::GraspMotion MotionBetween(const FingerGrasp& from, const FingerGrasp& to
 /// Return a note on why a proof may be missing for a motion that is force closure at every instant.
 std::string SoftNote(const CheckContext& context) {
   if (context.plan.torsion == 0) return "";
-  return "; a soft finger counts as a hard point where its normal turns";
+  return "; a soft finger counts as a hard point while its normal rotates";
 }
 
 std::string UnprovedText(const motion::PathForceClosure& path, const std::string& way,
                          const std::optional<grasp::RequiredHalfAngle>& required) {
-  const std::string at = FormatShort(path.at) + " of the way " + way;
+  const std::string at = FormatShort(path.at) + " of the path " + way;
   if (path.ended_early) {
     return "force closure is not proved: the search for proofs ended at " + at +
-           ", where it needs more pieces than are looked at";
+           ", where the path requires more pieces than the limit";
   }
-  return "force closure is not proved near " + at + ": of " + std::to_string(path.undecided) +
-         " pieces, a millionth of it each, neither a proof nor a loss is found" +
-         (required ? "; all of it surely holds only from " +
+  return "force closure is not proved near " + at + ": " + std::to_string(path.undecided) +
+         " pieces, each a millionth of the path, are neither proved nor refuted" +
+         (required ? "; the whole path is certainly force closure only from " +
                          FormatRequiredDegrees(Degrees(required->upper)) + "°"
                    : "");
 }
@@ -371,15 +372,14 @@ void IncludeMotion(const CheckContext& context, const Align& step, int waypoint,
     check.force_closure = false;
     const Fault loss = lost_at(there);
     fault.Add(Reason::kNotForceClosure,
-              "at " + FormatShort(path.at) + " of the way " + way + " the grasp " +
+              "at " + FormatShort(path.at) + " of the path " + way + " the grasp " +
                   AngleNeeded(context, there),
               loss);
   } else if (path.decision == grasp::Decision::kTooClose && !allowed) {
     LeaveUnproved(UnprovedText(path, way, required) + SoftNote(context), lost_at(required), check,
                   fault);
   } else if (!required && !allowed) {
-    LeaveUnproved("on the way " + way +
-                      " no bound on the friction half-angle that it needs is proved" +
+    LeaveUnproved("on the path " + way + " no bound on the required friction angle is proved" +
                       SoftNote(context),
                   lost_at(required), check, fault);
   }
@@ -422,7 +422,8 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
   for (const FingerContact& placed : step.place) {
     CheckFingerNumber(context, placed.finger, kNoWaypoint, fault);
     if (const FingerContact* holds = FindFinger(before, placed.finger)) {
-      fault.Add(Reason::kFingerNotFree, FingerName(placed.finger) + " is placed, but holds already",
+      fault.Add(Reason::kFingerNotFree,
+                FingerName(placed.finger) + " is placed, but is already in contact",
                 Misplaced(placed.finger, kNoWaypoint, placed.contact, holds->contact));
     }
   }
@@ -432,7 +433,7 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
     const bool again = !released.insert(finger).second;
     if (!again && FindFinger(before, finger) != nullptr) continue;
     fault.Add(Reason::kFingerNotHolding,
-              FingerName(finger) + " is released" + (again ? " twice" : ", but does not hold"),
+              FingerName(finger) + " is released" + (again ? " twice" : ", but is not in contact"),
               FaultOf(finger));
   }
   const FingerGrasp after = GraspAfter(before, step);

@@ -41,7 +41,7 @@ std::string JsonReader::Quoted() const {
 JsonReader JsonReader::Member(const char* key) const {
   if (!value_.is_object()) FailType("a JSON object");
   const auto member = value_.find(key);
-  if (member == value_.end()) Fail(std::string("\"") + key + "\" is missing");
+  if (member == value_.end()) Fail(std::string("member \"") + key + "\" not found");
   return {*member, file_, pointer_ + "/" + key};
 }
 
@@ -73,7 +73,7 @@ std::string JsonReader::OneOf(std::initializer_list<const char*> choices) const 
 double JsonReader::Number() const {
   if (!value_.is_number()) FailType("a number");
   const double number = value_.get<double>();
-  if (!(std::abs(number) <= kLargestNumber)) Fail("the number " + Quoted() + " is too large");
+  if (!(std::abs(number) <= kLargestNumber)) Fail("too large, found " + Quoted());
   return number;
 }
 

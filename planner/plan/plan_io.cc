@@ -31,7 +31,7 @@ Switch ReadSwitch(const JsonReader& json, int dimension) {
 void ExpectOneAFinger(const JsonReader& json, const char* what, std::size_t found,
                       std::size_t fingers) {
   if (found == fingers) return;
-  json.Fail("expected " + std::to_string(fingers) + " " + what + ", one a finger, found " +
+  json.Fail("expected " + std::to_string(fingers) + " " + what + ", one per finger, found " +
             std::to_string(found));
 }
 
@@ -134,7 +134,7 @@ void ReadObjectPart(const JsonReader& json, Plan& plan) {
   plan.object_file = json.Member("file").String();
   if (plan.object_file.find('\0') != std::string::npos) {
     // Programs would read the name beyond the NUL character, the operating system would not.
-    json.Member("file").Fail("a file name cannot hold a NUL character");
+    json.Member("file").Fail("must not contain a NUL character");
   }
   plan.object_sha256 = ReadSha256(json.Member("sha256"));
   plan.scale = json.Member("scale").Number();
@@ -147,7 +147,7 @@ void ReadObjectPart(const JsonReader& json, Plan& plan) {
 double ReadHalfAngle(const JsonReader& json) {
   const double degrees = json.Number();
   if (!(degrees > 0 && degrees < 90)) {
-    json.Fail("must lie between 0 and 90, found " + json.Quoted());
+    json.Fail("must be between 0 and 90, found " + json.Quoted());
   }
   const double angle = Radians(degrees);
   // A number near an end of the interval may round onto it, in radians or when written again.
@@ -176,17 +176,17 @@ double ReadRadius(const JsonReader& json) {
 }
 
 double ReadPatchRadius(const JsonReader& json, const Plan& plan) {
-  if (plan.dimension == 2) json.Fail("only solids have rough surfaces");
+  if (plan.dimension == 2) json.Fail("cannot be used with a planar object");
   return ReadRadius(json);
 }
 
 double ReadTorsion(const JsonReader& json, const Plan& plan) {
-  if (plan.dimension == 2) json.Fail("only contacts of solids have torsion");
+  if (plan.dimension == 2) json.Fail("cannot be used with a planar object");
   return ReadRadius(json);
 }
 
 bool ReadContactPlaces(const JsonReader& json, const Plan& plan) {
-  if (plan.dimension == 2) json.Fail("only surfaces give points");
+  if (plan.dimension == 2) json.Fail("cannot be used with a planar object");
   return json.OneOf({"given"}) == "given";
 }
 

@@ -81,8 +81,8 @@ PlanResult ResultOf(const CandidateSequence& candidate, const criteria::GraspEva
   PlanResult result;
   if (const auto obstacle = FindObstacle(candidate, evaluator)) {
     result.status = PlanResult::Status::kNoSequence;
-    result.message = "the planner " + planner + " found no sequence for fingers of radius " +
-                     FormatShort(evaluator.finger_radius()) + "; in the best one, step " +
+    result.message = "planner " + planner + ": no sequence for fingers of radius " +
+                     FormatShort(evaluator.finger_radius()) + "; in the best sequence, step " +
                      std::to_string(obstacle->index) + ": " + obstacle->detail;
     return result;
   }

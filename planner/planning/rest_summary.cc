@@ -39,8 +39,7 @@ std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
     const grasp::Grasp& grasp = rests[i].grasp;
     if (evaluator.Margin(grasp)) continue;
     if (warnings.empty() && !evaluator.IsReachable(grasp)) {
-      warnings.push_back("a fingertip has no clearance in " + name(i) +
-                         ": a contact is in a concave corner");
+      warnings.push_back("no fingertip fits in " + name(i) + ": a contact is in a concave corner");
     }
     const grasp::SoftContacts felt(grasp, evaluator.torsion());
     for (const auto& unmet : FindUnmet(felt.view(), evaluator.frame(), evaluator.criteria())) {
@@ -55,9 +54,8 @@ std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
   }
   for (const auto& [unmet, step] : weakest) {
     const auto [reached, asked] = FormatWithLimit(unmet.reached, unmet.asked, 4);
-    warnings.push_back("the sequence passes grasps below the " + std::string(unmet.name) + " " +
-                       asked + " that was asked for; the weakest is " + name(step) + " with " +
-                       reached);
+    warnings.push_back(std::string(unmet.name) + " falls below the required " + asked + ": " +
+                       reached + " in " + name(step));
   }
   return warnings;
 }

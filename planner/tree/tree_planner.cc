@@ -202,12 +202,12 @@ class TreeSearch {
     if (AreAdmitted(path, space)) return path;
     if (auto own = SearchOwnSubsets(path.start, path.end(), space)) return *std::move(own);
     const std::string asked = criteria::WithWhatIsAsked(request_.criteria);
-    request_.progress("looking for grasps" + asked);
+    request_.progress("searching for grasps" + asked);
     double best = Repair(path, space);
     for (const double share : kShares) {
       if (best == 1) return path;
-      SearchSpace wide =
-          MakeSpace(half_angle_, share, effort_ / kShareEffortShare, "looking for grasps" + asked);
+      SearchSpace wide = MakeSpace(half_angle_, share, effort_ / kShareEffortShare,
+                                   "searching for grasps" + asked);
       const auto found = Search(from, to, wide);
       // A search that fails with lower requirements also fails with higher ones.
       if (!found) break;
@@ -252,7 +252,8 @@ class TreeSearch {
       path = MaximiseMargin(std::move(path), more, source_, random_, space);
     }
     if (before.empty()) return {};
-    return {"the first sequence had " + before + ", this one has " + Achieved(path, from, space)};
+    return {"the first sequence has " + before + ", the improved one " +
+            Achieved(path, from, space)};
   }
 
   /// Describe the value of the objective, including sliding steps.
@@ -261,11 +262,11 @@ class TreeSearch {
                                      const SearchSpace& space) const {
     switch (request_.objective) {
       case planning::Objective::kTravel:
-        return "a travel of all fingers together of " +
+        return "a total finger travel of " +
                FormatShort(TravelOf(path, space) / object_.diameter()) + " diameters";
       case planning::Objective::kMargin:
-        return "a margin of " + FormatFixed(Degrees(half_angle_ - Needed(path, from, space)), 2) +
-               "°";
+        return "a friction margin of " +
+               FormatFixed(Degrees(half_angle_ - Needed(path, from, space)), 2) + "°";
       default:
         return "";
     }
@@ -295,10 +296,13 @@ class TreeSearch {
       return std::to_string(reach_.grasps[side]) + " grasps on " +
              std::to_string(reach_.tuples[side]) + " tuples of faces";
     };
-    result.message = std::string("no sequence was found by the planner general (failure is not ") +
-                     "a proof of infeasibility): " + reached(0) + " were reached from the start, " +
-                     reached(1) + " from the goal, in " + std::to_string(reach_.tests) + " tests" +
-                     (reach_.out_of_time ? ", when the time was up" : "");
+    result.message = "planner general explored " + reached(0) + " from the start and " +
+                     reached(1) + " from the goal in " + std::to_string(reach_.tests) + " tests" +
+                     (reach_.out_of_time ? "; time limit reached" : "") +
+                     "; this does not prove that there is no sequence" +
+                     (request_.explain ? ""
+                                       : "; help: --explain searches for the smallest friction "
+                                         "that is sufficient");
     if (request_.explain) result.message += Explain(from, to);
     return result;
   }
@@ -310,16 +314,17 @@ class TreeSearch {
     const auto finds = [&](double half_angle) {
       SearchSpace space =
           MakeSpace(half_angle, 0, effort_ / kExplainEffortShare,
-                    "looking for a sequence at " + FormatShort(Degrees(half_angle)) + "°");
+                    "searching for a sequence at " + FormatShort(Degrees(half_angle)) + "°");
       return Search(from, to, space).has_value();
     };
-    if (!finds(some)) return "; nor was one at " + FormatShort(Degrees(some)) + "°";
+    if (!finds(some))
+      return "; none found at a friction angle of " + FormatShort(Degrees(some)) + "° either";
     for (int i = 0; i < kExplainSteps; ++i) {
       const double middle = (none + some) / 2;
       (finds(middle) ? some : none) = middle;
     }
-    return "; one was found at " + FormatShort(Degrees(some)) +
-           "°, an upper bound by search of the friction that is needed";
+    return "; a sequence is found at a friction angle of " + FormatShort(Degrees(some)) +
+           "°, an upper bound on the required one";
   }
 
   const planning::PlanRequest& request_;

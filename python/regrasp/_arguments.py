@@ -30,7 +30,7 @@ def finite(name: str, array: np.ndarray) -> np.ndarray:
     """The array, if all its values are finite."""
     if not np.isfinite(array).all():
         place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-        raise InputError(f"{name}{list(place)}: {array[place]} is not finite")
+        raise InputError(f"{name}{list(place)} must be finite, found {array[place]}")
     return array
 
 
@@ -38,9 +38,9 @@ def flags(name: str, value, shape: tuple[int, ...]) -> np.ndarray:
     """An array of truth values of that shape."""
     array = _array(name, value, str(shape))
     if array.dtype != bool:
-        raise InputError(f"{name}: truth values are needed, found an array of {array.dtype}")
+        raise InputError(f"{name} must be an array of bool, found an array of {array.dtype}")
     if array.shape != shape:
-        raise InputError(f"{name}: the shape is {shape}, found {array.shape}")
+        raise InputError(f"{name} must have shape {shape}, found {array.shape}")
     return array
 
 
@@ -48,9 +48,9 @@ def numbers_or_nan(name: str, value, shapes: str, dimensions: tuple[int, ...]) -
     """The same, whether finite or not."""
     array = _array(name, value, shapes)
     if array.dtype.kind not in "fiu":
-        raise InputError(f"{name}: numbers are needed, found an array of {array.dtype}")
+        raise InputError(f"{name} must be an array of numbers, found an array of {array.dtype}")
     if array.ndim not in dimensions:
-        raise InputError(f"{name}: the shape is {shapes}, found {array.shape}")
+        raise InputError(f"{name} must have shape {shapes}, found {array.shape}")
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
@@ -58,9 +58,9 @@ def indices(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.nd
     """The same for int64 values."""
     array = _array(name, value, shapes)
     if array.ndim not in dimensions:
-        raise InputError(f"{name}: the shape is {shapes}, found {array.shape}")
+        raise InputError(f"{name} must have shape {shapes}, found {array.shape}")
     if array.dtype.kind not in "iu":
-        raise InputError(f"{name}: integers are needed, found an array of {array.dtype}")
+        raise InputError(f"{name} must be an array of integers, found an array of {array.dtype}")
     return np.ascontiguousarray(array, dtype=np.int64)
 
 
@@ -87,7 +87,7 @@ def unmasked(name: str, value) -> None:
             place = [int(i) for i in np.argwhere(mask)[0]] if mask.ndim else ""
             count = int(mask.sum())
             more = f" and {count - 1} more" if count > 1 else ""
-            raise InputError(f"{name}{place}: is masked{more}, expected numbers without a mask; "
+            raise InputError(f"{name}{place} must not be masked, found a masked value{more}; "
                              "help: leave masked values out, or fill them")
         if isinstance(part, (list, tuple)) and depth < _MOST_AXES and id(part) not in seen:
             seen.add(id(part))
@@ -103,7 +103,7 @@ def _array(name: str, value, shapes: str) -> np.ndarray:
     try:
         return np.asarray(value)
     except ValueError as error:
-        raise InputError(f"{name}: no array of shape {shapes}: {error}") from None
+        raise InputError(f"{name} must be an array of shape {shapes}: {error}") from None
 
 
 def number(name: str, value, lower: float, upper: float = math.inf, *, zero: bool = False) -> float:
@@ -114,12 +114,12 @@ def number(name: str, value, lower: float, upper: float = math.inf, *, zero: boo
             raise TypeError
         result = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name}: a number is needed, found {shown(value)}") from None
+        raise InputError(f"{name} must be a number, found {shown(value)}") from None
     if zero and result == 0:
         return 0
     if not (lower < result < upper):
         limits = f"above {lower:g}" if upper == math.inf else f"between {lower:g} and {upper:g}"
-        raise InputError(f"{name}: {limits}, found {result!r}")
+        raise InputError(f"{name} must be {limits}, found {result!r}")
     return result
 
 
@@ -129,9 +129,9 @@ def integer(name: str, value, lower: int, upper: int) -> int:
     try:
         result = operator.index(value)
     except TypeError:
-        raise InputError(f"{name}: an integer is needed, found {shown(value)}") from None
+        raise InputError(f"{name} must be an integer, found {shown(value)}") from None
     if not lower <= result <= upper:
-        raise InputError(f"{name}: from {lower} to {upper}, found {result}")
+        raise InputError(f"{name} must be from {lower} to {upper}, found {result}")
     return result
 
 
@@ -142,30 +142,30 @@ def choice(name: str, value: str, words) -> str:
         return value
     near = difflib.get_close_matches(value, words, 1) if isinstance(value, str) else []
     hint = f"; did you mean {near[0]!r}?" if near else ""
-    raise InputError(f"{name}: {shown(value)} is none of {', '.join(map(repr, words))}{hint}")
+    raise InputError(f"{name} must be one of {', '.join(map(repr, words))}, found {shown(value)}{hint}")
 
 
 def flag(name: str, value) -> bool:
     """True or False."""
     if isinstance(value, (bool, np.bool_)):
         return bool(value)
-    raise InputError(f"{name}: True or False is needed, found {shown(value)}")
+    raise InputError(f"{name} must be True or False, found {shown(value)}")
 
 
 def text(name: str, value) -> str:
     """A text."""
     if isinstance(value, str):
         return value
-    raise InputError(f"{name}: a text is needed, found {shown(value)}")
+    raise InputError(f"{name} must be a str, found {shown(value)}")
 
 
 def path(name: str, value) -> str:
     """A path of the file system, as a text."""
     if not isinstance(value, (str, bytes, os.PathLike)):
-        raise InputError(f"{name}: a path is needed, found {shown(value)}")
+        raise InputError(f"{name} must be a path, found {shown(value)}")
     result = os.fsdecode(value)
     if not result or "\0" in result:
-        raise InputError(f"{name}: a path is needed, found {shown(result)}")
+        raise InputError(f"{name} must be a path, found {shown(result)}")
     return result
 
 
@@ -173,7 +173,7 @@ def callback(name: str, value):
     """A function, or None."""
     if value is None or callable(value):
         return value
-    raise InputError(f"{name}: a function is needed, found {shown(value)}")
+    raise InputError(f"{name} must be callable or None, found {shown(value)}")
 
 
 def of_type(name: str, value, kind: type, hint: str = ""):
@@ -181,7 +181,7 @@ def of_type(name: str, value, kind: type, hint: str = ""):
     if isinstance(value, kind):
         return value
     article = "an" if kind.__name__[0] in "AEIOU" else "a"
-    raise InputError(f"{name}: {article} {kind.__name__} is needed, found "
+    raise InputError(f"{name} must be {article} {kind.__name__}, found "
                      f"{type(value).__name__}{hint}")
 
 
@@ -189,21 +189,21 @@ def vector(name: str, value, length: int) -> np.ndarray:
     """So many finite numbers."""
     vector = numbers(name, value, f"({length},)", (1,))
     if len(vector) != length:
-        raise InputError(f"{name}: {length} numbers are needed, found {len(vector)}")
+        raise InputError(f"{name} must have {length} numbers, found {len(vector)}")
     return vector
 
 
 def mapping(name: str, value) -> dict:
     """A dictionary."""
     if not isinstance(value, dict):
-        raise InputError(f"{name}: a mapping is needed, found {type(value).__name__}")
+        raise InputError(f"{name} must be a mapping, found {type(value).__name__}")
     return value
 
 
 def member(name: str, mapping: dict, key: str):
     """What a dictionary has under a key."""
     if key not in mapping:
-        raise InputError(f"{name}: no {key}")
+        raise InputError(f"{name}: {key} not found")
     return mapping[key]
 
 
@@ -227,32 +227,32 @@ def bounded(name: str, value):
         else:
             return 1
         if depth > _DEEPEST:
-            raise InputError(f"{name}: nested deeper than {_DEEPEST} levels")
+            raise InputError(f"{name} must not be nested deeper than {_DEEPEST} levels")
         if id(part) not in known:
             known[id(part)] = 1 + sum(count(inner, depth + 1) for inner in parts)
         return known[id(part)]
 
     if count(value, 0) > _MOST_VALUES:
-        raise InputError(f"{name}: more than {_MOST_VALUES} values, what is referred to counted in "
-                         "each place")
+        raise InputError(f"{name} must not have more than {_MOST_VALUES} values, counting a shared "
+                         "value at each place")
     return value
 
 
 def texts(name: str, values) -> list[str]:
     """A list of texts."""
     if not isinstance(values, (list, tuple)) or not all(isinstance(v, str) for v in values):
-        raise InputError(f"{name}: a list of texts is needed, found {shown(values)}")
+        raise InputError(f"{name} must be a list of str, found {shown(values)}")
     return list(values)
 
 
 def half_angle(mu: float | None, friction_angle_deg: float | None) -> float | None:
     """The friction cone's half-angle in radians; None where neither is given."""
     if mu is not None and friction_angle_deg is not None:
-        raise InputError("mu and friction_angle_deg: give one of them")
+        raise InputError("mu cannot be used with friction_angle_deg")
     if mu is not None:
         mu = number("mu", mu, 0)
         if mu > 1e15:  # a right angle to doubles
-            raise InputError(f"mu: at most 1e15, found {mu:g}")
+            raise InputError(f"mu must be at most 1e15, found {mu:g}")
         return math.atan(mu)
     if friction_angle_deg is not None:
         # As the programs' Radians().
@@ -264,5 +264,5 @@ def needed_half_angle(mu: float | None, friction_angle_deg: float | None) -> flo
     """The same, where one must be given."""
     angle = half_angle(mu, friction_angle_deg)
     if angle is None:
-        raise InputError("mu: friction is needed; give mu or friction_angle_deg")
+        raise InputError("mu or friction_angle_deg is required")
     return angle

@@ -67,7 +67,7 @@ class Hand:
         joints = _arguments.numbers("joints", joints, "(J,) or (N, J)", (1, 2))
         count = len(self.joint_names)
         if joints.shape[-1] != count:
-            raise InputError(f"joints: {self.name} has {count} joints, found {joints.shape}")
+            raise InputError(f"joints must have {count} joints for {self.name}, found shape {joints.shape}")
         tips = self._core.tips(np.atleast_2d(joints))
         return tips[0] if joints.ndim == 1 else tips
 
@@ -87,11 +87,11 @@ class Hand:
         names = _arguments.texts("names", names)
         joints = _arguments.numbers("joints", joints, f"(N, {len(names)})", (2,))
         if joints.shape[1] != len(names):
-            raise InputError(f"joints: the shape is (N, {len(names)}) for {len(names)} names, "
+            raise InputError(f"joints must have shape (N, {len(names)}) for {len(names)} names, "
                              f"found {joints.shape}")
         missing = [name for name in self.joint_names if name not in names]
         if missing:
-            raise InputError(f"names: {self.name} has joints {missing[0]} …, found "
+            raise InputError(f"names must contain the joint {missing[0]} of {self.name}, found "
                              f"{_arguments.shown(names)}")
         return joints[:, [names.index(name) for name in self.joint_names]]
 

@@ -69,17 +69,17 @@ class Object:
         """
         vertices = _arguments.numbers("vertices", vertices, "(V, 3)", (2,))
         if vertices.shape[1] != 3:
-            raise InputError(f"vertices: the shape is (V, 3), found {vertices.shape}")
+            raise InputError(f"vertices must have shape (V, 3), found {vertices.shape}")
         faces = _arguments.indices("faces", faces, "(F, 3)", (2,))
         if faces.shape[1] != 3:
-            raise InputError(f"faces: the shape is (F, 3), found {faces.shape}")
+            raise InputError(f"faces must have shape (F, 3), found {faces.shape}")
         if len(vertices) == 0:
-            raise InputError("vertices: there are none, the shape is (0, 3)")
+            raise InputError("vertices must have at least one vertex, found shape (0, 3)")
         wrong = np.argwhere((faces < 0) | (faces >= len(vertices)))
         if len(wrong):
             place = tuple(int(i) for i in wrong[0])
-            raise InputError(f"faces{list(place)}: there is no vertex {faces[place]}, "
-                             f"there are {len(vertices)}")
+            raise InputError(f"faces{list(place)} must be a vertex from 0 to {len(vertices) - 1}, "
+                             f"found {faces[place]}")
         return cls(_regrasp.object_from_arrays(
             vertices, faces, _arguments.number("scale", scale, 0), _arguments.text("name", name)))
 
@@ -103,14 +103,14 @@ class Object:
         try:
             holes = list(holes)
         except TypeError:
-            raise InputError("holes: a list of arrays is needed, found "
+            raise InputError("holes must be a list of arrays, found "
                              f"{_arguments.shown(holes)}") from None
         rings = []
         for label, ring in [("outline", outline)] + [
                 (f"holes[{i}]", hole) for i, hole in enumerate(holes)]:
             corners = _arguments.numbers(label, ring, "(V, 2)", (2,))
             if corners.shape[1] != 2 or len(corners) < 3:
-                raise InputError(f"{label}: the shape is (V, 2) with three corners or more, "
+                raise InputError(f"{label} must have shape (V, 2) with at least 3 corners, "
                                  f"found {corners.shape}")
             closed = [*corners.tolist(), corners[0].tolist()]
             rings.append("(" + ", ".join(f"{x!r} {y!r}" for x, y in closed) + ")")
@@ -135,7 +135,7 @@ class Object:
         shape = f"(N, {self.dimension})"
         points = _arguments.numbers("points", points, shape, (2,))
         if points.shape[1] != self.dimension:
-            raise InputError(f"points: the shape is {shape}, found {points.shape}")
+            raise InputError(f"points must have shape {shape}, found {points.shape}")
         padded = np.zeros((len(points), 3))
         padded[:, :self.dimension] = points
         # In parts, between which the interpreter sees to signals.
@@ -152,7 +152,7 @@ class Object:
             InputError: the object was read from a file.
         """
         if not self._core.text:
-            raise InputError(f"{self.name}: was read from a file, which is still there")
+            raise InputError(f"{self.name} was read from a file, expected an object from arrays")
         _regrasp.write_file(_arguments.path("path", path), self._core.text.encode())
 
     @property

@@ -86,8 +86,8 @@ class Plan:
         """
         object = self.object if object is None else object
         if object is None:
-            raise InputError(f"object: {self.name} does not hold {self.data['object']['file']}; "
-                             "give it")
+            raise InputError(f"object is required, because {self.name} does not contain "
+                             f"{self.data['object']['file']}")
         return _regrasp.draw_plan(_arguments.of_type("object", object, Object)._core, self.text,
                                   self.name, _arguments.number("width_mm", width_mm, 20, 2000))
 
@@ -120,7 +120,7 @@ def _text_of(path: str) -> str:
         with open(path, encoding="utf-8") as file:
             return file.read()
     except UnicodeDecodeError as error:
-        raise InputError(f"{path}: not UTF-8: {error}") from None
+        raise InputError(f"{path}: not valid UTF-8: {error}") from None
 
 
 def _fingers(contacts: list[dict]) -> str:
@@ -252,13 +252,13 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     _arguments.of_type("object", object, Object)
     _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     if object.dimension != 3:
-        raise InputError(f"object: {object.name} is a polygon; hands hold solids")
+        raise InputError(f"object must be a solid, found the polygon {object.name}")
     if turn is not None and goal_pose is not None:
-        raise InputError("turn: goal_pose says already how the object is to be in the end")
+        raise InputError("turn cannot be used with goal_pose")
     if turn is None and goal_pose is None and goal is None:
-        raise InputError('turn: say what the hand is to do: turn=("z", 90), goal_pose or goal')
+        raise InputError('a goal is required: turn=("z", 90), goal_pose or goal')
     if turn is None and goal_pose is None and start is None and start_pose is None:
-        raise InputError("goal: start or start_pose says what is before it")
+        raise InputError("goal requires start or start_pose")
     given = _asked(mu, friction_angle_deg, seed, min_quality, time_limit)
     if jobs is None:
         jobs = min(os.cpu_count() or 1, _MOST_JOBS)
@@ -292,25 +292,25 @@ def _turn(turn) -> tuple[list[float], float]:
     try:
         axis, degrees = turn
     except (TypeError, ValueError):
-        raise InputError('turn: an axis and degrees, as in ("z", 90), found '
+        raise InputError('turn must be an axis and degrees, for example ("z", 90), found '
                          f"{_arguments.shown(turn)}") from None
     axis = _arguments.choice("turn[0]", axis, ["x", "y", "z"])
     degrees = _arguments.number("turn[1]", degrees, -3600.1, 3600.1)
     if degrees == 0:
-        raise InputError("turn[1]: degrees other than 0, found 0")
+        raise InputError("turn[1] must not be 0 degrees")
     return [float(axis == other) for other in "xyz"], degrees * (math.pi / 180)
 
 
 def _pose(name: str, pose) -> list[float]:
     pose = _arguments.numbers(name, pose, "(7,)", (1,))
     if len(pose) != 7:
-        raise InputError(f"{name}: position and quaternion are 7 numbers, found {len(pose)}")
+        raise InputError(f"{name} must have 7 numbers, position and quaternion, found {len(pose)}")
     length = math.hypot(*pose[3:])
     if abs(length - 1) > 1e-3:
-        raise InputError(f"{name}: the quaternion's length must be 1, found {length:.4g}")
+        raise InputError(f"{name} must have a unit quaternion, found length {length:.4g}")
     distance = math.hypot(*pose[:3])
     if distance > 10:
-        raise InputError(f"{name}: positions are in metres from the palm, found {distance:.4g} m")
+        raise InputError(f"{name} must be within 10 m of the palm, found {distance:.4g} m")
     return pose.tolist()
 
 
@@ -334,19 +334,19 @@ def _grasp_text(name: str, grasp, object: Object, random: bool = True) -> str:
             return _text_of(grasp)
         except FileNotFoundError:
             words = f", {' or '.join(map(repr, _RANDOM))}" if random else ""
-            raise InputError(f"{name}: there is no file {grasp}; give points, a file{words}") from None
+            raise InputError(f"{name}: file {grasp} not found, expected points, a file{words}") from None
     normals = None
     if isinstance(grasp, tuple) and len(grasp) == 2:
         grasp, normals = grasp
     shape = f"(k, {object.dimension})"
     points = _arguments.numbers(name, grasp, shape, (2,))
     if points.shape[1] != object.dimension:
-        raise InputError(f"{name}: the shape is {shape}, found {points.shape}")
+        raise InputError(f"{name} must have shape {shape}, found {points.shape}")
     contacts = [{"point": point} for point in points.tolist()]
     if normals is not None:
         normals = _arguments.numbers(f"{name}[1]", normals, shape, (2,))
         if normals.shape != points.shape:
-            raise InputError(f"{name}[1]: the shape is that of the points, {points.shape}, "
+            raise InputError(f"{name}[1] must have the shape of the points, {points.shape}, "
                              f"found {normals.shape}")
         for contact, normal in zip(contacts, normals.tolist()):
             contact["normal"] = normal

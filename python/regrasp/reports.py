@@ -72,7 +72,7 @@ class Report:
         try:
             width, height = size
         except (TypeError, ValueError):
-            raise InputError("size: width and height are needed, found "
+            raise InputError("size must be width and height, found "
                              f"{_arguments.shown(size)}") from None
         limits = _regrasp.least_frame_side, _regrasp.most_frame_side
         size = (_arguments.integer("size[0]", width, *limits),
@@ -168,22 +168,22 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     if hand is not None:
         _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     if hand is not None and "hand" not in plan.data:
-        raise InputError(f"hand: {plan.name} is a plan for fingers without a hand")
+        raise InputError(f"hand cannot be used with {plan.name}, which is not a plan for a hand")
     if hand is not None and object.dimension != 3:
-        raise InputError(f"object: {object.name} is a polygon; hands hold solids")
+        raise InputError(f"object must be a solid, found the polygon {object.name}")
     if replay is None:
         replay = "points" if hand is None else "hand"
     given.replay_by_hand = _arguments.choice("replay", replay, ["points", "hand"]) == "hand"
     if given.replay_by_hand and hand is None:
-        raise InputError("hand: is needed for a replay by it")
+        raise InputError('hand is required for replay="hand"')
     if given.replay_by_hand and engine is not None:
-        raise InputError('engine: goes with replay="points"')
+        raise InputError('engine requires replay="points"')
     if given.replay_by_hand and given.stress:
-        raise InputError('stress: goes with replay="points"')
+        raise InputError('stress requires replay="points"')
     if tip is not None:
         given.own_tips = _arguments.choice("tip", tip, ["ball", "geometry"]) == "geometry"
         if not given.replay_by_hand:
-            raise InputError('tip: goes with replay="hand"')
+            raise InputError('tip requires replay="hand"')
     given.feedback = _arguments.flag("feedback", feedback)
     given.set_hand_tolerance(_arguments.number("tolerance_mm", tolerance_mm, 0),
                              _arguments.number("tolerance_deg", tolerance_deg, 0))

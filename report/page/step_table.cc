@@ -119,8 +119,7 @@ std::string StepName(plan::EntryIndex index) {
 }
 
 std::string WhyAndMend(const std::string& why, const std::string& mend) {
-  return (why.empty() ? "" : " Why: " + why + ".") +
-         (mend.empty() ? "" : " What would mend it: " + mend + ".");
+  return (why.empty() ? "" : " Why: " + why + ".") + (mend.empty() ? "" : " Help: " + mend + ".");
 }
 
 std::string Capitalized(std::string text) {
@@ -181,11 +180,12 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
     const plan::EntryIndex index = step.check.index;
     rows.push_back(StepRow(step, StepTitle(plan, index), measures[index], anchors[index]));
   }
-  return {ScrolledTable(head, rows),
-          Note("Needs: the smallest friction half-angle at which every grasp of the step is "
-               "force closure. Margin: what is left of the plan’s friction. Displacement, "
-               "rotation and slip: the largest in the replay of the step and the shakes after "
-               "it.")};
+  return {
+      ScrolledTable(head, rows),
+      Note("Needs: the smallest friction angle at which every grasp of the step is "
+           "force closure. Margin: what is left of the plan’s friction. Displacement, "
+           "rotation and slip: the largest in the replay of the step and the disturbances after "
+           "it.")};
 }
 
 std::vector<Element> MakeFingerTable(const Report& report) {
@@ -201,9 +201,9 @@ std::vector<Element> MakeFingerTable(const Report& report) {
   return {
       Element("h2", {}, "Fingers"),
       ScrolledTable(HeadCells({"Finger", "Needs alone", "Margin", "Others need without it"}), rows),
-      Note("Needs alone: how far the friction half-angle of this finger may fall while all "
-           "others keep theirs; 0 where it is not needed. Others need without it: the "
-           "friction half-angle at which the grasp is force closure without this finger.")};
+      Note("Needs alone: how far the friction angle of this finger may fall while all "
+           "others keep theirs; 0 if it is not needed. Others need without it: the "
+           "friction angle at which the grasp is force closure without this finger.")};
 }
 
 }  // namespace regrasp::report

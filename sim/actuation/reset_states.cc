@@ -224,6 +224,9 @@ NpzArray ResetNumbersOf(const DrawnStates& drawn, const std::string& name,
   });
 }
 
+/// Version of the file format: 2 calls the mask of fingers in contact `active` instead of `holds`.
+constexpr double kStatesVersion = 2;
+
 NpzArray Names(const std::string& name, const std::vector<std::string>& texts) {
   return {name, {texts.size()}, {}, texts};
 }
@@ -241,7 +244,7 @@ void AddStates(const DrawnStates& drawn, std::size_t fingers, std::vector<NpzArr
       drawn, "object_quaternion", {4},
       [](const ResetState& state, Values& values) { AppendVector(state.quaternion, values); }));
   arrays.push_back(
-      TipsOf(drawn, "holds", {fingers},
+      TipsOf(drawn, "active", {fingers},
              [](const ResetState::Tip& tip, Values& values) { values.push_back(tip.holds); }));
   arrays.back().is_truth = true;
   arrays.push_back(VectorsOf(drawn, "contact_points", fingers, &ResetState::Tip::contact_O));
@@ -292,7 +295,7 @@ std::string FormatResetStates(const DrawnStates& drawn, const kinematics::HandMo
                               const ResetStateOptions& options, const ResetStatesOrigin& origin) {
   std::vector<std::string> fingers;
   for (const kinematics::Finger& finger : hand.fingers) fingers.push_back(finger.name);
-  std::vector<NpzArray> arrays;
+  std::vector<NpzArray> arrays = {Number("format_version", kStatesVersion)};
   AddStates(drawn, fingers.size(), arrays);
   arrays.push_back(Names("joint_names", drawn.joint_names));
   arrays.push_back(Names("control_names", drawn.control_names));
@@ -343,8 +346,8 @@ struct NoState {
 };
 
 std::string CountText(const Found& tried) {
-  std::string text = std::to_string(tried.unbalanced) +
-                     " have no contact forces that the fingers give and that carry the weight";
+  std::string text =
+      std::to_string(tried.unbalanced) + " without feasible contact forces that support the weight";
   for (const auto& [reason, count] : tried.fallen) {
     text += ", " + std::to_string(count) + " " + std::string(plan::ReasonName(reason));
   }
@@ -355,7 +358,7 @@ Found FindState(RandomStream random, int most_tried, Worker& worker) {
   Found found;
   for (int i = 0; i < most_tried; ++i) {
     const auto rest = worker.draw(random);
-    if (!rest) throw NoState{"no random grasp that the hand reaches holds the object"};
+    if (!rest) throw NoState{"no random grasp within reach of the hand is force closure"};
     const auto squeeze = worker.states.SqueezeOf(rest->state, rest->grasp);
     if (!squeeze) {
       ++found.unbalanced;
@@ -368,8 +371,8 @@ Found FindState(RandomStream random, int most_tried, Worker& worker) {
     }
     ++found.fallen[std::get<plan::Reason>(made)];
   }
-  throw NoState{"of " + std::to_string(most_tried) +
-                " random grasps that the hand reaches it holds none: " + CountText(found)};
+  throw NoState{"none of " + std::to_string(most_tried) +
+                " random grasps within reach of the hand holds the object: " + CountText(found)};
 }
 
 DrawnStates Collect(std::vector<Found> found, const HandWorld& world) {

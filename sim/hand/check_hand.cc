@@ -162,17 +162,17 @@ class Checker {
 
 MaybeFault Checker::CheckShape(const HandState& state) const {
   if (std::ssize(state.joints) != finger_count()) {
-    return NoSuchPath("a state has " + std::to_string(state.joints.size()) +
-                          " fingers, and the hand has " + std::to_string(finger_count()),
+    return NoSuchPath("a state has " + std::to_string(state.joints.size()) + " fingers, expected " +
+                          std::to_string(finger_count()),
                       state_);
   }
   for (FingerIndex finger{0}; finger < finger_count(); ++finger) {
     const std::size_t joints = body_.hand().fingers[finger].joints.size();
     if (state.joints[finger].size() == joints) continue;
-    HandFinding finding = NoSuchPath("a state has " + std::to_string(state.joints[finger].size()) +
-                                         " joints of " + FingerText(body_.hand(), finger) +
-                                         ", and the hand has " + std::to_string(joints),
-                                     state_);
+    HandFinding finding =
+        NoSuchPath("a state has " + std::to_string(state.joints[finger].size()) + " joints of " +
+                       FingerText(body_.hand(), finger) + ", expected " + std::to_string(joints),
+                   state_);
     finding.fault.fingers = {finger};
     for (int moved = 1; moved <= static_cast<int>(joints); ++moved) {
       finding.fault.hand->links.push_back({finger, moved});
@@ -419,7 +419,8 @@ MaybeFault Checker::CheckAlign(const plan::Align& align) {
   const std::size_t ways = align.waypoints.size() - 1;
   if (align.motion->size() != ways) {
     return NoSuchPath("the hand has " + std::to_string(align.motion->size()) +
-                          " paths in this step, and its waypoints ask for " + std::to_string(ways),
+                          " paths in this step, expected " + std::to_string(ways) +
+                          " for its waypoints",
                       state_);
   }
   for (std::size_t w = 0; w < ways; ++w) {
@@ -488,7 +489,7 @@ std::vector<plan::HandFault> CheckHand(const kinematics::HandFile& file,
                                        const object::Polyhedron& solid, const plan::Plan& plan,
                                        const HandCheckOptions& options) {
   if (!plan.hand) {
-    throw InputError("--hand: the plan is for fingers without a hand; leave --hand out");
+    throw InputError("--hand cannot be used with a plan without a hand");
   }
   if (plan.hand->sha256 != file.hand.sha256) {
     throw InputError("--hand: " + OtherHand(file.hand, *plan.hand));

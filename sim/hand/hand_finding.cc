@@ -80,10 +80,10 @@ HandFinding Collision(const HandBody& body, const HandState& state, const std::v
   return finding;
 }
 
-/// Return "a comes within 0.3 mm of b" or "a goes 3.2 mm into b".
+/// Return "a comes within 0.3 mm of b" or "a is 3.2 mm inside b".
 std::string NearText(const std::string& a, const std::string& b, double gap,
                      const LimitText& text) {
-  if (gap < 0) return a + " goes " + text.value + " into " + b;
+  if (gap < 0) return a + " is " + text.value + " inside " + b;
   return a + " comes within " + text.value + " of " + b;
 }
 
@@ -148,7 +148,7 @@ HandFinding NoSuchFinger(FingerIndex finger, const HandState& state) {
 HandFinding ObjectJumps(const HandState& now, const Isometry3d& before, const std::string& when) {
   HandFinding finding{
       Reason::kHandJumps,
-      "the object " + when + " " + MotionText(now.pose, before) + " from where it was",
+      "the object " + when + " " + MotionText(now.pose, before) + " from its previous pose",
       {}};
   plan::HandFaultPlace& place = finding.fault.hand.emplace();
   place.state = now;
@@ -176,7 +176,7 @@ HandFinding JointJumps(HandBody& body, const HandState& now, FingerIndex finger,
   HandFinding finding = AtJoint(Reason::kHandJumps, body, now, finger, joint, jump + " off");
   finding.detail = "joint " + body.hand().fingers[finger].joints[joint].name + " of " +
                    FingerText(body.hand(), finger) + " begins the step at " + text.value + ", " +
-                   jump + " from where it was (" + text.limit + ")";
+                   jump + " from its previous angle (" + text.limit + ")";
   return finding;
 }
 
@@ -206,8 +206,8 @@ HandFinding JointUncoupled(HandBody& body, const HandState& state,
                                 uncoupled.joint, off + " off its coupling");
   finding.detail = "joint " + joint.name + " of " + FingerText(body.hand(), uncoupled.finger) +
                    " is at " + DegreesText(state.joints[uncoupled.finger][uncoupled.joint]) +
-                   After(when) + ": " + off + " from what its coupling demands (" +
-                   uncoupled.source + "), limit " + FormatShort(Degrees(most)) + "°";
+                   After(when) + ": " + off + " from its coupling (" + uncoupled.source +
+                   "), limit " + FormatShort(Degrees(most)) + "°";
   return finding;
 }
 
@@ -220,8 +220,7 @@ HandFinding TipOff(HandBody& body, const HandState& state, FingerIndex finger,
   const auto [value, limit] = FormatLengthWithLimit(off, tolerance);
   HandFinding finding{Reason::kTipOffContact, "", {.fingers = {finger}}};
   finding.detail = "the tip of " + FingerText(body.hand(), finger) + " is " + value +
-                   " from where it touches its contact" + After(when) + "; up to " + limit +
-                   " is taken";
+                   " from its contact" + After(when) + ", limit " + limit;
   plan::HandFaultPlace& place = finding.fault.hand.emplace();
   place.state = state;
   place.links = {{finger, static_cast<int>(of.joints.size())}};
@@ -272,7 +271,7 @@ HandFinding PartMeetsObject(HandBody& body, const HandState& state, int part,
   const LimitText text = GapText(nearness.gap, needed);
   finding.detail = NearText(PartText(body, part), "the object", nearness.gap, text) + After(when) +
                    "; " +
-                   (needed < 0 ? "a tip that touches may be " + text.limit + " in it"
+                   (needed < 0 ? "a tip that touches may be " + text.limit + " inside"
                                : "the clearance is " + text.limit);
   return finding;
 }

@@ -112,7 +112,7 @@ void Shake(ReplayWorld& world, DisturbanceResponse response,
   const double size = world.settings().shake * world.settings().squeeze_N;
   if (size == 0) return;
   const double radius = world.settings().diameter_m / 2;
-  const char* how = response == DisturbanceResponse::kAdapted ? "" : " at fixed squeeze";
+  const char* how = response == DisturbanceResponse::kAdapted ? "" : " at fixed grasp force";
   KeepRest rest(world);
   for (const Push& push : PushDirections(world.scene().dimension)) {
     const std::string name = PushText(push, size, radius) + how;
@@ -134,10 +134,9 @@ double LeastShake(double tolerance) {
 void CheckShake(const ReplaySettings& settings) {
   const double least = LeastShake(settings.tolerance);
   if (settings.shake == 0 || settings.shake > least) return;
-  throw InputError("replay: a body that nothing holds would stand a shake of " +
-                   FormatShort(settings.shake) + " (--shake) with a tolerance of " +
-                   FormatShort(settings.tolerance) +
-                   " (--tolerance); the shake has to be larger than " + FormatShort(least));
+  throw InputError("--shake " + FormatShort(settings.shake) +
+                   " is too small to detect a lost grasp at --tolerance " +
+                   FormatShort(settings.tolerance) + ", expected more than " + FormatShort(least));
 }
 
 namespace {

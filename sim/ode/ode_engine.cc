@@ -264,7 +264,7 @@ void OdeEngine::Impl::SolveByTries(std::vector<Touch>& touches) {
     dWorldSetCFM(world.get(), compliance * mobility * s.timestep_s);
     if (Solve(tried, touches)) return;
   }
-  throw UnstableError("ODE's solver came to no end");
+  throw UnstableError("the solver of ODE did not converge");
 }
 
 void OdeEngine::Impl::TakeBodies(const std::vector<Touch>& touches) {

@@ -207,8 +207,8 @@ std::optional<plan::Obstacle> FindUnreachable(const object::Object& object,
     if (clearance >= least) continue;
     return plan::Obstacle{
         "finger " + std::to_string(held.finger) +
-            " cannot stand at its contact: no fingertip thicker than a radius of " +
-            FormatShort(clearance) + " fits in the corner there",
+            " does not fit at its contact: the corner has room for a fingertip radius of at most " +
+            FormatShort(clearance),
         {.fingers = {held.finger}, .found = held.contact}};
   }
   return std::nullopt;

@@ -163,7 +163,7 @@ std::string MotionMonitor::MotionText() const {
 std::string MotionMonitor::detail() const {
   switch (reason()) {
     case plan::Reason::kContactLost:
-      return Name(lost_finger_) + " came " +
+      return Name(lost_finger_) + " moved " +
              FormatLengthWithLimit(gap_now_, kLostGap * settings_.diameter_m).value +
              " off the surface " + *lost_;
     case plan::Reason::kSlipped:

@@ -196,7 +196,7 @@ TEST(ReportTest, TheTableSaysHowLargeAndHeavyTheObjectIsAndWhyTheSqueezeIsWhatIt
   report.settings->squeeze_N = 2119;
   const std::string usual = FormatReportTable(report);
   EXPECT_THAT(usual, HasSubstr("object: 10.4 cm across, 216 g\n"));
-  EXPECT_THAT(usual, HasSubstr("squeeze: 2119 N, 1000 times the weight: so much that"));
+  EXPECT_THAT(usual, HasSubstr("grasp force: 2119 N, 1000 times the weight: default"));
   EXPECT_THAT(usual, HasSubstr("--squeeze realistic"));
   report.settings->squeeze_source = sim::SqueezeSource::kHand;
   EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("--squeeze realistic")));
@@ -258,7 +258,7 @@ TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
   ASSERT_TRUE(fixed.steps.at(0).disagreement);
   EXPECT_EQ(fixed.steps[0].disagreement->between, sim::Between::kFixedFails);
   EXPECT_EQ(fixed.steps[0].disagreement->cause, sim::Cause::kConeReached);
-  EXPECT_THAT(FormatReportTable(fixed), HasSubstr("a fixed squeeze fails, likely cause: "));
+  EXPECT_THAT(FormatReportTable(fixed), HasSubstr("a fixed grasp force fails, likely cause: "));
 
   options.shake = 0.01;
   plan::CheckOptions check;

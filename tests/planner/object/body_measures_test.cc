@@ -71,8 +71,8 @@ TEST(BodyMeasures, TheWarningGuessesTheUnitInWhichAHandWouldGraspIt) {
   EXPECT_THAT(guess(19, 1), HasSubstr("centimetres? use --scale 0.01 (19 cm"));
   EXPECT_THAT(guess(400, 1), HasSubstr("millimetres?"));
   EXPECT_THAT(guess(0.1, 0.001), HasSubstr("metres? use --scale 1 (10 cm"));
-  EXPECT_THAT(guess(401, 1), HasSubstr("is that meant? --scale says"));
-  EXPECT_THAT(guess(0.001, 1), HasSubstr("is that meant? --scale says"));
+  EXPECT_THAT(guess(401, 1), HasSubstr("pass the length of a file unit in metres with --scale"));
+  EXPECT_THAT(guess(0.001, 1), HasSubstr("pass the length of a file unit in metres with --scale"));
   // As millimetres it is only 3 mm; centimetres are suggested before inches.
   EXPECT_THAT(guess(3, 1), HasSubstr("centimetres? use --scale 0.01 (3 cm"));
 }

@@ -108,7 +108,7 @@ std::vector<Spoilt> SpoiltCubes() {
          Turn(cavity);
          s = Join(Join(s, cavity), BoxSoup(Vector3d::Constant(-0.2), Vector3d::Constant(0.2)));
        }},
-      {"cavity in a cavity", MeshDefect::kSeveralSolids, "several solids: its shell lies inside a",
+      {"cavity in a cavity", MeshDefect::kSeveralSolids, "several solids: its shell is inside a",
        [](PolygonSoup& s) {
          PolygonSoup cavity = BoxSoup(Vector3d::Constant(-0.4), Vector3d::Constant(0.4));
          PolygonSoup inner = BoxSoup(Vector3d::Constant(-0.2), Vector3d::Constant(0.2));

@@ -130,7 +130,8 @@ TEST_F(MisreadFilesTest, SurfacesOfPlyInOtherElements) {
       "of_floats.ply",
       ply("element faces 4\nproperty list uchar float vertex_indices\n", FacetText("3 ", "\n")),
       "element \"faces\": not supported");
-  ExpectRefused("no_triangle.ply", StripPly("6 0 2 -1 1 1 1\n", 1), "there is no triangle in it");
+  ExpectRefused("no_triangle.ply", StripPly("6 0 2 -1 1 1 1\n", 1),
+                "expected at least one triangle");
   // Negative controls: point clouds, and elements without a surface.
   EXPECT_EQ(Refusal("cloud.ply", ply("", "")), "");
   EXPECT_EQ(Refusal("no_faces.ply", ply("element face 0\n" + list, "")), "");
@@ -190,13 +191,13 @@ TEST_F(MisreadFilesTest, ColladaThatAssimpMisreads) {
                 "\"ph\"");
   ExpectRefused("elsewhere.dae",
                 with([](C& c) { c.instance = "<instance_geometry url=\"other.dae#g\"/>"; }),
-                "its surface comes from another file, \"other.dae#g\"");
+                "surface in another file, \"other.dae#g\"");
   ExpectRefused("lines.dae", with([](C& c) {
                   c.primitives =
                       "<lines count=\"2\"><input semantic=\"VERTEX\" source=\"#v\" "
                       "offset=\"0\"/><p>0 1 2 3</p></lines>";
                 }),
-                "its scene has no polygon");
+                "scene: expected at least one polygon");
   ExpectRefused("units.dae", with([](C& c) { c.node = "<asset><unit meter=\"0.01\"/></asset>"; }),
                 "unit: several");
   ExpectRefused("zero.dae", with([](C& c) { c.unit = "meter=\"0\""; }), "unit: meter");

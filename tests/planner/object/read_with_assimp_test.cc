@@ -83,9 +83,8 @@ TEST_F(FilesBesideTest, ASurfaceThatComesFromAnotherFileIsRefused) {
       static_cast<void>(ReadObject(path));
       ADD_FAILURE() << name << " was read";
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(),
-                  AllOf(StartsWith(path.string() + ": "),
-                        HasSubstr("its surface comes from another file, \"" + other)));
+      EXPECT_THAT(error.what(), AllOf(StartsWith(path.string() + ": "),
+                                      HasSubstr("surface in another file, \"" + other)));
       EXPECT_THAT(error.what(), HasSubstr("convert it"));
     }
   }
