@@ -29,7 +29,7 @@ inline constexpr double kStrongestGrip_N = 200;
 
 /// Size and mass as the options have them.
 [[nodiscard]] object::BodyMeasures BodyOf(const object::Object& object, double scale,
-                                          const ReplayOptions& options);
+                                          const ReplayConditions& options);
 
 /// Derives mass, squeeze, finger and time step from the body, so that every replay is the same
 /// experiment up to units: two bodies of one shape move through the same positions relative to
