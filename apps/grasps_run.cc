@@ -26,7 +26,7 @@
 #include "planner/grasp/judge_grasps.h"
 #include "planner/plan/locate.h"
 #include "planner/plan/surface_tolerance.h"
-#include "report/report.h"
+#include "sim/validation/validation.h"
 
 namespace regrasp::apps {
 
@@ -137,6 +137,7 @@ grasp::Grasp GraspAt(const PlacedGrasps& placed, int contacts, std::size_t i) {
 /// Holds and shakes, in MuJoCo, those that are force closure: each on its own, on all cores.
 void Replay(const object::Object& object, const PlacedGrasps& placed, int contacts,
             const ValidateOptions& options, ProgressLine& progress, Verdicts& verdicts) {
+  const validation::ValidationOptions given = ValidationOptionsOf(options);
   std::vector<std::size_t> held;
   for (std::size_t i = 0; i < placed.places.size(); ++i) {
     if (verdicts.is_force_closure[placed.places[i]] == 1) held.push_back(i);
@@ -146,12 +147,11 @@ void Replay(const object::Object& object, const PlacedGrasps& placed, int contac
   InBlocks(held.size(), 1, 0, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t g = placed.places[held[k]];
-      plan::Plan hold =
-          report::MakeHoldPlan(object, GraspAt(placed, contacts, held[k]),
-                               options.friction.required_half_angle(), options.scale.value_or(1));
-      hold.finger_radius = options.replay.finger_radius;
-      hold.torsion = options.contact.torsion().value_or(0);
-      const report::Report report = report::Validate(object, hold, {}, options.replay);
+      const plan::Plan hold = validation::MakeHoldPlan(object, GraspAt(placed, contacts, held[k]),
+                                                       options.friction.required_half_angle(),
+                                                       options.scale.value_or(1));
+      const validation::Report report =
+          validation::Validate({.object = object, .plan = hold, .options = given}).report;
       verdicts.reason[g] = static_cast<double>(report.steps.front().reason());
       verdicts.valid[g] = report.passed() ? 1 : 0;
       verdicts.replayed[g] = 1;

@@ -8,15 +8,15 @@ namespace regrasp::apps {
 
 struct ValidationRun {
   int exit_code = 0;
-  std::vector<double> entry_seconds;  ///< that each entry took, as far as they were replayed
+  std::vector<double> entry_seconds;  ///< duration of each step that was replayed
 };
 
-/// Validates one plan (`plan_path`) or grasp as the options say: reads, checks, replays, draws,
-/// writes the files, and prints the table.
+/// Validate one plan (`plan_path`) or grasp with the options: read, check, replay, draw, write the
+/// files, and print the table.
 ///
-/// The report is written last: where there is one, the files beside it are complete.
-/// @throws InputError        a broken file, or one that does not go with the options.
-/// @throws EnvironmentError  no rendering context, a folder that cannot be written.
+/// The report is written last. If it exists, the other files are complete.
+/// @throws InputError        a file is broken, or does not fit the options.
+/// @throws EnvironmentError  there is no rendering context, or a folder cannot be written.
 [[nodiscard]] ValidationRun RunValidation(const ValidateOptions& options);
 
 }  // namespace regrasp::apps

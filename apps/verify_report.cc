@@ -16,7 +16,7 @@ namespace {
 
 using Kind = motion::ProofVerdict::Kind;
 
-/// Half-angles this near each other, radians, are one that was written in degrees and read again.
+/// Largest difference of equal friction angles after a conversion to degrees and back, radians.
 constexpr double kSameFriction = 1e-12;
 
 void ExpectDigest(const plan::JsonReader& json, const std::string& sha256, const char* what) {
@@ -28,7 +28,7 @@ void ExpectDigest(const plan::JsonReader& json, const std::string& sha256, const
               "…");
 }
 
-/// The proofs of the first entries; what follows a failed one has none.
+/// Read the proofs of the first steps. Those after a failed step have none.
 std::vector<certificate::EntryProof> ReadProofs(const plan::JsonReader& steps, int dimension) {
   std::vector<certificate::EntryProof> proofs;
   for (const plan::JsonReader& step : steps.Elements()) {
@@ -46,7 +46,7 @@ std::string DescribeProof(const motion::ProofVerdict& verdict) {
   return "not proved: " + verdict.why;
 }
 
-/// What is not as docs/formats.md asks for, apart from force closure; empty where nothing is.
+/// Return the fault of a step apart from force closure; empty if it has none.
 std::string FaultOf(const plan::StepCheck& check) {
   if (check.skipped) return "not checked: an entry before it is at fault";
   if (check.reason == plan::Reason::kNone) return "";
@@ -61,7 +61,7 @@ std::string DescribeProofs(const certificate::EntryVerdict& entry) {
   return text;
 }
 
-/// Proofs say nothing of another friction: with more of it they hold too often.
+/// Refuse a report with another friction angle: its proofs do not apply.
 void ExpectFriction(const plan::JsonReader& json, double half_angle) {
   const double degrees = json.Number();
   if (std::abs(Radians(degrees) - half_angle) <= kSameFriction) return;
@@ -70,7 +70,7 @@ void ExpectFriction(const plan::JsonReader& json, double half_angle) {
             "°; help: pass the --friction-angle of the report");
 }
 
-/// The same of another torsion.
+/// Refuse a report with another torsional friction length.
 void ExpectTorsion(const plan::JsonReader& settings, double torsion) {
   const double found = settings.Has("torsion") ? settings.Member("torsion").Number() : 0;
   if (found == torsion) return;
@@ -107,9 +107,8 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
   root.ExpectFormat("regrasp-report");
   ExpectDigest(root.Member("object"), subject.object_sha256, "object");
   ExpectDigest(root.Member("plan"), subject.plan_sha256, "plan");
-  const double half_angle = subject.check.half_angle.value_or(plan.half_angle);
-  ExpectFriction(root.Member("settings").Member("friction_half_angle_deg"), half_angle);
-  ExpectTorsion(root.Member("settings"), subject.check.torsion.value_or(plan.torsion));
+  ExpectFriction(root.Member("settings").Member("friction_half_angle_deg"), plan.half_angle);
+  ExpectTorsion(root.Member("settings"), plan.torsion);
   const plan::JsonReader steps = root.Member("steps");
   const std::vector<certificate::EntryProof> proofs = ReadProofs(steps, plan.dimension);
   const std::size_t entries = plan.steps.size() + 1;
@@ -121,7 +120,7 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
   ReportVerification verification;
   std::size_t proved = 0;
   for (const certificate::EntryVerdict& entry :
-       certificate::CheckPlanProofs(check.located, std::tan(half_angle), proofs)) {
+       certificate::CheckPlanProofs(check.located, std::tan(plan.half_angle), proofs)) {
     const std::string fault = FaultOf(check.steps[entry.index]);
     verification.text += std::to_string(entry.index) + " " + entry.kind + "  " +
                          (fault.empty() ? DescribeProofs(entry) : fault) + "\n";
@@ -134,7 +133,7 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
                          (fault.empty() ? "not proved: the report has no proof of it" : fault) +
                          "\n";
   }
-  verification.text += Summary(check.steps, proved, half_angle);
+  verification.text += Summary(check.steps, proved, plan.half_angle);
   verification.proved = proved == entries;
   return verification;
 }

@@ -152,7 +152,7 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     """
     _arguments.of_type("object", object, Object)
     _arguments.of_type("plan", plan, Plan, "; Plan.read reads a file")
-    given = _regrasp.ValidateArguments()
+    given = _regrasp.ValidationOptions()
     given.half_angle = _arguments.half_angle(mu, friction_angle_deg)
     if torsion is not None:
         given.torsion = _arguments.number("torsion", torsion, 0, zero=True)
@@ -181,7 +181,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     if given.replay_by_hand and given.stress:
         raise InputError('stress requires replay="points"')
     if tip is not None:
-        given.own_tips = _arguments.choice("tip", tip, ["ball", "geometry"]) == "geometry"
+        if _arguments.choice("tip", tip, ["ball", "geometry"]) == "geometry":
+            given.use_tip_geometry()
         if not given.replay_by_hand:
             raise InputError('tip requires replay="hand"')
     given.feedback = _arguments.flag("feedback", feedback)

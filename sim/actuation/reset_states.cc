@@ -56,7 +56,7 @@ ResetStates::ResetStates(const kinematics::HandFile& file, const object::Polyhed
       world_(file, solid, scale,
              {options.friction_factor * std::tan(options.half_angle), options.mass_kg, kGravity}),
       fresh_(world_, solid, scale, AtRest(options.tolerance)),
-      judge_(fresh_) {
+      monitor_(fresh_) {
   const std::vector<std::string> names = world_.joint_names();
   for (const kinematics::Finger& finger : world_.hand().fingers) {
     std::vector<int>& places = joints_.emplace_back();
@@ -82,7 +82,7 @@ std::optional<double> ResetStates::SqueezeOf(const plan::HandState& rest,
 std::variant<ResetState, Reason> ResetStates::Make(const plan::HandState& rest,
                                                    const plan::FingerGrasp& grasp,
                                                    double squeeze_N) {
-  judge_.CopyState(fresh_);
+  monitor_.CopyState(fresh_);
   try {
     TakeHold(rest, grasp, squeeze_N);
   } catch (const UnstableError&) {
@@ -112,16 +112,16 @@ void ResetStates::TakeHold(const plan::HandState& rest, const plan::FingerGrasp&
     control.Step();
   }
   world_.PinObject(false);
-  for (const FingerIndex f : hold.fingers) judge_.SetHolding(f, true);
+  for (const FingerIndex f : hold.fingers) monitor_.SetHolding(f, true);
   for (int i = StepsIn(kSettle, world_); i > 0 && !Failure(); --i) {
     control.Step();
-    judge_.Watch(rest.pose);
+    monitor_.Watch(rest.pose);
   }
 }
 
 std::optional<Reason> ResetStates::Failure() const {
-  if (!judge_.breach()) return std::nullopt;
-  return judge_.breach()->reason;
+  if (!monitor_.violation()) return std::nullopt;
+  return monitor_.violation()->reason;
 }
 
 ResetState ResetStates::Store(const plan::FingerGrasp& grasp, double squeeze_N) const {
@@ -156,18 +156,19 @@ std::optional<Reason> ResetStates::Validate(ResetState& state) {
   world_.Place(StateOf(state));
   world_.SetControls(state.controls);
   state.qpos = world_.Save().engine.qpos;
-  judge_.CopyState(fresh_);
-  for (FingerIndex f{0}; f < std::ssize(state.tips); ++f) judge_.SetHolding(f, state.tips[f].holds);
+  monitor_.CopyState(fresh_);
+  for (FingerIndex f{0}; f < std::ssize(state.tips); ++f)
+    monitor_.SetHolding(f, state.tips[f].holds);
   try {
     for (int i = StepsIn(kHeld, world_); i > 0 && !Failure(); --i) {
       world_.Step();
-      judge_.Watch(pose);
+      monitor_.Watch(pose);
     }
   } catch (const UnstableError&) {
     return Reason::kSimulationUnstable;
   }
-  state.off_m = judge_.measures().off_m;
-  state.off_rad = judge_.measures().off_rad;
+  state.off_m = monitor_.measures().off_m;
+  state.off_rad = monitor_.measures().off_rad;
   return Failure();
 }
 

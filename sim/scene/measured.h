@@ -1,69 +1,74 @@
 #pragma once
 
 #include <map>
+#include <string>
 
 #include "planner/grasp/finger_friction.h"
+#include "planner/plan/reason.h"
 
 namespace regrasp::sim {
 
-// Quantities that a replay measures, as plain values for the reports.
+// Measurements of a replay as plain values, which reports contain.
 
-/// Shares of the travel of a sliding step, summed over its contacts, by method of execution. They
-/// sum to 1. For a sliding step that only turns normals they are shares of the subpaths between
-/// waypoints.
+/// Shares of the travel of a sliding step, summed over its contacts, by the way of execution. They
+/// sum to 1. If the step only turns normals, they are shares of the subpaths between waypoints.
 struct AlignShares {
   double imitated = 0;
-  double slid = 0;  ///< slid while the other fingers alone hold the object
-  /// Slid without force closure of the other fingers, or rolled, because nothing else is valid.
-  double best_effort = 0;
+  double slid = 0;         ///< the other fingers alone hold the object
+  double best_effort = 0;  ///< slid although they do not, or rolled: no other execution is valid
 };
 
-/// Method of execution of a sliding step; kNone for other steps.
+/// Execution of a sliding step; kNone for other steps.
 enum class AlignMode { kNone, kImitated, kSlid, kMixed };
 
-/// Smallest friction margin by finger, radians. Fingers that never had a contact force are missing.
+/// The first limit that a step violates in a replay.
+struct Violation {
+  plan::Reason reason = plan::Reason::kNone;
+  std::string detail;  ///< finger, number, limit and phase of the step, for people
+  plan::Fault fault;   ///< location of the fault, for an image
+};
+
+/// The smallest friction margin of each finger, radians, by the finger's number. A finger that
+/// never pressed has none.
 using FingerMargins = std::map<FingerIndex, double>;
 
-/// Direction of a disturbance force or torque on the object in a static grasp.
+/// Direction of a disturbance force or torque on a static grasp.
 struct Push {
   bool turn = false;  ///< torque about the axis instead of force along it
   int axis = 0;       ///< 0 x, 1 y, 2 z
   double sign = 1;    ///< +1 or −1
 };
 
-/// Resisted wrench of a static grasp in one direction, over the grasp force (a torque also over R).
-/// It acts in addition to the weight, with grasp forces adapted to it.
+/// The largest disturbance that a static grasp resists in one direction in addition to the weight,
+/// over the grasp force (a torque also over R). Finger forces adapt to it.
 struct DirectionStress {
   Push push;
-  /// Largest disturbance that the object withstands in the replay, found by bisection; 0 if it does
-  /// not withstand the smallest.
+  /// Largest value that the object withstands in the replay, by bisection; 0 if it withstands none.
   double replay = 0;
-  /// Largest disturbance that forces inside the cones with the same grasp force balance, at the
-  /// planned contacts (planner/grasp/largest_load.h). 0 if they do not balance the weight.
+  /// Largest value that forces inside the cones balance at the planned contacts with the same grasp
+  /// force (planner/grasp/largest_load.h); 0 if they do not balance the weight.
   double analysis = 0;
 };
 
-/// Measurements of a step in a replay with a hand, relative to the plan.
+/// Deviations from the plan and loads in one step of a replay by a hand.
 struct HandMeasures {
-  double off_m = 0;       ///< largest distance of the object's centroid from its planned position
-  double off_rad = 0;     ///< largest deviation of its orientation
-  double rest_off_m = 0;  ///< distance in the hold phase after the step
+  double off_m = 0;       ///< largest distance of the object's centroid from the plan
+  double off_rad = 0;     ///< the same of its orientation
+  double rest_off_m = 0;  ///< in the static grasp after the step
   double rest_off_rad = 0;
-  double slip_m = 0;  ///< largest slip of a fingertip in contact
-  double roll_m = 0;  ///< largest path of a contact on the object while its finger is in contact
+  double slip_m = 0;           ///< largest slide of a holding fingertip
+  double roll_m = 0;           ///< largest travel of a contact on the object while its finger holds
   double torque_share = 0;     ///< largest torque of an actuator over its limit
   double torque_Nm = 0;        ///< largest torque about an independent joint
   double control_limit_s = 0;  ///< longest total time of a control at an end of its range
-  double coupling_rad = 0;     ///< largest residual of a joint coupling
-  /// Largest penetration depth in the object of the geometry that touches it.
-  double tip_depth_m = 0;
-  /// Largest penetration depth, in hold phases, of the fingertip collision geometry of the model
-  /// that a sphere replaces.
+  double coupling_rad = 0;     ///< largest residual of a coupling of joints
+  double tip_depth_m = 0;      ///< largest depth of a fingertip in the object
+  /// Largest depth in static grasps of collision geometry of a fingertip that a sphere replaces.
   double covered_depth_m = 0;
-  double simulated_s = 0;  ///< simulated time without disturbance tests
+  double simulated_s = 0;  ///< without the disturbance tests
 };
 
-/// Finger of a grasp by its number in the hand, and its required friction.
+/// A finger of a grasp, by its number in the hand, and the friction that it requires.
 struct NeedOfFinger {
   FingerIndex finger = {};
   grasp::FingerFriction friction;

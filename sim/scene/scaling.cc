@@ -111,7 +111,7 @@ double RollingTime(const ReplaySettings& s, double gyration) {
 }  // namespace
 
 object::BodyMeasures BodyOf(const object::Object& object, double scale,
-                            const ReplayOptions& options) {
+                            const ReplayConditions& options) {
   object::BodyMeasures body =
       object::MeasureBody(object, scale, options.density_kg_m3, options.thickness);
   if (options.mass_kg) body.mass_kg = *options.mass_kg;
@@ -124,7 +124,7 @@ ReplaySettings DeriveSettings(const object::Object& object, double scale, double
   const object::BodyMeasures body = BodyOf(object, scale, options);
   CheckBody(object, options, body);
   s.diameter_m = body.diameter_m;
-  s.mu = std::tan(options.half_angle.value_or(half_angle));
+  s.mu = std::tan(half_angle);
   s.thickness_m = body.thickness_m;
   s.mass_kg = body.mass_kg;
   s.shake = options.shake;

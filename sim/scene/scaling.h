@@ -31,7 +31,7 @@ inline constexpr double kStrongestGrip_N = 200;
 
 /// Return the size and mass of the object for the options.
 [[nodiscard]] object::BodyMeasures BodyOf(const object::Object& object, double scale,
-                                          const ReplayOptions& options);
+                                          const ReplayConditions& options);
 
 /// Derive mass, grasp force, finger and time step from the object.
 /// Every replay is then the same experiment up to units. Two objects of one shape pass through the

@@ -310,10 +310,9 @@ void AssignCollisionBits(Scene& scene) {
 void LayOut(const Sequence& sequence, const ReplayOptions& options, Scene& scene) {
   const object::Object& object = sequence.object;
   const double scale = sequence.plan.scale;
-  const double half_angle = options.half_angle.value_or(sequence.plan.half_angle);
   const int fingers = static_cast<int>(scene.fingers.size());
-  scene.entries =
-      WriteScripts(sequence, fingers, half_angle, WantedClearance(object, options), options.align);
+  scene.entries = WriteScripts(sequence, fingers, sequence.plan.half_angle,
+                               WantedClearance(object, options), options.align);
   SiteCollector collector{object, scale, scene,
                           object::kPointTolerance * object.diameter() * scale};
   for (plan::EntryIndex index{0}; index <= sequence.steps; ++index) {
@@ -352,9 +351,8 @@ Scene MakeScene(const object::Object& body, const plan::Plan& plan, int steps,
   LayOut(sequence, options, scene);
   AssignCollisionBits(scene);
   if (options.hand_squeeze && !options.squeeze_N) {
-    options.squeeze_N =
-        HandSqueeze(body, plan, steps + 1, options.half_angle.value_or(plan.half_angle),
-                    BodyOf(body, plan.scale, options).mass_kg);
+    options.squeeze_N = HandSqueeze(body, plan, steps + 1, plan.half_angle,
+                                    BodyOf(body, plan.scale, options).mass_kg);
   }
   scene.settings = DeriveSettings(
       body, plan.scale, plan.half_angle,

@@ -10,13 +10,11 @@
 
 namespace regrasp::sim {
 
-/// Responses of the fingers to the disturbance test of a static grasp, and the response that
-/// decides.
+/// Response of the fingers to the disturbance test, and the response that decides.
 enum class Protocol {
-  kAdapted,  ///< forces planned for each direction: can the grasp resist?
-  /// Constant forces of the static grasp and the servos' stiffness: does this grasp force resist?.
-  kFixed,
-  kBoth,  ///< both, from the same static grasp; the adapted response decides
+  kAdapted,  ///< forces planned for each direction
+  kFixed,    ///< the forces of the static grasp and the stiffness of the servos
+  kBoth,     ///< both, from the same static grasp; the adapted one decides
 };
 
 /// Physics engine of a replay by points (sim/scene/engine.h).
@@ -26,7 +24,7 @@ enum class EngineChoice {
   kBoth,    ///< both, one after the other; MuJoCo decides
 };
 
-/// Preferred execution of sliding steps in the replay (sim/scene/align_script.h).
+/// Execution of sliding steps if both are possible (sim/scene/align_script.h).
 enum class AlignChoice {
   kImitate,  ///< finger handovers with free fingers
   kSlide,    ///< fingers slide while the others alone hold the object
@@ -34,58 +32,57 @@ enum class AlignChoice {
 
 /// Source of the grasp force.
 enum class SqueezeSource {
-  kShake,  ///< the weight is a tenth of the disturbance force (scaling.h)
-  kHand,   ///< grasp force of a hand (HandSqueeze, scaling.h)
-  kGiven,
-  kTorques,  ///< limited by the torques of a hand (sim/actuation/torque_squeeze.h)
+  kShake,    ///< the weight is a tenth of the disturbance force (scaling.h)
+  kHand,     ///< the force of a human hand (hand_squeeze.h)
+  kGiven,    ///< ReplayConditions::squeeze_N
+  kTorques,  ///< the torque limits of the hand (sim/actuation/torque_squeeze.h)
 };
 
-/// Options of the replay. Omitted values are derived from the object (sim/scene/scaling.h).
-struct ReplayOptions {
-  std::optional<double> half_angle;  ///< friction angle, radians; default: that of the plan
-  std::optional<double> mass_kg;     ///< replaces the density
-  double density_kg_m3 = 1000;       ///< density ρ of the homogeneous solid
-  std::optional<double> thickness;   ///< thickness of a polygon's prism, in the object's own units
-  /// Radius of the fingertip spheres, in the object's own units; derived if neither this nor the
-  /// plan sets it.
+/// Options of every replay: the object's mass, the grasp force and the disturbance test. Optional
+/// values without a value are derived from the object, the grasps or the hand.
+struct ReplayConditions {
+  std::optional<double> mass_kg;    ///< mass of the object, instead of density
+  double density_kg_m3 = 1000;      ///< density of the homogeneous solid
+  std::optional<double> thickness;  ///< thickness of a polygon's prism, unit of the object
+  std::optional<double> squeeze_N;  ///< grasp force: sum of the normal forces of a static grasp
+  double shake = 0.01;         ///< ρ: disturbance force over grasp force; a torque also over R
+  double friction_factor = 1;  ///< friction of the world over the one that the hand assumes
+  double mass_factor = 1;      ///< mass of the object over the one that the hand assumes
+};
+
+/// Options of a replay by point fingers. The friction is the plan's. Optional values without a
+/// value are derived from the object (sim/scene/scaling.h).
+struct ReplayOptions : ReplayConditions {
+  /// Radius of the spherical fingertips, unit of the object; default: the plan's, if it has one.
   std::optional<double> finger_radius;
-  std::optional<double> squeeze_N;  ///< total normal force of a static grasp
-  /// Whether an omitted `squeeze_N` is that of a hand (HandSqueeze) instead of one for the
-  /// disturbance test.
+  /// Whether a derived grasp force is that of a human hand (hand_squeeze.h).
   bool hand_squeeze = false;
-  /// Disturbance size ρ: force over grasp force, and torque over grasp force · R.
-  double shake = 0.01;
   Protocol protocol = Protocol::kAdapted;
-  /// Whether to search for the resisted wrench in each direction (sim/measure/shake.h).
-  bool stress = false;
-  double tolerance = 1e-3;  ///< limit of (|Δx| + R|Δrotation|) / D, and of slip / D
+  bool stress = false;      ///< measure the resisted wrench in each direction (sim/measure/shake.h)
+  double tolerance = 1e-3;  ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
   AlignChoice align = AlignChoice::kImitate;
-  double stiffness_factor = 1;  ///< factor of the derived finger stiffness
-  double timestep_factor = 1;   ///< factor of the derived time step
-  double friction_factor = 1;   ///< simulated friction over the assumed friction
-  double mass_factor = 1;       ///< simulated mass of the object over the assumed mass
+  double stiffness_factor = 1;  ///< factor on the derived stiffness of the fingers
+  double timestep_factor = 1;   ///< factor on the derived time step
   EngineChoice engine = EngineChoice::kMujoco;
-  /// 9.81 m/s² along −z of the object's own frame; none for a planar object, whose weight the plane
-  /// supports.
-  bool gravity = true;
+  bool gravity = true;  ///< 9.81 m/s² along −z of the object's frame, except for planar objects
 };
 
-/// Geometry of a fingertip that touches the object in a replay with a hand.
+/// Geometry of a fingertip that touches the object in a replay by a hand.
 enum class TipShape {
-  kBall,      ///< sphere of the hand file, for which plans are made
-  kGeometry,  ///< collision geometry of the hand model at the fingertip
+  kBall,      ///< the sphere of the hand's file, for which plans are made
+  kGeometry,  ///< the collision geometry of the fingertip in the hand's model
 };
 
-/// Limits of a replay with a hand.
+/// Limits on deviations in a replay by a hand.
 struct HandTolerance {
-  double length_m = 2e-3;     ///< distance of the object's centroid from its planned position
-  double angle_rad = 0.0873;  ///< deviation of its orientation: 5°
-  double at_rest = 0.5;       ///< share of both that is allowed in hold phases
-  double slip_m = 1e-3;       ///< slip of a fingertip in contact along the surface
-  double lost_s = 0.02;       ///< time of a fingertip in contact without a force
-  double limit_s = 0.05;      ///< time of an actuator at the limit of its force
-  double joint_rad = 0.0175;  ///< angle of a joint outside its range, or off its coupling: 1°
-  double depth_m = 5e-4;      ///< penetration depth of a fingertip in the object
+  double length_m = 2e-3;     ///< of the object's centroid from the plan
+  double angle_rad = 0.0873;  ///< of its orientation: 5°
+  double at_rest = 0.5;       ///< share of both that is allowed in a static grasp
+  double slip_m = 1e-3;       ///< of a holding fingertip along the surface
+  double lost_s = 0.02;       ///< of a holding fingertip without a force
+  double limit_s = 0.05;      ///< of an actuator at the limit of its force
+  double joint_rad = 0.0175;  ///< of a joint outside its range, or off its coupling: 1°
+  double depth_m = 5e-4;      ///< of a fingertip in the object
 };
 
 /// Limits of the hand model for one independent joint, on which a verdict depends.
@@ -100,17 +97,16 @@ struct DriveLimits {
   double upper_rad = 0;
 };
 
-/// Additional settings of a replay with a hand.
+/// Settings of a replay by a hand in addition to ReplaySettings.
 struct HandReplaySettings {
   HandTolerance tolerance;
   /// Whether the measured deviation of the object corrects the joint targets.
   bool feedback = true;
   TipShape tip = TipShape::kBall;
-  double least_stiffness = 0;    ///< smallest stiffness of the joint servos, N m / rad
-  double largest_stiffness = 0;  ///< largest stiffness of the joint servos, N m / rad
-  /// Whether actuators of the model that are not servos were converted to servos.
-  bool derived_servos = false;
-  std::vector<DriveLimits> limits = {};  ///< limits by finger and independent joint
+  double least_stiffness = 0;            ///< of the servos of joints, N m / rad
+  double largest_stiffness = 0;          ///< the same
+  bool derived_servos = false;           ///< whether some actuators were converted to servos
+  std::vector<DriveLimits> limits = {};  ///< by finger and independent joint
 };
 
 /// Values with which the replay ran.
@@ -140,8 +136,8 @@ struct ReplaySettings {
   double friction_factor = 1;    ///< simulated friction over `mu`
   double mass_factor = 1;        ///< simulated mass of the object over `mass_kg`
   double patch_size_m = 0;       ///< half the side of a contact patch
-  double patch_thickness_m = 0;  ///< thickness of the prism under a contact patch
-  /// Settings of a replay with a hand; members that apply only to ideal fingers are then 0.
+  double patch_thickness_m = 0;  ///< of the prism under a contact patch
+  /// Set for a replay by a hand; values of point fingers are then 0.
   std::optional<HandReplaySettings> hand = std::nullopt;
 };
 

@@ -15,54 +15,48 @@
 
 namespace regrasp::sim {
 
-/// What a step breaks first.
-struct HandBreach {
-  plan::Reason reason = plan::Reason::kNone;
-  std::string detail;
-  plan::Fault fault;
-};
-
-/// Judges a replay by a hand while it runs.
-class HandJudge {
+/// Measures a replay by a hand while it runs, and finds the first violated limit of each step.
+class ExecutionMonitor {
  public:
-  HandJudge(const HandWorld& world, const object::Polyhedron& solid, double scale,
-            const HandTolerance& tolerance);
+  ExecutionMonitor(const HandWorld& world, const object::Polyhedron& solid, double scale,
+                   const HandTolerance& tolerance);
 
-  /// What another judge of the same world has seen.
-  void CopyState(const HandJudge& other);
-  /// A step begins.
+  /// Take the measurements of another monitor of the same world.
+  void CopyState(const ExecutionMonitor& other);
+  /// Begin a step: forget its measurements and violation.
   void Start();
+  /// Set the phase of the step that violations name: "during the move".
   void SetPhase(std::string phase) { phase_ = std::move(phase); }
-  /// What fails from now on fails under this push.
+  /// Set the disturbance that violations name from now on.
   void SetPush(plan::FaultPush push) { push_ = std::move(push); }
-  /// Fingers are to be at these contacts.
-  /// @param known_off  how far off they may be besides, metres.
+  /// Check that fingers are at these contacts.
+  /// @param known_off  additional allowed distance, metres.
   void WatchContacts(const plan::FingerGrasp& grasp, double scale, double known_off = 0);
-  /// A finger holds from now on, or no more; its slide counts from here.
+  /// Set whether a finger holds from now on; its slip is measured from here.
   void SetHolding(FingerIndex finger, bool holds);
-  /// A finger slides from now on, and its tip should be there, a place in the object's frame; how
-  /// far off the surface does not count.
+  /// Set the target of a sliding finger. Its distance from the surface does not count.
+  /// @param centre_O  centre of the fingertip sphere, in the object's frame.
   void SetSliding(FingerIndex finger, const Eigen::Vector3d& centre_O);
-  /// After every step of the world. @param planned  where the object should be.
+  /// Measure after a time step of the world. @param planned  pose of the object.
   void Watch(const Eigen::Isometry3d& planned);
-  /// The object is at rest and should be there.
+  /// Measure a static grasp. @param planned  pose of the object.
   void WatchRest(const Eigen::Isometry3d& planned);
-  /// A finger that is placed is to be near the object now.
+  /// Check that a finger that was placed is near the object.
   void WatchPlaced(FingerIndex finger);
-  /// While on, from the start to the first rest, the model's own tips may be in the object: they
-  /// are pushed out of it.
+  /// Set whether fingertips of the model may be in the object: from the start to the first static
+  /// grasp they are pressed out of it.
   void SetSettling(bool on) { settling_ = on; }
-  /// The object is at rest: no tip may be too deep in it, and how deep collision geometry is that
-  /// spheres stand for is measured.
+  /// Check the depth of fingertips in a static grasp, and measure that of the collision geometry
+  /// which spheres replace.
   void WatchTipsAtRest();
 
-  [[nodiscard]] const std::optional<HandBreach>& breach() const { return breach_; }
+  [[nodiscard]] const std::optional<Violation>& violation() const { return violation_; }
   [[nodiscard]] const HandMeasures& measures() const { return measures_; }
 
  private:
   struct Finger {
     bool holds = false;
-    std::optional<Eigen::Vector3d> slides_to_O = std::nullopt;  ///< its tip's centre
+    std::optional<Eigen::Vector3d> slides_to_O = std::nullopt;  ///< target of SetSliding
     double without_force = 0;
     Eigen::Vector3d slip = Eigen::Vector3d::Zero();
     Eigen::Vector3d first_O = Eigen::Vector3d::Zero();
@@ -77,16 +71,17 @@ class HandJudge {
   void WatchJoints(FingerIndex finger);
   void WatchCouplings();
   void WatchTips(const std::vector<HandLinks::Placed>& placed);
-  /// What of a finger must not be deeper in the object than `allowed`, in the palm's frame.
+  /// Check that a shape of a finger, in the palm's frame, is not deeper in the object than
+  /// `allowed`.
   void WatchDepth(FingerIndex finger, const collision::ConvexShape& shape, double allowed,
                   const std::string& what);
-  /// What is drawn of a breach.
+  /// Marks of a violation in an image.
   struct Marks {
     std::string number;
     std::vector<FingerIndex> fingers = {};
     std::vector<plan::HandLink> links = {};
     std::optional<Eigen::Vector3d> at = std::nullopt;
-    std::optional<Eigen::Isometry3d> pose = std::nullopt;  ///< where the object should be
+    std::optional<Eigen::Isometry3d> pose = std::nullopt;  ///< planned pose of the object
   };
   void Fail(plan::Reason reason, const std::string& what, Marks marks);
   [[nodiscard]] std::vector<HandLinks::Placed> PlaceLinks() const;
@@ -95,13 +90,13 @@ class HandJudge {
   [[nodiscard]] Marks MarksOfJoint(FingerIndex finger, int joint, std::string number) const;
 
   const HandWorld& world_;
-  std::shared_ptr<const Penetration> object_;  ///< which copies share
+  std::shared_ptr<const Penetration> object_;  ///< copies share it
   HandTolerance tolerance_;
   std::string phase_;
   std::optional<plan::FaultPush> push_;
   std::vector<Finger> fingers_;
   HandMeasures measures_;
-  std::optional<HandBreach> breach_;
+  std::optional<Violation> violation_;
   int steps_ = 0;
   bool settling_ = false;
 };

@@ -1,4 +1,4 @@
-#include "sim/actuation/hand_judge.h"
+#include "sim/actuation/execution_monitor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,22 +16,22 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using plan::Reason;
 
-/// Links are looked at every hundredth of a second.
+/// Number of time steps between two checks of the links, a hundredth of a second.
 constexpr int kLinkSteps = 10;
-/// Newtons: a finger that presses with less holds nothing.
+/// Least force of a finger that holds, newtons.
 constexpr double kNoForce = 1e-3;
-/// Of a limit: no actuator gives more.
+/// Share of a force limit that counts as the limit.
 constexpr double kAtLimit = 0.999;
-/// Allowed depth of a fingertip's own geometry where its sphere stands for it, of the radius: the
-/// sphere is fitted into the geometry.
+/// Allowed depth of the collision geometry of a fingertip that a sphere replaces, over the radius.
+/// The sphere is fitted into the geometry.
 constexpr double kCoveredDepth = 0.5;
-/// Beyond what is allowed no depth is measured, metres.
+/// Largest depth beyond the limit that is measured, metres.
 constexpr double kDeepestMeasured = 0.02;
 
 }  // namespace
 
-HandJudge::HandJudge(const HandWorld& world, const object::Polyhedron& solid, double scale,
-                     const HandTolerance& tolerance)
+ExecutionMonitor::ExecutionMonitor(const HandWorld& world, const object::Polyhedron& solid,
+                                   double scale, const HandTolerance& tolerance)
     : world_(world),
       object_(std::make_shared<const Penetration>(solid, scale)),
       tolerance_(tolerance) {
@@ -42,28 +42,29 @@ HandJudge::HandJudge(const HandWorld& world, const object::Polyhedron& solid, do
   }
 }
 
-void HandJudge::Start() {
+void ExecutionMonitor::Start() {
   measures_ = {};
-  breach_.reset();
+  violation_.reset();
   for (Finger& finger : fingers_) {
     std::ranges::fill(finger.at_limit, 0);
     std::ranges::fill(finger.control_limit, 0);
   }
 }
 
-void HandJudge::CopyState(const HandJudge& other) {
+void ExecutionMonitor::CopyState(const ExecutionMonitor& other) {
   phase_ = other.phase_;
   push_ = other.push_;
   fingers_ = other.fingers_;
   measures_ = other.measures_;
-  breach_ = other.breach_;
+  violation_ = other.violation_;
   steps_ = other.steps_;
   settling_ = other.settling_;
 }
 
-void HandJudge::WatchContacts(const plan::FingerGrasp& grasp, double scale, double known_off) {
+void ExecutionMonitor::WatchContacts(const plan::FingerGrasp& grasp, double scale,
+                                     double known_off) {
   for (const plan::FingerContact& held : grasp) {
-    // Contacts are planned for balls: another tip touches elsewhere.
+    // Contacts are planned for spheres. Other fingertips touch elsewhere.
     const std::optional<collision::NearPoint> near = world_.NearBall(held.finger);
     const double radius = world_.hand().fingers[held.finger].tip.radius;
     const double off = near ? std::max((near->point - scale * held.contact.p).norm(),
@@ -78,7 +79,7 @@ void HandJudge::WatchContacts(const plan::FingerGrasp& grasp, double scale, doub
   }
 }
 
-void HandJudge::SetHolding(FingerIndex finger, bool holds) {
+void ExecutionMonitor::SetHolding(FingerIndex finger, bool holds) {
   Finger& state = fingers_[finger];
   state.holds = holds;
   state.slides_to_O.reset();
@@ -87,18 +88,18 @@ void HandJudge::SetHolding(FingerIndex finger, bool holds) {
   state.first_O = world_.touch(finger).point_O;
 }
 
-void HandJudge::SetSliding(FingerIndex finger, const Vector3d& centre_O) {
+void ExecutionMonitor::SetSliding(FingerIndex finger, const Vector3d& centre_O) {
   fingers_[finger].slides_to_O = centre_O;
 }
 
-void HandJudge::Fail(Reason reason, const std::string& what, Marks marks) {
-  if (breach_) return;
-  HandBreach& breach = breach_.emplace();
-  breach.reason = reason;
-  breach.detail = what + (phase_.empty() ? "" : " " + phase_);
-  breach.fault.fingers = std::move(marks.fingers);
-  breach.fault.push = push_;
-  plan::HandFaultPlace& place = breach.fault.hand.emplace();
+void ExecutionMonitor::Fail(Reason reason, const std::string& what, Marks marks) {
+  if (violation_) return;
+  Violation& violation = violation_.emplace();
+  violation.reason = reason;
+  violation.detail = what + (phase_.empty() ? "" : " " + phase_);
+  violation.fault.fingers = std::move(marks.fingers);
+  violation.fault.push = push_;
+  plan::HandFaultPlace& place = violation.fault.hand.emplace();
   place.state = world_.state();
   place.links = std::move(marks.links);
   place.number = std::move(marks.number);
@@ -106,8 +107,8 @@ void HandJudge::Fail(Reason reason, const std::string& what, Marks marks) {
   place.pose = marks.pose;
 }
 
-void HandJudge::WatchObject(const Isometry3d& planned, double share, double& off_m,
-                            double& off_rad) {
+void ExecutionMonitor::WatchObject(const Isometry3d& planned, double share, double& off_m,
+                                   double& off_rad) {
   const Isometry3d pose = world_.object_pose();
   const Vector3d& centre = world_.centroid_O();
   const double off = (pose * centre - planned * centre).norm();
@@ -128,7 +129,7 @@ void HandJudge::WatchObject(const Isometry3d& planned, double share, double& off
        {.number = number, .pose = planned});
 }
 
-void HandJudge::WatchContact(FingerIndex f) {
+void ExecutionMonitor::WatchContact(FingerIndex f) {
   Finger& state = fingers_[f];
   const double dt = world_.timestep();
   const TipTouch touch = world_.touch(f);
@@ -164,12 +165,12 @@ void HandJudge::WatchContact(FingerIndex f) {
   }
 }
 
-void HandJudge::WatchFinger(FingerIndex f) {
+void ExecutionMonitor::WatchFinger(FingerIndex f) {
   if (fingers_[f].holds) WatchContact(f);
   WatchActuators(f);
 }
 
-void HandJudge::WatchActuators(FingerIndex f) {
+void ExecutionMonitor::WatchActuators(FingerIndex f) {
   Finger& state = fingers_[f];
   const double dt = world_.timestep();
   for (std::size_t drive = 0; drive < state.at_limit.size(); ++drive) {
@@ -194,7 +195,8 @@ void HandJudge::WatchActuators(FingerIndex f) {
   }
 }
 
-HandJudge::Marks HandJudge::MarksOfJoint(FingerIndex f, int joint, std::string number) const {
+ExecutionMonitor::Marks ExecutionMonitor::MarksOfJoint(FingerIndex f, int joint,
+                                                       std::string number) const {
   const kinematics::Finger& chain = world_.hand().fingers[f];
   return {std::move(number),
           {f},
@@ -202,7 +204,7 @@ HandJudge::Marks HandJudge::MarksOfJoint(FingerIndex f, int joint, std::string n
           kinematics::FramesOf(chain, world_.posture(f))[joint].translation()};
 }
 
-void HandJudge::WatchJoints(FingerIndex f) {
+void ExecutionMonitor::WatchJoints(FingerIndex f) {
   const kinematics::Finger& chain = world_.hand().fingers[f];
   const std::vector<double> angles = world_.joint_angles_of(f);
   for (std::size_t k = 0; k < angles.size(); ++k) {
@@ -217,7 +219,7 @@ void HandJudge::WatchJoints(FingerIndex f) {
   }
 }
 
-void HandJudge::WatchCouplings() {
+void ExecutionMonitor::WatchCouplings() {
   const auto [equality, residual] = world_.largest_coupling_residual();
   measures_.coupling_rad = std::max(measures_.coupling_rad, residual);
   if (equality < 0 || residual <= tolerance_.joint_rad) return;
@@ -229,18 +231,19 @@ void HandJudge::WatchCouplings() {
        finger.valid() ? MarksOfJoint(finger, joint, number) : Marks{number});
 }
 
-std::vector<HandLinks::Placed> HandJudge::PlaceLinks() const {
+std::vector<HandLinks::Placed> ExecutionMonitor::PlaceLinks() const {
   std::vector<kinematics::Posture> postures;
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) postures.push_back(world_.posture(f));
   return world_.links().Place(world_.hand(), postures);
 }
 
-std::string HandJudge::LinkText(const HandLinks::Placed& placed) const {
+std::string ExecutionMonitor::LinkText(const HandLinks::Placed& placed) const {
   const FingerIndex f = placed.link->finger;
   return placed.link->body + " of " + (f.valid() ? FingerText(world_.hand(), f) : "the palm");
 }
 
-HandJudge::Marks HandJudge::MarksOf(std::initializer_list<const HandLinks::Placed*> links) {
+ExecutionMonitor::Marks ExecutionMonitor::MarksOf(
+    std::initializer_list<const HandLinks::Placed*> links) {
   Marks marks{"touch"};
   Vector3d sum = Vector3d::Zero();
   for (const HandLinks::Placed* placed : links) {
@@ -255,7 +258,7 @@ HandJudge::Marks HandJudge::MarksOf(std::initializer_list<const HandLinks::Place
   return marks;
 }
 
-void HandJudge::WatchLinks() {
+void ExecutionMonitor::WatchLinks() {
   const Isometry3d to_object = world_.object_pose().inverse();
   const std::vector<HandLinks::Placed> placed = PlaceLinks();
   for (const HandLinks::Placed& one : placed) {
@@ -276,7 +279,7 @@ void HandJudge::WatchLinks() {
   WatchTips(placed);
 }
 
-void HandJudge::WatchTips(const std::vector<HandLinks::Placed>& placed) {
+void ExecutionMonitor::WatchTips(const std::vector<HandLinks::Placed>& placed) {
   const bool is_ball = world_.tip_shape() == TipShape::kBall;
   if (is_ball) {
     for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
@@ -297,8 +300,8 @@ void HandJudge::WatchTips(const std::vector<HandLinks::Placed>& placed) {
   }
 }
 
-void HandJudge::WatchDepth(FingerIndex f, const collision::ConvexShape& shape, double allowed,
-                           const std::string& what) {
+void ExecutionMonitor::WatchDepth(FingerIndex f, const collision::ConvexShape& shape,
+                                  double allowed, const std::string& what) {
   const collision::ConvexShape placed = collision::Moved(world_.object_pose().inverse(), shape);
   const Vector3d outward = -world_.touch(f).inward_O;
   if (!object_->IsDeeper(placed, allowed, outward)) return;
@@ -311,7 +314,7 @@ void HandJudge::WatchDepth(FingerIndex f, const collision::ConvexShape& shape, d
        {text + " inside", {f}, {{f, joints}}, world_.tip(f)});
 }
 
-void HandJudge::WatchTipsAtRest() {
+void ExecutionMonitor::WatchTipsAtRest() {
   const std::vector<HandLinks::Placed> placed = PlaceLinks();
   WatchTips(placed);
   if (world_.tip_shape() != TipShape::kBall) return;
@@ -325,14 +328,14 @@ void HandJudge::WatchTipsAtRest() {
   }
 }
 
-void HandJudge::WatchPlaced(FingerIndex f) {
+void ExecutionMonitor::WatchPlaced(FingerIndex f) {
   if (std::isfinite(world_.touch(f).gap)) return;
   const int joints = static_cast<int>(world_.hand().fingers[f].joints.size());
   Fail(Reason::kContactLost, FingerText(world_.hand(), f) + " has not reached the object",
        {"not reached", {f}, {{f, joints}}, world_.tip(f)});
 }
 
-void HandJudge::Watch(const Isometry3d& planned) {
+void ExecutionMonitor::Watch(const Isometry3d& planned) {
   measures_.simulated_s += world_.timestep();
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) WatchFinger(f);
   WatchCouplings();
@@ -343,7 +346,7 @@ void HandJudge::Watch(const Isometry3d& planned) {
   WatchObject(planned, 1, measures_.off_m, measures_.off_rad);
 }
 
-void HandJudge::WatchRest(const Isometry3d& planned) {
+void ExecutionMonitor::WatchRest(const Isometry3d& planned) {
   WatchObject(planned, tolerance_.at_rest, measures_.rest_off_m, measures_.rest_off_rad);
 }
 

@@ -1,4 +1,4 @@
-#include "sim/actuation/hand_judge.h"
+#include "sim/actuation/execution_monitor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "tests/sim/actuation/held_in_hand.h"
 
 namespace regrasp::sim {
-namespace hand_judge_test {
+namespace execution_monitor_test {
 
 using plan::Reason;
 
@@ -29,24 +29,21 @@ HandTolerance AnyTolerance() {
           .depth_m = kAnything};
 }
 
-/// Share of the measured value. Replays are identical until one of them ends, so any share is
-/// decisive.
+/// Share of a measured value. Replays are equal until one of them ends, so that any share decides.
 constexpr double kAHundredth = 0.01;
 
-class HandJudgeTest : public HeldInHand {
+class ExecutionMonitorTest : public HeldInHand {
  protected:
-  /// Return the last replayed step, without a disturbance test.
+  /// Return the last step of a replay without disturbance tests.
   [[nodiscard]] StepReplay Replay(const HandTolerance& tolerance, double force_factor = 1) const {
     HandReplayOptions options;
-    options.half_angle = std::atan(kMu);
     options.mass_kg = kMass;
     options.shake = 0;
     options.force_factor = force_factor;
     options.tolerance = tolerance;
     return ReplayHand(hand_, solid(), plan_, options).steps.back();
   }
-  /// Expect that a replay passes if the tolerance is 1 % above the measured value, and fails if it
-  /// is 1 % below.
+  /// Expect a pass if the limit is a hundredth above the measured value, and a failure below it.
   void ExpectDecides(double HandTolerance::*allowed, double measured, Reason reason) const {
     ASSERT_GT(measured, 0);
     HandTolerance tolerance = AnyTolerance();
@@ -58,7 +55,7 @@ class HandJudgeTest : public HeldInHand {
   }
 };
 
-TEST_F(HandJudgeTest, EveryToleranceDecidesByWhatIsMeasured) {
+TEST_F(ExecutionMonitorTest, EveryToleranceDecidesByWhatIsMeasured) {
   const StepReplay step = Replay(AnyTolerance());
   ASSERT_TRUE(step.hand);
   ExpectDecides(&HandTolerance::length_m, step.hand->off_m, Reason::kObjectMoved);
@@ -67,8 +64,8 @@ TEST_F(HandJudgeTest, EveryToleranceDecidesByWhatIsMeasured) {
   ExpectDecides(&HandTolerance::slip_m, step.hand->slip_m, Reason::kSlipped);
 }
 
-TEST_F(HandJudgeTest, FingersWithoutForceLoseTheirContactsAndActuatorsStandAtTheirLimits) {
-  constexpr double kWeak = 0.02;  // share of the actuators' force limits
+TEST_F(ExecutionMonitorTest, FingersWithoutForceLoseTheirContactsAndActuatorsStandAtTheirLimits) {
+  constexpr double kWeak = 0.02;  // of the actuators' force
   EXPECT_EQ(Replay(AnyTolerance()).reason, Reason::kNone);
   HandTolerance tolerance = AnyTolerance();
   tolerance.lost_s = HandTolerance().lost_s;
@@ -80,7 +77,7 @@ TEST_F(HandJudgeTest, FingersWithoutForceLoseTheirContactsAndActuatorsStandAtThe
   EXPECT_EQ(Replay(tolerance, kWeak).reason, Reason::kTorqueLimit);
 }
 
-TEST_F(HandJudgeTest, FingersMayBeFromTheirContactsAsFarAsTheyMaySlip) {
+TEST_F(ExecutionMonitorTest, FingersMayBeFromTheirContactsAsFarAsTheyMaySlip) {
   HandWorld world(hand_, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
   world.Place(plan_.hand->initial);
   HandTolerance tolerance = AnyTolerance();
@@ -89,12 +86,12 @@ TEST_F(HandJudgeTest, FingersMayBeFromTheirContactsAsFarAsTheyMaySlip) {
     plan::FingerGrasp elsewhere = plan_.initial;
     grasp::Contact& contact = elsewhere.front().contact;
     contact.p += share * tolerance.slip_m / kScale * contact.n.unitOrthogonal();
-    HandJudge judge(world, solid(), kScale, tolerance);
-    judge.Start();
-    judge.WatchContacts(plan_.initial, kScale);
-    ASSERT_FALSE(judge.breach()) << judge.breach()->detail;
-    judge.WatchContacts(elsewhere, kScale);
-    EXPECT_EQ(judge.breach() ? judge.breach()->reason : Reason::kNone,
+    ExecutionMonitor monitor(world, solid(), kScale, tolerance);
+    monitor.Start();
+    monitor.WatchContacts(plan_.initial, kScale);
+    ASSERT_FALSE(monitor.violation()) << monitor.violation()->detail;
+    monitor.WatchContacts(elsewhere, kScale);
+    EXPECT_EQ(monitor.violation() ? monitor.violation()->reason : Reason::kNone,
               share > 1 ? Reason::kContactLost : Reason::kNone);
   }
 }
@@ -110,14 +107,14 @@ double LeastTipDistance(const HandWorld& world) {
   return least;
 }
 
-TEST_F(HandJudgeTest, TipsThatAreInEachOtherTouch) {
+TEST_F(ExecutionMonitorTest, TipsThatAreInEachOtherTouch) {
   HandWorld world(hand_, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
   plan::HandState state = plan_.hand->initial;
-  state.pose.translation().z() += 1;  // out of reach
+  state.pose.translation().z() += 1;  // far from the object
   std::mt19937 random(1);
   int touching = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    // With equal joint angles in all fingers of the ring, the fingertips meet on its axis.
+    // All fingers of the ring have the same joint angles, and meet about its axis.
     const kinematics::Finger& chain = hand_.hand.fingers[FingerIndex(0)];
     for (std::size_t k = 0; k < state.joints[FingerIndex(0)].size(); ++k) {
       std::uniform_real_distribution<double> angle(chain.lower[k], chain.upper[k]);
@@ -127,20 +124,20 @@ TEST_F(HandJudgeTest, TipsThatAreInEachOtherTouch) {
     world.Place(state);
     if (LeastTipDistance(world) > 1.8 * chain.tip.radius) continue;
     ++touching;
-    HandJudge judge(world, solid(), kScale, AnyTolerance());
-    judge.Start();
-    judge.Watch(state.pose);
-    ASSERT_TRUE(judge.breach());
-    EXPECT_EQ(judge.breach()->reason, Reason::kHandCollides);
-    EXPECT_THAT(judge.breach()->detail, testing::Not(testing::HasSubstr("object")));
+    ExecutionMonitor monitor(world, solid(), kScale, AnyTolerance());
+    monitor.Start();
+    monitor.Watch(state.pose);
+    ASSERT_TRUE(monitor.violation());
+    EXPECT_EQ(monitor.violation()->reason, Reason::kHandCollides);
+    EXPECT_THAT(monitor.violation()->detail, testing::Not(testing::HasSubstr("object")));
   }
   EXPECT_GT(touching, 3);
   world.Place(plan_.hand->initial);
-  HandJudge judge(world, solid(), kScale, AnyTolerance());
-  judge.Start();
-  judge.Watch(plan_.hand->initial.pose);
-  EXPECT_FALSE(judge.breach()) << judge.breach()->detail;
+  ExecutionMonitor monitor(world, solid(), kScale, AnyTolerance());
+  monitor.Start();
+  monitor.Watch(plan_.hand->initial.pose);
+  EXPECT_FALSE(monitor.violation()) << monitor.violation()->detail;
 }
 
-}  // namespace hand_judge_test
+}  // namespace execution_monitor_test
 }  // namespace regrasp::sim
