@@ -35,11 +35,11 @@ namespace py = pybind11;
 
 namespace {
 
-/// A report as Python holds it, with what its pictures are drawn from.
+/// Report held by Python, with the data for its images.
 struct PythonReport {
   report::Report report;
   plan::Plan plan;
-  std::shared_ptr<const kinematics::HandFile> hand;  ///< null where none was checked
+  std::shared_ptr<const kinematics::HandFile> hand;  ///< null if no hand was checked
 };
 
 constexpr std::array kEngines = {sim::EngineChoice::kMujoco, sim::EngineChoice::kOde,
@@ -58,7 +58,7 @@ struct ValidateArguments {
   double clearance = sim::HandCheckOptions().clearance_m;
 };
 
-/// On the hand's own model.
+/// Return a replayer on the hand's own model.
 report::Replayer HandReplayer(const kinematics::HandFile& hand, const object::Polyhedron& solid,
                               const plan::Plan& plan, const sim::ReplayOptions& replay,
                               const ValidateArguments& given, const sim::ReplayObserver& observer) {
@@ -66,7 +66,7 @@ report::Replayer HandReplayer(const kinematics::HandFile& hand, const object::Po
   by_hand.tolerance = given.hand_tolerance;
   by_hand.feedback = given.feedback;
   by_hand.tip = given.own_tips ? sim::TipShape::kGeometry : sim::TipShape::kBall;
-  static_cast<void>(sim::TipShapesOf(hand, by_hand.tip));  // before any work is done
+  static_cast<void>(sim::TipShapesOf(hand, by_hand.tip));  // fails before any other work
   by_hand.mass_kg = sim::BodyOf(solid, plan.scale, replay).mass_kg;
   by_hand.shake = replay.shake;
   by_hand.squeeze_N = replay.squeeze_N;
@@ -138,7 +138,8 @@ PythonReport ValidatePlan(const PythonObject& object, const std::string& text,
   return result;
 }
 
-/// "hold: not force closure; why: …; what would mend it: …"; nullopt where the plan passes.
+/// Return the failure as text: "hold: not force closure; why: …; what would mend it: …"; nullopt if
+/// the plan passes.
 std::optional<std::string> FailureOf(const PythonReport& of) {
   const auto failed = report::DescribeFailure(of.report);
   if (!failed) return std::nullopt;
@@ -149,7 +150,7 @@ py::array_t<std::uint8_t> ArrayOf(const render::Image& image) {
   return py::array_t<std::uint8_t>({image.height, image.width, 3}, image.rgb.data());
 }
 
-/// The frames, and the contact sheet.
+/// Return the images of the steps, and the overview image.
 py::tuple Draw(const PythonReport& of, const PythonObject& object, int width, int height) {
   report::DrawingOptions options;
   options.frame.width = width;

@@ -1,8 +1,8 @@
-"""Plans of regrasps and their validation: grasps, plans and reports as Python objects.
+"""Plan regrasps and validate them: grasps, plans and reports as Python objects.
 
-A hand holds an object by its fingertips and changes its grip without letting go. `plan` finds the
-sequence, `validate` checks it and replays it in a physics engine, `force_closure` judges grasps,
-one or a million.
+A hand holds an object by its fingertips and changes its grasp without letting go. `plan` finds the
+sequence, `validate` checks it and replays it in a physics engine, and `force_closure` evaluates one
+or many grasps.
 
 >>> import regrasp
 >>> cube = regrasp.Object.read("models/cube.obj")
@@ -14,10 +14,12 @@ one or a million.
 >>> report.passed
 True
 
-Lengths are in the object's own unit, `scale` says how many metres that is. Angles are in degrees,
-as in files and on the command line, and their names end in `_deg`. Errors are exceptions whose text
-is the one line that the programs print: `InputError` (a `ValueError`) for a wrong file or argument,
-`NoPlan` where no sequence is found, `OSError` where the machine fails.
+Lengths are in the object's own unit; `scale` is the number of metres per unit. Angles are in
+degrees, as in files and on the command line, and their names end in `_deg`.
+
+Errors are exceptions whose text is the one-line message of the programs: `InputError` (a
+`ValueError`) for an invalid file or argument, `NoPlan` if no sequence is found, `OSError` if the
+machine fails.
 """
 
 from ._regrasp import InputError
