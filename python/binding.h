@@ -10,24 +10,24 @@
 
 namespace regrasp::python {
 
-/// An object as Python holds it.
+/// Object held by Python.
 struct PythonObject {
   object::ObjectFile file;
   double scale = 1;  ///< metres per unit of length
-  std::string text;  ///< of the file that it would be; empty where it was read from one
+  std::string text;  ///< text of the corresponding file; empty if it was read from a file
 };
 
-/// A hand as Python holds it.
+/// Hand held by Python.
 struct PythonHand {
   kinematics::HandFile file;
 };
 
-/// @param name  of the plan, for the message.
+/// Check that a plan was made for an object. @param name  name of the plan in messages.
 /// @throws InputError  if the plan was made for another object or for another scale of it.
 void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::string& name);
 
-// Each adds its functions to the extension module. They check no argument whose type or shape the
-// Python code above them has already checked.
+// Add the functions of one part to the extension module. The Python code above them checks all
+// types and shapes, so that they do not.
 void BindObjects(pybind11::module_& module);
 void BindGrasps(pybind11::module_& module);
 void BindHands(pybind11::module_& module);

@@ -26,7 +26,7 @@ render::FigureStyle StyleOf(double width_mm) {
   return style;
 }
 
-/// The sheet of all steps, as SVG.
+/// Draw the overview image of all steps, as SVG.
 std::string DrawPlan(const PythonObject& object, const std::string& text, const std::string& name,
                      double width_mm) {
   const py::gil_scoped_release unlocked;
@@ -42,8 +42,8 @@ std::string DrawPlan(const PythonObject& object, const std::string& text, const 
                            StyleOf(width_mm));
 }
 
-/// One grasp of k x 3 values, in the plane with z = 0.
-/// @throws InputError  a contact is not on the object.
+/// Draw one grasp of k x 3 values; in the plane z = 0.
+/// @throws InputError  if a contact is not on the object.
 std::string DrawGrasp(const PythonObject& object, const Values& points, const Values& normals,
                       double half_angle, double width_mm) {
   const object::Object& body = *object.file.object;

@@ -20,8 +20,8 @@ py::array_t<double> ValueArray(const std::vector<double>& values, bool asked) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// Decisions (0 no, 1 too close, 2 yes), bounds on the margin, required half-angle, bounds on the
-/// quality.
+/// Return decisions (0 no, 1 too close, 2 yes), bounds on the margin, required friction angle, and
+/// bounds on the quality.
 py::tuple JudgeGrasps(const Values& points, const Values& normals, const PythonObject* object,
                       int dimension, double half_angle, double torsion, bool required, bool quality,
                       int threads) {

@@ -20,7 +20,7 @@ namespace {
 
 using Values = py::array_t<double, py::array::c_style>;
 
-/// Of a coupled joint the drive's angle is not read.
+/// The angle of a coupled joint is not read; it follows from its independent joint.
 kinematics::Posture PostureOf(const kinematics::Finger& finger, const double* angles) {
   kinematics::Posture posture = kinematics::Posture::Zero(finger.drives);
   std::vector<bool> known(static_cast<std::size_t>(finger.drives), false);
@@ -33,7 +33,8 @@ kinematics::Posture PostureOf(const kinematics::Finger& finger, const double* an
   return posture;
 }
 
-/// N x F x 3: the balls' centres in the palm's frame, metres, for N x J angles by finger.
+/// Return the centres of the fingertip spheres (N, F, 3) in the palm frame, m, for joint angles (N,
+/// J) in the order of the fingers.
 py::array_t<double> TipsOf(const PythonHand& of, const Values& angles) {
   const kinematics::HandModel& hand = of.file.hand;
   const auto fingers = static_cast<py::ssize_t>(hand.fingers.size());
@@ -60,7 +61,8 @@ std::vector<std::vector<std::string>> JointNames(const PythonHand& of) {
   return names;
 }
 
-/// The nearest points of the surface, the normals there, for M x 3 points; on all cores.
+/// Return the nearest points of the surface and the normals there, for points (M, 3). Uses all
+/// cores.
 py::tuple NearestOf(const PythonObject& object, const Values& points) {
   py::array_t<double> nearest({points.shape(0), py::ssize_t{3}});
   py::array_t<double> normals({points.shape(0), py::ssize_t{3}});

@@ -14,28 +14,29 @@
 
 namespace regrasp::python {
 
-/// Lets Ctrl-C end work that runs without the interpreter's lock, and passes on what it says.
+/// Interrupts work that runs without the interpreter's lock, on Ctrl-C or by a Python exception.
 ///
-/// Python handles a signal only where it is asked to: whenever the work looks at its deadline we
-/// ask, every kInterval at most. What the handler or the progress function throws is
-/// kept, the deadline is over from then on, and the caller throws it when the work has come back.
+/// Python handles a signal only when it is polled. Polling happens when the work checks its
+/// deadline, at most every kInterval. If the signal handler or the progress function throws, the
+/// exception is stored and the deadline is over. The caller throws it after the work has returned.
 class Interrupt {
  public:
-  /// @param limit_s   seconds from now; nullopt: no end.
-  /// @param progress  called with a line of text; None: nothing is.
+  /// @param limit_s   time limit from now, s; nullopt: none.
+  /// @param progress  function that is called with a line of text; None: not called.
   Interrupt(std::optional<double> limit_s, pybind11::object progress);
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  /// Both for the time in which this object lives.
+  /// Return a deadline and a progress function, both valid only during the lifetime of this object.
   [[nodiscard]] Deadline deadline();
   [[nodiscard]] std::function<void(std::string_view)> progress();
 
-  /// Asks Python at once.
+  /// Poll Python immediately.
   void Poll();
 
-  /// Does work in a thread of its own, which may start others, while this one asks Python: signals
-  /// are handled in the interpreter's first thread alone. What says something is any of them.
+  /// Run work in its own thread, which may start further threads, while this thread polls Python.
+  /// Signals are only handled in the interpreter's first thread. Progress messages may come from
+  /// any of the threads.
   template <typename Work>
   auto Run(Work work) {
     auto result = std::async(std::launch::async, std::move(work));
@@ -43,15 +44,17 @@ class Interrupt {
     return result.get();
   }
   [[nodiscard]] bool raised() const { return raised_; }
-  /// @pre the interpreter's lock is held.
-  /// @throws pybind11::error_already_set  the signal handler or the progress function did.
+  /// @pre The interpreter's lock is held.
+  /// @throws pybind11::error_already_set  if the signal handler or the progress function has
+  ///     thrown.
   void ThrowIfRaised();
 
  private:
-  /// So soon after Ctrl-C work ends, about, and so rarely is the interpreter's lock taken.
+  /// Approximate delay from Ctrl-C to the end of the work, and the interval at which the
+  /// interpreter's lock is taken.
   static constexpr std::chrono::milliseconds kInterval{50};
 
-  /// Asks Python if it is time to.
+  /// Poll Python if the interval has passed.
   bool HasRaised();
   void Ask(const std::function<void()>& call);
 
@@ -59,7 +62,7 @@ class Interrupt {
   pybind11::object progress_;
   std::atomic<Deadline::Clock::time_point> next_;
   std::atomic<bool> raised_ = false;
-  std::optional<pybind11::error_already_set> error_;  ///< under the interpreter's lock
+  std::optional<pybind11::error_already_set> error_;  ///< protected by the interpreter's lock
 };
 
 }  // namespace regrasp::python

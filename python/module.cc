@@ -1,4 +1,4 @@
-// The extension module _regrasp: what the Python package regrasp is made of.
+// Extension module _regrasp, the basis of the Python package regrasp.
 
 #include <pybind11/stl/filesystem.h>
 

@@ -54,7 +54,7 @@ PythonObject ReadFileAsObject(const std::filesystem::path& path, double scale, b
   return std::move(*read);
 }
 
-/// Its file is the one that `text` is.
+/// Create an object whose file content is `text`.
 PythonObject FromText(std::string text, const std::string& name,
                       std::unique_ptr<const object::Object> made, double scale) {
   PythonObject result;
@@ -77,7 +77,7 @@ PythonObject FromArrays(const Vertices& vertices, const Faces& faces, double sca
     for (py::ssize_t j = 0; j < f.shape(1); ++j) facet.push_back(static_cast<int>(f(i, j)));
   }
   const py::gil_scoped_release unlocked;
-  // By way of the text, so that the programs make the same object of the file.
+  // Convert through the text, so that the programs get the same object from the file.
   std::string text = repair::FormatSolid(soup);
   auto solid = std::make_unique<object::Polyhedron>(
       object::Polyhedron::FromSoup(object::ReadObj(text, name), name));
@@ -89,7 +89,7 @@ PythonObject FromWkt(const std::string& text, double scale, const std::string& n
   return FromText(text, name, std::move(polygon), scale);
 }
 
-/// The vertices of a solid's surface, or those of a polygon's outer ring.
+/// Return the vertices of a solid's surface, or those of a polygon's outer ring.
 py::array_t<double> VerticesOf(const PythonObject& of) {
   std::vector<Eigen::Vector3d> corners;
   const object::Object& object = *of.file.object;

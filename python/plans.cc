@@ -33,7 +33,7 @@ constexpr char kRandom[] = "random";
 constexpr char kRandomAny[] = "random-any";
 
 struct PlanArguments {
-  /// The text of a grasp file, "random" or "random-any"; with a hand also empty, for any grasp.
+  /// Text of a grasp file, "random" or "random-any"; with a hand it may be empty, for any grasp.
   std::string start, goal;
   double half_angle = 0;
   std::string planner = "auto";
@@ -41,13 +41,13 @@ struct PlanArguments {
   std::uint64_t seed = 0;
   double min_quality = 0;
   double finger_radius = 0;
-  double torsion = 0;  ///< of soft fingers, the object's unit of length
+  double torsion = 0;  ///< torsional friction length of soft fingers, object units
   std::optional<int> contacts, clusters;
   std::optional<double> time_limit_s;
-  int jobs = 1;  ///< searches at a time, ≥ 1
+  int jobs = 1;  ///< number of concurrent searches, ≥ 1
 };
 
-/// What is asked of a hand; poses are a position and a quaternion w, x, y, z.
+/// Task of a hand; poses are a position and a quaternion w, x, y, z.
 struct HandArguments {
   Eigen::Vector3d turn_axis = Eigen::Vector3d::UnitZ();
   double turn_angle = 0;  ///< radians
@@ -119,7 +119,7 @@ planning::PlanResult Find(const PythonObject& object, const PlanArguments& given
   return planning::Solve(planner, request);
 }
 
-/// The plan's text or None, why there is none, warnings, notes.
+/// Return the plan's text or None, the reason if there is none, warnings, and notes.
 py::tuple FindPlan(const PythonObject& object, const PlanArguments& given, py::object progress,
                    const std::optional<planning::InHandTask>& task) {
   Interrupt interrupt(given.time_limit_s, std::move(progress));
@@ -191,7 +191,7 @@ void BindPlans(py::module_& module) {
                 const HandArguments& asked, py::object progress) {
                return FindPlan(object, given, std::move(progress), TaskOf(object, hand, asked));
              });
-  // Of fingers without a hand.
+  // Planners for fingers without a hand.
   module.def("planner_names", [] {
     std::vector<std::string> names;
     for (const planning::Planner* planner : registry::AllPlanners()) {

@@ -1,4 +1,4 @@
-"""Checks of arguments: each message names the argument, the place in it and the value."""
+"""Check function arguments. Each message names the argument, the element and its value."""
 
 from __future__ import annotations
 
@@ -13,21 +13,28 @@ from ._regrasp import InputError
 
 
 def shown(value) -> str:
-    """A value in a message: of one line, and short."""
+    """Return a value as short text on one line, for a message."""
     try:
         text = " ".join(repr(value).split())
-    except Exception:  # of a class that cannot say what it is
+    except Exception:  # repr() of the class fails
         text = type(value).__name__
     return text if len(text) <= 60 else text[:57] + "..."
 
 
 def numbers(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
-    """Finite float64 values with so many axes; `shapes` says which, for the message."""
+    """Return finite float64 values of one of the given `dimensions`.
+
+    Args:
+        name: Name of the argument in messages.
+        value: Array, or nested sequences of numbers.
+        shapes: Allowed shapes as text, for messages.
+        dimensions: Allowed numbers of axes.
+    """
     return finite(name, numbers_or_nan(name, value, shapes, dimensions))
 
 
 def finite(name: str, array: np.ndarray) -> np.ndarray:
-    """The array, if all its values are finite."""
+    """Return the array if all its values are finite."""
     if not np.isfinite(array).all():
         place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
         raise InputError(f"{name}{list(place)} must be finite, found {array[place]}")
@@ -35,7 +42,7 @@ def finite(name: str, array: np.ndarray) -> np.ndarray:
 
 
 def flags(name: str, value, shape: tuple[int, ...]) -> np.ndarray:
-    """An array of truth values of that shape."""
+    """Return a bool array of the given shape."""
     array = _array(name, value, str(shape))
     if array.dtype != bool:
         raise InputError(f"{name} must be an array of bool, found an array of {array.dtype}")
@@ -45,7 +52,7 @@ def flags(name: str, value, shape: tuple[int, ...]) -> np.ndarray:
 
 
 def numbers_or_nan(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
-    """The same, whether finite or not."""
+    """Return float64 values as `numbers` does, but allow values that are not finite."""
     array = _array(name, value, shapes)
     if array.dtype.kind not in "fiu":
         raise InputError(f"{name} must be an array of numbers, found an array of {array.dtype}")
@@ -55,7 +62,7 @@ def numbers_or_nan(name: str, value, shapes: str, dimensions: tuple[int, ...]) -
 
 
 def indices(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.ndarray:
-    """The same for int64 values."""
+    """Return int64 values; parameters as for `numbers`."""
     array = _array(name, value, shapes)
     if array.ndim not in dimensions:
         raise InputError(f"{name} must have shape {shapes}, found {array.shape}")
@@ -65,24 +72,27 @@ def indices(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.nd
 
 
 _MOST_AXES = 32
-"""NumPy's own limit."""
+"""Maximum number of axes in NumPy."""
 
 
 def unmasked(name: str, value) -> None:
-    """Checks that nothing in a value is masked: an ordinary array would show what is beneath.
+    """Check that no value is masked, because an ordinary array would contain the values under the
+    mask.
 
     Args:
-        value: an array, or lists and tuples of arrays and numbers.
+        name: Name of the argument in messages.
+        value: Array, or lists and tuples of arrays and numbers.
 
     Raises:
-        InputError: names the place of the first masked value and how many there are.
+        InputError: If a value is masked. The message has the position of the first one and their
+            number.
     """
     seen: set[int] = set()
 
     def check(name: str, part, depth: int) -> None:
         if isinstance(part, np.ma.MaskedArray):
             mask = np.ma.getmaskarray(part)
-            if mask.dtype != bool or not mask.any():  # of structures: they are refused anyway
+            if mask.dtype != bool or not mask.any():  # structured arrays are rejected later
                 return
             place = [int(i) for i in np.argwhere(mask)[0]] if mask.ndim else ""
             count = int(mask.sum())
@@ -107,7 +117,7 @@ def _array(name: str, value, shapes: str) -> np.ndarray:
 
 
 def number(name: str, value, lower: float, upper: float = math.inf, *, zero: bool = False) -> float:
-    """A finite number above `lower` and below `upper`; also 0 where that is said."""
+    """Return a finite number above `lower` and below `upper`; with `zero`, 0 is allowed too."""
     unmasked(name, value)
     try:
         if isinstance(value, (str, bytes)):
@@ -124,7 +134,7 @@ def number(name: str, value, lower: float, upper: float = math.inf, *, zero: boo
 
 
 def integer(name: str, value, lower: int, upper: int) -> int:
-    """An integer from `lower` to `upper`."""
+    """Return an integer from `lower` to `upper`."""
     unmasked(name, value)
     try:
         result = operator.index(value)
@@ -136,7 +146,7 @@ def integer(name: str, value, lower: int, upper: int) -> int:
 
 
 def choice(name: str, value: str, words) -> str:
-    """One of some words."""
+    """Return one of the given words."""
     words = list(words)
     if isinstance(value, str) and value in words:
         return value
@@ -146,21 +156,21 @@ def choice(name: str, value: str, words) -> str:
 
 
 def flag(name: str, value) -> bool:
-    """True or False."""
+    """Return a bool."""
     if isinstance(value, (bool, np.bool_)):
         return bool(value)
     raise InputError(f"{name} must be True or False, found {shown(value)}")
 
 
 def text(name: str, value) -> str:
-    """A text."""
+    """Return a str."""
     if isinstance(value, str):
         return value
     raise InputError(f"{name} must be a str, found {shown(value)}")
 
 
 def path(name: str, value) -> str:
-    """A path of the file system, as a text."""
+    """Return a file system path as a str."""
     if not isinstance(value, (str, bytes, os.PathLike)):
         raise InputError(f"{name} must be a path, found {shown(value)}")
     result = os.fsdecode(value)
@@ -170,14 +180,14 @@ def path(name: str, value) -> str:
 
 
 def callback(name: str, value):
-    """A function, or None."""
+    """Return a function or None."""
     if value is None or callable(value):
         return value
     raise InputError(f"{name} must be callable or None, found {shown(value)}")
 
 
 def of_type(name: str, value, kind: type, hint: str = ""):
-    """A value of that class."""
+    """Return a value of the given class."""
     if isinstance(value, kind):
         return value
     article = "an" if kind.__name__[0] in "AEIOU" else "a"
@@ -186,7 +196,7 @@ def of_type(name: str, value, kind: type, hint: str = ""):
 
 
 def vector(name: str, value, length: int) -> np.ndarray:
-    """So many finite numbers."""
+    """Return `length` finite numbers, shape (length,)."""
     vector = numbers(name, value, f"({length},)", (1,))
     if len(vector) != length:
         raise InputError(f"{name} must have {length} numbers, found {len(vector)}")
@@ -194,14 +204,14 @@ def vector(name: str, value, length: int) -> np.ndarray:
 
 
 def mapping(name: str, value) -> dict:
-    """A dictionary."""
+    """Return a dictionary."""
     if not isinstance(value, dict):
         raise InputError(f"{name} must be a mapping, found {type(value).__name__}")
     return value
 
 
 def member(name: str, mapping: dict, key: str):
-    """What a dictionary has under a key."""
+    """Return the value of a key of a dictionary."""
     if key not in mapping:
         raise InputError(f"{name}: {key} not found")
     return mapping[key]
@@ -212,9 +222,11 @@ _DEEPEST = 64
 
 
 def bounded(name: str, value):
-    """The same value, if it holds no more than ten million others and nests no deeper than 64 levels;
-    what it holds in several places (aliases of YAML, memos of pickles) counts in each, as all that
-    looks at it or shows it takes it so."""
+    """Return a value that contains at most ten million values and at most 64 nested levels.
+
+    A value with several references (YAML aliases, pickle memos) counts once for each of them,
+    because the functions that read or print it process each reference.
+    """
     known: dict[int, int] = {}
 
     def count(part, depth: int) -> int:
@@ -239,29 +251,29 @@ def bounded(name: str, value):
 
 
 def texts(name: str, values) -> list[str]:
-    """A list of texts."""
+    """Return a list of str."""
     if not isinstance(values, (list, tuple)) or not all(isinstance(v, str) for v in values):
         raise InputError(f"{name} must be a list of str, found {shown(values)}")
     return list(values)
 
 
 def half_angle(mu: float | None, friction_angle_deg: float | None) -> float | None:
-    """The friction cone's half-angle in radians; None where neither is given."""
+    """Return the friction angle in radians; None if neither argument is given."""
     if mu is not None and friction_angle_deg is not None:
         raise InputError("mu cannot be used with friction_angle_deg")
     if mu is not None:
         mu = number("mu", mu, 0)
-        if mu > 1e15:  # a right angle to doubles
+        if mu > 1e15:  # rounds to a right angle
             raise InputError(f"mu must be at most 1e15, found {mu:g}")
         return math.atan(mu)
     if friction_angle_deg is not None:
-        # As the programs' Radians().
+        # Same rounding as Radians() of the programs.
         return number("friction_angle_deg", friction_angle_deg, 0, 90) * (math.pi / 180)
     return None
 
 
 def needed_half_angle(mu: float | None, friction_angle_deg: float | None) -> float:
-    """The same, where one must be given."""
+    """Return the friction angle in radians; one of the arguments is required."""
     angle = half_angle(mu, friction_angle_deg)
     if angle is None:
         raise InputError("mu or friction_angle_deg is required")

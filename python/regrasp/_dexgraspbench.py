@@ -1,4 +1,4 @@
-"""Dictionaries of NumPy, as DexGraspBench, Dexonomy and BODex keep grasps in them."""
+"""Read the NumPy dictionaries in which DexGraspBench, Dexonomy and BODex store grasps."""
 
 from __future__ import annotations
 
@@ -18,17 +18,19 @@ _NO_POSE = ("no obj_pose, expected obj_pose or a scene_cfg with the object's pos
 
 def read_dexgraspbench(path: str | os.PathLike, *,
                        object_pose: ArrayLike | None = None) -> HandGrasps:
-    """Reads a dictionary of DexGraspBench or Dexonomy (`grasp_qpos` with `obj_pose` or `scene_cfg`; NPY,
-    or its members as NPZ), without executing anything in it. Joints that have no names are in the
-    order of the hand's model.
+    """Read a dictionary of DexGraspBench or Dexonomy.
+
+    The file has `grasp_qpos`, and `obj_pose` or `scene_cfg`. It is an NPY file, or an NPZ file of
+    the members. No code in it is executed. Joints without names are in the order of the hand's
+    model.
 
     Args:
-        path: of the NPY or NPZ file.
-        object_pose: of the object in the file's world, position in metres and quaternion w, x, y, z;
-            None: that of the file.
+        path: NPY or NPZ file.
+        object_pose: Pose of the object in the file's world frame, shape (7,): position in metres
+            and quaternion w, x, y, z. Default: the pose in the file.
 
     Raises:
-        InputError: names the file, the member and what is wrong.
+        InputError: If the file is invalid. The message names the file and the member.
     """
     name = path = _arguments.path("path", path)
     data = _dict_file.read_dict(path)
@@ -38,16 +40,18 @@ def read_dexgraspbench(path: str | os.PathLike, *,
 
 
 def read_bodex(path: str | os.PathLike, *, object_pose: ArrayLike | None = None) -> HandGrasps:
-    """Reads a dictionary as BODex saves it (`robot_pose`, `joint_names`), without executing anything in
-    it: of the stages of each grasp the second, in which the fingers touch.
+    """Read a dictionary of BODex (`robot_pose`, `joint_names`).
+
+    The second of the three stages of each grasp is read, in which the fingers are in contact. No
+    code in the file is executed.
 
     Args:
-        path: of the NPY or NPZ file.
-        object_pose: of the object in the file's world, position in metres and quaternion w, x, y, z;
-            None: `obj_pose` of the file.
+        path: NPY or NPZ file.
+        object_pose: Pose of the object in the file's world frame, shape (7,): position in metres
+            and quaternion w, x, y, z. Default: `obj_pose` of the file.
 
     Raises:
-        InputError: names the file, the member and what is wrong.
+        InputError: If the file is invalid. The message names the file and the member.
     """
     name = path = _arguments.path("path", path)
     data = _dict_file.read_dict(path)
@@ -63,7 +67,7 @@ def read_bodex(path: str | os.PathLike, *, object_pose: ArrayLike | None = None)
 
 
 def _scene_object(name: str, data: dict) -> dict | None:
-    """The object that `scene_cfg` of Dexonomy says is grasped; None if there is no `scene_cfg`."""
+    """Return the grasped object of Dexonomy's `scene_cfg`; None if there is no `scene_cfg`."""
     if "scene_cfg" not in data:
         return None
     where = f"{name}: scene_cfg"
@@ -79,7 +83,7 @@ def _scene_object(name: str, data: dict) -> dict | None:
 
 
 def _object_pose(name: str, data: dict, scene: dict | None, given: ArrayLike | None) -> np.ndarray:
-    """(7,) of the object in the file's world."""
+    """Return the pose of the object in the file's world frame, shape (7,)."""
     if given is not None:
         where, pose = "object_pose", vector("object_pose", given, 7)
     elif "obj_pose" in data or (scene is not None and "pose" in scene):
@@ -92,7 +96,7 @@ def _object_pose(name: str, data: dict, scene: dict | None, given: ArrayLike | N
 
 
 def _scale(where: str, value) -> float:
-    """One scale; BODex and Dexonomy have it for each axis in some versions."""
+    """Return the uniform scale. Some versions of BODex and Dexonomy store it per axis."""
     scale = _arguments.numbers(where, value, "(), (1,) or (3,)", (0, 1)).ravel()
     if len(scale) == 0 or (scale != scale[0]).any():
         raise InputError(f"{where} must be one scale, found {_arguments.shown(scale.tolist())}")
@@ -111,7 +115,7 @@ def _joint_names(name: str, data: dict, count: int) -> list[str]:
 
 def _grasps(name: str, data: dict, key: str, qpos: np.ndarray,
             object_pose: ArrayLike | None) -> HandGrasps:
-    """Of (N, 7 + J) palms and joints in the world, and the object's pose there."""
+    """Return grasps from palms and joints (N, 7 + J) and the object's pose in the world frame."""
     if qpos.shape[1] < 8:
         raise InputError(f"{name}: {key} must have 7 numbers for the pose and one per joint, found shape {qpos.shape}")
     scene = _scene_object(name, data)

@@ -1,4 +1,4 @@
-"""Lists of dictionaries of NumPy, as DexGraspNet keeps the grasps of an object in them."""
+"""Read the NumPy lists of dictionaries in which DexGraspNet stores the grasps of an object."""
 
 from __future__ import annotations
 
@@ -16,19 +16,18 @@ _ANGLES = ["WRJRx", "WRJRy", "WRJRz"]
 
 
 def read_dexgraspnet(path: str | os.PathLike) -> HandGrasps:
-    """Reads a list of DexGraspNet (NPY, an array of dictionaries with `qpos` and `scale`), without
-    executing anything in it.
+    """Read a list of DexGraspNet: an NPY array of dictionaries with `qpos` and `scale`.
 
-    The poses are those of the hand in the frame of the object, which is scaled by `scale`: `WRJTx`,
-    `WRJTy` and `WRJTz` in metres, and `WRJRx`, `WRJRy` and `WRJRz`, turns about the object's x, then
-    its y, then its z axis in radians (Euler angles "sxyz"). All other values of `qpos` are angles of
-    joints by their names.
+    The poses are those of the hand in the frame of the object, which is scaled by `scale`. `WRJTx`,
+    `WRJTy` and `WRJTz` are in metres. `WRJRx`, `WRJRy` and `WRJRz` are rotations about the object's
+    x, then its y, then its z axis in radians (Euler angles "sxyz"). All other values of `qpos` are
+    joint angles by joint name. No code in the file is executed.
 
     Args:
-        path: of the NPY file.
+        path: NPY file.
 
     Raises:
-        InputError: names the file, the grasp, the member and what is wrong.
+        InputError: If the file is invalid. The message names the file, the grasp and the member.
     """
     name = path = _arguments.path("path", path)
     entries = _dict_file.read_content(path)
@@ -57,7 +56,7 @@ def read_dexgraspnet(path: str | os.PathLike) -> HandGrasps:
 
 
 def _number(where: str, value) -> float:
-    """A finite number, also of an array of one."""
+    """Return a finite number, which may be an array with one element."""
     array = _arguments.numbers(where, value, "()", (0, 1)).ravel()
     if len(array) != 1:
         raise InputError(f"{where} must be a number, found {len(array)} numbers")
@@ -65,7 +64,7 @@ def _number(where: str, value) -> float:
 
 
 def _row(where: str, qpos: dict, joint_names: list[str]) -> list[float]:
-    """Position, Euler angles and joints in one order."""
+    """Return position, Euler angles and joints in one order."""
     keys = [*_POSITION, *_ANGLES, *joint_names]
     other = sorted(map(str, set(qpos) - set(keys)))
     if other:
@@ -74,7 +73,7 @@ def _row(where: str, qpos: dict, joint_names: list[str]) -> list[float]:
 
 
 def _quaternions(angles: np.ndarray) -> np.ndarray:
-    """(N, 4) of (N, 3) turns about the fixed axes x, y and z, one after the other."""
+    """Return quaternions (N, 4) of consecutive rotations (N, 3) about the fixed axes x, y and z."""
     result = np.zeros((len(angles), 4))
     result[:, 0] = 1
     for axis in range(3):

@@ -1,4 +1,4 @@
-"""Reads dictionaries that numpy.save pickles, and NPZ files, and executes nothing in them."""
+"""Read dictionaries pickled by numpy.save, and NPZ files, without executing code in them."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from ._regrasp import InputError
 
 
 class _Array:
-    """Stands for numpy.ndarray, which as a function would take memory of any size."""
+    """Placeholder of numpy.ndarray, whose constructor would allocate memory of any size."""
 
 
 def _reconstruct(kind, shape, dtype):
-    """An array before its content, as NumPy pickles one."""
+    """Return an array without content, as NumPy pickles it."""
     if kind is not _Array or shape != (0,):
         raise InputError("contains an array that NumPy did not write")
     return np.core.multiarray._reconstruct(np.ndarray, shape, dtype)
 
 
-# What arrays and numbers of NumPy are made of when they are unpickled; nothing else is looked up.
+# The only functions and classes that unpickling may use: the parts of NumPy arrays and numbers.
 _ARRAY_PARTS = {
     ("numpy", "ndarray"): _Array,
     ("numpy", "dtype"): np.dtype,
@@ -34,7 +34,7 @@ _ARRAY_PARTS = {
 }
 
 
-# Of a pickle: what makes objects of classes, refers to something outside of it, or shares memory.
+# Forbidden pickle operations: creation of class instances, external references, shared memory.
 _NOT_DATA = {"PERSID", "BINPERSID", "INST", "OBJ", "NEWOBJ", "NEWOBJ_EX", "EXT1", "EXT2", "EXT4",
              "BYTEARRAY8", "NEXT_BUFFER", "READONLY_BUFFER"}
 
@@ -60,7 +60,7 @@ def _unpickle(file):
 
 
 def _read_array(file):
-    """What an NPY file holds; of objects, what was pickled."""
+    """Return the content of an NPY file; for objects, the unpickled content."""
     version = np.lib.format.read_magic(file)
     begin = file.tell()
     header = (np.lib.format.read_array_header_1_0 if version == (1, 0)
@@ -73,7 +73,7 @@ def _read_array(file):
 
 
 def _content(path):
-    """The dictionary of an NPY file, or the members of an NPZ file as one."""
+    """Return the content of an NPY file, or the members of an NPZ file as a dictionary."""
     with open(path, "rb") as file:
         if not zipfile.is_zipfile(file):
             file.seek(0)
@@ -87,17 +87,22 @@ def _content(path):
 
 
 def _plain(value):
-    """Not an array, where it is one of a single object."""
+    """Return the element of a zero-dimensional array, or any other value unchanged."""
     return value.item() if isinstance(value, np.ndarray) and value.shape == () else value
 
 
 def read_content(path) -> dict | list[dict]:
-    """The dictionary of an NPY file that numpy.save wrote of it, the arrays of an NPZ file, or the
-    dictionaries of an NPY file of an array or a list of them.
+    """Return the dictionary or dictionaries of an NPY or NPZ file.
+
+    The file is an NPY file of a dictionary written by numpy.save, an NPZ file, or an NPY file of an
+    array or a list of dictionaries.
+
+    Args:
+        path: NPY or NPZ file.
 
     Raises:
-        InputError: it is none, or holds something else than dictionaries, lists, texts, numbers
-            and arrays of NumPy.
+        InputError: If the file is not such a file, or contains anything except dictionaries, lists,
+            texts, numbers and arrays of NumPy.
     """
     try:
         found = _plain(_content(path))
@@ -105,7 +110,7 @@ def read_content(path) -> dict | list[dict]:
         raise InputError(f"{path}: {error.strerror or error}") from None
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
-    except Exception as error:  # what a pickle that is cut off or made up brings about
+    except Exception as error:  # caused by truncated or forged pickles
         raise InputError(f"{path}: not a NumPy dictionary file: {error}".replace("\n", " ")) from None
     several = isinstance(found, list) or (
         isinstance(found, np.ndarray) and found.dtype == object and found.ndim == 1)
@@ -123,10 +128,10 @@ def read_content(path) -> dict | list[dict]:
 
 
 def read_dict(path) -> dict:
-    """The same, if it is a single dictionary.
+    """Return the dictionary of a file as `read_content` does; a list is an error.
 
     Raises:
-        InputError: it is a list of dictionaries, or as `read_content`.
+        InputError: If the content is a list of dictionaries, and as for `read_content`.
     """
     found = read_content(path)
     if isinstance(found, list):

@@ -1,4 +1,4 @@
-"""Grasps of fingers without a hand, one after the other: which finger touches where."""
+"""Sequences of grasps by fingers without a hand: the contacts of each finger."""
 
 from __future__ import annotations
 
@@ -15,26 +15,27 @@ from .objects import Object
 from .plans import Plan
 
 _ROWS = 10
-"""That a notebook shows."""
+"""Number of rows in a notebook."""
 
 
 @dataclass
 class FingerGrasps:
-    """N grasps of a hand of F fingers, some of which may touch nothing."""
+    """N grasps by F fingers, some of which may be without contact."""
 
     points: np.ndarray
-    """(N, F, 3) in the object's frame and unit; NaN of a finger that does not touch."""
+    """Contact points (N, F, 3) in the object's frame and unit; NaN for a finger without contact."""
     normals: np.ndarray
-    """(N, F, 3) into the object, as the file has them; NaN likewise."""
+    """Inward normals (N, F, 3) as in the file; NaN for a finger without contact."""
     names: list[str]
-    """Of the N grasps."""
+    """Names of the N grasps."""
     lost: list[str] = field(default_factory=list)
-    """What the file has besides and could not be carried over, in words."""
+    """Descriptions of the file's content that is not converted."""
 
     def __post_init__(self):
-        """
+        """Check the arrays.
+
         Raises:
-            InputError: the arrays have other shapes than each other.
+            InputError: If the shapes of the arrays do not match.
         """
         self.names = _arguments.texts("names", self.names)
         for name in ("points", "normals"):
@@ -59,7 +60,7 @@ class FingerGrasps:
 
     @property
     def active(self) -> np.ndarray:
-        """(N, F) bool mask of the fingers in contact."""
+        """Contact mask (N, F): True for a finger in contact."""
         return ~np.isnan(self.points).any(axis=-1)
 
     @property
@@ -69,14 +70,16 @@ class FingerGrasps:
         return self.active
 
     def on(self, object: Object, *, tolerance: float = 0.002) -> FingerGrasps:
-        """The same on the object's surface: the nearest points, with the surface's normals.
+        """Return the grasps projected onto the object's surface: nearest points with the surface's
+        normals.
 
         Args:
-            object: a solid.
-            tolerance: that a point may be off it, metres.
+            object: Solid that the fingers hold.
+            tolerance: Maximum distance of a point from the surface, m.
 
         Raises:
-            InputError: a finger is farther away, or a normal more than 90 degrees off the surface's.
+            InputError: If a point is farther away, or a normal more than 90 degrees off that of the
+                surface.
         """
         if _arguments.of_type("object", object, Object).dimension != 3:
             raise InputError(f"object must be a solid, found the polygon {object.name}")
@@ -99,7 +102,7 @@ class FingerGrasps:
                              f"{what((grasp, finger))}; {len(places)} in total")
 
     def write_npz(self, path: str | os.PathLike) -> None:
-        """Writes the file that `validate --grasps` judges."""
+        """Write the input file of `validate --grasps`."""
         active = self.active
         _npz.write_grasps(_arguments.path("path", path), active=active,
                           points=np.where(active[..., None], self.points, 0),
@@ -107,16 +110,19 @@ class FingerGrasps:
 
     def as_plan(self, object: Object, mu: float | None = None, *,
                 friction_angle_deg: float | None = None) -> Plan:
-        """The sequence of finger switches from each grasp to the next: fingers that are new come, those
-        that touch elsewhere leave and come again, one by one, and the rest leave.
+        """Return a plan of finger switches from each grasp to the next.
+
+        First, new fingers are placed. Then each finger with a changed contact is released and
+        placed again, one finger after the other. Finally, all other fingers without contact in the
+        next grasp are released.
 
         Args:
-            object: that the fingers touch (`on`).
-            mu: friction coefficient, or
-            friction_angle_deg: the half-angle of the friction cones in degrees.
+            object: Object that the fingers hold; the contacts must be on its surface (`on`).
+            mu: Friction coefficient. Either this or the friction angle is required.
+            friction_angle_deg: Friction angle, degrees.
 
         Returns:
-            The plan; whether it holds is for `validate` to say.
+            Plan that is not validated; use `validate` to test it.
         """
         if _arguments.of_type("object", object, Object).dimension != 3:
             raise InputError(f"object must be a solid, found the polygon {object.name}")
@@ -148,7 +154,7 @@ class FingerGrasps:
         for finger in np.flatnonzero(elsewhere):
             steps += [([], [finger]), ([finger], [])]
         steps.append(([], np.flatnonzero(before & ~after)))
-        if len(steps) == 2:  # both are one
+        if len(steps) == 2:  # place and release in one step
             steps = [(steps[0][0], steps[1][1])]
         return [{"kind": "switch", "place": self._contacts(grasp, place),
                  "release": [int(f) for f in release]}

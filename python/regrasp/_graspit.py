@@ -1,4 +1,4 @@
-"""Worlds of GraspIt!, XML."""
+"""Read world files of GraspIt! (XML)."""
 
 from __future__ import annotations
 
@@ -31,16 +31,20 @@ def _graspit_pose(name: str, element) -> tuple[np.ndarray, np.ndarray]:
 
 
 def read_graspit(path: str | os.PathLike) -> HandGrasps:
-    """Reads a world of GraspIt! (XML): the last robot, on the first graspable body. Lengths are
-    millimetres. Its degrees of freedom have no names.
+    """Read a world of GraspIt! (XML): the last robot, on the first graspable body.
+
+    Lengths in the file are millimetres. Its degrees of freedom have no names.
+
+    Args:
+        path: XML file.
 
     Raises:
-        InputError: names the file, the element and what is wrong.
+        InputError: If the file is invalid. The message names the file and the element.
     """
     name = path = _arguments.path("path", path)
     try:
         world = xml.etree.ElementTree.parse(path).getroot()
-    # Of encodings that the parser does not know: LookupError, ValueError.
+    # An encoding unknown to the parser raises LookupError or ValueError.
     except (xml.etree.ElementTree.ParseError, LookupError, ValueError) as error:
         raise InputError(f"{name}: not an XML file: {error}") from None
     if world.tag == "virtual_contacts":

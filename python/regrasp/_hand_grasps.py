@@ -1,4 +1,4 @@
-"""Grasps of hands: where the palm is, and its joints."""
+"""Grasps by hands: palm poses and joint angles."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from .hands import Hand
 from .objects import Object
 
 _ROWS = 10
-"""That a notebook shows."""
+"""Number of rows in a notebook."""
 
 
 @dataclass
 class WorldPoses:
-    """Poses of palms and of the object in the world of a file, as the file has them."""
+    """Poses of palms and of the object in the world frame of a file, unchanged."""
 
     palms: np.ndarray
-    """(N, 7) positions in metres and quaternions w, x, y, z."""
+    """Poses (N, 7) of the palms: positions in metres and quaternions w, x, y, z."""
     objects: np.ndarray
-    """(N, 7), likewise."""
+    """Poses (N, 7) of the object, in the same form."""
 
     def in_object(self) -> tuple[np.ndarray, np.ndarray]:
-        """Positions (N, 3) and quaternions (N, 4) of the palms in the object's frame."""
+        """Return positions (N, 3) and quaternions (N, 4) of the palms in the object's frame."""
         position, back = _poses.inverse(self.objects[:, :3], self.objects[:, 3:])
         turned = np.einsum("nij,nj->ni", _poses.matrices(back), self.palms[:, :3])
         return turned + position, _poses.product(back, self.palms[:, 3:])
@@ -36,31 +36,32 @@ class WorldPoses:
 
 @dataclass
 class HandGrasps:
-    """How a hand holds an object, N times: where its palm is, and its joints."""
+    """N grasps of an object by a hand: palm poses and joint angles."""
 
     positions: np.ndarray
-    """(N, 3) of the palm's frame in the object's (its file's axes and origin), metres."""
+    """Positions (N, 3) of the palm frame in the object's frame (axes and origin of its file), m."""
     quaternions: np.ndarray
-    """(N, 4) of the palm's frame in the object's, w, x, y, z, of length 1."""
+    """Unit quaternions (N, 4) of the palm frame in the object's frame, w, x, y, z."""
     joint_names: list[str]
-    """Of the J joints; empty where the format does not name them."""
+    """Names of the J joints; empty if the format does not name them."""
     joints: np.ndarray
-    """(N, J) radians."""
+    """Joint angles (N, J), radians."""
     names: list[str]
-    """Of the N grasps."""
+    """Names of the N grasps."""
     confidence: np.ndarray
-    """(N,), 1 where the format has none."""
+    """Confidences (N,); 1 if the format has none."""
     lost: list[str] = field(default_factory=list)
-    """What the file has besides and could not be carried over, in words."""
+    """Descriptions of the file's content that is not converted."""
     scales: np.ndarray | None = None
-    """(N,) metres per unit of the object's file, if the file of the grasps has them."""
+    """Metres per unit of the object's file (N,), if the file of the grasps contains them."""
     world: WorldPoses | None = field(default=None, repr=False, compare=False)
-    """The poses as the file has them, if they are not in the object's frame there."""
+    """Original poses, if the file does not give them in the object's frame."""
 
     def __post_init__(self):
-        """
+        """Check the arrays.
+
         Raises:
-            InputError: the arrays have other shapes than each other, or values that are not finite.
+            InputError: If the shapes of the arrays do not match, or a value is not finite.
         """
         self.names = _arguments.texts("names", self.names)
         self.joint_names = _arguments.texts("joint_names", self.joint_names)
@@ -94,12 +95,12 @@ class HandGrasps:
             ["grasp", "palm (m)", "quaternion w, x, y, z", "confidence"], rows)
 
     def with_palm_at(self, palm: ArrayLike) -> HandGrasps:
-        """The same grasps, where the poses of a file are not of the palm but of another body of the
-        hand, as of its wrist.
+        """Return the grasps with palm poses, if the file has poses of another link, such as the
+        wrist.
 
         Args:
-            palm: the palm's frame in that body's: seven numbers, position in metres and quaternion
-                w, x, y, z; or three, the position.
+            palm: Pose of the palm frame in that link's frame. Either shape (7,), position in metres
+                and quaternion w, x, y, z, or shape (3,), the position.
         """
         palm = _arguments.numbers("palm", palm, "(3,) or (7,)", (1,))
         if len(palm) not in (3, 7):
@@ -111,10 +112,14 @@ class HandGrasps:
                                             np.broadcast_to(turn, self.quaternions.shape)))
 
     def in_order_of(self, hand: Hand) -> np.ndarray:
-        """(N, J) angles in the order of `hand.joint_names`.
+        """Return joint angles (N, J) in the order of `hand.joint_names`.
+
+        Args:
+            hand: Hand of the grasps.
 
         Raises:
-            InputError: a joint of the hand is missing, or the number differs where none has a name.
+            InputError: If a joint of the hand is missing, or if the joints have no names and their
+                number differs.
         """
         _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
         if self.joint_names:
@@ -126,34 +131,34 @@ class HandGrasps:
 
     def touching(self, hand: Hand, object: Object, *,
                  tolerance: float = 0.002) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Where fingertips touch the object: the nearest points of its surface.
+        """Return the contacts of fingertips: the nearest points of the object's surface.
 
         Args:
-            hand: the hand, of F fingers.
-            object: what it holds, a solid. Its size is that of `scales`, if the grasps have them;
-                its own scale must then be the same, or 1.
-            tolerance: a fingertip's ball that is no farther from the surface than this, and no deeper
-                in it, touches; metres.
+            hand: Hand with F fingers.
+            object: Solid that the hand holds. If the grasps have `scales`, these determine its
+                size, and its own scale must be the same or 1.
+            tolerance: Maximum distance between a fingertip sphere and the surface, and maximum
+                depth in the object, of a fingertip in contact, m.
 
         Returns:
-            points (N, F, 3) in the object's unit, unit normals (N, F, 3) into the object, and
-            whether the fingertip touches (N, F).
+            Points (N, F, 3) in the object's unit, inward unit normals (N, F, 3), and the contact
+            mask (N, F).
         """
         tolerance = _arguments.number("tolerance", tolerance, 0)
         points, normals, gaps = self.gaps(hand, object)
         return points, normals, np.abs(gaps) <= tolerance
 
     def gaps(self, hand: Hand, object: Object) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Measure how far the fingertips are from the object.
+        """Measure the distances between the fingertips and the object.
 
         Args:
-            hand: the hand, of F fingers.
-            object: what it holds, as for `touching`.
+            hand: Hand with F fingers.
+            object: Solid that the hand holds, as for `touching`.
 
         Returns:
-            The nearest points (N, F, 3) of the surface in the object's unit, unit normals (N, F, 3)
-            into the object, and signed distances (N, F) from the surface to the fingertips' balls in
-            metres, negative if a ball reaches into the object.
+            Nearest points (N, F, 3) of the surface in the object's unit, inward unit normals (N, F,
+            3), and signed distances (N, F) from the surface to the fingertip spheres in metres. A
+            distance is negative if a sphere penetrates the object.
         """
         _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
         if _arguments.of_type("object", object, Object).dimension != 3:
@@ -161,7 +166,7 @@ class HandGrasps:
         return measure_gaps(self, hand, object, self._scales_for(object))
 
     def _scales_for(self, object: Object) -> np.ndarray:
-        """(N,) metres per unit of the object."""
+        """Return metres per unit of the object's file, shape (N,)."""
         if self.scales is None:
             return np.full(len(self), object.scale)
         other = np.flatnonzero(self.scales != object.scale)
@@ -173,27 +178,27 @@ class HandGrasps:
 
 def measure_gaps(grasps: HandGrasps, hand: Hand, object: Object,
                  scales: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Measure as `HandGrasps.gaps`, with an object of (N,) metres per unit of its file."""
+    """Measure as `HandGrasps.gaps`, with `scales` (N,): metres per unit of the object's file."""
     tips = hand.tips(grasps.in_order_of(hand))
     turned = np.einsum("nij,nkj->nki", _poses.matrices(grasps.quaternions), tips)
     centres = (turned + grasps.positions[:, None]) / scales[:, None, None]
     points, normals = object.nearest(centres.reshape(-1, 3))
     points, normals = points.reshape(centres.shape), normals.reshape(centres.shape)
     away = centres - points
-    side = np.where(np.einsum("nki,nki->nk", away, normals) > 0, -1, 1)  # -1: in the object
+    side = np.where(np.einsum("nki,nki->nk", away, normals) > 0, -1, 1)  # -1: inside the object
     distances = np.linalg.norm(away, axis=-1) * scales[:, None]
     return points, normals, side * distances - hand.radii
 
 
 def of_plan(path: str | os.PathLike, hand: Hand) -> HandGrasps:
-    """The grasps at rest of a plan for a hand: the initial one, and one after each step.
+    """Return the static grasps of a plan for a hand: the initial one, and one after each step.
 
     Args:
-        path: of the plan file.
-        hand: that it is for; names its joints.
+        path: Plan file.
+        hand: Hand of the plan, which gives the names of its joints.
 
     Raises:
-        InputError: the plan is for fingers without a hand, or for another one.
+        InputError: If the plan has no hand, or a different one.
     """
     name, data = hand_plan(path, hand)
     states, names = [data["hand"]["initial"]], ["000_hold"]

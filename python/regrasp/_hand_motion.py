@@ -1,4 +1,4 @@
-"""What a hand and the object in it do over time."""
+"""Motions of a hand and of the object in it over time."""
 
 from __future__ import annotations
 
@@ -14,33 +14,34 @@ from .hands import Hand
 from .plans import Plan
 
 PLAN_INTERVAL = 0.1
-"""Seconds from each state of a plan to the next, as a plan has no times."""
+"""Time between consecutive states of a plan, s, because a plan has no times."""
 
 
 @dataclass
 class HandMotion:
-    """T instants of J joints and the object."""
+    """Motion of T samples with J joints and the object's pose."""
 
     times: np.ndarray
-    """(T,) seconds, growing."""
+    """Ascending times (T,), s."""
     joint_names: list[str]
-    """Of the J joints."""
+    """Names of the J joints."""
     joints: np.ndarray
-    """(T, J), radians, of slides metres."""
+    """Joint positions (T, J), radians; metres for prismatic joints."""
     object_poses: np.ndarray
-    """(T, 7) of the object's frame in the palm's: metres, and a quaternion w, x, y, z."""
+    """Poses (T, 7) of the object's frame in the palm frame: metres, and a quaternion w, x, y, z."""
     control_names: list[str] = field(default_factory=list)
-    """Of the A controls; empty where there are none."""
+    """Names of the A controls; empty if there are none."""
     controls: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
-    """(T, A): of position servos radians."""
+    """Controls (T, A); radians for position servos."""
     lost: list[str] = field(default_factory=list)
-    """What the file has besides and could not be carried over, in words."""
+    """Descriptions of the file's content that is not converted."""
 
     def __post_init__(self):
-        """
+        """Check the arrays.
+
         Raises:
-            InputError: the arrays have other shapes than each other, values that are not finite, or
-                times that do not grow.
+            InputError: If the shapes of the arrays do not match, a value is not finite, or the
+                times do not ascend.
         """
         self.times = _arguments.numbers("times", self.times, "(T,)", (1,))
         count = len(self.times)
@@ -66,10 +67,13 @@ class HandMotion:
 
 
 def read_trajectory(path: str | os.PathLike) -> HandMotion:
-    """Reads what `validate --hand HAND --trajectory FILE.npz` writes.
+    """Read a trajectory written by `validate --hand HAND --trajectory FILE.npz`.
+
+    Args:
+        path: NPZ file.
 
     Raises:
-        InputError: names the file, the array and what is wrong.
+        InputError: If the file is invalid. The message names the file and the array.
     """
     name = path = _arguments.path("path", path)
     keys = ("time_s", "joint_names", "joints", "object", "control_names", "controls")
@@ -80,13 +84,13 @@ def read_trajectory(path: str | os.PathLike) -> HandMotion:
             file.seek(0)
             with np.load(file, allow_pickle=False) as arrays:
                 found = {key: arrays[key] for key in keys if key in arrays}
-        # NumPy gives a member that is no array as its bytes.
+        # NumPy returns the bytes of a member that is not an array.
         for key, array in found.items():
             if not isinstance(array, np.ndarray):
                 raise ValueError(f"{key} is not an array")
     except (FileNotFoundError, IsADirectoryError, PermissionError):
         raise
-    except Exception as error:  # what an archive that is damaged or made up brings about
+    except Exception as error:  # caused by damaged or forged archives
         raise InputError(f"{name}: not an NPZ file of arrays: {error}".replace("\n", " ")) from None
     for key in keys:
         _arguments.member(name, found, key)
@@ -98,18 +102,18 @@ def read_trajectory(path: str | os.PathLike) -> HandMotion:
 
 
 def motion_of_plan(path: str | os.PathLike, hand: Hand) -> HandMotion:
-    """All states of a plan for a hand, in its order, a tenth of a second apart.
+    """Return all states of a plan for a hand, in order, 0.1 s apart.
 
     Args:
-        path: of the plan file.
-        hand: that it is for; names its joints.
+        path: Plan file.
+        hand: Hand of the plan, which gives the names of its joints.
 
     Raises:
-        InputError: the plan is for fingers without a hand, or for another one.
+        InputError: If the plan has no hand, or a different one.
     """
     _, data = hand_plan(path, hand)
     states = [data["hand"]["initial"]]
-    # A path begins where the one before it ended.
+    # The first state of a path equals the last state of the path before it.
     for step in data["steps"]:
         states += [state for path in paths_of(step) for state in path[1:]]
     joints = joints_of(states)
@@ -120,10 +124,10 @@ def motion_of_plan(path: str | os.PathLike, hand: Hand) -> HandMotion:
 
 
 def hand_plan(path: str | os.PathLike, hand: Hand) -> tuple[str, dict]:
-    """The name of a plan file, and the plan as a dictionary, if it is for this hand.
+    """Return the name of a plan file, and the plan as a dictionary.
 
     Raises:
-        InputError: it is not.
+        InputError: If the plan is not a plan for this hand.
     """
     name = _arguments.path("path", path)
     _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
@@ -139,13 +143,14 @@ def hand_plan(path: str | os.PathLike, hand: Hand) -> tuple[str, dict]:
 
 
 def joints_of(states: list[dict]) -> np.ndarray:
-    """The joint angles of a plan's states, radians, in the order of Hand.joint_names: (N, J)."""
+    """Return the joint angles (N, J) of states of a plan, radians, in the order of
+    Hand.joint_names."""
     return np.array([[angle for finger in state["joints"] for angle in finger]
                      for state in states])
 
 
 def paths_of(step: dict) -> list[list[dict]]:
-    """The paths of states of a plan's step, in their order."""
+    """Return the paths of states of a plan's step, in order."""
     if step["kind"] == "move":
         return [step["path"]]
     motion = step.get("motion", [])

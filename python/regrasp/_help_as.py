@@ -1,5 +1,7 @@
-"""The manual page of regrasp-convert and what shells complete it with, made of its parser as the other
-programs make theirs."""
+"""Manual page, shell completions and Markdown help of regrasp-convert, generated from its parser.
+
+The output has the form of the other programs' output.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +14,10 @@ KINDS = ["man", "bash", "zsh", "fish", "markdown"]
 
 
 def help_as(parser: argparse.ArgumentParser, kind: str) -> str:
-    """The text of one of `KINDS`.
+    """Return the help in one of the formats of `KINDS`.
 
     Raises:
-        InputError: there is no such kind.
+        InputError: If there is no such format.
     """
     if kind not in KINDS:
         raise InputError(f"--help-as must be {', '.join(KINDS[:-1])} or {KINDS[-1]}, found \"{kind}\"")
@@ -23,7 +25,7 @@ def help_as(parser: argparse.ArgumentParser, kind: str) -> str:
 
 
 def _options(parser) -> list[tuple[str, str, str, bool]]:
-    """Name, what its value is called (empty: none), text, whether it is required."""
+    """Return name, value name (empty: no value), help text and required flag of each option."""
     found = []
     for action in parser._actions:
         if not action.option_strings or action.help == argparse.SUPPRESS:
@@ -45,7 +47,7 @@ def _usage(parser) -> str:
 def _man(parser) -> str:
     def escaped(text):
         text = text.replace("\\", "\\e").replace("-", "\\-").replace("…", "...")
-        return "\\&" + text if text.startswith((".", "'")) else text  # no macro
+        return "\\&" + text if text.startswith((".", "'")) else text  # prevents a macro
     lines = [f'.TH {parser.prog.upper()} 1 "" "regrasp {version}" "regrasp"', ".SH NAME",
              f"{parser.prog} \\- {escaped(parser.description)}", ".SH SYNOPSIS",
              escaped(_usage(parser)), ".SH DESCRIPTION", escaped(" ".join(parser.epilog.split())),

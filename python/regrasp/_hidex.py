@@ -1,4 +1,4 @@
-"""Plans of HiDex, CSV."""
+"""Read plans of HiDex (CSV)."""
 
 from __future__ import annotations
 
@@ -11,27 +11,29 @@ from ._finger_grasps import FingerGrasps
 from ._regrasp import InputError
 
 _AWAY = -7777
-"""What HiDex writes for the point of a finger that does not touch, where points are of the world."""
+"""Coordinate that HiDex writes for a finger without contact, if points are in the world frame."""
 
 
 def read_hidex(path: str | os.PathLike, *, frame: str | None = None,
                mesh_scale: float = 1) -> FingerGrasps:
-    """Reads a plan of HiDex: which fingers touch where, one grasp after the other.
+    """Read a plan of HiDex: the contacts of each finger, one grasp after the other.
 
     Each row is an instant: point and normal of each finger, then the object's pose (position and
-    quaternion x, y, z, w); or, where the first row is the number of fingers alone, the pose first and
-    contacts with the surroundings last. Rows in which only the object moves are one grasp.
+    quaternion x, y, z, w). If the first row is only the number of fingers, the pose comes first,
+    and contacts with the environment come last. Consecutive rows in which only the object moves are
+    one grasp.
 
     Args:
-        path: of the CSV file.
-        frame: that its contacts are in, "object" or "world"; None: as the file's fingers that do not
-            touch tell: NaN the object's, -7777 the world's. A file that begins with the number of
-            fingers has them in the object's.
-        mesh_scale: by which HiDex scales the object's file, `scale` in its setup.yaml; points are
-            given in the file's unit.
+        path: CSV file.
+        frame: Frame of the contacts, "object" or "world". Default: derived from the fingers without
+            contact, which are NaN in the object frame and -7777 in the world frame. A file that
+            begins with the number of fingers uses the object frame.
+        mesh_scale: Scale of the object's file, `scale` in HiDex's setup.yaml. Points are returned
+            in the file's unit.
 
     Raises:
-        InputError: names the file, the row and what is wrong, or `frame` where the file does not tell.
+        InputError: If the file is invalid or the frame cannot be derived. The message names the
+            file and the row, or `frame`.
     """
     name = path = _arguments.path("path", path)
     if frame is not None:
@@ -83,7 +85,7 @@ def _rows(name: str) -> list[list[float]]:
 
 
 def _table(name: str, rows: list[list[float]]) -> tuple[np.ndarray, np.ndarray, int]:
-    """(N, F, 6) contacts, (N, 7) poses with w first, how many rows stand before them."""
+    """Return contacts (N, F, 6), poses (N, 7) with w first, and the number of rows before them."""
     counted = int(bool(rows) and len(rows[0]) == 1)
     body = rows[counted:]
     if not body:
@@ -111,7 +113,7 @@ def _table(name: str, rows: list[list[float]]) -> tuple[np.ndarray, np.ndarray, 
 
 
 def _changes(points: np.ndarray, holds: np.ndarray) -> list[int]:
-    """The rows whose fingers touch elsewhere than in the last such row, beyond rounding."""
+    """Return the rows whose contacts differ from the last such row beyond rounding."""
     size = np.nanmax(np.abs(points), initial=0) or 1
     rows = [0]
     for row in range(1, len(points)):

@@ -1,4 +1,4 @@
-"""What notebooks show."""
+"""HTML representations for notebooks."""
 
 from __future__ import annotations
 
@@ -7,25 +7,25 @@ import html
 
 
 def picture(png: bytes, title: str) -> str:
-    """A PNG as a picture in the page."""
+    """Return a PNG as an HTML image."""
     data = base64.b64encode(png).decode("ascii")
     return f'<img src="data:image/png;base64,{data}" alt="{html.escape(title)}" style="max-width:100%">'
 
 
 def drawing(svg: str, title: str) -> str:
-    """An SVG as a picture in the page, by itself: names in one do not meet those in another."""
+    """Return an SVG as a separate HTML image, so that identifiers of two images do not collide."""
     data = base64.b64encode(svg.encode()).decode("ascii")
     return (f'<img src="data:image/svg+xml;base64,{data}" alt="{html.escape(title)}" '
             'style="max-width:100%;background:white">')
 
 
 def text(lines: str) -> str:
-    """Text with its columns."""
+    """Return preformatted text."""
     return f'<pre style="white-space:pre-wrap">{html.escape(lines)}</pre>'
 
 
 def table(head: list[str], rows: list[list[str]]) -> str:
-    """A table of texts."""
+    """Return an HTML table."""
     def row(cells, tag):
         return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
     return ("<table><thead>" + row(head, "th") + "</thead><tbody>"

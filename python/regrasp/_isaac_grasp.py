@@ -1,4 +1,4 @@
-"""The format isaac_grasp 1.0: YAML, of Isaac Sim's Grasp Editor."""
+"""Read and write isaac_grasp 1.0, the YAML format of Isaac Sim's Grasp Editor."""
 
 from __future__ import annotations
 
@@ -13,10 +13,13 @@ from ._regrasp import InputError
 
 
 def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
-    """Reads a file of the format isaac_grasp 1.0 (YAML; Isaac Sim's Grasp Editor).
+    """Read a file in the format isaac_grasp 1.0 (YAML; Isaac Sim's Grasp Editor).
+
+    Args:
+        path: YAML file.
 
     Raises:
-        InputError: names the file, the grasp and what is wrong.
+        InputError: If the file is invalid. The message names the file and the grasp.
     """
     from . import _yaml
     name = path = _arguments.path("path", path)
@@ -54,7 +57,12 @@ def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
 
 def write_isaac_grasp(path: str | os.PathLike, grasps: HandGrasps, *, object_frame: str = "object",
                       gripper_frame: str = "palm") -> None:
-    """Writes a file of the format isaac_grasp 1.0; all numbers read back as the same bits."""
+    """Write a file in the format isaac_grasp 1.0. All numbers are read back with the same bits.
+
+    Args:
+        path: YAML file.
+        grasps: Grasps to write.
+    """
     import yaml
     path = _arguments.path("path", path)
     _arguments.of_type("grasps", grasps, HandGrasps)

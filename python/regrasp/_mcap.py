@@ -1,4 +1,4 @@
-"""Files of MCAP (https://mcap.dev/spec), written: messages of channels, in chunks with an index."""
+"""Write MCAP files (https://mcap.dev/spec): messages of channels, in indexed chunks."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import zlib
 
 _MAGIC = b"\x89MCAP0\r\n"
 _CHUNK_BYTES = 1 << 20
-"""About so much a chunk holds."""
+"""Approximate size of a chunk, bytes."""
 
-# Kinds of records.
+# Record types.
 _HEADER, _FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _MESSAGE_INDEX, _CHUNK_INDEX = range(1, 9)
 _STATISTICS, _SUMMARY_OFFSET, _DATA_END = 0x0B, 0x0E, 0x0F
 
@@ -27,9 +27,10 @@ def _text(text: str) -> bytes:
 
 
 class Writer:
-    """Keeps what is written until `bytes` makes the file of it.
+    """Writer that collects messages; `bytes` returns the file.
 
-    Times are nanoseconds, and messages come in their order. The same messages give the same bytes.
+    Times are in nanoseconds, and messages are added in order. The same messages give the same
+    bytes.
     """
 
     def __init__(self, profile: str, library: str):
@@ -37,16 +38,16 @@ class Writer:
         self._definitions: list[bytes] = []
         self._schemas: dict[str, int] = {}
         self._channels: list[int] = []
-        """Of each channel, from 1 on, how many messages it has."""
+        """Number of messages of each channel; channels are numbered from 1."""
         self._chunk = bytearray()
         self._times: list[int] = []
         self._places: dict[int, list[tuple[int, int]]] = {}
-        """Of the open chunk: times and offsets of each channel's messages."""
+        """Times and offsets of each channel's messages in the open chunk."""
         self._chunks: list[bytes] = []
         self._span: tuple[int, int] | None = None
 
     def channel(self, topic: str, schema: str, definition: str, metadata: dict[str, str]) -> int:
-        """Begins a channel of messages of ROS 2 in CDR, and returns its number."""
+        """Start a channel of ROS 2 messages in CDR, and return its number."""
         if schema not in self._schemas:
             number = len(self._schemas) + 1
             self._schemas[schema] = number
@@ -64,7 +65,7 @@ class Writer:
         self._chunk += record
 
     def message(self, channel: int, time: int, content: bytes) -> None:
-        """Adds a message."""
+        """Add a message."""
         self._places.setdefault(channel, []).append((time, len(self._chunk)))
         self._times.append(time)
         self._chunk += _record(_MESSAGE, struct.pack("<HIQQ", channel, self._channels[channel - 1],
@@ -97,10 +98,10 @@ class Writer:
         self._chunk, self._times, self._places = bytearray(), [], {}
 
     def bytes(self) -> bytes:
-        """The whole file."""
+        """Return the content of the file."""
         self._end_chunk()
         data = bytes(self._data)
-        if not self._chunks:  # what the summary repeats stands in the data, too
+        if not self._chunks:  # records in the summary must also occur in the data
             data += b"".join(self._definitions)
         data += _record(_DATA_END, struct.pack("<I", zlib.crc32(data)))
         counts = b"".join(struct.pack("<HQ", i, n) for i, n in enumerate(self._channels, 1))

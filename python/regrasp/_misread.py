@@ -1,5 +1,8 @@
-"""Why no fingertip touches: a file of grasps is read in other ways, and the way that makes fingertips
-touch is the likely cause."""
+"""Find the likely cause if no fingertip is in contact.
+
+A file of grasps is interpreted differently. The interpretation with fingertips in contact is the
+likely cause.
+"""
 
 from __future__ import annotations
 
@@ -15,40 +18,42 @@ from .hands import Hand
 from .objects import Object
 
 KINDS = "quaternion order, joints in degrees, lengths in millimetres or palm frame"
-"""What `likely_cause` tries."""
+"""Tested interpretations."""
 
 _MOST_GRASPS = 24
-"""That are tried."""
+"""Maximum number of tested grasps."""
 _MOST_VISITS = 2e7
-"""Faces that the search for a palm frame looks at; far from the surface each point looks at all."""
+"""Budget of visited faces in the search for a palm frame. Each point far from the surface visits
+all faces."""
 _ROUNDS = 12
 _SPARE = 3
-"""Fingertips that must touch beyond the three numbers of a fitted position."""
+"""Number of fingertips required in contact in addition to the three coordinates of a fitted
+position."""
 
 
 @dataclass
 class Reading:
-    """Grasps read in another way."""
+    """Grasps in a different interpretation."""
 
     kind: str
     how: str
     help: str
     grasps: HandGrasps
     units: float = 1
-    """By which the object's scale is multiplied."""
+    """Factor of the object's scale."""
 
 
 @dataclass
 class Cause:
-    """A reading with which fingertips touch."""
+    """Interpretation with fingertips in contact."""
 
     kind: str
     how: str
     help: str
     touching: int
-    """Number of fingertips."""
+    """Number of fingertips in contact."""
     tips: int
-    """Number of fingertips that were tried."""
+    """Number of tested fingertips."""
 
     def __str__(self) -> str:
         return (f"{self.kind}: {self.how}, {self.touching} of {self.tips} fingertips touch; "
@@ -58,20 +63,21 @@ class Cause:
 def likely_cause(grasps: HandGrasps, hand: Hand, object: Object, *, fingers: list[int],
                  tolerance: float, palm: list[float] | None = None,
                  file_scales: np.ndarray | None = None) -> Cause | None:
-    """Find the reading of a file with which most fingertips touch.
+    """Find the interpretation of a file with the most fingertips in contact.
 
     Args:
-        grasps: as they were read, none of whose fingertips touches.
-        hand: the hand.
-        object: what it holds; its scale counts if the grasps have none.
-        fingers: indices of the fingers that count.
-        tolerance: as for `HandGrasps.touching`, metres.
-        palm: the palm's frame as for `HandGrasps.with_palm_at`; None: the poses are the palm's.
-        file_scales: (N,) scales of the file if others were used.
+        grasps: Grasps as they were read, without any fingertip in contact.
+        hand: Hand of the grasps.
+        object: Object that the hand holds. Its scale is used if the grasps have none.
+        fingers: Indices of the relevant fingers.
+        tolerance: Contact tolerance as for `HandGrasps.touching`, m.
+        palm: Pose of the palm frame as for `HandGrasps.with_palm_at`. Default: the poses are those
+            of the palm.
+        file_scales: Scales (N,) of the file, if different ones were used.
 
     Returns:
-        The likely cause, or None if with no reading half of the grasps have two fingers, or all that
-        count if it is one, at the surface.
+        Likely cause. None if no interpretation has two fingers in contact in half of the grasps, or
+        one finger if only one is relevant.
     """
     chosen = np.linspace(0, len(grasps) - 1, min(len(grasps), _MOST_GRASPS)).astype(int)
     tried = _part(grasps, chosen)
@@ -106,18 +112,18 @@ def _better(best: Cause | None, reading: Reading, touching: np.ndarray,
 
 
 def _scales(grasps: HandGrasps, object: Object) -> np.ndarray:
-    """(N,) metres per unit of the object's file."""
+    """Return metres per unit of the object's file, shape (N,)."""
     return np.full(len(grasps), object.scale) if grasps.scales is None else grasps.scales
 
 
 def _gaps(reading: Reading, hand: Hand, object: Object) -> np.ndarray:
-    """(N, F) signed distances, metres."""
+    """Return signed distances (N, F), m."""
     scales = _scales(reading.grasps, object) * reading.units
     return measure_gaps(reading.grasps, hand, object, scales)[2]
 
 
 def _readings(grasps: HandGrasps, file_scales: np.ndarray | None) -> Iterator[Reading]:
-    """All that need no fitting."""
+    """Yield all interpretations that require no fit."""
     yield from _quaternion_orders(grasps)
     yield Reading("degrees", "with joints in degrees", "give joint angles in radians",
                   replace(grasps, joints=np.radians(grasps.joints)))
@@ -135,7 +141,7 @@ def _readings(grasps: HandGrasps, file_scales: np.ndarray | None) -> Iterator[Re
 
 
 def _moved(grasps: HandGrasps, palms, objects) -> HandGrasps:
-    """With both poses of the file changed by functions of (N, 7)."""
+    """Return the grasps with both poses of the file changed by functions of (N, 7) arrays."""
     if grasps.world is None:
         changed = palms(np.concatenate([grasps.positions, grasps.quaternions], axis=1))
         return replace(grasps, positions=changed[:, :3], quaternions=changed[:, 3:])
@@ -153,7 +159,8 @@ def _scaled(poses: np.ndarray, factor: float) -> np.ndarray:
 
 
 def _quaternion_orders(grasps: HandGrasps) -> Iterator[Reading]:
-    # Numbers x, y, z, w were read as w, x, y, z, or w, x, y, z were written as x, y, z, w.
+    # Either quaternions x, y, z, w were read as w, x, y, z, or w, x, y, z were written as x, y, z,
+    # w.
     for by, order in ((1, "x, y, z, w"), (-1, "y, z, w, x")):
         def rolled(poses: np.ndarray, by: int = by) -> np.ndarray:
             return np.concatenate([poses[:, :3], np.roll(poses[:, 3:], by, axis=1)], axis=1)
@@ -182,7 +189,7 @@ def _units(grasps: HandGrasps) -> Iterator[Reading]:
 
 
 def _rotations() -> np.ndarray:
-    """(24, 4) quaternions that turn the axes into each other, the identity first."""
+    """Return quaternions (24, 4) of the rotations that permute the axes, the identity first."""
     half = 0.5 ** 0.5
     turns = {tuple(np.round(q, 12)) for signs in product((-1, 1), repeat=4)
              for size in ([1, 0, 0, 0], [half, half, 0, 0], [.5, .5, .5, .5])
@@ -193,8 +200,10 @@ def _rotations() -> np.ndarray:
 
 def _palm_frame(grasps: HandGrasps, hand: Hand, object: Object, fingers: list[int],
                 tolerance: float) -> Cause | None:
-    """The palm's frame in the body's whose poses the file may give: one of 24 directions, and a
-    position that is fitted to the fingertips."""
+    """Search the pose of the palm frame in the frame of the link whose poses the file may contain.
+
+    It has one of 24 orientations, and a position fitted to the fingertips.
+    """
     queries = max(_MOST_VISITS / max(object.face_count, 1), 2000)
     count = max(min(len(grasps), int(queries / 400 / len(hand.fingers))), 1)
     tried = _part(grasps, np.linspace(0, len(grasps) - 1, count).astype(int))
@@ -220,7 +229,7 @@ def _shifts() -> list[np.ndarray]:
 
 
 class _PalmFit:
-    """Fits the position of a palm's frame so that fingertips come to the surface."""
+    """Fit of the position of a palm frame that moves fingertips to the surface."""
 
     def __init__(self, grasps: HandGrasps, hand: Hand, object: Object, fingers: list[int],
                  tolerance: float):
@@ -233,7 +242,7 @@ class _PalmFit:
         self._least = tolerance / 4
 
     def _look(self, turn: np.ndarray, shift: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Signed distances (M,), and the directions in the body's frame that increase them (M, 3)."""
+        """Return signed distances (M,) and their gradients (M, 3) in the link's frame."""
         local = self._tips @ _poses.matrices(turn).T + shift
         centres = np.einsum("nij,nkj->nki", self._turns, local) + self._positions[:, None]
         points, inward = self._object.nearest((centres / self._scales).reshape(-1, 3))
@@ -247,11 +256,13 @@ class _PalmFit:
         return (side * distance - self._radii).ravel(), slopes.reshape(-1, 3)
 
     def cost(self, turn: np.ndarray, shift: np.ndarray) -> float:
-        """The median distance: fingers that do not touch in the grasp do not count."""
+        """Return the median distance, which is insensitive to fingers without contact in the grasp.
+        """
         return float(np.median(np.abs(self._look(turn, shift)[0])))
 
     def refine(self, turn: np.ndarray, shift: np.ndarray) -> np.ndarray:
-        """The position after some rounds of least squares, in which far fingertips weigh less."""
+        """Return the position after some rounds of least squares, in which far fingertips have a
+        small weight."""
         for _ in range(_ROUNDS):
             gaps, slopes = self._look(turn, shift)
             weights = 1 / np.sqrt(np.maximum(np.abs(gaps), self._least))

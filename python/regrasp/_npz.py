@@ -1,4 +1,4 @@
-"""NPZ files, written as the programs write files: as a whole, under the very name that is given."""
+"""Write NPZ files atomically and under exactly the given file name, like the programs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from . import _regrasp
 
 
 def write(path: str, **arrays: np.ndarray) -> None:
-    """Writes arrays by their names."""
+    """Write arrays by their names."""
     content = io.BytesIO()
     np.savez(content, **arrays)
     _regrasp.write_file(path, content.getvalue())

@@ -1,4 +1,4 @@
-"""Positions and quaternions w, x, y, z, of many grasps at once."""
+"""Batches of positions and quaternions w, x, y, z."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ._regrasp import InputError
 
 
 def matrices(quaternions: np.ndarray) -> np.ndarray:
-    """(…, 3, 3) rotations of (…, 4)."""
+    """Return rotation matrices (…, 3, 3) of quaternions (…, 4)."""
     w, x, y, z = np.moveaxis(quaternions, -1, 0)
     rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
             [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -17,20 +17,20 @@ def matrices(quaternions: np.ndarray) -> np.ndarray:
 
 
 def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """a after b."""
+    """Return the quaternion of the rotation `b` followed by `a`."""
     aw, av, bw, bv = a[..., :1], a[..., 1:], b[..., :1], b[..., 1:]
     return np.concatenate([aw * bw - (av * bv).sum(-1, keepdims=True),
                            aw * bv + bw * av + np.cross(av, bv)], axis=-1)
 
 
 def inverse(position: np.ndarray, quaternion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of a pose."""
+    """Return the inverse of a pose as position and quaternion."""
     back = quaternion * [1, -1, -1, -1]
     return -np.einsum("...ij,...j->...i", matrices(back), position), back
 
 
 def unit(name: str, quaternions) -> np.ndarray:
-    """The same of length exactly 1, where they are nearly."""
+    """Return normalized quaternions; their norms must already be close to 1."""
     quaternions = np.asarray(quaternions, dtype=float)
     lengths = np.linalg.norm(quaternions, axis=-1, keepdims=True)
     if not (np.abs(lengths - 1) < 1e-2).all():

@@ -1,4 +1,4 @@
-"""What a hand and an object do as messages of ROS 2: transforms and joint states, in MCAP."""
+"""Write motions of a hand and an object as ROS 2 messages in MCAP: transforms and joint states."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _JOINTS = ("std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[]
 
 
 class _Cdr:
-    """A message in little-endian CDR; numbers stand at multiples of their size."""
+    """Message in little-endian CDR, in which numbers are aligned to multiples of their size."""
 
     def __init__(self):
         self._data = bytearray()
@@ -56,7 +56,7 @@ class _Cdr:
 
 
 def _transforms(time: int, parent: str, children: list[tuple[str, np.ndarray]]) -> bytes:
-    """Poses of seven numbers, quaternions with w first."""
+    """Return the message of poses with seven numbers each, quaternions with w first."""
     cdr = _Cdr()
     cdr.number("I", len(children))
     for name, pose in children:
@@ -81,24 +81,27 @@ def _joint_state(time: int, names: list[str], angles: np.ndarray) -> bytes:
 
 def write_mcap(path: str | os.PathLike, motion: HandMotion, hand: Hand | None = None, *,
                start_time: float = 0, palm_frame: str = "palm", object_frame: str = "object") -> None:
-    """Writes an MCAP file of ROS 2 messages, which rosbag2, Foxglove and Rerun open.
+    """Write an MCAP file of ROS 2 messages for rosbag2, Foxglove and Rerun.
 
-    `/tf` (tf2_msgs/msg/TFMessage) has the object's frame in the palm's, and with a hand a frame at the
-    centre of each fingertip's ball, not turned, `FINGER_tip`; `/joint_states`
-    (sensor_msgs/msg/JointState) has the joints, and `/joint_commands` the controls where there are any.
+    The topics are:
+
+    - `/tf` (tf2_msgs/msg/TFMessage): the object's frame in the palm frame. With a hand also a frame
+      `FINGER_tip` at the centre of each fingertip sphere, with the orientation of the palm.
+    - `/joint_states` (sensor_msgs/msg/JointState): the joints.
+    - `/joint_commands` (sensor_msgs/msg/JointState): the controls, if there are any.
 
     Args:
-        path: of the file.
-        motion: what is written.
-        hand: for the fingertips.
-        start_time: of the motion's time 0, seconds since 1970.
-        palm_frame: name of the palm's frame.
-        object_frame: name of the object's.
+        path: MCAP file.
+        motion: Motion to write.
+        hand: Hand for the fingertip frames. Default: no fingertip frames.
+        start_time: Time of the motion's time 0, seconds since 1970.
+        palm_frame: Name of the palm frame.
+        object_frame: Name of the object's frame.
     """
     path = _arguments.path("path", path)
     _arguments.of_type("motion", motion, HandMotion)
     start = round(_arguments.number("start_time", start_time, 0, 2**31, zero=True) * 10**9)
-    # Seconds of ROS 2 are an int32.
+    # Seconds in ROS 2 are an int32.
     if len(motion) and start / 10**9 + motion.times[-1] >= 2**31 - 1:
         raise InputError(f"times must be below 2^31 s, the largest time of ROS 2, found "
                          f"{motion.times[-1]:g} s")
@@ -117,7 +120,7 @@ def write_mcap(path: str | os.PathLike, motion: HandMotion, hand: Hand | None = 
             if not word or not word.isprintable():
                 raise InputError(f"{what} must be a printable name, found {_arguments.shown(word)}")
     writer = _mcap.Writer("ros2", f"regrasp {version}")
-    # Of rosbag2; empty: its defaults.
+    # Metadata of rosbag2; empty: defaults.
     metadata = {"offered_qos_profiles": ""}
     tf = writer.channel("/tf", "tf2_msgs/msg/TFMessage", _TRANSFORMS, metadata)
     states = writer.channel("/joint_states", "sensor_msgs/msg/JointState", _JOINTS, metadata)

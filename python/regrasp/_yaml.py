@@ -1,4 +1,4 @@
-"""YAML, read strictly: data only, no key twice, and no more of it than the file is long for."""
+"""Strict YAML reader: only data, unique keys, and a bounded expansion of aliases."""
 
 from __future__ import annotations
 
@@ -24,16 +24,17 @@ class _Loader(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-# Numbers as JSON and others write them are texts to YAML 1.1: 1e-05, without a point or a sign.
+# YAML 1.1 treats numbers such as 1e-05, without a point or a sign, as text. JSON writes them so.
 _Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(
     r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$"), list("-+.0123456789"))
 
 
 def read(path: str) -> object:
-    """What the file holds: dictionaries, lists, texts and numbers.
+    """Return the content of a file: dictionaries, lists, texts and numbers.
 
     Raises:
-        InputError: it is no YAML, has a key twice, or aliases that stand for too much.
+        InputError: If the file is not valid YAML, has a duplicate key, or aliases that expand too
+            far.
     """
     try:
         with open(path, encoding="utf-8") as file:
@@ -42,6 +43,6 @@ def read(path: str) -> object:
         raise
     except RecursionError:
         raise InputError(f"{path}: not a YAML file: nested too deep") from None
-    except Exception as error:  # of the parser, and of numbers and dates that are none
+    except Exception as error:  # parser errors, and invalid numbers and dates
         raise InputError(f"{path}: not a YAML file: {' '.join(str(error).split())}") from None
     return _arguments.bounded(path, data)

@@ -1,4 +1,4 @@
-"""The program regrasp-convert: grasps and plans from and to the formats of other projects."""
+"""Program regrasp-convert: convert grasps and plans from and to third-party formats."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ trajectories of validate (.npz, to .mcap). Output: isaac_grasp 1.0 (.yaml), cont
 class _Parser(argparse.ArgumentParser):
 
     def error(self, message):
-        """One line, as of the other programs."""
+        """Print one line, like the other programs, and exit."""
         self.exit(2, f"{self.prog}: error: {message} ({self.prog} --help lists all)\n")
 
 
 class _HelpAs(argparse.Action):
-    """As of the other programs: prints the text in another format, and exits."""
+    """Option that prints the help in another format and exits, as in the other programs."""
 
     def __call__(self, parser, namespace, value, option_string=None):
         try:
@@ -45,7 +45,7 @@ class NoContacts(Exception):
 
 
 def parser() -> argparse.ArgumentParser:
-    """Of the program's options."""
+    """Return the parser of the program's options."""
     parser = _Parser(
         prog="regrasp-convert", description="Convert grasps and plans between formats, and report what "
         "the output format cannot represent.", epilog=_EPILOG)
@@ -111,7 +111,7 @@ def _read_dictionary(path: str, options) -> formats.HandGrasps:
 
 
 def _check_object_pose(path: str, options) -> None:
-    """That --object-pose is not given for a file in which it means nothing."""
+    """Check that --object-pose is not given for a file without object pose."""
     if options.object_pose is not None:
         raise InputError(f"--object-pose cannot be used with {path}, expected a dictionary of "
                          "DexGraspBench, Dexonomy or BODex")
@@ -133,7 +133,7 @@ def _read(path: str, hand: Hand | None, options) -> formats.HandGrasps:
 
 
 def _fitting(path: str, grasps: formats.HandGrasps, hand: Hand | None) -> formats.HandGrasps:
-    """The same grasps, if a hand that is given has their joints."""
+    """Return the grasps; if a hand is given, check that they have its joints."""
     try:
         if hand is not None:
             grasps.in_order_of(hand)
@@ -187,7 +187,7 @@ def _object(options) -> Object:
 
 
 def _convert_motion(options, hand: Hand | None) -> list[str]:
-    """To .mcap."""
+    """Convert to .mcap."""
     path = _single(options.inputs, "what goes to .mcap")
     if _ending(path) == ".json":
         motion = formats.motion_of_plan(path, _need(hand, "hand", "for the joint names of a plan"))
@@ -200,7 +200,7 @@ def _convert_motion(options, hand: Hand | None) -> list[str]:
 
 
 def _convert_fingers(options) -> list[str]:
-    """Of .csv."""
+    """Convert from .csv."""
     ending = _ending(options.output)
     if ending not in (".npz", ".json"):
         raise InputError(f"--output {options.output} must be .npz or .json for an input .csv")
@@ -248,10 +248,14 @@ def _write_contacts(options, grasps: formats.HandGrasps, hand: Hand) -> list[str
 
 def _no_contacts(options, grasps: formats.HandGrasps, hand: Hand, body: Object,
                  gaps: np.ndarray) -> str:
-    """The line for grasps none of which is at the surface.
+    """Return the message that no grasp has contacts.
 
     Args:
-        gaps: (N, chosen fingers) signed distances, metres.
+        options: Options of the program.
+        grasps: Grasps as they were read.
+        hand: Hand of the grasps.
+        body: Object that the hand holds.
+        gaps: Signed distances (N, selected fingers), m.
     """
     if not len(grasps):
         return "no contacts found: the files hold no grasp"
@@ -276,7 +280,8 @@ def _no_contacts(options, grasps: formats.HandGrasps, hand: Hand, body: Object,
 
 def _likely_cause(options, grasps: formats.HandGrasps, hand: Hand,
                   body: Object) -> _misread.Cause | None:
-    """Of grasps as they were read; a scale that is given replaces theirs."""
+    """Return the likely cause for the grasps as they were read. A given --scale replaces their
+    scales."""
     sized = grasps if options.scale is None else replace(grasps, scales=None)
     return _misread.likely_cause(
         sized, hand, body, fingers=_chosen(options.fingers, hand),
@@ -286,7 +291,7 @@ def _likely_cause(options, grasps: formats.HandGrasps, hand: Hand,
 
 
 def _at_palm(options, grasps: formats.HandGrasps) -> formats.HandGrasps:
-    """The grasps with the poses of the palm."""
+    """Return the grasps with the poses of the palm."""
     return grasps.with_palm_at(_numbers("--palm", options.palm)) if options.palm else grasps
 
 
@@ -302,7 +307,7 @@ def _write_isaac_grasp(options, grasps: formats.HandGrasps, hand: Hand | None) -
 
 
 def _run(options) -> list[str]:
-    """Converts, and returns what was lost."""
+    """Convert the inputs, and return descriptions of the content that is not converted."""
     ending = _ending(options.output)
     if ending not in (".yaml", ".yml", ".npz", ".json", ".mcap"):
         raise InputError(f"--output {options.output} must be .yaml, .npz, .json or .mcap")
@@ -325,8 +330,12 @@ def _run(options) -> list[str]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the program. Returns its exit code: 0, 1 if no grasp has contacts, 2 for bad input, 3 if the
-    machine fails."""
+    """Run the program.
+
+    Returns:
+        Exit code: 0 on success, 1 if no grasp has contacts, 2 for bad input, 3 if the machine
+        fails.
+    """
     options = parser().parse_args(arguments)
     try:
         lost = _run(options)

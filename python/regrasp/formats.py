@@ -1,4 +1,4 @@
-"""Grasps and plans in the formats of other projects (docs/interchange.md has the table)."""
+"""Grasps and plans in third-party formats (docs/interchange.md has the table)."""
 
 from ._dexgraspbench import read_bodex, read_dexgraspbench
 from ._dexgraspnet import read_dexgraspnet
