@@ -13,8 +13,8 @@
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/request.h"
 #include "planner/gait/schedule.h"
+#include "planner/planning/candidate_sequence.h"
 #include "planner/planning/in_hand_task.h"
-#include "planner/planning/rest_summary.h"
 
 namespace regrasp::gait {
 

@@ -1,15 +1,104 @@
 #include "planner/grasp/subset_force_closure.h"
 
 #include <bit>
+#include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "planner/grasp/force_closure_core.h"
+#include "planner/grasp/pair_line.h"
 #include "planner/grasp/separator_pool.h"
-#include "planner/grasp/turn_table.h"
+#include "planner/grasp/unit_contacts.h"
 
 namespace regrasp::grasp {
 namespace {
+
+/// Turning directions of all contacts about the lines through all pairs, as rows of bits.
+///
+/// Lines run from the smaller to the larger index. For each kind of turn (kPositive, kNegative,
+/// kBoth) there are two rows of words per ordered pair. `ByContact(a, b)` has bit c if c turns in
+/// that direction about line ab. `ByLine(a, b)` has bit c if b turns in that direction about line
+/// ac.
+class TurnTable {
+ public:
+  using Word = std::uint64_t;
+  static constexpr int kWordBits = 64;
+
+  explicit TurnTable(std::span<const UnitContact> contacts);
+
+  [[nodiscard]] int words() const { return words_; }
+
+  struct Rows {
+    const Word* positive;
+    const Word* negative;
+    const Word* both;
+  };
+  [[nodiscard]] Rows ByContact(int a, int b) const { return RowsOf(by_contact_, a, b); }
+  [[nodiscard]] Rows ByLine(int a, int b) const { return RowsOf(by_line_, a, b); }
+
+  /// Row of bits; bit b is set if a and b are an antipodal pair.
+  [[nodiscard]] const Word* Antipodal(int a) const { return &antipodal_[Row(a)]; }
+
+  [[nodiscard]] static bool Has(const Word* row, int bit) {
+    return (row[bit / kWordBits] >> (bit % kWordBits)) & 1U;
+  }
+  static void Set(Word* row, int bit) { row[bit / kWordBits] |= Word{1} << (bit % kWordBits); }
+
+ private:
+  static constexpr int kKinds = 3;
+
+  [[nodiscard]] std::size_t Row(std::size_t row) const { return row * words_; }
+  [[nodiscard]] std::size_t Pair(int a, int b) const {
+    return static_cast<std::size_t>(kKinds) * (static_cast<std::size_t>(a) * count_ + b);
+  }
+  [[nodiscard]] Rows RowsOf(const std::vector<Word>& bits, int a, int b) const {
+    const std::size_t row = Pair(a, b);
+    return {&bits[Row(row)], &bits[Row(row + 1)], &bits[Row(row + 2)]};
+  }
+  void Store(int a, int b, int c, Turn turn);
+
+  int count_;
+  int words_;
+  std::vector<Word> by_contact_;
+  std::vector<Word> by_line_;
+  std::vector<Word> antipodal_;
+};
+
+TurnTable::TurnTable(std::span<const UnitContact> contacts)
+    : count_(static_cast<int>(contacts.size())),
+      words_((count_ + kWordBits - 1) / kWordBits),
+      by_contact_(Row(Pair(count_, 0))),
+      by_line_(Row(Pair(count_, 0))),
+      antipodal_(Row(count_)) {
+  for (int a = 0; a < count_; ++a) {
+    for (int b = a + 1; b < count_; ++b) {
+      for (int c = 0; c < count_; ++c) {
+        if (c == a || c == b) continue;
+        Store(a, b, c, TurnAboutLine(contacts[a], contacts[b], contacts[c]));
+      }
+      if (IsAntipodal(contacts[a], contacts[b])) {
+        Set(&antipodal_[Row(a)], b);
+        Set(&antipodal_[Row(b)], a);
+      }
+    }
+  }
+}
+
+void TurnTable::Store(int a, int b, int c, Turn turn) {
+  if (turn == Turn::kUnclear) return;
+  if (turn == Turn::kNone) {
+    Store(a, b, c, Turn::kPositive);
+    Store(a, b, c, Turn::kNegative);
+    return;
+  }
+  const int kind = turn == Turn::kPositive ? 0 : turn == Turn::kNegative ? 1 : 2;
+  Set(&by_contact_[Row(Pair(a, b) + kind)], c);
+  Set(&by_contact_[Row(Pair(b, a) + kind)], c);
+  Set(&by_line_[Row(Pair(a, c) + kind)], b);
+  Set(&by_line_[Row(Pair(b, c) + kind)], a);
+}
 
 using Word = TurnTable::Word;
 

@@ -16,7 +16,7 @@
 #include "planner/base/text_table.h"
 #include "planner/kinematics/convert_mjcf.h"
 #include "planner/kinematics/convert_urdf.h"
-#include "planner/mujoco/memory_files.h"
+#include "planner/mujoco/handles.h"
 #include "planner/object/limited_child.h"
 
 namespace regrasp::kinematics {

@@ -14,18 +14,19 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/base/text_encoding.h"
-#include "planner/object/collada_check.h"
 #include "planner/object/limited_child.h"
 #include "planner/object/read_3mf.h"
 #include "planner/object/read_gltf.h"
 #include "planner/object/soup_bytes.h"
 #include "planner/object/surface_format.h"
 #include "planner/object/text_scanner.h"
+#include "planner/object/xml_scan.h"
 
 namespace regrasp::object {
 
@@ -33,6 +34,46 @@ namespace {
 
 /// Extensions of secondary files that assimp's readers search for and that do not affect the
 /// surface: images, palettes, materials, skeletons and animations.
+constexpr auto kMisread = std::to_array<std::string_view>(
+    {"brep", "convex_mesh", "instance_controller", "lookat", "ph", "skew", "spline"});
+
+/// Elements that refer to a surface by `url`.
+constexpr auto kInstances = std::to_array<std::string_view>(
+    {"instance_geometry", "instance_node", "instance_visual_scene"});
+
+double UnitOfTag(const XmlTag& tag) {
+  if (!tag.Find("meter")) return 1;  // the default
+  const double metres = tag.Number("meter");
+  if (metres > 0) return metres;
+  throw InputError("unit: meter: expected a positive number, found " + FormatDouble(metres));
+}
+
+/// Check that a COLLADA document holds nothing that assimp would misread, before assimp reads it.
+std::optional<double> CheckCollada(std::string_view bytes) {
+  std::optional<double> unit;
+  ScanXml(TextOf(bytes, "document"), "", [&](const XmlTag& tag) {
+    if (std::ranges::find(kMisread, tag.name()) != kMisread.end()) {
+      throw InputError("element " + Quoted(tag.name()) + ": not supported");
+    }
+    if (std::ranges::find(kInstances, tag.name()) != kInstances.end()) {
+      const std::string url = tag.Text("url");
+      if (!url.starts_with('#')) {
+        throw InputError("surface in another file, " + Quoted(url) +
+                         ": not supported; help: convert the object to .glb or .ply");
+      }
+    }
+    if (tag.name() != "unit") return;
+    const double metres = UnitOfTag(tag);
+    if (unit && *unit != metres) {
+      throw InputError("unit: several, expected one, found " + FormatDouble(*unit) + " and " +
+                       FormatDouble(metres) + " m");
+    }
+    unit = metres;
+  });
+  return unit;
+}
+
+/// Endings of files that assimp's readers look for beside the object's and that hold nothing of its
 constexpr auto kNothingOfSurface = std::to_array<std::string_view>(
     {".bmp",     ".dds",       ".exr",      ".gif",  ".hdr", ".jpeg", ".jpg",  ".ktx", ".ktx2",
      ".lmp",     ".mat",       ".material", ".mtl",  ".pal", ".pcx",  ".png",  ".psd", ".shader",

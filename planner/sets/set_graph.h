@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "planner/base/deadline.h"
@@ -49,6 +50,50 @@ class SetGraph : public search::SwitchingGraph {
   Stopwatch stopwatch_;
   double vertex_seconds_ = 0;
   double edge_seconds_ = 0;
+};
+
+/// Grasp sets that are connected with the start or goal grasp.
+struct GraspEnds {
+  std::set<SetIndex> of_itself;  ///< that contain the grasp
+  std::set<SetIndex> by_switch;  ///< reached by one finger switch from the grasp
+};
+
+/// A switching graph with a start and a goal grasp as vertices of their own, and without some
+/// switches. Sets that a grasp reaches by a switch of its own are one switch farther than those
+/// that contain it.
+class AttachedGraph final : public search::SwitchingGraph {
+ public:
+  /// @param graph, banned  must outlive this object.
+  AttachedGraph(const search::SwitchingGraph& graph, const GraspEnds& start, const GraspEnds& goal,
+                const std::set<search::VertexPair>& banned)
+      : graph_(graph),
+        banned_(banned),
+        start_{graph.vertex_count(), graph.vertex_count() + 2, start},
+        goal_{graph.vertex_count() + 1, graph.vertex_count() + 3, goal} {}
+
+  [[nodiscard]] int start() const { return start_.grasp; }
+  [[nodiscard]] int goal() const { return goal_.grasp; }
+  /// False for the vertices of start and goal, before and after a switch of their own.
+  [[nodiscard]] bool IsSet(int vertex) const { return vertex < graph_.vertex_count(); }
+  /// Whether every sequence passes this set, because start or goal is joined to this set only.
+  [[nodiscard]] bool IsOnlySetOfAnEnd(int vertex) const;
+
+  [[nodiscard]] int vertex_count() const override { return graph_.vertex_count() + 4; }
+  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override;
+
+ private:
+  struct End {
+    int grasp;
+    int changed;  ///< vertex of the grasp after its additional switch
+    GraspEnds sets;
+  };
+  static bool GetNeighboursOfEnd(const End& end, int vertex, std::vector<int>& neighbours);
+  static void AddEnd(const End& end, SetIndex set, std::vector<int>& neighbours);
+
+  const search::SwitchingGraph& graph_;
+  const std::set<search::VertexPair>& banned_;
+  End start_;
+  End goal_;
 };
 
 }  // namespace regrasp::sets

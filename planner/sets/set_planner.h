@@ -13,9 +13,9 @@
 #include "planner/planning/candidate_sequence.h"
 #include "planner/planning/plan_request.h"
 #include "planner/sampling/draw_grasp.h"
-#include "planner/sets/attached_graph.h"
 #include "planner/sets/candidate_search.h"
 #include "planner/sets/sequence_builder.h"
+#include "planner/sets/set_graph.h"
 #include "planner/sets/set_sampling.h"
 
 namespace regrasp::sets {

@@ -7,7 +7,6 @@
 
 #include "planner/base/error.h"
 #include "planner/mujoco/handles.h"
-#include "planner/mujoco/memory_files.h"
 #include "sim/scene/engine.h"
 
 namespace regrasp::sim {

@@ -1,5 +1,3 @@
-#include "planner/planning/rest_summary.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +9,7 @@
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/object/polygon.h"
+#include "planner/planning/candidate_sequence.h"
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::planning {

@@ -1,5 +1,3 @@
-#include "planner/sets/attached_graph.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include "planner/search/switching_graph.h"
 #include "planner/sets/candidate_search.h"
 #include "planner/sets/polygon/graph_cells.h"
+#include "planner/sets/set_graph.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {

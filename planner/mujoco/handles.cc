@@ -1,4 +1,4 @@
-#include "planner/mujoco/memory_files.h"
+#include "planner/mujoco/handles.h"
 
 #include <cstring>
 #include <stdexcept>
