@@ -73,7 +73,8 @@ std::optional<double> CheckCollada(std::string_view bytes) {
   return unit;
 }
 
-/// Endings of files that assimp's readers look for beside the object's and that hold nothing of its
+/// Extensions of secondary files that assimp's readers search for and that do not affect the
+/// surface: images, palettes, materials, skeletons and animations.
 constexpr auto kNothingOfSurface = std::to_array<std::string_view>(
     {".bmp",     ".dds",       ".exr",      ".gif",  ".hdr", ".jpeg", ".jpg",  ".ktx", ".ktx2",
      ".lmp",     ".mat",       ".material", ".mtl",  ".pal", ".pcx",  ".png",  ".psd", ".shader",
