@@ -125,7 +125,7 @@ void ExecutionMonitor::WatchObject(const Isometry3d& planned, double share, doub
                                   ? FormatLengthWithLimit(off, most_m)
                                   : FormatDegreesWithLimit(Degrees(turned), Degrees(most_rad));
   Fail(Reason::kObjectMoved,
-       "the object is " + value + " from where the plan has it, of " + limit + " allowed",
+       "the object is " + value + " off its planned pose, of " + limit + " allowed",
        {.number = number, .pose = planned});
 }
 
@@ -156,10 +156,10 @@ void ExecutionMonitor::WatchContact(FingerIndex f) {
     Fail(Reason::kContactLost, name + " has lost its contact",
          {"no force", {f}, {{f, joints}}, world_.tip(f)});
   } else {
-    const std::string how = state.slides_to_O ? " off its way" : " slipped";
+    const std::string how = state.slides_to_O ? " off its path" : " slipped";
     const auto [value, limit] = FormatLengthWithLimit(slip, tolerance_.slip_m);
     Fail(Reason::kSlipped,
-         name + (state.slides_to_O ? " is " + value + " off its way" : " slipped by " + value) +
+         name + (state.slides_to_O ? " is " + value + " off its path" : " slipped by " + value) +
              ", of " + limit + " allowed,",
          {FormatLength(slip, 2) + how, {f}, {{f, joints}}, world_.tip(f)});
   }
