@@ -1,5 +1,3 @@
-#include "apps/grasps_run.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,6 +13,7 @@
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "apps/validate_run.h"
 #include "apps/validate_task.h"
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"

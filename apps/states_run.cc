@@ -1,5 +1,3 @@
-#include "apps/states_run.h"
-
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -10,7 +8,7 @@
 
 #include "apps/program.h"
 #include "apps/progress.h"
-#include "apps/scene_folder.h"
+#include "apps/validate_run.h"
 #include "apps/validate_task.h"
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"

@@ -4,11 +4,7 @@
 
 #include "apps/commands.h"
 #include "apps/explain.h"
-#include "apps/grasps_run.h"
 #include "apps/program.h"
-#include "apps/states_run.h"
-#include "apps/validate_batch.h"
-#include "apps/validate_lines.h"
 #include "apps/validate_options.h"
 #include "apps/validate_run.h"
 

@@ -1,5 +1,3 @@
-#include "apps/validate_batch.h"
-
 #include <algorithm>
 #include <csignal>
 #include <cstring>

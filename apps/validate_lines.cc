@@ -1,5 +1,3 @@
-#include "apps/validate_lines.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,6 @@
 #include "apps/progress.h"
 #include "apps/run_date.h"
 #include "apps/run_digest.h"
-#include "apps/scene_folder.h"
 #include "apps/validate_task.h"
 #include "apps/verify_report.h"
 #include "planner/base/deadline.h"
@@ -312,6 +312,15 @@ void Print(const ValidateOptions& options, const ValidateTask& task,
 }
 
 }  // namespace
+
+void WriteSceneFolder(const std::string& folder, const std::vector<sim::SceneFile>& files) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw EnvironmentError(folder + ": cannot be made: " + error.message());
+  for (const sim::SceneFile& file : files) {
+    WriteFile(std::filesystem::path(folder) / file.name, file.bytes);
+  }
+}
 
 ValidationRun RunValidation(const ValidateOptions& options) {
   ReplayRecord record;

@@ -5,14 +5,13 @@
 #include <system_error>
 
 #include "apps/frame_files.h"
-#include "apps/grasps_run.h"
 #include "apps/output_files.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/repair_module.h"
 #include "apps/run_digest.h"
-#include "apps/states_run.h"
+#include "apps/validate_run.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/criteria/reach.h"

@@ -1,9 +1,63 @@
 #include "report/report.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+
 #include "planner/base/limit_text.h"
-#include "report/hand_limits.h"
+#include "planner/base/number.h"
 
 namespace regrasp::report {
+
+namespace {
+
+/// Significant digits of a torque.
+constexpr int kTorqueDigits = 3;
+/// Geometry of a fingertip that is less deep in the object is not mentioned, metres.
+constexpr double kMentionedDepth = 1e-3;
+
+bool IsUnlimited(const sim::DriveLimits& limit) { return !std::isfinite(limit.torque_Nm); }
+
+std::string TorqueText(double torque) { return FormatShort(torque, kTorqueDigits); }
+
+/// "1 joint range", "2 joint ranges".
+std::string CountedText(std::ptrdiff_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+/// "3 of 16 actuators".
+std::string UnlimitedText(const std::vector<sim::DriveLimits>& limits) {
+  return std::to_string(std::ranges::count_if(limits, IsUnlimited)) + " of " +
+         CountedText(std::ssize(limits), "actuator");
+}
+
+/// Add the assumptions of a replay by a hand: actuators without a force limit, and fingertips whose
+/// geometry is in the object because a sphere replaces it.
+void AddHandWarnings(const Report& report, std::vector<std::string>& warnings) {
+  if (!report.settings || !report.settings->hand) return;
+  double torque = 0;
+  double covered = 0;
+  for (const ReportStep& step : report.steps) {
+    if (!step.replay || !step.replay->hand) continue;
+    torque = std::max(torque, step.replay->hand->torque_Nm);
+    covered = std::max(covered, step.replay->hand->covered_depth_m);
+  }
+  const std::vector<sim::DriveLimits>& limits = report.settings->hand->limits;
+  if (std::ranges::any_of(limits, IsUnlimited)) {
+    warnings.push_back("the hand's model gives no force limit for " + UnlimitedText(limits) +
+                       ": the verdict takes their strength as unlimited, largest torque " +
+                       TorqueText(torque) + " N·m");
+  }
+  if (covered > kMentionedDepth) {
+    warnings.push_back("the collision geometry of a fingertip is up to " + FormatLength(covered) +
+                       " inside the object when its sphere touches; help: validate with "
+                       "--tip geometry");
+  }
+}
+
+}  // namespace
 
 std::string_view VerdictName(Verdict verdict) {
   switch (verdict) {
@@ -23,6 +77,29 @@ std::string ReasonText(plan::Reason reason) {
 
 std::string VerdictText(const ReportStep& step) {
   return step.skipped ? "skipped" : ReasonText(step.reason());
+}
+
+std::string LimitsText(const std::vector<sim::DriveLimits>& limits) {
+  if (limits.empty()) return "none";
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (const sim::DriveLimits& limit : limits) {
+    if (IsUnlimited(limit)) continue;
+    least = std::min(least, limit.torque_Nm);
+    most = std::max(most, limit.torque_Nm);
+  }
+  std::string text;
+  if (most > 0) {
+    text =
+        "torque " + (least < most ? TorqueText(least) + " to " : "") + TorqueText(most) + " N·m, ";
+  }
+  if (std::ranges::any_of(limits, IsUnlimited)) {
+    text += "force limit unknown for " + UnlimitedText(limits) + ", ";
+  }
+  const auto controls = std::ranges::count_if(
+      limits, [](const sim::DriveLimits& limit) { return limit.control.has_value(); });
+  return text + CountedText(controls, "control range") + ", " +
+         CountedText(std::ssize(limits), "joint range");
 }
 
 std::vector<std::string> Warnings(const Report& report) {

@@ -26,9 +26,13 @@ using validation::Verdict;
 /// Return "pass", "skipped" or "fail: slipped".
 [[nodiscard]] std::string VerdictText(const ReportStep& step);
 
+/// Return the limits that the verdict of a replay by a hand relies on, in one line: "torque 1 N·m,
+/// 16 control ranges, 16 joint ranges".
+[[nodiscard]] std::string LimitsText(const std::vector<sim::DriveLimits>& limits);
+
 /// Return warnings for people that do not change the verdict: each switch with a smaller contact
 /// region than the plan claims, each sliding step whose certificate does not prove it, and the
-/// assumptions of a replay by a hand (hand_limits.h).
+/// assumptions of a replay by a hand.
 [[nodiscard]] std::vector<std::string> Warnings(const Report& report);
 
 /// Format report.json. In addition to the members that docs/format_report.md defines, each step has

@@ -11,7 +11,6 @@
 #include "planner/base/text_table.h"
 #include "planner/grasp/quality.h"
 #include "report/failure.h"
-#include "report/hand_limits.h"
 #include "report/report.h"
 #include "sim/measure/shake.h"
 #include "sim/measure/weakest_finger.h"

@@ -5,7 +5,6 @@
 
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "report/hand_limits.h"
 #include "report/page/step_table.h"
 #include "report/report_table.h"
 

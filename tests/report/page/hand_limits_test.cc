@@ -1,5 +1,3 @@
-#include "report/hand_limits.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
