@@ -1,4 +1,4 @@
-"""`validate --grasps`: from NPZ to NPZ."""
+"""`validate --grasps`, from NPZ to NPZ."""
 
 import json
 import os
@@ -12,7 +12,7 @@ from regrasp_case import PROGRAMS, RegraspCase
 
 
 def on_cube(count, contacts, seed):
-    """Grasps on the faces of models/cube.obj, whose side is 0.06."""
+    """Return grasps on the faces of models/cube.obj, whose side is 0.06."""
     rng = np.random.default_rng(seed)
     face = rng.integers(0, 6, size=(count, contacts))
     axis, side = face % 3, np.where(face < 3, 1., -1.)
@@ -85,7 +85,7 @@ class GraspFilesTest(RegraspCase):
         self.assertFalse(found["holds"][counts == 0].any())
         words = found["reasons"][found["reason"].astype(int)]
         self.assertEqual(set(words[counts == 0]), {"not-force-closure"})
-        # What a contact that does not hold has for a point is not looked at, as long as it is a number.
+        # The point of an inactive contact is ignored, if it is a number.
         points = np.where(holds[..., None], self.points, 7)
         again = self.judge("--mu", "0.9", code=1, points=points, normals=self.normals, holds=holds)
         np.testing.assert_array_equal(again["margin"], found["margin"])
@@ -97,18 +97,18 @@ class GraspFilesTest(RegraspCase):
         points = self.points.copy()
         for grasp, contact in ((7, 2), (7, 3), (3, 1), (11, 0)):
             axis = np.flatnonzero(self.normals[grasp, contact])[0]
-            points[grasp, contact, axis] *= 1 + 2e-5 * (1 + contact)  # 30 mm from the centre
+            points[grasp, contact, axis] *= 1 + 2e-5 * (1 + contact)  # at 30 mm from the centre
         arrays = {"points": points, "normals": self.normals}
         self.judge("--mu", "0.5", code=1, **arrays)
         line, = [line for line in self.said.splitlines() if line.startswith("off-surface: ")]
         self.assertIn("grasp 3, contact 1 (the first): 1.2e-06 of the object file's units", line)
         self.assertIn("1e-06 of it counts as on it", line)
-        # The index is that of the file, whichever contacts hold.
+        # The index is that in the file, regardless of inactive contacts.
         holds = np.ones((400, 4), bool)
         holds[3, 1] = holds[7, 0] = holds[7, 2] = False
         self.judge("--mu", "0.5", code=1, holds=holds, **arrays)
         self.assertIn("grasp 7, contact 3 (the first): 2.4e-06", self.said)
-        # The control: on the surface there is no such line.
+        # Negative control: on the surface there is no such line.
         self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
         self.assertNotIn("off-surface", self.said)
 
@@ -123,7 +123,7 @@ class GraspFilesTest(RegraspCase):
         near = self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
         self.assertNotIn("off-surface", found["reasons"][found["reason"].astype(int)])
         np.testing.assert_array_equal(found["holds"], near["holds"])
-        # The control: a tenth of a millimetre is off, and the tolerance says why it is what it is.
+        # Negative control: a point 0.1 mm off is rejected, with the reason for the tolerance.
         points[5, 1] += 1e-4 * -self.normals[5, 1].astype(np.float32)
         self.judge("--mu", "0.5", code=1, object=far, points=points, normals=self.normals)
         self.assertIn("grasp 5, contact 1 (the first): ", self.said)
@@ -143,7 +143,7 @@ class GraspFilesTest(RegraspCase):
             report = self.report_of(points[i], normals[i], *options)
             self.assertEqual(report["verdict"] == "pass", found["holds"][i])
             self.assertEqual(report["steps"][0]["reason"] or "", words[i])
-        # By analysis alone all that are on the object pass.
+        # All grasps on the object pass if there is only the analysis.
         self.assertEqual(self.judge("--mu", "0.4", code=1, points=points)["holds"].sum(), 11)
 
     def report_of(self, points, normals, *options):
@@ -182,7 +182,7 @@ class GraspFilesTest(RegraspCase):
         holds = self.judge("--mu", "0.5", code=1, points=self.points)["holds"]
         self.judge("--friction-angle", "26.6", code=0, points=self.points[holds])
         self.assertTrue(self.said.endswith("verdict: pass\n"))
-        # A file without grasps is no pass.
+        # A file without grasps does not pass.
         self.assertIn("no grasp", self.judge("--mu", "0.5", code=2, points=np.zeros((0, 4, 3))))
 
     def test_grasps_in_the_plane(self):

@@ -1,4 +1,4 @@
-"""Force closure of one grasp and of many."""
+"""Force closure of one grasp and of many grasps."""
 
 import os
 import signal
@@ -9,7 +9,7 @@ import numpy as np
 import regrasp
 from regrasp_case import RegraspCase
 
-# On a ball of radius 1, four fingers at the corners of a tetrahedron.
+# Four fingers at the corners of a tetrahedron, on a sphere of radius 1.
 TETRAHEDRON = np.array([[1., 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / 3 ** 0.5
 
 
@@ -30,7 +30,8 @@ class GraspsTest(RegraspCase):
         self.assertIsNone(held.quality)
         two = regrasp.force_closure(TETRAHEDRON[:2], -TETRAHEDRON[:2], mu=0.5)
         self.assertIs(two.holds, False)
-        # Two fingers hold a square when each sees the other in its cone: at 45° exactly too close.
+        # Two fingers hold a square if each is inside the other's cone: at exactly 45° it is too
+        # close to call.
         square = [[0., 0.], [1., 1.]], [[1., 0.], [-1., 0.]]
         self.assertTrue(regrasp.force_closure(*square, friction_angle_deg=46).holds)
         self.assertFalse(regrasp.force_closure(*square, friction_angle_deg=44).holds)
@@ -112,7 +113,7 @@ class GraspsTest(RegraspCase):
         gap = found.quality_upper - found.quality
         self.assertTrue((gap >= 0).all())
         self.assertTrue((gap <= np.maximum(0.01 * found.quality_upper, 1e-6)).all())
-        # More friction is more quality, less is less: by 20 % it is beyond the bounds.
+        # More friction increases the quality, less decreases it: 20 % exceeds the bounds.
         more = regrasp.force_closure(points[held], normals[held], cube, mu=0.8, quality=True)
         self.assertTrue((more.quality_upper >= found.quality[held]).all())
         self.assertTrue((more.quality > found.quality_upper[held]).mean() > 0.9)
@@ -130,7 +131,7 @@ class GraspsTest(RegraspCase):
             far = np.vstack([TETRAHEDRON, [[distance, 0, 0]]])
             found = regrasp.force_closure(far, np.vstack([-TETRAHEDRON, [[-1, 0, 0]]]), mu=0.5)
             self.assertTrue(found.holds or found.too_close, distance)
-        # The control: beside each other they do not hold, and that is certain.
+        # Negative control: neighbouring contacts are certainly not force closure.
         near = regrasp.force_closure(TETRAHEDRON[:2], -TETRAHEDRON[:2], mu=0.5)
         self.assertFalse(near.holds or near.too_close)
 
