@@ -42,10 +42,10 @@ class States(ProgramCase):
         self.check_scene(states)
 
     def check_state(self, state, states):
-        """On units: contacts are on the cube, forces carry its weight."""
+        """Check the units: contacts are on the cube, and forces support its weight."""
         self.assertAlmostEqual(math.hypot(*state["object_quaternion"]), 1)
         self.assertGreaterEqual(sum(state["holds"]), 3)
-        half = 0.03 * states["scale"]  # of the cube's edge
+        half = 0.03 * states["scale"]  # half of the cube's edge
         total = [0, 0, 0]
         for holds, point, force in zip(state["holds"], state["contact_points"],
                                        state["contact_forces"]):
