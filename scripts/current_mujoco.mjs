@@ -1,5 +1,5 @@
-// Repeats a replay in the current version of MuJoCo: scripts/current-mujoco says how. Reads scene/
-// and trajectory.csv of the folder that it stands in.
+// Repeat a replay in the current version of MuJoCo, as described in scripts/current-mujoco. Reads
+// scene/ and trajectory.csv in the folder of this script.
 
 import fs from 'node:fs';
 import loadMujoco from '@mujoco/mujoco';
@@ -43,7 +43,7 @@ const joint = Array.from(model.jnt_type).indexOf(FREE);
 const objectAt = model.jnt_qposadr[joint];
 /** The pose of the object's body: its centroid, with the axes of the object's file. */
 const objectPose = () => Array.from(data.qpos.slice(objectAt, objectAt + 7));
-// The trajectory has the origin of the object's file, which is the one site of the body.
+// The trajectory has the origin of the object's file, which is the only site of the object.
 const site = Array.from(model.site_bodyid).indexOf(model.jnt_bodyid[joint]);
 if (site < 0) throw new Error('scene/scene.xml: the object has no site at its origin');
 const centroid = Array.from(model.site_pos.slice(3 * site, 3 * site + 3)).map((x) => -x);
@@ -79,7 +79,7 @@ function followTrajectory() {
     const turn = sample.slice(object + 3, object + 7);
     return [...plus(sample.slice(object, object + 3), turned(turn, centroid)), ...turn];
   };
-  // The trajectory's poses are in the palm's frame.
+  // The trajectory's poses are in the palm frame.
   const first = objectPose();
   const firstInPalm = poseOf(samples[at]);
   const palm = times(first.slice(3), conjugate(firstInPalm.slice(3)));

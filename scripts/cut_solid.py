@@ -1,8 +1,8 @@
-"""What is left of a convex body when other convex bodies are cut away, in exact arithmetic.
+"""Cut convex bodies out of a convex body, in exact arithmetic.
 
 A body or a cutter is a list of half-spaces ((a, b, c), d): the points with a x + b y + c z <= d,
-all numbers rational. Neither has to be bounded: a slot is a cutter of three half-spaces. Bodies are
-in general position: no two of the planes are the same, and no edge runs along another's face.
+with rational numbers. They may be unbounded: a slot is a cutter of three half-spaces. Bodies must
+be in general position: no two planes are equal, and no edge is in a face of another body.
 """
 
 import collections
@@ -11,7 +11,7 @@ import itertools
 
 import facet_cutting
 
-FAR = Fraction(1000)  # beyond every body
+FAR = Fraction(1000)  # outside every body
 
 
 def dot(u, v):
@@ -31,7 +31,8 @@ def is_straight(p, q, r):
 
 
 def split(polygon, half_space):
-    """The parts of a convex polygon inside and outside a half-space; empty where there are none."""
+    """Return the parts of a convex polygon inside and outside a half-space; empty if there are
+    none."""
     normal, distance = half_space
     heights = [dot(normal, p) - distance for p in polygon]
     if not any(heights):
@@ -58,7 +59,7 @@ def clip(polygon, half_spaces):
 
 
 def cut_away(polygons, cutter):
-    """The convex parts of the polygons outside the cutter."""
+    """Return the convex parts of the polygons outside the cutter."""
     left = []
     for polygon in polygons:
         if not clip(polygon, cutter):
@@ -72,7 +73,7 @@ def cut_away(polygons, cutter):
 
 
 def plane_polygon(half_space):
-    """A large square in a half-space's plane, counter-clockwise seen from outside."""
+    """Return a large square in a half-space's plane, counter-clockwise seen from outside."""
     normal, distance = half_space
     axis = min(range(3), key=lambda i: abs(normal[i]))
     u = cross(normal, tuple(Fraction(i == axis) for i in range(3)))
@@ -84,7 +85,8 @@ def plane_polygon(half_space):
 
 
 def pieces_by_plane(body, cutters):
-    """Convex pieces of the boundary, those of one plane together, outside to their right."""
+    """Return the convex pieces of the boundary, grouped by plane, counter-clockwise seen from
+    outside."""
     planes = []
     for i, half_space in enumerate(body):
         pieces = [clip(plane_polygon(half_space), body[:i] + body[i + 1:])]
@@ -104,7 +106,7 @@ def pieces_by_plane(body, cutters):
 
 
 def with_points_between(polygon, points):
-    """The polygon with the points that lie on its sides as corners too."""
+    """Return the polygon with the points on its sides as additional corners."""
     corners = []
     for p, q in zip(polygon, polygon[1:] + polygon[:1]):
         along = minus(q, p)
@@ -115,7 +117,7 @@ def with_points_between(polygon, points):
 
 
 def outlines_of_faces(pieces):
-    """The connected unions of pieces of one plane; each as its rings."""
+    """Return the connected unions of the pieces of one plane, each as its rings."""
     points = sorted({p for piece in pieces for p in piece})
     pieces = [with_points_between(piece, points) for piece in pieces]
     owner = {(p, q): i for i, piece in enumerate(pieces)
@@ -146,17 +148,25 @@ def rings_of(edges):
 
 
 def without_straight_corners(faces):
-    """Drops the corners that are none on any face."""
+    """Remove vertices that are not corners of any face."""
     corners = {ring[i] for face in faces for ring in face for i in range(len(ring))
                if not is_straight(ring[i - 1], ring[i], ring[(i + 1) % len(ring)])}
     return [[[p for p in ring if p in corners] for ring in face] for face in faces]
 
 
 def cut(body, cutters=()):
-    """The faces of `body` without the cutters; each as its rings, one ring where it has no hole.
+    """Return the faces of `body` without the cutters, each as its rings (one ring without a hole).
 
-    Points are exact. Raises ValueError where a half-space has no part in the boundary, or planes
-    are not in general position.
+    Args:
+        body: Half-spaces of the body.
+        cutters: Half-spaces of each cutter.
+
+    Returns:
+        Faces with exact points.
+
+    Raises:
+        ValueError: If a half-space does not contribute to the boundary, or planes are not in
+            general position.
     """
     planes = pieces_by_plane(list(body), [list(cutter) for cutter in cutters])
     return without_straight_corners([face for pieces in planes
@@ -164,7 +174,8 @@ def cut(body, cutters=()):
 
 
 def facets_of(faces):
-    """Vertices and facets, faces with holes cut into simple polygons; closed and oriented."""
+    """Return vertices and simple polygons, into which faces with holes are cut; closed and
+    oriented."""
     polygons = [polygon for face in faces for polygon in facet_cutting.simple_polygons(face)]
     vertices = list(dict.fromkeys(itertools.chain.from_iterable(polygons)))
     index = {p: i for i, p in enumerate(vertices)}

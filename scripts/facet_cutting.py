@@ -1,11 +1,11 @@
-"""Cuts a flat face with holes into simple polygons, without new corners, in exact arithmetic."""
+"""Cut a planar face with holes into simple polygons, without new corners, in exact arithmetic."""
 
 import itertools
 import math
 
 
 def area_vector(ring):
-    """Twice the area, along the normal."""
+    """Return twice the area, along the normal."""
     total = (0, 0, 0)
     for p, q in zip(ring, ring[1:] + ring[:1]):
         total = tuple(t + p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3]
@@ -14,7 +14,7 @@ def area_vector(ring):
 
 
 def turn(p, q, r):
-    """Positive where p, q, r turn left in the plane, 0 where they are in line."""
+    """Return a positive value if p, q, r turn left in the plane, and 0 if they are collinear."""
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 
 
@@ -23,7 +23,7 @@ def in_box(p, q, r):
 
 
 def meet(first, second):
-    """Whether two segments share a point other than a common end."""
+    """Return True if two segments share a point other than a common end."""
     (p, q), (r, s) = first, second
     if {p, q} == {r, s}:
         return True
@@ -34,7 +34,7 @@ def meet(first, second):
 
 
 def trace(edges):
-    """The cycles to the left of directed edges that form a planar graph."""
+    """Return the cycles to the left of the directed edges of a planar graph."""
     leaving = {}
     for p, q in edges:
         leaving.setdefault(p, []).append(q)
@@ -46,7 +46,7 @@ def trace(edges):
             left.remove(edge)
             cycle.append(edge[0])
             p, q = edge
-            # Clockwise from where it came: the leftmost way on.
+            # The next edge clockwise from the incoming one turns left most.
             edge = (q, min((r for r in leaving[q]),
                            key=lambda r: (angle(q, p) - angle(q, r)) % (2 * math.pi)
                            or 2 * math.pi))
@@ -59,8 +59,11 @@ def repeats(cycles):
 
 
 def cut_in_plane(rings):
-    """Rings with the face to their left, into simple polygons: the shortest chords that join all
-    rings to one, then the shortest that leave no polygon touching itself."""
+    """Cut rings with the face to their left into simple polygons.
+
+    The first cuts are the shortest chords that connect all rings. The next cuts are the shortest
+    chords after which no polygon touches itself.
+    """
     edges = [edge for ring in rings for edge in zip(ring, ring[1:] + ring[:1])]
     chords = [(p, q) for a, b in itertools.combinations(rings, 2) for p in a for q in b]
     chords = [chord for chord in chords if not any(meet(chord, edge) for edge in edges)]
@@ -81,13 +84,15 @@ def cut_in_plane(rings):
 
 
 def simple_polygons(rings):
-    """The polygons, oriented as the rings are: counter-clockwise seen from outside, holes
-    clockwise."""
+    """Return the polygons with the orientation of the rings.
+
+    The outer ring is counter-clockwise seen from outside, holes are clockwise.
+    """
     if len(rings) == 1:
         return list(rings)
     normal = [sum(x) for x in zip(*map(area_vector, rings))]
     axis = max(range(3), key=lambda i: abs(normal[i]))
-    # Leaves out the axis that the face looks along, so that it stays counter-clockwise.
+    # Omit the dominant axis of the normal, and keep the order counter-clockwise.
     kept = [(axis + 1) % 3, (axis + 2) % 3][::1 if normal[axis] > 0 else -1]
     flat = {p: tuple(p[i] for i in kept) for ring in rings for p in ring}
     back = {f: p for p, f in flat.items()}

@@ -1,15 +1,16 @@
-"""Of scripts/mutate: the lists of mutants in tests/mutants/*.toml, and the table of what became of them.
+"""Lists of mutants in tests/mutants/*.toml, and the table of their results, for scripts/mutate.
 
 A list has an array `mutant` of tables with
+
   name    unique; words joined by hyphens
-  file    what is changed, from the project's folder
-  what    one sentence: the defect
-  old     text that stands once in the file; literal strings ('…', or '''…''' for lines) need no escapes
-  new     what stands there instead
-  tests   who should notice: "FOLDER NAMES", the folder of a test program below tests/ and a filter
+  file    changed file, relative to the project's folder
+  what    one sentence that describes the defect
+  old     text that occurs once in the file; literal strings ('…', or '''…''' for lines) need no escapes
+  new     replacement of this text
+  tests   tests that should fail: "FOLDER NAMES", the folder of a test program below tests/ and a filter
           of GoogleTest without "-", or "FOLDER/SCRIPT.py CLASS.TEST" of a program's test
-  hangs   (optional) true: a test that runs into the time limit has caught it
-  reason  (optional) why no test can tell it from the code as it is
+  hangs   (optional) true: a test that exceeds the time limit has caught the mutant
+  reason  (optional) reason why no test can distinguish it from the original code
 """
 
 import dataclasses
@@ -24,7 +25,7 @@ SURVIVES = "survives: "
 
 
 class ListError(Exception):
-    """A list that is out of date or malformed; the message names file and mutant."""
+    """Outdated or malformed list; the message names file and mutant."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,7 +41,7 @@ class Mutant:
 
 
 def read_list(path):
-    """The mutants of one list."""
+    """Return the mutants of one list."""
     fields = {field.name: field for field in dataclasses.fields(Mutant)}
     required = [name for name, field in fields.items() if field.default is dataclasses.MISSING]
     try:
@@ -59,7 +60,7 @@ def read_list(path):
 
 
 def read_lists(folder):
-    """All mutants of a folder by the names of its lists, in the order of names."""
+    """Return the mutants of a folder by list name, in the order of names."""
     lists = {path.stem: read_list(path) for path in sorted(pathlib.Path(folder).glob("*.toml"))}
     names = [mutant.name for mutants in lists.values() for mutant in mutants]
     if twice := sorted({name for name in names if names.count(name) > 1}):
@@ -70,7 +71,7 @@ def read_lists(folder):
 
 
 def mutated(mutant, text):
-    """The file's text with the defect."""
+    """Return the file's text with the defect."""
     found = text.count(mutant.old)
     if found != 1:
         raise ListError(f"{mutant.name}: its old text stands {found} times in {mutant.file}, not once")
@@ -80,13 +81,13 @@ def mutated(mutant, text):
 
 
 def split_test(test):
-    """Folder or script, and names."""
+    """Return the folder or script of a test, and the names."""
     place, _, names = test.partition(" ")
     return place, names
 
 
 def check_tests(mutant, source):
-    """That the named tests stand in the sources."""
+    """Check that the named tests exist in the sources."""
     for test in mutant.tests:
         place, names = split_test(test)
         path = source / "tests" / place
@@ -105,7 +106,7 @@ def check_tests(mutant, source):
 
 
 def check(mutant, source):
-    """That a mutant applies to the sources and that its tests are there."""
+    """Check that a mutant applies to the sources and that its tests exist."""
     path = source / mutant.file
     if not path.is_file():
         raise ListError(f"{mutant.name}: there is no file {mutant.file}")
@@ -114,13 +115,14 @@ def check(mutant, source):
 
 
 def read_table(text):
-    """What became of mutants, by their names."""
+    """Return the results of mutants in a table, by name."""
     rows = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")]
     return {row[0]: row[3] for row in rows if len(row) == 4 and row[0] not in ("mutant", "---")}
 
 
 def format_table(lists, became):
-    """The table of all mutants, a section for each list; `became` says it of each by its name."""
+    """Return the table of all mutants, with a section for each list; `became` has the results by
+    name."""
     text = ("Small defects of our own code, by `scripts/mutate`: each is made by itself in a copy of the\n"
             "sources, and a test has to fail. The lists with the exact changes are `tests/mutants/*.toml`.\n\n")
     said = [became.get(mutant.name, "not run") for mutants in lists.values() for mutant in mutants]

@@ -1,9 +1,9 @@
-"""Outlines of real things as polygons with a given number of edges, in centimetres.
+"""Outlines of real objects as polygons with a given number of edges, in centimetres.
 
-A ring is drawn as a list of pieces, each a finely drawn curve that starts where the last one ended,
-and then cut into edges: the ends of the pieces stay vertices, and between them vertices are closer
-where the curve bends more, at uneven distances, as in an outline that was traced. A straight piece
-is one edge.
+A ring is a list of pieces, each a finely sampled curve that starts at the end of the previous one.
+It is then cut into edges. The ends of the pieces are vertices. Between them the vertices are
+unevenly spaced, and denser at higher curvature, as in a traced outline. A straight piece is one
+edge.
 """
 
 import itertools
@@ -11,8 +11,8 @@ import math
 import random
 
 FINE = 240  # points of an arc, and of a spline between two of its points
-BEND = 0.12  # centimetres of straight curve that get as many vertices as a turn of one radian
-UNEVENNESS = 0.3  # of the distance between two vertices along a curve
+BEND = 0.12  # centimetres of straight curve with as many vertices as a turn of one radian
+UNEVENNESS = 0.3  # over the distance between two vertices along a curve
 
 
 def polar(middle, radius, degrees):
@@ -21,24 +21,24 @@ def polar(middle, radius, degrees):
 
 
 def mirrored(pieces):
-    """The mirror image in the y-axis, run through the other way."""
+    """Return the mirror image in the y-axis, in reversed order."""
     return [[(-x, y) for x, y in reversed(piece)] for piece in reversed(pieces)]
 
 
 def moved(pieces, middle, degrees):
-    """Turns pieces about the origin, then moves it to `middle`."""
+    """Rotate pieces about the origin, then move them to `middle`."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     return [[(middle[0] + c * x - s * y, middle[1] + s * x + c * y) for x, y in piece]
             for piece in pieces]
 
 
 def arc(middle, radius, start, end):
-    """From one angle to another, in degrees; anticlockwise where the second is larger."""
+    """Return an arc between two angles in degrees; anticlockwise if the second is larger."""
     return [polar(middle, radius, start + (end - start) * k / FINE) for k in range(FINE + 1)]
 
 
 def spline(points):
-    """A centripetal Catmull-Rom spline through all the points (Barry and Goldman's pyramid)."""
+    """Return a centripetal Catmull-Rom spline through all points (Barry and Goldman's pyramid)."""
     beyond = lambda end, last: tuple(2 * a - b for a, b in zip(end, last))
     points = [beyond(points[0], points[1]), *points, beyond(points[-1], points[-2])]
     blend = lambda p, q, low, high, t: tuple(((high - t) * a + (t - low) * b) / (high - low)
@@ -55,9 +55,10 @@ def spline(points):
 
 
 def rounded(corners, closed=True):
-    """Straight lines between corners (x, y, radius), each rounded by an arc; radius 0 is sharp.
+    """Return straight lines between corners (x, y, radius), each rounded by an arc; radius 0 is
+    sharp.
 
-    A chain that is not closed starts and ends at its first and last corner, which stay sharp.
+    An open chain starts and ends at its first and last corner, which stay sharp.
     """
     pieces, ends = [], []
     for before, corner, after in zip(corners[-1:] + corners, corners, corners[1:] + corners[:1]):
@@ -82,7 +83,7 @@ def rounded(corners, closed=True):
 
 
 def spread(piece):
-    """How far along the piece each of its points is, in centimetres and bends."""
+    """Return the position of each point along the piece, in centimetres and bends."""
     far, heading = [0.0], None
     for p, q in zip(piece, piece[1:]):
         towards = math.atan2(q[1] - p[1], q[0] - p[0])
@@ -93,7 +94,7 @@ def spread(piece):
 
 
 def shares(weights, count):
-    """Whole numbers of at least 1 in proportion to the weights, `count` together."""
+    """Return whole numbers of at least 1 in proportion to the weights, with the sum `count`."""
     part = [w * (count - len(weights)) / sum(weights) for w in weights]
     whole = [math.floor(p) for p in part]
     most_left = sorted(range(len(part)), key=lambda i: whole[i] - part[i])
@@ -103,7 +104,7 @@ def shares(weights, count):
 
 
 def cut(pieces, count, seed):
-    """The vertices of a ring of `count` edges."""
+    """Return the vertices of a ring with `count` edges."""
     rng = random.Random(seed)
     curved = [piece for piece in pieces if len(piece) > 2]
     numbers = iter(shares([spread(piece)[-1] for piece in curved],
@@ -123,7 +124,8 @@ def cut(pieces, count, seed):
 
 
 def gear():
-    """A wheel of twelve teeth with slanted flanks and rounded corners, some of them worn."""
+    """Return a wheel with twelve teeth that have slanted flanks and rounded, partly worn corners.
+    """
     teeth, root, rng = 12, 4.5, random.Random(12)
     corners = []
     for k in range(teeth):
@@ -135,7 +137,8 @@ def gear():
 
 
 def bottle():
-    """A lip, a neck, a shoulder, a waist, six grooves down the side, and a base with a dimple."""
+    """Return a bottle: lip, neck, shoulder, waist, six grooves down the side, and a base with a
+    dimple."""
     grooves = ((2.32, -4.7), (2.2, -3.55), (2.13, -2.4), (2.17, -1.25), (2.3, -0.1), (2.5, 3.0))
     side = [(x - inwards, y + upwards) for x, y in grooves
             for inwards, upwards in ((0, -0.34), (0.28, 0), (0, 0.34))]
@@ -146,21 +149,25 @@ def bottle():
                     (0.9, 5.15), (0.84, 6.2)]),
             *rounded([(0.84, 6.2, 0), (1.27, 6.15, 0.2), (1.27, 6.75, 0.2), (0.98, 6.8, 0),
                       (0.98, 7.3, 0.2), (0, 7.3, 0)], closed=False)]
-    # One edge across the mouth, rather than two that meet in the middle.
+    # One edge across the mouth, instead of two that meet in the middle.
     half[-1], other = [half[-1][0], (-half[-1][0][0], 7.3)], mirrored(half)[1:]
     return [cut(half + other, 200, seed=200)]
 
 
 def fillet(middle, radius, height, rounding, side):
-    """Where an arc runs from a circle about (x, 0) into the line y = height, on one side of it:
-    the arc's own middle, and its direction from the circle's middle in degrees."""
+    """Return the fillet from a circle about (x, 0) to the line y = height, on one side of it.
+
+    The result is the centre of the fillet's arc, and its direction from the circle's centre in
+    degrees.
+    """
     rise = height + rounding
     reach = math.sqrt((radius + rounding) ** 2 - rise ** 2)
     return (middle[0] + side * reach, rise), math.degrees(math.atan2(rise, side * reach))
 
 
 def wrench():
-    """A combination spanner: an open jaw, turned by 15 degrees, and a ring for twelve corners."""
+    """Return a combination spanner: an open jaw, rotated by 15 degrees, and a ring with twelve
+    corners."""
     ring, ring_radius, jaw, jaw_radius, opening = (5.75, 0), 1.7, (-5.2, 0), 2.2, 165
     ring_fillet, ring_from = fillet(ring, ring_radius, 0.62, 1.6, -1)
     jaw_fillet, jaw_from = fillet(jaw, jaw_radius, 0.75, 1.4, 1)
@@ -180,7 +187,7 @@ def wrench():
 
 
 def leaf():
-    """An oak leaf on a bent stalk, four lobes a side, those on the left a little lower."""
+    """Return an oak leaf on a bent stalk, with four lobes per side, slightly lower on the left."""
     half = [(0.17, -7.0), (0.14, -5.9), (0.3, -4.9), (1.2, -4.4), (1.75, -3.75), (1.5, -3.15),
             (0.9, -2.95), (0.92, -2.62), (1.5, -2.3), (2.5, -1.7), (2.8, -1.05), (2.25, -0.7),
             (1.25, -0.85), (1.25, -0.5), (2.1, 0.3), (3.3, 1.1), (3.55, 1.85), (2.95, 2.15),
@@ -199,7 +206,7 @@ def leaf():
 
 
 def plate_with_holes():
-    """A bracket with a round hole, a slanted slot and a keyhole."""
+    """Return a bracket with a round hole, a slanted slot and a keyhole."""
     outer = rounded([(-6.2, -3.4, 1.3), (-1.6, -3.7, 1.6), (0.6, -2.5, 2.2), (5.4, -3.6, 1.5),
                      (6.6, 0.3, 1.5), (3.3, 1.3, 2.5), (1.9, 4.6, 1.4), (-2.6, 4.1, 1.6),
                      (-4.0, 1.4, 2.0), (-6.6, 0.2, 1.2)])

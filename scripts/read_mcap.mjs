@@ -1,4 +1,4 @@
-// Of scripts/read-mcap: node read_mcap.mjs FILE
+// Part of scripts/read-mcap: node read_mcap.mjs FILE
 import fs from "node:fs";
 import {McapIndexedReader, McapStreamReader} from "@mcap/core";
 import {parse} from "@foxglove/rosmsg";
@@ -6,7 +6,7 @@ import {MessageReader} from "@foxglove/rosmsg2-serialization";
 
 const data = fs.readFileSync(process.argv[2]);
 
-// By its index.
+// Read by the index.
 const readable = {
   size: async () => BigInt(data.length),
   read: async (offset, size) => data.subarray(Number(offset), Number(offset + size)),
@@ -26,7 +26,7 @@ for await (const message of indexed.readMessages({validateCrcs: true})) {
   last.set(channel.topic, readers.get(channel.id).readMessage(message.data));
 }
 
-// From its beginning to its end.
+// Read from the beginning to the end.
 const stream = new McapStreamReader({validateCrcs: true});
 stream.append(data);
 let messages = 0;

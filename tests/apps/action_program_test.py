@@ -1,4 +1,4 @@
-"""action.yml: its last step, run as a CI job runs it."""
+"""action.yml: its last step, run like a CI job."""
 
 import os
 import re
@@ -10,7 +10,7 @@ from program_case import ProgramCase
 
 
 def last_step(action):
-    """The shell commands, and by which variable they get which input."""
+    """Return the shell commands, and the input of each environment variable."""
     step = action[action.rindex("- shell: bash"):]
     commands, variables = re.search(r"run: \|\n(.*?)\n +env:\n(.*)", step, re.DOTALL).groups()
     return textwrap.dedent(commands), dict(re.findall(r"(\w+): \$\{\{ inputs\.(\w+) \}\}", variables))
@@ -26,7 +26,7 @@ class Action(ProgramCase):
             self.assertRegex(action, rf"(?m)^  {name}:$")
         environment = {variable: inputs[name] for variable, name in variables.items()}
         programs = os.pathsep.join((program_case.ARGUMENTS.programs, os.environ["PATH"]))
-        # As runners call bash.
+        # Same bash options as in CI runners.
         return subprocess.run(
             ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", commands], cwd=self.folder,
             capture_output=True, text=True, check=False, timeout=program_case.HANG_SECONDS,

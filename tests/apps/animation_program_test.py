@@ -1,4 +1,4 @@
-"""The replay as a moving picture: validate --animate and --video."""
+"""Animations of the replay: validate --animate and --video."""
 
 import base64
 import copy
@@ -13,7 +13,7 @@ from program_case import ProgramCase
 XHTML = "{http://www.w3.org/1999/xhtml}"
 SMALL = ["--size", "128x96", "--animate-size", "64x48"]
 
-# How long the last picture of a plan stands, milliseconds.
+# Duration of the last frame of a plan, ms.
 PASSED_REST, FAILED_REST = 2500, 4000
 
 
@@ -33,7 +33,7 @@ def gif_colours(data):
 
 
 def is_red(colour):
-    """The red of what is wrong; no finger has it."""
+    """Return True for the red of faults; no finger has this colour."""
     red, green, blue = colour
     return red > 180 and green < 0.22 * red and blue < 0.35 * red
 
@@ -66,7 +66,7 @@ class Animation(ProgramCase):
         self.assertEqual(webp_size(self.replay()), (64, 48))
         durations = webp_durations(self.replay())
         self.assertGreater(len(durations), 16)
-        # Pictures before it that look the same are one with it.
+        # Equal frames before it are merged with it.
         self.assertGreaterEqual(durations[-1], PASSED_REST)
         self.assertLess(durations[-1], FAILED_REST)
         page = self.read("result/report.html").decode()
@@ -115,7 +115,7 @@ class Animation(ProgramCase):
         self.assertFalse(os.path.exists(self.path("result/replay.webp")))
 
     def replay_on_page(self):
-        """The element that shows the replay on the report page, and the bytes in it."""
+        """Return the element of the report page with the replay, and its embedded bytes."""
         page = xml.etree.ElementTree.fromstring(self.read("result/report.html"))
         replays = page.findall(f".//{XHTML}div[@class='replay']")
         if not replays:
@@ -167,7 +167,7 @@ class Animation(ProgramCase):
             self.contacts_after_a_switch()]}
         self.assert_done(*self.of_plan("--no-frames", "--video", "good.gif"))
         self.assertFalse(any(map(is_red, gif_colours(self.read("good.gif")))))
-        # In the replay, in the check of a step, and in that of the hold.
+        # Failures in the replay, in the check of a step, and in that of the initial grasp.
         bad = copy.deepcopy(self.plan)
         contact = bad["steps"][0]["place"][0]
         contact["point"] = [p - 0.004 * n for p, n in zip(contact["point"], contact["normal"])]
@@ -179,7 +179,7 @@ class Animation(ProgramCase):
             done = self.run_program(*self.of_plan(*SMALL, "--animate", "--video", "bad.gif", *more))
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertTrue(any(map(is_red, gif_colours(self.read("bad.gif")))))
-            if plan is hold:  # one picture is no animation
+            if plan is hold:  # one frame is not an animation
                 continue
             self.assertEqual(webp_durations(self.replay())[-1], FAILED_REST)
 

@@ -1,4 +1,4 @@
-"""The program validate on a library of plans: results, isolation, resuming, bad input."""
+"""The program validate on many plans: results, isolation, resumption, and invalid input."""
 
 import errno
 import fcntl
@@ -18,16 +18,16 @@ import jsonschema
 import program_case
 from program_case import HANG_SECONDS, ProgramCase
 
-# Quick to plan and to replay.
+# Models that are quick to plan and to replay.
 MODELS = ["triangle.wkt", "square.wkt", "polygon15.wkt"]
 SEEDS = range(11)
 
-# Longer than validating one of these plans takes, under the sanitizers too.
+# Longer than the validation of one of these plans, even with sanitizers.
 LIMIT_SECONDS = "20"
 
 
 def wait_until(what, seconds=HANG_SECONDS):
-    """Returns the first true value of `what()`; fails where there is none for that long."""
+    """Return the first true value of `what()`; fail if there is none within the time."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         value = what()
@@ -46,7 +46,7 @@ def children_of(process):
 
 
 def is_alive(process):
-    """Whether a process runs: one that has ended and was not waited for does not."""
+    """Return True if a process runs; a zombie does not."""
     try:
         with open(f"/proc/{process}/stat", encoding="ascii") as file:
             return file.read().rsplit(")", 1)[1].split()[0] not in "ZX"
@@ -55,7 +55,7 @@ def is_alive(process):
 
 
 def tree(folder):
-    """All files of a folder, by their paths in it."""
+    """Return all files of a folder, by their relative paths."""
     found = {}
     for parent, _, names in os.walk(folder):
         for name in names:
@@ -66,19 +66,19 @@ def tree(folder):
 
 
 def without_times(junit):
-    """What of a JUnit file is the same in every run."""
+    """Return the part of a JUnit file that is the same in every run."""
     return re.sub(rb' time="\d+\.\d{3}"', b"", junit)
 
 
 def without_weak(errors):
-    """What was said, but for why the plan weak failed, where that one was done."""
+    """Return the messages except for the failure of the plan weak, which may be missing."""
     return "".join(line for line in errors.splitlines(keepends=True)
                    if not line.startswith("validate: weak: step 0 (hold) fails: "))
 
 
 class Batch(ProgramCase):
     program = "validate"
-    plans = None  # file name to text
+    plans = None  # text by file name
 
     def setUp(self):
         super().setUp()
@@ -105,7 +105,7 @@ class Batch(ProgramCase):
         return names
 
     def use_few(self):
-        """One plan of each model, and one that fails for its friction."""
+        """Use one plan of each model, and one that fails because of its friction."""
         names = self.use(["polygon15_03.json", "square_01.json", "triangle_00.json"])
         weak = json.loads(Batch.plans["square_02.json"])
         weak["friction"]["half_angle_deg"] = 1.0
@@ -122,7 +122,7 @@ class Batch(ProgramCase):
         return done
 
     def summary(self, out="result"):
-        """The summary, which always follows its schema; so do all reports that it names."""
+        """Return the summary, which must follow its schema, like all reports that it names."""
         docs = os.path.join(program_case.ARGUMENTS.source, "docs")
         schemas = {}
         for name in ("summary", "report"):
@@ -140,8 +140,11 @@ class Batch(ProgramCase):
         return {plan["name"]: plan["verdict"] for plan in self.summary(out)["plans"]}
 
     def start_hanging(self, *more, before=(), **options):
-        """Starts a batch whose plan square.json, the last one, never ends, and waits until all
-        others are done; returns the batch and that plan's process."""
+        """Start a batch whose last plan square.json never ends, and wait until all other plans are
+        done.
+
+        Returns the batch and the process of that plan.
+        """
         os.makedirs(self.path("hanging"), exist_ok=True)
         pipe = self.path("hanging/square.json")
         if not os.path.exists(pipe):
@@ -154,7 +157,7 @@ class Batch(ProgramCase):
         self.addCleanup(self.end, batch)
 
         def opened():
-            """The end to write into: there is none before someone waits at the other."""
+            """Return the write end; None until a process waits at the other end."""
             try:
                 return os.open(pipe, os.O_WRONLY | os.O_NONBLOCK)
             except OSError as error:
@@ -242,7 +245,7 @@ class Batch(ProgramCase):
         self.assertNotIn(b"ATTACHMENT", self.read("junit.xml"))
 
     def times(self, *more):
-        """Of square_01: that of its suite and those of its cases, as JUnit tells them."""
+        """Return the times of square_01 in JUnit: that of its suite and those of its cases."""
         self.run_batch(0, "--junit", "junit.xml", *more)
         suite = ElementTree.parse(self.path("junit.xml")).getroot()[0]
         return float(suite.get("time")), [float(case.get("time")) for case in suite]
@@ -252,13 +255,13 @@ class Batch(ProgramCase):
         suite, cases = self.times()
         self.assertGreater(len(cases), 1)
         self.assertGreater(sum(cases), 0)
-        self.assertGreaterEqual(suite, sum(cases) - 0.001 * len(cases))  # they are rounded
-        # Nothing is replayed of what is kept.
+        self.assertGreaterEqual(suite, sum(cases) - 0.001 * len(cases))  # times are rounded
+        # Reused results are not replayed.
         self.assertEqual(set(self.times()[1]), {0})
         self.assertGreater(sum(self.times("--fresh")[1]), 0)
 
     def links(self):
-        """Of index.html: where its pictures are, and where its links lead."""
+        """Return the sources of the images and the targets of the links in index.html."""
         page = ElementTree.fromstring(self.read("result/index.html").split(b"\n", 1)[1])
         space = "{http://www.w3.org/1999/xhtml}"
         return ([urllib.parse.unquote(image.get("src")) for image in page.iter(space + "img")],
@@ -299,7 +302,7 @@ class Batch(ProgramCase):
         self.write("result/index.html", page[:-300])
         self.run_batch(0)
         self.assertEqual(self.read("result/index.html"), page)
-        # Without the summary that names it, it is nobody's.
+        # Without a summary that names it, the page counts as a foreign file.
         os.remove(self.path("result/summary.json"))
         self.assertEqual(self.run_program(*self.arguments()).returncode, 2)
         self.assertEqual(self.read("result/index.html"), page)
@@ -358,7 +361,7 @@ class Batch(ProgramCase):
                 self.assertIn("1 of 2 plans, 0 not passed", shown)
                 self.assertTrue(shown.endswith("\r\x1b[K"), repr(shown))
 
-    # What goes wrong with one plan.
+    # Faults of a single plan.
 
     def test_bad_plans_stop_no_other(self):
         names = self.use_few()
@@ -426,7 +429,7 @@ class Batch(ProgramCase):
                                            "square_01": "pass", "triangle_00": "pass",
                                            "weak": "fail"})
 
-    # Stopping and resuming.
+    # Interruption and resumption.
 
     def test_a_killed_batch_goes_on_where_it_was_and_comes_to_the_same(self):
         done_before = [f"polygon15_{seed:02}.json" for seed in range(4)]
@@ -442,7 +445,7 @@ class Batch(ProgramCase):
         self.use(names)
         self.assertEqual(sorted(os.listdir(self.path("result"))),
                          [".regrasp-run", *[name[:-5] for name in done_before]])
-        # As one is left that is killed while it writes, and one that was cut since.
+        # Leave one result like that of a process killed while writing, and truncate another.
         os.rename(self.path("result/polygon15_01/report.json"),
                   self.path("result/polygon15_01/report.json.tmp0123456789abcdef"))
         self.write("result/polygon15_01/.regrasp-run", "regrasp: process 7 on elsewhere\n"
@@ -466,15 +469,15 @@ class Batch(ProgramCase):
         self.assertEqual(count(1), 4)
         self.assertEqual(count(1, "--jobs", "3", "--time-limit", LIMIT_SECONDS), 4)
         self.assertEqual(count(1, "--fresh"), 0)
-        # Another option that changes results, and back again: the last results count.
+        # An option that changes results, and back again: only the last results are kept.
         self.assertEqual(count(1, "--shake", "0.005"), 0)
         self.assertEqual(count(1, "--shake", "0.005"), 4)
         self.assertEqual(count(1), 0)
-        # The same plan in other bytes.
+        # The same plan with different bytes.
         plan = json.loads(Batch.plans[names[0]])
         self.write_json("plans/" + names[0], plan)
         self.assertEqual(count(1), 3)
-        # A file that is missing, a report that is broken.
+        # A missing result file.
         os.remove(self.path("result/weak/report.html"))
         self.assertEqual(count(1), 3)
         self.assertEqual(count(1), 4)
@@ -529,7 +532,7 @@ class Batch(ProgramCase):
         before = json.loads(self.read("result/square_01/report.json"))
         with open(os.path.join(program_case.ARGUMENTS.programs, "validate"), "rb") as file:
             program = bytearray(file.read())
-        # The first byte of the build id, behind its note's header: sizes, type and owner.
+        # First byte of the build id, after the header of its note: sizes, type and owner.
         note = program.index(b"\x04\0\0\0\x14\0\0\0\x03\0\0\0GNU\0") + 16
         program[note] ^= 1
         os.chmod(self.write("validate", bytes(program)), 0o755)
@@ -603,7 +606,7 @@ class Batch(ProgramCase):
         self.assertFalse(os.path.exists(self.path("result/summary.json")))
         self.assertFalse(os.path.exists(self.path("junit.xml")))
 
-    # What lies around the results.
+    # Other files in the folder of results.
 
     def test_a_second_run_into_the_folder_is_told_of_the_first(self):
         self.use_few()
@@ -642,7 +645,7 @@ class Batch(ProgramCase):
             self.assert_refused(2, words, "--object", self.model("square.wkt"), "--plan", plans,
                                 "--out", ".", "--no-frames")
             self.assertEqual(self.read("summary.json"), Batch.plans["square_01.json"])
-        # An own summary is replaced.
+        # A summary of an earlier run is replaced.
         self.run_batch(1)
         self.write("result/summary.json", self.read("result/summary.json").replace(b"fail", b"pass"))
         self.run_batch(1)
@@ -672,7 +675,7 @@ class Batch(ProgramCase):
             os.remove(self.path("result/square_02/" + name))
             self.assert_done(*arguments)
         self.assertEqual(refused, 4)
-        # A folder is no result, even where a report names one like it.
+        # A folder is not a result, even if a report names a file like it.
         os.remove(self.path("result/square_02/overview.png"))
         os.mkdir(self.path("result/square_02/overview.png"))
         self.assertEqual(self.run_program(*arguments).returncode, 2)
@@ -719,7 +722,7 @@ class Batch(ProgramCase):
         self.assertIn("validate: square_01: its report.json was removed", errors)
         self.assertIn("validate: weak: its report.html was removed", errors)
 
-    # Bad usage.
+    # Invalid usage.
 
     def test_refuses_what_makes_no_sense_for_a_library(self):
         self.use_few()

@@ -1,5 +1,7 @@
-"""Clouds of points from the scan to the verdict: the programs make the same solid of a cloud, and
-contacts can be kept to its points."""
+"""Point clouds from the scan to the verdict.
+
+All programs create the same solid from a cloud, and contacts can be restricted to its points.
+"""
 
 import json
 import math
@@ -11,7 +13,7 @@ POINTS = 1500
 
 
 def egg():
-    """Points of an egg, centimetres across, in the metres of an XYZ file."""
+    """Return points of an egg of a few centimetres, in an XYZ file in metres."""
     lines = []
     for i in range(POINTS):
         z = 1 - (2 * i + 1) / POINTS

@@ -1,13 +1,14 @@
-"""What becomes of meshes that others made: each file of Debian's packages libcgal-demo and
-assimp-testmodels with the outcome that is expected of it, so that a change of behaviour is seen.
+"""Regression test of third-party meshes: the files of Debian's packages libcgal-demo and
+assimp-testmodels.
 
-tests/data/corpus.tsv has a line a file: package, file, and "accepted", "repaired STAGE" or "refused
-WORDS". `python3 tests/apps/corpus_program_test.py --programs DIR --source DIR --write` writes it
-anew; read the difference before you commit it. Where a package is missing its files are skipped.
+tests/data/corpus.tsv has the expected outcome of each file, one per line: package, file, and
+"accepted", "repaired STAGE" or "refused WORDS". `python3 tests/apps/corpus_program_test.py
+--programs DIR --source DIR --write` writes it again; read the difference before you commit it. The
+files of a missing package are skipped.
 
-Of the files in SLOW, whose repair takes most of the time of all, only what the reader says is
-looked at ("as it is"). For a maintainer who has the time `--slow` repairs them too, as `--write`
-does, and `--table FILE` is another table: compare two that two versions wrote.
+The files in SLOW take most of the repair time. Only the reader is tested on them ("as it is").
+`--slow` repairs them too, like `--write`. `--table FILE` selects another table, for example to
+compare the tables of two versions.
 """
 
 import concurrent.futures
@@ -25,7 +26,7 @@ from program_case import ProgramCase
 CGAL_ARCHIVE = "/usr/share/doc/libcgal-demo/data.tar.gz"
 ASSIMP_MODELS = "/usr/share/assimp/models"
 SURFACES = (".3mf", ".dae", ".glb", ".gltf", ".obj", ".off", ".pcd", ".ply", ".pwn", ".stl", ".xyz")
-# More than eight seconds each, and together as long as all others.
+# More than eight seconds each, and together as long as all other files.
 SLOW = {
     "data/meshes/b9.ply", "data/meshes/b9_mesh.off", "data/meshes/polygon_mesh.off",
     "data/points_3/b9_training.ply", "data/points_3/building.ply",
@@ -33,18 +34,18 @@ SLOW = {
     "glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb"}
 AS_IT_IS = " as it is"
 REPAIRS_SLOW = False
-TABLE = None  # elsewhere than in tests/data
+TABLE = None  # path of a table other than that in tests/data
 
 
 def surfaces(folder):
-    """Paths below a folder, in order."""
+    """Return the paths of surface files below a folder, in order."""
     found = [os.path.join(base, name) for base, _, names in os.walk(folder) for name in names]
     return sorted(os.path.relpath(path, folder) for path in found
                   if path.lower().endswith(SURFACES))
 
 
 def outcome_of(path):
-    """What `repair` says of a file, without numbers that may change."""
+    """Return the outcome of `repair` for a file, without numbers that may change."""
     try:
         return repaired_outcome_of(path)
     except subprocess.TimeoutExpired:
@@ -68,7 +69,7 @@ def repaired_outcome_of(path):
 
 
 def outcome_as_it_is(path):
-    """What `validate` says of a file, which has no grasp to judge: of a solid that one is missing."""
+    """Return the outcome of `validate` for a file without a grasp: for a solid, a missing grasp."""
     with tempfile.TemporaryDirectory() as folder:
         grasp = os.path.join(folder, "none.json")
         done = subprocess.run(
@@ -81,7 +82,7 @@ def outcome_as_it_is(path):
 
 
 def rows_of(package, name, path):
-    """Of a file, by package and name: as it is, repaired, or both."""
+    """Return the rows of a file, by package and name: unrepaired, repaired, or both."""
     rows = {}
     if name in SLOW:
         rows[package, name + AS_IT_IS] = outcome_as_it_is(path)
@@ -91,7 +92,7 @@ def rows_of(package, name, path):
 
 
 def reason_in(message):
-    """The words of a refusal before its first number."""
+    """Return the words of an error message before its first number."""
     words = []
     for word in message.split():
         if any(character.isdigit() for character in word):
@@ -149,7 +150,7 @@ class Write(Corpus):
 
 
 def take_option(name):
-    """The value of an option of this script, taken out of the arguments."""
+    """Return the value of an option of this script, and remove it from the arguments."""
     if name not in sys.argv:
         return None
     at = sys.argv.index(name)

@@ -1,4 +1,4 @@
-"""What validate draws of a plan that fails: a frame for every reason, and the contact sheet."""
+"""Images of failed plans by validate: a frame for every reason, and the overview image."""
 
 import copy
 import json
@@ -11,7 +11,7 @@ from program_case import ProgramCase
 SIZE = (320, 240)
 EMPTY_CELL = (238, 240, 244)
 
-# Nothing, and what only plans for a hand fail for: gait_program_test.py has their frames.
+# No reason, and reasons of plans for a hand, whose frames gait_program_test.py tests.
 OF_HANDS = (None, "hand-jumps", "tip-off-contact", "joint-limit", "hand-collides",
             "torque-limit", "coupling-violated", "tip-penetrates")
 
@@ -19,7 +19,7 @@ OF_HANDS = (None, "hand-jumps", "tip-off-contact", "joint-limit", "hand-collides
 class FailingFrames(ProgramCase):
     program = "validate"
 
-    # Nobody's fault but that of the object, the friction or the engine.
+    # Failures by the object, the friction or the engine, without a finger at fault.
     WITHOUT_FINGER = ("not-proved", "simulation-unstable", "object-moved")
 
     def setUp(self):
@@ -32,8 +32,10 @@ class FailingFrames(ProgramCase):
                 "--size", "x".join(map(str, SIZE)), *more]
 
     def assert_frame_of_failure(self, index, reason, *more, finger=True):
-        """The step at fault has a frame, with red where a finger is at fault; the sheet has a
-        grey cell for each step after it."""
+        """Expect a frame of the failed step, with red if a finger is at fault.
+
+        The overview image must have a grey cell for each later step.
+        """
         done = self.run_program(*self.arguments(*more))
         self.assertEqual(done.returncode, 1, done.stderr)
         steps = self.report()["steps"]
@@ -49,7 +51,7 @@ class FailingFrames(ProgramCase):
         return steps, frame
 
     def make_align(self):
-        """The hold, and an align of all its fingers by half a millimetre."""
+        """Make a plan of the initial grasp, and a sliding step of all its fingers by 0.5 mm."""
         first = self.plan["initial"]["contacts"]
         last = copy.deepcopy(first)
         for contact in last:
@@ -87,11 +89,10 @@ class FailingFrames(ProgramCase):
             contact["point"] = [p - away * n for p, n in zip(place["point"], place["normal"])]
             self.assert_frame_of_failure(2, "off-surface")
 
-    # Each breaks the plan for one reason, and says which entry fails, with what options, and
-    # whether a finger is at fault.
+    # Each function breaks the plan for one reason, and returns the failing entry and the options.
 
     def break_off_point(self):
-        self.plan["contacts"] = "given"  # the corners of the cube, where no contact is
+        self.plan["contacts"] = "given"  # the corners of the cube, without contacts
         return 0, ()
 
     def break_off_surface(self):

@@ -1,4 +1,4 @@
-"""The program figure from the shell: pictures of plans, and bad input."""
+"""The program figure from the shell: images of plans, and invalid input."""
 
 import copy
 import hashlib
@@ -19,7 +19,7 @@ COLOURS = ("rgb(0%,39.607843%,64.705882%)", "rgb(94.117647%,69.019608%,0%)",
 
 
 def opaque_fills(svg, colour):
-    """Paths filled with this colour that cover what is behind them: markers, heads of arrows."""
+    """Return the paths with an opaque fill of this colour: markers and arrow heads."""
     styles = [path.get("style", "").replace(" ", "")
               for path in ElementTree.fromstring(svg).iter(SVG + "path")]
     return sum(";fill:" + colour + ";fill-opacity:1;" in ";" + style for style in styles)
@@ -73,7 +73,7 @@ class Figure(ProgramCase):
         return [name + "." + ending for name in
                 ("000_hold", "001_align", "002_switch", "003_switch", "004_align", "sheet")]
 
-    # Good plans.
+    # Valid plans.
 
     def test_draws_a_figure_of_each_step_and_a_sheet(self):
         self.assertEqual(self.draw(), self.names("svg"))
@@ -142,10 +142,10 @@ class Figure(ProgramCase):
         self.draw(format="pdf")
         self.write("result/notes.txt", "mine")
         self.write("result/006_align.svg", "<?xml version=\"1.0\"?>\n<svg/>\n")
-        # Nor one that cannot be read, here as it is larger than any input may be.
+        # A file that cannot be read is kept too; here it is larger than the input limit.
         with open(self.path("result/005_align.svg"), "wb") as large:
             large.truncate(2 ** 30 + 1)
-        # An earlier run has made no folders and no links.
+        # An earlier run creates no folders and no links, so these are kept.
         os.mkdir(self.path("result/007_align.svg"))
         os.symlink("notes.txt", self.path("result/008_align.svg"))
         del self.plan["steps"][2:]
@@ -166,7 +166,8 @@ class Figure(ProgramCase):
     # Contact space.
 
     def use_two_finger_plan(self):
-        """A fork: both sides are squeezed, then its right prong; a contact moves on in between."""
+        """Use a plan on a fork: both sides are held, then its right prong; in between a contact
+        moves."""
         fork = "POLYGON((0 0, 10 0, 10 10, 7 10, 7 3, 3 3, 3 10, 0 10, 0 0))\n"
         self.write("fork.wkt", fork)
 
@@ -238,7 +239,7 @@ class Figure(ProgramCase):
         self.refuse(["plan.json", "step 1", "3 contacts", "--contact-space"], "--contact-space",
                     object=fork)
 
-    # Bad usage.
+    # Invalid usage.
 
     def test_refuses_missing_options(self):
         for name in ("object", "plan", "out"):
@@ -292,7 +293,7 @@ class Figure(ProgramCase):
         done = self.assert_done("--help")
         self.assertIn("svg|pdf|png", done.stdout)
 
-    # Bad input.
+    # Invalid input.
 
     def test_refuses_files_that_are_not_there(self):
         self.refuse("nowhere.wkt", object="nowhere.wkt")
@@ -352,7 +353,7 @@ class Figure(ProgramCase):
                 checked += 1
         self.assertGreater(checked, 20)
 
-    # The environment.
+    # Environment.
 
     def test_a_folder_that_cannot_be_written_is_not_bad_input(self):
         self.write("taken", "a file, not a folder")

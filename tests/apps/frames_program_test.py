@@ -1,4 +1,4 @@
-"""How frames of `validate` look: where they are taken from, edges, true fingers."""
+"""Frames of `validate`: their views, edges, and actual fingers."""
 
 import os
 import struct
@@ -17,7 +17,7 @@ class Frames(ProgramCase):
                          "--friction-angle", "20", "--output", "plan.json", program="plan")
 
     def draw(self, *options, out="result"):
-        """The frames, by name, and the report's words on the run."""
+        """Return the frames by name, and the report's description of the run."""
         self.assert_done("--object", self.model("cube.obj"), "--plan", "plan.json", "--out", out,
                          "--size", "320x240", *options)
         return {name: self.read(f"{out}/{name}") for name in os.listdir(self.path(out))
@@ -39,7 +39,7 @@ class Frames(ProgramCase):
         self.assertNotEqual(self.draw("--crease-angle", "91", out="smooth"), self.draw())
 
     def size_of(self, path):
-        """Width and height of a PNG file, and whether it has an alpha channel."""
+        """Return width and height of a PNG file, and whether it has an alpha channel."""
         header = self.read(path)[16:26]
         return struct.unpack(">II", header[:8]) + (header[9] == 6,)
 
@@ -69,7 +69,7 @@ class Frames(ProgramCase):
         self.assertEqual(clear["overview.png"], usual["overview.png"])
 
     def views_of(self, model, *options):
-        """How many frames of a plan are not seen from where the others are, as the page says."""
+        """Return the number of frames with a different view, as reported by the page."""
         self.assert_done("--object", self.model(f"{model}.obj"), "--start",
                          self.model(f"{model}.start.json"), "--goal",
                          self.model(f"{model}.goal.json"), "--friction-angle", "20", "--output",

@@ -1,4 +1,4 @@
-"""Plans for a hand: what plan --hand finds, validate --hand passes, and what is broken it fails."""
+"""Plans for a hand: plans of plan --hand pass validate --hand, and broken plans fail it."""
 
 import copy
 import csv
@@ -20,7 +20,7 @@ SMALL = ("--size", "320x240")
 
 
 def is_reddish(pixel):
-    """A link at fault, on white."""
+    """Return True for the colour of a link at fault, on white."""
     red, green, blue = pixel
     return red > 120 and green < 0.6 * red and blue < 0.65 * red
 
@@ -37,7 +37,7 @@ class Gait(ProgramCase):
                 self.hand("ring4"), "--output", output, *more)
 
     def plan_in_hand(self):
-        """With moves and switches, and no aligns; planned once."""
+        """Return a plan with in-hand motions and switches, without sliding steps; planned once."""
         seed = 0
         while Gait.made is None:
             seed += 1
@@ -64,7 +64,8 @@ class Gait(ProgramCase):
                          [step["kind"] for step in plan["steps"]])
 
     def test_the_hand_itself_carries_a_plan_out(self):
-        """Planned with less friction than there is: tips roll, which a plan leaves out."""
+        """Planned with less friction than there is, because the plan neglects that fingertips roll.
+        """
         ring5 = self.hand("ring5")
         turn = ("--object", self.model("cube.obj"), "--scale", "0.8333", "--mu", "0.5",
                 "--min-quality", "0.06", "--hand", ring5, "--turn", "z 30")
@@ -83,7 +84,8 @@ class Gait(ProgramCase):
         self.check_scene(plan, by_hand)
         self.check_trials(plan, by_hand)
         self.check_tips(plan, by_hand)
-        # Ten micrometres are not kept, the servos give way to a large shake, and no hand holds 20 kg.
+        # A tolerance of 10 µm is exceeded, the servos yield to a large disturbance, and no hand
+        # holds 20 kg.
         for more, reasons in ((("--tolerance-mm", "0.01"), ("object-moved",)),
                               (("--shake", "0.3"), ("object-moved", "slipped", "contact-lost")),
                               (("--mass", "20"), ("torque-limit", "object-moved", "slipped",
@@ -93,7 +95,7 @@ class Gait(ProgramCase):
             self.assertIn([step["reason"] for step in report["steps"] if step["reason"]][0],
                           reasons)
             self.assertIn("allowed" if more[0] == "--tolerance-mm" else "verdict", done.stdout)
-        # It is what a plan for a hand is validated by where nothing else is said.
+        # Replay by the hand is the default for a plan with a hand.
         _, by_points = self.validate(plan, "--hand", ring5, "--replay", "points", "--no-frames")
         self.assertNotIn("hand", by_points["settings"])
         _, usual = self.validate(plan, "--hand", ring5, "--no-frames")
@@ -115,7 +117,7 @@ class Gait(ProgramCase):
             self.assertIn(words, done.stderr)
 
     def check_trajectory(self, plan, by_hand):
-        """Both formats say the same, and begin and end as the plan does."""
+        """Both formats have the same content, and begin and end like the plan."""
         for name in ("hand.csv", "hand.npz"):
             done, _ = self.validate(plan, *by_hand, "--no-frames", "--trajectory", name)
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -141,7 +143,7 @@ class Gait(ProgramCase):
                 self.assertAlmostEqual(planned, seen, delta=1e-3)
         for planned, seen in zip(sum(start["joints"], []), arrays["joints"][0]):
             self.assertAlmostEqual(planned, seen, delta=1e-2)
-        # Of point fingers there is no such file.
+        # Point fingers have no such file.
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
                                 "--trajectory", "points.npz", program="validate")
         self.assertEqual(done.returncode, 2)
@@ -163,7 +165,8 @@ class Gait(ProgramCase):
             self.assertIn("noise: initial object pose by " + noise, done.stdout)
 
     def check_tips(self, plan, by_hand):
-        """The model's own tips are the balls of the hand's file, and a capsule that touches nothing."""
+        """The model's own fingertips are the spheres of the hand file, and a capsule without
+        contact."""
         reports = {}
         for tip in ("ball", "geometry"):
             more = ("--no-frames", "--tip", tip, "--trials", "2", "--trajectory", tip + ".csv",
@@ -174,7 +177,7 @@ class Gait(ProgramCase):
             self.assertEqual(report["settings"]["hand"]["tip"], tip)
             self.assertEqual(report["trials"]["count"], 2)
             reports[tip] = report
-            # What touches in the scene are geoms that it has.
+            # All contact pairs of the scene refer to its geoms.
             scene = xml.etree.ElementTree.fromstring(self.read(tip + "/scene.xml"))
             geoms = {geom.get("name"): geom for geom in scene.iter("geom")}
             pairs = [geoms[pair.get("geom1")] for pair in scene.findall("contact/pair")]
@@ -188,7 +191,7 @@ class Gait(ProgramCase):
         self.assertEqual(usual["settings"]["hand"]["tip"], "ball")
 
     def changed_hand(self, *changes):
-        """ring4 with other text in its model."""
+        """Return ring4 with edited text in its model."""
         with open(self.hand("ring4").replace(".json", ".xml"), encoding="utf-8") as file:
             model = file.read()
         for old, text in changes:
@@ -224,7 +227,7 @@ class Gait(ProgramCase):
         self.assertIn("moves joint finger2_joint3", done.stderr)
 
     def test_a_joint_off_its_coupling_fails(self):
-        """The model couples joints, and the plan is of free ones."""
+        """The model couples joints, but the plan has independent ones."""
         plan = self.plan_in_hand()
         follows = "".join(
             f'<joint joint1="finger{i}_joint3" joint2="finger{i}_joint2" '
@@ -266,11 +269,12 @@ class Gait(ProgramCase):
                             "--export-states", "1", "--tip", "geometry", program="validate")
 
     def check_scene(self, plan, by_hand):
-        """A folder with a keyframe for each rest, in a folder that is made, twice the same."""
+        """The scene has a keyframe for each static grasp, in a new folder, and is the same twice.
+        """
         for name in ("new/scene", "again"):
             done, _ = self.validate(plan, *by_hand, "--no-frames", "--export-mjcf", name)
             self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(os.listdir(self.path("again")), ["scene.xml"])  # it has no meshes
+        self.assertEqual(os.listdir(self.path("again")), ["scene.xml"])  # no meshes
         text = self.read("again/scene.xml")
         self.assertEqual(text, self.read("new/scene/scene.xml"))
         scene = xml.etree.ElementTree.fromstring(text)
@@ -285,11 +289,11 @@ class Gait(ProgramCase):
         tips = [geom for geom in scene.iter("geom")
                 if (geom.get("name") or "").startswith("regrasp_tip_")]
         self.assertEqual(len(tips), len(scene.findall("contact/pair")))
-        # What later versions of MuJoCo refuse is not there.
+        # Elements that later versions of MuJoCo reject are absent.
         self.assertIsNone(scene.find("size"))
         self.assertFalse({name for element in scene.iter("option") for name in element.attrib}
                          - {"timestep", "gravity", "cone", "impratio", "integrator", "tolerance"})
-        # A file is no folder, and stays.
+        # A file in place of the folder is kept.
         self.write("taken", "mine")
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
                                 *by_hand, "--export-mjcf", "taken", program="validate")
@@ -299,7 +303,7 @@ class Gait(ProgramCase):
 
     def test_a_plan_goes_from_given_grasps_and_poses_to_others(self):
         plan = self.plan_in_hand()
-        # To where its first switch leads.
+        # The goal is the grasp after the plan's first switch.
         _, switch = self.first(plan, "switch")
         left = [contact for contact in plan["initial"]["contacts"]
                 if contact["finger"] not in switch["release"]] + switch["place"]
@@ -340,11 +344,12 @@ class Gait(ProgramCase):
         self.assertEqual(texts[0], texts[2])
 
     def first(self, plan, kind):
-        """Its number in the report, and the step."""
+        """Return the index in the report and the step."""
         index = next(i for i, step in enumerate(plan["steps"]) if step["kind"] == kind)
         return index + 1, plan["steps"][index]
 
-    # Each breaks one thing of a plan, and says which entry fails and in what words.
+    # Each function changes one property of a plan. It returns the failing entry and words of the
+    # message.
 
     def break_hand_jumps(self, plan):
         entry, step = self.first(plan, "switch")
@@ -374,7 +379,7 @@ class Gait(ProgramCase):
         return entry, (f"of finger {finger}", "m into ", "of place")
 
     def reddish_in_frames(self, report):
-        """How many pixels of each entry's frame are as red as a link at fault."""
+        """Return the number of pixels per frame that are as red as a link at fault."""
         return [count(png_pixels(self.read("result/" + step["frame"])), is_reddish)
                 for step in report["steps"]]
 
@@ -403,18 +408,18 @@ class Gait(ProgramCase):
                 for text in (done.stdout, failure.text):
                     self.assertIn("help: ", text)
                 frame = png_pixels(self.read("result/" + step["frame"]))
-                # The heading, and links of the hand, which let a little of what is behind through.
+                # The heading, and links of the hand, which are slightly transparent.
                 self.assertGreater(count(frame, is_red), 20)
                 self.assertGreater(count(frame, is_reddish), usual[entry] + 200)
 
     def test_states_of_another_hand_have_their_frame_too(self):
-        """Whatever is missing in them: the hand stands as it stood before, or as its model does."""
+        """For missing joints the hand is drawn as before, or in the pose of its model."""
         hold = self.plan_in_hand()
         hold["hand"]["initial"]["joints"][2].pop()
         entry, step = self.first(self.plan_in_hand(), "switch")
         path = self.plan_in_hand()
         path["steps"][entry - 1]["motion"]["release"][-1]["joints"].pop()
-        # And a fault of the contacts that comes first.
+        # An earlier fault of the contacts in addition.
         both = copy.deepcopy(path)
         place = both["steps"][entry - 1]["place"][0]
         place["point"] = [p - 0.004 * n for p, n in zip(place["point"], place["normal"])]
@@ -428,7 +433,7 @@ class Gait(ProgramCase):
             if reason == "hand-jumps":
                 self.assertIn(", expected 4", report["steps"][index]["detail"])
             frame = png_pixels(self.read("result/" + report["steps"][index]["frame"]))
-            if plan is not path:  # where no finger is at fault
+            if plan is not path:  # no finger is at fault in that plan
                 self.assertGreater(count(frame, is_reddish), usual[index] + 50)
 
     def test_a_library_says_it_first_too(self):
@@ -452,10 +457,10 @@ class Gait(ProgramCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         durations = webp_durations(self.read("with.webp"))
         moving = [ms for ms in durations if ms < 900]
-        # A turn of 200° in pictures of 3°, and fingers that come and go.
+        # A rotation of 200° in frames of 3°, and fingers that are placed and released.
         self.assertGreater(len(moving), 80)
         self.assertEqual(len(durations) - len(moving), len(plan["steps"]) + 1)
-        # A hand that does nothing on its way is not it.
+        # Negative control: plans without intermediate states give fewer frames.
         for step in plan["steps"]:
             for path in (step,) if step["kind"] == "move" else (step["motion"],):
                 for name in ("path", "place", "release"):
@@ -484,7 +489,7 @@ class Gait(ProgramCase):
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertEqual(report["steps"][step]["reason"], reason)
             self.assertIn(words, report["steps"][step]["detail"])
-            # Without the hand nothing is wrong.
+            # Without the hand the plan passes.
             done, report = self.validate(broken, "--no-frames")
             self.assertEqual(report["verdict"], "pass", done.stderr)
 
@@ -506,7 +511,7 @@ class Gait(ProgramCase):
         self.assertEqual(verdicts, ["fail", "pass"])
 
     def test_what_the_motors_do_not_carry_out_is_written_only_where_that_is_asked_for(self):
-        # Tips that roll slip where the plan needs all the friction that there is.
+        # Rolling fingertips slip if the plan has no friction margin.
         turn = ("--object", self.model("cube.obj"), "--mu", "0.3", "--hand", self.hand("ring4"),
                 "--turn", "z 90", "--output", "plan.json")
         self.assert_refused(1, ("none executes in simulation", "the best fails at step ",
@@ -601,7 +606,7 @@ class Gait(ProgramCase):
         self.write_json("plans/one.json", plan)
         self.write("plans.jsonl", json.dumps(plan) + "\n")
         model = self.read("hands/ring4.xml")
-        # A blank more is another model, for which the plan was not made.
+        # An additional blank makes it another model, for which the plan was not made.
         for bytes_now, code, word in ((model, 0, "1 pass"), (model, 0, "1 kept"),
                                       (model + b" ", 2, "bad-input"), (model, 0, "1 pass"),
                                       (model, 0, "1 kept")):
@@ -613,7 +618,7 @@ class Gait(ProgramCase):
                     program="validate")
                 self.assertEqual(done.returncode, code, done.stderr)
                 said = done.stdout.splitlines()[-1] if plans == "plans" else done.stderr
-                # A folder's results are gone once they were bad input; a line's are replaced.
+                # Bad input removes the results of a plan in a folder, and replaces those of a line.
                 self.assertIn(word, said)
                 if code == 2:
                     self.assertNotIn("kept", said)
@@ -672,7 +677,7 @@ class Gait(ProgramCase):
                                 pose, *more, *self.arguments())
         self.assert_refused(2, "m from the first joint of finger finger", "--goal-pose",
                             "1 1 1 1 0 0 0", *self.arguments())
-        # In reach of the fingers' base: searched, whatever the result.
+        # Within reach of the finger's base, so that the search runs, regardless of its result.
         done = self.run_program(*self.arguments("--goal-pose", "0 0 0.06 1 0 0 0", "--effort", "2",
                                                 "--reserve", "none"))
         self.assertNotEqual(done.returncode, 2, done.stderr)

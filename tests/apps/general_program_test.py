@@ -1,4 +1,4 @@
-"""The planner general from the shell: plans on bodies of every kind, and their replay."""
+"""The planner general from the shell: plans on objects of every kind, and their replay."""
 
 import json
 import math
@@ -10,7 +10,7 @@ from program_case import ProgramCase
 BODIES = ("cube.obj", "prism.obj", "l_block.obj", "hole_block.obj", "duck500.obj",
           "polygon20.wkt", "polygon_hole.wkt")
 
-# Grasps of all the fingers of a hand, at 10 degrees, none of which can be lifted.
+# Grasps with all fingers of a hand, none of which can be lifted at 10 degrees.
 NEEDS_ALL = {
     "square.wkt": ((0.03, 0.0278), (0.0116, 0.03), (-0.03, 0.004), (-0.0118, -0.03)),
     "cube.obj": ((-0.02963, -0.03, -0.01778),
@@ -22,7 +22,7 @@ NEEDS_ALL = {
 
 
 def turns(step):
-    """How often a normal turns between two waypoints of an align."""
+    """Return the number of rotations of normals between two waypoints of a sliding step."""
     count = 0
     for before, after in zip(step["waypoints"], step["waypoints"][1:]):
         normals = {held["finger"]: held["normal"] for held in after["contacts"]}
@@ -76,7 +76,7 @@ class General(ProgramCase):
         return [float(number) for number in re.search(pattern, done.stderr).groups()]
 
     def validate(self, body, align):
-        """Replays the plan; returns the report."""
+        """Replay the plan and return the report."""
         replay = self.run_program(
             "--object", self.model(body), "--plan", self.path("plan.json"), "--align", align,
             "--no-frames", "--out", self.path("out"), program="validate")
@@ -135,7 +135,7 @@ class General(ProgramCase):
         self.assertLessEqual(len(steps["steps"]), len(margin["steps"]))
 
     def test_says_what_was_reached_where_nothing_is_found(self):
-        # Two grasps of five contacts that need aligns, and next to no effort.
+        # Two grasps of five contacts that require sliding steps, with almost no search budget.
         for seed in range(40):
             done = self.run_program(*self.arguments("pyramid.obj", seed, "--effort", "1",
                                                     "--min-quality", "0", degrees="5"))

@@ -1,4 +1,4 @@
-"""The program graph from the shell: good, missing and illegal input."""
+"""The program graph from the shell: valid, missing and invalid input."""
 
 import json
 import math
@@ -10,7 +10,7 @@ from program_case import ProgramCase
 
 
 def regular_polygon(count):
-    """WKT of so many edges."""
+    """Return the WKT of a regular polygon with `count` edges."""
     corners = [(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count))
                for k in range(count)]
     ring = ", ".join(f"{x!r} {y!r}" for x, y in corners + corners[:1])
@@ -24,7 +24,7 @@ class Graph(ProgramCase):
         return ["--object", self.model("cube.obj"), "--contacts", "20", *more]
 
     def tables(self, text):
-        """The rows of the tables by their first cell, cells after it as numbers."""
+        """Return the rows of the tables by their first cell, with the other cells as numbers."""
         rows = [line.split() for line in text.splitlines()]
         return {row[0]: [int(cell) for cell in row[1:]] for row in rows
                 if len(row) > 1 and all(cell.isdigit() for cell in row[1:])}
@@ -124,7 +124,8 @@ class Graph(ProgramCase):
     def test_a_polygon_is_counted_by_types(self):
         done = self.assert_done(*self.polygon("--friction-angle", "10", "--json", "graph.json"))
         self.assertIn("polygon of square.wkt, 4 edges, 10°, adaptive", done.stdout)
-        # Opposite sides squeeze; no three normals of a square span or are nearly parallel.
+        # Opposite sides form two-finger grasps; no three normals of a square span or are nearly
+        # parallel.
         tables = self.tables(done.stdout)
         self.assertEqual(tables["concurrent"], [0, 0, 0, 0])
         self.assertEqual(tables["two_finger"], [2, 2, 2, 1])
@@ -142,7 +143,8 @@ class Graph(ProgramCase):
         done = self.assert_done(*self.polygon("--friction-angle", "46", "--planner", "contour",
                                               "--json", "graph.json"))
         self.assertIn("contour of square.wkt, 4 edges, 46°", done.stdout)
-        # Opposite sides and neighbouring ones, which join them all: one set, no switch.
+        # Opposite and neighbouring sides form grasps, so that all are connected: one set, no
+        # switch.
         self.assertEqual(self.tables(done.stdout)["two_finger"], [6, 6, 1, 1])
         graph = json.loads(self.read("graph.json"))
         self.assertEqual((graph["planner"], graph["faces"]), ("contour", 4))
@@ -181,7 +183,7 @@ class Graph(ProgramCase):
             graph = json.loads(done.stdout)
             self.assertEqual("concurrent-parallel" in graph["edges"], spanning == "adaptive")
             return graph["types"]["concurrent"]["vertices"]
-        # Normals 120° apart span with cones of half-angle below 30°.
+        # Normals 120° apart span for cones with a friction angle below 30°.
         self.assertEqual([counts(angle, "uniform") for angle in ("29", "31")], [1, 0])
         self.assertEqual([counts(angle, "adaptive") for angle in ("29", "31")], [1, 1])
 
@@ -227,7 +229,7 @@ class Graph(ProgramCase):
         self.assert_refused(2, "not supported by planner contour; help: use --planner polygon",
                             *self.polygon("--mu", "1", "--spanning", "uniform", "--planner",
                                           "contour"))
-        # What it has it takes, and the default of another's option is no option.
+        # A planner accepts its own options, and the default value of another planner's option.
         self.assert_done(*solid, "--contacts", "20", "--planner", "roadmap", "--spanning",
                          "adaptive")
 

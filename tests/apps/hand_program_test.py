@@ -1,4 +1,4 @@
-"""The program hand from the shell: what it finds in models, what it writes, what it refuses."""
+"""The program hand from the shell: recognition of models, output, and errors."""
 
 import json
 import os
@@ -8,7 +8,7 @@ from program_case import ProgramCase
 
 
 def finger(name, place):
-    """Two links along z that bend towards +y."""
+    """Return two links along z that bend towards +y."""
     return f"""<body name="{name}_proximal" pos="{place}">
       <joint name="{name}_mcp" axis="-1 0 0" range="-10 90" actuatorfrcrange="-0.5 0.5"/>
       <geom type="capsule" size="0.008" fromto="0 0 0 0 0 0.04"/>
@@ -18,7 +18,7 @@ def finger(name, place):
       </body></body>"""
 
 
-# Written for a newer MuJoCo.
+# Model for a newer MuJoCo.
 NEWER = f"""<mujoco model="claw">
   <option integrator="implicitfast"/>
   <worldbody><body name="palm"><geom type="box" size="0.05 0.01 0.03"/>
@@ -68,7 +68,7 @@ class Hand(ProgramCase):
         self.assertGreater(len(picture), 20_000)
 
     def urdf(self, limit='effort="1"', look="", mimic=""):
-        """Three fingers of two links on a palm."""
+        """Return a URDF with three fingers of two links on a palm."""
         inertial = ('<inertial><mass value="0.02"/><inertia ixx="1e-5" iyy="1e-5" izz="1e-5" '
                     'ixy="0" ixz="0" iyz="0"/></inertial>')
         links = [f'<link name="palm">{inertial}{look}<collision><geometry>'

@@ -1,4 +1,4 @@
-"""What all programs say of their options: --help, manual page, completions, and mistyped ones."""
+"""Help on options in all programs: --help, manual page, completions, and mistyped options."""
 
 import os
 import re
@@ -11,17 +11,17 @@ from program_case import ProgramCase
 
 PROGRAMS = ("plan", "validate", "graph", "figure", "repair", "merge", "hand")
 
-# Of what shells show beside an option, on a terminal of 100 columns.
+# Maximum length of the summary that shells show next to an option, on a terminal of 100 columns.
 SUMMARY_LENGTH = 72
 
 
 def options_in(text):
-    """The options that --help lists: each begins a line, indented by two."""
+    """Return the options that --help lists: each begins a line, indented by two."""
     return re.findall(r"^  (--[a-z-]+)", text, re.MULTILINE)
 
 
 def is_first_clause(summary, text):
-    """All of the text up to a stop."""
+    """Return True if the summary is the text up to a punctuation mark."""
     rest = text.removeprefix(summary)
     return rest != text and (not rest or rest == " (required)" or
                              re.match(r"[;:.] | \(default", rest) is not None)
@@ -84,7 +84,7 @@ class Help(ProgramCase):
                                  (right[1:], [right[1:], "x"])):
                 self.assert_refused(2, f"unknown option {typed}; did you mean {right}? (", *words)
             self.assert_refused(2, "unknown option --frobnicate (", "--frobnicate")
-            # The right one is asked for where it is missing, and not complained of.
+            # The correct option is reported as missing, and not as unknown.
             self.assert_refused(2, f"{right} is required ({self.program} --help lists all)")
 
     def test_a_mistyped_word_is_told_with_the_one_that_was_meant(self):
@@ -111,7 +111,7 @@ class Help(ProgramCase):
             self.program = "plan"
             self.assert_refused(2, f"{typed[0]}: its words are one argument, in quotes: {right}",
                                 *hand[:2], *typed, *hand[2:])
-            # In quotes they are taken: what is wrong then is the file.
+            # In quotes the words are accepted; the next error is the file.
             self.assert_refused(2, "no.json: no such file", *hand, typed[0], " ".join(typed[1:]))
 
     def test_a_missing_value_is_told_and_not_taken_from_the_next_option(self):
@@ -119,7 +119,7 @@ class Help(ProgramCase):
         self.program = "plan"
         for words in (["--start", *rest], [*rest, "--start"]):
             self.assert_refused(2, "--start: its value is missing: --start FILE|random", *words)
-        # What only begins like an option is a value.
+        # A word that only begins like an option is a value.
         self.assert_refused(2, "found \"-1\"", *rest[:2], "--mu", "-1", *rest[4:])
 
     def test_completions_have_every_option(self):
@@ -133,7 +133,7 @@ class Help(ProgramCase):
                     self.assertIn(word, text, kind)
 
     def texts(self, program):
-        """What --help says of each option, in one line."""
+        """Return the text of --help for each option, on one line."""
         texts, option = {}, None
         for line in self.help(program, COLUMNS="120").split("Examples:")[0].splitlines():
             head = re.match(r"""  (--[a-z-]+)(?: "[^"]*"| \S+)?(?:  +(.*))?$""", line)
@@ -198,7 +198,7 @@ class Help(ProgramCase):
             for option in options_in(self.help(program)):
                 self.assertRegex(done.stdout, r"(?m)^ +" + option + r"\b")
             self.assertIn("EXIT STATUS", done.stdout)
-        # Characters beyond ASCII arrive as they are.
+        # Characters beyond ASCII are preserved.
         self.assertIn("kg/m^3", self.help_as("man", "validate"))
 
     def test_another_kind_of_help_is_bad_usage(self):

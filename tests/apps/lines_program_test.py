@@ -1,4 +1,4 @@
-"""Many plans in files of lines: plan --batch, validate of what it writes, and merge."""
+"""Many plans in JSON Lines files: plan --batch, validate of its output, and merge."""
 
 import hashlib
 import json
@@ -24,7 +24,7 @@ class Lines(ProgramCase):
             (value if isinstance(value, str) else json.dumps(value)) + "\n" for value in values))
 
     def queries(self, count=30):
-        """Of three objects, one of them planar."""
+        """Return queries for three objects, one of them planar."""
         objects = ["cube.obj", "square.wkt", "stone.obj"]
         return [{"object": {"file": objects[len(objects) * i // count]}, "seed": i}
                 for i in range(count)]
@@ -45,12 +45,12 @@ class Lines(ProgramCase):
         return done
 
     def unseal(self, line):
-        """Takes away what a run is recognized by."""
+        """Remove the fields that identify a run."""
         for key in ("inputs_sha256", "line_sha256"):
             self.assertRegex(line.pop(key), "^[0-9a-f]{64}$")
 
     def copy_objects(self):
-        """Of the queries, in a folder that may be changed."""
+        """Copy the objects of the queries to a folder that may be changed."""
         os.mkdir(self.path("objects"))
         for name in ("cube.obj", "square.wkt", "stone.obj"):
             shutil.copy(self.model(name), self.path("objects"))
@@ -112,7 +112,7 @@ class Lines(ProgramCase):
         for kind in ("shard", "again"):
             self.merge(f"{kind}.jsonl", *(f"{kind}{i}/reports.jsonl" for i in (1, 2, 3)))
             self.assertEqual(self.read(f"{kind}.jsonl"), self.read("whole/reports.jsonl"))
-        # Negative control: another option gives other bytes.
+        # Negative control: a different option gives different bytes.
         self.plan("other.jsonl", "--min-quality", "0.02")
         self.assertNotEqual(self.read("other.jsonl"), self.read("plans.jsonl"))
 
@@ -135,7 +135,7 @@ class Lines(ProgramCase):
         done = self.validate("plans.jsonl", "killed")
         self.assertRegex(done.stderr, r"60 entries: 60 pass; [0-9]+ kept from an earlier run")
         self.assertEqual(self.read("killed/reports.jsonl"), self.read("whole/reports.jsonl"))
-        # All of it is there now; and what was edited is made again.
+        # All results exist now; an edited result is computed again.
         self.assertIn("60 kept", self.validate("plans.jsonl", "killed").stderr)
         self.write("killed/reports.jsonl", self.read("whole/reports.jsonl")[:-1])
         self.assertIn("59 kept", self.validate("plans.jsonl", "killed").stderr)
@@ -161,7 +161,7 @@ class Lines(ProgramCase):
 
         check(12, "12 pass")
         whole = self.read("plans.jsonl")
-        # A line that is edited under the same header, so that it fails.
+        # Edit a line so that it fails, and keep the header.
         lines = whole.splitlines(keepends=True)
         plan = json.loads(lines[5])
         plan["friction"]["half_angle_deg"] = 0.5
@@ -171,14 +171,14 @@ class Lines(ProgramCase):
         check(12, "11 pass, 1 fail", code=1)
         self.write("plans.jsonl", whole)
         check(11, "12 pass")
-        # A blank at the end of a line is another line.
+        # A blank at the end makes it a different line.
         lines = whole.splitlines()
         lines[7] += b" "
         self.write("plans.jsonl", b"\n".join(lines) + b"\n")
         check(11, "12 pass")
         self.write("plans.jsonl", whole)
         check(11, "12 pass")
-        # An object that is another one, or gone: its plans are bad input in every run.
+        # If an object is changed or missing, its plans are bad input in every run.
         cube = self.read("objects/cube.obj")
         for _ in range(2):
             self.write("objects/cube.obj", cube.replace(b"v ", b"v  ", 1))
@@ -187,12 +187,12 @@ class Lines(ProgramCase):
         check(8, "8 pass, 4 bad-input", code=2)
         self.write("objects/cube.obj", cube)
         check(8, "12 pass")
-        # Options: all.
+        # All results depend on the options.
         check(0, "12 pass", "--density", "900")
         check(12, "12 pass", "--density", "900", "--jobs", "1")
         check(0, "12 pass", "--density", "900.0")
         check(0, "12 pass")
-        # Lines of Windows.
+        # Windows line ends.
         self.write("plans.jsonl", whole.replace(b"\n", b"\r\n"))
         check(12, "12 pass")
 
@@ -202,7 +202,7 @@ class Lines(ProgramCase):
         self.validate("plans.jsonl", "out")
         with open(os.path.join(program_case.ARGUMENTS.programs, "validate"), "rb") as file:
             program = bytearray(file.read())
-        # The first byte of the build id, behind its note's header: sizes, type and owner.
+        # First byte of the build id, after the header of its note: sizes, type and owner.
         program[program.index(b"\x04\0\0\0\x14\0\0\0\x03\0\0\0GNU\0") + 16] ^= 1
         os.chmod(self.write("validate", bytes(program)), 0o755)
         for kept in (False, True):
@@ -319,7 +319,7 @@ class Lines(ProgramCase):
             self.assertIn(words, nothing[i]["message"])
             self.assertIn("plan: " + nothing[i]["message"], said)
         self.assertIn(f"2 plan, {len(bad)} bad-input", said[-1])
-        # What has no plan is passed on, and is no fault of the plans.
+        # Entries without a plan are passed on and do not count as failures.
         self.assertIn(f"2 pass, {len(bad)} no-plan", self.validate("plans.jsonl", "out").stderr)
 
     def test_messages_of_many_bad_lines_are_few(self):
@@ -378,7 +378,7 @@ class Lines(ProgramCase):
         os.rename(self.path("objects/renamed.obj"), self.path("objects/again.obj"))
         self.assert_done("--object", "objects", "--plan", "plans.jsonl", "--out", "out",
                          program="validate")
-        # A plan whose digest no file has is a bad line.
+        # A plan is a bad line if no file has its digest.
         plan["object"]["sha256"] = "0" * 64
         plan["object"]["file"] = "again.obj"
         self.write_lines("bad.jsonl", [plan])
@@ -402,7 +402,7 @@ class Lines(ProgramCase):
             self.assertEqual(sorted(os.listdir(self.path("out"))), [*folders, "reports.jsonl"])
         left = os.listdir(self.path("out/0000002"))
         self.assertLessEqual({"plan.json", "report.json", "report.html", "000_hold.png"}, set(left))
-        # The same of a plan in a file of its own.
+        # The same for a plan in its own file.
         for plan, pictures in ((plans[0], False), (plans[1], True)):
             self.write_json("one.json", plan)
             self.run_program("--object", self.model(""), "--plan", "one.json", "--out", "one",

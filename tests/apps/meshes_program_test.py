@@ -1,4 +1,4 @@
-"""Triangle meshes from the shell: clustered roadmaps, queries, plans over them and their replay."""
+"""Triangle meshes from the shell: clustered roadmaps, queries, plans with them and their replay."""
 
 import json
 import os
@@ -8,7 +8,7 @@ import jsonschema
 import program_case
 from program_case import ProgramCase
 
-# Binomial coefficients: all fours of so many representatives.
+# Binomial coefficients: all 4-subsets of the representatives.
 FOURS = {20: 4845, 30: 27405, 50: 230300}
 
 
@@ -111,7 +111,7 @@ class PlansOnMeshes(ProgramCase):
         return [word for pair in options.items() for word in pair] + list(more)
 
     def plan(self, *arguments, **changes):
-        """The plan, which follows its schema."""
+        """Return the plan, which must follow its schema."""
         self.assert_done(*self.arguments(*arguments, **changes))
         plan = json.loads(self.read("plan.json"))
         schema = os.path.join(program_case.ARGUMENTS.source, "docs", "plan.schema.json")
@@ -202,7 +202,7 @@ class PlansOnMeshes(ProgramCase):
             self.assert_done("--object", self.model("mug500.obj"), "--plan", "plan.json", "--out",
                              "out", "--size", "320x240", *shown, program="validate")
             frames.append(self.read("out/000_hold.png"))
-        # The same picture but for the colours of the surface.
+        # The images differ only in the colours of the surface.
         self.assertNotEqual(frames[0], frames[1])
         self.assertGreater(len(frames[1]), 10_000)
 
@@ -213,7 +213,7 @@ class PlansOnMeshes(ProgramCase):
         self.assertEqual((note["roughness_deg"], "invented" in note), (5, False))
         frames = []
         for roughness in (5, 20):
-            plan["roadmap"]["roughness_deg"] = roughness  # control: these are other clusters
+            plan["roadmap"]["roughness_deg"] = roughness  # negative control: different clusters
             self.write_json("other.json", plan)
             self.assert_done("--object", mug, "--plan", "other.json", "--out", "out", "--size",
                              "320x240", "--show-clusters", program="validate")
@@ -233,7 +233,7 @@ class PlansOnMeshes(ProgramCase):
     def test_a_plan_with_a_finger_elsewhere_fails(self):
         plan = self.plan("ellipsoid500", seed="1")
         place = plan["steps"][0]["place"][0]
-        # The finger that is placed goes to where another one holds.
+        # Move the placed finger to the contact of another finger.
         other = plan["initial"]["contacts"][0]
         place["point"], place["normal"] = other["point"], other["normal"]
         self.write_json("plan.json", plan)

@@ -1,5 +1,7 @@
-"""Every model is as its generator writes it and plans from its start to its goal grasp, and the
-plan validates, replay included."""
+"""Every model equals its generator's output and has a plan from its start to its goal grasp.
+
+The plan passes the validation, including the replay.
+"""
 
 import json
 import math
@@ -14,12 +16,12 @@ from program_case import ProgramCase
 FRICTION_ANGLE = "20"
 SEEDS_OF_RANDOM_PLANS = ("1", "2")
 SMALLEST_REQUIRED = 0.1  # degrees
-MANY_EDGES = 100  # with more, random grasps are 2-finger grasps of the whole boundary
-SHORTEST_EDGE = 0.004  # of the diameter
+MANY_EDGES = 100  # above this, random grasps are two-finger grasps of the whole boundary
+SHORTEST_EDGE = 0.004  # over the diameter
 REGIONS = ("--optimize", "regions")
 MANY_FACES = ("body14", "body24", "body34", "body36", "body38", "body40", "body42", "body47",
               "body67")
-# Their focus cells are many; fewer with little friction and uniform spanning.
+# Models with many focus cells; there are fewer with little friction and uniform spanning.
 CONCURRENT = ("--planner", "polyhedron", "--spanning", "uniform")
 FRICTION_OF_MANY_FACES = "10"
 
@@ -42,7 +44,7 @@ class Models(ProgramCase):
         return solid if os.path.exists(solid) else self.model(name + ".wkt")
 
     def rings(self, name):
-        """The rings of a polygon, empty for a solid."""
+        """Return the rings of a polygon; empty for a solid."""
         if self.body(name).endswith(".obj"):
             return []
         with open(self.body(name), encoding="utf-8") as wkt:
@@ -62,7 +64,7 @@ class Models(ProgramCase):
         return json.loads(self.read("plan.json"))
 
     def validate(self, name, *more):
-        """Exit code and report; frames are left to the tests of the pictures."""
+        """Return exit code and report; the image tests check the frames."""
         done = self.run_program("--object", self.body(name), "--plan", "plan.json",
                                 "--out", "out", "--no-frames", *more, program="validate")
         return done, json.loads(self.read("out/report.json"))
@@ -121,7 +123,7 @@ class Models(ProgramCase):
                        "contour" if name in many_edges else "polygon")
             for seed in SEEDS_OF_RANDOM_PLANS:
                 with self.subTest(model=name, seed=seed):
-                    # With many edges both ways of choosing the switches have their turn.
+                    # Models with many edges exercise both methods of choosing the switches.
                     aim = REGIONS if name in many_edges and seed == "2" else ()
                     self.plan(name, "random", "random", "--planner", planner, "--seed", seed, *aim)
                     done, _ = self.validate(name)
@@ -136,7 +138,7 @@ class Models(ProgramCase):
                 done, report = self.validate(name, "--start", start, "--goal", goal)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 self.assertEqual(len(report["steps"]), len(plan["steps"]) + 1)
-                # The same plan with less friction than its weakest grasp needs.
+                # The same plan with less friction than its weakest grasp requires.
                 weakest = max(step["force_closure"]["required_half_angle_deg"]
                               for step in report["steps"])
                 done, report = self.validate(name, "--friction-angle", str(weakest - 0.01))
@@ -164,12 +166,13 @@ class Models(ProgramCase):
                             for step in report["steps"]]
                 weakest = required.index(max(required))
                 if max(required) < SMALLEST_REQUIRED:
-                    continue  # opposed contacts: there is no smaller friction
+                    continue  # opposed contacts have no smaller friction
                 done, report = self.validate(name, "--friction-angle", str(max(required) - 0.01))
                 self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
                 failed = [step for step in report["steps"] if step["reason"]]
                 self.assertEqual(len(failed), 1)
-                # An earlier step that has hardly more friction to spare may not stand the shake.
+                # An earlier step with a slightly larger friction margin may fail the disturbance
+                # test.
                 self.assertLessEqual(failed[0]["index"], weakest)
                 if failed[0]["index"] == weakest:
                     self.assertEqual(failed[0]["reason"], "not-force-closure")

@@ -1,4 +1,4 @@
-"""Arrays of an NPZ file, as numpy.load reads them, without numpy."""
+"""Read the arrays of an NPZ file like numpy.load, without numpy."""
 
 import ast
 import struct
@@ -34,7 +34,7 @@ def read_array(data):
 
 
 def read_npz(path):
-    """Arrays by name; the archive's checksums are right."""
+    """Return the arrays by name; the archive's checksums are checked."""
     with zipfile.ZipFile(path) as archive:
         assert archive.testzip() is None
         return {name.removesuffix(".npy"): read_array(archive.read(name))

@@ -1,4 +1,4 @@
-"""Where all programs write, and what they leave alone there."""
+"""Output paths of all programs, and the files there that they must not change."""
 
 import os
 import shutil
@@ -23,9 +23,10 @@ class Outputs(ProgramCase):
     def graph_arguments(self, output):
         return ["--object", self.model("square.wkt"), "--friction-angle", "20", "--json", output]
 
-    # What stands at the path.
+    # Existing files at the output path.
 
-    # Links of our own, as /dev/stdout is one: a program that replaced it would harm the machine.
+    # Links made by the test, like /dev/stdout: a program that replaced the real one would harm the
+    # machine.
 
     def test_standard_output_by_its_name_goes_on_behind_what_is_there(self):
         os.symlink("/proc/self/fd/1", self.path("stdout"))
@@ -57,10 +58,10 @@ class Outputs(ProgramCase):
         self.assertEqual(os.stat(self.path("kept.json")).st_mode & 0o777, 0o600)
         self.assertIn(b"regrasp-graph", self.read("kept.json"))
 
-    # Inputs stay.
+    # Inputs are kept.
 
     def assert_unharmed(self, words, program, *arguments):
-        """Refused as bad usage, with everything in the folder as it was."""
+        """Expect a usage error, and an unchanged folder."""
         def state():
             paths = [os.path.join(folder, name)
                      for folder, _, names in os.walk(self.folder) for name in names]
@@ -71,7 +72,7 @@ class Outputs(ProgramCase):
         self.assertEqual(state(), before)
 
     def make_inputs(self):
-        """A plan with its object and grasps, all in the test's folder."""
+        """Write a plan with its object and grasps into the test's folder."""
         for name in ("square.wkt", "square.start.json", "square.goal.json"):
             shutil.copy(self.model(name), self.path(name))
         self.assert_done(*self.plan_arguments("plan.json"), program="plan")
@@ -111,7 +112,7 @@ class Outputs(ProgramCase):
             self.assert_unharmed("is the file of --grasp", "validate", "--object", "square.wkt",
                                  "--mu", "0.4", "--no-frames", "--grasp", "square.start.json",
                                  option, "square.start.json")
-            # Which file it is, only the plan tells.
+            # The name of the file depends on the plan.
             self.assert_unharmed("is the file of --object", "validate", "--object", ".", "--plan",
                                  "plan.json", "--out", "result", option, "square.wkt")
 
@@ -146,7 +147,7 @@ class Outputs(ProgramCase):
                              "--export-mjcf", "result/003_align.png")
         self.assert_done(*plan, "--junit", "result/junit.xml", program="validate")
 
-    # What cannot be written is found first.
+    # Unwritable outputs are detected first.
 
     def test_what_cannot_be_written_is_found_before_anything_is_read(self):
         self.make_inputs()
@@ -172,7 +173,8 @@ class Outputs(ProgramCase):
         self.make_inputs()
         os.mkfifo(self.path("pipe"))
         for made_again in (False, True):
-            # It waits for a reader of its pipe, when only the report is still to be written.
+            # The program waits for a reader of its pipe, when only the report remains to be
+            # written.
             run = subprocess.Popen(
                 [os.path.join(program_case.ARGUMENTS.programs, "validate"), "--object",
                  "square.wkt", "--plan", "plan.json", "--out", "result", "--no-frames",
@@ -189,10 +191,10 @@ class Outputs(ProgramCase):
             self.assertIn("result/report.html: was removed during the run", errors)
             self.assertFalse(os.path.exists(self.path("result/report.json")))
 
-    # The process and its surroundings.
+    # The process and its environment.
 
     def shell(self, program, arguments, ending, before=""):
-        """Runs a program through the shell, which sets what the words before and behind say."""
+        """Run a program through the shell, with shell words before and after the command."""
         command = " ".join([before, os.path.join(program_case.ARGUMENTS.programs, program),
                             *arguments, ending])
         return subprocess.run(["bash", "-c", command], cwd=self.folder, stdout=subprocess.DEVNULL,
@@ -212,7 +214,7 @@ class Outputs(ProgramCase):
         os.mkdir(self.path("plans"))
         shutil.copy(self.path("plan.json"), self.path("plans/good.json"))
         self.write("plans/bad.json", plan[:-100])
-        # What its children say goes through pipes.
+        # Messages of child processes use pipes.
         batch = ["--object", "square.wkt", "--plan", "plans", "--no-frames", "--out"]
         self.assertEqual(self.shell("validate", [*batch, "open"], "").returncode, 2)
         for streams, code in (("<&-", 2), ("2>&-", 2), (">&-", 3), (">&- 2>&-", 3), (closed, 3)):
@@ -231,7 +233,7 @@ class Outputs(ProgramCase):
 
     def test_the_rendering_library_keeps_nothing(self):
         self.make_inputs()
-        # Where it would; it takes the home folder itself from the system.
+        # The cache folder that it would use; it gets the home folder itself from the system.
         cache = self.path("cache")
         os.mkdir(cache)
         self.assert_done(

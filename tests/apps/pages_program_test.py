@@ -1,5 +1,8 @@
-"""Every command of every page of the documents, run one after the other in a folder of its own that has
-the models and what the page takes for granted."""
+"""Run every command of every documentation page.
+
+The commands of a page run one after the other in their own folder, which contains the models and
+the files that the page assumes.
+"""
 
 import glob
 import os
@@ -9,10 +12,10 @@ import subprocess
 import program_case
 from program_case import ProgramCase
 
-# Where regrasp-convert is, which is built with the Python module only.
+# Path of regrasp-convert, which is built with the Python module only.
 CONVERTER = os.environ.get("REGRASP_CONVERTER", "")
 
-# What takes an hour, made shorter.
+# Replacements that shorten a run of an hour.
 SHORTER = [("--export-states 100000", "--export-states 3")]
 
 CUBE = """plan --quiet --object models/cube.obj --friction-angle 20 --start models/cube.start.json \
@@ -59,7 +62,7 @@ GIVEN = {
     **{name: EXAMPLES for name in COMMANDS},
 }
 
-# What pages leave behind, by page.
+# Files that a page must create.
 LEFT = {
     "first_picture": ["out/plan/report.html", "out/plan/overview.png", "out/weak/report.json", "out/turn/replay.webp"],
     "trust_a_plan": ["out/plan/report.html", "out/weak/report.json", "out/proof/report.json"],
@@ -83,14 +86,14 @@ LEFT = {
 
 
 def commands_of(page):
-    """The page's shell blocks; what a comment says has exit code 1 must have it."""
+    """Return the page's shell blocks; a command with a comment about exit code 1 must have it."""
     blocks = re.findall(r"^```sh\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
     return [re.sub(r"^(#.* Exit code 1\.\n)(.*)$", r"\1code=0; \2 || code=$?; [ $code -eq 1 ]", block,
                    flags=re.MULTILINE) for block in blocks]
 
 
 def pages():
-    """Text by name, of those that have commands."""
+    """Return the text of the pages with commands, by name."""
     found = {}
     for path in glob.glob(os.path.join(program_case.ARGUMENTS.source, "docs", "*.md")):
         with open(path, encoding="utf-8") as file:
@@ -110,7 +113,8 @@ class Pages(ProgramCase):
                               timeout=program_case.HANG_SECONDS)
 
     def triangles(self):
-        """Of models/cube.obj, whose faces are cut into many, in metres: corners by facet."""
+        """Return the triangles of models/cube.obj, with subdivided faces, in metres: corners by
+        triangle."""
         with open(self.model("cube.obj"), encoding="utf-8") as file:
             rows = [line.split() for line in file]
         corners = [[float(x) for x in row[1:]] for row in rows if row[:1] == ["v"]]
@@ -129,7 +133,7 @@ class Pages(ProgramCase):
                 for t in self.cut(part, times - 1)]
 
     def write_objects(self):
-        """A scan with a hole, a part in millimetres, and a whole and a broken cube beside each other."""
+        """Write a scan with a hole, a part in millimetres, and an intact next to a broken cube."""
         triangles = list(self.triangles())
         open_ones = triangles[1:]
         rows = [" ".join(map(str, corner)) for triangle in open_ones for corner in triangle]
@@ -147,7 +151,7 @@ class Pages(ProgramCase):
                    + "".join(f"f {3 * i + 1} {3 * i + 2} {3 * i + 3}\n" for i in range(len(both))))
 
     def write_hidex(self):
-        """Three fingers pinch the cube, and a fourth takes over from one."""
+        """Write a plan in which three fingers pinch the cube and a fourth takes over from one."""
         away, pose = "nan, nan, nan, 0, 0, 0", "0, 0, 0, 0, 0, 0, 1"
         pinch = ".03, 0, .01, -1, 0, 0, -.03, 0, .01, 1, 0, 0"
         self.write("hidex.csv", f"{pinch}, 0, .03, 0, 0, -1, 0, {away}, {pose}\n"

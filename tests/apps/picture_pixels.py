@@ -1,17 +1,17 @@
-"""What is in the pictures that validate writes: pixels, the red of what is wrong, durations."""
+"""Content of the images that validate writes: pixels, the red of faults, durations."""
 
 import struct
 import zlib
 
 
 def png_size(data):
-    """Width and height of a PNG."""
+    """Return width and height of a PNG."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     return struct.unpack(">II", data[16:24])
 
 
 def png_rows(data):
-    """The pixel rows of a PNG of 8 bits a channel, as the filtered bytes that stand in it."""
+    """Return the pixel rows of a PNG with 8 bits per channel, as filtered bytes."""
     width, height = png_size(data)
     assert data[24] == 8 and data[25] in (2, 6), "RGB or RGBA"
     packed, at = b"", 8
@@ -27,7 +27,8 @@ def png_rows(data):
 
 
 def png_pixels(data):
-    """Rows of RGB triples, of a PNG of 8 bits a channel without transparency and interlace."""
+    """Return rows of RGB triples of a PNG with 8 bits per channel, without transparency and
+    interlacing."""
     assert data[25] == 2, "RGB"
     filtered = png_rows(data)
     stride = len(filtered[0]) - 1
@@ -61,13 +62,13 @@ def count(rows, holds):
 
 
 def is_red(pixel):
-    """The red of what is wrong, lit or in shade; no finger has it."""
+    """Return True for the red of faults, lit or shaded; no finger has this colour."""
     red, green, blue = pixel
     return red > 110 and green < 0.22 * red and blue < 0.35 * red
 
 
 def webp_durations(data):
-    """Milliseconds of each picture of an animated WebP."""
+    """Return the duration of each frame of an animated WebP, ms."""
     assert data[:4] == b"RIFF" and data[8:12] == b"WEBP"
     at, durations = 12, []
     while at < len(data):

@@ -1,4 +1,4 @@
-"""The program plan from the shell: good, missing and illegal input."""
+"""The program plan from the shell: valid, missing and invalid input."""
 
 import json
 import math
@@ -20,7 +20,7 @@ class Plan(ProgramCase):
     program = "plan"
 
     def arguments(self, **changes):
-        """A command line that works, with options changed or, where None, left out."""
+        """Return a valid command line with changed options; None removes an option."""
         options = {
             "--object": self.model("cube.obj"),
             "--start": self.model("cube.start.json"),
@@ -40,14 +40,14 @@ class Plan(ProgramCase):
         return {"format": "regrasp-grasp", "version": 1, "contacts": contacts}
 
     def polygon_arguments(self, **changes):
-        """The same for a polygon."""
+        """Return a valid command line for a polygon."""
         options = {"object": self.model("polygon15.wkt"), "contacts": None,
                    "start": self.model("polygon15.start.json"),
                    "goal": self.model("polygon15.goal.json")}
         return self.arguments(**dict(options, **changes))
 
     def plan(self, arguments):
-        """The plan, which always follows its schema."""
+        """Run the program and return the plan, which must follow its schema."""
         self.assert_done(*arguments)
         plan = json.loads(self.read("plan.json"))
         schema = os.path.join(program_case.ARGUMENTS.source, "docs", "plan.schema.json")
@@ -59,7 +59,7 @@ class Plan(ProgramCase):
         with open(self.model("cube.start.json"), encoding="utf-8") as file:
             return json.load(file)["contacts"]
 
-    # What works.
+    # Valid input.
 
     def test_plans_on_every_model(self):
         names = sorted(name[:-len(".start.json")] for name in os.listdir(self.model(""))
@@ -201,12 +201,12 @@ class Plan(ProgramCase):
                 self.assertEqual((margin["step"], f"{math.ceil(100 * margin['required_half_angle_deg'] - 1e-4) / 100:.2f}"),
                                  (int(told[2]), told[4]))
                 weakest.append(told[3])
-        # Where grasps at rest alone are looked at, the number is another one.
+        # An analysis of static grasps alone would give a different value.
         self.assertGreaterEqual(weakest.count("align"), 2)
 
     def test_uniform_spanning_leaves_grasps_out_that_adaptive_has(self):
-        # The normals of this triangle span with cones of half-angle below 30°. Two fingers of the
-        # turned grasps are no grasp at 35°.
+        # The normals of this triangle span for cones with a friction angle below 30°. At 35°, no
+        # two fingers of the rotated grasps are force closure.
         def turned(share):
             corners = [(-1, 0), (1, 0), (0, 3 ** 0.5)]
             contacts = []
@@ -222,7 +222,7 @@ class Plan(ProgramCase):
         self.assertEqual((steps[1][0], steps[1][-1]), ("switch", "switch"))
 
     def test_a_grasp_in_no_set_of_the_polygon_is_a_negative_answer(self):
-        # Two pairs whose torques cancel; each pair alone leans by atan(2 / 6).
+        # Two pairs whose torques cancel; each pair alone is inclined by atan(2 / 6).
         start = self.write_json("start.json", self.grasp(
             [{"point": [-0.03, 0.01]}, {"point": [0.03, -0.01]},
              {"point": [0.01, -0.03]}, {"point": [-0.01, 0.03]}]))
@@ -354,11 +354,11 @@ class Plan(ProgramCase):
             self.assertIn(word, done.stdout)
             self.assertEqual(done.stderr, "")
 
-    # Negative answers.
+    # Negative results.
 
     def test_no_sequence_is_a_negative_answer_that_says_what_was_searched(self):
-        # Two pairs whose torques cancel, so that hardly any friction holds and no contact can leave
-        # unless another takes its very line of force.
+        # Two pairs whose torques cancel, so that little friction suffices and a contact can only
+        # leave if another one takes its line of force.
         def pinwheel(first, second):
             contacts = []
             for axis, other in ((first, second), (second, first)):
@@ -383,7 +383,7 @@ class Plan(ProgramCase):
         self.refuse("--start random-any: none of", code=1, start="random-any", min_quality="0.9")
 
     def test_grasps_of_a_polygon_that_no_sequence_joins_are_a_negative_answer(self):
-        # At half a degree the graph of this polygon falls into several components.
+        # At 0.5° the graph of this polygon has several components.
         shape = self.model("polygon25.wkt")
         starts = []
         for seed in range(20):
@@ -411,7 +411,7 @@ class Plan(ProgramCase):
         self.assertGreater(refused, 0)
         self.assertLess(refused, len(starts) - 1)
 
-    # Bad usage.
+    # Invalid usage.
 
     def test_refuses_missing_and_unknown_options(self):
         for option in ("object", "start", "goal", "output"):
@@ -447,10 +447,10 @@ class Plan(ProgramCase):
             self.refuse("planner", planner=planner)
         self.refuse("--spanning", spanning="neither")
 
-    # Bad input.
+    # Invalid input.
 
     def test_refuses_a_start_that_is_not_force_closure_and_names_the_angle(self):
-        # Two pairs across x whose lines lean by atan(0.024 / 0.06) = 21.80°.
+        # Two pairs across x whose lines are inclined by atan(0.024 / 0.06) = 21.80°.
         contacts = [{"point": [side * 0.03, y, side * 0.012], "normal": [-side, 0, 0]}
                     for side in (-1, 1) for y in (-0.01, 0.01)]
         start = self.write_json("start.json", self.grasp(contacts))
@@ -538,7 +538,7 @@ class Plan(ProgramCase):
         refuse("contacts 0 and 2 are at the same point", pair + pair[:1])
         refuse("/contacts/0/point", [{"point": [-0.03, 0.01, 0]}] + pair[1:])
 
-    # The environment.
+    # Environment.
 
     def test_an_output_that_cannot_be_written_is_the_environments_fault(self):
         self.refuse("missing/plan.json", code=3, output="missing/plan.json")

@@ -1,5 +1,7 @@
-"""The bodies of many faces are as their generator writes them, and what their names say; the
-generator cuts solids exactly."""
+"""Solids of many faces equal their generator's output and have the number of faces in their names.
+
+The tests also check that the generator cuts solids exactly.
+"""
 
 from fractions import Fraction
 import json
@@ -15,7 +17,7 @@ from program_case import ProgramCase
 FACES = (14, 24, 34, 36, 38, 40, 42, 47, 67)
 HALF_ANGLE = 10  # degrees
 PLANAR = 1e-9  # metres
-BENT = 1e-6  # radians; coplanar facets differ by rounding only, other neighbours by degrees
+BENT = 1e-6  # radians; coplanar polygons differ by rounding only, other neighbours by degrees
 
 
 def minus(u, v):
@@ -31,7 +33,7 @@ def cross(u, v):
 
 
 def area_vector(points):
-    """The area along the normal, about the first point."""
+    """Return the area times the normal, computed about the first point."""
     total = (0, 0, 0)
     for p, q in zip(points[1:], points[2:]):
         spanned = cross(minus(p, points[0]), minus(q, points[0]))
@@ -50,7 +52,7 @@ class Bodies(ProgramCase):
         return f"body{faces}.obj"
 
     def facets(self, faces):
-        """The facets as lists of points."""
+        """Return the polygons as lists of points."""
         with open(self.model(self.name(faces)), encoding="utf-8") as obj:
             lines = [line.split() for line in obj]
         points = [tuple(map(float, line[1:])) for line in lines if line[0] == "v"]
@@ -93,7 +95,7 @@ class Bodies(ProgramCase):
         self.assertGreater(corners, 1000)
 
     def reflex_edges(self, facets):
-        """Edges at which the body is not convex, counted from both sides."""
+        """Return the number of concave edges, counted from both sides."""
         across = {edge: points for points in facets
                   for edge in zip(points, points[1:] + points[:1])}
         reflex = 0
@@ -111,10 +113,10 @@ class Bodies(ProgramCase):
 
 
 class Sequences(ProgramCase):
-    """What plan says where there is no sequence."""
+    """Output of plan if there is no sequence."""
 
     program = "plan"
-    body = "body24.obj"  # its focus cells fall apart into several components
+    body = "body24.obj"  # its focus cells form several components
 
     def arguments(self, start, goal, seed="1", planner="polyhedron", output="plan.json"):
         spanning = ("--spanning", "uniform") if planner == "polyhedron" else ()
@@ -123,7 +125,7 @@ class Sequences(ProgramCase):
                 "--seed", seed, "--output", output)
 
     def drawn_grasp(self, name, kind, planner, seed):
-        """Writes the start grasp that is drawn by the seed."""
+        """Write the random start grasp of a seed."""
         self.assert_done(*self.arguments(kind, kind, seed, planner, "drawn.json"))
         drawn = json.loads(self.read("drawn.json"))["initial"]["contacts"]
         for contact in drawn:
@@ -161,7 +163,7 @@ class Sequences(ProgramCase):
 
 
 class CutSolids(ProgramCase):
-    """scripts/cut_solid.py on bodies whose faces and volumes are known."""
+    """Tests of scripts/cut_solid.py on solids with known faces and volumes."""
 
     program = "graph"
     cube = [(tuple(s if i == axis else 0 for i in range(3)), 3) for axis in range(3)

@@ -1,4 +1,4 @@
-"""Runs a program of the build as a user does, and checks what every program promises.
+"""Run a built program like a user, and check the common properties of all programs.
 
 A test script takes `--programs DIR` (the folder of the built programs) and `--source DIR` (the
 project), then unittest's own arguments.
@@ -18,13 +18,16 @@ import jsonschema
 
 ARGUMENTS = argparse.Namespace(programs="", source="")
 
-# Far above what any case needs: a program that hangs fails instead of blocking the run.
+# Time limit, s, far above the need of any case: a program that hangs fails instead of blocking the
+# run.
 HANG_SECONDS = 300
 
 
 def align_past_a_finger():
-    """Of a plan on the cube, what is neither proved nor refuted: finger 2 passes finger 1's place,
-    where all are on one line for an instant."""
+    """Return a sliding step on the cube that is neither proved nor refuted.
+
+    Finger 2 passes the contact of finger 1. At that instant all fingers are on one line.
+    """
     def grasp(y):
         places = [([-0.03, 0, 0], [1, 0, 0]), ([0.03, 0, 0], [-1, 0, 0]),
                   ([0.03, y, 0], [-1, 0, 0])]
@@ -36,7 +39,7 @@ def align_past_a_finger():
 
 
 class ProgramCase(unittest.TestCase):
-    """A folder of its own for each test, and the program's promises as assertions."""
+    """Test case with its own folder, and the programs' common properties as assertions."""
 
     program = ""
     cube_plan = None
@@ -63,8 +66,8 @@ class ProgramCase(unittest.TestCase):
         return self.write(name, json.dumps(value))
 
     def plan_of_cube(self):
-        """A plan that passes: of models/cube.obj between its own grasps, at 20 degrees; planned
-        once."""
+        """Return a plan that passes: models/cube.obj between its own grasps, at 20 degrees. It is
+        planned once."""
         if ProgramCase.cube_plan is None:
             self.assert_done(
                 "--object", self.model("cube.obj"), "--start", self.model("cube.start.json"),
@@ -78,7 +81,7 @@ class ProgramCase(unittest.TestCase):
             return file.read()
 
     def report(self):
-        """That of validate --out result; it always follows its schema."""
+        """Return the report of validate --out result, which must follow its schema."""
         report = json.loads(self.read("result/report.json"))
         schema = os.path.join(ARGUMENTS.source, "docs", "report.schema.json")
         with open(schema, encoding="utf-8") as file:
@@ -94,7 +97,8 @@ class ProgramCase(unittest.TestCase):
                  if value is not None})
 
     def run_on_terminal(self, *arguments, environment=None):
-        """Standard error is a terminal; returns what ran and what was shown there."""
+        """Run with a terminal as standard error; return the finished process and the terminal's
+        text."""
         without_no_color = {name: value for name, value in os.environ.items()
                             if name not in ("NO_COLOR", "TERM")}
         master, terminal = os.openpty()
@@ -122,7 +126,8 @@ class ProgramCase(unittest.TestCase):
         return done, b"".join(shown).decode()
 
     def assert_stages(self, shown, *stages):
-        """A terminal was shown these one after the other, the first of them at once."""
+        """Expect that the terminal showed these stages one after the other, the first of them
+        immediately."""
         erase = "\r\x1b[K"
         self.assertTrue(shown.startswith(erase + stages[0]), repr(shown))
         places = [shown.find(erase + stage) for stage in stages]
@@ -130,13 +135,14 @@ class ProgramCase(unittest.TestCase):
         self.assertEqual(places, sorted(places), repr(shown))
 
     def assert_done(self, *arguments, **options):
-        """Exit code 0; returns what ran."""
+        """Expect exit code 0; return the finished process."""
         done = self.run_program(*arguments, **options)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
 
     def assert_refused(self, code, words, *arguments, **options):
-        """That exit code, one line on standard error with these words, and no file left behind."""
+        """Expect this exit code, one line on standard error with these words, and no remaining
+        file."""
         before = sorted(os.listdir(self.folder))
         done = self.run_program(*arguments, **options)
         said = f"{arguments}\nstdout: {done.stdout}\nstderr: {done.stderr}"
@@ -154,7 +160,7 @@ class ProgramCase(unittest.TestCase):
 
 
 def main():
-    """What a test script calls at its end."""
+    """Run the tests; called at the end of a test script."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--programs", required=True)
     parser.add_argument("--source", required=True)

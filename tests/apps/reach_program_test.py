@@ -1,4 +1,5 @@
-"""Plans for fingers of some radius pass the check with that radius; others do not all."""
+"""Plans for fingers with a radius pass the check with this radius; other plans do not always pass.
+"""
 
 import json
 
@@ -46,7 +47,7 @@ class Reach(ProgramCase):
                     with self.subTest(model=model, planner=planner, radius=radius, seed=seed):
                         done = self.plan(model, planner, seed, "--finger-radius", radius)
                         if done.returncode == 1:
-                            # No sequence is an answer, in one line.
+                            # The result may be that there is no sequence, in one line.
                             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
                             continue
                         self.assertEqual(done.returncode, 0, done.stderr)
@@ -99,7 +100,7 @@ class Reach(ProgramCase):
             "--finger-radius", "0.002", "--output", "plan.json")
 
     def test_a_named_planner_says_that_it_finds_nothing(self):
-        # Fingers as thick as the body are in each other's way.
+        # Fingers as thick as the object obstruct each other.
         for model, planner, random, words in (
                 ("polygon15.wkt", "polygon", "random-any",
                  ["planner polygon: no sequence for fingers of radius 0.08", "overlap"]),
@@ -110,7 +111,7 @@ class Reach(ProgramCase):
                                     "--output", "plan.json", "--finger-radius", "0.08")
 
     def write_hollow_cube(self):
-        """[-3, 3]^3 with the sealed cavity [-1, 1]^3, in centimetres, and grasps of it."""
+        """Write [-3, 3]^3 with the sealed cavity [-1, 1]^3, in centimetres, and grasps of it."""
         corners = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
         facets = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (2, 4, 8, 6), (4, 3, 7, 8), (3, 1, 5, 7)]
         lines = [f"v {s * x} {s * y} {s * z}" for s in (0.03, 0.01) for x, y, z in corners]

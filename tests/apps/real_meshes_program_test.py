@@ -1,8 +1,9 @@
-"""Meshes that others made are planned on, or refused in one clear line.
+"""Third-party meshes are planned on, or rejected in one clear line.
 
-They come with Debian's packages libcgal-demo (scans and mechanical parts, some open or otherwise
-broken) and assimp-testmodels (small files of nearly every format, many of them no solid, some
-malformed). Where a package is missing its tests are skipped.
+They are part of Debian's packages libcgal-demo and assimp-testmodels. The first has scans and
+mechanical parts, some of them open or otherwise broken. The second has small files of nearly every
+format, many of them without a solid, some of them malformed. The tests of a missing package are
+skipped.
 """
 
 import collections
@@ -18,11 +19,11 @@ CGAL_ARCHIVE = "/usr/share/doc/libcgal-dev/data.tar.gz"
 ASSIMP_MODELS = "/usr/share/assimp/models"
 
 FRICTION_ANGLE = "20"
-QUICK = ("--planner", "roadmap", "--contacts", "8")  # where only the answer to the file counts
-LARGEST_LOOKED_AT = 300_000  # bytes, of the files that are merely read
+QUICK = ("--planner", "roadmap", "--contacts", "8")  # for tests of the reader only
+LARGEST_LOOKED_AT = 300_000  # bytes, of files that are only read
 LARGEST_OF_ASSIMP = 60_000
 
-# Closed ones, and their facets.
+# Closed meshes, and their numbers of triangles.
 CLOSED = {
     "oblong.off": 840, "helmet.off": 1000, "anchor.off": 1050, "spool.off": 1294,
     "cube-meshed.off": 1728, "hand.off": 2390, "couplingdown.off": 3714, "elephant.off": 5558,
@@ -30,18 +31,20 @@ CLOSED = {
     "bear.off": 27648, "armadillo.off": 52000, "refined_elephant.off": 88928,
 }
 
-# Why a surface that is closed and consistently oriented can still bound no single solid.
+# Reasons why a closed and consistently oriented surface may not bound a single solid.
 REASONS_OF_CLOSED = ("self-intersecting", "several solids", "not manifold", "degenerate",
                      "not planar")
-# Formats that assimp turns, mirrors or scales.
+# Formats that assimp rotates, mirrors or scales.
 MISREAD = (".3ds", ".ac", ".amf", ".ase", ".dxf", ".x")
-# No mesh at all: what the file formats bring along.
+# Auxiliary files of the formats, which are not meshes.
 NO_MESH = (".jpg", ".png", ".tga", ".bmp", ".txt", ".mtl", ".bin", ".md")
 
 
 def read_off(path):
-    """The facets, as lists of points; none where the file is not laid out line by line, without
-    colours of its vertices."""
+    """Return the polygons as lists of points.
+
+    The list is empty if the file does not have one element per line, or has vertex colours.
+    """
     with open(path, encoding="utf-8") as file:
         lines = [line.split("#")[0].split() for line in file]
     lines = [line for line in lines if line]
@@ -56,7 +59,7 @@ def read_off(path):
 
 
 def is_closed(facets):
-    """Whether every directed edge is there once, and once the other way round."""
+    """Return True if every directed edge occurs once, and its reverse once."""
     edges = collections.Counter(edge for facet in facets
                                 for edge in zip(facet, facet[1:] + facet[:1]))
     return all(count == 1 and edges[b, a] == 1 for (a, b), count in edges.items())
@@ -66,7 +69,7 @@ class RealMeshes(ProgramCase):
     program = "graph"
 
     def ask(self, path, *arguments):
-        """An answer or one line that names the file; returns the exit code and what was said."""
+        """Expect a result or one line that names the file; return the exit code and the output."""
         done = self.run_program("--object", path, "--friction-angle", FRICTION_ANGLE, *arguments)
         said = f"{path}: {done.returncode}\n{done.stdout}\n{done.stderr}"
         self.assertIn(done.returncode, (0, 2), said)

@@ -67,7 +67,7 @@ class Regrasp(ProgramCase):
         done = subprocess.run([alone, "plan"], capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1))
         self.assertIn("/plan cannot be started: No such file", done.stderr)
-        # Through a link it finds the programs where it really is.
+        # Started through a link, it finds the programs next to the link's target.
         os.remove(alone)
         os.symlink(os.path.join(program_case.ARGUMENTS.programs, "regrasp"), alone)
         subprocess.run([alone, "plan", "--version"], stdout=subprocess.PIPE, check=True)
@@ -79,7 +79,7 @@ class Regrasp(ProgramCase):
         alone = self.assert_done(*ends, program="plan")
         called = self.assert_done("plan", *ends)
         self.assertEqual(called.stdout, alone.stdout)
-        # The message ends with how long it took.
+        # The message ends with the run time.
         self.assertEqual(called.stderr.rsplit(";", 1)[0], alone.stderr.rsplit(";", 1)[0])
         self.write("plan.json", called.stdout)
         check = ["validate", "--object", cube, "--plan", "plan.json", "--no-frames", "--quiet"]
@@ -89,7 +89,7 @@ class Regrasp(ProgramCase):
         self.assertEqual(self.run_program("plan", *ends[2:]).returncode, 2)
 
     def test_a_signal_ends_the_program_itself(self):
-        # It waits for the plan, which comes by standard input.
+        # The program waits for the plan on standard input.
         command = [os.path.join(program_case.ARGUMENTS.programs, "regrasp"), "validate", "--object",
                    self.model("cube.obj"), "--plan", "-", "--no-frames"]
         with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
@@ -100,7 +100,7 @@ class Regrasp(ProgramCase):
             self.assertEqual(process.wait(60), -signal.SIGTERM)
 
     def complete(self, *words):
-        """By bash, with the completions in files as they are installed."""
+        """Return bash's completions, with the completion files as installed."""
         for command in ("regrasp", *COMMANDS):
             self.write(command, self.assert_done("--help-as", "bash", program=command).stdout)
         script = (f". ./regrasp; COMP_WORDS=(regrasp {' '.join(words)}); COMP_CWORD={len(words)}\n"

@@ -1,4 +1,4 @@
-"""The program repair from the shell, and plans on what it repairs."""
+"""The program repair from the shell, and plans on repaired objects."""
 
 import json
 import os
@@ -85,12 +85,12 @@ class Repair(ProgramCase):
         validate = ["--plan", "plan.json", "--no-frames", "--out", "result"]
         self.assert_done("--object", "open.obj", *validate, program="validate")
         self.assert_done("--object", "open.obj", "--repair", *validate, program="validate")
-        # The solid itself does too.
+        # The plan also passes on the solid itself.
         self.repair()
         self.assert_done("--object", "solid.obj", *validate, program="validate")
 
     def contacts_below(self):
-        """Contacts of plan.json on the bottom of the box, which the repair invents."""
+        """Return the number of contacts of plan.json on the filled bottom of the box."""
         plan = json.loads(self.read("plan.json"))
         grasps = [plan["initial"], plan["goal"]]
         return sum(contact["point"][2] < 1e-9 for grasp in grasps for contact in grasp["contacts"])
@@ -122,7 +122,7 @@ class Repair(ProgramCase):
         for seed in ("1", "2", "3", "4", "5", "6"):
             self.plan("--repair", "--patch", "0", "--seed", seed)
             plan = json.loads(self.read("plan.json"))
-            # As large as the box: a fingertip feels all of its faces, which few grasps stand.
+            # As large as the box: the patch contains all of its faces, with which few grasps pass.
             plan["patch_radius"] = 0.07
             self.write_json("plan.json", plan)
             self.run_program("--object", "open.obj", "--plan", "plan.json", "--no-frames",

@@ -7,7 +7,8 @@ from program_case import ProgramCase
 
 
 def box(x, size, first):
-    """A cube as OBJ, one corner at (x, 0, 0); `first` is the number of its first vertex."""
+    """Return a cube as OBJ, with a corner at (x, 0, 0); `first` is the number of its first vertex.
+    """
     text = "".join(f"v {x + size * (i & 1)} {size * (i >> 1 & 1)} {size * (i >> 2 & 1)}\n"
                    for i in range(8))
     for facet in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7),
@@ -70,7 +71,7 @@ class ShellsTest(ProgramCase):
                             "--out", "result", program="validate")
 
     def test_fingers_on_a_shell_that_is_left_out_are_off_the_surface(self):
-        """The union's plan, of which fingers stand on the smaller solid."""
+        """Uses the plan for the union, some of whose fingers are on the smaller solid."""
         for seed in ("1", "2", "3", "4", "5", "6"):
             self.assert_done(*self.asked("beside.obj", "--shells", "union", seed=seed))
             if any(x > 0.04 for x, _, _ in self.contacts()):
@@ -103,7 +104,7 @@ class ShellsTest(ProgramCase):
         self.assert_done(*repair, "--shells", "union", program="repair")
         self.assert_done(*self.asked("solid.obj", "--shells", "union"))
         self.assert_done(*self.asked("open.obj", "--shells", "union", "--repair"))
-        # Made again from the file, and read from what the repair wrote.
+        # Repaired again from the file, and read from the output of the repair.
         for name in ("open.obj", "solid.obj"):
             done = self.validated(name)
             self.assertEqual(done.returncode, 0, done.stderr)

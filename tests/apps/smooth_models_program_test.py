@@ -1,4 +1,4 @@
-"""The smooth models are the meshes that models/README.md promises."""
+"""The smooth models have the properties stated in models/README.md."""
 
 import itertools
 import json
@@ -15,7 +15,7 @@ HOLES = {"mug": 1, "spanner": 1}  # through the handle, through the ring
 SMALLEST_ANGLE = 30  # degrees
 LARGEST_OF_MEDIAN = 3  # area of a triangle
 SMALLEST_OF_MEDIAN = 0.2
-COPLANAR = 1e-4  # radians; such neighbours are one face
+COPLANAR = 1e-4  # radians; neighbouring triangles within this angle are one face
 MOST_COPLANAR = 2  # pairs in a mesh
 OFF_CENTRE = 1e-6  # metres, with nine decimals in the file
 
@@ -57,7 +57,7 @@ def coplanar_pairs(points, facets):
 
 
 def centre_of_mass(triangles):
-    """Of the tetrahedra from the origin to the triangles."""
+    """Return the centre of mass of the tetrahedra from the origin to the triangles."""
     volumes = [dot(a, cross(b, c)) / 6 for a, b, c in triangles]
     return [sum(volume * sum(p[i] for p in corners) / 4
                 for volume, corners in zip(volumes, triangles)) / sum(volumes) for i in range(3)]
@@ -101,7 +101,7 @@ class SmoothModels(ProgramCase):
             with self.subTest(model=body + str(count)):
                 self.assertLessEqual(coplanar_pairs(*self.read_model(body + str(count))),
                                      MOST_COPLANAR)
-        # Negative control: the two sides of a square, each cut in two.
+        # Negative control: the two sides of a square, each divided into two triangles.
         square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
         self.assertEqual(coplanar_pairs(square, [[0, 1, 2], [0, 2, 3], [1, 0, 3], [1, 3, 2]]), 2)
 

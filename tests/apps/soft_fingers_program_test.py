@@ -1,5 +1,5 @@
-"""Soft fingers from the shell: planned, judged and replayed, and refused where nothing is known of
-them."""
+"""Soft fingers from the shell: planning, validation and replay, and errors for unsupported options.
+"""
 
 import json
 import math
@@ -13,7 +13,7 @@ class SoftFingers(ProgramCase):
     soft = ("--contact", "soft", "--torsion", "0.01")
 
     def pair(self, name, axis, off=0.0):
-        """A grasp file of two fingers on opposite faces of models/cube.obj."""
+        """Write a grasp file of two fingers on opposite faces of models/cube.obj."""
         contacts = []
         for side in (-1, 1):
             point = [off if side > 0 else 0.0] * 3
@@ -38,7 +38,7 @@ class SoftFingers(ProgramCase):
         report = self.report()
         self.assertEqual(report["verdict"], "pass")
         self.assertEqual(report["settings"]["torsion"], 0.01)
-        # What they resist about their line: mu torsion over half the diameter.
+        # The resistance about their line is mu torsion over half the diameter.
         quality = math.tan(math.radians(25)) * 0.01 / (0.03 * math.sqrt(3))
         self.assertLessEqual(report["grasp"]["quality"], quality * (1 + 1e-6))
         self.assertGreaterEqual(report["grasp"]["quality_at_most"], quality * (1 - 1e-6))
@@ -50,7 +50,7 @@ class SoftFingers(ProgramCase):
             self.assertNotIn("torsion", report["settings"])
 
     def test_a_torsion_below_the_shake_loses_the_cube_in_the_replay(self):
-        # The torque of the shake is 0.01 of the squeeze times half the diameter.
+        # The torque of the disturbance is 0.01 of the grasp force times half the diameter.
         torsion = 0.8 * 0.01 * 0.03 * math.sqrt(3) / math.tan(math.radians(25))
         done = self.run_program(*self.validate("--contact", "soft", "--torsion", repr(torsion)))
         self.assertEqual(done.returncode, 1)
@@ -66,11 +66,11 @@ class SoftFingers(ProgramCase):
                           "--out", "result"]
         self.assert_done(*plan_arguments)
         self.assertEqual(self.report()["settings"]["torsion"], 0.01)
-        # As hard points, and with a torsion that is not the plan's.
+        # As hard contacts, and with a different torsion than that of the plan.
         self.assertEqual(self.run_program(*plan_arguments, "--contact", "hard").returncode, 1)
         self.assert_done(*plan_arguments, "--contact", "soft", "--torsion", "0.02")
         self.assertEqual(self.report()["settings"]["torsion"], 0.02)
-        # Hard points are not even planned for.
+        # Two hard contacts are rejected as a start grasp.
         self.assert_refused(2, ["start.json", "found 2"], *self.plan(), program="plan")
 
     def test_proofs_have_torques_and_hold_exactly(self):

@@ -43,7 +43,7 @@ class States(ProgramCase):
         self.check_scene(states)
 
     def check_state(self, state, states):
-        """On units: contacts are on the cube, forces carry its weight."""
+        """Check the units: contacts are on the cube, and forces support its weight."""
         self.assertAlmostEqual(math.hypot(*state["object_quaternion"]), 1)
         self.assertGreaterEqual(sum(state["active"]), 3)
         half = 0.03 * states["scale"]  # of the cube's edge

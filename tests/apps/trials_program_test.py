@@ -1,4 +1,4 @@
-"""validate --trials and --align from the shell: what is repeated, what is said, and bad input."""
+"""validate --trials and --align from the shell: repetition, output, and invalid input."""
 
 import json
 import os
@@ -28,7 +28,7 @@ class Trials(ProgramCase):
         trials = report["trials"]
         self.assertEqual((trials["count"], trials["passed"], trials["share"]), (3, 3, 1))
         self.assertEqual((trials["reasons"], trials["steps"]), ({}, []))
-        # The lower end p of 3 of 3: p^3 = 0.025.
+        # Lower end p of the interval for 3 of 3: p^3 = 0.025.
         self.assertAlmostEqual(trials["interval"][0], 0.025 ** (1 / 3), 12)
         self.assertEqual(trials["interval"][1], 1)
         self.assertIn("trials: 3 of 3 pass: 100 %", done.stdout)

@@ -1,4 +1,4 @@
-"""The program validate from the shell: verdicts, outputs, and bad input."""
+"""The program validate from the shell: verdicts, outputs, and invalid input."""
 
 import copy
 import csv
@@ -20,12 +20,13 @@ from program_case import ProgramCase
 XHTML = "{http://www.w3.org/1999/xhtml}"
 SVG = "{http://www.w3.org/2000/svg}"
 
-# Far above what the browser needs for a page.
+# Time limit, s, far above the time that the browser needs for a page.
 BROWSER_SECONDS = 120
 
 
 def inked_rows(data):
-    """How many rows of a PNG are not of one colour: those have more than a first pixel filtered."""
+    """Return the number of PNG rows with several colours: more than their first filtered pixel is
+    nonzero."""
     return sum(len(set(row[5:])) > 2 for row in png_rows(data))
 
 
@@ -59,7 +60,7 @@ class Validate(ProgramCase):
                       if name.endswith(".png") and name != "overview.png")
 
     def page(self, folder="result"):
-        """The report page as a tree of elements: it is well-formed XML too."""
+        """Return the report page as an element tree: it is also well-formed XML."""
         text = self.read(folder + "/report.html").decode("utf-8")
         return ElementTree.fromstring(text.replace("<!DOCTYPE html>", "", 1))
 
@@ -67,7 +68,7 @@ class Validate(ProgramCase):
         return " ".join("".join(self.page(folder).find(f"{XHTML}body").itertext()).split())
 
     def screenshot(self, name):
-        """What headless Chromium shows of a page. Fails where there is no Chromium."""
+        """Return the screenshot of a page in headless Chromium, which must be installed."""
         browser = shutil.which("chromium")
         self.assertIsNotNone(browser, "chromium is not installed: run scripts/setup --test")
         picture = self.path("page.png")
@@ -87,7 +88,8 @@ class Validate(ProgramCase):
         return done, report
 
     def assert_fails(self, index, reason, *more, **changes):
-        """Exit code 1, this reason at this step, those before passed and those after skipped."""
+        """Expect exit code 1 and this reason at this step; earlier steps pass and later steps are
+        skipped."""
         done = self.run_program(*self.arguments("--no-frames", *more, **changes))
         self.assertEqual(done.returncode, 1, done.stderr)
         report = self.report()
@@ -102,7 +104,7 @@ class Validate(ProgramCase):
     def refuse(self, words, *more, code=2, **changes):
         return self.assert_refused(code, words, *self.arguments(*more, **changes))
 
-    # A good plan.
+    # Valid plan.
 
     def test_passes_a_good_plan_with_a_frame_for_each_step(self):
         done, report = self.assert_passes(size="320x240")
@@ -160,7 +162,7 @@ class Validate(ProgramCase):
             self.assertIsNone(engines["cause"])
             self.assertEqual(engines["mujoco"]["motion_m"], by_mujoco["simulation"]["motion_m"])
             self.assertEqual(engines["ode"]["motion_m"], by_ode["simulation"]["motion_m"])
-        # What one of them fails for the other one fails for, too.
+        # A failure in one engine is a failure in the other, too.
         failed = self.assert_fails(0, "contact-lost", engine="both", shake="0.6")
         self.assertEqual(failed["steps"][0]["engines"]["ode"]["verdict"], "fail")
         self.assert_fails(0, failed["steps"][0]["engines"]["ode"]["reason"], engine="ode",
@@ -244,7 +246,8 @@ class Validate(ProgramCase):
         report = self.assert_passes("--no-frames")[1]
         self.assertEqual(report["settings"]["squeeze_source"], "shake")
         self.assertAlmostEqual(report["settings"]["squeeze_N"], 1000 * weight, places=6)
-        # A hand drops what weighs 50 kg, which a squeeze that goes by the shake holds.
+        # A hand drops an object of 50 kg, which the default grasp force of the disturbance test
+        # holds.
         self.assert_passes("--no-frames", mass="50")
         heavy = ["--no-frames", "--mass", "50", "--squeeze", "realistic"]
         done = self.run_program(*self.arguments(*heavy))
@@ -363,7 +366,8 @@ class Validate(ProgramCase):
                           goal=self.model("cube.start.json"))
 
     def test_every_input_is_read_once(self):
-        """So that results and digests are of the same bytes: a pipe gives them to one reader."""
+        """Results and digests are of the same bytes, because each input is read once: a pipe has
+        one reader."""
         contents = {"cube.obj": self.model("cube.obj"), "start.json": self.model("cube.start.json"),
                     "goal.json": self.model("cube.goal.json"), "plan.json": self.path("plan.json")}
         os.mkdir(self.path("pipes"))
@@ -387,7 +391,7 @@ class Validate(ProgramCase):
     def test_an_align_is_replayed_and_says_how(self):
         before = [dict(contact) for contact in self.plan["initial"]["contacts"]]
         after = [dict(contact) for contact in before]
-        # A small move along the face: 2 mm at right angles to the normal.
+        # A small motion along the face: 2 mm perpendicular to the normal.
         axis = next(i for i in range(3) if abs(after[0]["normal"][i]) < 0.5)
         after[0]["point"] = list(after[0]["point"])
         after[0]["point"][axis] -= 0.002 if after[0]["point"][axis] > 0 else -0.002
@@ -402,7 +406,8 @@ class Validate(ProgramCase):
     # Planar objects.
 
     def write_planar_plan(self):
-        """A switch of two fingers for two, one back, and an align, on the square."""
+        """Write a plan on the square: a switch of two fingers for two, the reverse, and a sliding
+        step."""
         square = self.model("square.wkt")
         with open(square, "rb") as file:
             digest = hashlib.sha256(file.read()).hexdigest()
@@ -445,7 +450,8 @@ class Validate(ProgramCase):
     def test_measures_the_contact_region_of_a_switch_between_two_finger_grasps(self):
         square = self.write_planar_plan()
         done, report = self.assert_passes("--no-frames", object=square)
-        # The worse grasp is 2 mm of 60 off the normal; contacts off by h each tilt it by 2 h more.
+        # The weaker grasp is 2 mm off the normal over 60 mm; contacts displaced by h each tilt the
+        # line by 2 h more.
         expected = (0.06 * math.tan(math.radians(15)) - 0.002) / 2
         region = report["steps"][1]["region"]
         self.assertAlmostEqual(region["half_width"], expected, delta=1e-7)
@@ -477,7 +483,7 @@ class Validate(ProgramCase):
         self.refuse(["plan.json", "/steps/0/place/1/region", "-0.001"], object=square)
 
     def test_fails_a_planar_plan_below_its_friction(self):
-        # The first pair is 1 mm of 60 off the normal: 0.955 degrees.
+        # The first pair is 1 mm off the normal over 60 mm: 0.955 degrees.
         square = self.write_planar_plan()
         self.assert_fails(0, "not-force-closure", object=square, friction_angle="0.9")
 
@@ -549,10 +555,10 @@ class Validate(ProgramCase):
         self.assertEqual(times, sorted(times))
         self.assertTrue(any(abs(float(row["force_x_N"])) > 0 for row in rows))
 
-    # The report page and pictures of the whole.
+    # Report page and overview images.
 
     def verdicts_on(self, page):
-        """Of the lines of the table of steps; lines of other tables have no verdict."""
+        """Return the verdicts in the table of steps; rows of other tables have no verdict."""
         rows = page.findall(f".//{XHTML}tbody/{XHTML}tr")
         return [row.get("class") for row in rows if row.get("class")]
 
@@ -573,7 +579,7 @@ class Validate(ProgramCase):
             self.assertEqual(page.findall(f".//{XHTML}{tag}"), [], tag)
 
     def test_the_report_page_of_a_long_plan_can_be_mailed(self):
-        # Twenty steps: the plan and its way back and forth, at the size that frames usually have.
+        # Twenty steps: the plan and its reverse, repeated, at the default image size.
         forth = self.plan["steps"][0]
         released = next(contact for contact in self.plan["initial"]["contacts"]
                         if contact["finger"] == forth["release"][0])
@@ -595,7 +601,7 @@ class Validate(ProgramCase):
         self.assertIn("Fail At the hold: slipped.", self.page_text())
 
     def test_file_names_cannot_break_the_report_page(self):
-        name = "<b>&\"'</b><script>alert(1)</script>"  # no slash would be a folder
+        name = "<b>&\"'</b><script>alert(1)</script>"  # a slash would be a folder
         name = name.replace("/", "")
         os.rename(self.path("plan.json"), self.path(name + ".json"))
         self.assert_passes("--no-frames", plan=name + ".json")
@@ -625,7 +631,7 @@ class Validate(ProgramCase):
         self.assert_passes("--no-frames")
         self.assertFalse(os.path.exists(self.path("result/overview.png")))
 
-    # A single grasp.
+    # Single grasp.
 
     def grasp_arguments(self, **changes):
         options = {"plan": None, "grasp": self.model("cube.start.json"), "friction_angle": "20"}
@@ -650,7 +656,7 @@ class Validate(ProgramCase):
         self.assertIn("Validation of a grasp", self.page_text())
 
     def test_the_weakest_finger_needs_most_of_its_own_friction(self):
-        # Two fingers on the square, of which only the second's normal leans.
+        # Two fingers on the square, of which only the normal of the second is inclined.
         grasp = {"format": "regrasp-grasp", "version": 1, "contacts": [
             {"point": [0.03, 0.004], "normal": [-1, 0]},
             {"point": [-0.03, 0.0], "normal": [1, 0]}]}
@@ -712,7 +718,7 @@ class Validate(ProgramCase):
         self.plan["fingers"] = 64
         self.write_plan()
         _, report = self.assert_passes("--no-frames")
-        # The numbers of fingers mean nothing.
+        # Result is independent of the finger numbers.
         grasps = [self.plan["initial"]["contacts"]]
         for step in self.plan["steps"]:
             step["release"] = [63 - 9 * finger for finger in step["release"]]
@@ -754,14 +760,14 @@ class Validate(ProgramCase):
         self.assertIn("\n0 of", done.stdout)
 
     def forge(self, report):
-        """Writes the plan as it is now, and a report that says it is about that plan."""
+        """Write the current plan, and a report with this plan's digest."""
         self.write_plan()
         report = copy.deepcopy(report)
         report["plan"]["sha256"] = hashlib.sha256(self.read("plan.json")).hexdigest()
         self.write_json("forged.json", report)
 
     def assert_not_proved(self, report, entry, words):
-        """Though all the proofs of the report hold."""
+        """Expect that the plan is not proved, although all proofs of the report are valid."""
         self.forge(report)
         done = self.run_program(*self.arguments(verify="forged.json", out=None))
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
@@ -779,7 +785,7 @@ class Validate(ProgramCase):
             lists = [plan["initial"]["contacts"], plan["goal"]["contacts"]]
             return sum([step["place"] for step in plan["steps"]], sum(lists, []))
 
-        # Twice as large, beside the object, the same forces balance.
+        # At twice the size, off the object, the same forces balance.
         for contact in contacts_of(self.plan):
             contact["point"] = [2 * x for x in contact["point"]]
         self.assert_not_proved(report, 0, "off-surface")
@@ -802,7 +808,7 @@ class Validate(ProgramCase):
 
     def test_proofs_do_not_make_up_for_an_align_that_starts_elsewhere(self):
         def grasp(shift):
-            # Opposite pairs, which hold wherever they are.
+            # Opposite pairs, which are force closure at any height.
             directions = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))
             return {"contacts": [
                 {"finger": k, "point": [0.03 * x for x in d[:2]] + [shift],
@@ -813,13 +819,14 @@ class Validate(ProgramCase):
         self.plan["goal"] = grasp(0)
         self.write_plan()
         _, report = self.assert_passes("--certificates", "--no-frames")
-        # The same forces hold in the same grasp elsewhere.
+        # The same forces are a proof for the same grasp at another height.
         self.plan["initial"] = grasp(0.005)
         self.assert_not_proved(report, 1, "discontinuous")
 
     def test_proofs_that_were_tampered_with_prove_nothing(self):
         _, report = self.assert_passes("--certificates", "--no-frames")
-        # All of them: what one force lacks, the exact balance could make up for with the others.
+        # Change all forces, because the exact balance could compensate the error of one with the
+        # others.
         forces = report["steps"][1]["proof"]["rest"]["forces"]
         forces[:] = [[-x for x in force] for force in forces]
         self.write_json("tampered.json", report)
@@ -843,7 +850,8 @@ class Validate(ProgramCase):
         self.assertIn("0 hold  refuted", done.stdout)
 
     def write_plan_with_align(self):
-        """A plan whose last step moves two fingers along the surface, as `plan` proves it."""
+        """Write a plan whose last step slides two fingers along the surface, with the proof of
+        `plan`."""
         done = self.assert_done(
             "--object", self.model("body24.obj"), "--start", self.model("body24.start.json"),
             "--goal", self.model("body24.goal.json"), "--friction-angle", "20", "--planner",
@@ -879,7 +887,7 @@ class Validate(ProgramCase):
         self.assertEqual(len(done.stderr.splitlines()), 1)
         self.assertIn(f"warning: step {index + 1}: the plan's certificate is not valid: from "
                       "waypoint 0 on, the force at contact", done.stderr)
-        # The report has a proof of its own.
+        # The report has its own proof.
         self.assert_done(*self.arguments(object=solid, verify="result/report.json", out=None))
 
     def test_refuses_a_certificate_that_is_none(self):
@@ -963,7 +971,7 @@ class Validate(ProgramCase):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(self.frames(), ["000_hold.png"])
 
-    # Bad input.
+    # Invalid input.
 
     def test_refuses_another_object_unless_allowed(self):
         other = self.path("other.obj")

@@ -1,4 +1,4 @@
-"""No value of any argument of any public function does anything but work, or be refused in a line that
+"""Law: every value of every argument of a public function is accepted, or rejected in one line that
 names the argument."""
 
 import inspect
@@ -14,7 +14,7 @@ from regrasp_case import RegraspCase
 
 
 class Nameless:
-    """Good for nothing, and it cannot even be shown."""
+    """Value that is invalid everywhere and whose repr() fails."""
 
     def __repr__(self):
         raise RuntimeError("cannot be shown")
@@ -40,7 +40,7 @@ class ArgumentsTest(RegraspCase):
             "joint_names": cls.hand.joint_names, "joints": np.zeros((1, 16)), "confidence": np.ones(1)}
 
     def outcomes(self, function, **good):
-        """How many values of `NONSENSE` each argument refuses, having tried them all."""
+        """Try all values of `NONSENSE`, and return how many of them each argument rejects."""
         refused = dict.fromkeys(good, 0)
         for name in good:
             for value in NONSENSE:
@@ -53,7 +53,8 @@ class ArgumentsTest(RegraspCase):
                         said = str(error)
                         refused[name] += 1
                         self.assertNotIn("\n", said)
-                        # A file is named by its path; a wrong text of a plan by the plan's name.
+                        # Messages name a file by its path, and an invalid plan text by the plan's
+                        # name.
                         self.assertTrue(name in said or said.startswith(("x: ", "plan.json: ")), said)
         return refused
 
@@ -208,7 +209,7 @@ class ArgumentsTest(RegraspCase):
                     np.save(self.path("x.npy"), {"robot_pose": np.ones((1, 1, 2, 9)) / 2})
                     arguments["path"] = self.path("x.npy")
                 self.refuses([*words, "mask"], function, **arguments)
-        # The control: an array without a masked value is one like any other.
+        # Positive control: a masked array without masked values is an ordinary array.
         plain = regrasp.force_closure(points, normals, mu=0.5)
         free = regrasp.force_closure(np.ma.array(points), list(np.ma.array(normals)), mu=0.5)
         np.testing.assert_array_equal(free.margin, plain.margin)

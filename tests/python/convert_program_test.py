@@ -1,4 +1,4 @@
-"""regrasp-convert as a program: help, manual page, completions, and the line that says what is wrong."""
+"""The program regrasp-convert: help, manual page, completions, and one-line error messages."""
 
 import contextlib
 import io

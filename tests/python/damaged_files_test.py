@@ -1,4 +1,4 @@
-"""Files of others, damaged at random: read or refused in a line, whatever is in them."""
+"""Randomly damaged third-party files are read or rejected in one line, whatever their content."""
 
 import os
 import unittest
@@ -22,13 +22,13 @@ FILES = {
     "npy": (formats.read_dexgraspbench, None),
 }
 
-# What means something to one of the formats.
+# Words with a meaning in one of the formats.
 WORDS = [b"{", b"[", b"]", b"~", b"null", b"!!", b"1e999", b"nan", b"&a ", b"*a", b"<a>", b"0x", b"1_0", b":",
          b",", b"\n", b"\xff"]
 
 
 def damaged(data, rng):
-    """With one to three changes: a bit, a gap, letters or a word."""
+    """Return data with one to three changes: a flipped bit, a gap, letters or a word."""
     data = bytearray(data)
     for _ in range(rng.integers(1, 4)):
         at = int(rng.integers(len(data)))

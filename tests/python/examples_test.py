@@ -1,4 +1,4 @@
-"""Every example of every docstring runs, and everything public has a docstring."""
+"""Every example of every docstring runs, and every public name has a docstring."""
 
 import doctest
 import inspect

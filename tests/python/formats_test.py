@@ -1,4 +1,5 @@
-"""Grasps of hands in the formats of others. The files are written here, as the formats' documents say."""
+"""Grasps by hands in third-party formats. The tests write the files according to the formats'
+documents."""
 
 import contextlib
 import io
@@ -20,7 +21,7 @@ CUBE = "models/cube.obj"
 
 
 class Trap:
-    """What a file would do to whoever unpickles it."""
+    """Object whose unpickling has a visible effect."""
 
     def __reduce__(self):
         return os.mkdir, (os.path.join(tempfile.gettempdir(), "regrasp-unpickled"),)
@@ -47,7 +48,7 @@ class FormatsTest(RegraspCase):
         return path
 
     def assert_same(self, found, tolerance=1e-12):
-        """Up to the rounding of turns there and back."""
+        """Compare up to the rounding of a rotation and its inverse."""
         np.testing.assert_allclose(found.positions, self.grasps.positions, atol=tolerance)
         np.testing.assert_allclose(_poses.matrices(found.quaternions),
                                    _poses.matrices(self.grasps.quaternions), atol=tolerance)
@@ -107,7 +108,7 @@ class FormatsTest(RegraspCase):
         self.refuses(["mapping"], formats.read_isaac_grasp, self.path("list.yaml", "[]"))
 
     def world_poses(self):
-        """Object and palms in a world in which neither is at rest."""
+        """Return poses of the object and the palms in a world frame that differs from both."""
         object_pose = np.array([0.3, -0.2, 0.1, 0.5, 0.5, -0.5, 0.5])
         turn = _poses.matrices(object_pose[3:])
         palms = np.concatenate([
@@ -126,14 +127,15 @@ class FormatsTest(RegraspCase):
         self.assert_same(found)
         self.assertEqual(found.lost, ["obj_path", "obj_scale, to be given as --scale 0.06",
                                       "squeeze_qpos"])
-        # One grasp, with its joints named in another order.
+        # One grasp, with its joint names in another order.
         np.save(path, {**data, "grasp_qpos": np.concatenate([palms[0], self.grasps.joints[0][::-1]]),
                        "joint_names": self.hand.joint_names[::-1]})
         one = formats.read_dexgraspbench(path)
         np.testing.assert_array_equal(one.in_order_of(self.hand), self.grasps.joints[:1])
 
     def bodex(self):
-        """What BODex saves of the plan's grasps: an axis of one, grasps, three stages."""
+        """Return the dictionary that BODex saves of the plan's grasps: a leading axis of one,
+        grasps, three stages."""
         object_pose, palms = self.world_poses()
         grasps = np.concatenate([palms, self.grasps.joints], axis=1)
         stages = np.stack([grasps + 0.1, grasps, grasps + 0.2], axis=1)
@@ -150,7 +152,7 @@ class FormatsTest(RegraspCase):
                                       "world_cfg", "all stages of robot_pose but the second"])
         np.savez(self.path("grasp.npz"), **data)
         self.assert_same(formats.read_bodex(self.path("grasp.npz")))
-        # The object's pose may stand elsewhere.
+        # The object's pose may be elsewhere in the dictionary.
         pose = data.pop("obj_pose")[0]
         np.save(path, data)
         self.refuses(["object_pose", path], formats.read_bodex, path)
@@ -181,7 +183,7 @@ class FormatsTest(RegraspCase):
         np.testing.assert_array_equal(found.scales, np.full(len(qpos), 0.06))
         self.assertEqual(found.lost, ["hand_name", "pregrasp_qpos", "scale of scene_cfg, to be given as "
                                       "--scale 0.06", "scene_cfg but the object's pose and scale"])
-        # The object without its name, if it is the only one, and a scale that is a number.
+        # The name of the object may be missing if there is only one, and the scale may be a number.
         np.save(path, {**plain, "scene_cfg": {"scene": {"cube": {**cube, "scale": 0.5}}}})
         found = formats.read_dexgraspbench(path)
         self.assert_same(found)
@@ -212,27 +214,29 @@ class FormatsTest(RegraspCase):
         self.assertIn("--object-pose", self.convert(path, "--output", output, code=2))
         self.convert(path, option, "--output", output)
         self.assert_same(formats.read_isaac_grasp(output))
-        # A pose in the file is replaced, and that is said.
+        # A given pose replaces that of the file, which is reported.
         np.save(path, {**plain, "obj_pose": np.eye(7)[3]})
         said = self.convert(path, option, "--output", output)
         self.assertIn("pose, replaced by the one that is given", said)
         self.assert_same(formats.read_isaac_grasp(output))
         self.assertIn("found 3", self.convert(path, "--object-pose", "1,2,3", "--output", output, code=2))
-        # Where it means nothing it is refused, not passed over.
+        # A meaningless option is rejected, not ignored.
         for other in (output, self.plan):
             said = self.convert(other, option, "--hand", HAND, "--output", self.path("b.yaml"), code=2)
             self.assertIn("--object-pose cannot be used with", said)
 
     def dexgraspnet(self, scales):
-        """What DexGraspNet saves of the plan's grasps on a cube of edge 1 that is scaled."""
-        # Turns about the fixed axes x, y and z: R = Rz Ry Rx.
+        """Return the list that DexGraspNet saves of the plan's grasps, on a scaled cube of edge 1.
+        """
+        # Rotations about the fixed axes x, y and z: R = Rz Ry Rx.
         turns = _poses.matrices(self.grasps.quaternions)
         angles = np.stack([np.arctan2(turns[:, 2, 1], turns[:, 2, 2]), np.arcsin(-turns[:, 2, 0]),
                            np.arctan2(turns[:, 1, 0], turns[:, 0, 0])], axis=1)
         entries = []
         for i, scale in enumerate(scales):
             i %= len(self.grasps)
-            # On a smaller or larger cube the same grasp would not touch; the first scale is the cube's.
+            # On a cube of another size the same grasp has no contacts; the first scale is that of
+            # the cube.
             qpos = dict(zip(self.hand.joint_names, self.grasps.joints[i].tolist()))
             qpos |= dict(zip(["WRJTx", "WRJTy", "WRJTz"], self.grasps.positions[i].tolist()))
             qpos |= dict(zip(["WRJRx", "WRJRy", "WRJRz"], angles[i].tolist()))
@@ -248,7 +252,7 @@ class FormatsTest(RegraspCase):
             self.assert_same(found)
             self.assertEqual(found.names[-1], f"cube_{count - 1}")
             self.assertEqual(found.lost, ["E_pen", "scale, to be given as --scale 0.06"])
-        # The joints of a later grasp may be in another order; numbers may be NumPy's.
+        # A later grasp may have its joints in another order, and NumPy numbers.
         entries = self.dexgraspnet([0.06] * count)
         entries[-1]["qpos"] = {key: np.float64(value)
                                for key, value in reversed(list(entries[-1]["qpos"].items()))}
@@ -257,7 +261,7 @@ class FormatsTest(RegraspCase):
         self.refuses([path, "list of", "read_dexgraspnet"], formats.read_dexgraspbench, path)
 
     def test_each_grasp_of_dexgraspnet_is_on_an_object_of_its_own_size(self):
-        # A cube of edge 1, which the first scale makes the cube of the plan.
+        # A cube of edge 1, which has the size of the plan's cube at the first scale.
         unit = regrasp.Object.from_arrays(self.cube.vertices / 0.06, self.cube.triangles, name="unit.obj")
         unit.write(self.path("unit.obj"))
         path, output = self.path("unit.npy"), self.path("a.npz")
@@ -265,7 +269,7 @@ class FormatsTest(RegraspCase):
         found = formats.read_dexgraspnet(path)
         touching = found.touching(self.hand, unit)[2]
         self.assertGreaterEqual(touching[0].sum(), 3)
-        self.assertFalse(touching[1].any())  # the cube is twice as large there
+        self.assertFalse(touching[1].any())  # the cube has twice the size there
         said = self.convert(path, "--hand", HAND, "--object", self.path("unit.obj"), "--output", output)
         self.assertIn("0.06 of 1, 0.12 of 1", said)
         with np.load(output) as arrays:
@@ -341,7 +345,7 @@ class FormatsTest(RegraspCase):
             self.refuses(["trap.npy", "posix.mkdir"], formats.read_dexgraspbench,
                          self.path("trap.npy"))
             self.assertFalse(os.path.exists(trapped))
-        # The trap works on those who load it.
+        # Positive control: ordinary unpickling triggers the trap.
         np.load(self.path("trap.npy"), allow_pickle=True)
         self.assertTrue(os.path.exists(trapped))
         os.rmdir(trapped)
@@ -416,7 +420,7 @@ class FormatsTest(RegraspCase):
                                self.path("a.npz"), "--mu", "0.8", "--out", self.path("out")],
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        # Of all fingers those count that touch; the same verdicts.
+        # All fingers in contact are used; the verdicts are the same.
         said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--output",
                             self.path("b.npz"))
         idle, = {"0", "1", "2", "3"} - set(held)
@@ -438,7 +442,7 @@ class FormatsTest(RegraspCase):
         self.assertFalse(os.path.exists(self.path("c.npz")))
 
     def test_poses_of_another_body_than_the_palm(self):
-        # In a body's frame the palm is at (1, 2, 3), turned by 90° about z.
+        # In the frame of a link, the palm is at (1, 2, 3), rotated by 90° about z.
         palm = np.array([1, 2, 3, 0.5 ** 0.5, 0, 0, 0.5 ** 0.5])
         back = _poses.inverse(palm[:3], palm[3:])
         other = self.grasps.with_palm_at([*back[0], *back[1]])

@@ -1,4 +1,4 @@
-"""`validate --grasps`: from NPZ to NPZ."""
+"""`validate --grasps`, from NPZ to NPZ."""
 
 import json
 import os
@@ -12,7 +12,7 @@ from regrasp_case import PROGRAMS, RegraspCase
 
 
 def on_cube(count, contacts, seed):
-    """Grasps on the faces of models/cube.obj, whose side is 0.06."""
+    """Return grasps on the faces of models/cube.obj, whose side is 0.06."""
     rng = np.random.default_rng(seed)
     face = rng.integers(0, 6, size=(count, contacts))
     axis, side = face % 3, np.where(face < 3, 1., -1.)
@@ -128,7 +128,7 @@ class GraspFilesTest(RegraspCase):
         points = self.points.copy()
         for grasp, contact in ((7, 2), (7, 3), (3, 1), (11, 0)):
             axis = np.flatnonzero(self.normals[grasp, contact])[0]
-            points[grasp, contact, axis] *= 1 + 2e-5 * (1 + contact)  # 30 mm from the centre
+            points[grasp, contact, axis] *= 1 + 2e-5 * (1 + contact)  # at 30 mm from the centre
         arrays = {"points": points, "normals": self.normals}
         self.judge("--mu", "0.5", code=1, **arrays)
         line, = [line for line in self.said.splitlines() if line.startswith("off-surface: ")]
@@ -139,7 +139,7 @@ class GraspFilesTest(RegraspCase):
         active[3, 1] = active[7, 0] = active[7, 2] = False
         self.judge("--mu", "0.5", code=1, active=active, **arrays)
         self.assertIn("grasp 7, contact 3 (the first): 2.4e-06", self.said)
-        # The control: on the surface there is no such line.
+        # Negative control: on the surface there is no such line.
         self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
         self.assertNotIn("off-surface", self.said)
 

@@ -1,4 +1,4 @@
-"""Force closure of one grasp and of many."""
+"""Force closure of one grasp and of many grasps."""
 
 import os
 import signal
@@ -10,7 +10,7 @@ import numpy as np
 import regrasp
 from regrasp_case import RegraspCase
 
-# On a ball of radius 1, four fingers at the corners of a tetrahedron.
+# Four fingers at the corners of a tetrahedron, on a sphere of radius 1.
 TETRAHEDRON = np.array([[1., 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / 3 ** 0.5
 
 
@@ -133,7 +133,7 @@ class GraspsTest(RegraspCase):
         gap = found.quality_upper - found.quality
         self.assertTrue((gap >= 0).all())
         self.assertTrue((gap <= np.maximum(0.01 * found.quality_upper, 1e-6)).all())
-        # More friction is more quality, less is less: by 20 % it is beyond the bounds.
+        # More friction increases the quality, less decreases it: 20 % exceeds the bounds.
         more = regrasp.force_closure(points[held], normals[held], cube, mu=0.8, quality=True)
         self.assertTrue((more.quality_upper >= found.quality[held]).all())
         self.assertTrue((more.quality > found.quality_upper[held]).mean() > 0.9)

@@ -1,4 +1,4 @@
-"""Plans for hands, and their validation by the hand."""
+"""Plans for hands, and their validation with the hand."""
 
 import json
 import os
@@ -45,11 +45,11 @@ class HandsTest(RegraspCase):
             with open(self.path(f"{replay}/000_hold.png"), "rb") as file:
                 self.assertEqual(regrasp._regrasp.encode_png(report.frames((320, 240))[0]),
                                  file.read())
-        # The model's own tips are those balls.
+        # The model's own fingertips are these spheres.
         own = regrasp.validate(self.cube, plan, hand=self.hand, tip="geometry")
         self.assertEqual(own.data["settings"]["hand"]["tip"], "geometry")
         self.assertEqual(own.passed, report.passed)
-        # Another hand is not the one that it was made for.
+        # A plan cannot be used with another hand.
         other = regrasp.Hand.read("models/hands/ring5.json")
         with self.assertRaises(regrasp.InputError):
             regrasp.validate(self.cube, plan, hand=other)

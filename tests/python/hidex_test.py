@@ -1,4 +1,4 @@
-"""Plans of HiDex, as files that its writer documents: contacts of fingers and the object's pose."""
+"""Plans of HiDex, in the documented file format: contacts of fingers and the object's pose."""
 
 import contextlib
 import io
@@ -13,9 +13,9 @@ from regrasp import _poses, convert, formats
 from regrasp_case import PROGRAMS, RegraspCase
 
 NAN = float("nan")
-CUBE = "models/cube.obj"  # its side is 0.06
+CUBE = "models/cube.obj"  # side 0.06
 
-# Fingers 0 and 1 pinch the cube, 2 and 3 hold it in turn: 3 takes over from 2, then 0 goes elsewhere.
+# Fingers 0 and 1 pinch the cube, 2 and 3 hold it alternately: 3 takes over from 2, then 0 moves.
 POINTS = np.array([
     [[.03, 0, .01], [-.03, 0, .01], [0, .03, 0], [NAN] * 3],
     [[.03, 0, .01], [-.03, 0, .01], [NAN] * 3, [0, -.03, 0]],
@@ -30,7 +30,7 @@ class HidexTest(RegraspCase):
     def setUp(self):
         super().setUp()
         rng = np.random.default_rng(1)
-        # The object moves while the first grasp holds: two rows of it.
+        # The object moves during the first grasp, which therefore has two rows.
         self.order = [0, 0, 1, 2]
         turns = rng.normal(size=(4, 4))
         self.poses = np.hstack([rng.normal(size=(4, 3)),
@@ -76,7 +76,7 @@ class HidexTest(RegraspCase):
     def test_contacts_in_the_world(self):
         path = self.write(np.concatenate(row) for row in self.rows(world=True))
         self.assert_read(formats.read_hidex(path))
-        # Read as the object's they would be elsewhere, and every row a grasp.
+        # In the object frame the contacts would move, and every row would be a grasp.
         self.assertEqual(len(formats.read_hidex(path, frame="object")), 4)
 
     def test_with_the_number_of_fingers_and_contacts_of_the_surroundings(self):

@@ -1,4 +1,4 @@
-"""Files that are made up to harm: refused in one line, before they take memory, time or the interpreter."""
+"""Malicious files are rejected in one line, before they affect memory, time or the interpreter."""
 
 import os
 import pickle
@@ -17,7 +17,7 @@ ROW = ".03,0,.01,-1,0,0,nan,nan,nan,0,0,0,0,0,0,0,0,0,1\n"
 
 
 def nested(times):
-    """A list of nine lists, which are one and the same, of nine …"""
+    """Return nested lists of nine references to the same list."""
     value = ["x"]
     for _ in range(times):
         value = [value] * 9
@@ -32,7 +32,7 @@ def nested_yaml(times):
 
 
 class _Call:
-    """Pickled as a call of a function."""
+    """Object that is pickled as a function call."""
 
     def __init__(self, function, *arguments):
         self._reduced = function, arguments
@@ -50,7 +50,7 @@ class HostileFilesTest(RegraspCase):
         return path
 
     def pickled(self, value):
-        """An NPY file of objects, of which one is this."""
+        """Return an NPY file of objects, one of which is this value."""
         header = b"{'descr':'|O','fortran_order':False,'shape':()}\n"
         return self.file("a.npy", b"\x93NUMPY\1\0" + struct.pack("<H", len(header)) + header
                          + pickle.dumps(value))

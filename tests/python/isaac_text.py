@@ -1,4 +1,4 @@
-"""A file of two grasps in the format isaac_grasp 1.0, for tests."""
+"""Sample file of two grasps in the format isaac_grasp 1.0."""
 
 ISAAC = """\
 format: isaac_grasp

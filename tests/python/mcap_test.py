@@ -1,4 +1,4 @@
-"""MCAP files, read again by what their specification says, and ROS 2 messages by CDR's rules."""
+"""MCAP files, parsed according to their specification, with ROS 2 messages in CDR."""
 
 import contextlib
 import io
@@ -19,7 +19,7 @@ MAGIC = b"\x89MCAP0\r\n"
 
 
 class Reader:
-    """Takes values off bytes, one after the other; numbers little-endian."""
+    """Sequential reader of bytes; numbers are little-endian."""
 
     def __init__(self, data, at=0):
         self.data, self.at = data, at
@@ -44,7 +44,7 @@ class Reader:
 
 
 def records(data, at=0, end=None):
-    """(kind, where it begins, where it ends, content) of each."""
+    """Yield (kind, start, end, content) of each record."""
     reader = Reader(data[:end], at)
     while reader.more():
         begin = reader.at
@@ -53,8 +53,11 @@ def records(data, at=0, end=None):
 
 
 def read(data):
-    """Channels by number (topic, schema, definition), messages (channel, time, content), in order.
-    Checks all that the index and the sums say of them."""
+    """Return channels by number (topic, schema, definition) and messages (channel, time, content)
+    in order.
+
+    All statements of the index and the checksums are checked.
+    """
     assert data.startswith(MAGIC) and data.endswith(MAGIC)
     found = list(records(data, 8, len(data) - 8))
     kinds = [kind for kind, *_ in found]
@@ -142,7 +145,7 @@ def read(data):
 
 
 class Cdr(Reader):
-    """A message; numbers stand at multiples of their size behind its four bytes of header."""
+    """Message; numbers are aligned to multiples of their size after the header of four bytes."""
 
     def __init__(self, data):
         assert data[:4] == b"\0\1\0\0"
@@ -238,7 +241,7 @@ class McapTest(RegraspCase):
         self.assertGreater(fields, 30)
         with open(self.path("a.mcap"), "rb") as file:
             data = file.read()
-        # Once in the data, once in the summary, of each topic.
+        # Each topic once in the data and once in the summary.
         self.assertEqual(data.count(b"offered_qos_profiles"), 2 * 3)
 
     def test_without_controls_and_without_a_hand(self):

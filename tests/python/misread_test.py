@@ -1,4 +1,4 @@
-"""Files whose grasps touch nothing: regrasp-convert writes no file, and names the likely cause."""
+"""Grasp files without contacts: regrasp-convert writes no file, and names the likely cause."""
 
 import contextlib
 import io
@@ -32,11 +32,11 @@ class MisreadTest(RegraspCase):
             cls.grasps = formats.of_plan(path, cls.hand)
 
     def write(self, *, palms=None, joints=None, object_pose=WORLD, change=lambda pose: pose, **more):
-        """A dictionary of DexGraspBench with the plan's grasps.
+        """Write a dictionary of DexGraspBench with the plan's grasps.
 
         Args:
-            palms: (positions, quaternions) in the object's frame; None: the plan's.
-            change: what is done to the poses of palms and object before they are written.
+            palms: Positions and quaternions in the object's frame. Default: those of the plan.
+            change: Function that changes the poses of palms and object before they are written.
         """
         positions, quaternions = palms or (self.grasps.positions, self.grasps.quaternions)
         turn = _poses.matrices(object_pose[3:])
@@ -49,7 +49,8 @@ class MisreadTest(RegraspCase):
             "grasp_qpos": np.concatenate([change(world), joints], axis=1), **more})
 
     def convert(self, *options, code, object=CUBE):
-        """What the program prints on standard error; a file is written with exit code 0 only."""
+        """Return the program's output on standard error; it must write a file exactly if the exit
+        code is 0."""
         output = self.path("contacts.npz")
         with contextlib.redirect_stderr(io.StringIO()) as said:
             found = convert.main([self.path("grasps.npy"), "--hand", HAND, "--object", object,
@@ -78,7 +79,7 @@ class MisreadTest(RegraspCase):
         self.assertNotIn("cause", self.convert(code=0))
 
     def test_distances_are_signed(self):
-        # A rounded box by its own formula: the cube's faces are 30 mm from its centre.
+        # Independent formula of a rounded box: the cube's faces are 30 mm from its centre.
         tips = self.hand.tips(self.grasps.joints)
         turns = _poses.matrices(self.grasps.quaternions)
         for shift in ([0, 0, 0], [0.02, 0.01, 0], [0, 0, 0.05]):
@@ -98,7 +99,7 @@ class MisreadTest(RegraspCase):
             return np.concatenate([pose[:, :3], np.roll(pose[:, 3:], -1, axis=1)], axis=1)
         self.write(change=last)
         self.assert_cause("quaternion order", "x, y, z, w")
-        # Of the palms alone: the object is not turned.
+        # Only the palms are affected: the object is not rotated.
         origin = np.array([0, 0, 0, 1., 0, 0, 0])
         self.write(object_pose=origin, change=lambda pose: last(pose) if len(pose) > 1 else pose)
         self.assert_cause("quaternion order")
@@ -129,7 +130,7 @@ class MisreadTest(RegraspCase):
             said = self.assert_cause("palm frame", "--palm=")
             option = re.search(r"--palm=[-\d.,e]+", said).group()
             self.convert(option, code=0)
-        # Poses of the object in the palm's frame.
+        # Poses of the object in the palm frame.
         self.write(palms=_poses.inverse(self.grasps.positions, self.grasps.quaternions))
         self.assert_cause("palm frame", "of the object in the palm's frame")
 

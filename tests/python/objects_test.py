@@ -79,14 +79,14 @@ class ObjectsTest(RegraspCase):
         np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1)
         again, _ = duck.nearest(places)
         np.testing.assert_allclose(again, places, atol=1e-12 * duck.diameter)
-        # No corner and no middle of a facet is nearer.
+        # Neither a corner nor the centroid of a triangle is nearer.
         corners = duck.vertices[duck.triangles]
         others = np.concatenate([duck.vertices, corners.mean(axis=1)])
         least = np.linalg.norm(points[:, None] - others[None], axis=2).min(axis=1)
         distance = np.linalg.norm(points - places, axis=1)
         self.assertTrue((distance <= least * (1 + 1e-12)).all())
         self.assertTrue((distance > 0.9 * least).any())
-        # A place that is not the nearest is found by this.
+        # Negative control: the check detects a point that is not the nearest.
         self.assertTrue((np.linalg.norm(points - np.roll(places, 1, axis=0), axis=1) > least).any())
         self.assertEqual(duck.nearest(np.zeros((0, 3)))[0].shape, (0, 3))
         plate = regrasp.Object.from_polygon([[0, 0], [2, 0], [2, 1], [0, 1]])

@@ -1,4 +1,4 @@
-"""Plans and their validation: as the programs do it, and wrong arguments."""
+"""Plans and their validation: agreement with the programs, and invalid arguments."""
 
 import json
 import os
@@ -17,7 +17,7 @@ GOAL = "models/cube.goal.json"
 
 
 def soft_pair(axis):
-    """Two opposite points of the cube."""
+    """Return two opposite points of the cube."""
     points = np.zeros((2, 3))
     points[:, axis] = -0.03, 0.03
     return points
@@ -59,7 +59,7 @@ class PlansTest(RegraspCase):
         words = ["plan.json: /object/scale", "cube.obj", "expected 0.5", "found 1", "scale=1"]
         self.refuses(words, regrasp.validate, small, self.plan)
         self.refuses(words, self.plan.figure, small)
-        # The control: a plan of that size passes with it, and only with it.
+        # Positive control: a plan made at this scale passes with it, and only with it.
         plan = regrasp.plan(small, START, GOAL, friction_angle_deg=20)
         self.assertTrue(regrasp.validate(small, plan).passed)
         self.refuses(["expected 1 m", "found 0.5"], regrasp.validate, self.cube, plan)
@@ -168,7 +168,7 @@ class PlansTest(RegraspCase):
         self.assertNotIn("<script>", regrasp.Plan(json.dumps(named))._repr_html_())
 
     def test_a_notebook_draws_plans_of_known_objects(self):
-        # Frames, whose text is hinted, make no difference to figures, whose text is not.
+        # Frames have hinted text, figures do not: rendering frames must not change figures.
         regrasp.validate(self.cube, self.plan).frames((320, 240))
         self.plan.write(self.path("plan.json"))
         subprocess.run([f"{PROGRAMS}/figure", "--object", "models/cube.obj", "--plan",
@@ -183,7 +183,7 @@ class PlansTest(RegraspCase):
         self.refuses(["width_mm", "20"], read.figure, self.cube, width_mm=1)
         gear = regrasp.Object.read("models/gear128.wkt")
         self.refuses(["plan.json", "sha256"], read.figure, gear)
-        # A plan that breaks a rule has no drawing, and says which.
+        # A plan that violates a rule has no drawing, and the message names the rule.
         broken = json.loads(self.plan.text)
         broken["friction"]["half_angle_deg"] = 1
         weak = regrasp.Plan(json.dumps(broken), "weak.json")
@@ -195,8 +195,8 @@ class PlansTest(RegraspCase):
         self.assertIn("<svg", planar.figure(width_mm=85))
 
     def test_no_plan_says_what_was_searched(self):
-        # Two pairs whose torques cancel: hardly any friction holds, and no contact can leave unless
-        # another takes its very line of force.
+        # Two pairs whose torques cancel: little friction suffices, and a contact can only leave if
+        # another one takes its line of force.
         def pinwheel(first, second):
             points = np.zeros((4, 3))
             for i, (axis, other, side) in enumerate([(first, second, 1), (first, second, -1),
@@ -224,7 +224,7 @@ class PlansTest(RegraspCase):
             regrasp.Object.read("models/cube.obj", progress=stop)
 
     def test_ctrl_c_ends_planning(self):
-        # By itself this takes several seconds; the signal comes once it has begun.
+        # Planning takes several seconds; the signal is sent after it has started.
         timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
         told = []
 

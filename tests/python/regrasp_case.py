@@ -1,4 +1,4 @@
-"""What the tests of the module share; the folder of the built programs is in REGRASP_PROGRAMS."""
+"""Base of the tests of the Python module. REGRASP_PROGRAMS is the folder of the built programs."""
 
 import os
 import tempfile
@@ -10,7 +10,7 @@ PROGRAMS = os.environ["REGRASP_PROGRAMS"]
 
 
 class RegraspCase(unittest.TestCase):
-    """A folder of its own for each test, and what every error promises."""
+    """Test case with its own folder, and the common properties of all errors."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -21,7 +21,7 @@ class RegraspCase(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def refuses(self, words, function, *arguments, **named):
-        """That bad input is an InputError of one line that has all the words."""
+        """Expect that invalid input is an InputError with one line that contains all the words."""
         with self.assertRaises(regrasp.InputError) as caught:
             function(*arguments, **named)
         self.assertNotIn("\n", str(caught.exception))

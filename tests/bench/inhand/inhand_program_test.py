@@ -1,4 +1,4 @@
-"""The program inhand from the shell: a run, its tables, plans of others, and bad input."""
+"""The program inhand from the shell: a run, its tables, third-party plans, and invalid input."""
 
 import json
 import os
