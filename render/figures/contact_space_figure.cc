@@ -76,7 +76,7 @@ class Overview {
   const ContactSpaceMap& map_;
   const AxisUnit& unit_;
   std::vector<RingSpan> spans_;
-  double extent_ = 0;  ///< length of all rings and gaps
+  double extent_ = 0;  ///< total length of rings and gaps, points
 };
 
 Overview::Overview(const contour::Boundary& boundary, const ContactSpaceMap& map,

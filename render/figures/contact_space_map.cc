@@ -27,11 +27,11 @@ constexpr double kVertexTick = 2;
 constexpr double kLabelTick = 4;
 constexpr double kTickWidth = 0.35;
 constexpr double kFrameWidth = 0.5;
-constexpr double kLabelDistance = 2;  ///< from tick to label
+constexpr double kLabelDistance = 2;  ///< distance from tick to label
 constexpr double kBelowGap = 28;      ///< minimum distance of labels below a plot
 constexpr double kBesideGap = 16;     ///< minimum distance of labels next to a plot
-constexpr double kTitleBelow = 23;    ///< from a plot to the base of the title below it
-constexpr double kTitleBeside = 36;   ///< from a plot to the title next to it
+constexpr double kTitleBelow = 23;    ///< distance from a plot to the base of the title below it
+constexpr double kTitleBeside = 36;   ///< distance from a plot to the title next to it
 
 constexpr int kVertexDigits = 3;
 /// Number of vertices above which round lengths are easier to read.

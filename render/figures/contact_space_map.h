@@ -23,7 +23,7 @@ struct PlotWindow {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();  ///< visible range of boundary lengths
   Eigen::Vector2d high = Eigen::Vector2d::Ones();
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();  ///< top left corner on the page, points
-  Eigen::Vector2d scale = Eigen::Vector2d::Ones();   ///< points per unit
+  Eigen::Vector2d scale = Eigen::Vector2d::Ones();   ///< scale along both axes, points per unit
 
   [[nodiscard]] Eigen::Vector2d ToPage(const Eigen::Vector2d& p) const {
     return corner + Eigen::Vector2d(scale.x() * (p.x() - low.x()), scale.y() * (high.y() - p.y()));

@@ -82,8 +82,8 @@ constexpr double kDiagramLine = 0.3;
 constexpr double kSquareLine = 0.8;
 constexpr double kSharedLine = 0.5;
 constexpr double kDotRadius = 1.3;
-constexpr double kMarkAside = 6.5;   ///< from a grasp to its number inside the square
-constexpr double kMarkBeyond = 4.5;  ///< from the square to a number outside
+constexpr double kMarkAside = 6.5;   ///< distance from a grasp to its number inside the square
+constexpr double kMarkBeyond = 4.5;  ///< distance from the square to a number outside
 constexpr double kLargeSquare = 11;  ///< half-width of a square that has space for the number
 
 constexpr Color kDiagramInk = {80, 92, 120};

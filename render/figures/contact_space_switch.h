@@ -32,7 +32,7 @@ struct ContactSwitchSide {
 struct ContactSwitch {
   plan::EntryIndex entry{0};
   contour::RingIndex shared_ring;
-  std::array<ContactSwitchSide, 2> sides;  ///< before and after the switch
+  std::array<ContactSwitchSide, 2> sides;  ///< sets before and after the switch
   contour::PlaceRange
       overlap;  ///< intersection of the two projections, around the contact that stays
 };

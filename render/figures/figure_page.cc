@@ -109,12 +109,12 @@ std::string FigurePage::Finish() {
 namespace {
 
 // Lengths in points.
-constexpr double kInset = 5;  ///< from the right border of the panel
+constexpr double kInset = 5;  ///< distance from the right border of the panel
 constexpr double kWidth = 0.6;
 constexpr double kBarTick = 1.5;
 constexpr double kTextAbove = 2.5;
 
-constexpr double kLongest = 0.25;  ///< per width of the panel
+constexpr double kLongest = 0.25;  ///< maximum length of a scale bar per width of the panel
 
 }  // namespace
 
@@ -139,10 +139,12 @@ namespace {
 
 /// Distance from its anchor up to which a name needs no leader line, in radii.
 constexpr double kBeside = 3.2;
-constexpr double kLeaderWidth = 0.4;   ///< points
-constexpr double kLeaderHalo = 0.8;    ///< points on each side
-constexpr double kLeaderStart = 0.75;  ///< from the centre of the name, in radii
-constexpr double kLeaderEnd = 3.6;     ///< from the contact, outside its marker, points
+constexpr double kLeaderWidth = 0.4;  ///< width of a leader line, points
+constexpr double kLeaderHalo = 0.8;   ///< width of its halo on each side, points
+constexpr double kLeaderStart =
+    0.75;  ///< distance of its start from the centre of the name, in radii
+constexpr double kLeaderEnd =
+    3.6;  ///< distance of its end from the contact, outside the marker, points
 
 void DrawLeader(cairo_t* cr, const Vector2d& name, const Vector2d& owner) {
   const Vector2d direction = owner - name;
@@ -169,7 +171,7 @@ std::vector<Vector2d> DrawNumbers(cairo_t* cr, std::span<const std::string> name
 
 namespace {
 
-constexpr double kHalo = 1.6;  ///< points
+constexpr double kHalo = 1.6;  ///< width of the halo of a mark, points
 constexpr char kClauseEnd = ';';
 
 /// Set the font of all pages. It is unhinted, so that SVG, PDF and PNG have the same layout.

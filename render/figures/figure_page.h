@@ -38,7 +38,7 @@ class FigurePage {
 
   FigureFormat format_;
   std::unique_ptr<std::string> bytes_;  ///< Cairo stores its address
-  double scale_ = 1;                    ///< pixels per point
+  double scale_ = 1;                    ///< scale of a PNG, pixels per point
   CairoSurface surface_;
   CairoContext context_;
 };

@@ -13,10 +13,10 @@ namespace regrasp::render {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kWhiteRim = 0.5;      ///< points, around a filled marker and its ring
-constexpr double kOutlineWidth = 0.9;  ///< points
-constexpr double kRingDistance = 1.9;  ///< from the marker to its ring, points
-constexpr double kRingWidth = 0.8;     ///< points
+constexpr double kWhiteRim = 0.5;  ///< width of the rim around a filled marker and its ring, points
+constexpr double kOutlineWidth = 0.9;  ///< line width of a hollow marker, points
+constexpr double kRingDistance = 1.9;  ///< distance from a marker to its ring, points
+constexpr double kRingWidth = 0.8;     ///< line width of a ring, points
 
 /// Visible width of a marker around another one on top, points. A triangle extends to 1.5 radii.
 constexpr double kNestedRim = 1.6;

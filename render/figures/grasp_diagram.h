@@ -21,7 +21,7 @@ enum class DiagramKind {
 struct DoubleCone {
   Eigen::Vector2d apex;
   Eigen::Vector2d axis;   ///< unit vector to the inner side of the edge
-  double half_angle = 0;  ///< radians
+  double half_angle = 0;  ///< angle between axis and border, radians
 };
 
 /// A convex polygon, counter-clockwise.

@@ -14,7 +14,7 @@ namespace regrasp::render {
 
 namespace {
 
-constexpr double kGap = 8;  ///< between panels, points
+constexpr double kGap = 8;  ///< gap between panels, points
 constexpr int kDefaultColumns = 4;
 /// Ratio of height to width below which a panel is low. Sheets of low panels have fewer columns if
 /// their height does not exceed a page, because such panels would be small.

@@ -33,7 +33,7 @@ struct DiagramFinger {
 /// Content of the panel of a plan entry: the grasp after it, and the actions of the fingers.
 struct StepDiagram {
   std::string kind;     ///< "hold", or the result of StepKind
-  std::string caption;  ///< for example "(a) hold: fingers 0, 1, 2; concurrent grasp"
+  std::string caption;  ///< caption, for example "(a) hold: fingers 0, 1, 2; concurrent grasp"
   GraspDiagram
       grasp;  ///< diagram of the grasp; its cones belong to the first of `fingers`, in order
   std::vector<DiagramFinger> fingers;  ///< fingers in contact after the step, then released ones

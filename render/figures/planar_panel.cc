@@ -108,19 +108,19 @@ PanelPath PathBeside(std::span<const BorderPoint> path, const PanelView& view, d
 namespace {
 
 // Lengths in points unless stated otherwise.
-constexpr double kPanelConeLength = 0.2;  ///< per diameter of the polygon
+constexpr double kPanelConeLength = 0.2;  ///< length of cones per diameter of the polygon
 constexpr double kConeBorder = 0.4;
-constexpr double kConeFill = 0.26;  ///< opacity
+constexpr double kConeFill = 0.26;  ///< opacity of cones
 constexpr double kLongConeFill = 0.12;
 constexpr double kConeBorderOpacity = 0.8;
-constexpr double kBeyondFocus = 1.12;  ///< per distance from the contact to the focus point
+constexpr double kBeyondFocus = 1.12;  ///< length of cones per distance from contact to focus point
 constexpr double kLongestOuter = kPanelMargin - 2;  ///< cones end inside the panel
-constexpr double kConeInset = 1;                    ///< from the border of the panel
-constexpr double kShortestInner = 12;               ///< minimum length, even without space
+constexpr double kConeInset = 1;       ///< distance of cones from the border of the panel
+constexpr double kShortestInner = 12;  ///< minimum length, even without space
 constexpr Hatch kConeHatch = {.slope = 1, .spacing = 3.2, .width = 0.35};
 constexpr double kCellBorder = 0.5;
 constexpr double kForceLine = 0.55;
-constexpr double kForceLineInset = 4;  ///< from the border of the panel
+constexpr double kForceLineInset = 4;  ///< distance of lines from the border of the panel
 constexpr double kConeDash = 3;
 constexpr double kFocusRadius = 1.7;
 
@@ -131,7 +131,7 @@ constexpr Color kCellInk = {96, 104, 118};
 struct Sector {
   Vector2d apex;
   double middle;      ///< angle of the axis, radians
-  double half_angle;  ///< radians
+  double half_angle;  ///< angle between axis and border, radians
   double from = 0;
   double to = 0;
 };
@@ -275,7 +275,7 @@ constexpr double kArrowWidth = 1.0;
 /// Distance from the contact to the arrow of a placed or released finger.
 constexpr double kArrowNear = 6.2;
 constexpr double kArrowFar = 16;
-constexpr double kPathOffset = 4.4;  ///< from the border to the arrow of a sliding finger
+constexpr double kPathOffset = 4.4;  ///< distance from the border to the arrow of a sliding finger
 constexpr double kTick = 1.6;        ///< half the length of a tick
 
 /// Maximum length of an arrow in a hole or a notch, per clearance.

@@ -16,9 +16,9 @@ namespace regrasp::render {
 
 /// Transformation from the plane of the object to a panel: object units to points, y up to y down.
 struct PanelView {
-  double width = 0;   ///< points
-  double height = 0;  ///< points
-  double scale = 1;   ///< points per unit
+  double width = 0;   ///< width of the panel, points
+  double height = 0;  ///< height of the panel, points
+  double scale = 1;   ///< scale, points per unit
   /// Point of the object at the centre of the panel.
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
 
@@ -49,7 +49,7 @@ inline constexpr double kTallestPanel = 1.25;
 
 /// The path of a sliding finger on a panel, points.
 struct PanelPath {
-  std::vector<Eigen::Vector2d> points;  ///< points from the start to the contact
+  std::vector<Eigen::Vector2d> points;  ///< polyline from the start to the contact
   struct Tick {
     Eigen::Vector2d at;
     Eigen::Vector2d across;  ///< unit vector along the tick

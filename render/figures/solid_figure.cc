@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 /// Distance within which a surface is the one that contains the point.
 constexpr double kOnSurface = 2e-3;
-constexpr double kPlaceTolerance = 1e-5;  ///< per step
+constexpr double kPlaceTolerance = 1e-5;  ///< accuracy of a change of visibility, per step
 
 class LineSplitter {
  public:
@@ -87,8 +87,8 @@ using Eigen::Vector2d;
 namespace {
 
 // Lengths in points.
-constexpr double kMargin = 10;               ///< for markers, arrow heads and numbers
-constexpr double kTallestSolidPanel = 1.25;  ///< per width
+constexpr double kMargin = 10;               ///< margin for markers, arrow heads and numbers
+constexpr double kTallestSolidPanel = 1.25;  ///< maximum height of a panel per width
 constexpr double kEdge = 0.8;
 constexpr double kHiddenEdge = 0.35;
 constexpr double kHiddenDash = 1.6;
@@ -97,7 +97,7 @@ constexpr double kSolidConeBorder = 0.4;
 constexpr double kSolidArrowWidth = 1.0;
 constexpr double kSolidPathWidth = 0.9;
 
-constexpr double kSolidConeFill = 0.26;  ///< opacity
+constexpr double kSolidConeFill = 0.26;  ///< opacity of cones
 constexpr Color kHiddenInk = {120, 128, 142};
 constexpr int kConeSides = 48;
 
@@ -112,7 +112,7 @@ constexpr double kSeam = 0.4;
 /// A parallel projection from the normalized frame to a panel.
 struct PanelCamera {
   Eigen::Matrix3d axes;
-  double scale;       ///< points per diameter
+  double scale;       ///< scale, points per diameter
   Vector2d top_left;  ///< coordinates of the panel's corner along right and up
 
   [[nodiscard]] Vector2d operator()(const Vector3d& p) const {

@@ -43,7 +43,7 @@ struct BodyOptions {
   /// Thickness of the prism of a planar object, in object diameters.
   double thickness = kDefaultThickness;
   EdgeStyle edges = EdgeStyle::kCrease;
-  double crease_angle = kDefaultCreaseAngle;  ///< radians
+  double crease_angle = kDefaultCreaseAngle;  ///< crease angle, radians
 };
 
 /// Compute the shape of an object relative to its centroid, in units of its diameter.

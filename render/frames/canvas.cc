@@ -1,18 +1,131 @@
 #include "render/frames/canvas.h"
 
+#include <GL/osmesa.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
+#include <string>
 
-#include "render/frames/offscreen_context.h"
+#include "planner/base/error.h"
+#include "planner/base/shared_library.h"
 
 namespace regrasp::render {
 
 namespace {
 
 using Eigen::Vector3d;
+
+/// OpenGL functions that draw frames, without their prefix.
+// clang-format off
+#define REGRASP_GL_FUNCTIONS(F) \
+  F(BlendFunc) F(Clear) F(ClearColor) F(Color4ub) F(ColorMask) F(ColorMaterial) F(DepthFunc) F(DepthMask) \
+  F(Disable) F(DrawArrays) F(Enable) F(EnableClientState) F(Finish) F(Frustum) F(LightModelfv) F(Lightfv) \
+  F(LoadIdentity) F(LoadMatrixd) F(MatrixMode) F(MultMatrixd) F(NormalPointer) F(Ortho) F(PopMatrix) \
+  F(PushMatrix) F(VertexPointer) F(Viewport)
+// clang-format on
+
+/// OpenGL functions of OSMesa, loaded at the first call of gl().
+struct Gl {
+#define REGRASP_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
+  REGRASP_GL_FUNCTIONS(REGRASP_GL_MEMBER)
+#undef REGRASP_GL_MEMBER
+  decltype(&::OSMesaCreateContextExt) CreateContext = nullptr;
+  decltype(&::OSMesaDestroyContext) DestroyContext = nullptr;
+  decltype(&::OSMesaMakeCurrent) MakeCurrent = nullptr;
+};
+
+constexpr int kDepthBits = 24;
+constexpr int kBytesPerPixel = 4;
+
+Gl LoadGl() {
+  // Mesa 22 (Debian 12) and older versions.
+  const SharedLibrary mesa({"libOSMesa.so.8", "libOSMesa.so.6"});
+  Gl gl;
+#define REGRASP_GL_FIND(name) mesa.Find("gl" #name, gl.name);
+  REGRASP_GL_FUNCTIONS(REGRASP_GL_FIND)
+#undef REGRASP_GL_FIND
+  mesa.Find("OSMesaCreateContextExt", gl.CreateContext);
+  mesa.Find("OSMesaDestroyContext", gl.DestroyContext);
+  mesa.Find("OSMesaMakeCurrent", gl.MakeCurrent);
+  return gl;
+}
+
+/// Return the functions of the loaded library.
+/// @throws EnvironmentError  if OSMesa is not installed.
+const Gl& gl() {
+  static const Gl functions = LoadGl();
+  return functions;
+}
+
+OSMesaContext CreateContext() {
+  // Mesa would store shaders in the home folder. The name of this variable depends on its version.
+  constexpr char kName[] = "MESA_SHADER_CACHE_DISABLE";
+  constexpr char kOldName[] = "MESA_GLSL_CACHE_DISABLE";
+  if (std::getenv(kName) == nullptr && std::getenv(kOldName) == nullptr) {
+    for (const char* name : {kName, kOldName}) setenv(name, "true", /*overwrite=*/1);
+  }
+  return gl().CreateContext(OSMESA_RGBA, kDepthBits, 0, 0, nullptr);
+}
+
+/// An OSMesa context of OpenGL (compatibility profile) with its buffers: RGBA with 8 bits per
+/// channel, rows from bottom to top, and depth.
+class OffscreenContext {
+ public:
+  /// Create a context.
+  /// @throws EnvironmentError  if the context cannot be created in this size.
+  OffscreenContext(int width, int height);
+  ~OffscreenContext();
+  OffscreenContext(const OffscreenContext&) = delete;
+  OffscreenContext& operator=(const OffscreenContext&) = delete;
+
+  /// A scope in which OpenGL functions of this thread draw into the context. Another thread can use
+  /// the context afterwards.
+  class Use {
+   public:
+    explicit Use(OffscreenContext& context) { context.MakeCurrent(); }
+    ~Use();
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+  };
+  /// Return the drawn pixels. Requires a preceding glFinish.
+  [[nodiscard]] const std::vector<unsigned char>& pixels() const { return pixels_; }
+
+ private:
+  void MakeCurrent();
+
+  int width_, height_;
+  std::vector<unsigned char> pixels_;
+  OSMesaContext context_;
+};
+
+OffscreenContext::OffscreenContext(int width, int height)
+    : width_(width),
+      height_(height),
+      pixels_(std::size_t{kBytesPerPixel} * width * height),
+      context_(CreateContext()) {
+  if (context_ == nullptr) throw EnvironmentError("no off-screen rendering context (OSMesa)");
+  try {
+    const Use tried(*this);
+  } catch (...) {
+    gl().DestroyContext(context_);
+    throw;
+  }
+}
+
+OffscreenContext::~OffscreenContext() { gl().DestroyContext(context_); }
+
+OffscreenContext::Use::~Use() { gl().MakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
+void OffscreenContext::MakeCurrent() {
+  if (gl().MakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width_, height_) != GL_TRUE) {
+    throw EnvironmentError("the off-screen rendering context of " + std::to_string(width_) + "x" +
+                           std::to_string(height_) + " pixels cannot be used (OSMesa)");
+  }
+}
 
 /// Maximum number of samples per band. A frame is drawn in bands to bound its memory (64 MB).
 constexpr int kMaxBandSamples = 1 << 24;
@@ -370,7 +483,8 @@ class Canvas::Impl {
 
   int width_, height_, factor_;
   int band_rows_;
-  std::shared_ptr<const std::vector<Vertices>> meshes_;  ///< shared with copies
+  std::shared_ptr<const std::vector<Vertices>>
+      meshes_;  ///< vertex arrays of the meshes, shared with copies
   OffscreenContext context_;
 };
 

@@ -427,7 +427,7 @@ class Overlay {
   std::vector<Obstacle> lines_;  ///< lines of marks
   std::vector<Box> taken_;       ///< boxes of texts
   std::vector<LabelText> labels_;
-  double base_ = 0;  ///< baseline of the text at the top left
+  double base_ = 0;  ///< baseline of the last text at the top left
 };
 
 }  // namespace

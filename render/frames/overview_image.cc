@@ -23,10 +23,10 @@ constexpr double kOverviewFontSize = 0.05;
 constexpr double kSmallestOverviewFont = 11;
 constexpr double kLargestFont = 1.0 / 70;
 
-constexpr double kGap = 0.04;         ///< per width of an image
-constexpr double kLabelHeight = 1.5;  ///< per font size
+constexpr double kGap = 0.04;         ///< gap between images per width of an image
+constexpr double kLabelHeight = 1.5;  ///< height of a label per font size
 
-constexpr double kBaseLine = 0.72;  ///< per height of a label
+constexpr double kBaseLine = 0.72;  ///< position of the baseline per height of a label
 constexpr double kRule = 1;         ///< width of the border of each image, pixels
 constexpr Color kRuleColor = {213, 218, 227};
 constexpr double kThickRule = 0.012;  ///< width of a thick frame per width of an image
@@ -35,7 +35,7 @@ constexpr Color kEmptyText = {112, 120, 134};
 
 /// Height of the heading per height of a label.
 constexpr double kHeadingHeight = 1.7;
-constexpr double kHeadingFont = 1.1;    ///< per font size of labels
+constexpr double kHeadingFont = 1.1;    ///< font size of the heading per font size of labels
 constexpr double kSmallestShare = 0.6;  ///< minimum factor on the font size of a long heading
 
 /// Truncate a text to the width `most`.

@@ -53,7 +53,7 @@ namespace {
 /// Ratio of half the width of an arrow head to its length.
 constexpr double kHeadSlope = 0.42;
 
-constexpr double kDotRim = 0.7;  ///< points
+constexpr double kDotRim = 0.7;  ///< width of the rim of a dot, points
 
 }  // namespace
 

@@ -22,7 +22,7 @@ namespace regrasp::render {
 namespace {
 
 constexpr int kBytesPerPixel = 3;
-constexpr int kLongestSide = 16384;  ///< pixels, supported by both formats
+constexpr int kLongestSide = 16384;  ///< maximum side that both formats support, pixels
 
 /// Rate factor of libx264, 0 to 51: thin lines and small digits stay sharp.
 constexpr char kRateFactor[] = "18";
