@@ -1,8 +1,8 @@
-// Benchmark of the proofs of sliding steps: random pairs of force-closure grasps of four contacts
-// on the same faces, connected by straight segments.
-// It counts the valid segments that are proved by forces of degree 1, of degree 2, and of degree 1
-// with bisection, with the number of pieces and the time of each. The reference is the decision of
-// the plan checker, whose proofs are checked exactly.
+// Benchmark of the proofs of sliding steps.
+// It uses random pairs of force-closure grasps of four contacts on the same faces, connected by
+// straight segments. It counts the valid segments that are proved by forces of degree 1, of degree
+// 2, and of degree 1 with bisection, with the number of pieces and the time of each. The reference
+// is the decision of the plan checker, whose proofs are checked exactly.
 
 #include <Eigen/Geometry>
 #include <algorithm>

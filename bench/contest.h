@@ -43,8 +43,8 @@ struct Contest {
   std::vector<Standing> standings;
 };
 
-/// Draw pairs of random force-closure grasps, uniformly over the surface, until the limit of pairs
-/// or of time is reached.
+/// Draw pairs of random force-closure grasps, uniformly over the surface.
+/// Stops at the limit of pairs or of time.
 [[nodiscard]] std::vector<GraspPair> DrawPairs(const object::Object& object,
                                                const ContestSetting& setting,
                                                const ContestLimits& limits);
@@ -53,8 +53,8 @@ struct Contest {
 [[nodiscard]] Contest RunContest(const object::Object& object, const std::vector<GraspPair>& pairs,
                                  const std::vector<Contender>& contenders, double seconds);
 
-/// Return the first planner that solves more pairs than general, among the pairs that both were run
-/// on.
+/// Return the first planner that solves more pairs than general.
+/// Only pairs that both planners were run on count.
 [[nodiscard]] std::optional<std::string> FindBetterThanGeneral(const Contest& contest);
 
 }  // namespace regrasp

@@ -34,8 +34,9 @@ constexpr int kOutlineEdges = 300;
 constexpr int kGrowthRuns = 5;
 constexpr std::uint64_t kSeed = 1;
 
-/// Return a smooth simple outline about the origin: seven waves with random amplitudes and phases
-/// and five to eleven periods, in total at most 0.45 of the radius.
+/// Return a smooth simple outline about the origin.
+/// It is the sum of seven waves with random amplitudes and phases and five to eleven periods, in
+/// total at most 0.45 of the radius.
 object::Polygon LobedOutline(int edges) {
   constexpr int kWaves = 7;
   constexpr int kFirstWave = 5;

@@ -9,8 +9,8 @@
 
 namespace regrasp {
 
-// Baseline of the benchmark: merge of the pieces of a contour graph by an independent method, the
-// exact union of polygons by CGAL.
+// Baseline of the contour benchmark: merge of the pieces of a contour graph by CGAL.
+// CGAL's exact union of polygons is an independent method.
 
 using UnionKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using UnionPolygon = CGAL::Polygon_2<UnionKernel>;
@@ -26,8 +26,9 @@ struct PieceOutlines {
 /// Return the components of their union.
 [[nodiscard]] std::vector<UnionComponent> Unite(const std::vector<UnionPolygon>& outlines);
 
-/// Return the number of connected sets after joining components that meet at the start of the ring,
-/// at which [0, L]² is cut. A passage of the graph connects such components.
+/// Return the number of connected sets of components.
+/// Components are joined if they meet at the start of the ring, at which [0, L]² is cut. A passage
+/// of the graph connects such components.
 [[nodiscard]] int CountGlued(const contour::ContourGraph& graph, const PieceOutlines& outlines,
                              const std::vector<UnionComponent>& components);
 

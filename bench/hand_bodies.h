@@ -32,13 +32,14 @@ struct HandBody {
 [[nodiscard]] HandBody BodyOf(const std::string& name, const std::string& what, std::string bytes,
                               double scale);
 
-/// Return ten objects of several sizes and kinds: cubes, a cylinder, a prism, an L-block, a duck, a
-/// mug, an ellipsoid and a bent tube.
+/// Return ten objects of several sizes and kinds.
+/// These are cubes, a cylinder, a prism, an L-block, a duck, a mug, an ellipsoid and a bent tube.
 /// @param models  path of the folder models.
 [[nodiscard]] std::vector<HandBody> TenBodies(const std::filesystem::path& models);
 
-/// Return the objects of the RGMC's in-hand manipulation track of 2025: cubes of 50 and 90 mm, and
-/// cylinders of 60, 80 and 100 mm diameter and 80 mm height.
+/// Return the objects of the RGMC's in-hand manipulation track of 2025.
+/// These are cubes of 50 and 90 mm, and cylinders with diameters of 60, 80 and 100 mm and a height
+/// of 80 mm.
 [[nodiscard]] std::vector<HandBody> CompetitionBodies(const std::filesystem::path& models);
 
 }  // namespace regrasp::bench

@@ -21,8 +21,8 @@ struct TrialFault {
   std::string detail;
 };
 
-/// Return the first fault that the checkers of plans and of hands find at the plan's own friction,
-/// without simulation.
+/// Return the first fault found by the checkers of plans and of hands.
+/// They use the plan's own friction, and no simulation.
 [[nodiscard]] std::optional<TrialFault> CheckInHand(const kinematics::HandFile& hand,
                                                     const HandBody& body, const plan::Plan& plan);
 
@@ -49,10 +49,10 @@ struct HandTrial {
 [[nodiscard]] HandTrial TryInHand(const kinematics::HandFile& hand, const HandBody& body,
                                   const plan::Plan& plan, double friction_factor = 1);
 
-/// Compute the required friction coefficient of the static grasps of a trial: the least value at
-/// which their contacts can balance the weight and each force of the disturbance test.
-/// With less friction no controller can keep the object in place. Force closure may need more, if
-/// the weight keeps the object between the fingers.
+/// Compute the required friction coefficient of the static grasps of a trial.
+/// It is the least value at which their contacts can balance the weight and each force of the
+/// disturbance test. With less friction no controller can keep the object in place. Force closure
+/// may need more, if the weight keeps the object between the fingers.
 [[nodiscard]] double CriticalFriction(const HandTrial& trial, const kinematics::HandModel& hand,
                                       const HandBody& body);
 

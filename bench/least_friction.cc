@@ -7,9 +7,10 @@
 namespace regrasp::bench {
 namespace {
 
-/// Tested sums of the normal forces: from the largest down to kLeastNormal times the load, each
-/// smaller than the one before by the factor kLess. If a sum in between balances the load, the next
-/// larger tested sum leaves less of it unbalanced than kUnbalanced.
+/// Tested sums of the normal forces.
+/// They decrease from the largest to kLeastNormal times the load, each by the factor kLess. If a
+/// sum in between balances the load, the next larger tested sum leaves less of it unbalanced than
+/// kUnbalanced.
 constexpr double kLeastNormal = 0.05;
 constexpr double kLess = 1.03;
 constexpr double kUnbalanced = 0.03;

@@ -1,7 +1,7 @@
-// Tables 6.1 to 6.12 of Phoka 2010 for meshes of about 500 and 1000 triangles in 30, 50 and 70
-// clusters at a friction angle of 10 degrees.
-// They contain the roadmaps of representatives, 30 random queries on each, and the success of the
-// local planners. The program writes Markdown and CSV into a folder.
+// Tables 6.1 to 6.12 of Phoka 2010.
+// They are for meshes of about 500 and 1000 triangles in 30, 50 and 70 clusters at a friction angle
+// of 10 degrees. They contain the roadmaps of representatives, 30 random queries on each, and the
+// success of the local planners. The program writes Markdown and CSV into a folder.
 //
 // The queries of the tables do not use the fallback to all contact points. Each query is run once
 // more with it. The program fails if this run finds no sequence without showing that there is none.

@@ -10,8 +10,9 @@
 
 namespace regrasp {
 
-// Concurrent part of a polygon's switching graph by an independent method, exact Boolean operations
-// on polygons by CGAL. The tests use it as an oracle, the benchmark as a baseline.
+// Concurrent part of a polygon's switching graph by CGAL.
+// CGAL's exact Boolean operations on polygons are an independent method. The tests use it as an
+// oracle, the benchmark as a baseline.
 
 using CellKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using CellSet = CGAL::Polygon_set_2<CellKernel>;
@@ -29,7 +30,8 @@ struct SetCandidate {
 };
 
 /// Return true if the three inward normals φ-positively span the plane, with tan φ = `tangent` >=
-/// 0: every gap between neighbouring normals is less than π − 2φ (for `closed`, at most). Exact.
+/// 0.
+/// Every gap between neighbouring normals is then less than π − 2φ (for `closed`, at most). Exact.
 [[nodiscard]] bool NormalsSpan(const object::Polygon& polygon, const std::array<int, 3>& edges,
                                double tangent, bool closed = false);
 
@@ -37,13 +39,13 @@ struct SetCandidate {
 [[nodiscard]] std::vector<SetCandidate> FindUniformCandidates(const object::Polygon& polygon,
                                                               double half_angle);
 
-/// Return the triples whose normals positively span, in lexicographic order, with the smaller of
-/// tan θ and the largest double not above tan φ*.
+/// Return the triples whose normals positively span, in lexicographic order.
+/// Their tangent is the smaller of tan θ and the largest double not above tan φ*.
 [[nodiscard]] std::vector<SetCandidate> FindAdaptiveCandidates(const object::Polygon& polygon,
                                                                double half_angle);
 
-/// Return the points that see an edge inside their double-sided cones: a hexagon about the open
-/// edge. It ends at `reach` edge lengths from the edge's line.
+/// Return the points that see an edge inside their double-sided cones.
+/// The set is a hexagon about the open edge. It ends at `reach` edge lengths from the edge's line.
 [[nodiscard]] CellSet SeeingEdge(const object::Polygon& polygon, int edge, double tangent,
                                  double reach);
 
@@ -57,8 +59,8 @@ inline constexpr double kCellReach = 0x1p40;
                                                 const std::vector<SetCandidate>& candidates,
                                                 double reach = kCellReach);
 
-/// Return the pairs of cells (indices, the smaller first) with exactly two common edges and a
-/// common interior.
+/// Return the pairs of cells with exactly two common edges and a common interior.
+/// Pairs are indices, the smaller first.
 [[nodiscard]] std::vector<std::array<int, 2>> FindSetCellSwitches(
     const std::vector<SetCell>& cells);
 

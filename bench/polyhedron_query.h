@@ -7,8 +7,8 @@
 
 namespace regrasp {
 
-/// Times of queries between two random grasps of one component of a solid's switching graph,
-/// without the construction of the graph.
+/// Times of queries between two random grasps of one component of a solid's switching graph.
+/// The construction of the graph is excluded.
 struct QueryTimes {
   int queries = 0;
   int without_plan = 0;

@@ -1,7 +1,7 @@
-// Tables 5.1 to 5.5 of Phoka 2010 for the models body*.obj: focus cells, links, connected
-// components and time of the switching graph. The friction angle is 10 degrees, with uniform
-// spanning, by direct computation and by random focus points. The program writes Markdown and CSV
-// into a folder.
+// Tables 5.1 to 5.5 of Phoka 2010 for the models body*.obj.
+// They contain focus cells, links, connected components and time of the switching graph. The
+// friction angle is 10 degrees, with uniform spanning, by direct computation and by random focus
+// points. The program writes Markdown and CSV into a folder.
 
 #include <algorithm>
 #include <cstdio>

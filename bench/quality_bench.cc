@@ -1,6 +1,7 @@
-// Benchmark of the grasp quality ε of four contacts: certified bounds with circular cones against
-// the hull of friction pyramids with 8 and 16 sides, on the same grasps in the same run. It prints
-// times, and as error the deficit of the pyramids' quality from the certified one.
+// Benchmark of the grasp quality ε of four contacts.
+// It compares certified bounds with circular cones and the hull of friction pyramids with 8 and 16
+// sides, on the same grasps in the same run. It prints times, and as error the deficit of the
+// pyramids' quality from the certified one.
 //
 // usage: quality_bench [GRASPS]
 

@@ -21,8 +21,8 @@ inline constexpr std::array kGraspedBodies = {"cube.obj",        "l_block.obj", 
 inline constexpr double kLeastRatio = 0.7;
 inline constexpr double kMostRatio = 1.5;
 
-/// Object and sampler of grasps: contacts are uniform over the part of the surface that a fingertip
-/// can reach.
+/// Object and sampler of grasps.
+/// Contacts are uniform over the part of the surface that a fingertip can reach.
 class GraspedBody {
  public:
   explicit GraspedBody(const std::filesystem::path& path)
@@ -48,8 +48,8 @@ struct RandomCase {
   grasp::RequiredHalfAngle required;  ///< required friction angle of `examined`
 };
 
-/// Draw static grasps whose required friction angle is between 0.5° and 50°, as plans that only
-/// hold. The friction coefficient of each is uniform between kLeastRatio and kMostRatio times the
+/// Draw static grasps with a required friction angle between 0.5° and 50°, as plans that only hold.
+/// The friction coefficient of each is uniform between kLeastRatio and kMostRatio times the
 /// required one.
 [[nodiscard]] std::vector<RandomCase> DrawHolds(const GraspedBody& body, int count,
                                                 std::uint64_t seed);

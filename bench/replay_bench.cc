@@ -1,6 +1,7 @@
-// Benchmark of the replay of whole plans: steps of the report (including the initial grasp) per
-// second, and the share of the time inside mj_step. The baseline is the same number of bare steps
-// of the exported scene in static equilibrium.
+// Benchmark of the replay of whole plans.
+// It measures steps of the report (including the initial grasp) per second, and the share of the
+// time inside mj_step. The baseline is the same number of bare steps of the exported scene in
+// static equilibrium.
 
 #include <benchmark/benchmark.h>
 #include <mujoco/mujoco.h>

@@ -20,8 +20,8 @@ using namespace regrasp;
 
 constexpr double kHalfAngleDegrees = 20;
 
-/// Measured models: a block, whose contacts oppose each other, and a convex solid with irregular
-/// faces, whose contacts rarely do.
+/// Measured models: a block with opposite contacts, and a convex solid with irregular faces, whose
+/// contacts are rarely opposite.
 constexpr std::array<const char*, 2> kModels = {"cube.obj", "stone.obj"};
 
 const object::Polyhedron& Model(std::int64_t index) {

@@ -42,8 +42,8 @@ TableFile RangeTable(const std::string& name, const std::string& title, const st
                      const std::vector<Range>& ranges, const std::vector<Sample>& samples,
                      const std::function<std::optional<double>(const Sample&)>& value);
 
-/// Return a table of passes by both protocols: by friction for grasps that are not force closure,
-/// by quality for the other grasps.
+/// Return a table of passes by both protocols.
+/// Grasps that are not force closure are grouped by friction, the other grasps by quality.
 TableFile ProtocolTable(const std::vector<Sample>& holds, const std::vector<Sample>& switches);
 
 /// Write every sample as CSV.

@@ -32,8 +32,9 @@ double Seconds(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Threshold of waiting, s: a step of a hand's fingertips and an object takes about 20 µs, a wait
-/// for a processor takes milliseconds.
+/// Threshold of waiting, s.
+/// A step of a hand's fingertips and an object takes about 20 µs, a wait for a processor takes
+/// milliseconds.
 constexpr double kWaited_s = 5e-4;
 
 double inside_s = 0;  ///< time of the calls that did not wait, s

@@ -33,8 +33,8 @@ kinematics::Posture PostureOf(const kinematics::Finger& finger, const double* an
   return posture;
 }
 
-/// Return the centres of the fingertip spheres (N, F, 3) in the palm frame, m, for joint angles (N,
-/// J) in the order of the fingers.
+/// Return the centres of the fingertip spheres in the palm frame, shape (N, F, 3), m.
+/// @param angles  joint angles, shape (N, J), in the order of the fingers.
 py::array_t<double> TipsOf(const PythonHand& of, const Values& angles) {
   const kinematics::HandModel& hand = of.file.hand;
   const auto fingers = static_cast<py::ssize_t>(hand.fingers.size());

@@ -50,8 +50,8 @@ class Interrupt {
   void ThrowIfRaised();
 
  private:
-  /// Approximate delay from Ctrl-C to the end of the work, and the interval at which the
-  /// interpreter's lock is taken.
+  /// Approximate delay from Ctrl-C to the end of the work.
+  /// The interpreter's lock is taken at this interval.
   static constexpr std::chrono::milliseconds kInterval{50};
 
   /// Poll Python if the interval has passed.

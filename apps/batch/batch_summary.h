@@ -46,12 +46,12 @@ struct BatchSummary {
 /// The same plans give the same bytes, regardless of reused results and of the number of jobs.
 [[nodiscard]] std::string FormatSummaryJson(const BatchSummary& summary);
 
-/// Format a readable table: one row per plan, then the skipped files, then the number of plans per
-/// verdict.
+/// Format a readable table.
+/// It has one row per plan, then the skipped files, then the number of plans per verdict.
 [[nodiscard]] std::string FormatSummaryTable(const BatchSummary& summary);
 
-/// Format JUnit XML: one test suite per plan, with a test case for each step of its report or with
-/// one error.
+/// Format JUnit XML with one test suite per plan.
+/// A suite has a test case for each step of its report, or one error.
 /// @param folder  folder of the plans' folders, as CI servers find it (PathForCi).
 [[nodiscard]] std::string FormatSummaryJunit(const BatchSummary& summary,
                                              const std::filesystem::path& folder);

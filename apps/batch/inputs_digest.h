@@ -41,9 +41,9 @@ struct ObjectOfLine {
   std::string repair = {};  ///< digest of the module that repairs the object; empty: no repair
 };
 
-/// Return the digest of all inputs of a line's result: the common inputs of the run, the number of
-/// the entry, the bytes of the line, and the name and bytes of the object file that `finder` finds
-/// now.
+/// Return the digest of all inputs of a line's result.
+/// These are the common inputs of the run, the number of the entry, the bytes of the line, and the
+/// name and bytes of the object file that `finder` finds now.
 /// @param common  digest of the options, of the program's build, and of all files that every line
 ///     uses.
 /// @param object  object reference of the line; nullopt if it cannot be read or has no object.

@@ -11,8 +11,8 @@
 
 namespace regrasp::apps {
 
-/// Maximum length of a line, bytes: far above any plan, and far below the memory of a small
-/// machine.
+/// Maximum length of a line, bytes.
+/// It is far above any plan, and far below the memory of a small machine.
 inline constexpr std::size_t kMostLineBytes = std::size_t{1} << 28;
 
 /// Entry of a JSON Lines file.
@@ -44,8 +44,8 @@ class LinesInput {
   /// Return the shard of the whole that Next reads: the requested one, or the file itself.
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] EntryRange range() const { return shard_.Of(entries_); }
-  /// Return the identity of the entries, which is the same for all shards: the run of the header if
-  /// there is one, the SHA-256 of the file if not.
+  /// Return the identity of the entries, which is the same for all shards.
+  /// It is the run of the header; without a header it is the SHA-256 of the file.
   [[nodiscard]] const std::string& source() const { return source_; }
 
   /// Skip to an entry. @param entry  entry number, not below that of the next entry.

@@ -33,8 +33,7 @@ inline constexpr char kRestEnding[] = ".rest";
 /// Only one process at a time owns the part. It holds a file lock, which ends with the process.
 class LinesOutput {
  public:
-  /// Decides whether a line of an earlier run, without its line end, is the current result of its
-  /// entry.
+  /// Predicate: a line of an earlier run, without its line end, is the current result of its entry.
   using Accept = std::function<bool(std::string_view line)>;
 
   /// @param path   path of the complete file.

@@ -88,8 +88,8 @@ enum class Outcome {
 /// Return the number of the entry that begins the line; nullopt if it is not the line of an entry.
 [[nodiscard]] std::optional<std::int64_t> EntryOf(std::string_view line);
 
-/// Append two digests to a record: `inputs_sha256` of all inputs of the result, and `line_sha256`
-/// of the line before it.
+/// Append two digests to a record.
+/// `inputs_sha256` is that of all inputs of the result, `line_sha256` that of the line before it.
 /// The first determines whether a later run may reuse the result. The second detects an edited
 /// line. It is not a signature: anyone who edits a line can seal it again.
 ///
@@ -100,8 +100,8 @@ enum class Outcome {
 [[nodiscard]] std::string SealRecord(const std::string& record, std::int64_t entry,
                                      const std::string& inputs);
 
-/// Return the digest of the inputs in a line of SealRecord; nullopt if the line has no seal or was
-/// edited after sealing.
+/// Return the digest of the inputs in a line of SealRecord.
+/// @returns nullopt if the line has no seal or was edited after sealing.
 [[nodiscard]] std::optional<std::string_view> SealedInputs(std::string_view line);
 
 /// Number of entries per outcome.

@@ -41,8 +41,7 @@ struct LineRunOptions {
   std::function<void()> on_progress;  ///< called after entries were appended
 };
 
-/// Process all entries of the input that have no reusable result of an earlier run, and write all
-/// results in order.
+/// Process all entries without a reusable result of an earlier run, and write all results in order.
 /// An entry whose process crashes or exceeds the time limit becomes an error and does not stop the
 /// others.
 ///

@@ -26,9 +26,9 @@ struct PlanLibrary {
   std::vector<SkippedFile> skipped;  ///< skipped files of folders
 };
 
-/// Return the given files and, for each folder, all *.json files sorted by name, without those that
-/// identify themselves as another format. A file that cannot be parsed is included: it may be a
-/// damaged plan.
+/// Return the plans in the given files and folders.
+/// For a folder these are all *.json files sorted by name, except those that identify themselves as
+/// another format. A file that cannot be parsed is included: it may be a damaged plan.
 /// @throws InputError  if a folder has no plan, if two plans have the same name and would write
 ///     into the same folder, or if a name cannot be that of a folder.
 [[nodiscard]] PlanLibrary FindPlans(const std::vector<std::string>& paths);

@@ -50,8 +50,9 @@ struct PoolOptions {
                                 const std::function<int(int)>& work,
                                 const std::function<void(int, ChildExit)>& on_exit);
 
-/// Run tasks that become known over time. `next` is called in this process whenever a child may
-/// start, and again after each `on_exit` if it returned none.
+/// Run tasks that become known over time.
+/// `next` is called in this process whenever a child may start, and again after each `on_exit` if
+/// it returned none.
 /// @param next  function that returns the number of a task; nullopt: none at this time, or none at
 ///     all if no child is running.
 [[nodiscard]] int RunInChildren(const std::function<std::optional<int>()>& next,

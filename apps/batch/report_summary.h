@@ -40,8 +40,8 @@ struct ReportSummary {
 
   /// Return the index of the failed step; nullopt if all pass.
   [[nodiscard]] std::optional<int> failed_step() const;
-  /// Return the failure of the plan, as described by the validation that wrote the report; nullopt
-  /// if it passes.
+  /// Return the failure, as described by the validation that wrote the report; nullopt if the plan
+  /// passes.
   [[nodiscard]] std::optional<report::Failure> failure() const;
   /// Return the text after "pass": "in 14 of 20 trials"; empty without trials.
   [[nodiscard]] std::string extent() const;

@@ -32,13 +32,13 @@ struct Verdict {
   std::optional<PoseError> error;
 };
 
-/// Evaluate a plan by the checkers of plans and hands, and by a replay on the hand's own actuators.
+/// Evaluate a plan by the checkers of plans and hands, and by a replay on the hand's actuators.
 /// @param plan  plan for the task (CheckIsFor).
 [[nodiscard]] Verdict Judge(const Task& task, const HandBody& body,
                             const kinematics::HandFile& hand, const plan::Plan& plan);
 
-/// Check that a plan begins with the final grasp of the plan before it: with the same fingers at
-/// the same contacts.
+/// Check that a plan begins with the final grasp of the plan before it.
+/// The same fingers must be in contact at the same points.
 /// @returns difference, if any. The other fingers are not compared.
 [[nodiscard]] std::optional<TrialFault> CheckStart(const TaskStart& start, const plan::Plan& plan);
 

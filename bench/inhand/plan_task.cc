@@ -23,8 +23,8 @@ namespace {
 /// Number of hand poses in which a task that moves the centroid may begin or be half-way.
 constexpr std::size_t kPlaces = 3;
 
-/// Return initial poses of a task that moves the centroid: poses with the best reach, and poses
-/// from which the object is in such a pose half-way.
+/// Return initial poses of a task that moves the centroid.
+/// These are poses with the best reach, and poses from which the object is in such a pose half-way.
 std::vector<Eigen::Isometry3d> StartsOf(const planning::InHandTask& in_hand, const HandBody& body,
                                         const Task& task, const criteria::GraspCriteria& criteria) {
   gait::GaitRequest request;

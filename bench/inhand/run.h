@@ -26,15 +26,15 @@ struct ScoreRun {
 [[nodiscard]] const HandBody& BodyNamed(const std::vector<HandBody>& bodies,
                                         const std::string& name);
 
-/// Plan and evaluate the tasks of a chain one after the other, each from the final state of the
-/// plan before it. Tasks after one without a plan are not planned.
+/// Plan and evaluate the tasks of a chain one after the other.
+/// Each task starts from the final state of the plan before it. Tasks after one without a plan are
+/// not planned.
 [[nodiscard]] std::vector<Row> RunChain(const ScoreRun& run, const Chain& chain,
                                         const kinematics::HandFile& hand);
 
-/// Run every chain in every hand, each in its own process, at most `jobs` at a time, and append its
-/// rows to the results when it ends.
-/// Existing results for the same hand and limit are not computed again, so that an interrupted run
-/// continues.
+/// Run every chain in every hand, and append its rows to the results when it ends.
+/// Each chain runs in its own process, at most `jobs` at a time. Existing results for the same hand
+/// and limit are not computed again, so that an interrupted run continues.
 /// @param report  callback for progress.
 /// @returns the signal that stopped the run; 0 if all ended.
 /// @throws EnvironmentError  if results or plans cannot be written.

@@ -9,9 +9,9 @@
 
 namespace regrasp::bench {
 
-/// Task for a hand and an object: rotate it about its centroid and move the centroid, both along
-/// the object's axes at the start. The planner chooses the initial pose in the hand, so that every
-/// hand can run the same task.
+/// Task for a hand and an object: a rotation about its centroid and a motion of the centroid.
+/// Both are along the object's axes at the start. The planner chooses the initial pose in the hand,
+/// so that every hand can run the same task.
 struct Task {
   std::string name;   ///< name: "turn/cube-50/z90"
   std::string group;  ///< group of results counted together: "turn-90"
@@ -38,8 +38,9 @@ struct Task {
 /// Consecutive tasks, each `after` the one before it.
 using Chain = std::vector<Task>;
 
-/// Return the chains in the order of the tasks. @param only  shell patterns, at least one of which
-/// must match a name or group of the chain; empty: all chains.
+/// Return the chains in the order of the tasks.
+/// @param only  shell patterns, at least one of which must match a name or group of the chain;
+///     empty: all chains.
 [[nodiscard]] std::vector<Chain> ChainsOf(const std::vector<Task>& tasks,
                                           const std::vector<std::string>& only);
 

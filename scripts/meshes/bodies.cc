@@ -10,8 +10,8 @@ namespace {
 
 // All lengths are in metres.
 
-/// Bend level planes into bowls of this radius, so that a flat base becomes slightly hollow and its
-/// triangles do not form one face.
+/// Bend level planes into bowls of this radius.
+/// A flat base becomes slightly hollow, so that its triangles do not form one face.
 Point HollowBase(const Point& p) {
   constexpr double kRadius = 0.25;
   return {p.x(), p.y(), p.z() + (p.x() * p.x() + p.y() * p.y()) / (2 * kRadius)};

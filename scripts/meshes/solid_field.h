@@ -7,11 +7,12 @@ namespace regrasp_meshes {
 
 using Point = Eigen::Vector3d;
 
-/// Solid as a scalar field: negative inside, and approximately the distance to the surface near it.
+/// Solid as a scalar field: negative inside.
+/// Near the surface it is approximately the distance to it.
 using Field = std::function<double(const Point&)>;
 
-/// Return the distance to an ellipsoid with semi-axes along x, y and z, exact to first order at its
-/// surface.
+/// Return the distance to an ellipsoid with semi-axes along x, y and z.
+/// It is exact to first order at the surface.
 double Ellipsoid(const Point& p, const Point& centre, const Point& semi_axes);
 
 /// Return the distance to a ball swept from a to b. Its radius changes linearly from `at_a` to
@@ -21,8 +22,9 @@ double SweptBall(const Point& p, const Point& a, const Point& b, double at_a, do
 /// Return the distance to a ring in the plane z = 0 through its centre.
 double Ring(const Point& p, double radius, double tube);
 
-/// Return the distance in a half-plane (from the axis, along the axis) to a rectangle about the
-/// axis, from `low` to `high`, with rounded corners.
+/// Return the distance in a half-plane to a rectangle about the axis.
+/// Coordinates are the distance from the axis and along it. The rectangle extends from `low` to
+/// `high` and has rounded corners.
 double RoundedCylinder(const Point& p, double radius, double low, double high, double rounding);
 
 /// Return the union of two solids, blended over a width of about `blend`. This is the smooth

@@ -6,8 +6,9 @@
 
 namespace regrasp {
 
-/// Return the input with one to four changes: bytes flipped, deleted, duplicated or overwritten,
-/// numbers replaced by extreme ones, the end cut off, or a piece of another input inserted.
+/// Return the input with one to four changes.
+/// Bytes are flipped, deleted, duplicated or overwritten, numbers are replaced by extreme ones, the
+/// end is cut off, or a piece of another input is inserted.
 ///
 /// Law: the same engine and inputs give the same bytes on every machine.
 /// @param others  sources of inserted pieces; at least one.

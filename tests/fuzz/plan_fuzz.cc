@@ -16,8 +16,9 @@ namespace {
 
 using namespace regrasp;
 
-/// As in validate: if a sliding step passes the check, exact arithmetic must terminate, and must
-/// not prove anything that the check has refuted.
+/// Check the certificate of a step, as in validate.
+/// If a sliding step passes the check, exact arithmetic must terminate, and must not prove anything
+/// that the check has refuted.
 void CheckCertificate(const plan::PlanCheck& check, std::size_t index) {
   const auto* align = std::get_if<plan::Align>(&check.located.steps[index]);
   const plan::StepCheck& step = check.steps[index + 1];

@@ -52,8 +52,8 @@ inline object::Polygon MakeFrame() {
       "frame");
 }
 
-/// Return a sliding step with four fingers around a square, one of which turns at a corner at a
-/// share of the path.
+/// Return a sliding step with four fingers around a square.
+/// One of them turns at a corner at a share of the path.
 inline plan::Align AroundTheCorner(const object::Polygon& square) {
   const auto grasp = [&](double right, double above, double left, const grasp::Contact& moving) {
     return plan::FingerGrasp{OnEdge(square, 0, 1, right),

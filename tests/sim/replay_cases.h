@@ -14,8 +14,8 @@
 
 namespace regrasp::sim {
 
-/// Return the contact at `p` on the face with the inward normal `n`; without a face if there is
-/// none.
+/// Return the contact at `p` on the face with the inward normal `n`.
+/// It has no face if there is none.
 inline grasp::Contact ContactAt(const object::Object& object, const Eigen::Vector3d& p,
                                 const Eigen::Vector3d& n) {
   grasp::Contact contact{p, n.normalized(), {}};

@@ -1,6 +1,6 @@
-// Law on the reuse of results of an earlier run over many lines: after any change of one byte,
-// exactly the results with unchanged inputs are reused. The work is a stub; all other code is that
-// of the programs.
+// Law on the reuse of results of an earlier run over many lines.
+// After any change of one byte, exactly the results with unchanged inputs are reused. The work is a
+// stub; all other code is that of the programs.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

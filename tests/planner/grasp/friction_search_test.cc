@@ -45,8 +45,8 @@ struct Agreement {
   int yes = 0, no = 0, too_close = 0;
 };
 
-/// Expect that each answer equals that of a separate decision, whatever the earlier queries, unless
-/// one of the two is too close to call.
+/// Expect that each answer equals that of a separate decision, whatever the earlier queries.
+/// Answers that are too close to call are exempt.
 template <int kDim>
 Agreement ExpectEachAsByItself(bool all) {
   RandomGrasps random(all ? 41 : 42);
@@ -86,8 +86,9 @@ TEST(FrictionSearchTest, EachAnswerIsThatOfADecisionByItself) {
   }
 }
 
-/// Expect that the columns of a resumed simplex are a proof: forces in the cones that balance, or a
-/// twist on which all cones do positive work.
+/// Expect that the columns of a resumed simplex are a proof.
+/// A proof consists of forces in the cones that balance, or of a twist on which all forces in the
+/// cones do negative work.
 template <int kDim>
 void ExpectProof(const WrenchSimplex<kDim>& simplex, const UnitContacts& contacts,
                  typename WrenchSimplex<kDim>::Status status,

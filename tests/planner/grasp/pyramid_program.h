@@ -9,17 +9,17 @@
 
 namespace regrasp::grasp {
 
-/// Friction cones replaced by pyramids and solved by GLPK: an independent method for the results of
-/// the library with true cones.
-/// For a soft finger the ball of tangential forces and torques is replaced by a polyhedron, with as
-/// many meridians as sides and half as many bands.
+/// Friction cones replaced by pyramids and solved by GLPK.
+/// This is an independent method for the results of the library with true cones. For a soft finger
+/// the ball of tangential forces and torques is replaced by a polyhedron, with as many meridians as
+/// sides and half as many bands.
 struct Pyramid {
   int sides;
   bool circumscribed;  ///< true: contains the cone; false: inscribed
 };
 
-/// Return the largest m such that forces with Σ n·f = 1 balance `load` and every f_i − (m/k) n_i
-/// lies in its pyramid. m may be negative; nullopt if no forces balance.
+/// Return the largest m for which forces with Σ n·f = 1 balance `load`.
+/// Every f_i − (m/k) n_i must lie in its pyramid. m may be negative; nullopt if no forces balance.
 [[nodiscard]] std::optional<double> PyramidMargin(std::span<const Contact> contacts,
                                                   const object::WrenchFrame& frame,
                                                   double half_angle, const Pyramid& pyramid,

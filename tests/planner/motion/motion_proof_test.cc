@@ -148,8 +148,8 @@ TEST(MotionProofTest, TurningNormalsAreProvedAllAlong) {
   }
 }
 
-/// Finger that turns around the corner of a square by a right angle, at a friction at which every
-/// intermediate grasp is force closure.
+/// Finger that turns around the corner of a square by a right angle.
+/// Every intermediate grasp is force closure at its friction.
 struct Corner {
   grasp::Grasp from = {{Vector3d(1, 1, 0), -Vector3d::UnitX()},
                        {Vector3d(-1, -0.5, 0), Vector3d::UnitX()},

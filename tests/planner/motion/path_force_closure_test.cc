@@ -351,8 +351,8 @@ TEST(PathForceClosure, EndsWhereTheBudgetOfAllMotionsIsSpent) {
   EXPECT_FALSE(ComputePathRequiredHalfAngle(motion, frame, std::nullopt, shared));
 }
 
-/// Motions of four contacts whose points and normals stay in one plane: on the sides of a square,
-/// which may be rotated and moved in space.
+/// Motions of four contacts whose points and normals stay in one plane.
+/// The contacts are on the sides of a square, which may be rotated and moved in space.
 class CoplanarMotions {
  public:
   enum class Family {

@@ -93,9 +93,9 @@ TEST(CheckAlign, LetsAFingerTurnWhereTwoFacesMeet) {
 }
 
 TEST(CheckAlign, JudgesForceClosureWhileANormalTurns) {
-  // Finger 1 turns at the corner (1, 1) of a square from the right edge to the upper one, against
-  // finger 0 in the opposite corner. With normals on the diagonal no friction is required; at the
-  // ends of the turn 45° are.
+  // Finger 1 turns at the corner (1, 1) of a square from the right edge to the upper one. Finger 0
+  // is in the opposite corner. With normals on the diagonal no friction is required; at the ends of
+  // the turn 45° are.
   const object::Polygon square = MakeSquare();
   const auto grasp = [](const Eigen::Vector3d& n0, const Eigen::Vector3d& n1) {
     return FingerGrasp{{FingerIndex(0), {{-1, -1, 0}, n0}}, {FingerIndex(1), {{1, 1, 0}, n1}}};

@@ -58,7 +58,7 @@ TEST(AreSameGrasp, OneContactIsNotTwo) {
 }
 
 TEST(AreSameGrasp, PairsContactsThatFitSeveralSoThatAllArePaired) {
-  // The spacing is 90 % of the tolerance: each contact matches its neighbours, and matching the
+  // The spacing is 90 % of the tolerance, so that each contact matches its neighbours. Matching the
   // first possible pair leaves other contacts unmatched.
   const auto at = [](double steps) { return At(steps * 0.9 * kTolerance); };
   const grasp::Grasp row = {at(0), at(1), at(2), at(3)};

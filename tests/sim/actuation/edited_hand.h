@@ -61,8 +61,8 @@ class EditedHandTest : public FolderTest {
     static_cast<void>(Write("ring5.xml", Edited(RingText(), edits)));
     return kinematics::ReadHandFile(Write("hand.json", json.dump()));
   }
-  /// Return a hand without inertia behind its joints, without servos and with coupled joints, like
-  /// most URDFs and like MJCF models with torque actuators.
+  /// Return a hand without inertia behind its joints, without servos and with coupled joints.
+  /// Most URDFs and MJCF models with torque actuators are like this.
   [[nodiscard]] kinematics::HandFile CoupledHand() const {
     std::vector<Edit> edits = {{" armature=\"0.001\"", ""},
                                {"<position kp=\"2.0\" forcerange=\"-1.0 1.0\"/>",

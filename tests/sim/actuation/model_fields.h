@@ -11,8 +11,8 @@
 
 namespace regrasp::sim {
 
-/// Return true if two arrays have equal numbers up to `tolerance` of the larger number of each
-/// pair.
+/// Return true if two arrays have equal numbers.
+/// The tolerance is relative to the larger number of each pair.
 template <typename T>
 bool AreSameNumbers(const T* a, const T* b, std::ptrdiff_t count, double tolerance) {
   return std::equal(a, a + count, b, [tolerance](T x, T y) {
@@ -22,8 +22,8 @@ bool AreSameNumbers(const T* a, const T* b, std::ptrdiff_t count, double toleran
   });
 }
 
-/// Return the names of the different arrays of two models of the same sizes, and of the different
-/// members of their statistics.
+/// Return the names of the different arrays of two models of the same sizes.
+/// The different members of their statistics are included.
 /// @param prefixes  prefixes of the compared names; empty: all names.
 inline std::vector<std::string> DifferentFields(const mjModel& a, const mjModel& b,
                                                 double tolerance,

@@ -6,8 +6,9 @@
 
 namespace regrasp::sim {
 
-/// Walk of a finger along the boundary: it starts at a share of an edge and moves by a length,
-/// counter-clockwise about the material if positive.
+/// Walk of a finger along the boundary.
+/// It starts at a share of an edge and moves by a length, counter-clockwise about the material if
+/// positive.
 struct Walk {
   int finger = 0;
   int edge = 0;
@@ -30,8 +31,8 @@ struct Walk {
 /// Radius of discs, gears and rings, m.
 inline constexpr double kDiscRadius = 0.05;
 
-/// Return a gear with `teeth` teeth of two edges each: every other corner is concave. @param depth
-/// depth of the teeth over the radius.
+/// Return a gear with `teeth` teeth of two edges each: every other corner is concave.
+/// @param depth  depth of the teeth over the radius.
 [[nodiscard]] object::Polygon MakeGear(int teeth, double depth);
 
 /// Return a disc with a round hole of 60 % of its radius. The first edges are the outer ones. The

@@ -20,8 +20,8 @@ int CountMoves(const object::Polygon& polygon, const plan::Plan& plan) {
       WriteAlignScript(polygon, std::get<plan::Align>(plan.steps.front()), limits).moves.size());
 }
 
-/// Expect that the sliding step passes the check and the replay, imitated with the third finger,
-/// and that every finger reaches its target.
+/// Expect that the sliding step passes the check and the replay.
+/// The third finger imitates it, and every finger must reach its target.
 void ExpectPasses(const object::Polygon& polygon, const plan::Plan& plan, int least_turns,
                   int most_moves) {
   const plan::Align& align = std::get<plan::Align>(plan.steps.front());

@@ -12,8 +12,9 @@
 namespace regrasp::sim {
 namespace stress_test {
 
-/// Tolerance between the two methods, over the limit: 1 % for the bisection, and the rest for a
-/// replay that ends before the object has moved far.
+/// Tolerance between the two methods, over the limit.
+/// It is 1 % for the bisection, and the rest for a replay that ends before the object has moved
+/// far.
 constexpr double kAgree = 0.03;
 
 constexpr double kHalfAngleDeg = 25;

@@ -6,8 +6,8 @@
 
 namespace regrasp::sim {
 
-/// Limit of the motion and slip of a good grasp in a step, and of the error of its contact points,
-/// over the diameter: a tenth of the tolerance.
+/// Limit of the motion and slip of a good grasp in a step, over the diameter.
+/// It is also the limit of the error of its contact points, and a tenth of the tolerance.
 inline constexpr double kGood = 1e-4;
 
 /// Expect that `entries` steps pass, almost without motion.
@@ -16,8 +16,8 @@ void ExpectGood(const ReplayResult& result, std::size_t entries);
 /// Return true if the object moved, slipped or lost a contact.
 [[nodiscard]] bool LosesObject(plan::Reason reason);
 
-/// Expect that in the static grasp of every step, every finger touches the object at its planned
-/// point with a positive force.
+/// Expect contact at the planned points in the static grasp of every step.
+/// Every finger must exert a positive force there.
 void ExpectTouchesAsPlanned(const object::Object& object, const plan::Plan& plan,
                             const ReplayResult& result);
 

@@ -35,8 +35,9 @@ plan::Reason ReasonOf(const CubeCase& cube, const plan::Plan& plan,
   return ReplayPlan(cube.object, plan, options).steps.at(0).reason;
 }
 
-/// Return the torsional friction length at which the pair's quality is `times_shake` times the
-/// disturbance: the pair resists μ torsion / R about its line.
+/// Return the torsional friction length for a pair with a given quality.
+/// The quality is `times_shake` times the disturbance. The pair resists μ torsion / R about its
+/// line.
 double TorsionFor(const CubeCase& cube, double times_shake) {
   const double radius = cube.object.diameter() / 2;
   return times_shake * ReplayOptions().shake * radius / std::tan(Radians(kDegrees));
