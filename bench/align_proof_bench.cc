@@ -1,7 +1,8 @@
-// Proofs of aligns: random pairs of force-closure grasps of four contacts on the same faces, joined
-// by straight segments. How many of the segments that hold are proved by forces of degree 1, of
-// degree 2, and of degree 1 with halving, in how many pieces, and what each takes; beside it the
-// decision of the checker of plans, whose proofs are checked exactly, which is also the truth.
+// Benchmark of the proofs of sliding steps: random pairs of force-closure grasps of four contacts
+// on the same faces, connected by straight segments.
+// It counts the valid segments that are proved by forces of degree 1, of degree 2, and of degree 1
+// with bisection, with the number of pieces and the time of each. The reference is the decision of
+// the plan checker, whose proofs are checked exactly.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -31,19 +32,19 @@ using Eigen::Vector3d;
 
 constexpr int kContacts = 4;
 constexpr int kSegments = 400;
-/// So many draws look for a grasp on the faces of another.
+/// Number of draws to find a grasp on the same faces as another.
 constexpr int kPartnerDraws = 2000;
 constexpr std::array kBodies{"cube", "prism", "l_block", "hole_block", "body42"};
 constexpr std::array kDegrees{25.0, 15.0, 10.0, 5.0};
 
-/// Of this thread: other work on the machine does not count.
+/// Return the processor time of this thread, µs. Other load of the machine does not count.
 double ProcessorMicroseconds() {
   timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-/// Points spread evenly over the surface, or over a face.
+/// Sampler of points, uniform over the surface or over a face.
 class SurfaceDraw {
  public:
   explicit SurfaceDraw(const object::Polyhedron& solid) : solid_(solid) {
@@ -124,7 +125,7 @@ std::vector<Segment> DrawSegments(const object::Polyhedron& solid, double half_a
   return segments;
 }
 
-/// The contacts of a whole segment in a frame that moves with their centre.
+/// Return the contacts of a whole segment in a frame that moves with their centre.
 motion::MovingContacts MovingContactsOf(const Segment& segment, double half_angle) {
   Vector3d start = Vector3d::Zero();
   Vector3d end = Vector3d::Zero();
@@ -146,7 +147,7 @@ motion::MovingContacts MovingContactsOf(const Segment& segment, double half_angl
   return contacts;
 }
 
-/// What a way of proving does with all segments.
+/// Result of a proof method on all segments.
 struct Outcome {
   int proved = 0;
   int pieces = 0;
@@ -154,7 +155,7 @@ struct Outcome {
   double rejected_us = 0;
 };
 
-/// @param prove  the number of pieces, 0 where a segment is not proved.
+/// @param prove  function that returns the number of pieces, 0 if a segment is not proved.
 template <typename Prove>
 Outcome Measure(const std::vector<Segment>& segments, const Prove& prove) {
   Outcome outcome;
@@ -178,7 +179,7 @@ Outcome MeasureOnePiece(const std::vector<Segment>& segments, double half_angle)
   });
 }
 
-/// How many proofs exact arithmetic refuses.
+/// Return the number of proofs that exact arithmetic rejects.
 int CountRefused(const std::vector<Segment>& segments, double half_angle) {
   int refused = 0;
   for (const Segment& segment : segments) {

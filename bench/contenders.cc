@@ -24,7 +24,7 @@ const double kMostUniform = Radians(10);
 
 namespace {
 
-/// Of every grasp that the planner contour takes.
+/// Number of contacts of a grasp of the planner contour.
 constexpr int kContourContacts = 2;
 
 planning::PlanRequest RequestFor(const object::Object& object, const ContestSetting& setting,
@@ -36,7 +36,7 @@ planning::PlanRequest RequestFor(const object::Object& object, const ContestSett
           .seed = seed};
 }
 
-/// A grasp that a planner does not take is a query without an answer.
+/// A grasp that a planner does not accept is a query without an answer.
 template <typename Ask>
 Answer Timed(const Ask& ask) {
   const double begin = ProcessorSeconds();
@@ -51,7 +51,7 @@ Answer Timed(const Ask& ask) {
   return answer;
 }
 
-/// By a planner of the registry, which builds what it needs for each query.
+/// Run a planner of the registry, which builds its data for each query.
 Contender Whole(const planning::Planner& planner, const object::Object& object,
                 const ContestSetting& setting) {
   const auto ask = [&planner, &object, setting](const GraspPair& pair, std::uint64_t seed) {
@@ -64,8 +64,8 @@ Contender Absent(std::string planner, std::string why) {
   return {std::move(planner), std::move(why), 0, nullptr};
 }
 
-/// The stages of TreePlanner up to the first sequence. What the plan is worth is found out after
-/// the clock has stopped.
+/// Run the stages of TreePlanner up to the first sequence. The plan is evaluated after the clock
+/// has stopped.
 Contender GeneralSearch(const object::Object& object, const ContestSetting& setting) {
   const auto source = std::make_shared<const sampling::SurfaceSampler>(object);
   const auto ask = [&object, setting, source](const GraspPair& pair, std::uint64_t seed) {

@@ -1,6 +1,6 @@
-// The switching graph of a whole boundary: time of the sets and of the switches on polygons of many
-// edges, against CGAL's exact union of the same pieces in the same run; and how time grows with
-// what is found.
+// Benchmark of the switching graph of a whole boundary. It measures the time for the sets and the
+// switches of polygons with many edges, with CGAL's exact union of the same pieces in the same run
+// as baseline. It also measures how time grows with the size of the result.
 
 #include <benchmark/benchmark.h>
 
@@ -27,15 +27,15 @@ namespace {
 using namespace regrasp;
 
 constexpr double kDegrees[] = {10, 15, 20};
-constexpr int kGraphRuns = 15;  // the fastest counts
+constexpr int kGraphRuns = 15;  // the minimum time counts
 constexpr int kUnionRuns = 5;
 constexpr int kManyEdges = 100;
 constexpr int kOutlineEdges = 300;
 constexpr int kGrowthRuns = 5;
 constexpr std::uint64_t kSeed = 1;
 
-/// A smooth simple outline about the origin: seven waves of seeded heights and phases, five to
-/// eleven around, between them no more than 0.45 of the radius.
+/// Return a smooth simple outline about the origin: seven waves with random amplitudes and phases
+/// and five to eleven periods, in total at most 0.45 of the radius.
 object::Polygon LobedOutline(int edges) {
   constexpr int kWaves = 7;
   constexpr int kFirstWave = 5;
@@ -59,7 +59,7 @@ object::Polygon LobedOutline(int edges) {
   return object::Polygon::FromRings({ring}, "lobed outline");
 }
 
-/// Graphs of one polygon: what was found, and the fastest times.
+/// Graph of a polygon: sizes, and the minimum times.
 struct Timed {
   int vertices = 0;
   std::int64_t switches = 0;
@@ -86,7 +86,7 @@ Timed TimeGraph(const object::Polygon& polygon, double degrees, int runs) {
   return timed;
 }
 
-/// The L-infinity Voronoi diagrams of all sets, one run.
+/// Compute the L-infinity Voronoi diagrams of all sets in one run.
 double TimeDiagrams(const object::Polygon& polygon, double degrees) {
   const contour::ContourGraph graph(polygon, Radians(degrees));
   const auto start = std::chrono::steady_clock::now();
@@ -108,7 +108,7 @@ void PrintModel(const std::string& name, const object::Polygon& polygon) {
   }
 }
 
-/// The seeded outline, and the models of many edges.
+/// Print the random outline, and the models with many edges.
 void PrintModels() {
   std::printf("%-18s %5s %4s %10s %10s %7s %7s %5s %10s %10s %12s\n", "polygon", "edges", "deg",
               "candidates", "graspable", "sets", "switch", "comp", "sets ms", "switch ms",

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Corners closer than this, over the perimeter, are one: polygons must not touch themselves.
+/// Distance below which corners are merged, over the perimeter: polygons must not touch themselves.
 constexpr double kSameCorner = 1e-13;
 
 UnionPolygon MakeOutline(const std::vector<Vector2d>& corners, double same) {
@@ -29,7 +29,7 @@ UnionPolygon MakeOutline(const std::vector<Vector2d>& corners, double same) {
   return outline;
 }
 
-/// The component that an outline lies in.
+/// Return the component that contains an outline.
 int ComponentOf(const UnionPolygon& outline, const std::vector<UnionComponent>& components) {
   const auto middle = CGAL::centroid(outline.vertex(0), outline.vertex(1), outline.vertex(2));
   for (std::size_t c = 0; c < components.size(); ++c) {

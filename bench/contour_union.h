@@ -9,25 +9,25 @@
 
 namespace regrasp {
 
-// The merge of a contour graph's pieces by a second route, CGAL's exact union of polygons: the
-// benchmark's baseline.
+// Baseline of the benchmark: merge of the pieces of a contour graph by an independent method, the
+// exact union of polygons by CGAL.
 
 using UnionKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using UnionPolygon = CGAL::Polygon_2<UnionKernel>;
 using UnionComponent = CGAL::Polygon_with_holes_2<UnionKernel>;
 
-/// The outlines of all pieces on the ring pair of the outer ring with itself, in [0, L]².
+/// Outlines of all pieces on the ring pair of the outer ring with itself, in [0, L]².
 struct PieceOutlines {
   std::vector<contour::PieceIndex> pieces;
   std::vector<UnionPolygon> outlines;
 };
 [[nodiscard]] PieceOutlines MakePieceOutlines(const contour::ContourGraph& graph);
 
-/// Their union, components one by one.
+/// Return the components of their union.
 [[nodiscard]] std::vector<UnionComponent> Unite(const std::vector<UnionPolygon>& outlines);
 
-/// How many sets the components are, once those are joined that meet at the start of the ring,
-/// where [0, L]² is cut: a passage of the graph leads from the one to the other.
+/// Return the number of connected sets after joining components that meet at the start of the ring,
+/// at which [0, L]² is cut. A passage of the graph connects such components.
 [[nodiscard]] int CountGlued(const contour::ContourGraph& graph, const PieceOutlines& outlines,
                              const std::vector<UnionComponent>& components);
 

@@ -1,7 +1,8 @@
-// What a replay can tell: random grasps of several bodies, in space and in the plane, at 0.7 to 1.5
-// times their critical friction, and switches to such grasps, the analytic check bypassed. Writes
-// tables of false passes and false fails by friction and by quality, of what the settings change,
-// every sample as CSV, and a plot.
+// Benchmark of the replay's verdicts. It draws random grasps of several objects, in space and in
+// the plane, at 0.7 to 1.5 times their required friction, and switches to such grasps. The analytic
+// check is bypassed.
+// It writes tables of false passes and false fails by friction and by quality, a table of the
+// effect of the settings, every sample as CSV, and a plot.
 
 #include <algorithm>
 #include <array>
@@ -59,7 +60,7 @@ std::vector<Sample> ExamineAll(const GraspedBody& body, const std::vector<Random
   return samples;
 }
 
-/// The settings that the table of settings compares, each a change of one.
+/// Variant in the table of settings: a change of one setting.
 struct Variant {
   std::string name;
   std::function<void(sim::ReplayOptions&)> change;
@@ -80,7 +81,7 @@ const std::vector<Variant> kVariants = {
     {"time step doubled", [](sim::ReplayOptions& o) { o.timestep_factor = 2; }},
 };
 
-/// A squeeze given in weights becomes newtons of a body of 0.1 kg.
+/// Grasp forces in multiples of the weight are converted to newtons for an object of 0.1 kg.
 sim::ReplayOptions OptionsFor(const Variant& variant) {
   sim::ReplayOptions options;
   variant.change(options);

@@ -1,7 +1,8 @@
-// Force closure of random 4-contact grasps: exact cones against the two usual methods, an 8-sided
-// pyramid in a linear program (GLPK) and the hull of the wrenches (Qhull), on the same grasps in
-// the same run. Prints how the verdicts compare and the ratios of the times. Beside them grasps of
-// three contacts in the plane.
+// Benchmark of force closure for random grasps of four contacts. Exact cones are compared with the
+// two usual methods on the same grasps in the same run: a pyramid with eight sides in a linear
+// program (GLPK), and the hull of the wrenches (Qhull).
+// It prints the agreement of the verdicts and the ratios of the times, also for grasps of three
+// contacts in the plane.
 
 #include <benchmark/benchmark.h>
 
@@ -27,13 +28,14 @@ using namespace regrasp;
 
 constexpr int kContacts = 4;
 constexpr int kGrasps = 2000;
-constexpr int kHullGrasps = 100;  // Qhull takes milliseconds each
+constexpr int kHullGrasps = 100;  // Qhull takes milliseconds per grasp
 constexpr std::array kDegrees{10.0, 20.0};
 const object::WrenchFrame kFrame{Eigen::Vector3d::Zero(), 1, 3};
 const object::WrenchFrame kPlane{Eigen::Vector3d::Zero(), 1, 2};
 constexpr int kPlanarContacts = 3;
 
-/// Half of the points on a ball with normals up to 17° off, half on a box.
+/// Return a random contact: half of the points on a sphere with normals up to 17° off, half on a
+/// box.
 grasp::Contact RandomContact(std::mt19937_64& engine, bool box) {
   std::normal_distribution<double> normal;
   const auto direction = [&] {
@@ -64,7 +66,7 @@ const std::vector<grasp::Grasp>& Grasps() {
   return grasps;
 }
 
-/// On a circle, normals up to 17° off.
+/// Return grasps on a circle, with normals up to 17° off.
 const std::vector<grasp::Grasp>& PlanarGrasps() {
   static const std::vector<grasp::Grasp> grasps = [] {
     std::mt19937_64 engine(2026);
@@ -129,7 +131,7 @@ void TimeRequired(benchmark::State& state) {
   }
 }
 
-/// All 4-subsets of `range(0)` points on a ball.
+/// Test all subsets of 4 of `range(0)` points on a sphere.
 void TimeSubsets(benchmark::State& state) {
   std::mt19937_64 engine(7);
   grasp::Grasp points;
@@ -160,7 +162,8 @@ double MicrosecondsEach(int count, Test test) {
   return time.count() / count;
 }
 
-/// An 8-sided pyramid inside the cone misses grasps; it must never find one that the cone has not.
+/// An inscribed pyramid with eight sides misses grasps, but must not accept a grasp that the cone
+/// rejects.
 void CompareVerdicts(double degrees) {
   const double half_angle = Radians(degrees);
   int both = 0;

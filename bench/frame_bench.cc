@@ -1,7 +1,8 @@
-// Frames of replays at 1280 × 960 with four samples a pixel: the drawing of one, and its PNG. The
-// baseline is MuJoCo's own renderer on the scene of the same replay, in the same size and with as
-// many samples, without labels and PNG. Frames with a hand have none: what the hand costs is seen
-// beside those of the same object without one.
+// Benchmark of the images of replays at 1280 × 960 with four samples per pixel: rendering of one
+// image, and its PNG.
+// The baseline is MuJoCo's renderer on the scene of the same replay, with the same size and number
+// of samples, without labels and PNG. There is no baseline for images with a hand: compare them
+// with images of the same object without a hand.
 
 #include <GL/osmesa.h>
 #include <benchmark/benchmark.h>
@@ -40,7 +41,7 @@ constexpr std::array<const char*, 7> kModels = {"cube.obj",     "l_block.obj",  
 
 struct Case {
   object::ObjectFile file;
-  plan::Plan plan;  ///< located
+  plan::Plan plan;  ///< plan located on the surface
   std::vector<plan::Snapshot> snapshots;
   render::FrameOptions options = {.width = kWidth, .height = kHeight};
 };
@@ -58,7 +59,7 @@ void DrawFrames(benchmark::State& state, const Case& made, const char* label) {
   state.SetLabel(label);
 }
 
-/// The view is chosen once for a plan.
+/// The view is chosen once per plan.
 void ChooseViews(benchmark::State& state, const Case& made, const char* label) {
   for (auto _ : state) benchmark::DoNotOptimize(RendererOf(made));
   state.SetLabel(label);
@@ -155,7 +156,7 @@ void BM_MuJoCoRender(benchmark::State& state) {
 
 constexpr std::array<const char*, 2> kHands = {"ring4.json", "ring5.json"};
 
-/// Of a hand that turns a cube by 90 degrees.
+/// Return the case of a hand that rotates a cube by 90 degrees.
 Case MakeHandCase(const std::string& name) {
   const std::filesystem::path models = REGRASP_MODELS;
   const kinematics::HandFile hand = kinematics::ReadHandFile((models / "hands" / name).string());

@@ -10,7 +10,7 @@
 namespace regrasp::bench {
 namespace {
 
-/// Those that a search of the request has.
+/// Return the contacts that a search for the request uses.
 std::vector<grasp::Contact> ContactsOf(gait::GaitRequest request) {
   request.most_expanded = 0;
   return gait::FindGait(request).contacts;

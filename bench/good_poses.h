@@ -8,12 +8,12 @@
 namespace regrasp::bench {
 
 struct GoodPoses {
-  std::vector<Eigen::Isometry3d> poses;  ///< the best first; one at least
-  std::vector<grasp::Contact> contacts;  ///< that a search of the request has
+  std::vector<Eigen::Isometry3d> poses;  ///< poses, best first; at least one
+  std::vector<grasp::Contact> contacts;  ///< contacts used by a search for the request
 };
 
-/// Where in the hand its reach is good for the object: the poses that a search would begin in.
-/// @throws std::runtime_error  the object is nowhere within reach of the fingers.
+/// Find object poses in which the hand reaches the object well: the initial poses of a search.
+/// @throws std::runtime_error  if no pose is within reach of the fingers.
 [[nodiscard]] GoodPoses FindGoodPoses(const gait::GaitRequest& request);
 
 }  // namespace regrasp::bench

@@ -1,12 +1,14 @@
-"""Times force_closure on arrays of grasps beside what is usual in Python, and counts where they differ.
+"""Compare force_closure on arrays of grasps with the usual Python methods: time and verdicts.
 
 usage: PYTHONPATH=build/release/python python3 bench/grasp_arrays.py [--grasps N] [--edges E]
 
-- linprog: a loop over scipy's linear program (HiGHS): do forces within friction pyramids of E edges
-  balance, each with a normal force of at least 1? Feasible and of full rank: force closure.
-- Qhull: a loop over the convex hull of the pyramids' edge wrenches, as GraspIt! and Dex-Net judge:
+- linprog: a loop over scipy's linear program (HiGHS). It is feasible if forces within friction
+  pyramids of E edges balance, each with a normal force of at least 1. Feasible and of full rank
+  means force closure.
+- Qhull: a loop over the convex hull of the pyramids' edge wrenches, as in GraspIt! and Dex-Net:
   force closure iff the origin is inside.
-Pyramids lie inside the cones, so that they miss some grasps that ours finds; none the other way.
+The pyramids are inscribed in the cones. They miss some grasps that the cones accept, but must not
+accept a grasp that the cones reject.
 """
 
 import argparse
@@ -22,7 +24,7 @@ MU = 0.5
 
 
 def random_grasps(count, contacts, seed):
-    """Points on a ball, normals about 20 degrees off the ball's."""
+    """Return points on a sphere, with normals about 20 degrees off its normals."""
     rng = np.random.default_rng(seed)
     points = rng.normal(size=(count, contacts, 3))
     points /= np.linalg.norm(points, axis=-1, keepdims=True)
@@ -31,7 +33,7 @@ def random_grasps(count, contacts, seed):
 
 
 def edge_wrenches(points, normals, edges):
-    """(6, k · edges): the wrenches of the edges of each contact's friction pyramid."""
+    """Return the wrenches of the edges of all contacts' friction pyramids, shape (6, k · edges)."""
     columns = []
     for point, normal in zip(points, normals):
         aside = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
@@ -55,7 +57,7 @@ def by_linprog(points, normals, edges):
 def by_qhull(points, normals, edges):
     try:
         return bool((ConvexHull(edge_wrenches(points, normals, edges).T).equations[:, -1] < 0).all())
-    except QhullError:  # flat
+    except QhullError:  # degenerate hull
         return False
 
 

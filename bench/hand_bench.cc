@@ -1,7 +1,8 @@
-// How often and how fast hands turn objects, or join two grasps at one pose (--pairs), each plan
-// judged by the checker of hands and, with --replay, carried out by the hand's own actuators; and
-// what inverse kinematics and a rest cost. All times are of the processor. Ends with the rows of a
-// table in Markdown.
+// Benchmark of hands. It measures how often and how fast hands rotate objects, or connect two
+// grasps at one pose (--pairs).
+// Each plan is checked by the hand checker and, with --replay, executed by the hand's own
+// actuators. The program also measures inverse kinematics and the generation of a static grasp. All
+// times are processor times. It ends with the rows of a Markdown table.
 //
 //   hand_bench [--seeds N] [--limit SECONDS] [--axis z] [--degrees 90] [--pairs]
 //              [--body NAME ...] [--replay] [--plan-mu 0.5] [--min-quality 0.06] [--of-critical
@@ -42,14 +43,14 @@ using bench::kFriction;
 using bench::Largest;
 using bench::Median;
 
-/// What became of plans that were replayed by their hand.
+/// Results of plans replayed by their hand.
 struct Replays {
   int count = 0;
   int passed = 0;
-  std::vector<double> end_m;    ///< off the plan at the end, of those that passed
-  std::vector<double> end_deg;  ///< the same
-  double simulated = 0;         ///< seconds, without the shakes
-  double seconds = 0;           ///< of the processor, with them
+  std::vector<double> end_m;    ///< position error at the end of passed plans, m
+  std::vector<double> end_deg;  ///< orientation error at the end of passed plans, degrees
+  double simulated = 0;         ///< simulated time without the disturbance tests, s
+  double seconds = 0;           ///< processor time with them, s
   std::map<std::string, int> reasons;
 
   void Add(const Replays& more) {
@@ -66,14 +67,14 @@ struct Replays {
 struct Outcome {
   int asked = 0;
   int found = 0;
-  int rejected = 0;  ///< by the checker
+  int rejected = 0;  ///< number of plans rejected by the checker
   int switches = 0;
-  std::vector<double> seconds;  ///< of those that were found
+  std::vector<double> seconds;  ///< processor times of found plans, s
   double checking = 0;
   Replays replays;
 };
 
-/// What is asked of the hands.
+/// Task of the benchmark, which is the same for all hands.
 struct Contest {
   int seeds = 5;
   double limit_s = 10;
@@ -86,8 +87,9 @@ struct Contest {
   std::optional<double> of_critical;
 };
 
-/// A request for a way between two grasps that the hand reaches at one pose, each drawn alone.
-/// @returns nullopt where there are none.
+/// Draw a request for a path between two independently drawn grasps that the hand reaches at one
+/// pose.
+/// @returns nullopt if there are no such grasps.
 std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
   constexpr int kTries = 100'000;
   request.turn.angle = 0;
@@ -110,7 +112,7 @@ void Replay(const Contest& contest, const kinematics::HandFile& file, const Hand
   const double begin = ProcessorSeconds();
   bench::HandTrial trial = bench::TryInHand(file, body, plan);
   if (contest.of_critical) {
-    // Of a plan that fails anyway a failure says nothing.
+    // If a plan fails anyway, its failure at less friction means nothing.
     if (trial.fault) return;
     const double critical = bench::CriticalFriction(trial, file.hand, body);
     trial = bench::TryInHand(file, body, plan, *contest.of_critical * critical / kFriction);
@@ -175,7 +177,7 @@ Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Hand
   return outcome;
 }
 
-/// Microseconds of a solve for a place that the finger's tip can be in.
+/// Return the time to solve for a reachable position of the fingertip, µs.
 double TimeInverse(const kinematics::Finger& finger) {
   const kinematics::InverseKinematics inverse(finger);
   RandomStream random(1, RandomUse::kGaits);
@@ -199,8 +201,9 @@ double TimeInverse(const kinematics::Finger& finger) {
   return seconds;
 }
 
-/// Of a rest: contacts are drawn, inverse kinematics of fingers until three of them hold, and
-/// whether they keep off each other, the palm and the object.
+/// Measure the generation of a static grasp. This includes drawing contacts, inverse kinematics of
+/// fingers until three are in contact, and collision tests of these fingers with each other, the
+/// palm and the object.
 void TimeRest(const kinematics::HandModel& hand, const HandBody& body) {
   gait::GaitRequest request;
   request.hand = &hand;
@@ -230,7 +233,7 @@ std::string Range(const std::vector<double>& values, int digits) {
          FormatFixed(*std::ranges::max_element(values), digits);
 }
 
-/// What became of the replays of a hand.
+/// Print the results of the replays of a hand.
 void PrintReplays(const Replays& replays) {
   if (replays.count == 0) return;
   std::printf(
@@ -244,7 +247,7 @@ void PrintReplays(const Replays& replays) {
   }
 }
 
-/// @returns its row of the table.
+/// @returns row of the hand in the table.
 std::string RunHand(const Contest& contest, const std::string& file,
                     const std::vector<HandBody>& bodies) {
   const kinematics::HandFile read = kinematics::ReadHandFile(file);

@@ -14,14 +14,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of bodies that are no cubes: their diameter.
+/// Diameter of objects other than cubes.
 constexpr double kDiameter_mm = 75;
 
-/// A tube along a curve in the plane x, z, closed at both ends; millimetres.
+/// Tube along a curve in the x-z plane, closed at both ends, mm.
 struct Tube {
   int rings;
   int sides;
-  double bend;  ///< from end to end, radians
+  double bend;  ///< bend angle from end to end, radians
   double length;
   double radius;
 };
@@ -60,7 +60,8 @@ object::PolygonSoup SoupOf(const Tube& tube) {
   return soup;
 }
 
-/// Rounded to a millionth of a unit: the bytes are the same whatever the last bits of a sine are.
+/// Coordinates are rounded to a millionth of a unit, so that the bytes do not depend on the last
+/// bits of a sine.
 std::string ObjText(const object::PolygonSoup& soup) {
   constexpr int kDecimals = 6;
   std::string text;
@@ -82,7 +83,8 @@ HandBody TubeBody(const std::string& name, const std::string& what, const Tube& 
   return BodyOf(name, what, ObjText(SoupOf(tube)), kMillimetre);
 }
 
-/// A model of models/, made so large; the scale has six digits, for people to write.
+/// Return a model of models/ scaled to a diameter. The scale has six digits, so that a user can
+/// type it.
 HandBody ModelBody(const std::filesystem::path& models, const std::string& name,
                    const std::string& model, const std::string& what, double diameter_mm) {
   HandBody body = BodyOf(name, what, ReadFile(models / (model + ".obj")), 1);

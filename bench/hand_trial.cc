@@ -19,7 +19,7 @@ TrialFault FaultOf(plan::Reason reason, plan::EntryIndex entry, const std::strin
   return {reason, "step " + std::to_string(entry) + ": " + detail};
 }
 
-/// Of the tips that press on the object.
+/// Return the contacts of the fingertips that exert a force on the object.
 grasp::Grasp ContactsNow(const sim::HandWorld& world, double scale) {
   grasp::Grasp contacts;
   for (FingerIndex finger{0}; finger < std::ssize(world.hand().fingers); ++finger) {
@@ -29,7 +29,7 @@ grasp::Grasp ContactsNow(const sim::HandWorld& world, double scale) {
   return contacts;
 }
 
-/// What fingers push with in all over the squeeze that they are asked for, never that much.
+/// Upper limit of the fingers' total normal force, in commanded grasp forces; never reached.
 constexpr double kHardest = 4;
 
 }  // namespace
@@ -78,7 +78,8 @@ double CriticalFriction(const HandTrial& trial, const kinematics::HandModel& han
   const object::WrenchFrame frame = body.solid().wrench_frame();
   const double weight = object::MeasureBody(body.solid(), body.scale).mass_kg * sim::kGravity;
   const double shake = sim::HandReplayOptions().shake * trial.squeeze_N;
-  // Pushes have their torque over half the diameter, loads over the frame's radius.
+  // The torque of a disturbance is its force times half the diameter. Loads have their torque over
+  // the frame's radius.
   const double arm = body.solid().diameter() / 2 / frame.radius;
   double critical = 0;
   for (const HandTrial::Rest& rest : trial.rests) {

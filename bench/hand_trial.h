@@ -12,45 +12,47 @@
 
 namespace regrasp::bench {
 
-/// Of all contacts, where nothing else is said.
+/// Default friction coefficient of all contacts.
 inline constexpr double kFriction = 0.8;
 
-/// Why a plan fails, with the step and the number.
+/// Cause of a failure, with the step and the measured value.
 struct TrialFault {
   plan::Reason reason = plan::Reason::kNone;
   std::string detail;
 };
 
-/// The first fault that the checkers of plans and of hands find at the plan's own friction, without
-/// a simulation.
+/// Return the first fault that the checkers of plans and of hands find at the plan's own friction,
+/// without simulation.
 [[nodiscard]] std::optional<TrialFault> CheckInHand(const kinematics::HandFile& hand,
                                                     const HandBody& body, const plan::Plan& plan);
 
-/// What a plan's replay by its hand comes to, for a body of the density of water, with shakes.
+/// Result of the replay of a plan by its hand, with disturbance tests. The object has the density
+/// of water.
 struct HandTrial {
   std::optional<TrialFault> fault;
-  double simulated_s = 0;  ///< without the shakes
-  /// A rest, before it is shaken.
+  double simulated_s = 0;  ///< simulated time without the disturbance tests, s
+  /// Static grasp before its disturbance test.
   struct Rest {
-    grasp::Grasp contacts;  ///< where they came to be, in the unit of the body's file
-    Eigen::Matrix3d turn;   ///< of the body in the palm's frame
+    grasp::Grasp contacts;  ///< actual contacts, in the unit of the object's file
+    Eigen::Matrix3d turn;   ///< orientation of the object in the palm frame
   };
   std::vector<Rest> rests;
   double squeeze_N = 0;
-  // At the last rest, before it is shaken; none where the replay does not come there.
-  std::optional<Eigen::Isometry3d> end;  ///< of the body
-  double off_m = 0;                      ///< from where the plan has it
+  // Final static grasp, before its disturbance test; nullopt if the replay does not reach it.
+  std::optional<Eigen::Isometry3d> end;  ///< pose of the object
+  double off_m = 0;                      ///< position deviation from the plan, m
   double off_rad = 0;
 };
 
-/// Replays a plan on the hand's own actuators (sim::ReplayHand) at kFriction.
-/// @param friction_factor  the world's friction over the one that the hand believes.
+/// Replay a plan on the hand's own actuators (sim::ReplayHand) at kFriction.
+/// @param friction_factor  true friction divided by the friction assumed by the hand.
 [[nodiscard]] HandTrial TryInHand(const kinematics::HandFile& hand, const HandBody& body,
                                   const plan::Plan& plan, double friction_factor = 1);
 
-/// The least friction with which the contacts of all rests of a trial could balance the weight and
-/// each push of the shake: with less the body can't stay there, whatever the hand does. Force
-/// closure may need more, where the weight keeps the body between the fingers.
+/// Compute the required friction coefficient of the static grasps of a trial: the least value at
+/// which their contacts can balance the weight and each force of the disturbance test.
+/// With less friction no controller can keep the object in place. Force closure may need more, if
+/// the weight keeps the object between the fingers.
 [[nodiscard]] double CriticalFriction(const HandTrial& trial, const kinematics::HandModel& hand,
                                       const HandBody& body);
 

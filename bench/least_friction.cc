@@ -7,9 +7,9 @@
 namespace regrasp::bench {
 namespace {
 
-/// Sums of the normal forces that are looked at: from the largest one down to so much of the load,
-/// each by so much less than the one before, which where one sum alone balances the load leaves
-/// less of it unbalanced than is allowed.
+/// Tested sums of the normal forces: from the largest down to kLeastNormal times the load, each
+/// smaller than the one before by the factor kLess. If a sum in between balances the load, the next
+/// larger tested sum leaves less of it unbalanced than kUnbalanced.
 constexpr double kLeastNormal = 0.05;
 constexpr double kLess = 1.03;
 constexpr double kUnbalanced = 0.03;

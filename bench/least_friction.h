@@ -7,11 +7,12 @@
 
 namespace regrasp::bench {
 
-/// The least friction with which hard points balance each of some loads, all but 3 % of it, with
-/// normal forces whose sum is no more than `most_normal`, newtons. With a little less an object
-/// can't stay where it is under all of these loads. To a thousandth of itself.
-/// @param contacts  in the unit of length of `frame`.
-/// @returns the tangent of the half-angle, at least 1e-4; infinity where 10 is not enough.
+/// Compute the least friction coefficient with which hard contacts balance each of the loads,
+/// except for 3 % of it.
+/// The sum of the normal forces is at most `most_normal`, N. With slightly less friction the object
+/// cannot stay in place under all of these loads. The relative precision is 1e-3.
+/// @param contacts  contacts, in the unit of length of `frame`.
+/// @returns tangent of the friction angle, at least 1e-4; infinity if 10 is not enough.
 [[nodiscard]] double LeastFriction(std::span<const grasp::Contact> contacts,
                                    const object::WrenchFrame& frame,
                                    std::span<const grasp::Wrench> loads, double most_normal);

@@ -1,6 +1,6 @@
-// The planner of triangle meshes: clustering, deciding all subsets of the representatives, queries.
-// The baseline of the subsets is a linear program of GLPK each, on a sample of the same subsets,
-// friction cones as pyramids of eight sides.
+// Benchmark of the planner for triangle meshes: clustering, the decision on all subsets of the
+// representatives, and queries. The baseline of the subsets is one linear program of GLPK for each
+// of a sample of them, with friction cones as pyramids with eight sides.
 
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
@@ -53,7 +53,7 @@ const roadmap::ClusteredRoadmap& RoadmapOf(std::int64_t index, int clusters) {
   return *roadmap;
 }
 
-/// Affinities, embedding, k-means and representatives of a thousand contact points.
+/// Compute affinities, embedding, k-means and representatives of a thousand contact points.
 void BM_Cluster(benchmark::State& state) {
   const object::Polyhedron& solid = Body(state.range(0));
   const int clusters = static_cast<int>(state.range(1));
@@ -67,7 +67,7 @@ void BM_Cluster(benchmark::State& state) {
   state.counters["contacts"] = static_cast<double>(contacts.size());
 }
 
-/// All subsets of four of the representatives.
+/// Test all subsets of four representatives.
 void BM_Subsets(benchmark::State& state) {
   const roadmap::ClusteredRoadmap& roadmap =
       RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
@@ -85,7 +85,7 @@ void BM_Subsets(benchmark::State& state) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// A linear program for each of a sample of the same subsets.
+/// Solve a linear program for each of a sample of the same subsets.
 void BM_SubsetsByGlpk(benchmark::State& state) {
   const roadmap::ClusteredRoadmap& roadmap =
       RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
@@ -107,7 +107,7 @@ void BM_SubsetsByGlpk(benchmark::State& state) {
       static_cast<double>(asked), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-/// Thirty queries between random force-closure grasps of all contact points.
+/// Run thirty queries between random force-closure grasps of all contact points.
 void BM_Queries(benchmark::State& state) {
   const roadmap::ClusteredRoadmap& roadmap =
       RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
@@ -132,7 +132,7 @@ void BM_Queries(benchmark::State& state) {
   state.counters["joined"] = joined / asked;
 }
 
-/// A large roadmap, and the most memory that the program has had in use by then.
+/// Build a large roadmap, and report the maximum memory use of the program up to then.
 void BM_LargeRoadmap(benchmark::State& state) {
   const object::Polyhedron& solid = Body(state.range(0));
   for (auto _ : state) {

@@ -1,9 +1,10 @@
 // Tables 6.1 to 6.12 of Phoka 2010 for meshes of about 500 and 1000 triangles in 30, 50 and 70
-// clusters at a half-angle of 10 degrees: the roadmaps of representatives, 30 random queries on
-// each, and how far the local planners lead. Writes Markdown and CSV into a folder.
+// clusters at a friction angle of 10 degrees.
+// They contain the roadmaps of representatives, 30 random queries on each, and the success of the
+// local planners. The program writes Markdown and CSV into a folder.
 //
-// The queries of the tables do without the last resort; each is asked once more with it, and the
-// program fails where that finds no sequence and has not shown that there is none.
+// The queries of the tables do not use the fallback to all contact points. Each query is run once
+// more with it. The program fails if this run finds no sequence without showing that there is none.
 
 #include <algorithm>
 #include <array>
@@ -42,7 +43,7 @@ struct Setting {
   int clusters = 0;
 };
 
-/// One row of tables 6.1 to 6.6.
+/// Return one row of tables 6.1 to 6.6.
 std::vector<std::string> QueryRow(const Setting& setting, const roadmap::ClusteredRoadmap& roadmap,
                                   double seconds,
                                   const std::vector<roadmap::RandomQuery>& queries) {
@@ -66,9 +67,10 @@ std::vector<std::string> QueryRow(const Setting& setting, const roadmap::Cluster
           Milliseconds(sum / static_cast<double>(queries.size()))};
 }
 
-/// One row of tables 6.7 to 6.12: the share of random force-closure grasps that Algorithms 1 and 2
-/// take, how many of the first 30 that they take they link, and Algorithm 3 of the first 30 that
-/// neither takes.
+/// Return one row of tables 6.7 to 6.12:
+/// - the share of random force-closure grasps accepted by Algorithms 1 and 2;
+/// - the number of links by them of the first 30 accepted grasps;
+/// - the number of links by Algorithm 3 of the first 30 grasps accepted by neither.
 std::vector<std::string> LocalRow(const Setting& setting, const roadmap::ClusteredRoadmap& roadmap,
                                   const object::Polyhedron& solid) {
   const criteria::GraspCriteria force_closure = {roadmap.half_angle, 0};
@@ -118,7 +120,7 @@ class Tables {
     }
   }
 
-  /// @returns whether all queries were answered.
+  /// @returns true if all queries were answered.
   bool Fill(const std::string& body) {
     bool answered = true;
     int table = 0;

@@ -1,8 +1,8 @@
-// All planners that serve on a body, on the same random pairs of force-closure grasps: how many
-// they join, how long that takes, and what the plans are like. Writes Markdown and CSV into a
-// folder.
+// Benchmark of all planners that support an object, on the same random pairs of force-closure
+// grasps. It measures solved queries, times and properties of the plans, and writes Markdown and
+// CSV into a folder.
 //
-// The program fails where a planner joins more pairs than the planner general.
+// The program fails if a planner solves more pairs than the planner general.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -23,18 +23,18 @@ namespace {
 
 using namespace regrasp;
 
-constexpr std::array kFrictions = {25.0, 10.0, 5.0};  // degrees
+constexpr std::array kFrictions = {25.0, 10.0, 5.0};  // friction angles, degrees
 constexpr std::array kModels = {
     "cube.obj",        "prism.obj",        "l_block.obj",  "hole_block.obj",    "body24.obj",
     "tetrahedron.obj", "pyramid.obj",      "stone.obj",    "ellipsoid1000.obj", "star1000.obj",
     "polygon20.wkt",   "polygon_hole.wkt", "triangle.wkt", "bottle200.wkt",     "gear128.wkt"};
-/// The shake that plans are validated with.
+/// Size of the disturbance that plans are validated with.
 constexpr double kGoodQuality = 0.01;
 
 constexpr int kMostPairs = 100'000;
 constexpr int kBadUsage = 2;
 
-/// What CLI11 asks an option's text. @returns what is wrong; empty where nothing is.
+/// Validate an option's text for CLI11. @returns problem; empty if there is none.
 std::string IsPositive(const std::string& text) {
   const std::optional<double> value = ParseDouble(text);
   return value && *value > 0 ? "" : text + " is not a number above 0";
@@ -63,7 +63,7 @@ struct Arguments {
   }
 };
 
-/// A mean over the plans that were found; "-" where there is none.
+/// Return the mean over the found plans; "-" if there are none.
 template <typename Value>
 std::string Mean(const Standing& standing, Value value, int decimals) {
   const int count = standing.joined_count();
@@ -75,7 +75,7 @@ std::string Mean(const Standing& standing, Value value, int decimals) {
 
 std::string Milliseconds(double seconds) { return FormatFixed(1e3 * seconds, 2); }
 
-/// From the share that is joined to the travel, and what there is to say.
+/// Return the cells from the share of solved pairs to the travel and the remarks.
 std::vector<std::string> Cells(const Standing& standing, int pairs) {
   if (!standing.absent.empty() || standing.answers.empty()) {
     return {
@@ -133,7 +133,8 @@ class Tables {
     for (const TableFile* table : {&space_, &plane_, &quality_}) WriteTable(*table, folder);
   }
 
-  /// Settings with a pair and another planner, and those in which one joins more than general.
+  /// Return the number of settings with a pair and another planner. better_count() is the number of
+  /// those in which a planner solves more than general.
   [[nodiscard]] int contest_count() const { return contests_; }
   [[nodiscard]] int better_count() const { return better_; }
 

@@ -1,6 +1,6 @@
-// The switching graph of polygons: all types, vertices and edges, against CGAL's exact Boolean
-// operations on polygons doing the focus cells alone, in the same run; and how its time grows with
-// what is found.
+// Benchmark of the switching graph of polygons: all types, vertices and edges. The baseline is
+// CGAL's exact Boolean operations on polygons for the focus cells alone, in the same run. The
+// program also measures how time grows with the size of the result.
 
 #include <benchmark/benchmark.h>
 
@@ -25,9 +25,9 @@ namespace {
 using namespace regrasp;
 
 constexpr double kDegrees = 10;
-constexpr int kGraphRuns = 15;  // the fastest counts
+constexpr int kGraphRuns = 15;  // the minimum time counts
 constexpr int kCellRuns = 3;
-/// Diameters of a few edges: no uniform cell of the model reaches it, so the count is the same.
+/// Reach, in edge lengths: no uniform cell of the model extends so far, so the count is the same.
 constexpr double kBenchReach = 0x1p10;
 
 const object::Polygon& Model() {
@@ -86,7 +86,7 @@ void CompareWithSetOperations(planning::Spanning spanning) {
       baseline / ours);
 }
 
-/// A simple polygon about the origin: shaken angles, radii anywhere between 0.6 and 1.
+/// Return a simple polygon about the origin, with perturbed angles and radii between 0.6 and 1.
 object::Polygon IrregularPolygon(int edges) {
   std::mt19937_64 engine(edges);
   std::uniform_real_distribution<double> shake(-0.4, 0.4);

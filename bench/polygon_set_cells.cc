@@ -22,7 +22,7 @@ struct ExactEdge {
   ExactPoint a;
   ExactPoint b;
   ExactVector along;
-  ExactVector normal;  ///< inward, as long as `along`
+  ExactVector normal;  ///< inward normal, with the length of `along`
 };
 
 ExactEdge MakeExactEdge(const object::Polygon& polygon, int edge) {
@@ -37,7 +37,8 @@ CGAL::Sign CrossSign(const ExactVector& a, const ExactVector& b) {
   return CGAL::sign(a.x() * b.y() - a.y() * b.x());
 }
 
-/// The gap from a to b, which is known to lie in (0, π), is less than π − 2φ; or equal.
+/// Return true if the gap from a to b, which is known to be in (0, π), is less than π − 2φ; or
+/// equal, if `closed`.
 bool GapIsSmall(const ExactVector& a, const ExactVector& b, const Number& tangent, bool closed) {
   const ExactVector lower = a + tangent * a.perpendicular(CGAL::CLOCKWISE);
   const ExactVector upper = b + tangent * b.perpendicular(CGAL::COUNTERCLOCKWISE);
@@ -45,7 +46,7 @@ bool GapIsSmall(const ExactVector& a, const ExactVector& b, const Number& tangen
   return closed ? sign != CGAL::NEGATIVE : sign == CGAL::POSITIVE;
 }
 
-/// A little below and above tan φ*, if doubles can tell.
+/// Return bounds slightly below and above tan φ*, if doubles can resolve it.
 std::array<double, 2> GuessesOfLimit(const object::Polygon& polygon,
                                      const std::array<int, 3>& edges) {
   std::array<double, 3> angles;
@@ -61,11 +62,11 @@ std::array<double, 2> GuessesOfLimit(const object::Polygon& polygon,
   return {std::tan(std::max(0.0, limit - kAngleRounding)), std::tan(limit + kAngleRounding)};
 }
 
-/// tan φ*, rounded down to a double, of normals that positively span but not
-/// `too_large`-positively.
+/// Return tan φ*, rounded down to a double, for normals that positively span but do not
+/// `too_large`-positively span.
 double LimitTangent(const object::Polygon& polygon, const std::array<int, 3>& edges,
                     double too_large) {
-  // Positive doubles are ordered as their bits are.
+  // Positive doubles have the same order as their bits.
   auto low = std::bit_cast<std::uint64_t>(0.0);
   auto high = std::bit_cast<std::uint64_t>(too_large);
   for (const double guess : GuessesOfLimit(polygon, edges)) {

@@ -1,6 +1,7 @@
-// The switching graph of solids: time of its cells and links on bodies of many faces, against
-// CGAL's exact linear programs and Nef polyhedra on the same combinations in the same run; and how
-// time and memory grow with what is found.
+// Benchmark of the switching graph of solids. It measures the time for the cells and links of
+// solids with many faces. Baselines are CGAL's exact linear programs and Nef polyhedra on the same
+// combinations in the same run. The program also measures how time and memory grow with the size of
+// the result.
 
 #include <benchmark/benchmark.h>
 #include <malloc.h>
@@ -30,7 +31,7 @@ using Eigen::Vector3d;
 
 constexpr int kFaces = 47;
 constexpr double kDegrees = 10;
-constexpr int kRuns = 15;  // the fastest counts
+constexpr int kRuns = 15;  // the minimum time counts
 constexpr int kGrowthRuns = 3;
 constexpr int kProgramSample = 40;
 constexpr int kNefSample = 15;
@@ -47,7 +48,7 @@ struct NamedSolid {
   object::Polyhedron solid;
 };
 
-/// Seeded bodies of 47 faces, and the models with as many or more.
+/// Return random solids of 47 faces, and the models with at least as many faces.
 std::vector<NamedSolid> Bodies() {
   std::vector<NamedSolid> bodies = {{"round stone", MakeStone(kFaces, kRound, kSeed)},
                                     {"stretched stone", MakeStone(kFaces, kStretched, kSeed)}};
@@ -65,19 +66,19 @@ std::vector<NamedSolid> Bodies() {
   return bodies;
 }
 
-/// Graphs of one body: what was found, and the fastest times.
+/// Graph of a solid: sizes, and the minimum times.
 struct Timed {
   std::int64_t candidates = 0;
   int cells = 0;
   std::int64_t links = 0;
   int components = 0;
   std::int64_t unclear = 0;
-  double mebibytes = 0;  ///< that the graph holds
+  double mebibytes = 0;  ///< memory of the graph, MiB
   double cell_ms = std::numeric_limits<double>::infinity();
   double link_ms = std::numeric_limits<double>::infinity();
 };
 
-/// Memory in use.
+/// Return the memory in use.
 double Mebibytes() {
   constexpr double kBytesPerMebibyte = 1 << 20;
   const struct mallinfo2 info = mallinfo2();
@@ -140,7 +141,7 @@ void PrintBodies(const std::vector<NamedSolid>& bodies) {
   }
 }
 
-/// Candidates of a body, some of them by the seed.
+/// Return candidates of a solid, a random sample if there are many.
 std::vector<polyhedron::QuadrupleCandidate> SampleCandidates(const object::Polyhedron& solid,
                                                              int most) {
   std::vector<Vector3d> normals;
@@ -155,15 +156,15 @@ std::vector<polyhedron::QuadrupleCandidate> SampleCandidates(const object::Polyh
   return candidates;
 }
 
-/// Of the processor, so that other programs do not count.
+/// Return the processor time, which other programs do not affect.
 double MillisecondsOf(const std::function<void()>& work) {
   const std::clock_t start = std::clock();
   work();
   return kMillisecondsPerSecond * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// Our own time for some candidates, a new finder each run: what it remembers of pairs is paid
-/// here.
+/// Measure the cell finder on some candidates. Each run uses a new finder, so that the time
+/// includes its cache of pairs.
 double TimeFinder(const object::Polyhedron& solid,
                   const std::vector<polyhedron::QuadrupleCandidate>& candidates, int& cells) {
   double least = std::numeric_limits<double>::infinity();
@@ -179,7 +180,7 @@ double TimeFinder(const object::Polyhedron& solid,
   return least;
 }
 
-/// Sixteen programs a combination: each face from its inner and its outer side.
+/// Sixteen programs per combination: each face is seen from its inner and its outer side.
 bool HasCellByPrograms(const polyhedron::FaceParts& parts,
                        const polyhedron::QuadrupleCandidate& candidate) {
   constexpr int kPatterns = 16;
@@ -202,7 +203,7 @@ void PrintComparison(const char* baseline, int combinations, int cells, int by_b
       kMillisecondsPerSecond * baseline_ms / combinations, by_baseline, baseline_ms / ms);
 }
 
-/// Bodies with non-convex faces are left out: the baselines take each face as one part.
+/// Solids with non-convex faces are omitted, because the baselines treat each face as one part.
 void CompareWithBaselines(const NamedSolid& body) {
   const polyhedron::FaceParts parts = polyhedron::SplitFaces(body.solid);
   if (std::ssize(parts.parts) != body.solid.face_count()) return;

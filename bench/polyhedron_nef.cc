@@ -21,9 +21,9 @@ using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Nef = CGAL::Nef_polyhedron_3<Kernel>;
 
 constexpr int kSides = 8;
-constexpr double kHeight = 3;  // diameters
+constexpr double kHeight = 3;  // in diameters
 
-/// The points of a part and those that see them from one side, up to a height.
+/// Return the points of a part and the points that see them from one side, up to a height.
 Nef MakeHalf(const polyhedron::FacePart& part, const Vector3d& axis, double tangent,
              double height) {
   std::vector<Kernel::Point_3> points;

@@ -8,19 +8,19 @@
 
 namespace regrasp {
 
-/// The union volumes of a solid's faces as CGAL's Nef polyhedra, with pyramids of eight sides
-/// inscribed in the friction cones, cut off some diameters from the face: what Phoka 2010
-/// intersects.
+/// Union volumes of a solid's faces as Nef polyhedra of CGAL, whose intersections Phoka 2010 uses.
+/// Each friction cone is approximated by an inscribed pyramid with eight sides, cut off at a few
+/// diameters from the face.
 class NefVolumes {
  public:
-  /// @param faces    whose volumes are made; each must be one part.
-  /// @param tangent  of the friction half-angle.
+  /// @param faces    faces whose volumes are built; each must consist of one part.
+  /// @param tangent  tangent of the friction angle.
   NefVolumes(const object::Polyhedron& solid, const polyhedron::FaceParts& parts,
              std::span<const int> faces, double tangent);
   ~NefVolumes();
 
-  /// Whether the volumes of four faces have an interior in common; that alone is what a benchmark
-  /// should measure.
+  /// Return true if the volumes of four faces have a common interior. A benchmark should measure
+  /// only this function.
   [[nodiscard]] bool HasCell(std::span<const FaceIndex, 4> faces) const;
 
  private:

@@ -15,9 +15,9 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int kSides = 8;
-/// Rows are rounded to whole multiples of this: exact arithmetic on short numbers is faster.
+/// Resolution of the rows: exact arithmetic is faster on short numbers.
 constexpr double kUnit = 1.0 / (1 << 20);
-constexpr int kMargin = 11;  // after three coordinates of the focus point and eight of contacts
+constexpr int kMargin = 11;  // after three coordinates of the focus point and eight of the contacts
 
 using Program = CGAL::Quadratic_program<int>;
 
@@ -33,7 +33,7 @@ void SetContactTerm(Program& program, int contact, int row, const Vector2d& fact
   }
 }
 
-/// The contact is on its part.
+/// Add the constraint that the contact is on its part.
 void AddPart(Program& program, int contact, const polyhedron::FacePart& part, int& row) {
   const std::vector<Vector2d> outline = part.outline();
   const std::size_t n = outline.size();
@@ -45,8 +45,8 @@ void AddPart(Program& program, int contact, const polyhedron::FacePart& part, in
   }
 }
 
-/// The focus point is in the contact's pyramid: of its foot, a · (foot − contact) + margin ≤ r ·
-/// height for the normals a of the pyramid's sides.
+/// Add the constraint that the focus point is in the contact's pyramid. With the foot of the focus
+/// point: a · (foot − contact) + margin ≤ r · height for the normals a of the pyramid's sides.
 void AddPyramid(Program& program, int contact, const polyhedron::FacePart& part, bool inner,
                 double tangent, int& row) {
   const double radius = tangent * std::cos(std::numbers::pi / kSides);

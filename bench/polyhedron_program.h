@@ -6,15 +6,14 @@
 
 namespace regrasp {
 
-/// Whether the focus points that see four parts of faces, each from a given side, through pyramids
-/// of eight sides inscribed in the friction cones, have an interior: by CGAL's exact linear
-/// programs.
+/// Return true if the set of focus points that see four parts of faces has an interior, by exact
+/// linear programs of CGAL.
+/// Each part is seen from a given side, through pyramids with eight sides inscribed in the friction
+/// cones. The unknowns are the focus point, two coordinates of each contact, and a margin to all
+/// sides of the pyramids. The function tests whether its maximum is positive.
 ///
-/// Unknown are the focus point, two coordinates of each contact, and a margin that all pyramids'
-/// sides keep; its largest value is positive or not.
-///
-/// @param halves   2 · part, or 2 · part + 1 for the outer side, as a FocusPiece has them.
-/// @param tangent  of the friction half-angle.
+/// @param halves   2 · part, or 2 · part + 1 for the outer side, as in a FocusPiece.
+/// @param tangent  tangent of the friction angle.
 [[nodiscard]] bool HasPieceByProgram(const polyhedron::FaceParts& parts,
                                      const std::array<int, 4>& halves, double tangent);
 

@@ -23,7 +23,7 @@ using Kind = planning::GraspChoice::Kind;
 
 constexpr double kMillisecondsPerSecond = 1e3;
 
-/// Draws starts from all cells of a graph and goals from a start's component.
+/// Sampler of starts from all cells of a graph, and of goals from the component of a start.
 class QueryMaker {
  public:
   QueryMaker(polyhedron::PolyhedronGraph& graph, polyhedron::PolyhedronModel& model)

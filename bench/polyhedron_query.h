@@ -7,19 +7,19 @@
 
 namespace regrasp {
 
-/// Times of queries between two random grasps of one component of the switching graph of a solid,
-/// the graph built before.
+/// Times of queries between two random grasps of one component of a solid's switching graph,
+/// without the construction of the graph.
 struct QueryTimes {
   int queries = 0;
   int without_plan = 0;
-  int with_warning = 0;  ///< the sequence passes a grasp below the quality that is asked for
+  int with_warning = 0;  ///< number of sequences with a grasp below the required quality
   double mean_switches = 0;
   double mean_ms = 0;
   double median_ms = 0;
   double most_ms = 0;
 };
 
-/// One query for each seed from 1 on: drawing start and goal is outside the time.
+/// Run one query for each seed from 1. The time to draw start and goal is excluded.
 [[nodiscard]] QueryTimes TimeQueries(const object::Polyhedron& solid, double degrees,
                                      planning::Spanning spanning, int queries);
 

@@ -20,18 +20,18 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// How far points move off the spiral, over their mean distance.
+/// Maximum displacement of the points off the spiral, over their mean distance.
 constexpr double kJitter = 0.3;
 
 std::vector<Vector3d> SpreadNormals(int count, unsigned seed) {
   std::mt19937 engine(seed);
-  // The standard's maps onto intervals differ between libraries; this one does not.
+  // The standard library's distributions differ between implementations; this one does not.
   const auto draw = [&] { return kJitter * (2.0 * engine() / std::mt19937::max() - 1); };
   const double spacing = std::sqrt(4 * std::numbers::pi / count);
   std::vector<Vector3d> normals;
   for (int i = 0; i < count; ++i) {
     const double z = 1 - (2.0 * i + 1) / count;
-    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));  // the golden angle
+    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));  // golden angle
     const double r = std::sqrt(1 - z * z);
     const Vector3d on_spiral(r * std::cos(angle), r * std::sin(angle), z);
     Vector3d moved = on_spiral;
@@ -46,7 +46,8 @@ Vector3d ToEigen(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 }  // namespace
 
 object::Polyhedron MakeStone(int faces, const Vector3d& stretch, unsigned seed) {
-  // Poles of the planes: the body's vertices are the facets of their hull, its faces the vertices.
+  // Poles of the planes: vertices of the solid are triangles of their hull, and its faces are the
+  // hull's vertices.
   std::vector<Kernel::Point_3> poles;
   for (const Vector3d& n : SpreadNormals(faces, seed)) poles.emplace_back(n.x(), n.y(), n.z());
   Mesh hull;

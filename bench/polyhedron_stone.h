@@ -6,10 +6,10 @@
 
 namespace regrasp {
 
-/// A convex solid of exactly `faces` faces, a vertex where three meet: tangent planes of the unit
-/// ball at points spread over it along a spiral and moved a little, by the seed; then stretched
-/// along the axes.
-/// @param faces  at least 6: fewer need not enclose anything.
+/// Generate a convex solid with exactly `faces` faces, three of which meet at each vertex.
+/// The faces are tangent planes of the unit ball at points on a spiral, displaced randomly by the
+/// seed. The solid is then stretched along the axes.
+/// @param faces  number of faces, at least 6: fewer may not enclose a volume.
 [[nodiscard]] object::Polyhedron MakeStone(int faces, const Eigen::Vector3d& stretch,
                                            unsigned seed);
 

@@ -1,6 +1,7 @@
 // Tables 5.1 to 5.5 of Phoka 2010 for the models body*.obj: focus cells, links, connected
-// components and time of the switching graph at a half-angle of 10 degrees under uniform spanning,
-// by direct computation and by random focus points. Writes Markdown and CSV into a folder.
+// components and time of the switching graph. The friction angle is 10 degrees, with uniform
+// spanning, by direct computation and by random focus points. The program writes Markdown and CSV
+// into a folder.
 
 #include <algorithm>
 #include <cstdio>
@@ -23,7 +24,7 @@ using namespace regrasp;
 constexpr double kDegrees = 10;
 constexpr int kSampleCounts[] = {1000, 5000, 10000, 20000};
 constexpr std::uint64_t kSeed = 1;
-constexpr int kRuns = 5;  // the fastest counts
+constexpr int kRuns = 5;  // the minimum time counts
 
 struct Row {
   std::string body;
@@ -50,14 +51,14 @@ std::vector<std::filesystem::path> BodyFiles(const std::filesystem::path& folder
   return files;
 }
 
-/// Of the processor, so that other programs do not count.
+/// Return the processor time, which other programs do not affect.
 double SecondsOf(const auto& work) {
   const std::clock_t start = std::clock();
   work();
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// What `make` returns, and the fastest of its times.
+/// Return the result of `make` and its minimum time.
 template <class Make>
 auto Fastest(const Make& make, double& seconds) {
   seconds = std::numeric_limits<double>::infinity();

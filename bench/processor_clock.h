@@ -4,10 +4,10 @@
 
 namespace regrasp {
 
-/// Processor time of this process, seconds: other work on the machine hardly counts.
+/// Return the processor time of this process, s. Other load of the machine has little effect.
 [[nodiscard]] double ProcessorSeconds();
 
-/// After so many seconds of this process's processor time from now.
+/// Return a deadline after `seconds` of this process's processor time from now.
 [[nodiscard]] Deadline ProcessorDeadline(double seconds);
 
 }  // namespace regrasp

@@ -6,14 +6,14 @@
 
 namespace regrasp {
 
-/// The baseline of force closure: friction cones as pyramids of eight sides inside them.
+/// Number of sides of the baseline's pyramids, which are inscribed in the friction cones.
 inline constexpr int kBenchSides = 8;
 using PyramidWrenches = Eigen::Matrix<double, 6, 4 * kBenchSides>;
 
-/// The wrenches of the edges of a grasp of four contacts, about the origin.
+/// Return the wrenches of the pyramids' edges for a grasp of four contacts, about the origin.
 [[nodiscard]] PyramidWrenches WrenchesOfPyramids(const grasp::Grasp& grasp, double half_angle);
 
-/// Whether a linear program of GLPK finds the pyramids' interiors to balance.
+/// Return true if a linear program of GLPK finds that the interiors of the pyramids balance.
 [[nodiscard]] bool PyramidForceClosure(const grasp::Grasp& grasp, double half_angle);
 
 }  // namespace regrasp

@@ -1,6 +1,6 @@
-// Grasp quality ε of four contacts: certified bounds with circular cones against the hull of
-// friction pyramids of 8 and 16 sides, on the same grasps in the same run. Prints times and, as
-// error, how far the pyramids' quality lies below the certified one.
+// Benchmark of the grasp quality ε of four contacts: certified bounds with circular cones against
+// the hull of friction pyramids with 8 and 16 sides, on the same grasps in the same run. It prints
+// times, and as error the deficit of the pyramids' quality from the certified one.
 //
 // usage: quality_bench [GRASPS]
 
@@ -29,7 +29,7 @@ using namespace regrasp;
 
 constexpr double kHalfAngle = Radians(25);
 constexpr int kContacts = 4;
-/// Qhull takes tens of milliseconds each.
+/// Qhull takes tens of milliseconds per grasp.
 constexpr int kMostForPyramids = 100;
 const object::WrenchFrame kFrame{Eigen::Vector3d::Zero(), 1, 3};
 
@@ -51,7 +51,7 @@ grasp::Contact RandomContact(std::mt19937_64& engine, bool box) {
   return contact;
 }
 
-/// Force closure, half on a ball with normals up to 17° off, half on a box.
+/// Return force-closure grasps, half on a sphere with normals up to 17° off, half on a box.
 std::vector<grasp::Grasp> RandomGraspsHeld(int count) {
   std::mt19937_64 engine(2026);
   std::vector<grasp::Grasp> held;
@@ -65,7 +65,7 @@ std::vector<grasp::Grasp> RandomGraspsHeld(int count) {
   return held;
 }
 
-/// Points with normals towards the origin.
+/// Return contacts at the points, with normals towards the origin.
 grasp::Grasp Towards(const std::vector<Eigen::Vector3d>& points) {
   grasp::Grasp grasp;
   for (const Eigen::Vector3d& p : points) grasp.push_back({p.normalized(), -p.normalized()});
@@ -102,7 +102,7 @@ double Quantile(std::vector<double> values, double part) {
 struct Method {
   std::string name;
   std::function<double(const grasp::Grasp&)> quality;
-  std::size_t most;  ///< grasps that it is run on
+  std::size_t most;  ///< maximum number of grasps
 };
 
 void Compare(const char* title, const std::vector<grasp::Grasp>& grasps,
@@ -116,7 +116,8 @@ void Compare(const char* title, const std::vector<grasp::Grasp>& grasps,
   for (const Method& method : methods) {
     std::vector<double> times, errors;
     for (std::size_t i = 0; i < std::min(grasps.size(), method.most); ++i) {
-      double quality = method.quality(grasps[i]);  // once before, for caches and memory
+      // untimed first call, to warm up caches and memory
+      double quality = method.quality(grasps[i]);
       const double start = ProcessorSeconds();
       quality = method.quality(grasps[i]);
       times.push_back(1e6 * (ProcessorSeconds() - start));

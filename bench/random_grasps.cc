@@ -12,10 +12,10 @@
 namespace regrasp {
 namespace {
 
-/// Grasps that need more friction than this are not what anyone plans with.
+/// Maximum required friction angle: grasps that need more friction are not planned in practice.
 constexpr double kMostCritical = Radians(50);
 constexpr double kLeastCritical = Radians(0.5);
-/// Of the grasp before a switch.
+/// Minimum quality of the grasp before a switch.
 constexpr double kFirstQuality = 0.03;
 
 grasp::Grasp DrawGrasp(const GraspedBody& body, RandomStream& random) {
@@ -24,8 +24,7 @@ grasp::Grasp DrawGrasp(const GraspedBody& body, RandomStream& random) {
   return grasp;
 }
 
-/// The smallest half-angle at which a grasp is force closure, where it is one that is worth a
-/// replay.
+/// Return the required friction angle of a grasp; nullopt if the grasp is not worth a replay.
 std::optional<grasp::RequiredHalfAngle> Required(const GraspedBody& body,
                                                  const grasp::Grasp& grasp) {
   if (!grasp::IsForceClosure(grasp, body.object().wrench_frame(), kMostCritical))
@@ -37,7 +36,7 @@ std::optional<grasp::RequiredHalfAngle> Required(const GraspedBody& body,
   return required;
 }
 
-/// A plan that holds the grasp.
+/// Return a plan that holds the grasp.
 plan::Plan PlanOf(const GraspedBody& body, const grasp::Grasp& initial, double half_angle) {
   plan::Plan plan;
   plan.dimension = body.object().dimension();

@@ -13,15 +13,16 @@
 
 namespace regrasp {
 
-/// Of the folder models, in space and in the plane.
+/// Objects of the folder models, in space and in the plane.
 inline constexpr std::array kGraspedBodies = {"cube.obj",        "l_block.obj", "hole_block.obj",
                                               "stone.obj",       "mug500.obj",  "polygon15.wkt",
                                               "polygon_hole.wkt"};
-/// The friction that grasps are examined at, over the critical one.
+/// Range of the friction coefficient of tested grasps, in required friction coefficients.
 inline constexpr double kLeastRatio = 0.7;
 inline constexpr double kMostRatio = 1.5;
 
-/// Where grasps are drawn, and how: contacts evenly over the surface where a fingertip has room.
+/// Object and sampler of grasps: contacts are uniform over the part of the surface that a fingertip
+/// can reach.
 class GraspedBody {
  public:
   explicit GraspedBody(const std::filesystem::path& path)
@@ -30,7 +31,7 @@ class GraspedBody {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const object::Object& object() const { return *file_.object; }
   [[nodiscard]] const sampling::SurfaceSampler& source() const { return source_; }
-  /// How many fingers hold it.
+  /// Return the number of fingers that hold the object.
   [[nodiscard]] int hold() const { return object().dimension() == 2 ? 3 : 4; }
 
  private:
@@ -39,21 +40,22 @@ class GraspedBody {
   sampling::SurfaceSampler source_;
 };
 
-/// A plan whose last grasp is examined at some friction.
+/// Plan whose last grasp is tested at a given friction.
 struct RandomCase {
   plan::Plan plan;
   grasp::Grasp examined;
-  double ratio = 0;                   ///< of the plan's μ to the critical one of `examined`
-  grasp::RequiredHalfAngle required;  ///< of `examined`
+  double ratio = 0;  ///< friction coefficient of the plan over the required one of `examined`
+  grasp::RequiredHalfAngle required;  ///< required friction angle of `examined`
 };
 
-/// Random grasps whose critical friction is between 0.5° and 50°, each at a friction drawn evenly
-/// between kLeastRatio and kMostRatio times that: plans of the hold alone.
+/// Draw static grasps whose required friction angle is between 0.5° and 50°, as plans that only
+/// hold. The friction coefficient of each is uniform between kLeastRatio and kMostRatio times the
+/// required one.
 [[nodiscard]] std::vector<RandomCase> DrawHolds(const GraspedBody& body, int count,
                                                 std::uint64_t seed);
 
-/// The same of grasps after a switch of one finger, from a grasp that resists much more than the
-/// default shake, so that a fail is the second's.
+/// Draw grasps after a switch of one finger, with friction as in DrawHolds. The first grasp resists
+/// much more than the default disturbance, so that a failure is that of the second.
 [[nodiscard]] std::vector<RandomCase> DrawSwitches(const GraspedBody& body, int count,
                                                    std::uint64_t seed);
 

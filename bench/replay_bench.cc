@@ -1,6 +1,6 @@
-// Replays of whole plans: entries of the report (the hold and each step) per second, and the share
-// of the time that is spent inside mj_step. The baseline is the same number of bare steps of the
-// exported scene at rest.
+// Benchmark of the replay of whole plans: steps of the report (including the initial grasp) per
+// second, and the share of the time inside mj_step. The baseline is the same number of bare steps
+// of the exported scene in static equilibrium.
 
 #include <benchmark/benchmark.h>
 #include <mujoco/mujoco.h>
@@ -26,7 +26,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What the engine did since it was set to zero.
+/// Engine time and number of calls since the last reset.
 struct EngineTime {
   std::int64_t steps = 0;
   Clock::duration inside{};
@@ -35,8 +35,7 @@ EngineTime engine_time;
 
 }  // namespace
 
-// The linker sends every call of mj_step here (--wrap), so that the program that is measured is the
-// one that is shipped.
+// The linker redirects every call of mj_step here (--wrap), so that the shipped code is measured.
 extern "C" {
 void __real_mj_step(const mjModel* model, mjData* data);
 void __wrap_mj_step(const mjModel* model, mjData* data) {
@@ -53,14 +52,14 @@ using namespace regrasp;
 
 constexpr double kHalfAngleDegrees = 20;
 
-/// A block whose contact patches are boxes, bodies whose patches are meshes, convex and not, and a
+/// A block whose contact patches are boxes, objects with mesh patches, convex and not, and a
 /// polygon.
 constexpr std::array<const char*, 4> kModels = {"cube.obj", "stone.obj", "l_block.obj",
                                                 "polygon15.wkt"};
 
 struct Case {
   object::ObjectFile file;
-  plan::Plan plan;  ///< located
+  plan::Plan plan;  ///< plan located on the surface
 };
 
 Case MakeCase(const std::string& model) {
@@ -74,7 +73,7 @@ Case MakeCase(const std::string& model) {
                        .start = random,
                        .goal = random,
                        .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
-                       // in the plane a plan of three switches
+                       // for the plane, a seed whose plan has three switches
                        .seed = planar ? 2ULL : 0ULL});
   if (!result.plan) throw std::runtime_error(model + ": no plan to replay");
   made.plan = plan::CheckPlan(object, *result.plan).located;
@@ -118,7 +117,7 @@ struct DeleteData {
   void operator()(mjData* data) const { mj_deleteData(data); }
 };
 
-/// As many steps as the replay of the plan takes, and nothing else.
+/// Run as many steps as the replay of the plan, and nothing else.
 void BM_BareSteps(benchmark::State& state) {
   const Case& made = GetCase(state.range(0));
   engine_time = {};
@@ -135,7 +134,7 @@ void BM_BareSteps(benchmark::State& state) {
   mj_deleteVFS(vfs.get());
   if (!model) throw std::runtime_error(error.data());
   const std::unique_ptr<mjData, DeleteData> data(mj_makeData(model.get()));
-  mju_user_warning = [](const char*) {};  // or it would write a log file
+  mju_user_warning = [](const char*) {};  // prevents a log file
   for (auto _ : state) {
     mj_resetDataKeyframe(model.get(), data.get(), 0);
     for (std::int64_t i = 0; i < steps; ++i) __real_mj_step(model.get(), data.get());
@@ -144,7 +143,7 @@ void BM_BareSteps(benchmark::State& state) {
   state.counters["mj_steps"] = static_cast<double>(steps);
 }
 
-/// What comes before the first step: the scene, its compilation, its first state.
+/// Measure the setup before the first step: the scene, its compilation and its first state.
 void BM_Setup(benchmark::State& state) {
   const Case& made = GetCase(state.range(0));
   const object::Object& object = *made.file.object;

@@ -1,5 +1,5 @@
-// Building the plain roadmap, and planning on it; the baseline asks the force-closure test of every
-// subset, one after the other.
+// Benchmark of building the plain roadmap and of planning on it. The baseline runs the
+// force-closure test on every subset, one after the other.
 
 #include <benchmark/benchmark.h>
 
@@ -20,8 +20,8 @@ using namespace regrasp;
 
 constexpr double kHalfAngleDegrees = 20;
 
-/// The models that are measured: a block, whose contacts oppose each other, and a convex body of
-/// irregular faces, whose contacts hardly ever do.
+/// Measured models: a block, whose contacts oppose each other, and a convex solid with irregular
+/// faces, whose contacts rarely do.
 constexpr std::array<const char*, 2> kModels = {"cube.obj", "stone.obj"};
 
 const object::Polyhedron& Model(std::int64_t index) {
@@ -47,7 +47,7 @@ void Describe(benchmark::State& state, std::int64_t subsets, std::int64_t vertic
   state.counters["vertices"] = static_cast<double>(vertices);
 }
 
-/// What a roadmap costs when each of its subsets is tested alone.
+/// Measure a roadmap whose subsets are each tested alone.
 void BM_TestEverySubset(benchmark::State& state) {
   const object::Polyhedron& solid = Model(state.range(0));
   const planning::PlanRequest request = RequestFor(solid, state.range(1));
@@ -74,7 +74,7 @@ void BM_TestEverySubset(benchmark::State& state) {
   Describe(state, subsets, vertices);
 }
 
-/// Spreading the points, finding all vertices, and listing them by their triples.
+/// Measure sampling of the points, finding all vertices, and indexing them by their triples.
 void BM_BuildRoadmap(benchmark::State& state) {
   const object::Polyhedron& solid = Model(state.range(0));
   const planning::PlanRequest request = RequestFor(solid, state.range(1));
@@ -99,7 +99,8 @@ void BM_CountEdgesAndComponents(benchmark::State& state) {
   Describe(state, roadmap.candidate_count(), roadmap.vertex_count());
 }
 
-/// A whole plan between two random grasps, the roadmap included; another seed in each iteration.
+/// Measure a whole plan between two random grasps, including the roadmap, with another seed in each
+/// iteration.
 void BM_Plan(benchmark::State& state) {
   const object::Polyhedron& solid = Model(state.range(0));
   planning::PlanRequest request = RequestFor(solid, state.range(1));

@@ -20,7 +20,7 @@ constexpr double kTickStep = 0.1;
 
 std::string Number(double value) { return FormatFixed(value, 1); }
 
-/// Where values stand in the picture.
+/// Coordinate axes: map values to image coordinates.
 class Axes {
  public:
   explicit Axes(const ScatterPlot& plot) : plot_(plot) {}

@@ -1,14 +1,15 @@
-// How much of a program's processor time is inside mj_step. The program is the one that is shipped:
-// this library is loaded before MuJoCo's (LD_PRELOAD) and times every call on its way. Each process
-// that ends, children too, adds a line to the file that REGRASP_STEP_CLOCK names:
+// Interposer that measures the share of a program's processor time inside mj_step.
+// The program is the shipped one: this library is loaded before MuJoCo's (LD_PRELOAD) and times
+// every call. Each process that ends, including children, appends a line to the file named by
+// REGRASP_STEP_CLOCK:
 //
 //     seconds inside mj_step, seconds of the process, calls
 //
-// What the clock itself takes is measured at the end and left out of both. It is the one that is
-// read without a call of the kernel: with the clock of the thread's own processor time, which needs
-// one, what runs between steps was slower by a tenth, its caches and predictions lost. A call in
-// which the process had to wait for a processor counts as the mean of the others. A process is
-// taken to step in one thread.
+// The cost of the clock is measured at the end and subtracted from both. The clock is one that
+// needs no system call. The processor-time clock of the thread needs one, and slowed the code
+// between steps by 10 % through lost caches and branch predictions. A call during which the process
+// waited for a processor counts as the mean of the other calls. A process is assumed to step in one
+// thread.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -31,11 +32,11 @@ double Seconds(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Steps of a hand's fingertips and an object take some 20 µs; a process that waits for a processor
-/// does so for milliseconds.
+/// Threshold of waiting, s: a step of a hand's fingertips and an object takes about 20 µs, a wait
+/// for a processor takes milliseconds.
 constexpr double kWaited_s = 5e-4;
 
-double inside_s = 0;  ///< of the calls that did not wait
+double inside_s = 0;  ///< time of the calls that did not wait, s
 std::int64_t calls = 0;
 std::int64_t waited = 0;
 
@@ -52,7 +53,7 @@ void WriteLine() {
   const double all_s = Seconds(CLOCK_PROCESS_CPUTIME_ID);
   const auto counted = static_cast<double>(calls - waited);
   const double inside = counted > 0 ? inside_s * static_cast<double>(calls) / counted : 0;
-  // The clock is read twice a call; about one reading of the two falls inside.
+  // The clock is read twice per call; about one of the two readings falls inside.
   const double reading_s = SecondsOfOneReading() * static_cast<double>(calls);
   std::array<char, 200> line;
   const int size = std::snprintf(line.data(), line.size(), "%.6f %.6f %lld\n", inside - reading_s,
@@ -62,7 +63,7 @@ void WriteLine() {
   close(file);
 }
 
-/// A child does not count what its parent did.
+/// Reset the counters: a child does not count the calls of its parent.
 void Forget() {
   inside_s = 0;
   calls = waited = 0;
@@ -90,7 +91,7 @@ void mj_step(const mjModel* model, mjData* data) {
   }
 }
 
-// How children of a file of lines end.
+// Children of a batch over a JSON Lines file end by _exit.
 void _exit(int code) {
   WriteLine();
   syscall(SYS_exit_group, code);

@@ -6,15 +6,15 @@
 
 namespace regrasp {
 
-/// A table for people and programs: the same cells as Markdown and as CSV.
+/// Table that is written as Markdown and as CSV, with the same cells.
 struct TableFile {
-  std::string name;   ///< of the files, without ending
-  std::string title;  ///< heads the Markdown
+  std::string name;   ///< file name without ending
+  std::string title;  ///< heading of the Markdown file
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 };
 
-/// Writes `folder`/name.md and name.csv.
+/// Write `folder`/name.md and name.csv.
 void WriteTable(const TableFile& table, const std::filesystem::path& folder);
 
 }  // namespace regrasp

@@ -20,7 +20,7 @@ constexpr char kSheet[] = "overview.png";
 
 bool Passed(const PlanOutcome& plan) { return plan.verdict == PlanVerdict::kPass; }
 
-/// "1 plan", "3 plans".
+/// Return a count with its noun: "1 plan", "3 plans".
 std::string Count(long count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
@@ -29,7 +29,7 @@ std::string StepCount(const ReportSummary& report) {
   return Count(static_cast<long>(report.entries.size()) - 1, "step");
 }
 
-/// What became of the plan.
+/// Return the outcome of the plan in words.
 std::string Statement(const PlanOutcome& plan) {
   if (!plan.report) return plan.message;
   const auto failure = plan.report->failure();
@@ -62,8 +62,8 @@ std::string VerdictWord(const PlanOutcome& plan) {
   return "";
 }
 
-/// "2.66° to spare in step 2"; of a plan that failed only what is missing: what is to spare
-/// elsewhere helps nobody.
+/// Return the friction margin with its step. For a failed plan, return only a missing margin,
+/// because a margin elsewhere does not help.
 std::string MarginText(const PlanOutcome& plan) {
   const ReportSummary& report = *plan.report;
   if (!report.weakest_step || !report.required_half_angle_deg || !report.half_angle_deg) return "";
@@ -88,7 +88,7 @@ Element Facts(const PlanOutcome& plan) {
   return facts.Make();
 }
 
-/// The name of the picture in the plan's folder that says most of it; empty where there is none.
+/// Return the name of the most informative image in the plan's folder; empty if there is none.
 std::string PictureOf(const ReportSummary& report) {
   const auto failed = report.failed_step();
   if (failed && !report.entries[*failed].frame.empty()) return report.entries[*failed].frame;
@@ -101,7 +101,7 @@ std::string Link(const PlanOutcome& plan, const std::string& file) {
   return report::PathUri(plan.name + "/" + file);
 }
 
-/// Pictures are fetched when they come into view: there may be a thousand.
+/// Images are loaded lazily, because there may be a thousand.
 Parts Picture(const PlanOutcome& plan) {
   const std::string picture = plan.report ? PictureOf(*plan.report) : "";
   if (picture.empty()) return {};
@@ -123,7 +123,7 @@ Element Card(const PlanOutcome& plan) {
   return Element("article", {{"class", Passed(plan) ? "plan pass" : "plan fail"}}, parts);
 }
 
-/// A heading and a card for each of the plans; nothing where there are none.
+/// Return a heading and a card for each plan; nothing if there are no plans.
 Parts Section(const std::string& name, const std::vector<const PlanOutcome*>& plans) {
   if (plans.empty()) return {};
   Parts cards;
@@ -144,7 +144,7 @@ Parts Skipped(const std::vector<SkippedFile>& skipped) {
 std::string FormatBatchPage(const BatchSummary& summary) {
   std::vector<const PlanOutcome*> passed, others;
   for (const PlanOutcome& plan : summary.plans) (Passed(plan) ? passed : others).push_back(&plan);
-  // The worst first.
+  // Worst first.
   std::ranges::stable_sort(others, std::ranges::greater(), &PlanOutcome::verdict);
   const bool pass = others.empty();
   const std::string subject = Count(std::ssize(summary.plans), "plan");

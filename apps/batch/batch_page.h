@@ -6,13 +6,14 @@
 
 namespace regrasp::apps {
 
-/// The text of index.html, beside the folders of the plans: all plans of a batch, for people. What
-/// did not pass comes first, then in the order of the batch; of each its verdict in words, the
-/// frame of what failed or the sheet of all frames, what is weakest, size, and a link to its own
-/// page.
+/// Format index.html, the overview page of a batch, which is written next to the folders of the
+/// plans.
+/// Plans that did not pass come first, each group in the order of the batch. Each plan has its
+/// verdict in words, the image of the failed step or the overview image, its weakest step, its
+/// size, and a link to its own page.
 ///
-/// Every text from outside is escaped. The same plans give the same bytes, whatever was kept and
-/// however many ran at once.
+/// Every external text is escaped. The same plans give the same bytes, regardless of reused results
+/// and of the number of jobs.
 [[nodiscard]] std::string FormatBatchPage(const BatchSummary& summary);
 
 }  // namespace regrasp::apps

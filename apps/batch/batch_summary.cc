@@ -17,13 +17,13 @@ long Count(const BatchSummary& summary, PlanVerdict verdict) {
   return std::ranges::count(summary.plans, verdict, &PlanOutcome::verdict);
 }
 
-/// Why the plan did not pass, in a word.
+/// Return the reason of a plan that does not pass, in one word.
 std::string ReasonOf(const PlanOutcome& plan) {
   const auto failure = plan.report ? plan.report->failure() : std::nullopt;
   return failure ? failure->reason : "";
 }
 
-/// Why the plan did not pass, or in how many trials it did.
+/// Return the reason of a failure, or the number of passed trials.
 std::string ReasonCell(const ReportSummary& report) {
   const auto failure = report.failure();
   const std::string trials = report.extent();
@@ -76,7 +76,7 @@ TextRow MakeRow(const PlanOutcome& plan) {
   return row;
 }
 
-/// Whether a plan passes although some of its trials fail.
+/// Return true if a plan passes although some of its trials fail.
 bool PassesInPart(const PlanOutcome& plan) {
   return plan.verdict == PlanVerdict::kPass && plan.report && plan.report->trials &&
          plan.report->trials->passed < plan.report->trials->count;
@@ -142,7 +142,8 @@ std::string CountsText(const BatchSummary& summary) {
     text += (text.empty() ? "" : ", ") + std::to_string(Count(summary, verdict)) + " " +
             std::string(PlanVerdictName(verdict));
   }
-  // No count of passes hides trials that failed.
+  // Plans with failed trials are counted separately, so that the number of passes does not hide
+  // them.
   const long partly = std::ranges::count_if(summary.plans, PassesInPart);
   if (partly > 0) text += "; " + std::to_string(partly) + " pass in only a part of their trials";
   return text;

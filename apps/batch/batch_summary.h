@@ -11,45 +11,48 @@
 
 namespace regrasp::apps {
 
-/// What became of a plan of a batch, worst last; the value is the exit code of its validation
-/// alone.
+/// Verdict on a plan of a batch, worst last. The value is the exit code of a validation of this
+/// plan alone.
 enum class PlanVerdict { kPass = 0, kFail = 1, kBadInput = 2, kError = 3 };
 
-/// "pass", "fail", "bad-input" or "error", as the summary spells it.
+/// Return the verdict as written in the summary: "pass", "fail", "bad-input" or "error".
 [[nodiscard]] std::string_view PlanVerdictName(PlanVerdict verdict);
 
 struct PlanOutcome {
   std::string name;
-  std::string file;  ///< the plan file's name
+  std::string file;  ///< name of the plan file
   PlanVerdict verdict = PlanVerdict::kError;
-  std::optional<ReportSummary> report;  ///< of a pass or a fail
-  std::string message;                  ///< of bad input or an error, one line
-  bool kept = false;                    ///< its report is of an earlier run
-  double seconds = 0;                   ///< that this run took for it
-  std::vector<double> entry_seconds;    ///< of those that it replayed
+  std::optional<ReportSummary> report;  ///< report, if the plan passes or fails
+  std::string message;                  ///< one-line message, for bad input or an error
+  bool kept = false;                    ///< true if the report is that of an earlier run
+  double seconds = 0;                   ///< wall-clock time of the validation in this run, s
+  std::vector<double> entry_seconds;    ///< wall-clock times of the replayed steps, s
 };
 
-/// What a batch says of all its plans, in their order.
+/// Outcomes of all plans of a batch, in their order.
 struct BatchSummary {
   std::vector<PlanOutcome> plans;
   std::vector<SkippedFile> skipped;
 
-  /// The worst verdict.
+  /// Return the worst verdict.
   [[nodiscard]] PlanVerdict verdict() const;
 };
 
-/// "31 pass, 2 fail, 0 bad-input, 0 error", and how many pass although some of their trials fail.
+/// Return the counts: "31 pass, 2 fail, 0 bad-input, 0 error". Plans that pass although some of
+/// their trials fail are counted separately.
 [[nodiscard]] std::string CountsText(const BatchSummary& summary);
 
-/// The text of summary.json. The same plans give the same bytes, whatever was kept and however
-/// many ran at once.
+/// Format summary.json.
+/// The same plans give the same bytes, regardless of reused results and of the number of jobs.
 [[nodiscard]] std::string FormatSummaryJson(const BatchSummary& summary);
 
-/// A readable table: a line a plan, then what was skipped, then how many of each verdict.
+/// Format a readable table: one row per plan, then the skipped files, then the number of plans per
+/// verdict.
 [[nodiscard]] std::string FormatSummaryTable(const BatchSummary& summary);
 
-/// JUnit XML: a suite a plan with a case for each entry of its report, or with one error.
-/// @param folder  of the plans' folders, as CI servers find it (PathForCi).
+/// Format JUnit XML: one test suite per plan, with a test case for each step of its report or with
+/// one error.
+/// @param folder  folder of the plans' folders, as CI servers find it (PathForCi).
 [[nodiscard]] std::string FormatSummaryJunit(const BatchSummary& summary,
                                              const std::filesystem::path& folder);
 

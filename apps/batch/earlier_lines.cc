@@ -15,7 +15,7 @@ EarlierLines::EarlierLines(const std::filesystem::path& path, std::int64_t begin
 
 std::optional<std::string_view> EarlierLines::Next() {
   if (!stream_.is_open()) return std::nullopt;
-  // A last line without its end was cut.
+  // A last line without a line end is truncated.
   while (std::getline(stream_, line_) && !stream_.eof()) {
     const std::optional<std::int64_t> entry = EntryOf(line_);
     if (!entry || *entry <= entry_) continue;

@@ -9,26 +9,26 @@
 
 namespace regrasp::apps {
 
-/// The entries in a file of lines that an earlier run left, read once as a stream.
+/// Reader of the entries in a JSON Lines file of an earlier run, as a stream.
 ///
-/// The file may be anything: missing, cut, edited, of other entries. Lines that are not whole or do
-/// not begin as those of an entry are skipped, and entries that do not ascend. Lines without a seal
-/// (SealRecord) may be skipped.
+/// The file may be missing, truncated, edited, or of other entries. It skips lines that are
+/// incomplete, that do not begin like an entry, or whose numbers do not ascend. It may skip lines
+/// without a seal (SealRecord).
 class EarlierLines {
  public:
-  /// No entries.
+  /// Create a reader without entries.
   EarlierLines() = default;
-  /// @param path   file; no entries if it is not a regular one.
-  /// @param begin  first byte to read, at the beginning of a line.
+  /// @param path   file; a path that is not a regular file has no entries.
+  /// @param begin  offset of the first byte to read, at the beginning of a line.
   explicit EarlierLines(const std::filesystem::path& path, std::int64_t begin = 0);
 
-  /// Return the line of an entry, without its end; none if the file has none.
-  /// @param entry  number, never below that of an earlier call.
+  /// Return the line of an entry, without its line end; nullopt if the file does not contain it.
+  /// @param entry  entry number, not below that of an earlier call.
   [[nodiscard]] std::optional<std::string_view> Find(std::int64_t entry);
 
-  /// Return the next line with its entry's number; none behind the last.
+  /// Return the next line that is an entry; nullopt after the last.
   [[nodiscard]] std::optional<std::string_view> Next();
-  /// Number of the entry that Next or Find stands at; 0 before the first.
+  /// Return the number of the current entry of Next or Find; 0 before the first.
   [[nodiscard]] std::int64_t entry() const { return entry_; }
 
  private:

@@ -43,7 +43,7 @@ std::string EntryDigest(const std::string& common, const Line& line,
     const std::string& sha256 = finder.DigestOf(path);
     digest.Add("object", std::filesystem::path(path).filename().string()).Add("sha256", sha256);
   } catch (const InputError&) {
-    digest.AddAbsent("object");  // the work itself reports what is wrong
+    digest.AddAbsent("object");  // the validation itself reports the error
   }
   return digest.Add("repair", object->repair).Finish();
 }

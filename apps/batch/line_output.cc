@@ -26,14 +26,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// How long a part is waited for: the children of a run that was killed take an instant to go.
+/// Maximum time to wait for a lock: children of a killed run need a moment to end.
 constexpr std::chrono::milliseconds kPatience{2000};
 constexpr std::chrono::milliseconds kBetweenTries{20};
 
-/// Bytes that are copied at a time.
+/// Number of bytes copied at a time.
 constexpr std::int64_t kPieceBytes = std::int64_t{1} << 22;
 
-/// Of a new file, less the process's umask.
+/// Permissions of a new file, before the process's umask.
 constexpr mode_t kNewMode = 0666;
 
 bool Lock(int descriptor) {
@@ -44,11 +44,11 @@ bool Lock(int descriptor) {
   }
 }
 
-/// The first line of a file, with its end; shorter where the file is.
+/// Return the first line of a file, with its line end if there is one.
 std::string FirstLine(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::string line;
-  // A header has some 200 bytes.
+  // A header has about 200 bytes.
   for (char c = 0; line.size() < (std::size_t{1} << 12) && stream.get(c);) {
     line += c;
     if (c == '\n') break;
@@ -75,9 +75,9 @@ bool LinesOutput::HoldPart() {
   file_ = Descriptor(open(part_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kNewMode));
   if (file_.get() < 0) FailWith(std::strerror(errno));
   if (!Lock(file_.get())) FailWith("another process writes it");
-  // The process that was waited for may have put it in its place.
+  // The process that held the lock may have renamed the part.
   struct stat held, there;
-  // Of a pipe no read would return.
+  // Reading a pipe would block.
   if (fstat(file_.get(), &held) == 0 && !S_ISREG(held.st_mode)) {
     throw InputError(part_.string() + ": cannot be replaced, expected a regular file or none");
   }
@@ -107,7 +107,7 @@ void LinesOutput::TakePart(bool fresh) {
     keeping_.seekg(kept);
     return;
   }
-  // A process that was killed at once has left nothing, or a beginning.
+  // A process that was killed immediately has left nothing, or the beginning of a header.
   const bool begins = expected.starts_with(found);
   const bool ours =
       begins ||
@@ -173,7 +173,7 @@ void LinesOutput::EndKeeping() {
   earlier_.emplace_back(path_, begin);
 }
 
-/// From the file that was read, although another process may have replaced it since.
+/// Copy the file that was opened, even if another process has replaced it meanwhile.
 void LinesOutput::CopyWhole() {
   keeping_.clear();
   keeping_.seekg(0);
@@ -192,7 +192,8 @@ void LinesOutput::CopyWhole() {
   }
 }
 
-/// The entries of the part behind `begin`, and those of an older rest that follow them.
+/// Copy the entries of the part after `begin`, and the entries of an older rest file that follow
+/// them, to the rest file.
 void LinesOutput::SetRestAside(std::int64_t begin) {
   EarlierLines last(part_, begin), older(rest_);
   if (!last.Next()) return;
@@ -248,7 +249,7 @@ void LinesOutput::Finish() {
     std::error_code error;
     const bool whole = next_ > header_.range().last &&
                        static_cast<std::int64_t>(fs::file_size(path_, error)) == kept_bytes_;
-    if (whole && !error) return;  // it is there already
+    if (whole && !error) return;  // already complete
   }
   EndKeeping();
   if (fsync(file_.get()) != 0 || rename(part_.c_str(), path_.c_str()) != 0) {

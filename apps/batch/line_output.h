@@ -15,67 +15,70 @@
 
 namespace regrasp::apps {
 
-/// Behind the name of a file of lines that is being written.
+/// Suffix of a JSON Lines file that is being written.
 inline constexpr char kPartEnding[] = ".part";
 
-/// Behind the name of a part: entries of an earlier part that do not follow those that were kept.
+/// Suffix, after kPartEnding, for entries of an earlier part that do not follow the kept ones.
 inline constexpr char kRestEnding[] = ".rest";
 
-/// A file of lines as it is written, entry by entry in order. It grows beside its place, as
-/// NAME.part, and takes its place when all entries stand in it. A process that is killed leaves the
-/// part. What was appended survives the machine, too.
+/// Output file of JSON Lines, written entry by entry in order.
+/// The file grows as NAME.part in the same folder and is renamed when all entries are written. A
+/// killed process leaves the part. Appended entries also survive a crash of the machine.
 ///
-/// Entries of an earlier run are reused one by one, and only if the caller accepts the line. First
-/// `KeepNext` keeps lines where they are, from the first entry on: those of a whole file or of a
-/// part with the same header. Then `FindEarlier` searches all that earlier runs left. Neither
-/// trusts what the files say.
+/// Entries of an earlier run are reused one by one, if the caller accepts the line. First
+/// `KeepNext` keeps lines in place, from the first entry on: those of a complete file, or of a part
+/// with the same header. Then `FindEarlier` searches all results of earlier runs. Neither trusts
+/// the content of the files.
 ///
-/// One process at a time holds the part: by a lock, which goes with the process.
+/// Only one process at a time owns the part. It holds a file lock, which ends with the process.
 class LinesOutput {
  public:
-  /// Decides whether a line of an earlier run, without its end, is the result of its entry now.
+  /// Decides whether a line of an earlier run, without its line end, is the current result of its
+  /// entry.
   using Accept = std::function<bool(std::string_view line)>;
 
-  /// @param path   of the whole file.
-  /// @param fresh  throws away what is there of an earlier run.
-  /// @throws InputError        a part is in the way that is of another run, or no part at all.
-  /// @throws EnvironmentError  another process writes it, or it cannot be written.
+  /// @param path   path of the complete file.
+  /// @param fresh  true: discard results of an earlier run.
+  /// @throws InputError        if the part is that of another run, or not a part.
+  /// @throws EnvironmentError  if another process writes the file, or it cannot be written.
   LinesOutput(std::filesystem::path path, const LinesHeader& header, bool fresh);
 
-  /// The entry that Append or KeepNext continues with; behind the last if all are there.
+  /// Return the entry that Append or KeepNext continues with; one after the last if all are
+  /// written.
   [[nodiscard]] std::int64_t next() const { return next_; }
-  /// What the entries so far came to.
+  /// Return the outcome counts of the entries written so far.
   [[nodiscard]] const Tally& tally() const { return tally_; }
-  /// How many of them an earlier run had left.
+  /// Return the number of these entries that were reused from an earlier run.
   [[nodiscard]] std::int64_t kept() const { return kept_; }
 
-  /// Keep the line of the next entry where it is.
-  /// @returns false  if there is none, it is not accepted, or one before was not.
-  /// @throws as the constructor.
+  /// Keep the line of the next entry in place.
+  /// @returns false if there is none, if it is not accepted, or if an earlier entry was not kept.
+  /// @throws InputError, EnvironmentError  as the constructor.
   bool KeepNext(const Accept& accept);
 
-  /// Return the line that an earlier run left of an entry, without its end, to be appended.
-  /// @param entry  number, ascending from call to call.
-  /// @returns none  if there is none that is accepted.
+  /// Return the line of an entry from an earlier run, without its line end, for Append.
+  /// @param entry  entry number, ascending from call to call.
+  /// @returns nullopt if there is no accepted line.
   [[nodiscard]] std::optional<std::string> FindEarlier(std::int64_t entry, const Accept& accept);
 
-  /// @param lines  those of the next entries, each with its end.
-  /// @throws EnvironmentError  the disk is full. @throws as the constructor.
+  /// @param lines  lines of the next entries, each with its line end.
+  /// @throws EnvironmentError  if the disk is full. @throws InputError, EnvironmentError  as the
+  ///     constructor.
   void Append(std::string_view lines);
 
-  /// Puts the file in its place.
-  /// @throws EnvironmentError  it cannot be.
+  /// Rename the part to its final name.
+  /// @throws EnvironmentError  if that fails.
   void Finish();
 
-  /// Removes what was written, if the file is not in its place.
+  /// Remove the part, unless it was renamed to its final name.
   void Discard();
 
  private:
-  /// Where KeepNext finds lines.
+  /// Source of the lines for KeepNext.
   enum class Kept { kNowhere, kWhole, kPart };
 
   [[nodiscard]] bool OpenWhole();
-  /// @returns false if the part has gone meanwhile.
+  /// @returns false if the part has disappeared meanwhile.
   [[nodiscard]] bool HoldPart();
   void TakePart(bool fresh);
   void BeginPart();
@@ -87,13 +90,13 @@ class LinesOutput {
 
   std::filesystem::path path_, part_, rest_;
   LinesHeader header_;
-  Descriptor file_;  ///< of the part
+  Descriptor file_;  ///< descriptor of the part
   Tally tally_;
   std::int64_t next_;
   std::int64_t kept_ = 0;
   Kept kept_in_ = Kept::kNowhere;
-  std::ifstream keeping_;        ///< of the file with lines to keep
-  std::int64_t kept_bytes_ = 0;  ///< of its header and the lines that were kept
+  std::ifstream keeping_;        ///< file with the lines to keep
+  std::int64_t kept_bytes_ = 0;  ///< size of its header and of the kept lines, bytes
   std::vector<EarlierLines> earlier_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr char kHeaderFormat[] = "regrasp-lines";
 constexpr char kNoResultFormat[] = "regrasp-none";
 
-/// How lines begin behind the entry's number.
+/// Beginnings of lines after the entry's number.
 constexpr std::array<std::pair<std::string_view, Outcome>, 6> kBeginnings = {{
     {R"("format":"regrasp-plan",)", Outcome::kPlan},
     {R"("format":"regrasp-report","version":1,"verdict":"pass",)", Outcome::kPass},
@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, Outcome>, 6> kBeginnings = {{
     {R"("format":"regrasp-none","version":1,"verdict":"error",)", Outcome::kError},
 }};
 
-/// JSON on one line; bytes that are not UTF-8, which a file's name may have, become U+FFFD.
+/// Format JSON on one line. Bytes that are not UTF-8, possible in file names, become U+FFFD.
 std::string OnOneLine(const Json& json) {
   return json.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
 }

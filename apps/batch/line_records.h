@@ -10,7 +10,7 @@
 
 namespace regrasp::apps {
 
-/// Entries of a file of lines, by their numbers, which begin with 1; none where last < first.
+/// Range of entries of a JSON Lines file, numbered from 1; empty if last < first.
 struct EntryRange {
   std::int64_t first = 1;
   std::int64_t last = 0;
@@ -19,14 +19,14 @@ struct EntryRange {
   bool operator==(const EntryRange&) const = default;
 };
 
-/// Part `number` of `count`; 1 of 1 is all.
+/// Shard `number` of `count`; 1 of 1 contains all entries.
 struct Shard {
   int number = 1;
   int count = 1;
 
-  /// The entries of the shard, neighbours all. Shards in order cover every entry once, and differ
-  /// by at most one entry in size.
-  /// @param entries  of the whole, at most kMostEntries.
+  /// Return the entries of the shard, which are consecutive. The shards in order cover every entry
+  /// once, and their sizes differ by at most one entry.
+  /// @param entries  number of entries of the whole, at most kMostEntries.
   [[nodiscard]] EntryRange Of(std::int64_t entries) const;
   bool operator==(const Shard&) const = default;
 };
@@ -34,80 +34,80 @@ struct Shard {
 inline constexpr int kMostShards = 1'000'000;
 inline constexpr std::int64_t kMostEntries = 1'000'000'000'000;
 
-/// "2/4".
-/// @throws InputError  names the option and what was found.
+/// Parse a shard such as "2/4".
+/// @throws InputError  if the text is not a shard; the message names the option and the text.
 [[nodiscard]] Shard ParseShard(const std::string& option, const std::string& text);
 
-/// Line 1 of a file that a program has written: what its other lines are.
+/// Header: first line of a file that a program has written. It describes the other lines.
 struct LinesHeader {
-  std::string content;       ///< "plans" or "reports"
-  std::int64_t entries = 0;  ///< of the whole, however many of its shards stand here
+  std::string content;       ///< content type, "plans" or "reports"
+  std::int64_t entries = 0;  ///< number of entries of the whole, including other shards
   Shard shard;
-  std::string run;  ///< SHA-256 of all that the lines come from
+  std::string run;  ///< SHA-256 of all inputs of the lines
 
   [[nodiscard]] EntryRange range() const { return shard.Of(entries); }
   bool operator==(const LinesHeader&) const = default;
 };
 
-/// The line, with its end.
+/// Format the header line, with its line end.
 [[nodiscard]] std::string FormatHeader(const LinesHeader& header);
 
-/// @param name  how messages call the line.
-/// @returns none where it is no header.
-/// @throws InputError  it is one, and a bad one.
+/// @param name  name of the line in messages.
+/// @returns nullopt if the line is not a header.
+/// @throws InputError  if it is an invalid header.
 [[nodiscard]] std::optional<LinesHeader> ParseHeader(std::string_view line,
                                                      const std::string& name);
 
-/// What became of an entry, by what stands in its line.
+/// Outcome of an entry, as recorded in its line.
 enum class Outcome {
-  kPlan,      ///< a plan
-  kPass,      ///< a report that says so
-  kFail,      ///< likewise
-  kNoPlan,    ///< no sequence was found
-  kBadInput,  ///< the line that was read is no good
-  kError,     ///< its process crashed or was stopped
+  kPlan,      ///< plan found
+  kPass,      ///< report with verdict pass
+  kFail,      ///< report with verdict fail
+  kNoPlan,    ///< no plan found
+  kBadInput,  ///< invalid input line
+  kError,     ///< process crashed or was stopped
 };
 
-/// "plan", "pass", "fail", "no-plan", "bad-input" or "error".
+/// Return the name: "plan", "pass", "fail", "no-plan", "bad-input" or "error".
 [[nodiscard]] std::string_view OutcomeName(Outcome outcome);
 
-/// A line, without its end: `json` behind the entry's number, which always comes first.
-/// @param json  an object whose first members are format, version and, but for plans, verdict.
+/// Format a line, without its line end: `json`, preceded by the entry's number.
+/// @param json  object whose first members are format, version and, except for plans, verdict.
 [[nodiscard]] std::string FormatRecord(std::int64_t entry, const Json& json);
 
-/// The line of an entry without a result.
+/// Format the line of an entry without a result.
 /// @param outcome  kNoPlan, kBadInput or kError.
 [[nodiscard]] std::string FormatNoResult(std::int64_t entry, Outcome outcome,
                                          const std::string& message);
 
-/// What FormatRecord and FormatNoResult have written, told by how the line begins and ends.
-/// @param line  without its end.
-/// @returns none where it is not the whole line of this entry.
+/// Return the outcome in a line of FormatRecord or FormatNoResult, based on its beginning and end.
+/// @param line  text without its line end.
+/// @returns nullopt if it is not the complete line of this entry.
 [[nodiscard]] std::optional<Outcome> OutcomeOf(std::string_view line, std::int64_t entry);
 
-/// The number of the entry whose line begins so; none if it is not a line of an entry.
+/// Return the number of the entry that begins the line; nullopt if it is not the line of an entry.
 [[nodiscard]] std::optional<std::int64_t> EntryOf(std::string_view line);
 
-/// Add two digests to the end of a record: `inputs_sha256`, of all that the result depends on, and
-/// `line_sha256`, of the line before it. The first tells whether a later run may reuse the result,
-/// the second whether the line is as it was written. Anyone who edits a line can seal it again: it
-/// is not a signature.
+/// Append two digests to a record: `inputs_sha256` of all inputs of the result, and `line_sha256`
+/// of the line before it.
+/// The first determines whether a later run may reuse the result. The second detects an edited
+/// line. It is not a signature: anyone who edits a line can seal it again.
 ///
-/// A record of bad input or of an error stays as it is, so that no run ever reuses it: its cause
+/// A record of bad input or of an error is returned unchanged, so that no run reuses it: its cause
 /// may lie outside the inputs.
-/// @param record  the whole line of the entry, without its end.
+/// @param record  complete line of the entry, without its line end.
 /// @param inputs  64 hexadecimal digits.
 [[nodiscard]] std::string SealRecord(const std::string& record, std::int64_t entry,
                                      const std::string& inputs);
 
-/// The digest of the inputs in a line that SealRecord has written; none if the line has no seal or
-/// was edited since.
+/// Return the digest of the inputs in a line of SealRecord; nullopt if the line has no seal or was
+/// edited after sealing.
 [[nodiscard]] std::optional<std::string_view> SealedInputs(std::string_view line);
 
-/// How many entries came to what.
+/// Number of entries per outcome.
 using Tally = std::map<Outcome, std::int64_t>;
 
-/// "1000 entries: 990 pass, 8 fail, 2 no-plan".
+/// Return the counts as text: "1000 entries: 990 pass, 8 fail, 2 no-plan".
 [[nodiscard]] std::string TallyText(const Tally& tally);
 
 }  // namespace regrasp::apps

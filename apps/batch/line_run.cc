@@ -23,30 +23,32 @@ namespace regrasp::apps {
 
 namespace {
 
-/// A child works on as many entries as take about this long, seconds: so many that a process more
-/// does not matter (with eight plans of 70 ms each 0.7 % of the time went to processes, and each
-/// looks the engine's functions up anew), and few enough that little is lost with a run that is
-/// killed, and that the last ones do not wait for one.
+/// Intended duration of a child process, s, which determines its number of entries.
+/// It is long enough that the cost of a process is negligible: with eight plans of 70 ms each,
+/// processes took 0.7 % of the time, and each resolves the engine's symbols again. It is short
+/// enough that a killed run loses little, and that the other jobs do not wait long for the last
+/// child.
 constexpr double kChunkTime = 4;
 constexpr int kFirstChunk = 8;
 constexpr int kLargestChunk = 64;
 
-/// How far ahead of the output children may be, in entries a job: their results wait in memory.
+/// Maximum lead of children over the output, in entries per job, because their results wait in
+/// memory.
 constexpr int kMostAhead = 2048;
 
-/// Entries that are kept from one report of progress to the next.
+/// Number of kept entries between two progress reports.
 constexpr std::int64_t kToldEvery = 1024;
 
-/// Groups that are remembered; to forget one costs time alone.
+/// Maximum number of remembered groups. A forgotten group is prepared again, which only costs time.
 constexpr std::size_t kMostGroups = 4096;
 
-/// Memory that a child keeps while it has entries to do; the most that malloc takes for it.
+/// Memory that a child retains between entries, bytes: the maximum that malloc accepts.
 constexpr int kKeptBytes = 1 << 25;
 
 using Chunk = std::vector<Line>;
 using Clock = std::chrono::steady_clock;
 
-/// What a child has been given, and when.
+/// Chunk of a running child, and its start time.
 struct Running {
   Chunk chunk;
   Clock::time_point since;
@@ -69,7 +71,7 @@ class LineRun {
   }
 
  private:
-  /// Keeps the results of an earlier run from the first entry on, up to one that is not reused.
+  /// Keep the results of an earlier run from the first entry up to the first that is not reusable.
   void KeepResults() {
     for (std::optional<Line> line = Get(); line; line = Get()) {
       const bool kept =
@@ -82,7 +84,7 @@ class LineRun {
     }
   }
 
-  /// The next line with the digest of its inputs.
+  /// Return the next line with the digest of its inputs.
   std::optional<Line> Get() {
     if (waiting_) return std::exchange(waiting_, std::nullopt);
     std::optional<Line> line = input_.Next();
@@ -90,7 +92,8 @@ class LineRun {
     return line;
   }
 
-  /// Messages of a record that is reused are repeated: whoever reads them sees no difference.
+  /// The messages of a reused record are printed again, so that the output does not differ from
+  /// that of a first run.
   [[nodiscard]] bool IsReusable(const Line& line, std::string_view record) const {
     if (line.inputs.empty() || SealedInputs(record) != line.inputs) return false;
     if (work_.complete && !work_.complete(line, record)) return false;
@@ -98,12 +101,12 @@ class LineRun {
     try {
       for (const std::string& message : work_.messages(line, record)) options_.on_message(message);
     } catch (const InputError&) {
-      return false;  // somebody edited and sealed it
+      return false;  // the line was edited and sealed again
     }
     return true;
   }
 
-  /// A chunk that has to be begun, under a number.
+  /// Return the number of a chunk to start.
   std::optional<int> Next() {
     Chunk chunk;
     if (!again_.empty()) {
@@ -124,11 +127,11 @@ class LineRun {
     return task_++;
   }
 
-  /// Reads lines to work on, and finishes those on the way that an earlier run has done.
-  /// @param last  entry to read up to.
+  /// Read lines for a chunk, and finish those that have a reusable result of an earlier run.
+  /// @param last  last entry to read.
   /// @returns false at the end of the input.
   bool Read(Chunk& chunk, std::int64_t last) {
-    // By the clock of a process a limit is that of one entry.
+    // The time limit applies to a process, so with a limit a process has only one entry.
     const int most = options_.time_limit_s ? 1 : chunk_size_;
     while (static_cast<int>(chunk.size()) < most && read_to_ < last) {
       std::optional<Line> line = Get();
@@ -137,7 +140,7 @@ class LineRun {
       const auto earlier = output_.FindEarlier(
           line->entry, [&](std::string_view record) { return IsReusable(*line, record); });
       if (earlier) {
-        // A chunk has neighbours only, whose results are appended together.
+        // Entries of a chunk are consecutive, because their results are appended together.
         finished_[line->entry] = *earlier + "\n";
         if (!chunk.empty()) return true;
       } else {
@@ -154,10 +157,10 @@ class LineRun {
     }
   }
 
-  /// In a child.
+  /// Runs in a child.
   int Work(int task) {
-    // What an engine took for one plan it asks for again for the next: to return it to the system
-    // and to be given fresh pages took as long as to compile the scene.
+    // Retain the memory that the engine used for one plan, because the next plan uses it again.
+    // Returning it to the system and getting new pages took as long as compiling the scene.
     mallopt(M_MMAP_THRESHOLD, kKeptBytes);
     mallopt(M_TRIM_THRESHOLD, kKeptBytes);
     for (const Line& line : running_.at(task).chunk) {
@@ -169,8 +172,8 @@ class LineRun {
     return 0;
   }
 
-  /// What a child has written, as far as lines are whole; where it ended early the entry that it
-  /// was at is an error, and others go on with the rest.
+  /// Take the complete lines that a child has written. If the child ended early, its current entry
+  /// is an error, and other children continue with the remaining entries.
   void Take(int task, const ChildExit& exit) {
     auto [chunk, since] = std::move(running_.extract(task).mapped());
     Say(exit.errors);
@@ -193,7 +196,7 @@ class LineRun {
     AppendFinished();
   }
 
-  /// What is done at a time goes by what the last child has done.
+  /// The chunk size is based on the speed of the last child.
   void MeasureChunk(std::size_t done, double seconds) {
     const double size = kChunkTime * static_cast<double>(done) / std::max(seconds, 1e-9);
     chunk_size_ = static_cast<int>(std::clamp(size, 1.0, double{kLargestChunk}));
@@ -238,10 +241,11 @@ class LineRun {
   std::int64_t read_to_ = 0;
   int chunk_size_ = kFirstChunk;
   std::map<int, Running> running_;
-  std::optional<Line> waiting_;                   ///< the first one that is not kept
-  std::deque<Chunk> again_;                       ///< rests of chunks whose process ended early
-  std::map<std::int64_t, std::string> finished_;  ///< lines that wait for others, by first entry
-  std::set<std::string> groups_;                  ///< that were prepared
+  std::optional<Line> waiting_;  ///< first line that is not kept
+  std::deque<Chunk> again_;      ///< remaining entries of chunks whose process ended early
+  /// lines waiting for earlier ones, by first entry
+  std::map<std::int64_t, std::string> finished_;
+  std::set<std::string> groups_;  ///< prepared groups
 };
 
 }  // namespace

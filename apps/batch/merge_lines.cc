@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Bytes that are gathered before they are written, and waited for on the disk.
+/// Bytes that are collected before they are written and flushed to the disk.
 constexpr std::size_t kPiece = std::size_t{1} << 22;
 
-/// That a message names.
+/// Maximum number of items named in a message.
 constexpr int kMostNamed = 5;
 
 std::string ShardText(const Shard& shard) {
@@ -40,7 +40,7 @@ LinesHeader ReadHeader(const fs::path& path) {
                    "them");
 }
 
-/// Whether two headers differ in nothing but the shard's number.
+/// Check that two headers differ only in the shard's number.
 void CheckSameRun(const ShardFile& first, const ShardFile& other) {
   LinesHeader expected = first.header;
   const auto refuse = [&](const std::string& what) {
@@ -76,7 +76,7 @@ void CheckComplete(const std::vector<ShardFile>& shards) {
                    " not found: " + names + (missing > kMostNamed ? ", …" : ""));
 }
 
-/// A shard as it is read, entry by entry.
+/// Reader of a shard, entry by entry.
 class ShardReader {
  public:
   explicit ShardReader(const ShardFile& shard)
@@ -85,7 +85,7 @@ class ShardReader {
     std::getline(stream_, header);
   }
 
-  /// The line of an entry, with its end.
+  /// Return the line of an entry, with its line end.
   std::string Get(std::int64_t entry) {
     std::string line;
     ++line_;
@@ -114,7 +114,7 @@ class ShardReader {
   std::int64_t line_ = 1;
 };
 
-/// Entries whose lines are there already stay; all are read.
+/// Append all entries. Lines that are already present are kept, but all are read.
 void AppendShards(const std::vector<ShardFile>& shards, LinesOutput& merged) {
   std::string lines;
   bool keeps = true;
@@ -162,7 +162,7 @@ Tally MergeLines(const std::vector<ShardFile>& shards, const fs::path& output, b
   try {
     AppendShards(shards, merged);
   } catch (...) {
-    // To begin anew costs little, and half a file would be in the way.
+    // Starting again is cheap, and an incomplete file would block the next run.
     merged.Discard();
     throw;
   }

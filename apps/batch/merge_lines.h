@@ -8,26 +8,27 @@
 
 namespace regrasp::apps {
 
-/// A file with a shard of a run.
+/// File with one shard of a run.
 struct ShardFile {
   std::filesystem::path path;
   LinesHeader header;
 };
 
-/// Looks at the headers of all shards of a run.
-/// @returns them in the order of their entries.
-/// @throws InputError  names the file: one has no header, is of another run, or a shard twice;
-///                     or names the shards that are missing.
+/// Read the headers of all shards of a run.
+/// @returns the shards in the order of their entries.
+/// @throws InputError  if a file has no header or is of another run, or if a shard occurs twice or
+///     is missing. The message names the file or the missing shards.
 [[nodiscard]] std::vector<ShardFile> FindShards(const std::vector<std::filesystem::path>& files);
 
-/// Joins shards into the file that one run over all entries writes, byte for byte. As a stream: it
-/// takes no more memory for more entries. Goes on with a part that a merge left which was killed.
-/// @param shards  as FindShards gives them.
-/// @param fresh   throws away what is there of an earlier merge.
-/// @returns what the entries came to.
-/// @throws InputError        names the file and the line: a shard does not have the entries that it
-///                           should, each on a line of its own, and nothing else.
-/// @throws EnvironmentError  the output cannot be written.
+/// Merge shards into the file that a single run over all entries writes, byte for byte.
+/// Shards are read as a stream: memory use does not depend on the number of entries. The function
+/// continues the part of an earlier merge that was killed.
+/// @param shards  result of FindShards.
+/// @param fresh   true: discard the part of an earlier merge.
+/// @returns the outcome counts of the entries.
+/// @throws InputError        if a shard does not contain exactly its entries, one per line. The
+///     message names the file and the line.
+/// @throws EnvironmentError  if the output cannot be written.
 Tally MergeLines(const std::vector<ShardFile>& shards, const std::filesystem::path& output,
                  bool fresh);
 

@@ -41,7 +41,7 @@ ObjectFinder::ObjectFinder(std::string path) : path_(std::move(path)) {
 std::string ObjectFinder::Find(const std::string& name, const std::string& sha256,
                                const std::string& where) {
   if (!is_folder_) return path_;
-  // Only the name counts: a line must not lead out of the folder.
+  // Use only the file name, because a line must not reference files outside the folder.
   const fs::path file = fs::path(name).filename();
   const std::string path = (path_ / file).string();
   std::error_code error;
@@ -67,7 +67,7 @@ std::string ObjectFinder::FindByDigest(const std::string& sha256) {
        entry.increment(error)) {
     if (entry->is_regular_file(error)) files.push_back(entry->path().string());
   }
-  // Of two with the same bytes always the same one.
+  // Among files with the same bytes, always select the same one.
   std::ranges::sort(files);
   const auto found = std::ranges::find_if(
       files, [&](const std::string& file) { return DigestOf(file) == sha256; });

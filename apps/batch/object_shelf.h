@@ -13,47 +13,50 @@ namespace regrasp::apps {
 
 using SharedObject = std::shared_ptr<const object::ObjectFile>;
 
-/// Objects that stay loaded while they are asked for: the last few, by what each was read from and
-/// how. What cannot be read is remembered as well, so that a thousand plans for it try once.
+/// Cache of the most recently used objects, keyed by their file and by how it is read.
+/// Failures to read a file are cached as well, so that a thousand plans for the same object try
+/// only once.
 class ObjectShelf {
  public:
   static constexpr std::size_t kMost = 32;
 
-  /// @param key   tells the object and how it is read.
-  /// @param read  reads it.
-  /// @throws InputError  `read` did, now or earlier.
+  /// @param key   key of the object's file and of how it is read.
+  /// @param read  function that reads the object.
+  /// @throws InputError  if `read` throws it, now or in an earlier call.
   [[nodiscard]] SharedObject Get(const std::string& key,
                                  const std::function<object::ObjectFile()>& read);
 
  private:
   struct Place {
     std::string key;
-    SharedObject object;  ///< none where it could not be read
+    SharedObject object;  ///< null if it could not be read
     std::string why;
   };
-  std::list<Place> places_;  ///< the last that was asked for first
+  std::list<Place> places_;  ///< cache entries, most recently used first
 };
 
-/// Finds the file of an object in a folder, by its digest.
+/// Finder of an object's file in a folder, by its digest.
 class ObjectFinder {
  public:
-  /// @param path  of a folder, or of the one file that all objects are.
+  /// @param path  path of a folder, or of the file that contains the object of all lines.
   explicit ObjectFinder(std::string path);
 
-  /// The file of that name, where its digest is the right one or none is given; otherwise one of
-  /// the folder that has the digest, or else the file of that name all the same, for the reader to
-  /// say what is wrong.
-  /// @param name    of which only the last part counts; in a folder not empty.
-  /// @param sha256  empty: any.
-  /// @param where   says it: "queries.jsonl: line 3".
-  /// @throws InputError  the folder has neither.
+  /// Return the path of an object file.
+  /// It is the file with this name if its digest is the expected one, or if none is expected.
+  /// Otherwise it is a file of the folder with this digest. If there is none, it is again the file
+  /// with this name, and the reader reports the difference.
+  /// @param name    file name, of which only the last component is used; not empty if a folder is
+  ///     searched.
+  /// @param sha256  expected digest; empty: any.
+  /// @param where   place of the reference for messages: "queries.jsonl: line 3".
+  /// @throws InputError  if the folder contains neither.
   [[nodiscard]] std::string Find(const std::string& name, const std::string& sha256,
                                  const std::string& where);
 
   [[nodiscard]] bool is_folder() const { return is_folder_; }
 
   /// Return the SHA-256 of a file, computed once.
-  /// @throws InputError  it cannot be read.
+  /// @throws InputError  if it cannot be read.
   [[nodiscard]] const std::string& DigestOf(const std::string& file);
 
  private:
@@ -61,7 +64,7 @@ class ObjectFinder {
 
   std::string path_;
   bool is_folder_;
-  std::map<std::string, std::string> digests_;  ///< of files that were looked at
+  std::map<std::string, std::string> digests_;  ///< digests of the files read so far
 };
 
 }  // namespace regrasp::apps

@@ -17,11 +17,11 @@ namespace fs = std::filesystem;
 constexpr char kSuffix[] = ".json";
 constexpr char kPlanFormat[] = "regrasp-plan";
 
-/// Why a file is not a plan; empty where it may be one.
+/// Return the reason why a file is not a plan; empty if it may be one.
 std::string WhyNoPlan(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return "is a folder";
-  // A missing one may have been a plan.
+  // A missing file may have been a plan.
   if (!fs::exists(path, error)) return "";
   // A pipe or a device may have no end.
   if (!fs::is_regular_file(path, error)) return "is not a regular file";
@@ -39,7 +39,7 @@ std::string WhyNoPlan(const fs::path& path) {
   }
 }
 
-/// Files below a folder that are counted at most; a message needs no more.
+/// Maximum number of counted files below a folder; sufficient for a message.
 constexpr int kMostBelow = 1000;
 
 bool IsPlan(const fs::path& path) {
@@ -69,7 +69,7 @@ std::string CountText(int plans) {
   return std::to_string(plans) + (plans == 1 ? " plan" : " plans");
 }
 
-/// Subfolders are not searched: what stands in them is named, with its numbers.
+/// Record the subfolders, with the number of files in each, as skipped: they are not searched.
 void SkipSubfolders(const fs::path& folder, PlanLibrary& library) {
   std::vector<fs::path> subfolders;
   std::error_code error;
@@ -88,7 +88,7 @@ void SkipSubfolders(const fs::path& folder, PlanLibrary& library) {
   }
 }
 
-/// Why a folder has no plan, and where there are some.
+/// Return the message that a folder has no plan, with hints on where plans are.
 std::string NoPlanText(const fs::path& folder) {
   PlanLibrary below;
   SkipSubfolders(folder, below);
@@ -133,7 +133,7 @@ void AddFolder(const fs::path& folder, PlanLibrary& library) {
 void CheckNames(const PlanLibrary& library) {
   std::map<std::string, fs::path> seen;
   for (const LibraryPlan& plan : library.plans) {
-    // These are files beside the folders.
+    // These names are reserved for files next to the folders.
     const bool taken =
         plan.name == kSummaryName || plan.name == kIndexName || plan.name == ".regrasp-run";
     if (plan.name.empty() || plan.name == "." || plan.name == ".." || taken) {

@@ -7,32 +7,34 @@
 namespace regrasp::apps {
 
 struct LibraryPlan {
-  std::string name;  ///< the file's, without .json: the folder of its results
+  std::string name;  ///< file name without .json, which is the name of the folder of its results
   std::filesystem::path path;
 };
 
 struct SkippedFile {
-  std::string file;  ///< its name
-  std::string why;   ///< "is a regrasp-grasp file"
+  std::string file;  ///< file name
+  std::string why;   ///< reason: "is a regrasp-grasp file"
 };
 
-/// Files beside the folders of the plans: the summary of a batch, and its page.
+/// Files next to the folders of the plans: the summary of a batch, and its overview page.
 inline constexpr char kSummaryName[] = "summary.json";
 inline constexpr char kIndexName[] = "index.html";
 
-/// The plans that a batch goes through.
+/// Plans of a batch.
 struct PlanLibrary {
   std::vector<LibraryPlan> plans;
-  std::vector<SkippedFile> skipped;  ///< of folders
+  std::vector<SkippedFile> skipped;  ///< skipped files of folders
 };
 
-/// Files as they are named, and of a folder every *.json, by name, that does not say itself that it
-/// is something else: a file that cannot be parsed may have been a plan.
-/// @throws InputError  no plan in a folder; two plans of one name, which would write into the same
-///                     folder; a name that cannot be one of a folder.
+/// Return the given files and, for each folder, all *.json files sorted by name, without those that
+/// identify themselves as another format. A file that cannot be parsed is included: it may be a
+/// damaged plan.
+/// @throws InputError  if a folder has no plan, if two plans have the same name and would write
+///     into the same folder, or if a name cannot be that of a folder.
 [[nodiscard]] PlanLibrary FindPlans(const std::vector<std::string>& paths);
 
-/// A file larger than this is taken for a plan without looking; its own run may then refuse it.
+/// Maximum size of a file whose format is checked here, bytes. A larger file is included as a plan;
+/// its own validation may then reject it.
 inline constexpr std::size_t kMostLookedAtBytes = std::size_t{1} << 24;
 
 }  // namespace regrasp::apps

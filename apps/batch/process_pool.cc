@@ -27,19 +27,19 @@ namespace {
 
 using Clock = PoolOptions::Clock;
 
-/// How long a wait lasts at most where time is limited.
+/// Maximum wait if there is a time limit.
 constexpr std::chrono::milliseconds kLongestWait{200};
-/// More time between two looks at the clock was not spent waiting: this process was stopped, most
-/// likely by the terminal and with its children. A look late by as much is counted, so that a busy
-/// machine stretches no limit.
+/// Maximum time that counts between two clock readings. If more has passed, this process was
+/// stopped, most likely by the terminal together with its children. Shorter delays count, so that a
+/// busy machine does not extend a limit.
 constexpr std::chrono::milliseconds kMostCounted = 2 * kLongestWait;
 
 [[noreturn]] void FailWith(const std::string& what) {
   throw EnvironmentError(what + ": " + std::strerror(errno));
 }
 
-/// Signals become readable events while this lives: children that ended, and wishes to stop that
-/// nobody has set to be ignored.
+/// Converts signals to readable events during its lifetime: ended children, and stop signals that
+/// are not ignored.
 class SignalEvents {
  public:
   SignalEvents() : events_(-1) {
@@ -52,7 +52,7 @@ class SignalEvents {
       if (action.sa_handler != SIG_IGN) sigaddset(&waited, stop);
     }
     sigprocmask(SIG_BLOCK, &waited, &before_);
-    // Where the parent set this to be ignored, children would vanish without an exit code.
+    // If the parent set SIGCHLD to be ignored, children would end without an exit code.
     struct sigaction usual {};
     usual.sa_handler = SIG_DFL;
     sigaction(SIGCHLD, &usual, &child_action_);
@@ -73,7 +73,7 @@ class SignalEvents {
     sigprocmask(SIG_SETMASK, &before_, nullptr);
   }
 
-  /// Forgets children that ended. @returns the signal that wishes to stop, 0 where there is none.
+  /// Discard events of ended children. @returns the stop signal, 0 if there is none.
   [[nodiscard]] int TakeStop() const {
     int stop = 0;
     signalfd_siginfo info;
@@ -89,17 +89,17 @@ class SignalEvents {
   Descriptor events_;
 };
 
-/// What a child writes on one of its standard streams.
+/// Pipe of one standard stream of a child.
 class Stream {
  public:
   Stream();
   [[nodiscard]] int in() const { return in_.get(); }
   [[nodiscard]] const std::string& text() const { return text_; }
-  /// In the child: takes the place of one of its standard streams.
+  /// Replace a standard stream; called in the child.
   void Replace(int standard) const { dup2(out_.get(), standard); }
-  /// In the parent, after the fork.
+  /// Close the write end; called in the parent after the fork.
   void CloseOut() { out_ = Descriptor(-1); }
-  /// Takes what is there now; keeps at most so many bytes of all.
+  /// Read the available data and keep at most `most` bytes in total.
   void Drain(std::size_t most);
 
  private:
@@ -112,7 +112,7 @@ struct Child {
   pid_t process;
   Stream output, errors;
   Clock::time_point begin;
-  Clock::duration left;  ///< until the time limit
+  Clock::duration left;  ///< remaining time until the time limit
   bool timed_out = false;
 };
 
@@ -125,7 +125,7 @@ class Pool {
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
-  /// @returns the signal that stopped it, 0 where all were run.
+  /// @returns the signal that stopped it, 0 if all tasks were run.
   int Run(const std::function<std::optional<int>()>& next) {
     while (true) {
       while (static_cast<int>(children_.size()) < options_.jobs) {
@@ -190,7 +190,7 @@ void Pool::DrainAll(Child& child) const {
 
 void Pool::Start(int index) {
   Stream output, errors;
-  // What is buffered would be written twice.
+  // Flush first: buffered text would be written twice.
   std::cout.flush();
   std::fflush(nullptr);
   const pid_t parent = getpid();
@@ -199,7 +199,7 @@ void Pool::Start(int index) {
   if (process == 0) RunChild(index, parent, output, errors);
   output.CloseOut();
   errors.CloseOut();
-  CountTime();  // what has passed is not this child's
+  CountTime();  // earlier time does not count for this child
   const auto limit = options_.time_limit.value_or(std::chrono::duration<double>::zero());
   children_.push_back({index, process, std::move(output), std::move(errors), last_look_,
                        std::chrono::duration_cast<Clock::duration>(limit)});
@@ -208,7 +208,7 @@ void Pool::Start(int index) {
 void Pool::RunChild(int index, pid_t parent, const Stream& output, const Stream& errors) {
   signals_.Restore();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(EXIT_FAILURE);  // it died before it could have told
+  if (getppid() != parent) _exit(EXIT_FAILURE);  // the parent died before prctl took effect
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
@@ -216,7 +216,8 @@ void Pool::RunChild(int index, pid_t parent, const Stream& output, const Stream&
   output.Replace(STDOUT_FILENO);
   errors.Replace(STDERR_FILENO);
   int code = 0;
-  // Nothing is caught that the code before the fork would catch: it is no longer in charge.
+  // noexcept, because the handlers of the code before the fork must not catch exceptions of the
+  // child.
   [&]() noexcept { code = work_(index); }();
   std::cout.flush();
   std::cerr.flush();
@@ -228,7 +229,7 @@ void Pool::Wait() {
   std::vector<pollfd> waited = {{signals_.descriptor(), POLLIN, 0}};
   Clock::duration longest = kLongestWait;
   for (const Child& child : children_) {
-    // A closed pipe is always ready; its child is then waited for by signal.
+    // A closed pipe is always ready, so the end of its child is then awaited by signal.
     for (const Stream* stream : {&child.output, &child.errors}) {
       if (stream->in() >= 0) waited.push_back({stream->in(), POLLIN, 0});
     }
@@ -272,7 +273,7 @@ void Pool::Reap() {
     ChildExit exit;
     exit.kind = WIFEXITED(status) ? ChildExit::Kind::kExited : ChildExit::Kind::kSignalled;
     exit.code = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
-    // One that was done at the last instant is done.
+    // A child that ended by itself at the last instant did not time out.
     if (child.timed_out && exit.kind == ChildExit::Kind::kSignalled) {
       exit.kind = ChildExit::Kind::kTimedOut;
     }

@@ -7,51 +7,53 @@
 
 namespace regrasp::apps {
 
-/// How a child process of a pool ended.
+/// Result of a child process of a pool.
 struct ChildExit {
   enum class Kind {
     kExited,
     kSignalled,
-    kTimedOut,  ///< it was killed at the time limit
+    kTimedOut,  ///< killed at the time limit
   };
   Kind kind = Kind::kExited;
-  int code = 0;        ///< exit code, or the signal that ended it
-  std::string output;  ///< what it wrote on standard output, at most `most_output` bytes
-  std::string errors;  ///< on standard error, at most kLongestText bytes
-  double seconds = 0;  ///< that it took, by the clock
+  int code = 0;        ///< exit code, or the signal that ended the process
+  std::string output;  ///< standard output, at most `most_output` bytes
+  std::string errors;  ///< standard error, at most kLongestText bytes
+  double seconds = 0;  ///< wall-clock time, s
 };
 
-/// Of a stream where the options ask for no other limit. More is read, so that the child can go on,
-/// and thrown away.
+/// Default maximum of the recorded bytes of a stream. Further output is read and discarded, so that
+/// the child is not blocked.
 inline constexpr std::size_t kLongestText = std::size_t{1} << 16;
 
 struct PoolOptions {
   using Clock = std::chrono::steady_clock;
-  int jobs = 1;  ///< children at a time, ≥ 1
-  /// Of each child, by the clock; time in which this process was stopped does not count.
+  int jobs = 1;  ///< maximum number of concurrent children, ≥ 1
+  /// Wall-clock time limit per child. Time in which this process was stopped does not count.
   std::optional<std::chrono::duration<double>> time_limit;
   std::function<Clock::time_point()> now = Clock::now;
-  std::size_t most_output = kLongestText;  ///< bytes of a child's standard output that are kept
+  std::size_t most_output = kLongestText;  ///< recorded bytes of a child's standard output
 };
 
-/// Calls `work(0)` … `work(count − 1)`, each in a forked child of its own, in this order and at
-/// most `options.jobs` at a time, and `on_exit` in this process as each of them ends.
+/// Call `work(0)` … `work(count − 1)`, each in its own forked child process.
+/// The children start in this order, at most `options.jobs` at a time. `on_exit` is called in this
+/// process when a child ends.
 ///
-/// What a child does to itself (a crash, an endless loop, memory that runs out) ends with it. A
-/// child's exit code is what `work` returns; where an exception leaves `work`, it aborts. Children
-/// read nothing from standard input, leave no core file and run no destructor or exit handler of
-/// this process. They die when this process does, however it dies.
+/// A crash, an endless loop or exhausted memory affects only the child. Its exit code is the return
+/// value of `work`; if an exception leaves `work`, the child aborts. Children have no standard
+/// input, leave no core file, and run no destructor or exit handler of this process. They die with
+/// this process, however it dies.
 ///
-/// SIGINT, SIGTERM and SIGHUP stop all children, and then this function.
-/// @returns the signal that stopped it, which the caller owes its usual effect; 0 where all ended.
-/// @throws EnvironmentError  no process or pipe can be made; no child is left then.
+/// On SIGINT, SIGTERM and SIGHUP the function stops all children and returns.
+/// @returns the signal that stopped it, which the caller must raise again; 0 if all children ended.
+/// @throws EnvironmentError  if a process or pipe cannot be created; no child remains then.
 [[nodiscard]] int RunInChildren(int count, const PoolOptions& options,
                                 const std::function<int(int)>& work,
                                 const std::function<void(int, ChildExit)>& on_exit);
 
-/// The same for tasks that become known as time goes on: `next` is asked, in this process, whenever
-/// a child may start, and again after each `on_exit` where it had none.
-/// @param next  the number of a task; nullopt: none now, and none at all if no child is left.
+/// Run tasks that become known over time. `next` is called in this process whenever a child may
+/// start, and again after each `on_exit` if it returned none.
+/// @param next  function that returns the number of a task; nullopt: none at this time, or none at
+///     all if no child is running.
 [[nodiscard]] int RunInChildren(const std::function<std::optional<int>()>& next,
                                 const PoolOptions& options, const std::function<int(int)>& work,
                                 const std::function<void(int, ChildExit)>& on_exit);

@@ -11,47 +11,49 @@
 
 namespace regrasp::apps {
 
-/// What a summary says of a report.json.
+/// Content of a report.json that a batch summary uses.
 struct ReportSummary {
   struct Entry {
     std::string kind, verdict;
-    std::string reason, detail;       ///< empty where there is none
-    std::string frame;                ///< empty where there is none
-    std::string why = {}, mend = {};  ///< of the one that failed
+    std::string reason, detail;       ///< empty if there is none
+    std::string frame;                ///< name of the image file; empty if there is none
+    std::string why = {}, mend = {};  ///< cause and suggested fix of a failed step
   };
   /// Repeats of the replay with noise.
   struct Trials {
     int count = 0;
     int passed = 0;
-    std::string detail = {}, why = {}, mend = {};  ///< if too few passed
+    std::string detail = {}, why = {}, mend = {};  ///< if too few trials pass
   };
   bool passed = false;
-  std::string object;                    ///< the name of its file
-  std::string size;                      ///< "10.4 cm across, 216 g"
-  std::string planner;                   ///< empty where none is told
-  std::optional<double> half_angle_deg;  ///< friction
-  std::string run;  ///< the digest of what the report came from; empty where it gives none
-  std::vector<report::FileDigest> files;  ///< the other results of its run
+  std::string object;                    ///< name of the object file
+  std::string size;                      ///< size as text: "10.4 cm across, 216 g"
+  std::string planner;                   ///< name of the planner; empty if not reported
+  std::optional<double> half_angle_deg;  ///< friction angle, degrees
+  std::string run;  ///< digest of the inputs of the report; empty if not reported
+  std::vector<report::FileDigest> files;  ///< other result files of the run
   std::vector<Entry> entries;
   std::optional<int> weakest_step;
-  std::optional<double> required_half_angle_deg;  ///< of the weakest step
+  /// required friction angle of the weakest step, degrees
+  std::optional<double> required_half_angle_deg;
   std::optional<Trials> trials = std::nullopt;
 
-  /// The index of the entry that failed; none where all passed.
+  /// Return the index of the failed step; nullopt if all pass.
   [[nodiscard]] std::optional<int> failed_step() const;
-  /// How the plan fails, in the words of the validation that wrote the report; none if it passes.
+  /// Return the failure of the plan, as described by the validation that wrote the report; nullopt
+  /// if it passes.
   [[nodiscard]] std::optional<report::Failure> failure() const;
-  /// "in 14 of 20 trials", behind "pass"; empty without trials.
+  /// Return the text after "pass": "in 14 of 20 trials"; empty without trials.
   [[nodiscard]] std::string extent() const;
-  /// The verdict in a line if it is more than "pass" (report::VerdictHeadline).
+  /// Return the verdict as one line if it is more than "pass" (report::VerdictHeadline).
   [[nodiscard]] std::string headline() const;
 };
 
-/// @param name  how messages call the report.
-/// @throws InputError  it is no report.
+/// @param name  name of the report in messages.
+/// @throws InputError  if it is not a report.
 [[nodiscard]] ReportSummary SummarizeReport(const Json& json, const std::string& name);
 
-/// @throws InputError  the file cannot be read or is no report.
+/// @throws InputError  if the file cannot be read or is not a report.
 [[nodiscard]] ReportSummary ReadReportSummary(const std::filesystem::path& path);
 
 }  // namespace regrasp::apps

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the names of bodies: there are others of that name.
+/// Prefix of object names, which distinguishes them from other objects of the same name.
 constexpr char kPrefix[] = "bih-";
 
 Eigen::Isometry3d ParsePose(const std::string& text, const std::string& place) {
@@ -28,7 +28,7 @@ Eigen::Isometry3d ParsePose(const std::string& text, const std::string& place) {
   return pose;
 }
 
-/// "tuna_fish_can" of "Tuna fish can".
+/// Return the file name of an object: "tuna_fish_can" for "Tuna fish can".
 std::string FileNameOf(const std::string& object) {
   std::string name;
   for (const char c : object) {
@@ -37,7 +37,7 @@ std::string FileNameOf(const std::string& object) {
   return name;
 }
 
-/// Empty where there is none.
+/// Return the mesh file; empty if there is none.
 std::filesystem::path MeshOf(const std::string& object, const std::filesystem::path& folder) {
   const std::string name = FileNameOf(object);
   std::vector<std::filesystem::path> found;
@@ -54,7 +54,7 @@ HandBody BodyOfFile(const std::string& name, const std::filesystem::path& path) 
   return body;
 }
 
-/// What the object does in the hand while the palm goes from one pose to another.
+/// Set the motion of the object in the hand that corresponds to a motion of the palm.
 void SetDisplacement(const Eigen::Isometry3d& palm, const Eigen::Isometry3d& palm_at_goal,
                      const Vector3d& centre, Task& task) {
   const Eigen::Isometry3d displacement = palm * palm_at_goal.inverse();

@@ -1,5 +1,5 @@
-// The scoreboard of in-hand planners (README.md): plans tasks in hands, replays the plans on the
-// hands' own actuators and writes the tables; or judges a plan of others.
+// Scoreboard of in-hand planners (README.md). The program plans tasks in hands, replays the plans
+// on the hands' own actuators and writes the tables, or evaluates a third-party plan.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kMostOff_m = 1e-3;
 constexpr double kMostOff_rad = Radians(1);
-/// Of the centroid, where a task is a turn.
+/// Maximum displacement of the centroid, if a task is a rotation.
 constexpr double kMostWandered_m = 0.05;
-/// Of scales and half-angles, which are written as decimals.
+/// Tolerance for scales and friction angles, which are written as decimals.
 constexpr double kRounding = 1e-9;
 
 PoseError Between(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& goal,
@@ -22,7 +22,7 @@ PoseError Between(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& goal,
           Eigen::AngleAxisd(pose.linear().transpose() * goal.linear()).angle()};
 }
 
-/// About an axis of the body, summed along a plan's paths: whole turns count.
+/// Return the rotation about an axis of the object, summed along a plan's paths: whole turns count.
 double TurnedAbout(const Eigen::Vector3d& axis, const plan::Plan& plan) {
   Eigen::Matrix3d before = plan.hand->initial.pose.linear();
   double sum = 0;

@@ -9,34 +9,37 @@
 
 namespace regrasp::bench {
 
-/// How far the body's centroid and its orientation are from where they should be.
+/// Error of the object's centroid and orientation.
 struct PoseError {
   double metres = 0;
   double radians = 0;
 };
 
-/// Checks that a plan is one for a task: for this hand, this body in its size and no more friction,
-/// and that it brings the body from where it starts to the task's goal, within 1 mm and 1°. Where a
-/// task is a turn, the centroid may end 50 mm away, and whole turns count.
-/// @param name  how messages call the plan.
-/// @throws InputError  it is for something else; says what and by how much.
+/// Check that a plan solves a task.
+/// It must be a plan for this hand and this object in its size, with at most the friction of the
+/// task. It must move the object from its initial pose to the task's goal, within 1 mm and 1°. If
+/// the task is a rotation, the centroid may end up to 50 mm away, and whole turns count.
+/// @param name  name of the plan in messages.
+/// @throws InputError  if the plan is for a different task; the message has the difference and its
+///     size.
 void CheckIsFor(const Task& task, const HandBody& body, const kinematics::HandFile& hand,
                 const plan::Plan& plan, const std::string& name);
 
 struct Verdict {
-  std::optional<TrialFault> fault;  ///< none: it passes
-  /// Of the body at the end of the replay, from the task's goal; of a turn the centroid from where
-  /// the plan has it. None where the replay does not come to its end.
+  std::optional<TrialFault> fault;  ///< fault; nullopt if the plan passes
+  /// Pose error of the object at the end of the replay, relative to the task's goal. For a
+  /// rotation, the centroid is compared with the plan. Empty if the replay does not reach its end.
   std::optional<PoseError> error;
 };
 
-/// Judges a plan: by the checkers of plans and hands, and by a trial on the hand's own actuators.
-/// @param plan  for the task (CheckIsFor).
+/// Evaluate a plan by the checkers of plans and hands, and by a replay on the hand's own actuators.
+/// @param plan  plan for the task (CheckIsFor).
 [[nodiscard]] Verdict Judge(const Task& task, const HandBody& body,
                             const kinematics::HandFile& hand, const plan::Plan& plan);
 
-/// Whether a plan begins as the one before it ended: with the same fingers at the same contacts.
-/// @returns what differs. Where the other fingers stand is not asked.
+/// Check that a plan begins with the final grasp of the plan before it: with the same fingers at
+/// the same contacts.
+/// @returns difference, if any. The other fingers are not compared.
 [[nodiscard]] std::optional<TrialFault> CheckStart(const TaskStart& start, const plan::Plan& plan);
 
 }  // namespace regrasp::bench

@@ -20,11 +20,11 @@
 namespace regrasp::bench {
 namespace {
 
-/// Places in the hand that a task which moves the centroid may begin in, or have half-way.
+/// Number of hand poses in which a task that moves the centroid may begin or be half-way.
 constexpr std::size_t kPlaces = 3;
 
-/// Where a task may begin that moves the centroid: where the hand's reach is best, or so that the
-/// body is there half-way.
+/// Return initial poses of a task that moves the centroid: poses with the best reach, and poses
+/// from which the object is in such a pose half-way.
 std::vector<Eigen::Isometry3d> StartsOf(const planning::InHandTask& in_hand, const HandBody& body,
                                         const Task& task, const criteria::GraspCriteria& criteria) {
   gait::GaitRequest request;
@@ -44,7 +44,7 @@ std::vector<Eigen::Isometry3d> StartsOf(const planning::InHandTask& in_hand, con
   return starts;
 }
 
-/// All ways to ask for a task, in the order in which they are tried.
+/// Return all formulations of a task, in the order of their use.
 std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand,
                                                 const HandBody& body, const Task& task,
                                                 const std::optional<TaskStart>& start,
@@ -72,8 +72,9 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
   return ways;
 }
 
-/// Each way has its share of the time that those before it left. The first plan that there is, or
-/// why the first way has none; rather where the hand carries none out.
+/// Try each formulation with an equal share of the remaining time. Return the first plan found, or
+/// the result of the first formulation. A result whose plans fail in simulation takes precedence
+/// over other failures.
 planning::PlanResult Solve(const kinematics::HandFile& hand, const HandBody& body, const Task& task,
                            const std::optional<TaskStart>& start, const Deadline& deadline) {
   planning::PlanRequest request;
@@ -121,12 +122,12 @@ PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body, con
     planned.plan = std::move(result.plan);
     planned.message = std::move(result.message);
     planned.trial = result.trial;
-  } catch (const std::runtime_error& error) {  // no place in the hand, or no such start
+  } catch (const std::runtime_error& error) {  // no pose in the hand, or no such start
     planned.seconds = ProcessorSeconds() - begin;
     planned.message = error.what();
   }
   if (planned.plan) {
-    // What the checker says of it is for the judge to find out.
+    // The evaluation reports the result of the checker.
     (void)certificate::FinishPlan(
         body.file, {.half_angle = std::atan(kFriction), .scale = body.scale}, *planned.plan);
   }

@@ -11,28 +11,29 @@
 
 namespace regrasp::bench {
 
-/// How a hand holds a body where a task begins.
+/// Initial state of a task: the pose of the object, and the fingers in contact.
 struct TaskStart {
   Eigen::Isometry3d pose;
   plan::FingerGrasp holding;
 };
 
-/// Where a plan ends, for the task after it. @param plan  for a hand.
+/// Return the final state of a plan, for the task after it. @param plan  plan with a hand.
 [[nodiscard]] TaskStart EndOf(const plan::Plan& plan);
 
 struct PlannedTask {
   std::optional<plan::Plan> plan;
-  double seconds = 0;   ///< of the processor
-  std::string message;  ///< where there is none
-  /// Where plans were found that the hand carries none out of, why not.
+  double seconds = 0;   ///< processor time, s
+  std::string message;  ///< message if there is no plan
+  /// Reason of the failure in simulation, if plans were found but none executes.
   std::optional<plan::Reason> trial = {};
 };
 
-/// Plans a task as the program `plan` does by its usual options: with reserve, plans tried on the
-/// hand's own motors and none that these do not carry out, and grasps of a quality of 0.01.
-/// @param start    where it begins; none: wherever the planner likes. A task that moves the
-///                 centroid begins where the hand's reach is good, or is there half-way.
-/// @param limit_s  of processor time.
+/// Plan a task as the program `plan` does with its usual options.
+/// These are the robustness margins, only plans that execute in simulation on the hand's own
+/// actuators, and grasps with a quality of at least 0.01.
+/// @param start    initial state; none: chosen by the planner. A task that moves the centroid
+///     begins in a pose with good reach, or passes such a pose half-way.
+/// @param limit_s  processor time limit, s.
 [[nodiscard]] PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body,
                                    const Task& task, const std::optional<TaskStart>& start,
                                    double limit_s);

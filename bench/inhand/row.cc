@@ -21,7 +21,7 @@ std::optional<Value> Maybe(const Json& json, const char* key) {
   return json.at(key).is_null() ? std::nullopt : std::optional(json.at(key).get<Value>());
 }
 
-/// To a ten-thousandth: of seconds, millimetres and degrees no more digits mean anything.
+/// Round to 1e-4: more digits of seconds, millimetres and degrees are not significant.
 Json JsonOf(const std::optional<double>& value) {
   constexpr double kPerUnit = 1e4;
   return value ? Json(std::round(*value * kPerUnit) / kPerUnit) : Json();

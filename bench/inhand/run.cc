@@ -13,7 +13,7 @@
 namespace regrasp::bench {
 namespace {
 
-/// A chain in a hand.
+/// Chain in a hand.
 struct Job {
   const Chain* chain;
   const kinematics::HandFile* hand;
@@ -47,7 +47,7 @@ std::vector<Job> OpenJobs(const ScoreRun& run, const std::vector<Row>& rows) {
   return jobs;
 }
 
-/// The rows of a chain whose process ended by itself.
+/// Return the rows of a chain whose process crashed.
 std::vector<Row> CrashRows(const ScoreRun& run, const Job& job, const apps::ChildExit& exit) {
   std::vector<Row> rows;
   for (const Task& task : *job.chain) {
@@ -61,7 +61,7 @@ std::vector<Row> CrashRows(const ScoreRun& run, const Job& job, const apps::Chil
   return rows;
 }
 
-/// Of a plan that was made for a task, which may start where another one ended.
+/// Evaluate a plan for a task, which may begin at the end of another one.
 Verdict JudgeFrom(const std::optional<TaskStart>& start, const Task& task, const HandBody& body,
                   const kinematics::HandFile& hand, const plan::Plan& plan) {
   if (start) {
@@ -69,14 +69,14 @@ Verdict JudgeFrom(const std::optional<TaskStart>& start, const Task& task, const
   }
   try {
     CheckIsFor(task, body, hand, plan, "the planner's plan");
-  } catch (const InputError& error) {  // a turn may end too far away
+  } catch (const InputError& error) {  // a rotation may end too far away
     return {TrialFault{plan::Reason::kGoalNotReached, error.what()}, {}};
   }
   return Judge(task, body, hand, plan);
 }
 
-/// @param start  where the task before ended, and then where this one does; none where it has no
-///               plan that goes on.
+/// @param start  final state of the task before; updated to that of this task. Empty if it has no
+///     plan to continue.
 Row RunTask(const ScoreRun& run, const Task& task, const kinematics::HandFile& hand,
             std::optional<TaskStart>& start) {
   const HandBody& body = BodyNamed(*run.bodies, task.body);

@@ -12,30 +12,32 @@
 
 namespace regrasp::bench {
 
-/// What is asked of all hands.
+/// Settings of a run, which are the same for all hands.
 struct ScoreRun {
   std::vector<Chain> chains;
   const std::vector<HandBody>* bodies = nullptr;
   const std::vector<kinematics::HandFile>* hands = nullptr;
-  double limit_s = 8;           ///< of the processor, to plan one task
-  std::filesystem::path plans;  ///< where plan files go, in a folder for each hand; empty: nowhere
+  double limit_s = 8;  ///< processor time to plan one task, s
+  /// folder of plan files, with a subfolder for each hand; empty: not written
+  std::filesystem::path plans;
 };
 
-/// @throws InputError  there is none of this name.
+/// @throws InputError  if there is no object with this name.
 [[nodiscard]] const HandBody& BodyNamed(const std::vector<HandBody>& bodies,
                                         const std::string& name);
 
-/// Plans and judges the tasks of a chain one after the other, each from where the plan before it
-/// ends. Those after one that has no plan are not asked.
+/// Plan and evaluate the tasks of a chain one after the other, each from the final state of the
+/// plan before it. Tasks after one without a plan are not planned.
 [[nodiscard]] std::vector<Row> RunChain(const ScoreRun& run, const Chain& chain,
                                         const kinematics::HandFile& hand);
 
-/// Runs every chain in every hand, each in a process of its own, at most `jobs` at a time, and
-/// appends its rows to the results as it ends. What is there already, for the same hand and limit,
-/// is not run again: a run that was stopped goes on where it was.
-/// @param report  told how far it is.
-/// @returns the signal that stopped it; 0 where all ended.
-/// @throws EnvironmentError  results or plans cannot be written.
+/// Run every chain in every hand, each in its own process, at most `jobs` at a time, and append its
+/// rows to the results when it ends.
+/// Existing results for the same hand and limit are not computed again, so that an interrupted run
+/// continues.
+/// @param report  callback for progress.
+/// @returns the signal that stopped the run; 0 if all ended.
+/// @throws EnvironmentError  if results or plans cannot be written.
 [[nodiscard]] int RunAll(const ScoreRun& run, const std::filesystem::path& results, int jobs,
                          const std::function<void(std::string_view)>& report);
 

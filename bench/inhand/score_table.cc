@@ -17,7 +17,7 @@ constexpr std::string_view kEnd = "<!-- scoreboard: end -->\n";
 
 using Rows = std::vector<Row>;
 
-/// Values that rows have, by which they are told apart, in the order in which they come.
+/// Return the distinct values of rows, in the order of their first occurrence.
 std::vector<std::string> Different(const Rows& rows,
                                    const std::function<std::string(const Row&)>& of) {
   std::vector<std::string> values;
@@ -37,7 +37,7 @@ std::string ContenderOf(const Row& row) {
   return row.planner == Row().planner ? row.hand : row.hand + ", " + row.planner;
 }
 
-/// Median of a number of those rows that have it, and the largest.
+/// Return the median and the maximum over the rows that have the number.
 std::string MedianOf(const Rows& rows,
                      const std::function<std::optional<double>(const Row&)>& number, int digits,
                      bool with_worst) {
@@ -104,7 +104,7 @@ std::string SummaryTable(const Rows& rows, const std::vector<std::string>& conte
   return text;
 }
 
-/// "At most 8 s to plan a task."
+/// Return the time limit as text: "At most 8 s to plan a task."
 std::string LimitsText(const Rows& rows) {
   std::string text;
   for (const std::string& limit : Different(rows, [](const Row& row) {
@@ -140,7 +140,7 @@ std::string ScoreTables(const std::vector<Row>& rows, const std::vector<Task>& t
     return std::ranges::find(tasks, row.task, &Task::name) - tasks.begin();
   };
   std::ranges::stable_sort(sorted, {}, place);
-  // Hands in the order in which they were asked, whichever task ended first.
+  // Order of the hands in the run, regardless of which task ended first.
   const std::vector<std::string> all = Different(rows, ContenderOf);
   std::string text;
   for (const std::string& group : Different(sorted, [](const Row& row) { return row.group; })) {

@@ -9,15 +9,16 @@
 
 namespace regrasp::bench {
 
-/// The scoreboard in Markdown. For each group of tasks a table of hands: found, passes, medians of
-/// those found, final pose errors of those that pass, and why the others failed; and a table of
-/// every task in every hand.
-/// @param tasks  give groups and rows their order; those of other tasks come last.
+/// Format the scoreboard in Markdown.
+/// Each group of tasks has a table of hands: number found, passes, medians of the found plans,
+/// final pose errors of the passed plans, and reasons of failure. One more table has every task in
+/// every hand.
+/// @param tasks  tasks that define the order of groups and rows; results of other tasks come last.
 [[nodiscard]] std::string ScoreTables(const std::vector<Row>& rows, const std::vector<Task>& tasks);
 
-/// A text with what stands between its markers replaced.
-/// @param name  how messages call it.
-/// @throws InputError  it lacks a marker.
+/// Return a text with the part between its markers replaced.
+/// @param name  name of the text in messages.
+/// @throws InputError  if a marker is missing.
 [[nodiscard]] std::string ReplaceBetweenMarkers(std::string_view text, std::string_view between,
                                                 const std::string& name);
 

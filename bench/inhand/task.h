@@ -9,36 +9,37 @@
 
 namespace regrasp::bench {
 
-/// What a hand is to do with a body: turn it about its centroid and move the centroid, both along
-/// the body's own axes as they are at the start. Where in the hand it starts is the planner's
-/// choice, so that the same task can be put to every hand.
+/// Task for a hand and an object: rotate it about its centroid and move the centroid, both along
+/// the object's axes at the start. The planner chooses the initial pose in the hand, so that every
+/// hand can run the same task.
 struct Task {
-  std::string name;   ///< "turn/cube-50/z90"
-  std::string group;  ///< whose results are counted together: "turn-90"
+  std::string name;   ///< name: "turn/cube-50/z90"
+  std::string group;  ///< group of results counted together: "turn-90"
   std::string body;
-  std::string after;  ///< the task whose end is the start, pose and contacts; empty: any start
+  std::string after;  ///< task whose final pose and contacts are the start; empty: any start
   planning::Turn turn;
   Eigen::Vector3d move_m = Eigen::Vector3d::Zero();
 
-  /// A turn alone: the centroid may end elsewhere, wherever the hand has room.
+  /// Return true for a rotation alone: the centroid may then end at another position.
   [[nodiscard]] bool is_turn() const { return move_m.isZero(0); }
 };
 
-/// Where a body is to end. @param centre  its centroid in its own frame, metres.
+/// Return the goal pose of the object. @param centre  centroid in the object's frame, m.
 [[nodiscard]] Eigen::Isometry3d GoalPose(const Task& task, const Eigen::Vector3d& centre,
                                          const Eigen::Isometry3d& start);
 
-/// Reads tasks from a CSV file with the columns name, group, body, after, turn ("z 90": axis and
-/// degrees; empty: none) and move_mm ("20 0 0"; empty: none).
-/// @throws InputError  names the line and what is wrong: a name twice, `after` that is not the task
-///                     on the line before or has another body, neither turn nor move.
+/// Read tasks from a CSV file with the columns name, group, body, after, turn and move_mm.
+/// The column turn has axis and degrees ("z 90"), move_mm has three lengths ("20 0 0"). Either may
+/// be empty.
+/// @throws InputError  if a name occurs twice, if `after` is not the task on the line before or has
+///     a different object, or if there is neither turn nor move. The message names the line.
 [[nodiscard]] std::vector<Task> ReadTasks(const std::filesystem::path& path);
 
-/// Tasks that follow each other, each `after` the one before it.
+/// Consecutive tasks, each `after` the one before it.
 using Chain = std::vector<Task>;
 
-/// In the tasks' order. @param only  shell patterns of names or groups, of which the chain has one
-/// at least; none: all.
+/// Return the chains in the order of the tasks. @param only  shell patterns, at least one of which
+/// must match a name or group of the chain; empty: all chains.
 [[nodiscard]] std::vector<Chain> ChainsOf(const std::vector<Task>& tasks,
                                           const std::vector<std::string>& only);
 

@@ -1,4 +1,4 @@
-// Counts force-closure grasps among random ones on the unit sphere: force_closure [COUNT]
+// Count force-closure grasps among random ones on the unit sphere: force_closure [COUNT]
 #include "planner/grasp/force_closure.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Plans a regrasp between two random grasps and validates it: plan_and_validate OBJECT [SEED]
+// Plan a regrasp between two random grasps and validate it: plan_and_validate OBJECT [SEED]
 #include <cstdlib>
 #include <iostream>
 
@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     planning::PlanRequest request;
     request.object = file.object.get();
     request.object_name = file.file;
-    request.criteria.half_angle = Radians(20);  // the friction angle
+    request.criteria.half_angle = Radians(20);  // friction angle
     request.start.kind = planning::GraspChoice::Kind::kRandom;
     request.goal.kind = planning::GraspChoice::Kind::kRandom;
     request.seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
       std::cout << "no plan found: " << result.message << '\n';
       return 1;
     }
-    // Files and their digests are the caller's to set.
+    // The caller must set files and their digests.
     plan::Plan plan = *result.plan;
     plan.object_file = file.file;
     plan.object_sha256 = file.sha256;

@@ -1,5 +1,5 @@
-// Rotates an object in a hand and replays the plan on the hand's actuators:
-//   rotate_in_hand HAND OBJECT SCALE DEGREES
+// Rotate an object in a hand and replay the plan on the hand's actuators: rotate_in_hand HAND
+// OBJECT SCALE DEGREES
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
                                           int entries) {
       sim::HandReplayOptions options;
       options.half_angle = half_angle;
-      // The density of water.
+      // Density of water.
       options.mass_kg =
           1000 * solid->mass_properties().volume * task.scale * task.scale * task.scale;
       return sim::ReplayHand(hand, *solid, located, options, {}, entries);

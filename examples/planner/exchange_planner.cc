@@ -1,5 +1,5 @@
-// A planner to copy: it exchanges the contacts of the start grasp for those of the goal one by one.
-//   exchange_planner OBJECT [SEED]
+// Planner template that exchanges the contacts of the start grasp for those of the goal one by one.
+// exchange_planner OBJECT [SEED]
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
@@ -16,8 +16,8 @@
 
 using namespace regrasp;
 
-/// Tries all orders of exchanging contact k of the start for contact k of the goal. A placed finger
-/// keeps force closure; the grasp after the release of another one is tested.
+/// Try all orders of exchanging contact k of the start for contact k of the goal. Placing a finger
+/// preserves force closure; the grasp after each release is tested.
 class ExchangePlanner final : public planning::Planner {
  public:
   ExchangePlanner()

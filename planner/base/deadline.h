@@ -9,10 +9,10 @@
 
 namespace regrasp {
 
-/// Wall time, lap by lap.
+/// Stopwatch for wall time, with laps.
 class Stopwatch {
  public:
-  /// Seconds since the last lap, or since the watch was made.
+  /// Return the seconds since the previous lap, or since construction.
   double Lap() {
     const auto now = std::chrono::steady_clock::now();
     const std::chrono::duration<double> lap = now - begin_;
@@ -24,35 +24,37 @@ class Stopwatch {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// Thrown by work that comes to its deadline.
+/// Error: a computation has reached its deadline.
 class TimeUp : public std::runtime_error {
  public:
   explicit TimeUp(const std::string& message = "the time was up") : std::runtime_error(message) {}
 };
 
-/// When work makes an end; without a time, never. A look at it takes some 30 nanoseconds: long work
-/// looks every millisecond or more often.
+/// Deadline of a computation; without a time it never passes.
+/// A check takes about 30 ns. Long computations check at least once per millisecond.
 class Deadline {
  public:
   using Clock = std::chrono::steady_clock;
 
   Deadline() = default;
-  /// @param now  the clock that it goes by.
+  /// @param at  time of the deadline.
+  /// @param now  clock of the deadline.
   Deadline(Clock::time_point at, std::function<Clock::time_point()> now = Clock::now)
       : at_(at), now_(std::move(now)) {}
 
   [[nodiscard]] bool IsOver() const { return (is_over_ && is_over_()) || (at_ && now_() >= *at_); }
-  /// @throws TimeUp  it is over.
+  /// Check the deadline.
+  /// @throws TimeUp  if it has passed.
   void Check() const {
     if (IsOver()) throw TimeUp();
   }
-  /// An earlier one, after a share of what is left.
+  /// Return an earlier deadline, after a share of the remaining time.
   [[nodiscard]] Deadline After(double share) const {
     if (!at_) return *this;
     return In(std::chrono::duration_cast<Clock::duration>(share * (*at_ - now_())));
   }
-  /// Over when this one is, and from when `is_over` says so, which is for good. How much is left
-  /// does not depend on that.
+  /// Return a deadline that passes with this one or as soon as `is_over` returns true.
+  /// `is_over` must not return false afterwards. The remaining time does not depend on it.
   [[nodiscard]] Deadline OrWhen(std::function<bool()> is_over) const {
     Deadline either = *this;
     either.is_over_ = [first = is_over_, second = std::move(is_over)] {
@@ -60,13 +62,15 @@ class Deadline {
     };
     return either;
   }
-  /// Another one by the same clock, after so long from now; without a time as this one is.
+  /// Return a deadline of the same clock at `time` from the present.
+  /// It has no time if this deadline has none.
   [[nodiscard]] Deadline In(Clock::duration time) const {
     Deadline other = *this;
     if (at_) other.at_ = now_() + time;
     return other;
   }
-  /// What is left until then, negative afterwards; nullopt: no end, but for what OrWhen says.
+  /// Return the remaining time, negative after the deadline; nullopt if it has no time. OrWhen has
+  /// no effect.
   [[nodiscard]] std::optional<Clock::duration> left() const {
     return at_ ? std::optional(*at_ - now_()) : std::nullopt;
   }
@@ -77,7 +81,7 @@ class Deadline {
   std::function<bool()> is_over_;
 };
 
-/// So many seconds after `begin`; never where that is beyond the clock's range.
+/// Return a deadline `seconds` after `begin`; without a time if that exceeds the clock's range.
 [[nodiscard]] inline Deadline DeadlineAfter(Deadline::Clock::time_point begin, double seconds) {
   using Seconds = std::chrono::duration<double>;
   constexpr double kHalfOfRange = Seconds(Deadline::Clock::duration::max()).count() / 2;

@@ -5,16 +5,16 @@
 
 namespace regrasp {
 
-/// Bad usage or bad input: a program that catches it prints `what()` as one line and exits with 2.
+/// Bad usage or bad input: programs print `what()` as one line and exit with code 2.
 ///
-/// The message names the file, the element and the value: "cube.obj: facet 12: vertex index 99 is
-/// out of range (8 vertices)".
+/// The message names the file, the element and the value: `cube.obj: facet 12: vertex index 99 is
+/// out of range (8 vertices)`.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The environment failed (no rendering context, a folder that cannot be written): exit code 3.
+/// Failure of the environment, such as no rendering context or a read-only folder: exit code 3.
 class EnvironmentError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -50,7 +50,7 @@ std::string ReadFile(const fs::path& path) {
   }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(path.string() + ": cannot be read: " + std::strerror(errno));
-  // Read in pieces, so that a pipe or a device that never ends meets the limit too.
+  // Reading in pieces also limits pipes and devices that never end.
   std::string bytes;
   std::array<char, 1 << 16> piece;
   while (stream.read(piece.data(), piece.size()) || stream.gcount() > 0) {
@@ -88,38 +88,39 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Before the random digits in the name of a file aside.
+/// Mark in the name of a temporary file, before its random digits.
 constexpr std::string_view kAsideMark = ".tmp";
 constexpr std::string_view kDigits = "0123456789abcdef";
 constexpr std::size_t kAsideDigits = 16;
 
-/// As the kernel's own limit.
+/// Limit of the kernel.
 constexpr int kMostLinks = 40;
 
-/// Of a new file, less the process's umask.
+/// Mode of a new file before the process's umask.
 constexpr mode_t kNewMode = 0666;
-/// While a file that will have another's mode is written.
+/// Mode of a temporary file that replaces a file with another mode.
 constexpr mode_t kOwnMode = 0600;
 constexpr mode_t kPermissions = 0777;
 
 [[noreturn]] void FailWith(int error) { throw std::system_error(error, std::generic_category()); }
 
-/// Where WriteFile writes.
+/// Target of WriteFile.
 struct Target {
   enum class Kind {
-    kNew,         ///< nothing is there yet
-    kFile,        ///< a regular file, which is replaced
-    kOther,       ///< opened and written to
-    kDescriptor,  ///< of this process, written to
+    kNew,         ///< path without a file
+    kFile,        ///< regular file, which is replaced
+    kOther,       ///< special file, which is opened and written to
+    kDescriptor,  ///< descriptor of this process, which is written to
   };
   Kind kind = Kind::kNew;
-  fs::path path;            ///< without links, but for kOther
-  int descriptor = -1;      ///< of kDescriptor
-  struct stat status = {};  ///< of kFile and kOther
+  fs::path path;            ///< path without links, except for kOther
+  int descriptor = -1;      ///< kDescriptor
+  struct stat status = {};  ///< kFile and kOther
 };
 
-/// The number of the descriptor that the path stands for (/proc/self/fd/1); -1 where it does not.
-/// Opened by its name a file would be written from its beginning, and a socket not at all.
+/// Return the descriptor of this process that a path denotes (/proc/self/fd/1); −1 if there is
+/// none.
+/// By name, a file would be written from its beginning, and a socket could not be opened.
 int OwnDescriptor(const fs::path& path) {
   const std::string name = path.filename().string();
   int number = -1;
@@ -137,8 +138,8 @@ bool IsSameFile(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-/// Follows links as the kernel does.
-/// @throws std::system_error  a link or a folder on the path may not be followed.
+/// Follow links as the kernel does.
+/// @throws std::system_error  if a link or a folder of the path must not be followed.
 Target Resolve(fs::path at) {
   for (int links = 0; links <= kMostLinks; ++links) {
     if (const int own = OwnDescriptor(at); own >= 0) {
@@ -153,11 +154,12 @@ Target Resolve(fs::path at) {
       const bool file = S_ISREG(status.st_mode);
       return {file ? Target::Kind::kFile : Target::Kind::kOther, at, -1, status};
     }
-    // Before its text is believed: the kernel may forbid to follow it (links in /tmp).
+    // stat() comes first because the kernel can forbid to follow the link (links in /tmp).
     const bool dangling = stat(at.c_str(), &status) != 0;
     if (dangling && errno != ENOENT) FailWith(errno);
     const fs::path next = at.parent_path() / fs::read_symlink(at);
-    // The text of a link in /proc need not be where it leads: a pipe, a file that was removed.
+    // The text of a link in /proc can differ from its target, which can be a pipe or a removed
+    // file.
     struct stat seen;
     if (!dangling && (stat(next.c_str(), &seen) != 0 || !IsSameFile(seen, status))) {
       return {Target::Kind::kOther, at, -1, status};
@@ -167,18 +169,19 @@ Target Resolve(fs::path at) {
   FailWith(ELOOP);
 }
 
-/// @param number  what open() returned.
+/// Wrap the result of open().
+/// @throws std::system_error  if open() failed.
 Descriptor Opened(int number) {
   if (number < 0) FailWith(errno);
   return Descriptor(number);
 }
 
-/// Some file systems say only now that bytes were lost.
+/// Close a file and check for errors. Some file systems report lost bytes only at this point.
 void Close(Descriptor& file) {
   if (close(file.Release()) != 0) FailWith(errno);
 }
 
-/// Signals that ask the process to stop wait while this lives.
+/// Guard that blocks signals that stop the process.
 class StopsHeld {
  public:
   StopsHeld() {
@@ -203,17 +206,18 @@ std::string RandomDigits() {
   return Hexadecimal(random);
 }
 
-/// Beside the file, so that it can be renamed; nobody can guess the name and be there first.
+/// Return a name for a temporary file in the same folder, so that it can be renamed. The name is
+/// random so that nobody can create the file first.
 fs::path AsideName(const fs::path& path) {
   const std::string ending = std::string(kAsideMark) + RandomDigits();
   const std::string name = path.filename().string().substr(0, NAME_MAX - ending.size());
   return path.parent_path() / (name + ending);
 }
 
-/// A new file that stands beside another until it takes its place; it is removed if it does not.
+/// Temporary file that replaces a file; it is removed unless TakePlace is called.
 class FileAside {
  public:
-  /// @param target  a file or nothing.
+  /// @param target  kFile or kNew.
   explicit FileAside(Target target)
       : target_(std::move(target)),
         path_(AsideName(target_.path)),
@@ -241,10 +245,10 @@ class FileAside {
 
   void KeepModeAndOwner() {
     mode_t mode = target_.status.st_mode & kPermissions;
-    // Root may give a file away, others may choose among their groups.
+    // Root can change the owner, other users can choose one of their groups.
     if (fchown(file_.get(), target_.status.st_uid, target_.status.st_gid) != 0 &&
         fchown(file_.get(), static_cast<uid_t>(-1), target_.status.st_gid) != 0) {
-      mode &= ~static_cast<mode_t>(S_IRWXG);  // was for another group
+      mode &= ~static_cast<mode_t>(S_IRWXG);  // the permissions are those of another group
     }
     if (fchmod(file_.get(), mode) != 0) FailWith(errno);
   }
@@ -255,7 +259,8 @@ class FileAside {
   bool renamed_ = false;
 };
 
-/// @throws std::system_error  nothing that is written can go there.
+/// Check that a target is writable.
+/// @throws std::system_error  if not.
 void CheckPermitted(const Target& target) {
   switch (target.kind) {
     case Target::Kind::kNew:
@@ -268,7 +273,7 @@ void CheckPermitted(const Target& target) {
     }
     case Target::Kind::kOther:
       if (S_ISDIR(target.status.st_mode)) FailWith(EISDIR);
-      // Nobody means to lose a disk, or can write to a socket by its name.
+      // Block devices are rejected to prevent data loss; sockets cannot be written by name.
       if (S_ISBLK(target.status.st_mode) || S_ISSOCK(target.status.st_mode)) FailWith(ENXIO);
       break;
     case Target::Kind::kFile:
@@ -282,7 +287,7 @@ void WriteTo(const Target& target, std::string_view bytes, Durability durability
   if (target.kind == Target::Kind::kDescriptor) {
     WriteAll(target.descriptor, bytes);
   } else if (target.kind == Target::Kind::kOther) {
-    // Without O_CREAT: what is there is written to, or nothing.
+    // Without O_CREAT no file is created if the special file has disappeared.
     Descriptor other = Opened(open(target.path.c_str(), O_WRONLY | O_TRUNC | O_NOCTTY | O_CLOEXEC));
     WriteAll(other.get(), bytes);
     Close(other);
@@ -328,7 +333,7 @@ void CheckWritable(const fs::path& path) {
     const Target target = Resolve(path);
     CheckPermitted(target);
     if (target.kind != Target::Kind::kNew && target.kind != Target::Kind::kFile) return;
-    // Permissions alone do not tell: the disk may be read-only, the name too long.
+    // Permissions do not suffice: the disk can be read-only, or the name too long.
     const StopsHeld held;
     const FileAside tried(target);
   });

@@ -8,15 +8,15 @@
 #include <string_view>
 #include <utility>
 
-/// OpenSSL's.
+/// Digest context of OpenSSL.
 struct evp_md_ctx_st;
 
 namespace regrasp {
 
-/// A file descriptor that is closed when it goes.
+/// File descriptor that is closed on destruction.
 class Descriptor {
  public:
-  /// @param number  negative: none.
+  /// @param number  file descriptor; negative: none.
   explicit Descriptor(int number) : number_(number) {}
   Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   Descriptor& operator=(Descriptor&& other) noexcept {
@@ -27,83 +27,87 @@ class Descriptor {
     if (number_ >= 0) close(number_);
   }
   [[nodiscard]] int get() const { return number_; }
-  /// Gives it away, open.
+  /// Return the descriptor and release ownership without closing it.
   [[nodiscard]] int Release() { return std::exchange(number_, -1); }
 
  private:
   int number_;
 };
 
-/// The bytes as lower-case hexadecimal digits, two each.
+/// Return the bytes as lower-case hexadecimal digits, two per byte.
 [[nodiscard]] std::string Hexadecimal(std::string_view bytes);
 
-/// The bytes of a file.
-/// @throws InputError  the file does not exist, is a folder, cannot be read, or is larger than
-///                     `kMaxInputBytes`.
+/// Return the contents of a file.
+/// @throws InputError  if the file does not exist, is a folder, cannot be read, or is larger than
+///     `kMaxInputBytes`.
 [[nodiscard]] std::string ReadFile(const std::filesystem::path& path);
 
-/// Input files larger than this are refused: far above any mesh that can be planned on, far below
-/// the memory of a small machine.
+/// Largest accepted size of input files.
+/// It is far above any usable mesh, and far below the memory of a small machine.
 inline constexpr std::size_t kMaxInputBytes = std::size_t{1} << 30;
 
-/// The SHA-256 digest of `bytes`, 64 lower-case hexadecimal digits.
-/// @throws EnvironmentError  OpenSSL has none.
+/// Return the SHA-256 digest of `bytes` as 64 lower-case hexadecimal digits.
+/// @throws EnvironmentError  if OpenSSL does not provide it.
 [[nodiscard]] std::string Sha256(std::string_view bytes);
 
-/// The same of bytes that come piece by piece, however they are cut.
+/// Incremental SHA-256 digest. The result does not depend on how the bytes are split.
 class Sha256Sum {
  public:
-  /// @throws EnvironmentError  OpenSSL has none.
+  /// @throws EnvironmentError  if OpenSSL does not provide it.
   Sha256Sum();
   void Add(std::string_view bytes);
-  /// Of all that was added. To be called once, at the end.
+  /// Return the digest of all added bytes. Must be called only once.
   [[nodiscard]] std::string Finish();
 
  private:
   std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
 };
 
-/// Whether WriteFile waits for the disk before it renames, so that a machine that stops then leaves
-/// the old file or the new one, never an empty one. That takes 3 ms a file (measured on ext4, a
-/// virtual disk): in a batch of 500 of the smallest plans 3 s, beside 14 s of computing. The folder
-/// is not waited for: that would take as long again, and an old file is no harm.
+/// Whether WriteFile flushes the file to disk before it is renamed.
+/// After a system crash a flushed file is either the old or the new one, never empty. Flushing
+/// takes 3 ms per file (measured on ext4, a virtual disk): 3 s for a batch of 500 of the smallest
+/// plans, in addition to 14 s of computation. The folder is not flushed, because that would take
+/// the same time again and an old file is harmless.
 enum class Durability { kSynced, kCached };
 
-/// Writes a file as a whole: bytes go into a new file aside, which is renamed into place, so that
-/// a reader never sees half of it and a failure leaves what was there.
+/// Write a file atomically.
+/// The bytes go to a temporary file in the same folder, which is then renamed. A reader never sees
+/// a partial file, and a failure keeps the old file.
 ///
-/// Links are followed; the file that they end at is replaced, or made where it is missing. Mode and
-/// owner of a replaced file stay (the owner as far as the process may), a new one has those of any
-/// new file. A path that is neither a file nor free (a terminal, a pipe, /dev/null) is not replaced
-/// but written to, and one that stands for a descriptor of this process (/dev/stdout, /dev/fd/3)
-/// is that descriptor, at its place.
+/// Symbolic links are followed: their target is replaced or created. A replaced file keeps its
+/// mode, and its owner if permitted. A new file gets the default mode and owner. Special files (a
+/// terminal, a pipe, /dev/null) are not replaced but written to. A path of a descriptor of this
+/// process (/dev/stdout, /dev/fd/3) is written at the descriptor's position.
 ///
-/// SIGINT, SIGTERM and SIGHUP wait while a file stands aside: only SIGKILL leaves one.
-/// @throws EnvironmentError  the file cannot be written: its folder does not exist, is full or is
-///                           not open to this process; it is write-protected, a folder or a disk.
+/// SIGINT, SIGTERM and SIGHUP are blocked while the temporary file exists, so only SIGKILL leaves
+/// it behind.
+/// @throws EnvironmentError  if the file cannot be written: its folder is missing, full or not
+///     accessible, or the path is write-protected, a folder or a block device.
 void WriteFile(const std::filesystem::path& path, std::string_view bytes,
                Durability durability = Durability::kSynced);
 
-/// Writes all of the bytes to an open file, whatever interrupts.
-/// @throws std::system_error  it takes no more.
+/// Write all bytes to an open file, and continue after interrupts.
+/// @throws std::system_error  if the write fails.
 void WriteAll(int descriptor, std::string_view bytes);
 
-/// Finds out whether WriteFile could write there now, and leaves everything as it is.
+/// Check that WriteFile could write a file, without any change.
 /// @throws EnvironmentError  as WriteFile.
 void CheckWritable(const std::filesystem::path& path);
 
-/// Finds out whether files could be written into a folder now or, where it does not exist, whether
-/// it could be made with the folders above it; leaves everything as it is.
-/// @throws EnvironmentError  they could not, or it is no folder.
+/// Check that files could be written to a folder, without any change.
+/// If the folder does not exist, check that it could be created together with its parents.
+/// @throws EnvironmentError  if not, or if the path is not a folder.
 void CheckFolderWritable(const std::filesystem::path& folder);
 
-/// What WriteFile(path) replaces or makes: the end of the path's links, whether it exists or not.
-/// `path` itself where that cannot be told.
+/// Return the file that WriteFile(path) replaces or creates.
+/// It is the target of the path's links, even if it does not exist.
+/// Returns `path` if that cannot be determined.
 [[nodiscard]] std::filesystem::path EndOfLinks(const std::filesystem::path& path);
 
-/// The name of the file that WriteFile was writing when it left this one aside, killed before it
-/// could rename it; empty where `name` is not of such a file. Of a name near the file system's
-/// limit it is the beginning.
+/// Return the file name to which a temporary file of WriteFile belongs.
+/// WriteFile leaves such a file behind after SIGKILL.
+/// @returns empty if `name` is not the name of such a file. A name near the length limit of the
+///     file system is truncated.
 [[nodiscard]] std::string NameBesideAside(const std::string& name);
 
 }  // namespace regrasp

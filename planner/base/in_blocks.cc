@@ -74,7 +74,7 @@ void InBlocks(std::size_t count, std::size_t block, int threads,
 
 namespace {
 
-/// Reports of one piece of work.
+/// Number of messages per work.
 constexpr std::int64_t kReports = 100;
 
 }  // namespace
@@ -85,7 +85,7 @@ CountedProgress::CountedProgress(const Tell& tell, std::string what, std::int64_
 }
 
 void CountedProgress::Report() {
-  // Rounded up, so that there are no more reports than that.
+  // Rounding up keeps the number of messages below this limit.
   next_ = done_ + (total_ + kReports - 1) / kReports;
   if (tell_) tell_(what_ + ": " + std::to_string(done_) + " of " + std::to_string(total_));
 }

@@ -8,30 +8,29 @@
 
 namespace regrasp {
 
-/// Works on the indices below `count` in several threads, a block at a time: `work(begin, end)`.
-/// Blocks are taken in order; one that was taken is finished.
-/// @param block    ≥ 1 indices that a thread takes: enough that taking them costs nothing, few
-///                 enough that the threads end together.
-/// @param threads  0: as many as the machine has cores; no more than there are blocks.
-/// @throws std::invalid_argument  fewer than 0 threads.
-/// @throws what `work` throws in the first block of all that throw; later ones may not be worked
-///         on.
+/// Process the indices below `count` by several threads in blocks, as `work(begin, end)`.
+/// Blocks are started in ascending order. A started block is completed.
+/// @param block    number of indices per block, at least 1. It should be large enough for
+///     negligible overhead, and small enough for an even load.
+/// @param threads  number of threads; 0: number of cores. At most one per block is used.
+/// @throws std::invalid_argument  if `threads` is negative.
+/// @throws any exception of `work`: that of the first failed block. Later blocks may be skipped.
 void InBlocks(std::size_t count, std::size_t block, int threads,
               const std::function<void(std::size_t begin, std::size_t end)>& work);
 
-/// Told what is being done; may be empty.
+/// Callback for progress messages; can be empty.
 using Tell = std::function<void(std::string_view)>;
 
-/// Tells of work that is done piece by piece how much of it there is and how much is done: "testing
-/// quadruples of faces: 1200 of 5000". At the beginning, and then once in a hundredth of the work
-/// at most: work of any size tells some hundred times.
+/// Progress messages of work that consists of countable pieces.
+/// Example: "testing quadruples of faces: 1200 of 5000". The first message is sent at construction,
+/// and later ones at most once per hundredth of the work.
 class CountedProgress {
  public:
   CountedProgress(const Tell& tell, std::string what, std::int64_t total);
 
-  /// A piece is done.
+  /// Count one completed piece.
   void Add() { Reach(done_ + 1); }
-  /// So many are done.
+  /// Set the number of completed pieces.
   void Reach(std::int64_t done) {
     done_ = done;
     if (done_ >= next_) Report();

@@ -6,15 +6,15 @@
 
 namespace regrasp {
 
-/// A number that names one thing of a kind; a tag makes a kind, as at the end of this file. An
-/// index of one kind is neither taken for, made from, nor compared with one of another. A plain
-/// number becomes an index only where that is said: FaceIndex(3).
+/// Index of elements of one kind. The tag identifies the kind, as at the end of this file.
+/// Indices of different kinds cannot be assigned, converted or compared. An integer is converted
+/// only explicitly: FaceIndex(3).
 ///
-/// An index converts to int by itself, as Drake's TypeSafeIndex does: what belongs to the things
-/// stands in plain vectors and is found by subscript, loops compare with a count, and messages
-/// print the number. The price is that a function that takes an int takes every kind.
+/// An index converts to int implicitly, like TypeSafeIndex of Drake. It can therefore be a
+/// subscript of plain vectors, be compared with counts in loops, and be printed. The disadvantage
+/// is that a function with an int parameter accepts every kind.
 ///
-/// Laws: the order is that of the numbers; an index that nothing was put into is not valid.
+/// Laws: indices are ordered as their numbers. A default-constructed index is invalid.
 template <class Tag>
 class Index {
  public:
@@ -41,15 +41,15 @@ class Index {
   int value_ = -1;
 };
 
-/// Without these, indices of two kinds would be compared as ints.
+/// Deleted, because indices of different kinds would otherwise be compared as integers.
 template <class A, class B>
 bool operator==(Index<A> a, Index<B> b) = delete;
 template <class A, class B>
 std::strong_ordering operator<=>(Index<A> a, Index<B> b) = delete;
 
-/// A face of an object, an edge of a polygon.
+/// Face of a solid, or edge of a polygon.
 using FaceIndex = Index<struct FaceTag>;
-/// A finger of the hand.
+/// Finger of the hand.
 using FingerIndex = Index<struct FingerTag>;
 
 }  // namespace regrasp

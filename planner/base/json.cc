@@ -11,12 +11,11 @@ namespace regrasp {
 
 Json ParseJson(std::string_view text, const std::string& name) {
   text = TextOf(text, name);
-  // nlohmann takes a NUL for the end of its input and does not look behind it.
+  // nlohmann::json stops at a NUL byte.
   if (text.find('\0') != std::string_view::npos)
     throw InputError(name + ": not valid JSON: contains a NUL byte");
-  // nlohmann keeps the last of two equal keys without a word, recurses into any depth when a value
-  // is destroyed, and compares a key with all before it: the callback sees them before they do
-  // harm.
+  // nlohmann::json silently keeps the last of two equal keys, destroys values recursively at any
+  // depth, and compares each key with all previous ones. The callback rejects such input before.
   std::vector<std::set<std::string>> keys;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
     using Event = Json::parse_event_t;
@@ -41,12 +40,13 @@ Json ParseJson(std::string_view text, const std::string& name) {
   try {
     return Json::parse(text.begin(), text.end(), watch);
   } catch (const Json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error …"
+    // Format of the message: "[json.exception.parse_error.101] parse error at line 1, column 2:
+    // syntax error …"
     std::string what = error.what();
     if (const auto bracket = what.find("] "); bracket != std::string::npos) {
       what.erase(0, bracket + 2);
     }
-    // It quotes what it read last, broken UTF-8 and the delete character included.
+    // The message quotes the last token, including invalid UTF-8 and the delete character.
     std::ranges::replace_if(
         what, [](char c) { return static_cast<unsigned char>(c) >= 0x7f; }, '?');
     throw InputError(name + ": not valid JSON: " + what);

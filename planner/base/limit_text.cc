@@ -8,14 +8,15 @@ namespace regrasp {
 
 namespace {
 
-/// Enough to tell any two doubles apart.
+/// Number of digits that distinguishes any two doubles.
 constexpr int kMostDigits = 17;
 constexpr int kMostDecimals = 30;
 constexpr int kUsualDecimals = 2;
-/// Degrees; bounds on required angles are about 6e-8° apart.
+/// Slack of bounds on required angles, degrees; the bounds are about 6e-8° apart.
 constexpr double kBoundSlack = 1e-6;
 
-/// @param format  formats a number with so many digits, at least `digits`.
+/// Format two numbers with equally many digits, such that different numbers have different texts.
+/// @param format  function of a number and a number of digits, which is at least `digits`.
 template <class Format>
 LimitText FormatApart(double value, double limit, int digits, int most, const Format& format) {
   LimitText text{format(value, digits), format(limit, digits)};

@@ -14,11 +14,12 @@ namespace regrasp {
 
 namespace {
 
-/// The rest is for the system, other programs and what else the process holds.
+/// Usable share of the memory. The other half is for the system, other programs and other data of
+/// the process.
 constexpr double kUsableShare = 0.5;
 
-/// Limits of the control group, as version 2 and version 1 of the kernel's interface have them.
-/// Without a limit the first says "max", the second a number that is larger than any memory.
+/// Files with the memory limit of the control group, in version 2 and version 1 of the kernel's
+/// interface. Without a limit, version 2 has "max", and version 1 a number larger than any memory.
 constexpr std::array kGroupLimits = {"/sys/fs/cgroup/memory.max",
                                      "/sys/fs/cgroup/memory/memory.limit_in_bytes"};
 

@@ -5,26 +5,26 @@
 
 namespace regrasp {
 
-/// Bytes that one structure may take without asking: half of the memory that there is, the least of
-/// the machine's, the address space that the process may have (RLIMIT_AS) and that of its control
-/// group.
+/// Return the memory that one data structure may use, in bytes.
+/// It is half of the minimum of the machine's memory, the address space limit of the process
+/// (RLIMIT_AS) and the limit of its control group.
 [[nodiscard]] double UsableMemory();
 
-/// Bytes for people: "11.6 GB".
+/// Format a number of bytes for users: "11.6 GB".
 [[nodiscard]] std::string FormatBytes(double bytes);
 
-/// What a planner is about to build, and what that takes.
+/// Memory required by a data structure that a planner is about to build.
 struct MemoryNeed {
   std::string what;                      ///< "the graph of the planner polygon"
-  int count = 0;                         ///< of what it is built on
+  int count = 0;                         ///< number of input units
   std::string units;                     ///< "edges"
-  std::function<double(int)> bytes_for;  ///< bytes for so many units, growing with them
+  std::function<double(int)> bytes_for;  ///< bytes required for a number of units, increasing
 
   [[nodiscard]] double bytes() const { return bytes_for(count); }
 };
 
-/// Why so much is not to be built, and how many units would fit; empty where `limit` bytes are
-/// enough.
+/// Describe why a data structure is too large, and how many units fit.
+/// @returns empty if `limit` bytes suffice.
 [[nodiscard]] std::string MemoryComplaint(const MemoryNeed& need, double limit);
 
 }  // namespace regrasp

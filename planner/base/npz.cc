@@ -23,14 +23,14 @@ namespace regrasp {
 
 namespace {
 
-/// NPY headers end at a multiple of this.
+/// Alignment of the end of NPY headers.
 constexpr std::size_t kAlignment = 64;
-/// 1 January 1980, the first day that a ZIP archive knows: files do not depend on the clock.
+/// 1 January 1980, the earliest date of ZIP archives. Files must not depend on the clock.
 constexpr std::uint16_t kDate = 0x21;
 constexpr char32_t kNoCharacter = 0xfffd;
-constexpr std::uint16_t kVersion = 20;  ///< of the ZIP format, 2.0
+constexpr std::uint16_t kVersion = 20;  ///< version 2.0 of the ZIP format
 
-/// The lowest byte first.
+/// Append an integer in little-endian order.
 template <typename Integer>
 void Append(Integer value, std::string& bytes) {
   for (std::size_t i = 0; i < sizeof(Integer); ++i) {
@@ -86,7 +86,7 @@ std::string FormatNpy(const NpzArray& array) {
   return bytes;
 }
 
-/// What a file's own header and its place in the list of the archive have in common.
+/// Return the common part of a file's local header and its entry in the central directory.
 std::string FileHeader(const std::string& name, const std::string& bytes) {
   boost::crc_32_type crc;
   crc.process_bytes(bytes.data(), bytes.size());
@@ -101,7 +101,7 @@ std::string FileHeader(const std::string& name, const std::string& bytes) {
   Append(size, header);
   Append(size, header);
   Append(static_cast<std::uint16_t>(name.size()), header);
-  Append(std::uint16_t{0}, header);  // nothing more about it
+  Append(std::uint16_t{0}, header);  // no extra field
   return header;
 }
 
@@ -120,7 +120,7 @@ std::string FormatNpz(const std::vector<NpzArray>& arrays) {
     list += "PK\x01\x02";
     Append(kVersion, list);
     list += header;
-    list.append(2 + 2 + 2 + 4, '\0');  // comment, disk, attributes inside and outside
+    list.append(2 + 2 + 2 + 4, '\0');  // comment, disk, internal and external attributes
     Append(static_cast<std::uint32_t>(archive.size()), list);
     list += name;
     archive += "PK\x03\x04" + header + name + bytes;
@@ -139,13 +139,13 @@ namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
 
-/// What stands before the numbers of an NPY file.
+/// Header of an NPY file.
 struct Header {
-  std::string type;  ///< "f8": kind and bytes of a number
+  std::string type;  ///< kind and number of bytes: "f8"
   bool big_endian = false;
   bool fortran_order = false;
   std::vector<std::size_t> shape;
-  std::size_t begin = 0;  ///< of the numbers, in the file
+  std::size_t begin = 0;  ///< position of the numbers in the file
 };
 
 std::uint64_t UnsignedAt(std::string_view bytes, std::size_t size, bool big_endian) {
@@ -167,7 +167,7 @@ std::vector<std::size_t> ParseShape(const std::string& text) {
   return shape;
 }
 
-/// The dictionary that numpy writes; nothing else is one.
+/// Parse the dictionary that numpy writes; other dictionaries are not supported.
 Header ParseDictionary(const std::string& text) {
   static const std::regex kDescription(R"('descr':\s*'([<>|=])([a-zA-Z]\d*)')");
   static const std::regex kOrder(R"('fortran_order':\s*(True|False))");
@@ -186,7 +186,7 @@ Header ParseDictionary(const std::string& text) {
 }
 
 Header ParseHeader(std::string_view bytes) {
-  constexpr std::size_t kMostHeader = 4096;  // numpy writes some 100
+  constexpr std::size_t kMostHeader = 4096;  // numpy writes about 100 bytes
   if (bytes.size() < 12 || !bytes.starts_with(kMagic)) throw InputError("not an NPY array");
   const bool is_short = bytes[6] == 1;
   const std::size_t width = is_short ? 2 : 4;
@@ -198,7 +198,7 @@ Header ParseHeader(std::string_view bytes) {
   return header;
 }
 
-/// A number as its bytes have it.
+/// Conversion of a number from its bytes.
 using Number = double (*)(std::uint64_t);
 
 template <typename Integer>
@@ -206,7 +206,7 @@ double FromInteger(std::uint64_t bits) {
   return static_cast<double>(static_cast<Integer>(bits));
 }
 
-/// Of a half-precision number (IEEE 754-2008, binary16): a sign, 5 bits of exponent, 10 of
+/// Convert a half-precision number (IEEE 754-2008, binary16): sign, 5 bits of exponent, 10 of
 /// fraction.
 double FromHalf(std::uint64_t bits) {
   const int exponent = static_cast<int>(bits >> 10 & 31);
@@ -241,7 +241,7 @@ Number NumberOf(const std::string& type) {
   throw InputError("expected an array of numbers, found type " + type);
 }
 
-/// From the order in which the first index runs fastest to that in which the last one does.
+/// Convert column-major to row-major order.
 std::vector<double> Transpose(const std::vector<double>& values,
                               const std::vector<std::size_t>& shape) {
   std::vector<double> result(values.size());

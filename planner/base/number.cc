@@ -53,7 +53,7 @@ struct MassUnit {
 };
 constexpr MassUnit kMasses[] = {{1, "kg"}, {1e-3, "g"}, {1e-6, "mg"}, {1e-9, "µg"}};
 
-/// The largest unit of which there is one once the value is rounded, otherwise the last.
+/// Return the largest unit in which the rounded value is at least 1, otherwise the last unit.
 template <class Unit>
 Unit UnitOf(double value, int digits, std::span<const Unit> units, double Unit::*size) {
   const double one = 1 - std::pow(10.0, -digits) / 2;
@@ -70,7 +70,7 @@ LengthUnit UnitOfLength(double metres, int digits) {
 
 std::string FormatPlain(double value, int digits) {
   constexpr double kLargest = 1e6;
-  // What rounds up to one more digit has it already.
+  // Numbers that round up to one more digit already have that digit.
   if (!(std::abs(value) >= std::pow(10.0, digits) - 0.5) || std::abs(value) >= kLargest) {
     return FormatShort(value, digits);
   }

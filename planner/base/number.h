@@ -7,7 +7,7 @@
 
 namespace regrasp {
 
-/// Angles are radians everywhere inside the library, degrees in files and on the command line.
+/// Convert degrees to radians. The library uses radians; files and options use degrees.
 [[nodiscard]] constexpr double Radians(double degrees) {
   return degrees * (std::numbers::pi / 180.0);
 }
@@ -15,41 +15,40 @@ namespace regrasp {
   return radians * (180.0 / std::numbers::pi);
 }
 
-/// A unit that lengths are told in.
+/// Unit of length for messages.
 struct LengthUnit {
   double metres;
   const char* name;  ///< "mm"
 };
 
-/// The unit that suits a length of `metres`, told with so many significant digits: the one that
-/// FormatLength (quantity_text.h) tells it in.
+/// Return the unit in which FormatLength prints a length with `digits` significant digits.
 [[nodiscard]] LengthUnit UnitOfLength(double metres, int digits = 3);
 
-/// Reads a whole string as a finite double, the same under any locale. A leading '+' is allowed.
-/// @returns nullopt where it is not a number, has other text behind it, or is not finite.
+/// Parse a whole string as a finite double, independently of the locale. A leading '+' is allowed.
+/// @returns nullopt if the string is not a number, has trailing text, or is not finite.
 [[nodiscard]] std::optional<double> ParseDouble(std::string_view text);
 
-/// The shortest decimal that reads back as the same double, the same under any locale.
+/// Format a double as the shortest decimal that is read back exactly, independently of the locale.
 [[nodiscard]] std::string FormatDouble(double value);
 
-/// A double for tables: `decimals` digits behind the point, the same under any locale.
+/// Format a double for tables with `decimals` decimals, independently of the locale.
 /// @pre |value| < 1e15
 [[nodiscard]] std::string FormatFixed(double value, int decimals);
 
-/// A double for people: `digits` significant digits, the same under any locale.
+/// Format a double for users with `digits` significant digits, independently of the locale.
 [[nodiscard]] std::string FormatShort(double value, int digits = 4);
 
-/// A number for people: `digits` significant ones, and no power of ten below a million.
+/// Format a number for users with `digits` significant digits, without an exponent below a million.
 [[nodiscard]] std::string FormatPlain(double value, int digits);
 
-/// A length for people, in the unit that suits it: "4.12 mm", "10.4 cm", "1 m", "300 µm"; `digits`
-/// significant ones.
+/// Format a length for users with `digits` significant digits, in a suitable unit.
+/// Examples: "4.12 mm", "10.4 cm", "1 m", "300 µm".
 [[nodiscard]] std::string FormatLength(double metres, int digits = 3);
 
-/// A mass for people: "216 g", "1.4 kg".
+/// Format a mass for users: "216 g", "1.4 kg".
 [[nodiscard]] std::string FormatMass(double kg, int digits = 3);
 
-/// An angle for people, to a hundredth of a degree: "7.34°".
+/// Format an angle for users to a hundredth of a degree: "7.34°".
 [[nodiscard]] std::string FormatDegrees(double degrees);
 
 }  // namespace regrasp

@@ -48,7 +48,7 @@ double RandomStream::Normal() {
 
 std::uint64_t RandomStream::Index(std::uint64_t count) {
   assert(count > 0);
-  // Draws beyond the last whole multiple of count are thrown away.
+  // Draws beyond the last whole multiple of `count` are rejected.
   const std::uint64_t rest = (std::mt19937_64::max() % count + 1) % count;
   std::uint64_t draw = engine_();
   while (draw > std::mt19937_64::max() - rest) draw = engine_();

@@ -6,8 +6,9 @@
 
 namespace regrasp {
 
-/// What a stream of random numbers is for: streams of one seed are independent of each other, so
-/// that drawing more contact points does not change the random start.
+/// Purpose of a stream of random numbers.
+/// Streams of one seed with different purposes are independent. For example, the random start does
+/// not depend on the number of contact points.
 enum class RandomUse : std::uint32_t {
   kContactPoints = 1,
   kStart = 2,
@@ -24,42 +25,45 @@ enum class RandomUse : std::uint32_t {
   kResetStates = 13,
 };
 
-/// Random numbers that are the same on every machine: the engine and its seeding are fixed by the
-/// C++ standard, the maps onto intervals, which are not, stand here.
+/// Random numbers that are identical on all machines.
+/// The C++ standard fixes the engine and its seeding. The distributions, which it does not fix, are
+/// implemented here.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, RandomUse use);
-  /// The index-th of many streams of one seed and use: what it gives depends on none of the others.
+  /// Construct one of several independent streams of one seed and purpose.
   RandomStream(std::uint64_t seed, RandomUse use, std::uint64_t index);
 
-  /// Uniform in [0, 1), a multiple of 2⁻⁵³.
+  /// Draw uniformly from [0, 1): a multiple of 2⁻⁵³.
   [[nodiscard]] double Uniform();
 
-  /// Normal, of mean 0 and standard deviation 1.
+  /// Draw from the normal distribution with mean 0 and standard deviation 1.
   [[nodiscard]] double Normal();
 
-  /// Uniform in {0, …, count − 1}, without bias. @param count  > 0.
+  /// Draw uniformly from {0, …, count − 1}, without bias.
+  /// @param count  positive.
   [[nodiscard]] std::uint64_t Index(std::uint64_t count);
 
-  /// So many different ones of {0, …, count − 1}, each choice as likely as any other, in the order
-  /// in which they are drawn. @param drawn  in [0, count].
+  /// Draw distinct numbers of {0, …, count − 1}, uniformly over all choices.
+  /// They are in the order of the draws.
+  /// @param drawn  number of numbers, in [0, count].
   [[nodiscard]] std::vector<int> Choose(int count, int drawn);
 
  private:
   std::mt19937_64 engine_;
 };
 
-/// An interval for an unknown share.
+/// Interval of an unknown share.
 struct ShareInterval {
   double lower = 0;
   double upper = 1;
 };
 
-/// The exact confidence interval for the share of successes of which `successes` of `trials`
-/// independent trials were seen (Clopper and Pearson 1934): each end leaves out no more than
-/// (1 − confidence) / 2.
-/// @throws std::invalid_argument  not 0 ≤ successes ≤ trials, trials < 1, or the confidence is not
-///                                in (0, 1).
+/// Compute the exact confidence interval of a success rate (Clopper and Pearson 1934).
+/// Each end excludes a probability of at most (1 − confidence) / 2.
+/// @param successes  number of successes in `trials` independent trials.
+/// @throws std::invalid_argument  if not 0 ≤ successes ≤ trials, trials < 1, or the confidence is
+///     not in (0, 1).
 [[nodiscard]] ShareInterval ComputeShareInterval(int successes, int trials, double confidence);
 
 }  // namespace regrasp

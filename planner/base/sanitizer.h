@@ -2,9 +2,9 @@
 
 namespace regrasp {
 
-/// Whether this is built for the address or the thread sanitizer: both take more address space than
-/// any limit, and the first asks with a pipe whether memory is there. GCC says so with macros,
-/// clang with features.
+/// Whether this is a build for the address or thread sanitizer.
+/// Both require more address space than any limit, and the address sanitizer opens a pipe to test
+/// memory. GCC defines macros for them, clang features.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitizer = true;
 #elif defined(__has_feature)

@@ -8,7 +8,7 @@ namespace regrasp {
 
 namespace {
 
-/// The loader's own description of its last error.
+/// Return the loader's description of its last error.
 std::string LoaderError() {
   const char* text = dlerror();
   return text == nullptr ? "cannot be loaded" : text;

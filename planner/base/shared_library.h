@@ -5,10 +5,10 @@
 
 namespace regrasp {
 
-/// A shared library that is loaded when it is first needed and stays loaded.
+/// Shared library that is loaded on first use and stays loaded.
 ///
-/// The libraries that draw and encode take longer to load than most runs of a program that writes
-/// no picture: OSMesa with LLVM 40 ms, libavformat with 130 others 50 ms of processor time.
+/// The libraries for rendering and encoding take longer to load than most runs of a program that
+/// writes no image: OSMesa with LLVM 40 ms, libavformat with 130 others 50 ms of processor time.
 class SharedLibrary {
  public:
   /// @param names  file names to try in this order, such as "libOSMesa.so.8".

@@ -18,13 +18,14 @@ struct EncodingMark {
   std::string_view encoding;
 };
 
-/// The marks of UTF-32 come first: the little-endian one begins with that of UTF-16.
+/// The marks of UTF-32 come first because the little-endian one begins with that of UTF-16.
 constexpr auto kMarks = std::to_array<EncodingMark>({{"\xFF\xFE\0\0"sv, "UTF-32"sv},
                                                      {"\0\0\xFE\xFF"sv, "UTF-32"sv},
                                                      {"\xFF\xFE"sv, "UTF-16"sv},
                                                      {"\xFE\xFF"sv, "UTF-16"sv}});
 
-/// Text in ASCII has no zero byte; in UTF-16 every second byte of it is zero.
+/// Return the encoding of text in UTF-16 or UTF-32, otherwise nullopt.
+/// ASCII text has no zero bytes; in UTF-16 every second byte of it is zero.
 std::optional<std::string_view> WideEncoding(std::string_view bytes) {
   for (const auto& [mark, encoding] : kMarks) {
     if (bytes.starts_with(mark)) return encoding;

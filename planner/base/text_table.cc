@@ -25,8 +25,8 @@ constexpr auto kInvisible = std::to_array<Range>({{0x0000, 0x001F},
                                                   {0xFFF9, 0xFFFB},
                                                   {0xE0000, 0xE007F}});
 
-/// What a leading byte says: how many bytes follow, and between which the first of them lies, so
-/// that no character is written longer than need be, none is a surrogate or beyond U+10FFFF.
+/// Number of bytes after a leading byte, and the range of the first of them.
+/// The ranges exclude overlong encodings, surrogates and characters beyond U+10FFFF.
 struct Lead {
   std::size_t following = 0;
   unsigned char least = 0x80, most = 0xBF;
@@ -62,7 +62,7 @@ Utf8Character TakeCharacter(std::string_view& text) {
 }
 
 bool IsInvisible(char32_t code) {
-  if ((code & 0xFFFE) == 0xFFFE) return true;  // the last two of every plane are noncharacters
+  if ((code & 0xFFFE) == 0xFFFE) return true;  // two noncharacters per plane
   return std::ranges::any_of(
       kInvisible, [&](const Range& range) { return code >= range.first && code <= range.last; });
 }
@@ -71,14 +71,14 @@ namespace {
 
 unsigned char AsByte(char c) { return static_cast<unsigned char>(c); }
 
-/// Whether a byte of UTF-8 begins a character.
+/// Return whether a byte of UTF-8 begins a character.
 bool IsFirst(char c) { return (AsByte(c) & 0xC0) != 0x80; }
 
 std::size_t CountCharacters(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, IsFirst));
 }
 
-/// Lower-case digits, at least so many.
+/// Format a number with at least `digits` lower-case hexadecimal digits.
 std::string HexDigits(char32_t value, int digits) {
   std::string text;
   for (; value > 0 || digits > 0; value >>= 4, --digits) {
@@ -87,7 +87,7 @@ std::string HexDigits(char32_t value, int digits) {
   return text;
 }
 
-/// Where the character with this index begins.
+/// Return the position at which the character with an index begins.
 std::size_t PlaceOf(std::size_t index, const std::string& text) {
   std::size_t place = 0;
   for (; place < text.size(); ++place) {

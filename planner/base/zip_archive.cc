@@ -11,7 +11,7 @@ namespace regrasp {
 
 namespace {
 
-/// Bytes in memory as minizip's file.
+/// File callbacks of minizip for bytes in memory.
 struct MemoryFile {
   std::string_view bytes;
   ZPOS64_T at = 0;

@@ -9,22 +9,23 @@
 
 namespace regrasp {
 
-/// The files of a ZIP archive in memory. What its headers declare is never trusted with memory.
+/// Reader of a ZIP archive in memory. Sizes in its headers are not trusted for allocation.
 class ZipArchive {
  public:
-  /// @param bytes  outlive this object.
-  /// @throws InputError  no ZIP archive.
+  /// @param bytes  contents of the archive; outlive this object.
+  /// @throws InputError  if it is not a ZIP archive.
   explicit ZipArchive(std::string_view bytes);
   ~ZipArchive();
   ZipArchive(const ZipArchive&) = delete;
   ZipArchive& operator=(const ZipArchive&) = delete;
 
-  /// In the order of the archive.
-  /// @throws InputError  the list is spoilt.
+  /// Return the names of the files in archive order.
+  /// @throws InputError  if the list of files is corrupt.
   [[nodiscard]] std::vector<std::string> names();
 
-  /// The bytes of a file, of whose name capitals do not matter; nullopt where there is none.
-  /// @throws InputError  its compressed data is spoilt, or there are more than `most` bytes.
+  /// Return the contents of a file, whose name is case-insensitive; nullopt if there is none.
+  /// @param most  largest accepted number of bytes.
+  /// @throws InputError  if its compressed data is corrupt or larger than `most` bytes.
   [[nodiscard]] std::optional<std::string> Read(const std::string& name, std::size_t most);
 
  private:

@@ -11,48 +11,50 @@
 
 namespace regrasp::certificate {
 
-/// The contacts of the fingers of `order`, in its order; fewer where a finger is missing.
+/// Return the contacts of the fingers in `order`, in its order. Missing fingers are skipped.
 [[nodiscard]] grasp::Grasp ContactsInOrder(const plan::FingerGrasp& grasp,
                                            const plan::FingerGrasp& order);
 
-/// A proof of force closure all along the motion from one waypoint to the next: the one by which
-/// the analytic check passes it (DecidePathForceClosure), nullopt where that does not.
-/// @param from, to    the contacts of each finger at the same place.
-/// @param half_angle  radians.
+/// Find a proof of force closure during the motion between two waypoints.
+/// It is the certificate of the analytic check (DecidePathForceClosure).
+/// @param from, to    contacts at both waypoints, with the same finger at each index.
+/// @param half_angle  friction angle, radians.
+/// @returns nullopt if the analytic check does not accept the motion.
 /// @throws std::invalid_argument  as TestForceClosure.
 [[nodiscard]] std::optional<motion::MotionSegments> FindPathProof(const grasp::Grasp& from,
                                                                   const grasp::Grasp& to,
                                                                   int dimension, double half_angle);
 
-/// Proofs of force closure all along an align, for each pair of waypoints that follow each other;
-/// nullopt where FindPathProof finds none for one of them.
-/// @param located  its contacts placed on the object. @param half_angle  radians.
+/// Find proofs of force closure during a sliding step, one per pair of consecutive waypoints.
+/// @param located  sliding step with contacts placed on the object.
+/// @param half_angle  friction angle, radians.
+/// @returns nullopt if FindPathProof finds none for a pair.
 [[nodiscard]] std::optional<plan::AlignCertificate> FindAlignCertificate(const plan::Align& located,
                                                                          int dimension,
                                                                          double half_angle);
 
-/// Checks in exact arithmetic that proofs hold for an align (CheckMotionProof).
-/// @returns kForceClosure, or kNothing with the first motion that is not proved.
+/// Check the proofs of a sliding step in exact arithmetic (CheckMotionProof).
+/// @returns kForceClosure, or kNothing with the first unproved motion.
 [[nodiscard]] motion::ProofVerdict CheckAlignCertificate(const plan::Align& located, int dimension,
                                                          double mu,
                                                          const plan::AlignCertificate& certificate);
 
-/// Gives every align of a plan that has no certificate one, where it is found.
+/// Add a certificate to every sliding step of a plan that has none, if one is found.
 void AddCertificates(const object::Object& object, plan::Plan& plan);
 
-/// What a plan says of where it comes from, besides what the planner knows.
+/// Origin of a plan, in addition to the planner's own data.
 struct PlanOrigin {
-  double half_angle = 0;                                ///< of the friction that is there, radians
-  double scale = 1;                                     ///< metres per unit of the object
-  std::optional<object::Shells> shells = std::nullopt;  ///< as it was read with
-  std::optional<double> patch_radius = std::nullopt;    ///< of what a fingertip feels, its unit
-  /// Of contacts at these points only; outlives the call.
+  double half_angle = 0;                                ///< friction angle, radians
+  double scale = 1;                                     ///< metres per object unit
+  std::optional<object::Shells> shells = std::nullopt;  ///< how the object was read
+  std::optional<double> patch_radius = std::nullopt;  ///< radius of the contact patch, object units
+  /// Points to which contacts are restricted, null for none. Outlives the call.
   const std::vector<Eigen::Vector3d>* given_points = nullptr;
 };
 
-/// Makes a planner's plan one that stands alone: says what it is a plan for, adds the proofs of its
-/// aligns, and asks the checker.
-/// @returns what the checker says; a plan that it fails is a defect of the planner.
+/// Complete a planner's plan so that its file is self-contained.
+/// Adds the origin and the certificates of sliding steps, and runs the checker.
+/// @returns the checker's result. A failure is a defect of the planner.
 [[nodiscard]] plan::PlanCheck FinishPlan(const object::ObjectFile& object, const PlanOrigin& origin,
                                          plan::Plan& plan);
 

@@ -13,7 +13,7 @@ namespace {
 using namespace motion::exact;
 using VerdictKind = motion::ProofVerdict::Kind;
 
-/// Whether the torque of a soft finger resists a turn about the line to another contact.
+/// Return whether a soft-finger torque resists rotation about the line to another contact.
 bool Twists(const std::vector<ExactContact>& contacts) {
   for (const ExactContact& soft : contacts) {
     if (soft.torsion == 0) continue;
@@ -24,8 +24,8 @@ bool Twists(const std::vector<ExactContact>& contacts) {
   return false;
 }
 
-/// Whether contacts span: three not on one line, in the plane two not at one point; or two of which
-/// one twists.
+/// Return whether contacts can span all wrenches: three are not collinear (in 2-D: two do not
+/// coincide), or Twists.
 bool Span(const std::vector<ExactContact>& contacts, int dimension) {
   if (dimension == 3 && Twists(contacts)) return true;
   for (std::size_t i = 1; i < contacts.size(); ++i) {
@@ -41,7 +41,7 @@ bool Span(const std::vector<ExactContact>& contacts, int dimension) {
 
 motion::ProofVerdict Nothing(std::string why) { return {VerdictKind::kNothing, std::move(why)}; }
 
-/// Why the torques of a proof are none.
+/// Return why the torques of a proof are invalid; empty if they are valid.
 std::string TorqueFault(const std::vector<ExactContact>& contacts, const GraspProof& proof) {
   if (proof.torques.empty()) return "";
   if (proof.torques.size() != contacts.size()) return "not one torque a contact";
@@ -54,7 +54,7 @@ std::string TorqueFault(const std::vector<ExactContact>& contacts, const GraspPr
   return "";
 }
 
-/// (torque / torsion)² of a torque times the normal.
+/// Return (torque / torsion)² of a torque times the normal.
 Rational TwistSquared(const ExactContact& contact, const Rational& torque) {
   if (contact.torsion == 0) return 0;
   return torque * torque * SquaredNorm(contact.n) / (contact.torsion * contact.torsion);
@@ -96,7 +96,8 @@ motion::ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int 
   return {VerdictKind::kForceClosure, ""};
 }
 
-/// Whether velocities refute: all are in the polar cones, of soft fingers with the spins n·ω.
+/// Check whether velocities refute force closure: all are in the polar cones, with the spins n·ω of
+/// soft-finger contacts.
 motion::ProofVerdict CheckVelocities(const std::vector<ExactContact>& contacts,
                                      const std::vector<Vector>& velocities, const Vector& omega,
                                      const Rational& mu) {
@@ -123,7 +124,7 @@ motion::ProofVerdict CheckTwist(const std::vector<ExactContact>& contacts, const
   return CheckVelocities(contacts, velocities, omega, mu);
 }
 
-/// The turn about the line through two contacts, with one sign or the other.
+/// Check the rotation about the line of two contacts, in both directions.
 motion::ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const Rational& mu,
                                const std::array<int, 2>& line) {
   const int count = static_cast<int>(contacts.size());

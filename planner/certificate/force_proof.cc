@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Forces stay this much of their size away from the cone's border, so that the exact
-/// correction of their rounding does not bring them out.
+/// Relative distance of forces from the cone's boundary, so that the exact correction of rounding
+/// errors keeps them inside.
 constexpr double kSlack = 1e-9;
 
 bool IsInside(const Vector3d& force, double torque, const grasp::Contact& contact,
@@ -32,7 +32,7 @@ object::WrenchFrame OwnFrame(std::span<const grasp::Contact> contacts, int dimen
   return grasp::ContactFrame(contacts, dimension);
 }
 
-/// The refutation that the pair lines give; kNone where they give none.
+/// Return a refutation by the line of two contacts; kNone if there is none.
 GraspProof FindLine(const grasp::UnitContacts& contacts) {
   const int count = static_cast<int>(contacts.size());
   GraspProof proof;
@@ -57,7 +57,7 @@ GraspProof FindLine(const grasp::UnitContacts& contacts) {
   return proof;
 }
 
-/// A twist of the contacts' own frame as one of the object's coordinates.
+/// Transform a twist from the contacts' frame to object coordinates.
 template <int kDim>
 GraspProof TwistProof(const typename grasp::WrenchSimplex<kDim>::Vector& twist,
                       const object::WrenchFrame& frame) {
@@ -79,7 +79,7 @@ GraspProof FindRefutation(std::span<const grasp::Contact> contacts,
   grasp::UnitContacts units = grasp::MakeUnitContacts(contacts, frame);
   grasp::SetUnitForces(units, half_angle);
   if constexpr (kDim == 6) {
-    // Soft fingers on the line may resist a turn about it.
+    // Soft-finger contacts on the line can resist a rotation about it.
     const GraspProof line = grasp::HasTorsion(units) ? GraspProof() : FindLine(units);
     if (line.kind != GraspProof::Kind::kNone) return line;
   }
@@ -95,7 +95,7 @@ bool HaveTorsion(std::span<const grasp::Contact> contacts) {
   return std::ranges::any_of(contacts, [](const grasp::Contact& c) { return c.torsion > 0; });
 }
 
-/// No forces resist a turn about the line that all contacts are on.
+/// Return whether all contacts are collinear; then no force resists a rotation about their line.
 bool AreOnOneLine(std::span<const grasp::Contact> contacts, const object::WrenchFrame& frame) {
   double farthest = 0;
   for (const grasp::Contact& a : contacts) {

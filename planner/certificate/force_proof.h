@@ -10,36 +10,40 @@
 
 namespace regrasp::certificate {
 
-/// Why a grasp is force closure, or why it is not: numbers that anyone can check with the contacts
-/// and the friction alone. Lengths and points are in the object's unit, about its origin.
+/// Proof that a grasp is force closure or is not, verifiable from contacts and friction only.
+/// Lengths and points are in object units, relative to the object's origin.
 struct GraspProof {
   enum class Kind {
-    kNone,    ///< none was found
-    kForces,  ///< balanced forces strictly inside the cones, and contacts that are not on one line,
-              ///< or a soft finger that resists a turn about it
-    kTwist,   ///< a motion of the object that all forces in the cones work against
-    kLine,  ///< about the line through two contacts all others turn the object the same way, or not
+    kNone,  ///< no proof found
+    /// Balanced forces strictly inside the cones; contacts not collinear, or with a torque about
+    /// their line.
+    kForces,
+    kTwist,  ///< twist of the object against which all forces in the cones do work
+    /// No contact, or only contacts of one sign, can exert a torque about the line of two contacts.
+    kLine,
   };
   Kind kind = Kind::kNone;
-  std::vector<Eigen::Vector3d> forces;  ///< kForces: one a contact, balanced up to rounding
-  /// kForces, of soft fingers: with the forces, about the normals; empty where there are none.
+  std::vector<Eigen::Vector3d> forces;  ///< kForces: one per contact, balanced up to rounding
+  /// Torques about the normals for kForces, one per contact; empty without soft fingers.
   std::vector<double> torques = {};
-  /// kTwist: velocities v + ω × p of points of the object; (v, ω).
+  /// Twist for kTwist: a point p of the object has the velocity v + ω × p.
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   Eigen::Vector3d omega = Eigen::Vector3d::Zero();
   std::array<int, 2> line = {0, 0};  ///< kLine: the two contacts
 };
 
-/// The proofs of one entry of a report: of the grasp that it ends in, and of an align's motions.
+/// Proofs of one entry of a report: of its final grasp, and of the motions of a sliding step.
 struct EntryProof {
   GraspProof rest;
-  /// By pair of waypoints that follow each other; empty where no proof was found.
+  /// Proofs by pair of consecutive waypoints. Empty if none is found.
   std::vector<motion::MotionSegments> motions;
 };
 
-/// A proof of force closure where there is one with slack, otherwise of the opposite; kNone for
-/// grasps too close to the limit.
-/// @param dimension   3, or 2 for planar contacts. @param half_angle  radians.
+/// Find a proof of force closure or of its opposite.
+/// @param dimension   3, or 2 for planar contacts.
+/// @param half_angle  friction angle, radians.
+/// @returns kForces if there are forces with slack, otherwise a refutation; kNone for grasps too
+///     close to the limit.
 /// @throws std::invalid_argument  as TestForceClosure.
 [[nodiscard]] GraspProof FindGraspProof(std::span<const grasp::Contact> contacts, int dimension,
                                         double half_angle);

@@ -17,18 +17,18 @@ namespace {
 
 using ProofKind = GraspProof::Kind;
 
-/// From one waypoint to the next, the contacts of each finger at the same place.
+/// Motion between two waypoints, with the same finger at each index.
 struct Motion {
   grasp::Grasp from;
   grasp::Grasp to;
 };
 
-/// One entry as the proofs see it: the grasp at its end, and the motions of an align.
+/// Entry of a plan as required by the proofs: its final grasp, and the motions of a sliding step.
 struct Entry {
   std::string kind;
   grasp::Grasp rest;
   std::vector<Motion> motions;
-  const plan::AlignCertificate* certificate = nullptr;  ///< that the plan gives, if it does
+  const plan::AlignCertificate* certificate = nullptr;  ///< certificate of the plan, or null
 };
 
 std::vector<Entry> EntriesOf(const plan::Plan& plan) {
@@ -49,8 +49,8 @@ std::vector<Entry> EntriesOf(const plan::Plan& plan) {
   return entries;
 }
 
-/// The plan's own proof of a motion where it holds, otherwise one that is found; empty where none
-/// is.
+/// Return the plan's own proof of a motion if it is valid, otherwise a new one; empty if none is
+/// found.
 motion::MotionSegments ProvePath(const Entry& entry, std::size_t index, int dimension,
                                  double half_angle) {
   const auto& [from, to] = entry.motions[index];

@@ -11,30 +11,33 @@
 
 namespace regrasp::certificate {
 
-/// Proofs for the first `entries` entries of a plan, the hold of the initial grasp included. The
-/// plan's own certificates are taken where they hold.
-/// @param located  its contacts placed on the object (LocatePlan). @param half_angle  radians.
+/// Find proofs of the first `entries` entries of a plan.
+/// The first entry is the hold of the initial grasp.
+/// Valid certificates of the plan are reused.
+/// @param located  plan with contacts placed on the object (LocatePlan).
+/// @param half_angle  friction angle, radians.
 [[nodiscard]] std::vector<EntryProof> FindPlanProofs(const plan::Plan& located, double half_angle,
                                                      int entries);
 
-/// What exact arithmetic says of the proofs of one entry.
+/// Result of the exact check of one entry's proofs.
 struct EntryVerdict {
   plan::EntryIndex index{0};
   std::string kind;  ///< "hold", or as StepKind
   motion::ProofVerdict rest;
   std::vector<motion::ProofVerdict> motions;
 
-  /// The grasp and all motions are proved.
+  /// Return whether the grasp and all motions are proved.
   [[nodiscard]] bool proved() const;
 };
 
-/// Checks proofs against the plan, in order from the hold.
-/// @throws std::invalid_argument  more proofs than the plan has entries.
+/// Check proofs against a plan, in order from the initial hold.
+/// @throws std::invalid_argument  if there are more proofs than entries.
 [[nodiscard]] std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& located, double mu,
                                                         std::span<const EntryProof> proofs);
 
 [[nodiscard]] Json EntryProofJson(const EntryProof& proof, int dimension);
-/// @throws InputError
+/// Read the proofs of an entry from JSON.
+/// @throws InputError  if the JSON is not an entry proof.
 [[nodiscard]] EntryProof ReadEntryProof(const plan::JsonReader& json, int dimension);
 
 }  // namespace regrasp::certificate

@@ -8,10 +8,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Points nearer than this to each other are one, metres.
+/// Distance within which points are identical, metres.
 constexpr double kSamePoint = 1e-9;
 
-/// Ericson, Real-Time Collision Detection (2005), 5.1.5.
+/// Return the nearest point of a triangle (Ericson, Real-Time Collision Detection, 2005, 5.1.5).
 Vector3d ClosestOnTriangle(const Vector3d& p, const std::array<Vector3d, 3>& corners) {
   const auto& [a, b, c] = corners;
   const Vector3d ab = b - a;
@@ -100,7 +100,7 @@ std::vector<NearPoint> BallContact::Find(const Vector3d& centre, double reach,
     const bool known = std::ranges::any_of(found, [&](const NearPoint& other) {
       return (other.point - point).squaredNorm() < kSamePoint * kSamePoint;
     });
-    // On the border of a triangle whose neighbour comes nearer, there is no minimum.
+    // A border point of a triangle is not a minimum if the adjacent triangle is nearer.
     const bool minimum = std::ranges::none_of(candidates, [&](const Candidate& other) {
       return other.near.distance < candidate.near.distance - kSamePoint &&
              (ClosestOnTriangle(point, other.triangle->corners) - point).norm() < kSamePoint;

@@ -8,41 +8,45 @@
 
 namespace regrasp::collision {
 
-/// A point of a surface that is near a ball.
+/// Point of a surface near a sphere.
 struct NearPoint {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Eigen::Vector3d outward = Eigen::Vector3d::UnitZ();  ///< from the point to the ball's centre
-  double distance = 0;                                 ///< to the centre
+  Eigen::Vector3d outward = Eigen::Vector3d::UnitZ();  ///< unit vector to the sphere's centre
+  double distance = 0;                                 ///< distance to the sphere's centre
 };
 
-/// Where balls touch the true surface of a solid, faceted and not convex as it may be: the engine
-/// collides convex shapes only, and finds contacts of meshes to a tolerance.
+/// Contacts of spheres with the exact surface of a solid, which can be non-convex.
+/// MuJoCo is not used for this because it collides convex shapes only, and finds mesh contacts to a
+/// tolerance.
 class BallContact {
  public:
-  /// @param scale  metres per unit of the solid.
+  /// @param solid  solid in object units.
+  /// @param scale  metres per object unit.
   BallContact(const object::Polyhedron& solid, double scale);
 
-  /// The points where the distance from `centre` is a local minimum over the surface and at most
-  /// `reach`, nearest first: one over a face or an edge, two in a groove. Of triangles that face
-  /// away nothing is told: the centre is outside, or in the surface by less than the ball's radius.
-  /// @param centre  in the solid's frame, metres.
+  /// Return the points nearest to a sphere's centre, nearest first.
+  /// At these points the distance from `centre` is a local minimum over the surface and at most
+  /// `reach`.
+  /// There is one such point over a face or an edge, and two in a groove. Triangles that face away
+  /// are ignored: the centre must be outside, or inside by less than the sphere's radius.
+  /// @param centre  centre in the solid's frame, metres.
   [[nodiscard]] std::vector<NearPoint> Find(const Eigen::Vector3d& centre, double reach) const;
-  /// The same where it is known which triangles can be that near (Around), as those of a ball that
-  /// has moved little.
+  /// Return the same points from candidate triangles (result of Around). The candidates can be
+  /// reused while a sphere moves little.
   [[nodiscard]] std::vector<NearPoint> Find(const Eigen::Vector3d& centre, double reach,
                                             const std::vector<int>& among) const;
-  /// Triangles that may be within `reach` of `centre`, in their order.
+  /// Return the triangles that can be within `reach` of `centre`, in ascending order.
   [[nodiscard]] std::vector<int> Around(const Eigen::Vector3d& centre, double reach) const;
 
-  /// Of a triangle, metres, counter-clockwise from outside.
+  /// Return the corners of a triangle, counter-clockwise from outside, metres.
   [[nodiscard]] const std::array<Eigen::Vector3d, 3>& corners(int triangle) const {
     return triangles_[triangle].corners;
   }
-  /// Outward and unit.
+  /// Return the outward unit normal of a triangle.
   [[nodiscard]] const Eigen::Vector3d& normal(int triangle) const {
     return triangles_[triangle].normal;
   }
-  /// The point of a triangle that is nearest to a point.
+  /// Return the point of a triangle nearest to a point.
   [[nodiscard]] Eigen::Vector3d ClosestOn(int triangle, const Eigen::Vector3d& point) const;
 
  private:
@@ -50,7 +54,7 @@ class BallContact {
     std::array<Eigen::Vector3d, 3> corners;
     Eigen::Vector3d normal;
     Eigen::Vector3d middle;
-    double radius;  ///< of a ball about the middle
+    double radius;  ///< radius of a bounding sphere about the centroid
   };
   std::vector<Triangle> triangles_;
 };

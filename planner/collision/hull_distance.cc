@@ -11,9 +11,9 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::span<const Vector3d>;
 
-constexpr double kConverged = 1e-9;  // of the distance
+constexpr double kConverged = 1e-9;  // relative to the distance
 constexpr int kMostIterations = 100;
-/// Of the size of the points: what rounding of differences and products may be off.
+/// Rounding error of differences and products, relative to the size of the points.
 constexpr double kRounding = 1e-14;
 
 double SizeOf(Points points) {
@@ -28,7 +28,7 @@ HullBounds HullDistance(Points a, Points b, std::optional<double> decided) {
   const double slack = kRounding * (SizeOf(a) + SizeOf(b));
   HullBounds bounds;
   HullSimplex simplex;
-  // Points of the difference a − b; the nearest one to the origin is looked for.
+  // Search for the point of the difference a − b nearest to the origin.
   Vector3d nearest = a.front() - b.front();
   simplex.points[0] = nearest;
   simplex.size = 1;
@@ -47,7 +47,7 @@ HullBounds HullDistance(Points a, Points b, std::optional<double> decided) {
     nearest = ReduceToNearest(simplex);
     if (simplex.size == 4) return {};
     const double upper = nearest.norm();
-    // Only rounding is left.
+    // The remaining difference is rounding error.
     if (upper >= bounds.upper) return bounds;
     bounds.upper = upper;
   }

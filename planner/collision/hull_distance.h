@@ -8,21 +8,21 @@
 
 namespace regrasp::collision {
 
-/// Bounds on the distance of two hulls, and the direction from the second to the first along which
-/// the lower one was found, of any length.
+/// Bounds of the distance of two hulls, with the direction of the lower bound.
+/// The direction points from the second hull to the first and has any length.
 struct HullBounds : DistanceBounds {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
 
-/// Bounds on the distance of the convex hulls of two sets of points, as Distance has them of shapes
-/// without radii.
-/// @param decided  the work ends where both bounds are known to be on one side of this.
+/// Compute bounds of the distance of two convex hulls, as Distance for shapes with radius 0.
+/// @param decided  distance at which the computation can stop early: when both bounds are on one
+///     side of it.
 [[nodiscard]] HullBounds HullDistance(std::span<const Eigen::Vector3d> a,
                                       std::span<const Eigen::Vector3d> b,
                                       std::optional<double> decided = std::nullopt);
 
-/// Whether two hulls are farther apart along a direction than `distance`: a few products, where it
-/// is known from hulls near by.
+/// Return whether two hulls are farther apart along a direction than `distance`.
+/// This requires only dot products, and is useful if the direction is known from nearby hulls.
 [[nodiscard]] bool AreApartAlong(std::span<const Eigen::Vector3d> a,
                                  std::span<const Eigen::Vector3d> b,
                                  const Eigen::Vector3d& direction, double distance);

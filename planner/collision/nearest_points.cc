@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a face of a simplex that was tried: its nearest point, and the corners it needs.
+/// Nearest point of a face of a simplex to the origin, with the corners that span it.
 struct Nearest {
   Vector3d point = Vector3d::Zero();
   HullSimplex needed;
@@ -66,7 +66,8 @@ Nearest NearestOfTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& 
   return best;
 }
 
-/// Whether the origin and `d` are on the same side of the plane of a, b and c, or one is on it.
+/// Return whether the origin and `d` are on the same side of the plane of a, b and c, or one is on
+/// it.
 bool IsOnSideOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
   const Vector3d normal = (b - a).cross(c - a);
   return normal.dot(-a) * normal.dot(d - a) >= 0;
@@ -121,12 +122,12 @@ namespace {
 
 using Points = std::span<const Vector3d>;
 
-constexpr double kPointsConverged = 1e-9;  // of the distance
+constexpr double kPointsConverged = 1e-9;  // relative to the distance
 constexpr int kMostPointIterations = 100;
-/// Nearer than this is no distance, metres.
+/// Distance below which the hulls intersect, metres.
 constexpr double kMeet = 1e-12;
 
-/// Corners of the difference a − b, each with the points that it is of.
+/// Simplex of the difference a − b, with the pair of points of each corner.
 struct PairSimplex {
   HullSimplex differences;
   std::array<NearestPair, 4> pairs;
@@ -135,7 +136,7 @@ struct PairSimplex {
     pairs[differences.size] = pair;
     differences.points[differences.size++] = pair.on_a - pair.on_b;
   }
-  /// As ReduceToNearest.
+  /// Reduce the simplex as ReduceToNearest.
   Vector3d Reduce() {
     const PairSimplex before = *this;
     const Vector3d nearest = ReduceToNearest(differences);
@@ -146,7 +147,7 @@ struct PairSimplex {
     }
     return nearest;
   }
-  /// The points whose difference is `nearest`, a point of the simplex's inside.
+  /// Return the pair of points whose difference is `nearest`, a point inside the simplex.
   [[nodiscard]] NearestPair PairAt(const Vector3d& nearest) const {
     const int others = differences.size - 1;
     const Vector3d& first = differences.points[0];
@@ -173,14 +174,14 @@ std::optional<NearestPair> FindNearestPoints(Points a, Points b) {
     const double distance = nearest.norm();
     if (distance <= kMeet) return std::nullopt;
     const NearestPair support = {Farthest(a, -nearest), Farthest(b, nearest)};
-    // What is left to gain.
+    // Possible improvement of the squared distance.
     const double gain = nearest.dot(nearest - (support.on_a - support.on_b));
     if (gain <= kPointsConverged * distance * distance) break;
     PairSimplex next = simplex;
     next.Add(support);
     const Vector3d nearer = next.Reduce();
     if (next.differences.size == 4) return std::nullopt;
-    if (nearer.norm() >= distance) break;  // only rounding is left
+    if (nearer.norm() >= distance) break;  // the remaining difference is rounding error
     simplex = next;
     nearest = nearer;
   }

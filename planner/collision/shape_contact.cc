@@ -13,15 +13,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A point that is nearest to the inside of a triangle is off its plane by its distance, metres.
+/// Tolerance for a point whose nearest surface point is inside a triangle: its distance equals its
+/// height over the plane, metres.
 constexpr double kOrthogonal = 1e-9;
-/// Nearer than a corner by less than this is at the corner, metres.
+/// Smallest difference, metres, by which another point must be nearer than a corner.
 constexpr double kNearer = 1e-7;
 
-/// What a point of the shape may touch.
+/// Possible contacts of a point of the shape.
 struct PointPlace {
-  bool near = false;                     ///< nearer than the radius, from outside
-  std::optional<SurfaceContact> inside;  ///< of a point in the solid
+  bool near = false;                     ///< within the radius, from outside
+  std::optional<SurfaceContact> inside;  ///< contact of a point inside the solid
 };
 
 PointPlace PlaceOf(const BallContact& surface, const Vector3d& point, double radius,
@@ -59,8 +60,8 @@ void AddPoint(const BallContact& surface, const Vector3d& point, double radius,
   }
 }
 
-/// Where the points' hull meets the surface: out along the line from the surface to the middle of
-/// the shape.
+/// Return a contact if the hull of the points intersects the surface. It is along the line from the
+/// surface to the centre of the shape.
 std::optional<SurfaceContact> Overlap(const BallContact& surface, const ConvexShape& shape,
                                       const std::vector<int>& among) {
   const BoundingSphere around = BoundingSphereOf(shape);
@@ -74,7 +75,7 @@ std::optional<SurfaceContact> Overlap(const BallContact& surface, const ConvexSh
   return SurfaceContact{near.point, near.outward, -depth - shape.radius};
 }
 
-/// The deepest, and those that are not within kApart of them.
+/// Return the deepest contacts, without those within kApart of a deeper one.
 std::vector<SurfaceContact> Thinned(std::vector<SurfaceContact> contacts) {
   std::ranges::stable_sort(contacts, {}, &SurfaceContact::gap);
   std::vector<SurfaceContact> kept;
@@ -106,8 +107,8 @@ std::vector<SurfaceContact> FindContacts(const BallContact& surface, const Conve
   }
   double deepest = 0;
   for (const SurfaceContact& contact : contacts) deepest = std::min(deepest, contact.gap);
-  // Elsewhere than at its points it touches only where it is nearer than they are. Where the
-  // points' hull is in the surface they say how.
+  // An additional contact exists only if another part of the shape is nearer than its points. If
+  // the hull of the points intersects the surface, the contacts of the points suffice.
   const auto nearest = FindNearest(surface, shape, shape.radius, among);
   const bool meets = nearest && nearest->gap <= -shape.radius;
   if (nearest && (meets ? contacts.empty() : nearest->gap < deepest - kNearer)) {
@@ -132,7 +133,7 @@ std::optional<SurfaceContact> FindNearest(const BallContact& surface, const Conv
     if (!pair) return Overlap(surface, shape, among);
     const Vector3d between = pair->on_a - pair->on_b;
     const double distance = between.norm();
-    // A triangle that faces away is in front of none.
+    // A triangle that faces away cannot be the nearest.
     if (distance >= nearest || normal.dot(between) <= 0) continue;
     nearest = distance;
     best = {pair->on_b, between / distance, distance - shape.radius};

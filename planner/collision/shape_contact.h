@@ -9,35 +9,37 @@
 
 namespace regrasp::collision {
 
-/// Where a shape and a surface touch, or are nearest.
+/// Contact of a shape with a surface, or their nearest point.
 struct SurfaceContact {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of the surface
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< point on the surface
   Eigen::Vector3d outward = Eigen::Vector3d::UnitZ();
-  double gap = 0;  ///< metres; negative: so deep
+  double gap = 0;  ///< metres; negative: penetration depth
 };
 
-/// Where a convex shape touches a solid's true surface: what BallContact is for balls.
+/// Find the contacts of a convex shape with the exact surface of a solid.
 ///
-/// Each point of the shape is a ball of its radius, and there is a contact where that one has one.
-/// Where two others are nearest, as an edge across an edge or a corner of the solid under a side of
-/// the shape, there is one, too. A point that is inside the solid, as happens where shapes overlap
-/// before they are pushed apart, has a contact up to kMostInside deep; where none is that meets the
-/// surface nevertheless (edges do), it is along the line to the middle of the shape. Contacts
-/// within kApart of a deeper one add nothing and are left out, and so are those beyond the
-/// kMostContacts deepest.
+/// Each point of the shape is a sphere of the shape's radius and has the contacts of that sphere
+/// (BallContact). If other points are nearest, there is one more contact: an edge of the shape at
+/// an edge of the solid, or a side of the shape at a corner of the solid. A point inside the solid
+/// has a contact at most kMostInside deep; this occurs if shapes overlap before they are separated.
+/// If the hull intersects the surface without such a point, the contact is along the line to the
+/// centre of the shape. Contacts within kApart of a deeper one are redundant and omitted. At most
+/// the kMostContacts deepest contacts are returned.
 ///
-/// Laws: of a single point as BallContact::Find; rigid motion moves the contacts.
-/// @param shape  in the solid's frame, metres, with a radius: as far as edges are in the solid
-///               contacts are found by it.
-/// @param among  BallContact::Around: triangles within kMostInside and the radius of the shape.
-/// @returns the deepest first.
+/// Laws: a single point has the contacts of BallContact::Find. Rigid motion moves the contacts.
+/// @param shape  shape with positive radius in the solid's frame, metres. Contacts of edges inside
+///     the solid are found up to the depth of the radius.
+/// @param among  result of BallContact::Around: triangles within kMostInside and the radius of the
+///     shape.
+/// @returns contacts, the deepest first.
 [[nodiscard]] std::vector<SurfaceContact> FindContacts(const BallContact& surface,
                                                        const ConvexShape& shape,
                                                        const std::vector<int>& among);
 
-/// Where the shape is nearest to the surface, and the hull of its points nearer than `reach`. Where
-/// that meets the surface the gap is no larger than minus the radius, and is no more than a guess.
-/// @returns nullopt where it is farther.
+/// Find the nearest point of the surface to a shape.
+/// If the hull of the shape's points intersects the surface, the gap is at most minus the radius,
+/// and is only an estimate.
+/// @returns nullopt if the hull is farther from the surface than `reach`.
 [[nodiscard]] std::optional<SurfaceContact> FindNearest(const BallContact& surface,
                                                         const ConvexShape& shape, double reach,
                                                         const std::vector<int>& among);

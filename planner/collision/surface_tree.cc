@@ -58,8 +58,8 @@ int SurfaceTree::Build(int begin, int end) {
   return index;
 }
 
-/// Calls `on_leaf` with the triangles that may be nearer to the shape's hull than `within`, which
-/// it may lessen.
+/// Call `on_leaf` for triangles that can be nearer to the shape's hull than `within`.
+/// `on_leaf` can reduce `within`.
 template <typename OnLeaf>
 void SurfaceTree::Descend(const ConvexShape& shape, const OnLeaf& on_leaf, double& within) const {
   const Eigen::AlignedBox3d box = BoxOf(shape.points);
@@ -93,7 +93,7 @@ double SurfaceTree::DistanceFrom(const ConvexShape& shape, double limit) const {
 bool SurfaceTree::IsApart(const ConvexShape& shape, double distance) const {
   const double enough = distance + shape.radius;
   double within = enough;
-  // What parts one triangle from the shape mostly parts those near by.
+  // A direction that separates one triangle from the shape often separates nearby triangles too.
   Vector3d direction = Vector3d::Zero();
   Descend(
       shape,

@@ -9,31 +9,32 @@
 
 namespace regrasp::collision {
 
-/// The surface of a solid as a tree of boxes over its triangles, in metres: how far shapes are from
-/// it. What is wholly inside the solid is far from the surface too: paths that begin outside and
-/// keep off the surface stay outside.
+/// Bounding-box tree over the triangles of a solid, for distances from its surface in metres.
+/// A shape wholly inside the solid has a positive distance too. This suffices because paths that
+/// begin outside and avoid the surface stay outside.
 class SurfaceTree {
  public:
-  /// @param scale  metres per unit of the solid's file.
+  /// @param solid  solid in object units.
+  /// @param scale  metres per object unit.
   SurfaceTree(const object::Polyhedron& solid, double scale);
 
-  /// A certified lower bound on the distance of a shape from the surface, no more than `limit`;
-  /// close to the distance where that is smaller.
-  /// @param shape  in the solid's frame, metres.
+  /// Return a certified lower bound of the distance of a shape from the surface, at most `limit`.
+  /// The bound is close to the distance if that is below `limit`.
+  /// @param shape  shape in the solid's frame, metres.
   [[nodiscard]] double DistanceFrom(const ConvexShape& shape, double limit) const;
 
-  /// True only where the shape is certainly farther from the surface than `distance`.
+  /// Return true only if the shape is certainly farther from the surface than `distance`.
   [[nodiscard]] bool IsApart(const ConvexShape& shape, double distance) const;
 
-  /// The largest distance of a vertex from a point, metres.
+  /// Return the largest distance of a vertex from a point, metres.
   [[nodiscard]] double ReachFrom(const Eigen::Vector3d& point) const;
 
  private:
   struct Node {
     Eigen::AlignedBox3d box;
-    int begin = 0;  ///< of its triangles
+    int begin = 0;  ///< first of its triangles
     int end = 0;
-    int right = 0;  ///< of its children, the left one is the next node; 0: a leaf
+    int right = 0;  ///< right child, the left one is the next node; 0: leaf
   };
   using Triangle = std::array<Eigen::Vector3d, 3>;
 

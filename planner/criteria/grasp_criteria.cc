@@ -15,19 +15,21 @@ namespace {
 
 using Contacts = std::span<const grasp::Contact>;
 
-/// Of measures that are only compared: to a hundredth they would take ten times as long. Of those
-/// that are told.
+/// Relative accuracy of measures: coarse for comparisons, because 0.01 takes ten times as long, and
+/// fine for messages.
 constexpr double kScoreGap = 0.1;
 constexpr double kToldGap = 0.01;
 
-/// Something that a grasp has the better the more of, and that is asked for beyond force closure.
+/// Criterion beyond force closure, with a minimum.
 struct Criterion {
-  const char* name;              ///< in messages, after "a"
-  double GraspCriteria::*asked;  ///< at least so much; 0: not asked for
-  /// @param filter  may be null.
+  const char* name;              ///< name in messages, after "a"
+  double GraspCriteria::*asked;  ///< required minimum; 0: not required
+  /// Test of the criterion.
+  /// @param filter  can be null.
   bool (*is_met)(Contacts, const object::WrenchFrame&, const GraspCriteria&,
                  grasp::QualityFilter* filter);
-  /// How much of it a grasp has, a lower bound. @param gap  relative, of the bound.
+  /// Lower bound of the measured value.
+  /// @param gap  accuracy relative to the bound.
   double (*measure)(Contacts, const object::WrenchFrame&, const GraspCriteria&, double gap);
 };
 

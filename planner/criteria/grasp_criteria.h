@@ -14,61 +14,62 @@ class QualityFilter;
 
 namespace regrasp::criteria {
 
-/// What is asked of a grasp that a hand is to rest in, beside what the hand itself asks
-/// (clearance.h, reach.h, CanMeet).
+/// Criteria of a static grasp, in addition to the requirements of the hand (reach.h, CanMeet).
 ///
-/// Every planner decides through GraspEvaluator whether a grasp is good enough, and that by the
-/// functions below. A new criterion (a limit of the largest contact force, say) is a field here and
-/// a row of the table in grasp_criteria.cc: all planners then obey it, ask for less of it where
-/// they find no sequence otherwise, and warn of grasps that do not meet it.
+/// Every planner decides by GraspEvaluator whether a grasp is good, which uses the functions below.
+/// A new criterion, such as a limit of the largest contact force, is a field here and a row of the
+/// table in grasp_criteria.cc. All planners then apply it, relax it if they find no sequence, and
+/// warn of grasps that do not meet it.
 struct GraspCriteria {
-  double half_angle = 0;  ///< of the friction cones, radians in (0, π/2)
-  /// Quality (grasp/quality.h) that random grasps have at least. A sequence keeps to such grasps
-  /// where it can.
+  double half_angle = 0;  ///< friction angle, radians in (0, π/2)
+  /// Smallest grasp quality (grasp/quality.h) of random grasps. Sequences use such grasps if
+  /// possible.
   double min_quality = 0.01;
 
-  /// Whether more is asked for than force closure.
+  /// Return whether more than force closure is required.
   [[nodiscard]] bool AsksMore() const;
-  /// The same with a share of what is asked for beyond force closure: of 1 all of it, of 0 nothing.
+  /// Return relaxed criteria, with a share of the requirements beyond force closure.
+  /// A share of 1 keeps all of them, 0 drops them.
   [[nodiscard]] GraspCriteria Relaxed(double share) const;
 };
 
-/// Whether a force-closure grasp meets what is asked for beyond force closure.
-/// @param filter  decides the quality quickly, at its own half-angle, and refuses a few grasps just
-///                above the threshold too; null: exactly.
+/// Return whether a force-closure grasp meets the criteria beyond force closure.
+/// @param filter  fast test of the quality at the filter's friction angle, which also rejects a few
+///     grasps just above the threshold; null: exact test.
 [[nodiscard]] bool MeetsCriteria(std::span<const grasp::Contact> grasp,
                                  const object::WrenchFrame& frame, const GraspCriteria& criteria,
                                  grasp::QualityFilter* filter = nullptr);
 
-/// How far a force-closure grasp that does not meet the criteria is from them: in [−1, 0), the
-/// worse the lower.
+/// Return how far a force-closure grasp is from criteria that it does not meet.
+/// @returns value in [−1, 0); lower is worse.
 [[nodiscard]] double Shortfall(std::span<const grasp::Contact> grasp,
                                const object::WrenchFrame& frame, const GraspCriteria& criteria);
 
-/// A criterion that a grasp does not meet.
+/// Criterion that a grasp does not meet.
 struct UnmetCriterion {
   std::string_view name;  ///< "quality"
-  double asked = 0;       ///< at least so much
-  double reached = 0;     ///< less than that
+  double asked = 0;       ///< required minimum
+  double reached = 0;     ///< reached value
 };
-/// Those that a grasp does not meet, in the order of the table.
+/// Return the criteria that a grasp does not meet, in table order.
 [[nodiscard]] std::vector<UnmetCriterion> FindUnmet(std::span<const grasp::Contact> grasp,
                                                     const object::WrenchFrame& frame,
                                                     const GraspCriteria& criteria);
 
-/// For messages: " with a quality of at least 0.01"; empty where nothing is asked for beyond force
-/// closure.
+/// Format criteria for messages: " with a quality of at least 0.01".
+/// The text is empty if only force closure is required.
 [[nodiscard]] std::string WithWhatIsAsked(const GraspCriteria& criteria);
 
-/// Contacts this close, relative to the diameter, are at the same point: twice the tolerance for
-/// reading, so that no checker takes them for coincident after rounding.
+/// Distance over the diameter within which contacts coincide. It is twice the tolerance for
+/// reading, so that no checker considers other contacts coincident after rounding.
 inline constexpr double kSamePoint = 2 * object::kPointTolerance;
 
-/// Whether two fingers can be at two contacts at once: they are farther apart than `same_point`,
-/// and the fingertips do not overlap (KeepApart).
+/// Return whether two fingers can be at two contacts at the same time.
+/// The contacts must be farther apart than `same_point`, and the fingertips must not overlap
+/// (KeepApart).
 [[nodiscard]] bool CanMeet(const grasp::Contact& a, const grasp::Contact& b, double same_point,
                            double fingertip_radius);
-/// Whether fingers can be at all contacts of a grasp at once.
+/// Return whether fingers can be at all contacts of a grasp at the same time.
 [[nodiscard]] bool CanAllMeet(std::span<const grasp::Contact> grasp, double same_point,
                               double fingertip_radius);
 

@@ -13,7 +13,8 @@ namespace regrasp::criteria {
 
 namespace {
 
-/// The same in whatever order the contacts come: sets have them by faces, sequences by fingers.
+/// Return a key of a grasp that is independent of the order of its contacts. Sets order contacts by
+/// faces, sequences by fingers.
 std::vector<double> NumbersOf(const grasp::Grasp& grasp) {
   using Numbers = std::array<double, 7>;
   std::vector<Numbers> contacts;
@@ -90,7 +91,7 @@ bool GraspEvaluator::MeetsCriteria(Contacts grasp) const {
 }
 
 bool GraspEvaluator::IsAdmitted(const grasp::Grasp& grasp) const {
-  // What takes least time and refuses most comes first.
+  // The cheapest and most selective tests come first.
   return CanAllMeet(grasp) && HoldsAt(grasp, half_angle_) && MeetsCriteria(grasp);
 }
 

@@ -16,88 +16,92 @@
 
 namespace regrasp::criteria {
 
-/// How the quality of grasps is decided: exactly (QualityAtLeast), or quickly, which refuses a few
-/// grasps just above the threshold too (QualityFilter).
+/// Test of the grasp quality: exact (QualityAtLeast), or fast (QualityFilter). The fast test also
+/// rejects a few grasps just above the threshold.
 enum class QualityTest { kExact, kQuick };
 
-/// What a GraspEvaluator has worked out of one grasp. Whoever asks for grasps again keeps one for
-/// each, under whatever identifies a grasp there, and hands it over with the grasp.
+/// Cached results of a GraspEvaluator for one grasp.
+/// Callers that evaluate grasps repeatedly store one per grasp, under their own key, and pass it
+/// with the grasp.
 ///
-/// What is known at one friction and share is used at others: a grasp that is force closure is so
-/// with more friction, one that is not neither with less; the same with what is asked for.
+/// Results at one friction angle and share imply results at others. A force-closure grasp remains
+/// so with more friction. A grasp that is not force closure is not so with less friction either.
+/// The same applies to the criteria.
 struct KnownGrasp {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kUnknown = -1;
 
-  double fails_at = 0;  ///< half-angles at which fingers cannot hold it so, and can
+  double fails_at = 0;  ///< friction angles at which the grasp is not, and is, force closure
   double holds_at = kInfinity;
-  double good_at = kUnknown;  ///< shares of the criteria that it meets, and that it does not meet
+  double good_at = kUnknown;  ///< shares of the criteria that the grasp meets, and does not meet
   double poor_at = kInfinity;
-  double required = kUnknown;  ///< half-angle
-  double shortfall = 0;        ///< of one that does not meet the criteria; 0: not known
+  double required = kUnknown;  ///< required friction angle
+  double shortfall = 0;        ///< Shortfall of a grasp that does not meet the criteria; 0: unknown
 
-  /// Taken as it is, whatever it is worth.
+  /// Return the entry of a grasp that is accepted without a test.
   [[nodiscard]] static KnownGrasp Accepted() { return {0, 0, kInfinity, kInfinity}; }
-  /// Fingers can hold it at a half-angle.
+  /// Return the entry of a grasp that is force closure at a friction angle.
   [[nodiscard]] static KnownGrasp HeldAt(double half_angle) { return {0, half_angle}; }
 };
 
-/// Decides whether grasps are good enough for a hand to rest in, and how good they are. Of all
-/// planners' grasps: GraspMemory has those of numbered contacts, a roadmap those of its vertices;
-/// Margin and Score remember grasps by their coordinates. Not for several threads.
+/// Evaluator of grasps: whether they are good enough for a static grasp, and how good they are.
+/// All planners use it. GraspMemory evaluates sets of numbered contacts, and a roadmap its
+/// vertices. Margin and Score cache grasps by their coordinates. Not thread-safe.
 ///
-/// A grasp is admitted where fingers can be at its contacts at once (CanMeet), it is force closure,
-/// and it meets the criteria; it is good where the hand can also come there.
+/// A grasp is admitted if fingers can be at its contacts at the same time (CanMeet), it is force
+/// closure, and it meets the criteria. An admitted grasp is good if the hand can also reach it.
 class GraspEvaluator {
  public:
-  /// @param object  must outlive this object.
-  /// @throws std::invalid_argument  the half-angle is outside (0, π/2).
+  /// @param object  grasped object; outlives this object.
+  /// @throws std::invalid_argument  if the friction angle is outside (0, π/2).
   GraspEvaluator(const object::Object& object, const GraspCriteria& criteria,
                  const hand::Hand& hand = {}, QualityTest quality = QualityTest::kExact);
 
-  /// From now on force closure is asked for at this half-angle, radians; the quality stays that at
-  /// the criteria's friction.
+  /// Set the friction angle of force closure, radians. The quality keeps the friction of the
+  /// criteria.
   void SetHalfAngle(double half_angle);
-  /// From now on this share of the criteria is asked for (GraspCriteria::Relaxed).
+  /// Set the share of the criteria (GraspCriteria::Relaxed).
   void SetShare(double share);
 
   [[nodiscard]] const object::Object& object() const { return object_; }
   [[nodiscard]] const object::WrenchFrame& frame() const { return frame_; }
   [[nodiscard]] int dimension() const { return frame_.dimension; }
-  /// Those that are asked for now.
+  /// Return the current criteria.
   [[nodiscard]] const GraspCriteria& criteria() const { return criteria_; }
   [[nodiscard]] double share() const { return share_; }
-  /// At which grasps are force closure, radians.
+  /// Return the friction angle of force closure, radians.
   [[nodiscard]] double half_angle() const { return half_angle_; }
   [[nodiscard]] double finger_radius() const { return hand_.fingertip_radius; }
-  /// Contacts that a force-closure grasp has at least.
+  /// Return the smallest number of contacts of a force-closure grasp.
   [[nodiscard]] int fewest_contacts() const {
     return dimension() == 3 && hand_.torsion == 0 ? 3 : 2;
   }
-  /// Of the hand's contacts (grasp::Contact::torsion): whatever torsion the contacts have that come
-  /// here, they are taken to have this one.
+  /// Return the torsional friction length of the hand's contacts (grasp::Contact::torsion). It
+  /// replaces the torsion of all evaluated contacts.
   [[nodiscard]] double torsion() const { return hand_.torsion; }
 
-  /// Whether two fingers can be at two contacts at once.
+  /// Return whether two fingers can be at two contacts at the same time.
   [[nodiscard]] bool CanMeet(const grasp::Contact& a, const grasp::Contact& b) const {
     return criteria::CanMeet(a, b, same_point_, finger_radius());
   }
-  /// Whether the hand can be there, good or not: fingers at different points (CanMeet), each with
-  /// room for a fingertip (CanRest), and it can come there (CanReach).
+  /// Return whether the hand can be at a grasp, good or not.
+  /// Its fingers must be at different points (CanMeet), each with clearance for a fingertip
+  /// (CanRest) and reachable (CanReach).
   [[nodiscard]] bool IsReachable(const grasp::Grasp& grasp) const;
-  /// Force closure alone, at any half-angle, radians.
+  /// Return whether a grasp is force closure at any friction angle, radians. No other criterion is
+  /// tested.
   [[nodiscard]] bool HoldsAt(std::span<const grasp::Contact> grasp, double half_angle) const;
 
   [[nodiscard]] bool IsAdmitted(const grasp::Grasp& grasp) const;
   [[nodiscard]] bool IsGood(const grasp::Grasp& grasp) const;
-  /// Whether it is admitted, from what is known of it where that is enough.
-  /// @param contacts_of  gives the grasp's contacts, as something that std::span takes.
+  /// Return whether a grasp is admitted, from cached results if they suffice.
+  /// @param contacts_of  function that returns the contacts, convertible to std::span.
   template <typename ContactsOf>
   [[nodiscard]] bool Admits(KnownGrasp& known, const ContactsOf& contacts_of) const {
     const std::optional<bool> answer = Recall(known);
     return answer ? *answer : WorkOut(contacts_of(), known);
   }
-  /// The half-angle at which it is force closure, to `accuracy`, radians; π/2 where there is none.
+  /// Return the required friction angle to `accuracy`, radians; π/2 if there is none.
   template <typename ContactsOf>
   [[nodiscard]] double RequiredHalfAngle(KnownGrasp& known, const ContactsOf& contacts_of,
                                          double accuracy = kAngleAccuracy) const {
@@ -106,30 +110,30 @@ class GraspEvaluator {
     }
     return known.required;
   }
-  /// From the required half-angle of a good grasp to the one at hand, radians; nullopt where it is
-  /// not good. Remembered.
+  /// Return the friction margin of a good grasp, radians; nullopt if it is not good.
+  /// The margin is the friction angle minus the required friction angle. Results are cached.
   [[nodiscard]] std::optional<double> Margin(const grasp::Grasp& grasp) const;
-  /// How good it is to rest in a grasp: its margin where it is good; otherwise a negative number,
-  /// the worse the lower: its Shortfall, which takes long, or −1 where no hand can hold it.
-  /// Remembered.
+  /// Return a score of a grasp, larger is better. Results are cached.
+  /// @returns the margin of a good grasp; otherwise a negative number. It is the Shortfall, which
+  ///     is expensive, or −1 if no hand can hold the grasp.
   [[nodiscard]] double Score(const grasp::Grasp& grasp) const;
 
-  /// What was worked out so far.
+  /// Counts of evaluated tests.
   struct Counts {
-    std::int64_t force_closure = 0;  ///< grasps tested for it
-    std::int64_t criteria = 0;       ///< grasps tested for what is asked beyond it
+    std::int64_t force_closure = 0;  ///< tests of force closure
+    std::int64_t criteria = 0;       ///< tests of the criteria beyond it
   };
   [[nodiscard]] const Counts& counts() const { return counts_; }
-  /// Grasps whose quality the quick test could not decide at once.
+  /// Return the number of grasps whose quality the fast test could not decide immediately.
   [[nodiscard]] std::int64_t shot_count() const { return filter_.shot_count(); }
 
  private:
   using Contacts = std::span<const grasp::Contact>;
 
-  /// Of required half-angles that are only compared, radians.
+  /// Accuracy of required friction angles that are only compared, radians.
   static constexpr double kAngleAccuracy = 1e-5;
 
-  /// Whether a grasp is admitted; nullopt where that is not known.
+  /// Return whether cached results admit a grasp; nullopt if they do not suffice.
   [[nodiscard]] std::optional<bool> Recall(const KnownGrasp& known) const {
     if (half_angle_ <= known.fails_at || share_ >= known.poor_at) return false;
     if (half_angle_ < known.holds_at) return std::nullopt;
@@ -145,7 +149,7 @@ class GraspEvaluator {
 
   const object::Object& object_;
   object::WrenchFrame frame_;
-  GraspCriteria asked_;  ///< in full
+  GraspCriteria asked_;  ///< unrelaxed
   GraspCriteria criteria_;
   double share_ = 1;
   bool asks_more_;
@@ -155,7 +159,7 @@ class GraspEvaluator {
   double half_angle_;
   mutable grasp::QualityFilter filter_;
   mutable Counts counts_;
-  mutable std::map<std::vector<double>, KnownGrasp> known_;  ///< by the numbers of a grasp
+  mutable std::map<std::vector<double>, KnownGrasp> known_;  ///< by the coordinates of a grasp
 };
 
 }  // namespace regrasp::criteria

@@ -16,11 +16,12 @@
 
 namespace regrasp::criteria {
 
-/// The contacts that a hand holds at once, by their numbers in a GraspMemory, in ascending order.
+/// Set of contacts that a hand holds at the same time.
+/// They are given by their numbers in a GraspMemory, in ascending order.
 class ContactSet {
  public:
   static constexpr int kMostHeld = hand::kFingersInSpace;
-  /// Numbers are smaller.
+  /// Exclusive upper bound of contact numbers.
   static constexpr int kMostNumbers = std::numeric_limits<std::int16_t>::max();
 
   ContactSet() = default;
@@ -53,7 +54,7 @@ class ContactSet {
     return set;
   }
 
-  /// Contacts of either set.
+  /// Return the number of contacts in either set.
   [[nodiscard]] static int CountUnion(const ContactSet& a, const ContactSet& b) {
     int common = 0;
     for (const int contact : a) common += b.Has(contact) ? 1 : 0;
@@ -69,26 +70,28 @@ class ContactSet {
   std::int8_t size_ = 0;
 };
 
-/// For hash tables of contact sets.
+/// Hash of contact sets.
 struct ContactSetHash {
   std::size_t operator()(const ContactSet& set) const {
     return boost::hash_range(set.begin(), set.end());
   }
 };
 
-/// Numbered contacts, and what is known of the sets of them: evaluated when first asked, then
-/// remembered. Contacts are reachable (GraspEvaluator) before they come here.
+/// Numbered contacts with cached evaluations of their sets.
+/// Contacts must be reachable (GraspEvaluator) before they are added.
 class GraspMemory : public GraspEvaluator {
  public:
   using GraspEvaluator::GraspEvaluator;
 
-  /// @param contact  knows its face. @returns its number, the old one where it is known.
+  /// Add a contact unless it is known.
+  /// @param contact  contact with its face.
+  /// @returns number of the contact.
   int Add(const grasp::Contact& contact);
   [[nodiscard]] ContactSet Add(const grasp::Grasp& grasp);
-  /// Adds contacts under the next numbers, whether they are known or not.
-  /// @throws std::invalid_argument  there would be more than ContactSet::kMostNumbers.
+  /// Add contacts under consecutive numbers, even if they are known.
+  /// @throws std::invalid_argument  if there would be more than ContactSet::kMostNumbers.
   void Append(std::span<const grasp::Contact> contacts);
-  /// Whether another grasp's contacts can be added.
+  /// Return whether the contacts of another grasp can be added.
   [[nodiscard]] bool has_capacity() const {
     return count() + ContactSet::kMostHeld <= ContactSet::kMostNumbers;
   }
@@ -98,10 +101,10 @@ class GraspMemory : public GraspEvaluator {
 
   using GraspEvaluator::CanMeet;
   [[nodiscard]] bool CanMeet(int a, int b) const { return CanMeet(contacts_[a], contacts_[b]); }
-  /// Whether a finger can come to `contact` while others hold `set`.
+  /// Return whether a finger can be placed at `contact` while others hold `set`.
   [[nodiscard]] bool CanMeet(const ContactSet& set, int contact) const;
 
-  /// Whether a sequence may pass this grasp: it is admitted.
+  /// Return whether a grasp is admitted, so that a sequence may contain it.
   [[nodiscard]] bool Admits(const ContactSet& set) {
     if (set.size() < fewest_contacts()) return false;
     return GraspEvaluator::Admits(known_[set], [&] { return ContactsOf(set); });
@@ -109,13 +112,13 @@ class GraspMemory : public GraspEvaluator {
   [[nodiscard]] double RequiredHalfAngle(const ContactSet& set) {
     return GraspEvaluator::RequiredHalfAngle(known_[set], [&] { return ContactsOf(set); });
   }
-  /// Takes a grasp as it is, whatever it is worth: the ends of a sequence.
+  /// Admit a grasp without a test, as for start and goal.
   void Accept(const ContactSet& set) { known_[set] = KnownGrasp::Accepted(); }
 
  private:
-  /// The contacts of a set, without asking for memory.
+  /// Contacts of a set, without memory allocation.
   struct HeldContacts : boost::container::static_vector<grasp::Contact, ContactSet::kMostHeld> {
-    // Boost's iterators are not contiguous ones, so std::span does not take the container itself.
+    // Boost's iterators are not contiguous, so std::span does not accept the container itself.
     operator std::span<const grasp::Contact>() const { return {data(), size()}; }  // NOLINT
   };
   [[nodiscard]] HeldContacts ContactsOf(const ContactSet& set) const;

@@ -10,16 +10,16 @@ namespace regrasp::criteria {
 
 namespace {
 
-/// A surface point counts as inside the ball only this much nearer than its radius: the contact
-/// itself is at the radius up to rounding.
+/// Relative radius within which a surface point is inside the sphere. The contact itself is at the
+/// radius up to rounding.
 constexpr double kInside = 1 - 1e-9;
 
-/// The radius falls by at least the relative kInside in each round and in practice halves; the
-/// bound only guards against rounding that never settles.
+/// Largest number of rounds. The radius typically halves per round and falls at least by the
+/// relative kInside; the limit only guards against rounding that never converges.
 constexpr int kMostRounds = 100;
 
-/// Faces farther from the centre of a ball than this share of its radius don't meet it: those that
-/// the contact lies on are at the radius.
+/// Relative radius within which other faces intersect the sphere. Faces through the contact are at
+/// the radius.
 constexpr double kTouches = 1 - 1e-6;
 
 }  // namespace
@@ -56,20 +56,20 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Faces and fingers that touch are at their distance up to rounding, and don't overlap: a relative
-/// slack for computed distances, and one in diameters for the coordinates that they come from.
+/// Tolerances for faces and fingers that touch without overlap: relative for computed distances,
+/// and in diameters for their coordinates.
 constexpr double kTouchesInside = 1 - 1e-9;
 constexpr double kRounding = 1e-12;
 
-/// How far from the contact the path of a finger is free is told to this share of the diameter.
+/// Accuracy of the free path length in messages, over the diameter.
 constexpr double kDistanceAccuracy = 1e-4;
 constexpr int kDistanceDigits = 3;
 
-/// Radii are given in them.
+/// Unit of radii in messages.
 constexpr char kUnits[] = " (units of the object's file)";
 
-/// True iff a face other than the contact's own enters the capsule that a finger sweeps on the last
-/// `travel` before it rests.
+/// Return true iff another face enters the capsule that a finger sweeps during the last `travel`
+/// before contact.
 bool IsBlocked(const object::Object& object, const grasp::Contact& contact, double radius,
                double travel) {
   const Vector3d rest = BallCentre(contact, radius);
@@ -78,7 +78,7 @@ bool IsBlocked(const object::Object& object, const grasp::Contact& contact, doub
   return std::ranges::any_of(near, [&](FaceIndex face) { return face != contact.face; });
 }
 
-/// In a sealed cavity.
+/// Return whether a contact is in a sealed cavity.
 bool IsShutIn(const object::Object& object, const grasp::Contact& contact) {
   return contact.face.valid() && object.IsEnclosed(contact.face);
 }

@@ -23,7 +23,7 @@ UnitContacts MakeRimmedContacts(std::span<const Contact> points, const object::W
   return units;
 }
 
-/// The twist of moved contacts, as one of the contacts before they were: u = v + ω × (q − c) s.
+/// Convert the twist of transformed contacts to the original contacts: u = v + ω × (q − c) s.
 SeparatorPool::Twist MovedBack(const SeparatorPool::Twist& twist, const Recentring& moved) {
   const Eigen::Map<const Eigen::Vector3d> omega(twist.data() + 3);
   const Eigen::Vector3d v =
@@ -32,10 +32,10 @@ SeparatorPool::Twist MovedBack(const SeparatorPool::Twist& twist, const Recentri
   return {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
 }
 
-/// Enumerates with three contacts fixed and the fourth as the bit of a word.
+/// Enumerate subsets with three contacts fixed and the fourth as the bit of a word.
 class SubsetSearch {
  public:
-  /// @param deadline, tell  outlive this object.
+  /// @param deadline, tell  arguments that must outlive this object.
   SubsetSearch(std::span<const Contact> points, const object::WrenchFrame& frame, double half_angle,
                const Deadline& deadline, const Tell& tell)
       : count_(static_cast<int>(points.size())),
@@ -71,7 +71,7 @@ class SubsetSearch {
     }
   }
 
-  /// Remembers the twist that a no comes with.
+  /// Decide with the simplex, and store the twist that proves kNo.
   [[nodiscard]] Decision Simplex(std::initializer_list<int> subset) {
     UnitContacts contacts;
     for (int index : subset) contacts.push_back(units_[index]);
@@ -86,8 +86,9 @@ class SubsetSearch {
     return &triples_[(static_cast<std::size_t>(a) * count_ + b) * turns_.words()];
   }
 
-  /// Three contacts can be force closure only if each turns the object both ways about the line of
-  /// the other two.
+  /// Store whether three contacts are force closure.
+  /// This requires that each contact turns the object in both directions about the line of the
+  /// other two.
   void StoreTriple(int i, int j, int k) {
     if (!TurnTable::Has(turns_.ByContact(i, j).both, k) ||
         !TurnTable::Has(turns_.ByContact(i, k).both, j) ||
@@ -118,7 +119,7 @@ class SubsetSearch {
     }
   }
 
-  /// The bits of a word that are indices above k.
+  /// Return the bits of a word that are indices above k.
   [[nodiscard]] Word Range(int k, int word) const {
     const int first = std::max(k + 1 - word * TurnTable::kWordBits, 0);
     const int last = std::min(count_ - word * TurnTable::kWordBits, TurnTable::kWordBits);
@@ -127,8 +128,8 @@ class SubsetSearch {
     return last == TurnTable::kWordBits ? above : above & ((Word{1} << last) - 1);
   }
 
-  /// Fourth contacts l for which, about the line of some pair of i, j, k, l, the other two turn the
-  /// object the same way.
+  /// Return the fourth contacts l that a line refutes.
+  /// About the line of some pair of i, j, k, l the other two turn the object in the same direction.
   [[nodiscard]] Word SamePath(int i, int j, int k, int word) const {
     Word result = 0;
     for (const auto& [a, b, c] : {std::array{i, j, k}, {i, k, j}, {j, k, i}}) {
@@ -143,8 +144,9 @@ class SubsetSearch {
     return result;
   }
 
-  /// Fourth contacts l for which some pair of i, j, k, l is antipodal and about its line the other
-  /// two turn the object both ways.
+  /// Return the fourth contacts l that an antipodal pair accepts.
+  /// Some pair of i, j, k, l is antipodal, and the other two turn the object in both directions
+  /// about its line.
   [[nodiscard]] Word BalancedPair(int i, int j, int k, int word) const {
     Word result = 0;
     for (const auto& [a, b, c] : {std::array{i, j, k}, {i, k, j}, {j, k, i}}) {
@@ -164,7 +166,7 @@ class SubsetSearch {
     return result;
   }
 
-  /// Fourth contacts l with which three of i, j, k, l are force closure.
+  /// Return the fourth contacts l with which three of i, j, k, l are force closure.
   [[nodiscard]] Word FromTriples(int i, int j, int k, int word) {
     if (TurnTable::Has(Triple(i, j), k)) return ~Word{0};
     return Triple(i, j)[word] | Triple(i, k)[word] | Triple(j, k)[word];
@@ -179,7 +181,7 @@ class SubsetSearch {
       const Decision decision = Simplex({i, j, k, word * TurnTable::kWordBits + bit});
       if (decision == Decision::kTooClose) ++counts_.too_close;
       if (decision == Decision::kYes) accepted |= Word{1} << bit;
-      // Its twist may hold off more of them.
+      // The twist may hold off further contacts.
       if (decision == Decision::kNo) unsettled = separators_.LeftOpenByLast(k, word, unsettled);
     }
     for (; accepted != 0; accepted &= accepted - 1) {
@@ -193,7 +195,7 @@ class SubsetSearch {
   UnitContacts units_;
   TurnTable turns_;
   SeparatorPool separators_;
-  std::vector<Word> triples_;  // row (a, b), bit c: a, b, c are force closure
+  std::vector<Word> triples_;  // bit c [row (a, b)]: a, b, c are force closure
   std::vector<std::array<int, 4>> found_;
   SubsetCounts counts_;
 };

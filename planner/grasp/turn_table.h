@@ -9,11 +9,12 @@
 
 namespace regrasp::grasp {
 
-/// The turns of all contacts about the lines through all pairs, as rows of bits.
+/// Turning directions of all contacts about the lines through all pairs, as rows of bits.
 ///
-/// Lines run from the smaller to the larger index. Of each kind of turn (kPositive, kNegative,
-/// kBoth) there are two rows of words per ordered pair: `ByContact(a, b)` has bit c where c turns
-/// that way about line ab; `ByLine(a, b)` has bit c where b turns that way about line ac.
+/// Lines run from the smaller to the larger index. For each kind of turn (kPositive, kNegative,
+/// kBoth) there are two rows of words per ordered pair. `ByContact(a, b)` has bit c if c turns in
+/// that direction about line ab. `ByLine(a, b)` has bit c if b turns in that direction about line
+/// ac.
 class TurnTable {
  public:
   using Word = std::uint64_t;
@@ -31,7 +32,7 @@ class TurnTable {
   [[nodiscard]] Rows ByContact(int a, int b) const { return RowsOf(by_contact_, a, b); }
   [[nodiscard]] Rows ByLine(int a, int b) const { return RowsOf(by_line_, a, b); }
 
-  /// Bit b: a and b are an antipodal pair.
+  /// Row of bits; bit b is set if a and b are an antipodal pair.
   [[nodiscard]] const Word* Antipodal(int a) const { return &antipodal_[Row(a)]; }
 
   [[nodiscard]] static bool Has(const Word* row, int bit) {

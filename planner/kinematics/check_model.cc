@@ -22,12 +22,13 @@ namespace {
 using collision::ConvexShape;
 using Eigen::Vector3d;
 
-/// Farthest that a fingertip sphere may reach beyond its link, metres: a soft cover, for example.
+/// Largest protrusion of a fingertip sphere from its link, metres. A soft cover, for example, has
+/// no collision geom.
 constexpr double kLargestProtrusion = 5e-3;
 constexpr int kDirections = 1000;
 constexpr double kSameCoupling = 1e-9;
 
-/// Flags that change what is modelled; all others are accepted.
+/// Flags that change the simulated physics. All other flags are accepted.
 constexpr std::pair<int, const char*> kPhysicsFlags[] = {
     {mjDSBL_CONSTRAINT, "constraint"},     {mjDSBL_EQUALITY, "equality"},
     {mjDSBL_FRICTIONLOSS, "frictionloss"}, {mjDSBL_LIMIT, "limit"},
@@ -74,7 +75,7 @@ void CheckActuators(const CompiledModel& compiled) {
   }
 }
 
-/// Directions spread evenly over the unit sphere.
+/// Return unit vectors spread evenly over the sphere.
 std::vector<Vector3d> EvenDirections() {
   const double turn = std::numbers::pi * (3 - std::sqrt(5.0));
   std::vector<Vector3d> directions;
@@ -86,7 +87,7 @@ std::vector<Vector3d> EvenDirections() {
   return directions;
 }
 
-/// The colliding geoms of a link in the frame of one of its bodies.
+/// Return the colliding geoms of a link in the frame of one of its bodies.
 std::vector<ConvexShape> ShapesOfLink(const mjModel& model, const mjData& rest, int body) {
   const Eigen::Isometry3d to_body = PoseAt(rest.xpos, rest.xmat, body).inverse();
   std::vector<ConvexShape> shapes;
@@ -100,7 +101,7 @@ std::vector<ConvexShape> ShapesOfLink(const mjModel& model, const mjData& rest, 
   return shapes;
 }
 
-/// How far a sphere reaches beyond the convex hull of shapes, metres: by support functions.
+/// Return the protrusion of a sphere from the convex hull of shapes, metres, by support functions.
 double ProtrusionOf(const collision::BoundingSphere& sphere,
                     const std::vector<ConvexShape>& shapes) {
   double most = -std::numeric_limits<double>::infinity();

@@ -24,12 +24,12 @@ using Numbers = std::vector<double>;
 
 using Tags = std::vector<const char*>;
 
-/// Defaults of an actuator are those of all kinds.
+/// Defaults of an actuator can be written with the tag of any actuator kind.
 const Tags kActuatorTags = {"general", "motor",    "position", "velocity", "intvelocity",
                             "damper",  "cylinder", "muscle",   "adhesion"};
 constexpr char kToActuators[] = "to its actuators";
 
-/// Numbers of an attribute; empty where it is none.
+/// Parse the numbers of an attribute; empty if the text is not a list of numbers.
 Numbers ParseNumbers(const std::string& text) {
   Numbers numbers;
   std::istringstream words(text);
@@ -53,7 +53,7 @@ struct Outcome {
   const char* outcome;
 };
 
-/// What is said of what is left out, or was converted elsewhere.
+/// Reported outcome of attributes that are omitted or converted elsewhere.
 constexpr Outcome kOutcomes[] = {
     {"position", "kv", kToActuators},
     {"position", "timeconst", kToActuators},
@@ -141,7 +141,7 @@ class MjcfConverter {
   void Clean(XmlElement& element, const SchemaElement& schema);
   void DropControls();
   void ListMeshes(const MeshPaths& paths);
-  /// What comes last in the file counts, as in MuJoCo.
+  /// Return a setting. As in MuJoCo, the last one in the file counts.
   std::string Setting(const std::string& section, const std::string& attribute) const {
     std::string value;
     for (const XmlElement& element : text_.root.children) {
@@ -153,10 +153,10 @@ class MjcfConverter {
 
   fs::path folder_;
   ModelText& text_;
-  const MjcfDefaults* defaults_ = nullptr;  ///< until the text changes
+  const MjcfDefaults* defaults_ = nullptr;  ///< valid until the text changes
   std::vector<JointFacts> joints_;
-  std::set<const XmlElement*> limited_joints_;  ///< whose forces their actuators keep to
-  int actuators_ = 0;                           ///< that the schema knows, so far
+  std::set<const XmlElement*> limited_joints_;  ///< joints with force range moved to actuators
+  int actuators_ = 0;                           ///< number of actuators so far that the schema has
   bool lost_actuators_ = false;
 };
 
@@ -174,8 +174,9 @@ void MjcfConverter::Rename(XmlElement& element, const char* from,
   Record(element, from, "to " + names);
 }
 
-/// Whether a joint or an actuator has a range and does not say whether it limits: MuJoCo 2.2.2
-/// refuses that, newer versions take it for a limit.
+/// Return whether a joint, tendon or actuator has a range without the attribute that makes it a
+/// limit.
+/// MuJoCo 2.2.2 rejects such ranges; newer versions make them limits.
 bool MjcfConverter::HasOpenLimits() const {
   const auto is_open = [&](const XmlElement& element, const std::string& default_class,
                            const Tags& tags, const char* range, const char* limited) {
@@ -223,7 +224,8 @@ void MjcfConverter::ConvertSettings() {
   }
 }
 
-/// A frame is a body that does not move in the one above; its name would be that of a body.
+/// Convert a frame to an unnamed body without joints. Its name would otherwise become the name of a
+/// body.
 void MjcfConverter::ResolveFrames(XmlElement& element) {
   for (XmlElement& child : element.children) {
     if (child.name == "frame") {
@@ -285,7 +287,7 @@ void MjcfConverter::InheritRange(XmlElement& actuator, const std::string& defaul
     return;
   }
   const std::string* type = Effective(*joint->element, joint->default_class, {"joint"}, "type");
-  // Controls are radians, whatever the file has its angles in.
+  // Controls are in radians, whatever the unit of angles in the file.
   const bool degrees = Setting("compiler", "angle") != "radian" && (!type || *type == "hinge");
   const double unit = degrees ? std::numbers::pi / 180 : 1;
   const double middle = unit * (range[0] + range[1]) / 2;
@@ -295,7 +297,7 @@ void MjcfConverter::InheritRange(XmlElement& actuator, const std::string& defaul
   Record(actuator, "inheritrange", "to ctrlrange, from the joint's range");
 }
 
-/// A position servo with a damping is a general actuator with an affine bias.
+/// Convert a damped position servo to a general actuator with an affine bias.
 void MjcfConverter::ConvertServo(XmlElement& actuator, const std::string& default_class) {
   const auto number = [&](const char* attribute) -> std::optional<double> {
     const Numbers found = EffectiveNumbers(actuator, default_class, {"position"}, attribute);
@@ -326,7 +328,7 @@ void MjcfConverter::ConvertServo(XmlElement& actuator, const std::string& defaul
   }
 }
 
-/// The forces of an actuator are those at the joint by its gear.
+/// Limit an actuator to the force range of its joint, divided by its gear.
 void MjcfConverter::LimitForce(XmlElement& actuator, const std::string& default_class,
                                const JointFacts& joint) {
   Numbers range =
@@ -357,7 +359,7 @@ void MjcfConverter::Clean(XmlElement& element, const SchemaElement& schema) {
       continue;
     }
     const std::string outcome = OutcomeOf(element.name, attribute);
-    // Otherwise the actuators have said it.
+    // Outcomes in actuators are recorded when the actuators are converted.
     if (outcome != kToActuators) {
       Record(element, attribute, outcome);
     } else if (element.name == "joint" && element.Find("name") &&
@@ -369,7 +371,7 @@ void MjcfConverter::Clean(XmlElement& element, const SchemaElement& schema) {
   std::vector<XmlElement> children;
   for (XmlElement& child : element.children) {
     const SchemaElement* known = schema.Child(element.name, child.name);
-    // Of a constraint between sites the older versions know the name only.
+    // Older versions know only the name of constraints between sites.
     const bool of_sites = element.name == "equality" && child.Find("site1") != nullptr;
     if (known == nullptr && is_body && child.name != "plugin") {
       throw InputError(
@@ -394,7 +396,7 @@ void MjcfConverter::Clean(XmlElement& element, const SchemaElement& schema) {
   element.children = std::move(children);
 }
 
-/// Controls of keyframes are as many as actuators.
+/// Remove the controls of keyframes, whose number must be the number of actuators.
 void MjcfConverter::DropControls() {
   for (XmlElement& section : text_.root.children) {
     if (section.name != "keyframe") continue;

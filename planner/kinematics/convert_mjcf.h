@@ -7,15 +7,15 @@
 
 namespace regrasp::kinematics {
 
-/// Converts MJCF that is written for a newer MuJoCo to what the linked one knows, and names the
-/// files of its meshes. What its schema (MujocoSchema) does not have is
+/// Convert MJCF of a newer MuJoCo version to the linked version, and list its mesh files.
+/// Elements and attributes that the linked version's schema (MujocoSchema) lacks are converted:
 ///
 /// | found | becomes |
 /// | --- | --- |
 /// | integrator implicitfast | implicit |
 /// | ccd_iterations, ccd_tolerance | mpr_iterations, mpr_tolerance |
 /// | compiler assetdir | meshdir and texturedir |
-/// | no autolimits (newer ones take it for true) | autolimits true, where something has a range |
+/// | no autolimits (true in newer versions) | autolimits true, if an element has a range |
 /// | position kv, timeconst | general with gainprm, biasprm "0 −kp −kv", a filter |
 /// | position dampratio | the same with kv = 2 ratio √(kp m), m the inertia that it moves |
 /// | position inheritrange r | ctrlrange: that of the joint, r times as wide |
@@ -23,15 +23,15 @@ namespace regrasp::kinematics {
 /// | dyntype filterexact | filter |
 /// | frame | a body without joints |
 ///
-/// Attributes are taken from the classes of defaults too. All else is left out: attributes,
-/// sensors, plugins, settings of the solver. Keyframes lose their controls where an actuator is
-/// left out. Geoms that only show a mesh whose file is missing or empty are left out, too
-/// (missing_meshes.h).
-/// @throws InputError  replicate, attach, flexcomp: they are part of the hand, and cannot be
-///                     converted; a mesh that a geom needs is missing or empty.
+/// Attributes of default classes are included. All other unknown attributes, sensors, plugins and
+/// solver settings are removed. Keyframes lose their controls if an actuator is removed. Visual
+/// geoms whose mesh file is missing or empty are removed (missing_meshes.h).
+/// @throws InputError  if the model has replicate, attach or flexcomp, which are part of the hand
+///     and cannot be converted; or if a mesh that a geom requires is missing or empty.
 void ConvertMjcf(const std::filesystem::path& folder, ModelText& text);
 
-/// Writes the dampings of the actuators that `damping_ratios` names, in its order, N m s/rad.
+/// Write the dampings of the actuators in `damping_ratios`.
+/// @param dampings  dampings in the order of `damping_ratios`, N m s/rad.
 void SetDampings(const std::vector<double>& dampings, ModelText& text);
 
 }  // namespace regrasp::kinematics

@@ -29,7 +29,7 @@ bool IsReadByMujoco(const fs::path& path) {
   return ending == ".stl" || ending == ".obj" || ending == ".msh";
 }
 
-/// Without the white space around it, which XML's numbers may have.
+/// Remove surrounding white space, which numbers in XML can have.
 std::string_view Trimmed(std::string_view text) {
   constexpr std::string_view kSpace = " \t\r\n";
   const std::size_t begin = text.find_first_not_of(kSpace);
@@ -37,8 +37,9 @@ std::string_view Trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
 }
 
-/// A number of a joint.
-/// @throws InputError  the attribute is not a finite number. Names the line, joint and attribute.
+/// Return a number of a joint; `otherwise` if the attribute is missing.
+/// @throws InputError  if the attribute is not a finite number. The message names the line, joint
+///     and attribute.
 double NumberOf(const XmlElement& element, const std::string& joint, const char* attribute,
                 double otherwise) {
   const std::string* text = element.Find(attribute);
@@ -86,8 +87,8 @@ class UrdfConverter {
 
   fs::path folder_;
   ModelText& text_;
-  std::map<std::pair<std::string, std::string>, std::string> aliases_;  ///< by path and scale
-  std::map<std::string, int> stems_;                                    ///< how often each is used
+  std::map<std::pair<std::string, std::string>, std::string> aliases_;  ///< alias by path and scale
+  std::map<std::string, int> stems_;  ///< number of uses of each file stem
 };
 
 void UrdfConverter::SetCompiler() {
@@ -120,7 +121,8 @@ void UrdfConverter::ConvertLink(XmlElement& link) {
   link.children = std::move(kept);
 }
 
-/// @returns whether MuJoCo can read it.
+/// Convert the mesh paths of a shape.
+/// @returns false if MuJoCo cannot read its mesh; the shape is then left out.
 bool UrdfConverter::ConvertShape(const XmlElement& link, XmlElement& shape) {
   for (XmlElement& geometry : shape.children) {
     for (XmlElement& mesh : geometry.children) {
@@ -144,7 +146,8 @@ bool UrdfConverter::ConvertShape(const XmlElement& link, XmlElement& shape) {
   return true;
 }
 
-/// The file of a mesh, beside the model or in a package, which is a folder above or beside it.
+/// Return the path of a mesh file, relative to the model or to a package. A package is the model's
+/// folder, a folder above it or a folder next to one of these.
 fs::path UrdfConverter::Locate(const std::string& name) const {
   if (name.starts_with(kFile)) return name.substr(sizeof kFile - 1);
   if (!name.starts_with(kPackage)) return folder_ / name;

@@ -6,20 +6,22 @@
 
 namespace regrasp::kinematics {
 
-/// Prepares a URDF for MuJoCo: a <compiler> that keeps what links look like, keeps links that are
-/// fixed to others, finds meshes in folders and takes inertias that no body has. Where it says
-/// something of these settings already, that stays.
+/// Prepare a URDF model for MuJoCo.
+/// Adds a `<compiler>` that keeps visual geoms and links fixed to other links, keeps the folders of
+/// mesh paths, and accepts inertias that no rigid body has. Settings in the file take precedence.
 ///
-/// MuJoCo knows meshes by the last part of their paths: those of the same name in other folders, or
-/// in another scale, get names of their own (MeshFile). Paths like package://hand/meshes/x.stl are
-/// looked for beside the model and in the folders above it. Looks in formats that MuJoCo does not
-/// read, and looks whose files are missing or empty, are left out and listed. <mimic> and the
-/// efforts of joints, which it passes over, become ModelText::mimics and ModelText::efforts.
-/// @throws InputError  the shape that a link collides with cannot be read; a number of <mimic> or
-///                     of an effort is not a number, or an effort is negative; a <loop_joint>.
+/// MuJoCo identifies meshes by their file name without folders. Meshes with the same file name in
+/// different folders, or with different scales, therefore get aliases (MeshFile). Paths such as
+/// package://hand/meshes/x.stl are resolved next to the model and in the folders above it. Visual
+/// meshes in formats that MuJoCo does not read, or with missing or empty files, are removed and
+/// listed. MuJoCo ignores `<mimic>` and the attribute `effort` of joints; they become
+/// ModelText::mimics and `ModelText::efforts`.
+/// @throws InputError  if a collision mesh cannot be read, a value of `<mimic>` or an `effort` is
+///     not a number, an `effort` is negative, or the model has a `<loop_joint>`.
 void ConvertUrdf(const std::filesystem::path& folder, ModelText& text);
 
-/// The same without looks, for models whose looks MuJoCo does not take.
+/// Remove all visual geoms, for models whose visual geoms MuJoCo rejects.
+/// @param why  reason, for the list of conversions.
 void DiscardLooks(const std::string& why, ModelText& text);
 
 }  // namespace regrasp::kinematics

@@ -72,14 +72,14 @@ namespace {
 
 constexpr double kSameRelation = 1e-9;
 
-/// angle of a joint = ratio · angle of `root` + offset, radians.
+/// Affine dependence of a joint: angle = ratio · angle of `root` + offset, radians.
 struct Follower {
   int root;
   double ratio = 1;
   double offset = 0;
 };
 
-/// Groups of joints that move together, each expressed in one of them.
+/// Groups of joints that move together, each expressed by one of its joints.
 class JointGroups {
  public:
   JointGroups(const mjModel& model, std::string file) : model_(model), file_(std::move(file)) {}
@@ -102,7 +102,7 @@ class JointGroups {
                      ", expected one relation between them, found another one before");
   }
 
-  /// By root.
+  /// Return the joints of each group by root.
   [[nodiscard]] std::map<int, std::vector<int>> Members() const {
     std::map<int, std::vector<int>> members;
     for (const auto& [joint, follower] : followers_) members[follower.root].push_back(joint);
@@ -124,10 +124,10 @@ class JointGroups {
 
   const mjModel& model_;
   std::string file_;
-  std::map<int, Follower> followers_;  ///< by joint
+  std::map<int, Follower> followers_;  ///< dependence by joint
 };
 
-/// Joints that actuators move, each tendon's by its first joint alone.
+/// Return the joints that actuators move. A tendon counts for its first joint only.
 std::set<int> DrivenJoints(const mjModel& model) {
   std::set<int> driven;
   for (int i = 0; i < model.nu; ++i) {

@@ -24,18 +24,19 @@ using Eigen::Vector3d;
 
 constexpr int kWorld = 0;
 constexpr std::size_t kFewestDerived = 3;
-/// Geoms that end within this of each other end alike: the rounder one is taken, metres.
+/// Difference in reach, metres, within which geoms count as equally far. Among them a sphere or
+/// capsule is preferred.
 constexpr double kEndsAlike = 2e-3;
-/// A ball that ends so far inside the tip is doubtful, metres.
+/// Gap between sphere and fingertip, metres, beyond which the sphere is doubtful.
 constexpr double kDoubtfulGap = 1.5e-3;
-/// Geoms within a ball of this radius mark a place and are no fingertips, metres.
+/// Radius of the bounding sphere, metres, below which a geom is a marker and not a fingertip.
 constexpr double kMarkerRadius = 1e-3;
 constexpr double kSnap = 10 * std::numbers::pi / 180;
 constexpr double kSameWay = 45 * std::numbers::pi / 180;
 
 struct TipBody {
   int body = 0;  ///< first body of the link until the geom is chosen, then the geom's body
-  std::vector<int> joints;  ///< from the palm
+  std::vector<int> joints;  ///< joints from the palm
 };
 
 class HandDeriver {
@@ -48,7 +49,7 @@ class HandDeriver {
 
   DerivedHand Derive() {
     HandDescription& description = derived_.description;
-    description.name = model_.names;  // of the model, the first of its names
+    description.name = model_.names;  // the name of the model is the first of its names
     FindTips();
     description.palm = BodyName(model_, palm_);
     from_world_ = PoseAt(rest_->xpos, rest_->xmat, palm_).inverse();
@@ -92,14 +93,14 @@ class HandDeriver {
   int palm_ = kWorld;
   Isometry3d from_world_ = Isometry3d::Identity();
   std::vector<TipBody> tips_;
-  std::vector<Vector3d> pads_;    ///< by finger, in the palm's frame; zero where there is none
-  std::vector<Vector3d> points_;  ///< where the fingers point
+  std::vector<Vector3d> pads_;    ///< pad direction by finger, in the palm's frame, or zero
+  std::vector<Vector3d> points_;  ///< pointing direction by finger, in the palm's frame
   std::string not_round_;
   DerivedHand derived_;
 };
 
-/// The first bodies of links that collide and have none below that does, of the tree that has most
-/// of them.
+/// Return the outermost colliding links of the kinematic tree that has most of them.
+/// Each link is given by its first body; no colliding link is below it.
 std::vector<int> HandDeriver::LeavesOfLargestTree() const {
   std::set<int> colliding;
   for (int geom = 0; geom < model_.ngeom; ++geom) {
@@ -123,7 +124,7 @@ std::vector<int> HandDeriver::LeavesOfLargestTree() const {
 int HandDeriver::LowestCommonAncestor(const std::vector<int>& bodies) const {
   int ancestor = bodies.front();
   for (int body : bodies) {
-    // Bodies stand behind their parents.
+    // The index of a body is larger than that of its parent.
     while (body != ancestor) {
       (body > ancestor ? body : ancestor) = model_.body_parentid[std::max(body, ancestor)];
     }
@@ -133,7 +134,8 @@ int HandDeriver::LowestCommonAncestor(const std::vector<int>& bodies) const {
 
 void HandDeriver::FindTips() {
   std::vector<int> leaves = LeavesOfLargestTree();
-  // What does not move in the palm is no finger; without it the palm may be farther down.
+  // A body that does not move relative to the palm is not a finger. Without it the palm can be
+  // lower in the tree.
   for (bool changed = true; changed && !leaves.empty();) {
     palm_ = LowestCommonAncestor(leaves);
     changed = std::erase_if(
@@ -161,13 +163,14 @@ void HandDeriver::FindTips() {
   }
 }
 
-/// The geom of a link that reaches farthest from the last joint. Of those that reach as far a ball
-/// or capsule is taken, the largest one; markers only if there is nothing else.
+/// Return the geom of a link that reaches farthest from the last joint.
+/// Among geoms with equal reach the largest sphere or capsule is used. Markers are used only if
+/// there is no other geom.
 int HandDeriver::TipGeom(int link, const Vector3d& anchor) const {
   struct End {
     int geom;
-    double reach;   ///< of its farthest point
-    double radius;  ///< of a ball or capsule, otherwise 0
+    double reach;   ///< distance of its farthest point from the joint
+    double radius;  ///< radius of a sphere or capsule, otherwise 0
     bool is_marker;
   };
   std::vector<End> ends;
@@ -198,7 +201,8 @@ void HandDeriver::AddTip(TipBody& tip) {
   const int geom = TipGeom(tip.body, anchor);
   tip.body = model_.geom_bodyid[geom];
   const ConvexShape shape = Moved(GeomPose(geom), ShapeOfGeom(model_, geom));
-  // Where the farthest tenth of it is, across the hinge: along its hinge a joint may be anywhere.
+  // The mean direction of the farthest tenth of the geom, perpendicular to the joint's axis. The
+  // component along the axis is meaningless because a joint's anchor can be anywhere on its axis.
   double farthest = 0;
   for (const Vector3d& point : shape.points) farthest = std::max(farthest, (point - anchor).norm());
   Vector3d middle = Vector3d::Zero();
@@ -216,7 +220,7 @@ void HandDeriver::AddTip(TipBody& tip) {
   const std::string name = BodyName(model_, tip.body);
   const FittedBall fitted = Fit(name, shape, directions);
   const Isometry3d body = from_world_ * PoseAt(rest_->xpos, rest_->xmat, tip.body);
-  // Millionths of a metre say all there is to say of such a ball.
+  // A resolution of 1 µm suffices for a fitted sphere.
   const auto rounded = [](double length) { return std::round(1e6 * length) / 1e6 + 0.0; };
   const Vector3d centre = (body.inverse() * fitted.ball.centre).unaryExpr(rounded);
   derived_.description.tips.push_back({name, name, centre, rounded(fitted.ball.radius)});
@@ -242,8 +246,8 @@ FittedBall HandDeriver::Fit(const std::string& name, const ConvexShape& shape,
   return fitted;
 }
 
-/// That of a link that is fixed to the tip and is nothing but a name of its end, otherwise that of
-/// its body.
+/// Return the name of a fingertip: the name of its body, or of a link without geoms fixed to the
+/// body, which only marks its end.
 std::string HandDeriver::NameOfTip(int body) const {
   int last = body;
   for (int below = body + 1; below < model_.nbody; ++below) {
@@ -256,7 +260,7 @@ std::string HandDeriver::NameOfTip(int body) const {
 
 bool IsSeparator(char c) { return c == '_' || c == '/' || c == '-' || c == '.' || c == ' '; }
 
-/// What all names begin with, up to a separator.
+/// Return the length of the common prefix of all names, up to a separator.
 std::size_t CommonStart(const std::vector<std::string>& names) {
   std::size_t length = 0;
   for (std::size_t i = 0; i < names[0].size(); ++i) {
@@ -269,7 +273,7 @@ std::size_t CommonStart(const std::vector<std::string>& names) {
   return length;
 }
 
-/// Without the words that say that it is a tip; empty where it is nothing else.
+/// Remove words that mean "fingertip" from the end of a name. The result can be empty.
 std::string WithoutEnding(std::string name) {
   constexpr std::array kEndings = {"fingertip", "distal", "tip", "head", "link", "dist", "ds"};
   for (bool changed = true; changed;) {
@@ -284,7 +288,7 @@ std::string WithoutEnding(std::string name) {
   return name;
 }
 
-/// Names of bodies less what says that they are tips and what they have in common.
+/// Name the fingers by their bodies, without the common prefix and without words for fingertips.
 void HandDeriver::NameFingers() {
   std::vector<std::string> names;
   for (const TipBody& tip : tips_) names.push_back(NameOfTip(tip.body));
@@ -304,7 +308,8 @@ void HandDeriver::NameFingers() {
   for (std::size_t i = 0; i < names.size(); ++i) derived_.description.tips[i].name = names[i];
 }
 
-/// The nearest axis of the palm, where it is near.
+/// Return the nearest axis of the palm's frame if it is within kSnap, otherwise the direction
+/// itself.
 Vector3d HandDeriver::Snapped(const Vector3d& direction) const {
   int axis = 0;
   direction.cwiseAbs().maxCoeff(&axis);
@@ -313,7 +318,7 @@ Vector3d HandDeriver::Snapped(const Vector3d& direction) const {
 }
 
 Vector3d HandDeriver::Up() {
-  // The pad that most others look the same way as.
+  // The largest group of pads with similar directions determines the direction.
   Vector3d sum = Vector3d::Zero();
   int most = 0;
   for (const Vector3d& pad : pads_) {
@@ -342,7 +347,7 @@ Vector3d HandDeriver::Up() {
   return up;
 }
 
-/// Links that have geoms, none of which collides.
+/// Note links whose geoms all do not collide.
 void HandDeriver::NoteUnchecked() {
   std::set<int> links;
   for (const TipBody& tip : tips_) {

@@ -8,27 +8,28 @@
 
 namespace regrasp::kinematics {
 
-/// Most joints that a finger may have.
+/// Largest number of joints of a finger.
 inline constexpr int kMostJoints = 8;
 
-/// The frames of a finger's joints, in the palm's frame, from the palm to the tip.
+/// Poses of the joint frames of a finger in the palm's frame, from the palm to the fingertip.
 using JointFrames = std::vector<Eigen::Isometry3d>;
 
-/// Return the angle of a joint's drive at which the joint has an angle, radians.
+/// Return the angle of the independent joint at which a joint has a given angle, radians.
 [[nodiscard]] inline double DriveAngle(const Joint& joint, double angle) {
   return (angle - joint.coupling_offset) / joint.ratio;
 }
 
-/// Return the joint whose angle is that of a drive; the other joints of the drive follow it.
+/// Return an independent joint of a finger; the other joints with this `drive` follow it.
 [[nodiscard]] const Joint& LeadingJoint(const Finger& finger, int drive);
 
-/// Angles of the joints of a posture, radians.
+/// Return the angles of all joints, coupled ones included, radians.
 [[nodiscard]] std::vector<double> JointAngles(const Finger& finger, const Posture& posture);
 
 [[nodiscard]] JointFrames FramesOf(const Finger& finger, const Posture& posture);
 
-/// The centre of the fingertip's ball in the palm's frame, metres, and how it moves with the
-/// drives, metres per radian.
+/// Position of a fingertip and its Jacobian.
+/// The position is the centre of the fingertip sphere in the palm's frame, metres. The Jacobian is
+/// with respect to the independent joints, metres per radian.
 struct TipState {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< Fingertip::axis in the palm's frame
@@ -36,19 +37,21 @@ struct TipState {
 };
 [[nodiscard]] TipState TipAt(const Finger& finger, const Posture& posture);
 
-/// A bound on how far a point of the first `after` joints' links moves, metres, where the drives
-/// move straight from one posture to another: Σ |Δq| times the farthest that any point of the
-/// shape can be from the joint's axis.
-/// @param reach  as LinkReach.
+/// Return an upper bound of the motion of any point of a link, metres.
+/// The finger moves straight from one joint configuration to another.
+/// The bound is Σ |Δq| times the largest distance of a point of the shape from the joint's axis.
+/// @param after  number of joints that move the link.
+/// @param reach  result of LinkReach.
 [[nodiscard]] double MotionBound(const Finger& finger, const Posture& from, const Posture& to,
                                  int after, const std::vector<double>& reach);
 
-/// By joint up to the one that carries the shape: no point of it is ever farther from the joint's
-/// axis than this, whatever the joints after it do, metres.
+/// Return the reach of a link by joint, metres.
+/// It is the largest distance of the shape's points from the joint's axis in any configuration, for
+/// each joint that moves the shape.
 [[nodiscard]] std::vector<double> LinkReach(const Finger& finger, const LinkShape& shape);
 
-/// An upper bound on the distance of a point that the fingertip touches from the finger's first
-/// joint, metres: the sum of the lengths of all links, whatever the joint limits.
+/// Return an upper bound of the distance of contacts from a finger's first joint, metres.
+/// It is the sum of the lengths of all links and ignores joint limits.
 [[nodiscard]] double MaximumReach(const Finger& finger);
 
 }  // namespace regrasp::kinematics

@@ -18,7 +18,7 @@ using collision::ConvexShape;
 using Eigen::Vector3d;
 
 constexpr int kSides = 16;
-/// How far a marker may stick out of the fingertip sphere, metres.
+/// Largest protrusion of a marker from the fingertip sphere, metres.
 constexpr double kInsideFingertip = 5e-4;
 constexpr double kPi = std::numbers::pi;
 
@@ -32,7 +32,7 @@ ConvexShape Box(const Vector3d& half) {
   return box;
 }
 
-/// A prism whose sides touch the cylinder.
+/// Return a prism that contains the cylinder; its sides touch it.
 ConvexShape Cylinder(double radius, double half_length) {
   ConvexShape prism;
   const double corner = radius / std::cos(kPi / kSides);
@@ -45,13 +45,14 @@ ConvexShape Cylinder(double radius, double half_length) {
   return prism;
 }
 
-/// An ellipsoid is a ball in other units: the polyhedron around it is that around a ball,
-/// stretched.
+/// Return a polyhedron that contains an ellipsoid: a polyhedron around the unit sphere, scaled
+/// along the axes.
 ConvexShape Ellipsoid(const Vector3d& half) {
   ConvexShape shape;
   constexpr int kRings = kSides / 2;
-  // Every facet between neighbouring points of the unit sphere is nearer to its centre than 1, by
-  // no more than this: the angle from its middle to a corner is at most half the diagonal's.
+  // The triangles between neighbouring points of the unit sphere are nearer to its centre than 1.
+  // This factor compensates for it: the angle from the middle of a triangle to a corner is at most
+  // half that of the diagonal.
   const double step = kPi / kRings;
   const double grow = 1 / std::cos(step / std::numbers::sqrt2);
   for (int ring = 0; ring <= kRings; ++ring) {
@@ -67,7 +68,7 @@ ConvexShape Ellipsoid(const Vector3d& half) {
   return shape;
 }
 
-/// The vertices of the hull where MuJoCo has made one, else all.
+/// Return the vertices of the convex hull if MuJoCo has computed it, otherwise all vertices.
 ConvexShape MeshHull(const mjModel& model, int mesh) {
   ConvexShape hull;
   const float* vertices = model.mesh_vert + std::ptrdiff_t{3} * model.mesh_vertadr[mesh];
@@ -77,8 +78,8 @@ ConvexShape MeshHull(const mjModel& model, int mesh) {
   };
   const int graph = model.mesh_graphadr[mesh];
   if (graph >= 0) {
-    // How many vertices and faces the hull has, where the edges of each vertex are, then the
-    // numbers of its vertices in the mesh.
+    // Layout: number of vertices, number of faces, start of the edges of each vertex, index of each
+    // vertex in the mesh.
     const int count = model.mesh_graph[graph];
     for (int i = 0; i < count; ++i) add(model.mesh_graph[graph + 2 + count + i]);
   } else {
@@ -127,18 +128,19 @@ namespace {
 
 using Eigen::Vector4d;
 
-/// What a ball's radius is worth against how far it is from where it should touch.
+/// Weight of a sphere's radius relative to its distance from the required contact points.
 constexpr double kLarger = 1;
-/// Pulls a ball to one side or the other where it may be anywhere between them.
+/// Weight that selects an end of an interval of optimal spheres.
 constexpr double kSideways = 1e-3;
 constexpr double kOptimal = 1e-12;
-/// A ball smaller than this share of the shape is that of a flat one.
+/// Radius over that of the bounding sphere below which the shape is flat.
 constexpr double kFlat = 1e-3;
-/// What of the objective may be missing after the first phase.
+/// Largest residual of the first phase.
 constexpr double kUnbalanced = 1e-9;
 constexpr int kPivots = 1000;
 
-/// a · c + r ≤ b, as a column of the dual program: minimise Σ b λ over Σ λ (a, 1) = objective.
+/// Constraint a · c + r ≤ b, a column of the dual program: minimize Σ b λ subject to Σ λ (a, 1) =
+/// objective.
 struct Facet {
   Vector4d row = Vector4d::Zero();
   double offset = 0;
@@ -162,7 +164,7 @@ std::vector<Facet> FacetsOf(const std::vector<Vector3d>& points) {
   return facets;
 }
 
-/// (c, r) that maximises objective · (c, r) inside the facets.
+/// Return (c, r) that maximizes objective · (c, r) subject to the constraints of all faces.
 Vector4d Maximise(const Vector4d& objective, const std::vector<Facet>& facets) {
   lp::Simplex<4, Facet> program;
   const auto price = [&](bool with_cost) {
@@ -206,7 +208,7 @@ FittedBall FitTip(const ConvexShape& shape, const TipDirections& directions) {
   const bool has_pad = !directions.pad.isZero();
   Vector4d objective;
   objective << directions.far + directions.pad, (has_pad ? 2 : 1) + kLarger;
-  // In units of the shape and about its middle: the program's tolerances are absolute.
+  // The program's tolerances are absolute; therefore the shape is centred and scaled to unit size.
   const collision::BoundingSphere around = collision::BoundingSphereOf(shape);
   std::vector<Vector3d> points;
   points.reserve(shape.points.size());
@@ -216,7 +218,7 @@ FittedBall FitTip(const ConvexShape& shape, const TipDirections& directions) {
   const std::vector<Facet> facets = FacetsOf(points);
   Vector4d sideways = Vector4d::Zero();
   sideways.head<3>() = kSideways * directions.far.cross(directions.pad);
-  // Optima are a convex set: the middle of two is one.
+  // The optima are a convex set, so the midpoint of two optima is an optimum.
   const Vector4d best =
       (Maximise(objective + sideways, facets) + Maximise(objective - sideways, facets)) / 2;
   if (best[3] < kFlat) throw std::runtime_error("the tip is flat");

@@ -9,42 +9,44 @@
 
 namespace regrasp::kinematics {
 
-/// A geom as a convex shape that contains it, in the geom's own frame, metres. A mesh is the hull
-/// of its vertices, a cylinder a prism of 16 sides around it, an ellipsoid a polyhedron around it.
-/// Planes and height fields have none: no points.
+/// Return a convex shape that contains a geom, in the geom's frame, metres.
+/// A mesh becomes the hull of its vertices, a cylinder a prism of 16 sides around it, and an
+/// ellipsoid a polyhedron around it. The shape of planes and height fields has no points.
 [[nodiscard]] collision::ConvexShape ShapeOfGeom(const mjModel& model, int geom);
 
-/// Return whether the fingertip sphere stands for a geom: the geom is of the fingertip's body, or
-/// of a body fixed to it and lies inside the sphere, as marker links do.
+/// Return whether the fingertip sphere represents a geom.
+/// The geom belongs to the fingertip's body, or to a body fixed to it and lies inside the sphere,
+/// like the geoms of marker links.
 /// @param rest      positions of a configuration of the model.
 /// @param tip_body  body of the fingertip.
 /// @param sphere    fingertip sphere in the frame of `tip_body`, metres.
 [[nodiscard]] bool IsPartOfFingertip(const mjModel& model, const mjData& rest, int geom,
                                      int tip_body, const collision::BoundingSphere& sphere);
 
-/// Where a fingertip touches: with its far end, and with its pad, at right angles to each other.
+/// Directions of contact of a fingertip: its far end and its pad, perpendicular to each other.
 struct TipDirections {
   Eigen::Vector3d far = Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d pad = Eigen::Vector3d::Zero();  ///< zero where there is none
+  Eigen::Vector3d pad = Eigen::Vector3d::Zero();  ///< zero if there is none
 };
 
 struct FittedBall {
   collision::BoundingSphere ball;
-  double short_of_far = 0;  ///< how far its far end is inside the shape, metres
+  double short_of_far = 0;  ///< gap between the sphere's far end and the shape's, metres
   double short_of_pad = 0;
 };
 
-/// The ball of a fingertip of some shape. Of a ball or a capsule it is the ball of its far end. Of
-/// another shape it is the one inside it that comes nearest to its far end and its pad, and the
-/// largest of those:
+/// Fit a fingertip sphere to a shape.
+/// For a sphere or a capsule it is the sphere at its far end. For another shape it is the inscribed
+/// sphere nearest to the far end and the pad, and the largest of these:
 ///
-///     maximise (far + pad) · c + (k + ¹⁄₁₀₀) r   over   aⱼ · c + r ≤ bⱼ for all facets j,
+///     maximise (far + pad) · c + (k + 1) r   over   aⱼ · c + r ≤ bⱼ for all faces j,
 ///
 /// k the number of directions, a linear program in four unknowns.
 ///
-/// Laws: rigid motion moves the ball along; of a box of width w it is the ball of radius w/2 at the
-/// end, of a ball it is that ball up to the facets that stand for it.
-/// @throws std::runtime_error  the points span no volume.
+/// Laws: rigid motion moves the sphere with the shape. A box of width w gives the sphere of radius
+/// w/2 at its end. A polyhedron around a sphere gives this sphere, up to the polyhedron's
+/// approximation.
+/// @throws std::runtime_error  if the points span no volume.
 [[nodiscard]] FittedBall FitTip(const collision::ConvexShape& shape,
                                 const TipDirections& directions);
 

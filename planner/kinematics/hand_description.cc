@@ -11,7 +11,7 @@ namespace {
 using plan::JsonReader;
 
 constexpr char kFormat[] = "regrasp-hand";
-/// A grasp needs three contacts, and one finger switches.
+/// Smallest number of fingers, because a grasp requires three contacts.
 constexpr std::size_t kFewestFingers = 3;
 constexpr double kLargestRadius = 0.1;
 

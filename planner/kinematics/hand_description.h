@@ -7,16 +7,17 @@
 
 namespace regrasp::kinematics {
 
-/// What `hand.json` says of a model (docs/formats.md): which of its bodies are what, and how the
-/// fingers touch. Lengths in metres, in the frames of the model's bodies.
+/// Contents of `hand.json`: roles of the model's bodies, and the fingertip spheres.
+/// The format is in docs/formats.md.
+/// Lengths are in metres, in the frames of the model's bodies.
 struct HandDescription {
   struct Tip {
-    std::string name;  ///< of the finger
+    std::string name;  ///< name of the finger
     std::string body;
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius = 0;
   };
-  /// angle of `joint` = ratio · angle of `follows` + offset, radians.
+  /// Coupling: angle of `joint` = ratio · angle of `follows` + offset, radians.
   struct Coupling {
     std::string joint;
     std::string follows;
@@ -25,18 +26,19 @@ struct HandDescription {
   };
 
   std::string name;
-  std::string model;                              ///< file of the model, relative to this one
-  std::string palm;                               ///< body
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< in the palm's frame, of length 1
+  std::string model;  ///< file of the model, relative to the hand's file
+  std::string palm;   ///< name of the body
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit vector in the palm's frame
   std::vector<Tip> tips;
   std::vector<Coupling> couplings;
 };
 
-/// @param name  how messages call the file.
-/// @throws InputError
+/// Parse the text of a hand's file.
+/// @param name  name of the file in messages.
+/// @throws InputError  if the text is not a hand description.
 [[nodiscard]] HandDescription ParseHandDescription(std::string_view text, const std::string& name);
 
-/// The text of a file: same description, same bytes.
+/// Format a description as the text of a file. Equal descriptions give equal bytes.
 [[nodiscard]] std::string FormatHandDescription(const HandDescription& description);
 
 }  // namespace regrasp::kinematics

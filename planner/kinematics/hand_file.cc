@@ -26,10 +26,11 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kWorldBody = 0;
-/// Shapes that are nearer than this while the hand is at rest are so by construction, metres.
+/// Distance in the reference configuration, metres, below which shapes are near by construction.
 constexpr double kNearAtRest = 1e-3;
 
-/// Makes a HandModel of a description and a compiled model, everything at rest in the palm's frame.
+/// Builder of a HandModel from a description and a compiled model.
+/// All positions are those of the reference configuration, in the palm's frame.
 class HandBuilder {
  public:
   HandBuilder(const HandDescription& description, std::string file, const mjModel& model)
@@ -52,7 +53,7 @@ class HandBuilder {
   }
 
  private:
-  /// What moves a body: so many joints of a finger.
+  /// Finger and number of joints that move a body.
   struct Place {
     int finger = -1;
     int after = 0;
@@ -81,9 +82,11 @@ class HandBuilder {
   void AddGeom(int geom);
   void AddTipShape(int index);
   void FindIgnored();
-  /// The nearest of a body and those above it that a finger or the palm is made of.
+  /// Return the place of the nearest ancestor of a body, itself included, that belongs to a finger;
+  /// the palm's if there is none.
   Place PlaceOf(int body) const;
-  /// Where the frame of a finger's joint is at rest; of the palm for 0.
+  /// Return the origin of a joint's frame in the reference configuration; that of the palm if
+  /// `after` is 0.
   Vector3d OriginAtRest(const Place& place) const {
     return place.after == 0 ? Vector3d(Vector3d::Zero()) : anchors_[place.finger][place.after - 1];
   }
@@ -95,8 +98,8 @@ class HandBuilder {
   int palm_;
   Isometry3d from_world_;
   HandModel hand_;
-  std::map<int, Place> places_;                 ///< of bodies between the palm and the tips
-  std::vector<std::vector<Vector3d>> anchors_;  ///< of joints at rest, by finger
+  std::map<int, Place> places_;  ///< places of bodies between the palm and the fingertips
+  std::vector<std::vector<Vector3d>> anchors_;  ///< joint positions by finger, at qpos0
 };
 
 void HandBuilder::AddFinger(int index) {
@@ -136,7 +139,9 @@ void HandBuilder::AddFinger(int index) {
   hand_.fingers.push_back(std::move(finger));
 }
 
-/// Along its hinge the frame of a joint may be anywhere.
+/// Set the pointing direction of a fingertip.
+/// The component along the last joint's axis is removed, because the origin of the joint's frame
+/// can be anywhere on its axis.
 void HandBuilder::SetTipAxis(Finger& finger) {
   const Vector3d& centre = finger.tip.centre;
   const Vector3d& hinge = finger.joints.back().axis;
@@ -192,7 +197,7 @@ void HandBuilder::Couple(const std::string& where, Finger& finger) const {
   }
 }
 
-/// Every coupling must have an effect: a misspelt name would leave a joint free.
+/// Check that every coupling has an effect, because a misspelt name would leave a joint uncoupled.
 void HandBuilder::ExpectCoupledJoints() const {
   for (std::size_t i = 0; i < description_.couplings.size(); ++i) {
     const std::string& name = description_.couplings[i].joint;
@@ -241,7 +246,7 @@ bool HandBuilder::IsPartOfTip(int geom) const {
 void HandBuilder::AddGeom(int geom) {
   const int body = model_.geom_bodyid[geom];
   if (!Collides(model_, geom)) return;
-  // Of another tree of bodies: a table, say.
+  // The geom belongs to another kinematic tree, such as a table.
   if (model_.body_rootid[body] != model_.body_rootid[palm_]) return;
   if (IsPartOfTip(geom)) return;
   ConvexShape shape = ShapeOfGeom(model_, geom);
@@ -263,7 +268,8 @@ void HandBuilder::AddTipShape(int index) {
   finger.shapes.push_back({finger.tip.body, after, true, std::move(capsule)});
 }
 
-/// Neighbours along a finger, and what is near each other at rest.
+/// Ignore pairs of adjacent links, and pairs that are near each other in the reference
+/// configuration.
 void HandBuilder::FindIgnored() {
   struct Placed {
     HandModel::Part part;
@@ -297,7 +303,8 @@ void HandBuilder::FindIgnored() {
   std::ranges::sort(hand_.ignored);
 }
 
-/// Of all that says what the hand is, each piece's digest after the one before.
+/// Return the digest of the description, of all model files and of all meshes: a hash of their
+/// concatenated hashes.
 std::string Digest(const std::string& description, const ModelText& model) {
   std::string digests = Sha256(description);
   for (const fs::path& file : model.files) digests += Sha256(ReadFile(file));

@@ -12,34 +12,36 @@ namespace regrasp::kinematics {
 
 struct CompiledModel;
 
-/// A hand with what it was read from.
+/// Hand with its description and compiled model.
 struct HandFile {
   HandDescription description;
-  /// Shared, as its type is not shown: whoever needs more than the hand takes it from there.
+  /// Shared, because CompiledModel is incomplete here. Callers that require more than the hand use
+  /// it.
   std::shared_ptr<const CompiledModel> compiled;
   HandModel hand;
   std::vector<std::string> warnings;  ///< ActuationWarnings (joint_actuators.h)
 };
 
-/// Reads a hand: a file `hand.json` (docs/formats.md) and the MJCF or URDF model beside it.
+/// Read a hand: a file `hand.json` (docs/formats.md) and its MJCF or URDF model.
 ///
-/// Joints between the model's root and the palm stay as the model has them at rest. Colliding geoms
-/// become convex shapes: a box its eight corners, a mesh the hull of its vertices, a cylinder or an
-/// ellipsoid a polyhedron around it; those of the tip's body are replaced by a capsule from the
-/// body's origin to the ball. Geoms of bodies fixed to the tip's body that lie inside the ball are
-/// part of the tip.
-/// @throws InputError  names the file, the element and what is wrong: the model cannot be compiled,
-///                     a body or joint is not there, fingers share a joint, a joint is no hinge or
-///                     has no limits; the model's physics, couplings or collision geoms cannot be
-///                     represented (check_model.h).
+/// Joints between the model's root and the palm are fixed in the reference configuration. Colliding
+/// geoms become convex shapes: a box its eight corners, a mesh the hull of its vertices, a cylinder
+/// or an ellipsoid a polyhedron around it. Geoms of a fingertip's body are replaced by a capsule
+/// from the body's origin to the fingertip sphere. Geoms inside the sphere of bodies fixed to the
+/// fingertip's body are part of the fingertip.
+/// @throws InputError  if the model cannot be compiled, a body or joint is missing, fingers share a
+///     joint, a joint is not revolute or has no limits, or the model's physics, couplings or
+///     collision geoms cannot be represented (check_model.h). The message names the file and the
+///     element.
 [[nodiscard]] HandFile ReadHandFile(const std::filesystem::path& path);
 
-/// The hand alone.
+/// Read a hand without its model.
 /// @throws InputError  as ReadHandFile.
 [[nodiscard]] HandModel ReadHand(const std::filesystem::path& path);
 
-/// The same of what is read already; without file and digest.
-/// @param file  how messages call the hand's file.
+/// Build a hand from a description and a compiled model. Its file name and digest are empty.
+/// @param file  name of the hand's file in messages.
+/// @throws InputError  as ReadHandFile, except for compilation.
 [[nodiscard]] HandModel BuildHand(const HandDescription& description, const CompiledModel& compiled,
                                   const std::string& file);
 

@@ -21,7 +21,7 @@ using Triangles = std::vector<std::array<Vector3d, 3>>;
 constexpr int kVisualSides = 32;
 constexpr int kLastShownGroup = 2;
 
-/// Triangles and the normals at their corners.
+/// Triangles with normals at their corners.
 struct Surface {
   Triangles triangles;
   Triangles normals;
@@ -117,7 +117,7 @@ void AddGeom(const mjModel& model, int geom, const Isometry3d& pose, LinkVisual&
     link.normals.push_back({turn * a, turn * b, turn * c});
 }
 
-/// The material's colour where the geom has one.
+/// Return the colour of a geom, which is that of its material if it has one.
 std::array<float, 3> ColorOf(const mjModel& model, int geom) {
   const int material = model.geom_matid[geom];
   const float* rgba = material >= 0 ? model.mat_rgba + std::ptrdiff_t{4} * material
@@ -130,7 +130,7 @@ bool IsSeenOnly(const mjModel& model, int geom) {
          model.geom_rgba[std::ptrdiff_t{4} * geom + 3] > 0;
 }
 
-/// Whether a body is another one or below it.
+/// Return whether a body is `above` or below it in the kinematic tree.
 bool IsBelow(const mjModel& model, int above, int body) {
   while (body > above) body = model.body_parentid[body];
   return body == above;
@@ -144,7 +144,7 @@ std::vector<LinkVisual> VisualsOf(const CompiledModel& compiled, const std::stri
   const DataPtr rest = AtRest(*model);
   const int palm = mj_name2id(model, mjOBJ_BODY, palm_name.c_str());
   const Isometry3d from_world = PoseAt(rest->xpos, rest->xmat, palm).inverse();
-  // Where each joint of a finger is at rest, and what its body carries.
+  // Joint positions in the reference configuration by finger, and the joint that moves each body.
   std::map<int, std::pair<FingerIndex, int>> carried;
   std::vector<std::vector<Vector3d>> anchors;
   for (FingerIndex finger{0}; finger < std::ssize(hand.fingers); ++finger) {
@@ -157,7 +157,7 @@ std::vector<LinkVisual> VisualsOf(const CompiledModel& compiled, const std::stri
       carried[model->jnt_bodyid[id]] = {finger, static_cast<int>(anchors.back().size())};
     }
   }
-  std::set<int> drawn_apart;  // bodies that have geoms only to be seen
+  std::set<int> drawn_apart;  // bodies with geoms that are only visual
   for (int geom = 0; geom < model->ngeom; ++geom) {
     if (IsSeenOnly(*model, geom)) drawn_apart.insert(model->geom_bodyid[geom]);
   }

@@ -12,33 +12,33 @@ namespace regrasp::kinematics {
 struct CompiledModel;
 struct HandFile;
 
-/// What a link looks like, in the frame of the last joint that moves it, metres.
+/// Visual shape of a link, in the frame of the last joint that moves it, metres.
 struct LinkVisual {
   struct Capsule {
     Eigen::Vector3d from, to;
     double radius;
   };
-  FingerIndex finger;               ///< not valid: the palm
-  int after = 0;                    ///< joints of the finger that move it
-  bool above_palm = false;          ///< of an arm, say, which is fixed to the palm as at rest
+  FingerIndex finger;       ///< invalid: the palm
+  int after = 0;            ///< number of joints of the finger that move it
+  bool above_palm = false;  ///< whether it is above the palm, like an arm, and does not move
   std::array<float, 3> color = {};  ///< red, green, blue in [0, 1]
   std::vector<Capsule> capsules;
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;  ///< counter-clockwise from outside
-  std::vector<std::array<Eigen::Vector3d, 3>> normals;    ///< at their corners
+  std::vector<std::array<Eigen::Vector3d, 3>> normals;    ///< normals at the corners
 };
 
-/// The palm and the links of the fingers, as the model draws them: geoms that collide with nothing
-/// and are shown (groups 0 to 2) where a body has such, otherwise those that collide. Those of a
-/// link that have one colour are one visual.
+/// Return the visual shapes of the palm and the links of the fingers.
+/// Visual geoms of a body are the shown geoms (groups 0 to 2) that do not collide. A body without
+/// such geoms is drawn by its colliding geoms. Geoms of one link with one colour form one visual.
 /// @param palm  HandDescription::palm.
 [[nodiscard]] std::vector<LinkVisual> VisualsOf(const CompiledModel& compiled,
                                                 const std::string& palm, const HandModel& hand);
 
-/// The same of a hand that was read from a file.
+/// Return the visual shapes of a hand that was read from a file.
 [[nodiscard]] std::vector<LinkVisual> VisualsOf(const HandFile& file);
 
-/// Where a link is in the palm's frame.
-/// @param joints  angles by finger, from the palm to the tip, radians.
+/// Return the pose of a link in the palm's frame.
+/// @param joints  joint angles by finger, from the palm to the fingertip, radians.
 [[nodiscard]] Eigen::Isometry3d LinkPose(const LinkVisual& link, const HandModel& hand,
                                          const std::vector<std::vector<double>>& joints);
 

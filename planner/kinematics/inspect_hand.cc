@@ -19,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kReachSteps = 4;  ///< of each drive, at first
+constexpr int kReachSteps = 4;  ///< initial number of steps per independent joint
 constexpr double kFinestStep = 1e-3;
 
-/// "+x" of an axis, else numbers.
+/// Format a direction: "+x" for an axis, otherwise numbers.
 std::string DirectionText(const Eigen::Vector3d& direction) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const int sign : {-1, 1}) {
@@ -80,7 +80,7 @@ std::string JointTable(const InspectedHand& inspected) {
   return FormatRows(rows);
 }
 
-/// What is the same of many elements is said once.
+/// Format the list of conversions. Equal conversions of several elements are one row.
 std::string ConversionText(const InspectedHand& inspected) {
   struct Group {
     const Conversion* first;
@@ -142,7 +142,7 @@ double LargestReach(const Finger& finger) {
   const auto reach = [&](const Posture& posture) { return TipAt(finger, posture).centre.norm(); };
   const Posture range = finger.upper - finger.lower;
   Posture best = finger.lower;
-  // Odometer over all drives.
+  // Odometer over all independent joints.
   std::vector<int> step(static_cast<std::size_t>(finger.drives), 0);
   for (bool more = true; more;) {
     Posture posture = finger.lower;

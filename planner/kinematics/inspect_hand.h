@@ -12,26 +12,27 @@
 
 namespace regrasp::kinematics {
 
-/// A hand, and where what is known of it comes from.
+/// Hand with the sources of its description.
 struct InspectedHand {
   HandDescription description;
-  std::filesystem::path model;  ///< its file
+  std::filesystem::path model;  ///< file of the model
   HandModel hand;
-  std::vector<LinkVisual> visuals;  ///< at rest
+  std::vector<LinkVisual> visuals;  ///< visual shapes in the reference configuration
   std::vector<JointActuator> actuators;
   std::vector<Conversion> conversions;
-  std::vector<std::string> notes;  ///< doubts of the derivation, and ActuationWarnings
+  std::vector<std::string> notes;  ///< doubtful results of the derivation, and ActuationWarnings
 };
 
-/// Reads a file `hand.json`, or derives the hand of an MJCF or URDF model (derive_hand.h).
+/// Read a file `hand.json`, or derive the hand of an MJCF or URDF model (derive_hand.h).
 /// @throws InputError  as ReadHand and DeriveHand.
 [[nodiscard]] InspectedHand InspectHand(const std::filesystem::path& path);
 
-/// The largest distance of a tip's centre from the palm's origin within the limits, metres, to
-/// about a millimetre: the best of sampled postures, improved drive by drive.
+/// Return the largest distance of a fingertip's centre from the palm's origin, metres.
+/// The configurations are those within the joint limits.
+/// The accuracy is about 1 mm: the best sampled configuration is improved by coordinate search.
 [[nodiscard]] double LargestReach(const Finger& finger);
 
-/// For people: name, palm, up; a table of fingers, one of joints; couplings, notes, conversions.
+/// Format a hand for users: name, palm, up, tables of fingers and joints, notes and conversions.
 [[nodiscard]] std::string InspectionText(const InspectedHand& inspected);
 
 }  // namespace regrasp::kinematics

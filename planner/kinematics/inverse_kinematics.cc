@@ -15,27 +15,29 @@ using Drives = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostJoints, 1>;
 
 constexpr int kMostSamples = 12'000;
 constexpr double kCell = 0.010;  // metres
-/// What a radian off the middle costs a sample, in metres that its tip is off the target.
+/// Cost of a sample at one radian from the middle: the equivalent distance of its fingertip from
+/// the target, metres.
 constexpr double kPostureWeight = 0.004;
-/// More than the approach allows that a sample may be off: the solver turns it.
+/// Tolerance of a sample beyond the approach limit, radians, because the solver rotates the
+/// fingertip.
 constexpr double kApproachSlack = 0.35;
 
 constexpr int kIterations = 40;
-/// A tip that is still so far off, metres, and has not come half as near within so many iterations
-/// does not come at all.
+/// The iteration stops if the distance exceeds kFarOff, metres, and was not halved in kPatience
+/// iterations.
 constexpr double kFarOff = 1e-4;
 constexpr int kPatience = 6;
-constexpr double kDamping = 1e-7;  // m²/rad²: a singular direction moves no more than this allows
-constexpr double kMostTurn = 0.4;  // radians in one iteration
+constexpr double kDamping = 1e-7;  // m²/rad²: limits the motion along singular directions
+constexpr double kMostTurn = 0.4;  // largest rotation per iteration, radians
 constexpr double kTowardsMiddle = 0.5;
-/// The second task has come to its end when it moves no drive by more than this, radians.
+/// Largest joint motion, radians, at which the secondary task has converged.
 constexpr double kSettled = 2e-3;
 
-/// One step of damped least squares towards a tip `error` away, with the middle as the second task.
-/// Drives at a limit that they would go beyond stay where they are.
+/// Compute a step of damped least squares with joint centering as the secondary task.
+/// Joints at a limit that they would exceed stay there.
 struct Step {
   Drives step;
-  double second_task = 0;  ///< largest part of it that only serves the second task
+  double second_task = 0;  ///< largest joint motion that only serves the secondary task, radians
 };
 
 Step StepTo(const TipState& state, const Vector3d& error, const Posture& posture,
@@ -114,7 +116,7 @@ InverseKinematics::InverseKinematics(const Finger& finger, const PostureLimits& 
 
 Vector3i InverseKinematics::CellAt(const Vector3d& point) const {
   const Vector3d cell = (point - corner_) / kCell;
-  // Far away is far away, whatever an int holds.
+  // Clamping prevents integer overflow for distant points.
   return cell.cwiseMax(-10)
       .cwiseMin(cells_.cast<double>() + Vector3d::Constant(10))
       .array()
@@ -184,7 +186,7 @@ std::optional<Posture> InverseKinematics::Iterate(const TipTarget& target, const
     if (settled && error.norm() <= kTipTolerance) {
       return Fits(target, posture) ? std::optional(posture) : std::nullopt;
     }
-    // The middle is given up in the last iterations, for the tip's sake.
+    // In the last iterations joint centering is dropped so that the position converges.
     const bool to_middle = !settled && i < kIterations - 10;
     const Drives second = to_middle ? Drives(kTowardsMiddle * (middle_ - posture))
                                     : Drives(Drives::Zero(posture.size()));

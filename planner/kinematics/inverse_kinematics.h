@@ -9,56 +9,58 @@
 
 namespace regrasp::kinematics {
 
-/// Where a fingertip shall be: the centre of its ball, and the direction from there to the contact,
-/// in the palm's frame.
+/// Target of a fingertip in the palm's frame.
+/// It is the centre of the fingertip sphere, and the direction from there to the contact.
 struct TipTarget {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Vector3d towards = Eigen::Vector3d::Zero();  ///< of length 1
+  Eigen::Vector3d towards = Eigen::Vector3d::Zero();  ///< unit vector
 };
 
-/// What is asked of a posture beside the place of its tip.
+/// Constraints on a joint configuration in addition to the fingertip's position.
 struct PostureLimits {
-  double from_limits = 0.02;  ///< radians that drives keep from their limits
-  /// Largest angle between where the finger points (Fingertip::axis) and the contact: a finger
-  /// touches with its end and its pad, and not with what is behind them. Radians.
+  double from_limits = 0.02;  ///< distance of joints from their limits, radians
+  /// Largest angle between pointing direction (Fingertip::axis) and contact, radians.
+  /// A finger touches with its end and its pad, not with its back.
   double approach = 1.92;
 };
 
-/// Tips are this near to their targets, metres.
+/// Tolerance of the fingertip's position, metres.
 inline constexpr double kTipTolerance = 1e-9;
 
-/// Inverse kinematics of one finger: a tip's place are three equations for, mostly, four drives.
-/// Of all postures that have the tip there it takes the one nearest to the middle of the finger's
-/// range, by damped least squares with the middle as the second task (Nakamura and Hanafusa 1986).
-/// Starting places come from a table of where sampled postures have the tip; a target far from all
-/// of them is out of reach at once.
+/// Inverse kinematics of one finger.
+/// The fingertip's position gives three equations, typically for four independent joints. Among the
+/// solutions it selects the one nearest to the middle of the joint ranges, by damped least squares
+/// with joint centering as the secondary task (Nakamura and Hanafusa 1986). Iterations start from a
+/// table of sampled configurations. A target far from all samples is out of reach without any
+/// iteration.
 ///
-/// The answer depends on the target alone, not on where the finger was, and so follows a target
-/// that moves; except where it jumps from one branch of postures to another one.
+/// The result depends on the target only, not on the current configuration. It therefore follows a
+/// moving target continuously, except for jumps between solution branches.
 class InverseKinematics {
  public:
-  /// @param finger  outlives this object.
+  /// @param finger  kinematic chain; outlives this object.
   explicit InverseKinematics(const Finger& finger, const PostureLimits& limits = {});
 
-  /// @returns nullopt where none was found.
+  /// Return the joint configuration of a target.
+  /// @returns nullopt if none is found.
   [[nodiscard]] std::optional<Posture> Solve(const TipTarget& target) const;
-  /// From a posture near by, with its branch kept.
+  /// Return the configuration of a target on the solution branch of a nearby configuration.
   [[nodiscard]] std::optional<Posture> SolveFrom(const TipTarget& target,
                                                  const Posture& start) const;
 
-  /// The posture with its tip at the target that is near the start, wherever the middle is: for
-  /// paths between two postures that are given.
+  /// Return the configuration of a target that is near a start, without joint centering.
+  /// Used for paths between two given configurations.
   [[nodiscard]] std::optional<Posture> SolveNear(const TipTarget& target,
                                                  const Posture& start) const;
 
-  /// Whether a sampled posture has its tip near the target: no inverse kinematics is tried where
-  /// this is false.
+  /// Return whether the fingertip of a sampled configuration is near the target. If not, no inverse
+  /// kinematics is computed.
   [[nodiscard]] bool MayReach(const TipTarget& target) const { return NearestSample(target) >= 0; }
 
   [[nodiscard]] const Finger& finger() const { return finger_; }
-  /// The middle of the finger's range.
+  /// Return the middle of the joint ranges.
   [[nodiscard]] const Posture& middle() const { return middle_; }
-  /// The tips of the sampled postures, metres.
+  /// Return the fingertip positions of the samples, metres.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& sampled_tips() const { return centres_; }
 
  private:
@@ -72,13 +74,13 @@ class InverseKinematics {
   const Finger& finger_;
   PostureLimits limits_;
   Posture lower_, upper_, middle_, range_;
-  std::vector<Posture> samples_;    ///< by cell
-  std::vector<double> off_middle_;  ///< what they cost for being off the middle
+  std::vector<Posture> samples_;    ///< sorted by cell
+  std::vector<double> off_middle_;  ///< costs of distance from the middle, square metres
   std::vector<Eigen::Vector3d> centres_;
   std::vector<Eigen::Vector3d> axes_;
-  Eigen::Vector3d corner_;          ///< of the cells
-  Eigen::Vector3i cells_;           ///< along each axis
-  std::vector<int> first_of_cell_;  ///< and their number at the end
+  Eigen::Vector3d corner_;          ///< corner of the grid of cells
+  Eigen::Vector3i cells_;           ///< number of cells along each axis
+  std::vector<int> first_of_cell_;  ///< first sample of each cell, then their number
 };
 
 }  // namespace regrasp::kinematics

@@ -12,11 +12,11 @@
 namespace regrasp::kinematics {
 namespace {
 
-/// Names that a message lists before it counts the rest.
+/// Largest number of names in a message; the rest is counted.
 constexpr std::size_t kListedJoints = 6;
 
-/// The largest force of an actuator; 0 if it has no limit. The control range of a servo limits
-/// angles and not forces.
+/// Return the largest force of an actuator; 0 if it has no limit.
+/// The control range of a servo limits angles, not forces.
 double LargestForce(const mjModel& model, int actuator) {
   const auto largest = [&](const mjtNum* ranges) {
     return std::max(std::abs(ranges[2 * actuator]), std::abs(ranges[2 * actuator + 1]));
@@ -88,7 +88,7 @@ std::vector<std::string> ActuationWarnings(const HandModel& hand, const Compiled
       for (const JointActuator& actuator : actuators) {
         const auto joint = std::ranges::find(finger.joints, actuator.joint, &Joint::name);
         if (joint == finger.joints.end() || joint->drive != drive) continue;
-        // Of a URDF the joint that leads gets the motor.
+        // In a URDF model the independent joint has the actuator.
         if (compiled.text.root.name == "robot" && joint->follows) continue;
         const bool stronger =
             strongest == nullptr || actuator.largest_torque == 0 ||

@@ -16,7 +16,7 @@
 namespace regrasp::kinematics {
 namespace {
 
-/// A linear equation of joint angles: Σ coefficient · angle = constant, radians.
+/// Linear equation of joint angles: Σ coefficient · angle = constant, radians.
 struct JointEquation {
   std::map<int, double> coefficients;  ///< by joint of the model
   double constant = 0;
@@ -84,14 +84,14 @@ class RelationReader {
 
   const mjModel& model_;
   const ModelText& text_;
-  std::map<int, int> finger_of_;  ///< by joint
+  std::map<int, int> finger_of_;  ///< finger by joint
   std::vector<JointRelation> relations_;
 };
 
-/// Joints of fingers that move one body relative to another one.
+/// Return the finger joints that move one body relative to another.
 std::set<int> RelationReader::FingerJointsBetween(int a, int b) const {
   std::set<int> joints;
-  // The body with the larger index cannot be an ancestor of the other one.
+  // A body with the larger index cannot be an ancestor of a body with a smaller index.
   while (a != b) {
     int& lower = a > b ? a : b;
     for (int i = 0; i < model_.body_jntnum[lower]; ++i) {
@@ -133,7 +133,7 @@ void RelationReader::RefuseSpatial(const std::string& source, int tendon) const 
        "tendons move, found " + source);
 }
 
-/// A range of a sum of angles, which the limits of joints cannot represent.
+/// Reject a range of a sum of angles, which limits of single joints cannot represent.
 void RelationReader::RefuseLimit(int tendon) const {
   const std::string source = "the range of " + TendonText(tendon);
   if (!IsFixed(tendon)) {
@@ -175,7 +175,7 @@ void RelationReader::ReadEquality(int equality) {
   }
 }
 
-/// @returns whether a polynomial of degree 4 has no term beyond the linear one.
+/// Return whether a polynomial of degree 4 has no term beyond the linear one.
 bool IsLinear(const mjtNum* polynomial) {
   return polynomial[2] == 0 && polynomial[3] == 0 && polynomial[4] == 0;
 }
@@ -186,7 +186,7 @@ std::string PolynomialText(const mjtNum* polynomial) {
   return "polycoef=\"" + text + "\"";
 }
 
-/// The constraint is between angles beyond those of the reference position.
+/// Read a constraint between joints. Its angles are relative to the reference configuration.
 void RelationReader::ReadJointEquality(int equality) {
   const int joint = model_.eq_obj1id[equality];
   const int leader = model_.eq_obj2id[equality];
@@ -257,8 +257,9 @@ void RelationReader::ReadMimic(const Mimic& mimic) {
   AddRelation(equation, leader);
 }
 
-/// Only the sum of the angles is imposed: in equal shares the tendon pulls in the ratio of its
-/// coefficients.
+/// Read a fixed tendon with an actuator.
+/// The tendon imposes only the sum of the angles. Equal shares of it correspond to the ratio of the
+/// tendon's coefficients.
 void RelationReader::ReadDrivenTendon(int actuator) {
   const int tendon = model_.actuator_trnid[2 * actuator];
   const std::string name = TendonText(tendon) + " of actuator " + ActuatorName(model_, actuator);
@@ -291,7 +292,8 @@ void RelationReader::ExpectOneFinger(int joint, int leader, const std::string& s
        (both ? "joints of two fingers" : "a joint outside the fingers"));
 }
 
-/// @param leader  joint that leads, if the equation has it.
+/// Add the relation that an equation implies.
+/// @param leader  independent joint, if the equation contains it.
 void RelationReader::AddRelation(const JointEquation& equation, int leader, bool shares_actuator) {
   std::set<int> joints;
   for (const auto& [id, coefficient] : equation.coefficients) {

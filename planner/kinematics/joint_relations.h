@@ -7,15 +7,15 @@ namespace regrasp::kinematics {
 
 struct CompiledModel;
 
-/// A linear relation that a model imposes on the angles of two joints of one finger, radians:
-/// angle of `joint` = ratio · angle of `leader` + offset.
+/// Linear relation that a model imposes on two joints of one finger.
+/// The relation is angle of `joint` = ratio · angle of `leader` + offset, radians.
 struct JointRelation {
   int joint = 0;   ///< joint of the model, different from `leader`
   int leader = 0;  ///< joint of the model that the relation names as the independent one
   double ratio = 1;
   double offset = 0;
-  /// Whether only the sum of the angles is imposed, by a fixed tendon that one actuator pulls. The
-  /// ratio is then that of the tendon's coefficients, which the real hand need not keep.
+  /// Whether only the sum of the angles is imposed, by a fixed tendon with one actuator. The ratio
+  /// is then that of the tendon's coefficients, which the real hand can violate.
   bool shares_actuator = false;
   std::string source;  ///< element that imposes it, for messages: "<mimic> of joint ff2"
 };
@@ -25,13 +25,13 @@ struct JointRelation {
 /// The sources are active equality constraints of joints and of fixed tendons, URDF `<mimic>`
 /// elements, and fixed tendons with an actuator. Constraints that involve no joint of a finger are
 /// skipped. A constraint on angles beyond the reference position is converted to angles.
-/// @param fingers  joints of each finger, from the palm to the tip.
-/// @throws InputError  a finger has a joint that does not move as one joint of the finger commands:
-///                     a constraint that is not linear, holds a joint at an angle, involves three
-///                     joints, two fingers or a joint outside the fingers; a closed loop (connect,
-///                     weld); a spatial tendon with an actuator or an equality; a tendon with a
-///                     range; a `<mimic>` of an unknown joint. The message names the model's file
-///                     and the joints.
+/// @param fingers  joints of each finger, from the palm to the fingertip.
+/// @throws InputError  if a finger joint is constrained by anything but a linear relation to
+///     another joint of the same finger. Rejected are nonlinear constraints, fixed angles,
+///     constraints of three joints, and constraints across fingers or to joints outside the
+///     fingers. Also rejected are closed loops (connect, weld), spatial tendons with an actuator or
+///     an equality, tendons with a range, and `<mimic>` of an unknown joint. The message names the
+///     model's file and the joints.
 [[nodiscard]] std::vector<JointRelation> ReadJointRelations(
     const CompiledModel& compiled, const std::vector<std::vector<int>>& fingers);
 

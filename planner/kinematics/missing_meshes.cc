@@ -22,7 +22,8 @@ class LookDropper {
   void Drop() {
     FindMissing();
     if (missing_.empty()) return;
-    // The classes of defaults stay where they are: only bodies and assets change.
+    // Default classes must stay in place because `defaults_` refers to them. Only bodies and assets
+    // change.
     for (XmlElement& section : text_.root.children) {
       if (section.name == "worldbody") DropFrom(section, MjcfDefaults::kMain);
       if (section.name != "asset") continue;
@@ -90,7 +91,7 @@ class LookDropper {
   MeshPaths paths_;
   ModelText& text_;
   MjcfDefaults defaults_;
-  std::map<std::string, std::string> missing_;  ///< why, by the mesh's name
+  std::map<std::string, std::string> missing_;  ///< reason by name of the mesh
 };
 
 }  // namespace

@@ -7,13 +7,13 @@
 
 namespace regrasp::kinematics {
 
-/// Return why a file cannot be read as a mesh; empty if it has bytes.
+/// Return why a file cannot be read as a mesh; empty if it is a file with contents.
 [[nodiscard]] std::string WhyMeshIsMissing(const std::filesystem::path& path);
 
-/// Where an MJCF model has its meshes.
+/// Location of the meshes of an MJCF model.
 struct MeshPaths {
   std::filesystem::path folder;
-  bool strips_path = false;  ///< the folder of a file's name does not count
+  bool strips_path = false;  ///< whether folders in a mesh's file name are ignored
 
   [[nodiscard]] std::filesystem::path PathOf(const std::string& file) const {
     const std::filesystem::path path(file);
@@ -21,11 +21,10 @@ struct MeshPaths {
   }
 };
 
-/// Leave out the meshes of an MJCF model whose files are missing or empty, with the geoms that only
-/// show them: geoms that neither collide nor have a mass. Each is listed as a conversion.
-/// @throws InputError  a geom that collides, or that gives its body mass, has such a mesh. Names
-/// the
-///                     line and the file.
+/// Remove missing or empty meshes from an MJCF model, together with the geoms that only show them.
+/// These geoms neither collide nor have mass. Each removed geom is listed as a conversion.
+/// @throws InputError  if a geom with such a mesh collides or has mass. The message names the line
+///     and the file.
 void DropMissingLooks(const MeshPaths& paths, ModelText& text);
 
 }  // namespace regrasp::kinematics

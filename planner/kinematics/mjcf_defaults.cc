@@ -29,7 +29,7 @@ const std::string* MjcfDefaults::Find(const XmlElement& element, const std::stri
                                       const std::vector<const char*>& tags,
                                       const std::string& attribute) const {
   if (const std::string* own = element.Find(attribute)) return own;
-  std::set<std::string> seen;  // classes that contain each other end too
+  std::set<std::string> seen;  // stops at classes that contain each other
   for (std::string name = default_class; seen.insert(name).second;) {
     const auto found = classes_.find(name);
     if (found == classes_.end()) return nullptr;

@@ -8,21 +8,21 @@
 
 namespace regrasp::kinematics {
 
-/// The classes of defaults of an MJCF model, which give attributes to elements that have none.
+/// Default classes of an MJCF model, which define attributes that elements omit.
 class MjcfDefaults {
  public:
-  /// Name of the class that all elements are of.
+  /// Name of the root class.
   static constexpr char kMain[] = "main";
 
-  /// @param root  outlives this object and keeps its elements where they are.
+  /// @param root  root element; outlives this object and does not move its elements.
   explicit MjcfDefaults(const XmlElement& root);
 
-  /// Return the class of an element: its own, otherwise the one given.
+  /// Return the class of an element: its own, otherwise `otherwise`.
   [[nodiscard]] static std::string ClassOf(const XmlElement& element, const std::string& otherwise);
 
-  /// Return an attribute of an element, or of its class, or of one above that; nullptr if none has
-  /// it.
-  /// @param tags  names of the elements of the classes that may have it.
+  /// Return an attribute of an element; nullptr if there is none.
+  /// If the element omits it, its class and the ancestors of the class are searched.
+  /// @param tags  element names of the classes that can have the attribute.
   [[nodiscard]] const std::string* Find(const XmlElement& element, const std::string& default_class,
                                         const std::vector<const char*>& tags,
                                         const std::string& attribute) const;

@@ -19,11 +19,12 @@ using Attribute = std::pair<std::string, std::string>;
 
 constexpr std::size_t kDeepest = 200;
 
-/// What expat, which is C, is handed and hands back: exceptions do not pass through it.
+/// Parser state for the callbacks of expat. Exceptions must not pass through expat because it is a
+/// C library.
 struct Parsing {
   XML_Parser parser;
   std::string file;
-  std::vector<XmlElement> open;  ///< from the root to the innermost
+  std::vector<XmlElement> open;  ///< open elements from the root to the innermost
   XmlElement root;
   bool too_deep = false;
 
@@ -144,8 +145,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Puts what <include> names in its place, as MuJoCo does: relative to the model's folder, each
-/// file once.
+/// Resolver of `<include>` elements, as in MuJoCo: paths are relative to the model's folder, and
+/// each file is included once.
 class Includer {
  public:
   Includer(fs::path folder, std::vector<fs::path>& files)
@@ -187,7 +188,7 @@ class Includer {
   std::vector<fs::path>& files_;
 };
 
-/// Prefixes of names of the xacro namespace, with the colon.
+/// Name prefixes of the xacro namespace, with the colon.
 using XacroPrefixes = std::set<std::string>;
 
 XacroPrefixes XacroPrefixesOf(const XmlElement& element, XacroPrefixes prefixes) {
@@ -201,8 +202,9 @@ XacroPrefixes XacroPrefixesOf(const XmlElement& element, XacroPrefixes prefixes)
   return prefixes;
 }
 
-/// A model whose macros are not expanded would lose fingers and numbers without a word.
-/// @throws InputError  names the first element of xacro, or the attribute with an expression.
+/// Reject a model with unexpanded macros, which would silently lose fingers and numbers.
+/// @throws InputError  if it has any. The message names the first xacro element, or the attribute
+///     with an expression.
 void RefuseXacro(const XmlElement& element, const XacroPrefixes& above) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(element.file + ": line " + std::to_string(element.line) + ": " + what +

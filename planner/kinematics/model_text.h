@@ -10,41 +10,42 @@
 
 namespace regrasp::kinematics {
 
-/// An element of an XML file; text between elements is not kept.
+/// Element of an XML file. Text between elements is not kept.
 struct XmlElement {
   std::string name;
-  std::vector<std::pair<std::string, std::string>> attributes;  ///< in the order of the file
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< attributes in file order
   std::vector<XmlElement> children;
-  std::string file;  ///< where it stands, for messages
+  std::string file;  ///< file name in messages
   int line = 0;
 
-  /// @returns nullptr where it has no such attribute; valid until the attributes change.
+  /// Return an attribute; nullptr if there is none. Valid until the attributes change.
   [[nodiscard]] const std::string* Find(std::string_view attribute) const;
   void Set(std::string_view attribute, std::string value);
   void Remove(std::string_view attribute);
-  /// @returns nullptr where it has none; the first of several.
+  /// Return the first child with a name; nullptr if there is none.
   [[nodiscard]] const XmlElement* Child(std::string_view child) const;
 };
 
-/// @param file  how messages call it.
-/// @throws InputError  it is no XML, or elements are nested deeper than any model's.
+/// Parse an XML file.
+/// @param file  name of the file in messages.
+/// @throws InputError  if the text is not XML, or elements are nested deeper than 200 levels.
 [[nodiscard]] XmlElement ParseXml(std::string_view text, const std::string& file);
 
+/// Format an element as XML.
 /// Law: ParseXml of the text gives the same names, attributes and children.
 [[nodiscard]] std::string FormatXml(const XmlElement& root);
 
-/// What became of something in a model's file that MuJoCo, in the version that is linked here, does
-/// not know.
+/// Conversion of an element or attribute that the linked MuJoCo version does not know.
 struct Conversion {
   std::string file;
   int line = 0;
-  std::string element;    ///< "position", "joint"
-  std::string name;       ///< of the element, or its class; may be empty
-  std::string attribute;  ///< empty: the whole element
-  std::string outcome;    ///< "left out: …", "to ctrlrange, from the joint's range"
+  std::string element;    ///< element name: "position", "joint"
+  std::string name;       ///< name of the element, or its class; can be empty
+  std::string attribute;  ///< attribute; empty: the whole element
+  std::string outcome;    ///< result: "left out: …", "to ctrlrange, from the joint's range"
 };
 
-/// A joint of a URDF that follows another one: its angle is multiplier · other + offset.
+/// URDF joint that follows another joint: angle = multiplier · angle of `follows` + offset.
 struct Mimic {
   std::string joint;
   std::string follows;
@@ -52,43 +53,42 @@ struct Mimic {
   double offset = 0;
 };
 
-/// An actuator whose damping is given as a share of the critical one, which is known when the model
-/// is compiled.
+/// Actuator with a damping ratio.
+/// Its damping is known after compilation, because the critical damping depends on the inertia.
 struct DampingRatio {
-  int actuator = 0;  ///< in the order of the model
+  int actuator = 0;  ///< index in the order of the model
   double ratio = 1;
 };
 
-/// A file of a mesh that the model names.
+/// Mesh file that a model names.
 struct MeshFile {
   std::filesystem::path path;
-  /// What the model's text calls it, where MuJoCo is handed its bytes under that name; empty where
-  /// MuJoCo finds it.
+  /// Name under which MuJoCo gets the mesh's bytes; empty if it finds the file.
   std::string alias;
 };
 
-/// The text of a model, as MuJoCo is given it.
+/// Text of a model, as passed to MuJoCo.
 struct ModelText {
   XmlElement root;
-  std::vector<std::filesystem::path> files;  ///< of the model and what it includes
+  std::vector<std::filesystem::path> files;  ///< files of the model and its includes
   std::vector<Conversion> conversions;
-  std::vector<MeshFile> meshes;  ///< in the order of the text, each once
+  std::vector<MeshFile> meshes;  ///< distinct meshes in text order
   std::vector<Mimic> mimics;
-  /// Largest torque of each joint of a URDF, N m, by name; a joint without one, or with 0, is
-  /// absent.
+  /// Largest torque of each joint of a URDF model by name, N m. Joints without an `effort`, or with
+  /// `effort` 0, are absent.
   std::map<std::string, double> efforts;
   std::vector<DampingRatio> damping_ratios;
 };
 
-/// Reads an MJCF (with the files that it includes) or URDF model and converts it to what MuJoCo,
-/// as it is linked here, can read: newer versions have more.
+/// Read an MJCF or URDF model and convert it to the linked MuJoCo version.
+/// The includes of an MJCF model are read, too.
 ///
-/// What has an effect is converted (convert_mjcf.h, convert_urdf.h), what has none on how a hand
-/// moves and what it looks like is left out, and all of it is listed. A model that needs nothing of
-/// it stays word for word what it is, but for its layout.
-/// @throws InputError  names the file and line: no XML, neither MJCF nor URDF, an include that
-///                     leads to itself, an element that cannot be converted (replicate, attach),
-///                     xacro that is not expanded.
+/// Elements that affect the hand are converted (convert_mjcf.h, convert_urdf.h). Elements that
+/// affect neither its motion nor its visuals are removed. All conversions are listed. A model that
+/// requires no conversion keeps its text except for the layout.
+/// @throws InputError  if the file is not XML, is neither MJCF nor URDF, includes itself, or has an
+///     element that cannot be converted (replicate, attach) or unexpanded xacro. The message names
+///     the file and line.
 [[nodiscard]] ModelText ReadModelText(const std::filesystem::path& path);
 
 }  // namespace regrasp::kinematics

@@ -24,7 +24,7 @@ namespace regrasp::kinematics {
 namespace {
 
 constexpr std::size_t kIndent = 3;
-/// The names of elements begin to the left of this column, attributes not.
+/// Column that separates elements from attributes: names of elements begin left of it.
 constexpr std::size_t kAttributeColumn = 30;
 
 std::string PrintedSchema() {
@@ -37,8 +37,9 @@ std::string PrintedSchema() {
   return text;
 }
 
-/// Lines are "   name (type)    attribute attribute …", deeper elements farther to the right;
-/// lines that begin in the column of the attributes go on with those of the element before.
+/// Parse the printed schema.
+/// Lines are "   name (type)    attribute attribute …", with deeper indentation for children. Lines
+/// that begin in the column of the attributes continue the previous element.
 SchemaElement Parse(const std::string& text) {
   SchemaElement root;
   std::vector<SchemaElement*> open;
@@ -67,7 +68,7 @@ SchemaElement Parse(const std::string& text) {
 
 const SchemaElement* SchemaElement::Child(const std::string& parent,
                                           const std::string& child) const {
-  // A worldbody is a body in the schema.
+  // The schema lists worldbody as body.
   const std::string known = child == "worldbody" ? "body" : child;
   const std::string self = parent == "worldbody" ? "body" : parent;
   if (recursive && known == self) return this;
@@ -90,7 +91,7 @@ constexpr object::ChildLimits kLimits = {.memory_bytes = std::size_t{4} << 30,
                                          .opens_files = true};
 constexpr const char* kBinaryName = "hand.mjb";
 
-/// Called by MuJoCo where it would otherwise end the process.
+/// Error handler of MuJoCo, whose default ends the process.
 [[noreturn]] void ThrowError(const char* message) { throw std::runtime_error(message); }
 void IgnoreWarning(const char* /*message*/) {}
 
@@ -98,7 +99,7 @@ ModelPtr Load(const fs::path& path, const ModelText& text) {
   mju_user_error = ThrowError;
   mju_user_warning = IgnoreWarning;
   mujoco::MemoryFiles files;
-  // Under the model's own name, so that meshes are looked for beside it.
+  // The model's own name makes MuJoCo search for meshes in its folder.
   files.Add(path.filename().string(), FormatXml(text.root));
   for (const MeshFile& mesh : text.meshes) {
     if (!mesh.alias.empty()) files.Add(mesh.alias, ReadFile(mesh.path));
@@ -112,7 +113,7 @@ ModelPtr Load(const fs::path& path, const ModelText& text) {
 
 std::string SaveMjcf(const fs::path& path, const ModelText& text) {
   const ModelPtr model = Load(path, text);
-  // MuJoCo writes to files alone.
+  // MuJoCo can write to files only.
   const std::string name = "/proc/self/fd/" + std::to_string(memfd_create("mjcf", 0));
   std::array<char, 1000> error{};
   if (mj_saveLastXML(name.c_str(), model.get(), error.data(), static_cast<int>(error.size())) ==
@@ -137,8 +138,8 @@ ModelPtr FromBytes(const std::string& bytes) {
   return model;
 }
 
-/// What a child with a model makes of it.
-/// @throws std::runtime_error  what MuJoCo says against the model.
+/// Run a task with a model in a limited child process.
+/// @throws std::runtime_error  if MuJoCo rejects the model; with its message.
 std::string InChild(const std::function<std::string()>& task) {
   const object::ChildResult result = object::RunInLimitedChild(task, kLimits);
   switch (result.end) {
@@ -154,7 +155,8 @@ std::string InChild(const std::function<std::string()>& task) {
   throw std::logic_error("CompileModel: a child's end");
 }
 
-/// @throws std::runtime_error  what MuJoCo says against the model.
+/// Compile a model in a limited child process.
+/// @throws std::runtime_error  if MuJoCo rejects the model; with its message.
 ModelPtr Compile(const fs::path& path, const ModelText& text) {
   return FromBytes(InChild([&] { return CompileToBytes(path, text); }));
 }
@@ -163,8 +165,8 @@ InputError Refused(const fs::path& path, const std::runtime_error& error) {
   return InputError(path.string() + ": rejected by MuJoCo: " + error.what());
 }
 
-/// As newer versions do it: critical damping of the inertia at rest that an actuator moves, times
-/// the ratio.
+/// Compute dampings as newer MuJoCo versions do: the ratio times the critical damping of the
+/// inertia that an actuator moves in the reference configuration.
 std::vector<double> DampingsOf(const mjModel& model, const std::vector<DampingRatio>& ratios) {
   const DataPtr data(mj_makeData(&model));
   if (!data) throw EnvironmentError("MuJoCo cannot make the data of a hand's model");
@@ -194,7 +196,7 @@ CompiledModel CompileModel(const fs::path& path) {
     try {
       compiled.model = Compile(path, text);
     } catch (const std::runtime_error& error) {
-      // MuJoCo demands more of meshes than looks need.
+      // MuJoCo's requirements on meshes are stricter than visual geoms need.
       if (text.root.name != "robot") throw;
       DiscardLooks(error.what(), text);
       compiled.model = Compile(path, text);

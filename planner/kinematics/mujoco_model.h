@@ -13,18 +13,18 @@
 
 namespace regrasp::kinematics {
 
-/// What an element of MJCF may have, as the MuJoCo that is linked here says of itself.
+/// Schema of an MJCF element in the linked MuJoCo version.
 struct SchemaElement {
   std::set<std::string, std::less<>> attributes;
   std::map<std::string, SchemaElement, std::less<>> children;
-  bool recursive = false;  ///< it may contain itself
+  bool recursive = false;  ///< whether it can contain itself
 
-  /// @returns nullptr where it may have no such child.
+  /// Return the schema of a child; nullptr if the element cannot have it.
   [[nodiscard]] const SchemaElement* Child(const std::string& parent,
                                            const std::string& child) const;
 };
 
-/// The element <mujoco>, from mj_printSchema.
+/// Return the schema of the element `<mujoco>`, from mj_printSchema.
 [[nodiscard]] const SchemaElement& MujocoSchema();
 
 using mujoco::DataPtr;
@@ -32,25 +32,25 @@ using mujoco::ModelPtr;
 
 struct CompiledModel {
   ModelPtr model;
-  ModelText text;  ///< of which it was compiled
+  ModelText text;  ///< compiled text
 };
 
-/// Compiles an MJCF or URDF model with the meshes that it names, converted to what the linked
-/// MuJoCo knows (model_text.h). That is done in a limited child process: whatever is in the files,
-/// this one goes on.
-/// @throws InputError  names the file and says what is wrong, or what MuJoCo says of it.
+/// Compile an MJCF or URDF model with its meshes.
+/// The model is converted to the linked MuJoCo version (model_text.h).
+/// MuJoCo runs in a limited child process, so that no model can crash the caller.
+/// @throws InputError  if the model is invalid. The message names the file and has MuJoCo's reason.
 [[nodiscard]] CompiledModel CompileModel(const std::filesystem::path& path);
 
-/// Compiles a text, in a limited child process.
-/// @param path  of the model that the text was read from: meshes are looked for beside it.
-/// @throws InputError  what MuJoCo says against it.
+/// Compile a model text in a limited child process.
+/// @param path  file that the text was read from; meshes are relative to it.
+/// @throws InputError  if MuJoCo rejects it.
 [[nodiscard]] ModelPtr CompileText(const std::filesystem::path& path, const ModelText& text);
 
-/// A text as MJCF, whatever it is: what MuJoCo made of it, in a limited child process.
-/// @throws InputError  what MuJoCo says against it.
+/// Convert a model text to MJCF, by MuJoCo in a limited child process.
+/// @throws InputError  if MuJoCo rejects it.
 [[nodiscard]] ModelText AsMjcf(const std::filesystem::path& path, const ModelText& text);
 
-/// Bodies, geoms and joints as the model has them at rest (qpos0), in world coordinates.
+/// Compute positions in the reference configuration (qpos0), in world coordinates.
 [[nodiscard]] DataPtr AtRest(const mjModel& model);
 
 }  // namespace regrasp::kinematics

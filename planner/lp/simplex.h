@@ -10,75 +10,77 @@
 
 namespace regrasp::lp {
 
-/// Entries of B⁻¹ w below this (most are of the order of 1) are no pivots: the inverse would lose
-/// more than half of its digits.
+/// Smallest pivot among the entries of B⁻¹ w, which are typically of order 1.
+/// Below it the inverse would lose more than half of its digits.
 inline constexpr double kPivot = 1e-9;
 
-/// Basic weights are allowed to be this much below zero in the ratio test, so that a larger pivot
-/// can be taken among nearly equal ratios.
+/// Tolerance of negative basic weights in the ratio test.
+/// It allows a larger pivot among nearly equal ratios.
 inline constexpr double kRatioSlack = 1e-13;
 
-/// How far Simplex::Run may go.
+/// Limits of Simplex::Run.
 struct Limits {
-  int pivots;  ///< what takes more is stalling
-  /// After so many pivots the inverse is computed afresh.
+  int pivots;  ///< largest number of pivots; beyond it the program stalls
+  /// Number of pivots after which the inverse is recomputed.
   int refactor_after = std::numeric_limits<int>::max();
 };
 
-/// Why Simplex::Run ended.
+/// Reason why Simplex::Run ended.
 enum class End {
-  kNoColumn,    ///< the pricing step gave none
-  kUnbounded,   ///< the column it gave can grow without end
-  kPivotLimit,  ///< more pivots than allowed
+  kNoColumn,    ///< the pricing step gave no column
+  kUnbounded,   ///< the column of the pricing step can grow without bound
+  kPivotLimit,  ///< the limit of pivots is reached
 };
 
-/// The revised simplex method with an explicit inverse of the basis, for programs of few rows and
-/// any number of columns, also infinitely many:
+/// Revised simplex method with an explicit inverse of the basis, for programs with few rows and any
+/// number of columns, even infinitely many:
 ///
 ///     minimise Σ cost_j λ_j   over λ ≥ 0   with   Σ λ_j w_j = b,   w_j and b of kRows numbers.
 ///
-/// Columns are generated: the user's pricing step is given the dual solution y, and names a column
-/// with a positive reduced cost y · w − cost, best the largest of all (Dantzig's rule), or none.
-/// Of a circular friction cone that column is closed form, so cones need no edges. For every
-/// solution with Σ λ ≤ s and every bound c on the reduced costs, Σ cost λ ≥ y · b − c s.
+/// Columns are generated. The caller's pricing step gets the dual solution y and returns a column
+/// with positive reduced cost y · w − cost, or none. The column with the largest reduced cost is
+/// best (Dantzig's rule). For a circular friction cone this column has a closed form, so cones are
+/// not linearized. For every solution with Σ λ ≤ s and every bound c on the reduced costs, Σ cost λ
+/// ≥ y · b − c s.
 ///
-/// A program starts either from a basis that is known to be feasible, or in a first phase from
-/// artificial columns ±e_r, whose weights are what is minimised there. In the second phase they
-/// weigh nothing, and leave before any other.
+/// A program starts from a feasible basis, or in a first phase from artificial columns ±e_r. The
+/// first phase minimizes the weights of the artificial columns. In the second phase they cost
+/// nothing and leave before all other columns.
 ///
-/// The column that leaves is the one with the largest entry among nearly least ratios (Harris).
-/// That keeps the inverse's digits; it does not exclude cycles in degenerate programs, as Bland's
-/// rule would at the price of more pivots (Avis and Chvátal 1978). Limits::pivots ends them, and
-/// UnevenWeight helps to avoid degenerate programs in the first place.
+/// The leaving column has the largest entry among nearly minimal ratios (Harris), which preserves
+/// the accuracy of the inverse. This rule does not exclude cycles in degenerate programs, as
+/// Bland's rule would at the price of more pivots (Avis and Chvátal 1978). Limits::pivots ends
+/// cycles, and UnevenWeight helps to avoid degenerate programs.
 ///
-/// Sources: Dantzig 1963; Dantzig and Wolfe 1960 (column generation); Harris 1973 (ratio test);
+/// Sources: Dantzig 1963, Dantzig and Wolfe 1960 (column generation), Harris 1973 (ratio test),
 /// Bland 1977 (cycles).
 ///
 /// Laws: after every pivot Σ λ w = b and λ ≥ 0 up to rounding and kRatioSlack, and the objective
-/// has not risen.
+/// has not increased.
 ///
-/// @tparam Column  a value that has
-///                 `template <class Visit> void ForEachEntry(const Visit& visit) const`, which
-///                 calls visit(row, value) for its entries that are not 0, and `double cost()
-///                 const`, its cost in the second phase.
+/// @tparam Column  value type with `template <class Visit> void ForEachEntry(const Visit& visit)
+///     const`, which calls visit(row, value) for its nonzero entries, and with `double cost()
+///     const`, its cost in the second phase.
 template <int kRows, class Column>
 class Simplex {
  public:
   using Vector = Eigen::Matrix<double, kRows, 1>;
 
-  /// The first phase, from artificial columns alone.
-  /// @param kept  1, or 0 in rows that are left out: what columns have there counts for nothing.
+  /// Start the first phase from artificial columns only.
+  /// @param right  right-hand side b.
+  /// @param kept  1, or 0 in rows that are omitted: entries of columns there are ignored.
   void StartFeasibility(const Vector& right, const Vector& kept = Vector::Ones()) {
     SetUnitBasis(right, kept);
     TurnArtificial();
   }
 
-  /// The first phase, with one column in place of the artificial one of its row, where its entry is
-  /// no less than kPivot. Its weight is right[row] over that entry, which must not be negative.
+  /// Start the first phase with one column instead of the artificial column of its row.
+  /// The column's entry in this row is at least kPivot. Its weight, right[row] divided by that
+  /// entry, must not be negative.
   void StartFeasibility(const Vector& right, const Column& column, int row) {
     SetUnitBasis(right, Vector::Ones());
-    // What Replace and TurnArtificial do, where the inverse is the unit matrix: for programs of few
-    // rows that is a tenth of their time.
+    // Same as Replace and TurnArtificial for a unit inverse. For programs with few rows this saves
+    // a tenth of their time.
     TableauColumn entries = TableauColumn::Zero();
     column.ForEachEntry([&](int r, double value) { entries[r] = value; });
     const double scale = 1 / entries[row];
@@ -101,8 +103,9 @@ class Simplex {
     ComputeDual();
   }
 
-  /// The second phase, from columns of which a weighted sum is the right-hand side; its weights are
-  /// to be ≥ 0, or made so by EnterAt.
+  /// Start the second phase from a basis.
+  /// The weights must be at least 0, or made so by EnterAt.
+  /// @param columns  columns of which a weighted sum is the right-hand side.
   void StartFromBasis(const std::array<Column, kRows>& columns, const Vector& right) {
     right_ = right;
     basis_ = columns;
@@ -114,14 +117,15 @@ class Simplex {
     Refactor();
   }
 
-  /// The second phase, from where the first one ended.
+  /// Start the second phase from the end of the first.
   void StartOptimality() {
     optimising_ = true;
     ComputeDual();
   }
 
-  /// Pivots on what `price` gives until it gives nothing.
-  /// @param price  bool(const Vector& dual, Column& column): sets the column; false gives nothing.
+  /// Pivot on the columns of a pricing step until it gives none.
+  /// @param price  bool(const Vector& dual, Column& column): sets the column; returns false for
+  ///     none.
   template <class Price>
   End Run(const Price& price, const Limits& limits) {
     Column column;
@@ -133,8 +137,8 @@ class Simplex {
     return End::kPivotLimit;
   }
 
-  /// One pivot, the leaving column chosen by the weights. @returns the row that the column is in
-  /// now, or −1 where nothing holds it.
+  /// Pivot once; the weights determine the leaving column.
+  /// @returns the column's row, or −1 if its weight is unbounded.
   int Enter(const Column& column) {
     const TableauColumn alpha = TimesInverse(column);
     const int leaving = ChooseLeaving(alpha);
@@ -142,9 +146,9 @@ class Simplex {
     return leaving;
   }
 
-  /// One pivot in which the column of a given row leaves. Weights may become negative, and those
-  /// that are may become positive: a step of the dual simplex method.
-  /// @returns false, and leaves all as it was, where the column's entry there is no pivot.
+  /// Pivot once in a given row, which is a step of the dual simplex method.
+  /// Weights can become negative, and negative weights positive.
+  /// @returns false, without any change, if the column's entry in the row is too small for a pivot.
   bool EnterAt(int row, const Column& column) {
     const TableauColumn alpha = TimesInverse(column);
     if (!(std::abs(alpha[row]) > kPivot)) return false;
@@ -152,14 +156,15 @@ class Simplex {
     return true;
   }
 
-  /// The same for a column whose weight may have any sign, so that it never leaves. Only one is.
+  /// Pivot once with a free column: its weight can have any sign, so it never leaves. At most one
+  /// column is free.
   int EnterFree(const Column& column) {
     const int row = Enter(column);
     if (row >= 0) free_row_ = row;
     return row;
   }
 
-  /// Computes the inverse, the weights and the dual solution afresh.
+  /// Recompute the inverse, the weights and the dual solution.
   void Refactor() {
     Eigen::Matrix<double, kRows, kRows> matrix = Eigen::Matrix<double, kRows, kRows>::Zero();
     for (int c = 0; c < kRows; ++c) {
@@ -182,22 +187,22 @@ class Simplex {
     pivots_since_refactor_ = 0;
   }
 
-  /// y: what a unit of each row costs.
+  /// Return y: the cost per unit of each row.
   [[nodiscard]] Vector dual() const { return bottom_.template head<kRows>(); }
   [[nodiscard]] double objective() const { return bottom_[kRows]; }
 
-  /// λ of the basic columns, by rows.
+  /// Return λ of the basic columns, by row.
   [[nodiscard]] auto weights() const { return tableau_.col(kRows).template head<kRows>(); }
-  /// B⁻¹.
+  /// Return B⁻¹.
   [[nodiscard]] auto inverse() const { return tableau_.template topLeftCorner<kRows, kRows>(); }
   [[nodiscard]] bool is_artificial(int row) const { return artificial_[row] != 0; }
   [[nodiscard]] int artificial_count() const { return artificial_count_; }
-  /// The basic column of a row; null where it is artificial, or the row is left out.
+  /// Return the basic column of a row; null if it is artificial or the row is omitted.
   [[nodiscard]] const Column* column(int row) const {
     return unit_entry_[row] == 0 ? &basis_[row] : nullptr;
   }
 
-  /// Σ |b − Σ λ w|, what artificial columns carry.
+  /// Return Σ |b − Σ λ w|, the sum of the artificial weights.
   [[nodiscard]] double unbalanced() const {
     double sum = 0;
     for (int r = 0; r < kRows; ++r) {
@@ -207,21 +212,22 @@ class Simplex {
   }
 
  private:
-  static constexpr int kColumns = kRows + 1;  // and the weights
-  /// And the objective; an even number, so that columns are aligned. What is beyond it is zero.
+  static constexpr int kColumns = kRows + 1;  // including the weights
+  /// Including the objective. An even number keeps columns aligned; rows beyond the objective are
+  /// zero.
   static constexpr int kHeight = (kRows + 2) / 2 * 2;
   using TableauColumn = Eigen::Matrix<double, kHeight, 1>;
   using TableauRow = Eigen::Matrix<double, 1, kColumns>;
 
-  /// In place of entries that are no pivots: no ratio over it is the least.
+  /// Replacement of entries that are too small for pivots, so that their ratios are never minimal.
   static constexpr double kNoDivisor = 1e-200;
 
   [[nodiscard]] bool IsLeftOut(int row) const {
     return unit_entry_[row] != 0 && !is_artificial(row);
   }
 
-  /// B⁻¹ w, by which the basic weights fall with the column's, and in the objective's row the
-  /// reduced cost.
+  /// Return B⁻¹ w, the decrease of the basic weights per unit of the column's weight. The
+  /// objective's row is the reduced cost.
   [[nodiscard]] TableauColumn TimesInverse(const Column& column) const {
     TableauColumn alpha = TableauColumn::Zero();
     column.ForEachEntry([&](int row, double entry) { alpha += entry * tableau_.col(row); });
@@ -231,13 +237,13 @@ class Simplex {
 
   [[nodiscard]] int ChooseLeaving(const TableauColumn& alpha) const {
     if (optimising_ && artificial_count_ > 0) {
-      // Whichever way the entering column would move them.
+      // Artificial columns leave first, whatever the sign of their change.
       for (int r = 0; r < kRows; ++r) {
         if (is_artificial(r) && std::abs(alpha[r]) > kPivot) return r;
       }
     }
-    // All rows at once: which entries can be pivots nobody predicts, and branches that are
-    // mispredicted took longer than the rest of a pivot.
+    // All rows are computed without branches: mispredicted branches took longer than the rest of a
+    // pivot.
     TableauColumn divisors;
     for (int r = 0; r < kHeight; ++r) divisors[r] = alpha[r] > kPivot ? alpha[r] : kNoDivisor;
     divisors[free_row_] = kNoDivisor;
@@ -284,7 +290,7 @@ class Simplex {
     tableau_.col(kRows).template head<kRows>() = right_;
   }
 
-  /// Gives artificial columns the signs of what they carry.
+  /// Give artificial columns the signs of their weights.
   void TurnArtificial() {
     for (int r = 0; r < kRows; ++r) {
       if (!is_artificial(r)) continue;
@@ -309,16 +315,16 @@ class Simplex {
 
   Vector right_;
   std::array<Column, kRows> basis_;
-  /// ±1 where the basic column is not the user's but that times the row's unit vector, otherwise 0.
+  /// ±1 if the basic column is an artificial or omitted unit vector of the row, otherwise 0.
   Vector unit_entry_;
-  Vector artificial_;  ///< 1 where that is an artificial column
-  TableauRow bottom_;  ///< the tableau's row kRows once more: the pricing step reads it at once
+  Vector artificial_;  ///< 1 if the basic column is artificial
+  TableauRow bottom_;  ///< copy of the tableau's row kRows, which the pricing step reads often
   int artificial_count_ = 0;
-  int free_row_ = kRows;  ///< of the column that may have any sign; kRows where none has
+  int free_row_ = kRows;  ///< row of the free column; kRows if there is none
   bool optimising_ = false;
   int pivots_since_refactor_ = 0;
-  // Row r: the inverse basis's row and the weight of basis_[r]; row kRows: the dual and the
-  // objective's value.
+  // Row r: row of the inverse basis, and weight of basis_[r]. Row kRows: dual solution, and value
+  // of the objective.
   Eigen::Matrix<double, kHeight, kColumns> tableau_;
 };
 

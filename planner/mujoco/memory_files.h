@@ -7,9 +7,8 @@
 
 namespace regrasp::mujoco {
 
-/// Files that MuJoCo finds in memory before it looks for them on the disk, by the last part of
-/// their paths. An empty store is 2 MB that the engine clears: keep one where models are made
-/// often.
+/// Files in memory that MuJoCo finds before those on disk, by file name without folders.
+/// An empty store is 2 MB that MuJoCo clears, so code that creates models often should reuse one.
 class MemoryFiles {
  public:
   MemoryFiles();
@@ -17,9 +16,10 @@ class MemoryFiles {
   MemoryFiles(const MemoryFiles&) = delete;
   MemoryFiles& operator=(const MemoryFiles&) = delete;
 
-  /// @throws std::runtime_error  there are too many, or one of this name.
+  /// Add a file.
+  /// @throws std::runtime_error  if there are too many files, or there is one with this name.
   void Add(const std::string& name, const std::string& bytes);
-  /// The same in place of one of this name.
+  /// Add a file, or replace the file with this name.
   void Replace(const std::string& name, const std::string& bytes);
   [[nodiscard]] const mjVFS* get() const { return files_.get(); }
 

@@ -14,11 +14,11 @@ namespace regrasp::object {
 
 namespace {
 
-/// Elements that assimp 5.2 ignores or reads as another surface.
+/// Elements that assimp 5.2 ignores or converts to a different surface.
 constexpr auto kMisread = std::to_array<std::string_view>(
     {"brep", "convex_mesh", "instance_controller", "lookat", "ph", "skew", "spline"});
 
-/// Elements whose surface is where their `url` leads.
+/// Elements that refer to a surface by `url`.
 constexpr auto kInstances = std::to_array<std::string_view>(
     {"instance_geometry", "instance_node", "instance_visual_scene"});
 

@@ -20,7 +20,7 @@ constexpr std::size_t kGlbHeader = 12, kChunkHeader = 8;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr long long kMostElements = 3 * static_cast<long long>(kMaxFacets);
 
-/// Numbers of glTF's component types.
+/// Codes of component types in glTF.
 enum ComponentType : long long {
   kByte = 5120,
   kUnsignedByte = 5121,
@@ -37,7 +37,7 @@ T TakeNumber(const char* at) {
   return value;
 }
 
-/// 0 for a number that is not a component type.
+/// Return the size in bytes of a component type; 0 for an unknown code.
 std::size_t SizeOf(long long type) {
   if (type == kByte || type == kUnsignedByte) return 1;
   if (type == kShort || type == kUnsignedShort) return 2;

@@ -18,7 +18,7 @@ constexpr const char* kRelationships = "_rels/.rels";
 constexpr std::string_view kModelType =
     "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 
-/// The text with "%20" and its like as the characters that they stand for.
+/// Decode percent-encoded characters such as "%20".
 std::string PercentDecoded(std::string_view text) {
   std::string decoded;
   while (!text.empty()) {

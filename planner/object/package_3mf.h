@@ -7,7 +7,7 @@
 
 namespace regrasp::object {
 
-/// The parts of a 3MF package, by their names in the Open Packaging Conventions.
+/// Parts of a 3MF package, by their names in the Open Packaging Conventions.
 class Package3mf {
  public:
   /// @param bytes  bytes of the package; must outlive this object.

@@ -27,7 +27,7 @@ constexpr std::string_view kProduction =
 constexpr std::string_view kMaterials =
     "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 
-/// An object of a part of the package.
+/// Name of an object in a part of the package.
 struct ObjectName {
   std::string part, id;
   auto operator<=>(const ObjectName&) const = default;
@@ -45,7 +45,7 @@ struct Object3mf {
   std::vector<Placed> components;
 };
 
-/// A model part.
+/// Contents of a model part.
 struct Model {
   std::string part;
   std::string unit = "millimeter";
@@ -63,7 +63,7 @@ int VertexOf(const XmlTag& tag, std::string_view attribute, const PolygonSoup& m
                    " is out of range (" + std::to_string(mesh.vertices.size()) + " vertices)");
 }
 
-/// Twelve numbers, the rows of a matrix that points are multiplied with from the left.
+/// Read twelve numbers: the rows of a matrix by which a point, as a row vector, is multiplied.
 Affine3d TransformOf(const XmlTag& tag) {
   Affine3d transform = Affine3d::Identity();
   const auto text = tag.Find("transform");
@@ -75,14 +75,15 @@ Affine3d TransformOf(const XmlTag& tag) {
   return transform;
 }
 
-/// The object of an item or a component: of this part, or of the one that `p:path` names.
+/// Return the object of an item or component, in this part or in the one given by `p:path`.
 Placed PlacedBy(const XmlTag& tag, const Model& model) {
   const auto path = tag.Find("path", kProduction);
   return {{path ? Package3mf::PartName(*path) : model.part, tag.Text("objectid")},
           TransformOf(tag)};
 }
 
-/// Other required extensions change what the core elements mean.
+/// Read the attributes of a model. All other required extensions are rejected, because they change
+/// the meaning of the core elements.
 void TakeModel(const XmlTag& tag, Model& model) {
   if (auto unit = tag.Find("unit")) model.unit = *std::move(unit);
   std::istringstream required(tag.Find("requiredextensions").value_or(""));
@@ -111,7 +112,7 @@ void TakeItem(const XmlTag& tag, Model& model) {
   model.items.push_back(PlacedBy(tag, model));
 }
 
-/// Extensions add these to an object; they replace its mesh or add to it.
+/// Elements by which extensions replace the mesh of an object or add to it.
 constexpr auto kOtherShapes = std::to_array<std::string_view>(
     {"beamlattice", "booleanshape", "displacementmesh", "levelset", "implicitfunction"});
 
@@ -174,16 +175,17 @@ const Unit3mf& UnitOf3mf(const std::string& unit) {
   return found->second;
 }
 
-/// Components of components lie no deeper, and no more objects are placed.
+/// Maximum depth of nested components, and maximum number of placed objects.
 constexpr int kDeepest = 64, kMostPlaced = 100'000;
 
-/// The model parts of a package, each parsed once.
+/// Model parts of a package, each parsed once.
 class Models {
  public:
   explicit Models(std::string_view bytes) : package_(bytes), root_(package_.RootModel()) {}
 
   const Model& root() { return Part(root_); }
 
+  /// Return an object.
   /// @throws InputError  if there is no such object.
   const Object3mf& Find(const ObjectName& name) {
     const Model& model = Part(name.part);

@@ -18,7 +18,7 @@ namespace regrasp::object {
 
 namespace {
 
-/// Its process is ended when the time is up.
+/// Read with assimp; the child process is killed at the deadline.
 PolygonSoup ReadWithAssimp(const std::string& bytes, const std::filesystem::path& path,
                            const Deadline& deadline) {
   AssimpLimits limits;
@@ -66,7 +66,7 @@ ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
     file.object = std::make_unique<Polygon>(Polygon::FromWkt(bytes, path.string()));
   } else {
     const PolygonSoup soup = ParseSoup(path, bytes, reading.deadline);
-    std::string().swap(bytes);  // large files are read in little memory
+    std::string().swap(bytes);  // frees memory while a large file is processed
     file.unit = soup.unit;
     file.object = std::make_unique<Polyhedron>(Polyhedron::FromSoup(soup, path.string(), reading));
   }

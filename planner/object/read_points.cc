@@ -20,13 +20,13 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
 
-/// What the header of a PCD file says.
+/// Header of a PCD file.
 struct PcdHeader {
-  std::map<std::string, std::vector<std::string>> lines;  ///< by their first words
-  std::size_t body = 0;                                   ///< where the points begin
+  std::map<std::string, std::vector<std::string>> lines;  ///< words of each line, by its first word
+  std::size_t body = 0;                                   ///< offset of the points
 };
 
-/// A field of a point: where it stands and what it is.
+/// Position and type of a field of a point.
 struct PcdField {
   std::string name;
   std::size_t size = 4;
@@ -81,7 +81,7 @@ std::vector<PcdField> ReadFields(const PcdHeader& header, const std::string& nam
   return list;
 }
 
-/// For each axis the place of its field.
+/// Find the index of the field of each axis.
 std::array<std::size_t, 3> FindAxes(const std::vector<PcdField>& fields, const std::string& name) {
   std::array<std::size_t, 3> places;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -97,7 +97,7 @@ std::array<std::size_t, 3> FindAxes(const std::vector<PcdField>& fields, const s
   return places;
 }
 
-/// Points without coordinates are where an organized cloud saw nothing.
+/// Add a point unless it is not finite: organized clouds store missing measurements so.
 void AddPoint(const Eigen::Vector3d& point, PolygonSoup& cloud) {
   if (point.allFinite()) cloud.vertices.push_back(point);
 }

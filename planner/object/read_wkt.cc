@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
-/// Boost.Geometry reads WKT too, but follows the locale and says neither ring nor vertex.
+/// Reader of WKT. Boost.Geometry's reader depends on the locale and reports neither ring nor
+/// vertex.
 class WktReader {
  public:
   WktReader(std::string_view text, const std::string& name)
@@ -74,14 +75,14 @@ class WktReader {
     return *value;
   }
 
-  /// "POLYGON EMPTY", "POLYGON Z", "POLYGON M".
+  /// Reject "POLYGON EMPTY", "POLYGON Z" and "POLYGON M".
   void RefuseWords() {
     const std::string word = LowerCase(PeekWord());
     if (word == "empty") Fail("empty");
     if (!word.empty()) Fail(Quoted(word) + ", expected \"(\"");
   }
 
-  /// The next character that is not blank; '\0' at the end.
+  /// Return the next character that is not blank; '\0' at the end.
   char Peek() {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
     return rest_.empty() ? '\0' : rest_.front();

@@ -34,11 +34,11 @@ const RestClosure::Found& RestClosure::Of(const FingerGrasp& grasp) {
 
 namespace {
 
-/// Whether a contact can turn from a face to another at a point of both: it reaches that point, and
-/// leaves it, without leaving the faces.
+/// Return whether a contact can change from one face to another at a common point.
+/// It reaches and leaves that point without leaving the faces.
 bool TurnsAtCommonPoint(const object::Object& object, const grasp::Contact& from,
                         const grasp::Contact& to, double tolerance) {
-  // Each of two points that should be one may be off by the tolerance.
+  // Each of the two points may be off by the tolerance.
   const auto common = object.CommonPoints(from.face, to.face, from.p, 2 * tolerance);
   return std::ranges::any_of(common, [&](const Eigen::Vector3d& p) {
     return object.ContainsSegment(from.face, from.p, p, tolerance) &&
@@ -75,10 +75,10 @@ std::string FingerName(FingerIndex finger) { return "finger " + std::to_string(f
 
 std::string WaypointName(std::size_t waypoint) { return "waypoint " + std::to_string(waypoint); }
 
-/// Of a grasp that is no waypoint of an align.
+/// Waypoint number of a grasp that is not a waypoint of a sliding step.
 constexpr int kNoWaypoint = -1;
 
-/// "waypoint 2: finger 1", or "finger 1" where there is no waypoint to name.
+/// Return "waypoint 2: finger 1", or "finger 1" without a waypoint.
 std::string At(int waypoint, FingerIndex finger) {
   return waypoint < 0 ? FingerName(finger) : WaypointName(waypoint) + ": " + FingerName(finger);
 }
@@ -87,13 +87,13 @@ Fault FaultOf(FingerIndex finger, int waypoint = kNoWaypoint) {
   return {.fingers = {finger}, .waypoint = waypoint};
 }
 
-/// A contact that is not where it should be.
+/// Return the fault of a contact that is not at its expected place.
 Fault Misplaced(FingerIndex finger, int waypoint, const grasp::Contact& found,
                 const grasp::Contact& expected) {
   return {.fingers = {finger}, .found = found, .expected = {expected}, .waypoint = waypoint};
 }
 
-/// Between two points of the object.
+/// Format the distance between two points of the object.
 std::string LengthText(const CheckContext& context, const Eigen::Vector3d& a,
                        const Eigen::Vector3d& b) {
   return FormatLength((a - b).stableNorm() * context.plan.scale);
@@ -103,9 +103,9 @@ void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, int way
                   StepFault& fault) {
   for (const FingerContact& held : grasp) {
     if (held.contact.face.valid()) continue;
-    // Located contacts without a face are as given: looking again tells why.
+    // Located contacts without a face are as given; locating them again finds the reason.
     const LocatedContact located = LocateContact(context.object, held.contact);
-    // To tell a fault takes a search of the surface.
+    // The details of a fault require a search of the surface.
     if (!fault.Wants(located.reason)) continue;
     const grasp::Contact nearest = NearestContact(context.object, held.contact);
     const std::string detail =
@@ -117,7 +117,9 @@ void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, int way
   }
 }
 
-/// Where more fingers hold than the hand has, one of them is named twice or outside the hand.
+/// Check a finger's number.
+/// If more fingers are in contact than the hand has, one of them is named twice or is outside the
+/// hand.
 void CheckFingerNumber(const CheckContext& context, FingerIndex finger, int waypoint,
                        StepFault& fault) {
   if (finger >= 0 && finger < context.plan.fingers) return;
@@ -127,9 +129,9 @@ void CheckFingerNumber(const CheckContext& context, FingerIndex finger, int wayp
             FaultOf(finger, waypoint));
 }
 
-/// For a grasp at rest.
+/// Check a static grasp for fingers at the same point.
 void CheckCoincidence(const CheckContext& context, const FingerGrasp& grasp, StepFault& fault) {
-  // More than the hand has is a fault of its own, and may be too many to compare.
+  // Too many fingers are a separate fault, and may be too many to compare.
   if (grasp.size() > static_cast<std::size_t>(context.plan.fingers)) return;
   for (std::size_t i = 0; i < grasp.size(); ++i) {
     for (std::size_t j = i + 1; j < grasp.size(); ++j) {
@@ -144,7 +146,7 @@ void CheckCoincidence(const CheckContext& context, const FingerGrasp& grasp, Ste
   }
 }
 
-/// A finger can make one contact at a time.
+/// Check that each finger has one contact.
 void CheckNamedOnce(const FingerGrasp& grasp, int waypoint, StepFault& fault) {
   std::set<FingerIndex> seen;
   for (const FingerContact& held : grasp) {
@@ -155,7 +157,7 @@ void CheckNamedOnce(const FingerGrasp& grasp, int waypoint, StepFault& fault) {
   }
 }
 
-/// Bounds on the larger of two required half-angles; none if either is none.
+/// Return bounds on the larger of two required friction angles; nullopt if either is nullopt.
 std::optional<grasp::RequiredHalfAngle> Larger(const std::optional<grasp::RequiredHalfAngle>& a,
                                                const std::optional<grasp::RequiredHalfAngle>& b) {
   if (!a || !b) return std::nullopt;
@@ -171,7 +173,8 @@ std::string AngleNeeded(const CheckContext& context,
          "°";
 }
 
-/// @param grasp  that is not force closure, or not proved to be.
+/// Return the fault of a grasp without force closure.
+/// @param grasp  grasp that is not force closure, or not proved to be.
 Fault LossOfClosure(const CheckContext& context, const FingerGrasp& grasp,
                     const std::optional<grasp::RequiredHalfAngle>& required) {
   Fault fault;
@@ -186,7 +189,7 @@ void LeaveUnproved(const std::string& why, const Fault& where, StepCheck& check,
   fault.Add(Reason::kNotProved, why, where);
 }
 
-/// A grasp at rest holds with the normals that fingertips feel too, where the plan says so.
+/// Include a static grasp with the normals of its contact patches, if the plan has a patch radius.
 void IncludePatches(const CheckContext& context, const FingerGrasp& grasp, const std::string& name,
                     StepCheck& check, StepFault& fault) {
   const auto* solid = dynamic_cast<const object::Polyhedron*>(&context.object);
@@ -206,7 +209,7 @@ void IncludePatches(const CheckContext& context, const FingerGrasp& grasp, const
             LossOfClosure(context, grasp, required));
 }
 
-/// Includes a grasp at rest in a step's force closure and required half-angle.
+/// Include a static grasp in a step's force closure and required friction angle.
 void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
                  StepCheck& check, StepFault& fault) {
   if (!context.judge_force_closure) return;
@@ -227,7 +230,7 @@ void AddObstacle(const std::optional<Obstacle>& obstacle, StepFault& fault) {
   if (obstacle) fault.Add(Reason::kUnreachable, obstacle->detail, obstacle->fault);
 }
 
-/// Where force closure is about to be decided: nothing found against it yet.
+/// Initialize the result before force closure is decided.
 void BeginForceClosure(const CheckContext& context, StepCheck& check) {
   if (!context.judge_force_closure) return;
   check.force_closure = true;
@@ -267,7 +270,7 @@ void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
   }
 }
 
-/// The fingers of a waypoint are those that hold.
+/// Check that the fingers of a waypoint are those in contact before the step.
 void CheckSameFingers(const FingerGrasp& before, const FingerGrasp& waypoint, int index,
                       StepFault& fault) {
   for (const FingerContact& held : before) {
@@ -293,7 +296,7 @@ void CheckWaypoint(const CheckContext& context, const FingerGrasp& before,
   CheckSameFingers(before, waypoint, index, fault);
 }
 
-/// For waypoints without other faults.
+/// Check the motions between waypoints that have no other faults.
 void CheckMotions(const CheckContext& context, const Align& step, StepFault& fault) {
   for (std::size_t w = 0; w + 1 < step.waypoints.size(); ++w) {
     for (const FingerContact& from : step.waypoints[w]) {
@@ -308,7 +311,7 @@ void CheckMotions(const CheckContext& context, const Align& step, StepFault& fau
   }
 }
 
-/// The fingers of a motion's start where they are at an instant of it.
+/// Return the fingers of a motion's start at their contacts at an instant of it.
 FingerGrasp FingersAt(const FingerGrasp& from, const motion::GraspMotion& motion, double t) {
   FingerGrasp there = from;
   for (std::size_t i = 0; i < there.size(); ++i) there[i].contact = motion[i].At(t);
@@ -323,7 +326,7 @@ motion::GraspMotion MotionBetween(const FingerGrasp& from, const FingerGrasp& to
   return motion;
 }
 
-/// Why proofs may be missing of what holds at every instant.
+/// Return a note on why a proof may be missing for a motion that is force closure at every instant.
 std::string SoftNote(const CheckContext& context) {
   if (context.plan.torsion == 0) return "";
   return "; a soft finger counts as a hard point while its normal rotates";
@@ -343,7 +346,7 @@ std::string UnprovedText(const motion::PathForceClosure& path, const std::string
                    : "");
 }
 
-/// Includes the motion from one waypoint to the next in an align's force closure.
+/// Include the motion from one waypoint to the next in a sliding step's force closure.
 void IncludeMotion(const CheckContext& context, const Align& step, int waypoint, StepCheck& check,
                    StepFault& fault) {
   if (!context.judge_force_closure) return;
@@ -466,7 +469,7 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
   }
   CheckCoincidence(context, step.waypoints.back(), fault);
   CheckContinuity(context, before, step.waypoints.front(), fault);
-  // Every other fault comes before leaves-face, and may be of waypoints too large to pair.
+  // All other faults precede leaves-face; faulty waypoints may be too large to pair.
   if (fault.none()) CheckMotions(context, step, fault);
   if (fault.none()) {
     BeginForceClosure(context, check);

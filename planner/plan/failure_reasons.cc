@@ -42,15 +42,18 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .remedies = "Release a holding finger, once."},
     {.name = "too-many-fingers",
      .check = kAnalytic,
-     .meaning = "More fingers are in contact than the hand has, also between placing and releasing. "
-                "Or a finger number is outside the hand.",
+     .meaning =
+         "More fingers are in contact than the hand has, also between placing and releasing. "
+         "Or a finger number is outside the hand.",
      .causes = "`fingers` in the plan is too small.\n"
                "Finger numbers in the file start at 1 instead of 0.",
-     .remedies = "Use a finger of the hand.\nUse a hand with more fingers (`fingers` in the plan)."},
+     .remedies =
+         "Use a finger of the hand.\nUse a hand with more fingers (`fingers` in the plan)."},
     {.name = "coincident-fingers",
      .check = kAnalytic,
-     .meaning = "Two fingers are in contact at the same point in a static grasp: the initial grasp, "
-                "or the grasp after a step. During a switch or a sliding step fingers may meet.",
+     .meaning =
+         "Two fingers are in contact at the same point in a static grasp: the initial grasp, "
+         "or the grasp after a step. During a switch or a sliding step fingers may meet.",
      .causes = "The same contact is given for two fingers.",
      .remedies = "Use different points for the two fingers."},
     {.name = "discontinuous",
@@ -62,9 +65,10 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                  "Use the same fingers in all waypoints."},
     {.name = "leaves-face",
      .check = kAnalytic,
-     .meaning = "Between two waypoints a finger crosses a border, a notch, a hole, a slit or a wall, "
-                "however narrow. Or it continues on another face without turning at a point that "
-                "both faces share.",
+     .meaning =
+         "Between two waypoints a finger crosses a border, a notch, a hole, a slit or a wall, "
+         "however narrow. Or it continues on another face without turning at a point that "
+         "both faces share.",
      .causes = "A waypoint is missing at the border between two faces.\n"
                "The straight line between two waypoints crosses a hole or a notch.",
      .remedies = "Add a waypoint at each border that a finger crosses."},
@@ -94,9 +98,10 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .about = "how it is decided"},
     {.name = "unreachable",
      .check = kAnalytic,
-     .meaning = "A finger cannot reach its contact, which is in a sealed cavity or, in the replay, "
-                "in a concave corner. Or a finger of the given radius overlaps the object or another "
-                "finger there.",
+     .meaning =
+         "A finger cannot reach its contact, which is in a sealed cavity or, in the replay, "
+         "in a concave corner. Or a finger of the given radius overlaps the object or another "
+         "finger there.",
      .causes = "The plan was made for thinner fingers.\nThe contact is in a concave corner.\n"
                "The contact is on an inner shell of the object.",
      .remedies = "Use contacts that a finger reaches from outside, away from concave corners.\n"
@@ -105,25 +110,28 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .about = "thick fingers"},
     {.name = "off-point",
      .check = kAnalytic,
-     .meaning = "In a plan with `\"contacts\": \"given\"`, a contact is farther than 1e-3 of the "
-                "object's diameter from all points of the object's file. Or a finger moves along the "
-                "surface.",
+     .meaning =
+         "In a plan with `\"contacts\": \"given\"`, a contact is farther than 1e-3 of the "
+         "object's diameter from all points of the object's file. Or a finger moves along the "
+         "surface.",
      .causes = "The object is a surface reconstructed from points, and the plan uses contacts "
                "between them.",
      .remedies = "Plan with --contacts given."},
     {.name = "hand-jumps",
      .check = kHand,
-     .meaning = "With `--hand`: a step does not begin with the last state of the previous step (object "
-                "to 1e-9 m and 1e-8 rad, joint to 1e-9 rad). Or a step has no path of the hand, or a "
-                "path has another number of fingers or joints than the hand.",
+     .meaning =
+         "With `--hand`: a step does not begin with the last state of the previous step (object "
+         "to 1e-9 m and 1e-8 rad, joint to 1e-9 rad). Or a step has no path of the hand, or a "
+         "path has another number of fingers or joints than the hand.",
      .causes = "Steps were removed, reordered or joined from different plans.\n"
                "The plan was made for another hand file.",
      .remedies = "Begin the path of each step with the last state of the previous one, with all "
                  "joints of the hand.\nPlan again with this hand file."},
     {.name = "tip-off-contact",
      .check = kHand,
-     .meaning = "With `--hand`: the fingertip sphere of a holding finger is not at its contact. The "
-                "tolerance is 1e-6 m in a static grasp and 1e-4 m along a motion.",
+     .meaning =
+         "With `--hand`: the fingertip sphere of a holding finger is not at its contact. The "
+         "tolerance is 1e-6 m in a static grasp and 1e-4 m along a motion.",
      .causes = "Joint angles were rounded or come from another model of the hand.\n"
                "Two states of a motion are too far apart.",
      .remedies = "Correct the joint angles.\nAdd states to the path."},
@@ -135,9 +143,10 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .remedies = "Use a joint configuration within the limits.\nUse another contact."},
     {.name = "hand-collides",
      .check = kHand,
-     .meaning = "With `--hand`: a link is nearer than the clearance to another link, to the palm or "
-                "to the object. The reason also applies if the check cannot certify the clearance. "
-                "In the hand replay: a link touches something.",
+     .meaning =
+         "With `--hand`: a link is nearer than the clearance to another link, to the palm or "
+         "to the object. The reason also applies if the check cannot certify the clearance. "
+         "In the hand replay: a link touches something.",
      .causes = "The plan was made with a smaller --clearance.\n"
                "In the replay, a finger deviates from its planned path.",
      .remedies = "Use another path.\nUse other contacts.\nPlan with a larger --clearance."},
@@ -151,9 +160,10 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                  "Use joint configurations in which the finger is stronger."},
     {.name = "coupling-violated",
      .check = kHand,
-     .meaning = "With `--hand`: a joint is more than 1e-6 rad from the angle that its coupling "
-                "requires (an equality constraint, `<mimic>`, or `couplings` of the hand file). With "
-                "`--replay hand`: it is more than 1° from that angle.",
+     .meaning =
+         "With `--hand`: a joint is more than 1e-6 rad from the angle that its coupling "
+         "requires (an equality constraint, `<mimic>`, or `couplings` of the hand file). With "
+         "`--replay hand`: it is more than 1° from that angle.",
      .causes = "The plan was made with a hand file without couplings.\n"
                "The model's coupling is softer than that of the real hand.",
      .remedies = "Plan again with a hand file that `hand --model` writes.\n"
@@ -201,13 +211,15 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                 "the step or under a disturbance. In a hand replay: it is farther from its planned "
                 "pose than --tolerance-mm or --tolerance-deg allow.",
      .causes = "The likely cause in the report, for example "
-               "[`quality-below-shake`](likely_causes.md#quality-below-shake) or [`weight`](likely_causes.md#weight).\n"
+               "[`quality-below-shake`](likely_causes.md#quality-below-shake) or "
+               "[`weight`](likely_causes.md#weight).\n"
                "In a hand replay, the joints yield under the contact forces.",
      .remedies = "Plan grasps of higher quality (plan --min-quality above --shake).\n"
                  "Plan with a larger friction margin (plan --optimize margin)."},
     {.name = "trials-failed",
      .check = kTrials,
-     .meaning = "The plan passes without noise, and fewer trials pass than --min-pass-rate requires.",
+     .meaning =
+         "The plan passes without noise, and fewer trials pass than --min-pass-rate requires.",
      .causes = "The plan has too little margin for the given errors of friction, pose or joints.",
      .remedies = "Plan with a larger friction margin (plan --optimize margin).\n"
                  "Reduce the errors of the real hand and object, and pass the smaller values.",
@@ -220,9 +232,10 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .remedies = "Plan from the grasp of --start.\nOmit --start."},
     {.name = "goal-not-reached",
      .check = kAnalytic,
-     .meaning = "Last step: its contacts are not those of the plan's goal, or the goal is not the "
-                "grasp of --goal. With `--hand` also: the object's last pose is not the hand's goal "
-                "(to 1e-6 m and 1e-6 rad).",
+     .meaning =
+         "Last step: its contacts are not those of the plan's goal, or the goal is not the "
+         "grasp of --goal. With `--hand` also: the object's last pose is not the hand's goal "
+         "(to 1e-6 m and 1e-6 rad).",
      .causes = "Steps are missing at the end of the plan.\nThe plan was made for another goal.",
      .remedies = "Add steps that end in the goal.\nPlan for this goal."},
     {.name = "concave-corner",
@@ -283,7 +296,8 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .check = kCause,
      .meaning = "No other likely cause applies.",
      .causes = "The values that the report contains were examined.",
-     .remedies = "Run `validate --stress`, which reports the direction in which the grasp is weak."},
+     .remedies =
+         "Run `validate --stress`, which reports the direction in which the grasp is weak."},
 });
 
 /// Return the items of a text with one per line as a Markdown list.
@@ -320,8 +334,7 @@ std::string_view FailureCheckName(FailureCheck check) {
 
 std::string FailureReasonMarkdown(const FailureReason& reason) {
   std::string text = "### `" + std::string(reason.name) + "`\n\n" + std::string(reason.meaning) +
-                     "\n\nUsual causes:\n\n" +
-                     MarkdownItems(reason.causes) + "\nRemedies:\n\n" +
+                     "\n\nUsual causes:\n\n" + MarkdownItems(reason.causes) + "\nRemedies:\n\n" +
                      MarkdownItems(reason.remedies);
   if (!reason.see.empty()) {
     text += "\nSee [" + std::string(reason.about) + "](" + std::string(reason.see) + ").\n";

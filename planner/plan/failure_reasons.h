@@ -25,11 +25,11 @@ enum class FailureCheck {
 struct FailureReason {
   std::string_view name;  ///< as in reports, for example "slipped"
   FailureCheck check;
-  std::string_view meaning;    ///< full sentences
-  std::string_view causes;     ///< usual causes, one per line
-  std::string_view remedies;   ///< imperatives, one per line
-  std::string_view see = "";   ///< page of the documents with an anchor
-  std::string_view about = ""; ///< title of that page
+  std::string_view meaning;     ///< full sentences
+  std::string_view causes;      ///< usual causes, one per line
+  std::string_view remedies;    ///< imperatives, one per line
+  std::string_view see = "";    ///< page of the documents with an anchor
+  std::string_view about = "";  ///< title of that page
 };
 
 /// Return all failure reasons in the order of the report, then all likely causes.

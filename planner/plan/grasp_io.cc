@@ -9,7 +9,7 @@ namespace regrasp::plan {
 
 namespace {
 
-/// The contact of a point whose normal is left out: its only face's.
+/// Return the contact of a point without a normal, on its only face.
 grasp::Contact ContactOfPoint(const JsonReader& json, const object::Object& object,
                               const Eigen::Vector3d& point) {
   const double tolerance = SurfaceTolerance(object);
@@ -69,7 +69,7 @@ std::string FormatGrasp(const grasp::Grasp& grasp, int dimension) {
 
 namespace {
 
-/// Counts contacts on invented surface, and remembers the first.
+/// Number of contacts on filled surface, and the first one.
 struct Found {
   int count = 0;
   std::string first;

@@ -11,7 +11,7 @@
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "planner/tree/tree_planner.h"
 
-// What `--planner auto` takes: the one place where that is decided.
+// This file alone determines the choice of `--planner auto`.
 
 namespace regrasp::registry {
 
@@ -64,7 +64,7 @@ const planning::Planner* FirstThatServes(const planning::PlanRequest& request) {
   return found == AllPlanners().end() ? nullptr : *found;
 }
 
-/// Which planners have an option of a request, for objects of its dimension.
+/// List the planners that support an option of a request, for objects of its dimension.
 std::string ThoseThatHave(planning::PlanOption option, const planning::PlanRequest& request) {
   std::string names;
   for (const planning::Planner* planner : AllPlanners()) {

@@ -8,33 +8,35 @@
 
 namespace regrasp::registry {
 
-/// All planners: `general` first, then those that are complete over the grasps that they know, of
-/// which the first one in the plane and the first one in space are those whose graph is built where
-/// none is named; and `gait`, for hands.
+/// Return all planners in order of preference.
+/// The first one is `general`. Then follow the planners that are complete over their grasps: by
+/// default a graph is built by the first of them in the plane or in space. `gait` is for hands.
 [[nodiscard]] const std::vector<const planning::Planner*>& AllPlanners();
 
-/// Adds a planner after all others, for programs that bring their own (examples/planner). Call it
-/// before planning: no other thread may use this header meanwhile.
-/// @throws InputError  there is a planner of that name already, or it is "auto".
+/// Add a planner after all others, for programs with their own planners (examples/planner).
+/// Must be called before planning, while no other thread uses this header.
+/// @throws InputError  if there is a planner with that name, or the name is "auto".
 void RegisterPlanner(std::unique_ptr<const planning::Planner> planner);
 
-/// Their names and "auto", in the order of AllPlanners, for messages: "auto, general, polygon …".
+/// Return the names of "auto" and all planners, for messages: "auto, general, polygon …".
 [[nodiscard]] std::string PlannerNames();
 
-/// @returns nullptr where no planner has that name.
+/// Return the planner with a name; nullptr if there is none.
 [[nodiscard]] const planning::Planner* FindPlanner(const std::string& name);
 
-/// The planner that `--planner auto` takes: the first of AllPlanners that serves the request, with
-/// every option that it asks for. For a plan that is `general`, which joins at least as many pairs
-/// of grasps as any other and faster (bench/planners), unless an option asks for what only another
-/// gives: contact regions (contour), uniform spanning (polygon, polyhedron), contact points or
-/// clusters (roadmap), a hand (gait).
-/// @throws InputError  none does; the message says for which option.
+/// Return the planner for `--planner auto`.
+/// It is the first of AllPlanners that supports all options of a request.
+/// This is `general` unless an option requires another planner, because it solves at least as many
+/// pairs of grasps as any other, and faster (bench/planners). Such options are contact regions
+/// (contour), uniform spanning (polygon, polyhedron), contact points or clusters (roadmap), and a
+/// hand (gait).
+/// @throws InputError  if no planner supports the request. The message names the planners of each
+///     option.
 [[nodiscard]] const planning::Planner& ChoosePlanner(const planning::PlanRequest& request);
 
-/// The planner of a name, or ChoosePlanner's for "auto".
-/// @throws InputError  there is none of that name, or it does not serve the request; the message
-///                     names a planner that does, where there is one.
+/// Return the planner with a name, or that of ChoosePlanner for "auto".
+/// @throws InputError  if there is no planner with that name, or it does not support the request.
+///     The message names a planner that does, if there is one.
 [[nodiscard]] const planning::Planner& PlannerFor(const std::string& name,
                                                   const planning::PlanRequest& request);
 

@@ -28,20 +28,19 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Where facets meet has to be known exactly: of three that meet at a point each is cut by the
-/// others there.
+/// Intersections must be exact: at a common point of three triangles, each is cut by the other two.
 using ArrangementKernel = ExactKernel;
 using Cutting = CGAL::Constrained_Delaunay_triangulation_2<ArrangementKernel, CGAL::Default,
                                                            CGAL::Exact_intersections_tag>;
 using Corners = std::array<int, 3>;
 
-/// More pairs of facets than this take minutes.
+/// Largest number of intersecting pairs; more take minutes.
 constexpr std::size_t kMostPairs = 200'000;
 
-/// A winding number this far from a whole one is that of a surface that is not closed.
+/// Distance of a winding number from an integer beyond which the surface is not closed.
 constexpr double kWholeNumber = 0.25;
 
-/// Sets that are united, by the numbers of their members.
+/// Disjoint sets of integers (union-find).
 class Sets {
  public:
   explicit Sets(std::size_t count) : root_(count) { std::iota(root_.begin(), root_.end(), 0); }
@@ -51,7 +50,7 @@ class Sets {
   }
   void Unite(int one, int other) { root_[Find(other)] = Find(one); }
 
-  /// The members of each set, by their smallest numbers.
+  /// Return the members of each set, in the order of the roots.
   std::vector<std::vector<int>> All() {
     std::map<int, std::vector<int>> by_root;
     for (int i = 0; i < std::ssize(root_); ++i) by_root[Find(i)].push_back(i);
@@ -64,7 +63,7 @@ class Sets {
   std::vector<int> root_;
 };
 
-/// A closed surface of triangles whose vertices are all different.
+/// Closed surface of triangles with distinct vertices.
 struct SoupSurface {
   std::vector<Vector3d> vertices;
   std::vector<Corners> triangles;
@@ -95,7 +94,7 @@ SoupSurface SurfaceOf(const object::PolygonSoup& soup) {
   }
   for (const auto& f : soup.facets)
     surface.triangles.push_back({twin[f[0]], twin[f[1]], twin[f[2]]});
-  std::map<std::pair<int, int>, int> passes;  // along each edge, less those against it
+  std::map<std::pair<int, int>, int> passes;  // triangles along each edge minus those against it
   for (const Corners& t : surface.triangles) {
     for (int k = 0; k < 3; ++k) {
       const int from = t[k], to = t[(k + 1) % 3];
@@ -112,8 +111,8 @@ SoupSurface SurfaceOf(const object::PolygonSoup& soup) {
   return surface;
 }
 
-/// The solid angle of a triangle over 4π, as seen from its inner side positive (van Oosterom and
-/// Strackee 1983).
+/// Return the solid angle of a triangle over 4π, positive as seen from its inner side (van Oosterom
+/// and Strackee 1983).
 double Turns(const std::array<Vector3d, 3>& t, const Vector3d& from) {
   const Vector3d a = t[0] - from, b = t[1] - from, c = t[2] - from;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
@@ -122,7 +121,7 @@ double Turns(const std::array<Vector3d, 3>& t, const Vector3d& from) {
   return std::atan2(triple, sum) / (2 * std::numbers::pi);
 }
 
-/// How often some triangles of a surface wind about a point.
+/// Return the winding number of some triangles of a surface about a point.
 double WindingNumber(const SoupSurface& surface, const std::vector<int>& triangles,
                      const Vector3d& point) {
   double sum = 0;
@@ -140,7 +139,7 @@ double SignedVolume(const SoupSurface& surface, const std::vector<int>& triangle
   return sum;
 }
 
-/// Turns shells outwards, but for cavities: those that turn inwards inside another.
+/// Orient shells outwards. Cavities, that is inward shells inside another shell, are kept.
 void TurnSurfaceOutwards(SoupSurface& surface) {
   Sets connected(surface.vertices.size());
   for (const Corners& t : surface.triangles) {
@@ -164,15 +163,15 @@ void TurnSurfaceOutwards(SoupSurface& surface) {
   }
 }
 
-/// What two triangles have in common where they are not in one plane.
+/// Intersection of two triangles that are not coplanar.
 struct Meeting {
-  ExactPoint a, b;  ///< equal where it is a point
+  ExactPoint a, b;  ///< equal if the intersection is a point
 };
 
-/// Where the triangles of a surface meet otherwise than neighbours do.
+/// Intersections of the triangles of a surface, contacts of neighbours excluded.
 struct Meetings {
   std::vector<std::vector<Meeting>> of_triangle;
-  Sets coplanar;  ///< triangles in one plane that have points in common
+  Sets coplanar;  ///< sets of coplanar triangles with common points
   std::size_t pairs = 0;
 
   explicit Meetings(std::size_t triangles) : of_triangle(triangles), coplanar(triangles) {}
@@ -207,8 +206,8 @@ class MeetingFinder {
     return std::ranges::count(surface_.triangles[triangle], vertex) > 0;
   }
 
-  /// On which sides of a triangle's plane the corners of another are, those that both have left
-  /// out: each −1, 0, 1.
+  /// Return the sides of a triangle's plane on which the corners of another triangle are.
+  /// Each is −1, 0 or 1. Common corners are omitted.
   [[nodiscard]] std::vector<int> SidesOf(int triangle, int other) const {
     std::vector<int> sides;
     for (int k = 0; k < 3; ++k) {
@@ -225,7 +224,7 @@ class MeetingFinder {
 
   void Look(int one, int other) {
     const std::vector<int> sides = SidesOf(one, other);
-    if (sides.empty()) return meetings_.coplanar.Unite(one, other);  // the same corners
+    if (sides.empty()) return meetings_.coplanar.Unite(one, other);  // identical corners
     if (OnOneSide(sides) || OnOneSide(SidesOf(other, one))) return;
     const Kernel::Triangle_3 first(Corner(one, 0), Corner(one, 1), Corner(one, 2));
     const Kernel::Triangle_3 second(Corner(other, 0), Corner(other, 1), Corner(other, 2));
@@ -255,15 +254,15 @@ class MeetingFinder {
   Meetings meetings_;
 };
 
-/// A plane seen along the axis that it is most across: what is in it as points of a plane, counter-
-/// clockwise where it is so about the axis.
+/// Projection of a plane along the coordinate axis most perpendicular to it.
+/// Triangles that are counter-clockwise about the axis stay counter-clockwise.
 class FlatView {
  public:
   explicit FlatView(const std::array<Vector3d, 3>& t)
       : plane_(ToExact(t[0]), ToExact(t[1]), ToExact(t[2])) {
     const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
     normal.cwiseAbs().maxCoeff(&axis_);
-    // What rounding makes zero of is not the axis to look along.
+    // A coefficient that rounding makes zero cannot be the projection axis.
     while (Coefficient(axis_) == 0) axis_ = (axis_ + 1) % 3;
   }
 
@@ -289,10 +288,10 @@ class FlatView {
   int axis_ = 0;
 };
 
-/// A triangle as a FlatView has it.
+/// Triangle projected by a FlatView.
 struct FlatTriangle {
   std::array<ArrangementKernel::Point_2, 3> at;
-  int side;  ///< 1 where it is counter-clockwise, −1 where clockwise
+  int side;  ///< 1 if counter-clockwise, −1 if clockwise
   CGAL::Bbox_2 box;
 
   FlatTriangle(const FlatView& view, const std::array<Vector3d, 3>& corners) {
@@ -303,7 +302,7 @@ struct FlatTriangle {
     side = CGAL::orientation(at[0], at[1], at[2]);
   }
 
-  /// Its side where it is over a point, otherwise 0.
+  /// Return `side` if the triangle contains a point, otherwise 0.
   [[nodiscard]] int SideOver(const ArrangementKernel::Point_2& p) const {
     if (!CGAL::do_overlap(box, p.bbox())) return 0;
     for (int k = 0; k < 3; ++k) {
@@ -313,14 +312,14 @@ struct FlatTriangle {
   }
 };
 
-/// A piece of the surface that nothing passes through.
+/// Triangle of the arrangement that nothing intersects.
 struct Piece {
   Corners corners;
-  int layers = 1;          ///< of the surface that lie there, turned to the same side; > 0
-  std::vector<int> under;  ///< the triangles that it is a piece of
+  int layers = 1;  ///< number of surface layers at this place, counted with orientation; positive
+  std::vector<int> under;  ///< triangles of the surface that contain the piece
 };
 
-/// A surface cut along all lines where it meets itself.
+/// Surface cut along all its self-intersections.
 class Arrangement {
  public:
   explicit Arrangement(const SoupSurface& surface)
@@ -337,7 +336,7 @@ class Arrangement {
 
   [[nodiscard]] std::size_t pairs() const { return meetings_.pairs; }
 
-  /// What is between the outside and the inside, which the surface winds about at least once.
+  /// Return the pieces between winding number 0 and winding number at least 1.
   [[nodiscard]] object::PolygonSoup Boundary() const {
     object::PolygonSoup soup;
     for (const ExactPoint& p : points_) {
@@ -362,7 +361,8 @@ class Arrangement {
     return at->second;
   }
 
-  /// Cuts triangles of one plane along each other's sides and along where others meet them.
+  /// Cut coplanar triangles along each other's sides and along their intersections with other
+  /// triangles.
   void Cut(const std::vector<int>& flat) {
     const FlatView view(surface_.At(flat[0]));
     Cutting cutting;
@@ -386,7 +386,8 @@ class Arrangement {
     for (const auto& face : cutting.finite_face_handles()) AddPiece(flat, triangles, view, face);
   }
 
-  /// @param triangles  of the numbers in `flat`.
+  /// Add a face of the triangulation as a piece.
+  /// @param triangles  projections of the triangles in `flat`, in the same order.
   void AddPiece(const std::vector<int>& flat, const std::vector<FlatTriangle>& triangles,
                 const FlatView& view, Cutting::Face_handle face) {
     std::array<ArrangementKernel::Point_2, 3> corners;
@@ -407,7 +408,9 @@ class Arrangement {
     pieces_.push_back(std::move(piece));
   }
 
-  /// Pieces with the same two sides: neighbours of as many layers across edges of two, by numbers.
+  /// Return patches of pieces with the same inside and outside.
+  /// Neighbours belong to one patch if they have equally many layers and their common edge has two
+  /// pieces.
   [[nodiscard]] std::vector<std::vector<int>> Patches() const {
     std::map<std::pair<int, int>, std::vector<std::pair<int, bool>>> at_edge;
     for (int p = 0; p < std::ssize(pieces_); ++p) {
@@ -433,11 +436,11 @@ class Arrangement {
     });
   }
 
-  /// How often the surface winds about what is beneath a piece.
+  /// Return the winding number of the surface on the inner side of a piece.
   [[nodiscard]] int WindingInside(const Piece& piece, const std::vector<Vector3d>& vertices) const {
     const Corners& c = piece.corners;
     const Vector3d middle = (vertices[c[0]] + vertices[c[1]] + vertices[c[2]]) / 3;
-    double turns = piece.layers / 2.0;  // of what it lies on it sees half a turn from beneath
+    double turns = piece.layers / 2.0;  // each layer at the piece contributes half a turn
     for (int t = 0; t < std::ssize(surface_.triangles); ++t) {
       if (std::ranges::count(piece.under, t) == 0) turns += Turns(surface_.At(t), middle);
     }
@@ -454,7 +457,7 @@ class Arrangement {
   std::vector<Piece> pieces_;
 };
 
-/// As a mesh of two facets an edge, of which none is without area; corners were rounded.
+/// Convert a surface to a manifold mesh without degenerate triangles. Its vertices are rounded.
 Mesh Resolved(const object::PolygonSoup& soup, Touching touching) {
   Mesh mesh = MeshOf(ResolveTouching(soup, touching));
   pmp::remove_isolated_vertices(mesh);
@@ -463,8 +466,9 @@ Mesh Resolved(const object::PolygonSoup& soup, Touching touching) {
   return mesh;
 }
 
-/// Parts that touch are joined, or drawn back where that makes facets meet again. What meets all
-/// the same is parted as blemishes are.
+/// Resolve touching parts.
+/// Joins them, or separates them if joining makes triangles intersect. Remaining intersections are
+/// removed as in RemoveCrossings.
 object::PolygonSoup TidiedSoup(const object::PolygonSoup& soup) {
   for (const Touching touching : {Touching::kJoin, Touching::kPart}) {
     const Mesh mesh = Resolved(soup, touching);

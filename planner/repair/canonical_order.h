@@ -4,12 +4,13 @@
 
 namespace regrasp::repair {
 
-/// A surface in an order that its coordinates alone decide: vertices by coordinates, each facet's
-/// corners from the first of its vertices on, facets by their vertices. What unites shells puts
-/// them in an order that depends on addresses in memory, and so on the program that calls it.
+/// Return a surface in an order that its coordinates alone determine.
+/// Vertices are sorted by coordinates, the corners of each polygon start at its first vertex, and
+/// polygons are sorted by their vertices. The reason: the stage that unites shells orders them by
+/// memory addresses, which depend on the calling program.
 ///
-/// Law: however vertices and facets are numbered, and whichever corner a facet begins with, the
-/// result is the same. Vertices at one place keep their order.
+/// Law: the result does not depend on the numbering of vertices and polygons, nor on the corner at
+/// which a polygon starts. Vertices at the same position keep their order.
 [[nodiscard]] object::PolygonSoup InCanonicalOrder(const object::PolygonSoup& soup);
 
 }  // namespace regrasp::repair

@@ -49,7 +49,7 @@ std::vector<Mesh> PartsOf(const Mesh& mesh) {
 }
 
 bool FillHole(Mesh& mesh, Mesh::Halfedge_index border) {
-  /// Edges; with so many all triangles are looked at in a few seconds.
+  /// Largest number of border edges for which all triangles are searched, in a few seconds.
   constexpr int kLongBorder = 500;
   const auto edges = CGAL::halfedges_around_face(border, mesh);
   const bool is_long = std::distance(edges.begin(), edges.end()) > kLongBorder;

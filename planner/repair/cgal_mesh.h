@@ -8,27 +8,27 @@ namespace regrasp::repair {
 using Kernel = object::SurfaceKernel;
 using Mesh = object::SurfaceMesh;
 
-/// A surface of triangles as CGAL's mesh; only for .cc files.
-/// @throws std::runtime_error  an edge has more than two of them, or they run along it the same
-/// way.
+/// Convert a surface of triangles to a CGAL mesh. For .cc files only.
+/// @throws std::runtime_error  if more than two triangles share an edge, or two of them have the
+///     same direction along it.
 [[nodiscard]] Mesh MeshOf(const object::PolygonSoup& soup);
 
-/// The triangles of a mesh, in its order.
+/// Return the triangles of a mesh, in its order.
 [[nodiscard]] object::PolygonSoup SoupOf(const Mesh& mesh);
 
-/// The connected parts of a mesh, each a mesh of its own, in the order of their first facets.
+/// Split a mesh into its connected components, in the order of their first triangles.
 [[nodiscard]] std::vector<Mesh> PartsOf(const Mesh& mesh);
 
-/// Fills a hole with triangles.
-/// @returns false where that cannot be done, also where its border is long and so tangled that the
-/// Delaunay triangulation of its vertices does not hold triangles that fill it: to look at all
-/// others takes the cube of its length.
+/// Fill a hole with triangles.
+/// @returns false if that is not possible. A long border fails if the Delaunay triangulation of its
+///     vertices does not contain a filling, because a search of all triangles takes cubic time.
 [[nodiscard]] bool FillHole(Mesh& mesh, Mesh::Halfedge_index border);
 
-/// @pre closed.
+/// Return the enclosed volume of a mesh.
+/// @pre `mesh` is closed.
 [[nodiscard]] double VolumeOf(const Mesh& mesh);
 
-/// True iff all vertices of a mesh are inside another one.
+/// Return true iff all vertices of `inner` are inside `outer`.
 /// @pre `outer` is closed.
 [[nodiscard]] bool IsInside(const Mesh& inner, const Mesh& outer);
 

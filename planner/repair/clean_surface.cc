@@ -39,7 +39,7 @@ namespace {
 using MeshPoint = Kernel::Point_3;
 using Cell = std::array<std::int64_t, 3>;
 
-/// For each vertex the first one within `distance` that stands for it.
+/// Return for each vertex the first vertex within `distance` that replaces it.
 std::vector<int> FindTwins(const std::vector<Eigen::Vector3d>& vertices, double distance) {
   std::map<Cell, std::vector<int>> standing;
   std::vector<int> twin(vertices.size());
@@ -63,7 +63,7 @@ std::vector<int> FindTwins(const std::vector<Eigen::Vector3d>& vertices, double 
   return twin;
 }
 
-/// A polygon's corners after welding, none twice in a row.
+/// Return the corners of a polygon after welding, without consecutive duplicates.
 std::vector<int> CornersOf(const std::vector<int>& facet, const std::vector<int>& twin) {
   std::vector<int> corners;
   for (const int v : facet) {
@@ -73,7 +73,7 @@ std::vector<int> CornersOf(const std::vector<int>& facet, const std::vector<int>
   return corners;
 }
 
-/// The triangles of least area that fill a polygon.
+/// Triangulate a polygon with minimal area.
 void AddTriangles(const std::vector<int>& corners, const std::vector<MeshPoint>& points,
                   std::vector<std::vector<std::size_t>>& triangles) {
   if (corners.size() < 3) return;
@@ -98,7 +98,7 @@ object::PolygonSoup ToSoup(const std::vector<MeshPoint>& points,
   return soup;
 }
 
-/// Closes seams and drops what has no area, where CGAL can.
+/// Stitch seams and remove degenerate triangles as far as CGAL can.
 Mesh Tidied(Mesh mesh) {
   pmp::stitch_borders(mesh);
   pmp::remove_degenerate_faces(mesh);
@@ -138,9 +138,9 @@ namespace {
 namespace sms = CGAL::Surface_mesh_simplification;
 namespace pmp = CGAL::Polygon_mesh_processing;
 
-/// Where facets meet less is collapsed; so often at most.
+/// Largest number of attempts to simplify without new intersections.
 constexpr int kMostSimplifications = 12;
-/// Where so many pairs of facets meet it is no matter of some places.
+/// Number of intersecting pairs beyond which excluding their edges cannot help.
 constexpr std::size_t kMostClosePairs = 2000;
 
 using IsKept = Mesh::Property_map<Mesh::Edge_index, bool>;
@@ -148,10 +148,11 @@ using Boxes = std::vector<CGAL::Bbox_3>;
 
 enum class Care {
   kAsItComes,
-  kNoTurns,  ///< no facet turns over; flat faces are then hardly made coarser
+  kNoTurns,  ///< no triangle flips; planar faces are then simplified little
 };
 
-/// @param kept  edges that come into one of these stay.
+/// Collapse edges until at most `facets` triangles remain.
+/// @param kept  boxes; edges whose bounding box overlaps one are not collapsed.
 Mesh Collapsed(const Mesh& fine, Care care, const Boxes& kept, int facets) {
   Mesh mesh = fine;
   IsKept is_kept = mesh.add_property_map<Mesh::Edge_index, bool>("e:kept", false).first;
@@ -174,7 +175,8 @@ Mesh Collapsed(const Mesh& fine, Care care, const Boxes& kept, int facets) {
   return mesh;
 }
 
-/// Where facets meet that are no neighbours there: what the boxes of both have in common.
+/// Return the boxes in which non-adjacent triangles intersect: the common part of both bounding
+/// boxes.
 Boxes MeetingIn(const Mesh& mesh) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   pmp::self_intersections(faces(mesh), mesh, std::back_inserter(pairs),
@@ -190,7 +192,8 @@ Boxes MeetingIn(const Mesh& mesh) {
   return boxes;
 }
 
-/// Nullopt where facets meet all the same, or where that takes more facets.
+/// Collapse edges without causing intersections.
+/// @returns nullopt if intersections or more than `facets` triangles remain.
 std::optional<Mesh> CollapsedApart(const Mesh& fine, Care care, int facets) {
   Boxes kept;
   for (int round = 0; round < kMostSimplifications; ++round) {
@@ -210,7 +213,7 @@ StageResult Simplify(const object::PolygonSoup& soup, int facets) {
   const Mesh fine = MeshOf(soup);
   std::optional<Mesh> coarse = CollapsedApart(fine, Care::kAsItComes, facets);
   if (!coarse) coarse = CollapsedApart(fine, Care::kNoTurns, facets);
-  // What is wrong with it is said by who looks at it.
+  // The caller's check reports the intersections.
   if (!coarse) coarse = Collapsed(fine, Care::kAsItComes, {}, facets);
   StageResult result{SoupOf(*coarse)};
   result.facts["facets"] = coarse->num_faces();
@@ -221,10 +224,10 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 namespace {
 
-/// Shells of less than this share of the largest's volume are scraps that fold back on themselves.
+/// Share of the largest shell's volume below which a shell is a scrap that folds back on itself.
 constexpr double kScrapVolume = 1e-6;
 
-/// At most so many holes are listed, the widest.
+/// Number of listed holes, widest first.
 constexpr std::size_t kListedHoles = 20;
 
 struct Hole {
@@ -246,7 +249,7 @@ Hole Measure(const Mesh& mesh, Mesh::Halfedge_index border) {
   return hole;
 }
 
-/// Drops closed parts without volume, if others have one.
+/// Drop closed parts without volume if other parts have volume.
 void DropScraps(Mesh& mesh) {
   const std::vector<Mesh> parts = PartsOf(mesh);
   std::vector<double> volumes;

@@ -20,27 +20,29 @@ namespace {
 
 constexpr int kSamples = 20000;
 
-/// Points of these that are looked at from outside, and whose wall is measured.
+/// Number of points for visibility tests and wall thickness.
 constexpr int kSeenSamples = 3000;
 
-/// Steps of a sequence that fills the square evenly: 1/p and 1/p², p³ = p + 1 (Roberts 2018).
+/// Increments of a low-discrepancy sequence in the unit square: 1/p and 1/p² with p³ = p + 1
+/// (Roberts 2018).
 constexpr double kStepU = 0.7548776662466927, kStepV = 0.5698402909980532;
 
-/// A ray from a point of the surface begins this far off, over the diameter.
+/// Offset of the origin of a ray from the surface, over the diameter.
 constexpr double kOff = 1e-6;
 
-/// Directions in which the outside is looked for.
+/// Number of directions of the visibility test.
 constexpr int kDirections = 64;
 
-/// So many of them see a point that is seen: fewer look through a crack between two pieces.
+/// Number of unobstructed directions that make a point visible. Fewer can pass through a crack
+/// between two pieces.
 constexpr int kSeenBy = 3;
 
-/// The bound is within this of the largest distance, over the diameter, or what so many pieces of
-/// facets give.
+/// Accuracy of the upper bound over the diameter. The bound is looser if it needs more than
+/// kMostPieces pieces of triangles.
 constexpr double kBoundAccuracy = 1e-3;
 constexpr int kMostPieces = 400'000;
 
-/// Facets are looked at for invented parts at every so many diameters.
+/// Largest radius, over the diameter, of the triangle pieces tested for filled surface.
 constexpr double kInventedStep = 0.01;
 
 using Triangle = std::array<Vector3d, 3>;
@@ -59,8 +61,8 @@ double Radius(const Triangle& t) {
   return std::max({(t[0] - centre).norm(), (t[1] - centre).norm(), (t[2] - centre).norm()});
 }
 
-/// Its two parts, cut across the longest edge: slivers then need as many parts as they are long,
-/// and not the square of it.
+/// Bisect a triangle across its longest edge.
+/// Slivers then need a number of pieces proportional to their length, not to its square.
 std::array<Triangle, 2> Halves(const Triangle& t) {
   std::size_t longest = 0;
   double length = -1;
@@ -75,10 +77,10 @@ std::array<Triangle, 2> Halves(const Triangle& t) {
 
 struct Sample {
   Vector3d point;
-  Vector3d normal;  ///< of length 1, outward where the facet is oriented
+  Vector3d normal;  ///< unit vector; outward if the triangle is oriented
 };
 
-/// Evenly over the area: one from each of `count` equal parts of it.
+/// Sample points evenly over the area: one from each of `count` parts of equal area.
 std::vector<Sample> DrawSamples(const PolygonSoup& soup, int count) {
   std::vector<double> up_to;
   double area = 0;
@@ -99,7 +101,7 @@ std::vector<Sample> DrawSamples(const PolygonSoup& soup, int count) {
   return samples;
 }
 
-/// The value that 95 % are no larger than.
+/// Return the 95th percentile.
 double NinetyFifth(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto nth = values.begin() + std::ptrdiff_t(0.95 * double(values.size() - 1));
@@ -112,9 +114,10 @@ double Mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
-/// The largest distance of a triangle's points to a surface from above, by what is nearest to its
-/// centre. The distance to a surface changes by no more than one goes; and the one to a convex set,
-/// such as a single triangle, is largest at a corner.
+/// Return an upper bound of the distance of a triangle's points to a surface.
+/// `nearest` is the surface point nearest to the centroid. The bound uses two facts: the distance
+/// to a surface is 1-Lipschitz, and the distance to a convex set, such as one triangle, is largest
+/// at a corner.
 double FarthestOf(const Triangle& t, const SurfaceDistance& surface,
                   const SurfaceDistance::Closest& nearest) {
   double at_corners = 0;
@@ -124,14 +127,15 @@ double FarthestOf(const Triangle& t, const SurfaceDistance& surface,
   return std::min(at_corners, (nearest.point - Centre(t)).norm() + Radius(t));
 }
 
-/// The largest distance from above: the piece of a facet that may have it is halved until it cannot
-/// matter.
+/// Return an upper bound of the largest distance from `from` to `to`.
+/// Best-first search: the piece with the largest bound is bisected until its bound is within
+/// `accuracy` of the largest distance found.
 double BoundDistance(const PolygonSoup& from, const SurfaceDistance& to, double least,
                      double accuracy) {
   struct Piece {
     double bound;
     Triangle triangle;
-    SurfaceDistance::Closest closest;  ///< to its centre
+    SurfaceDistance::Closest closest;  ///< nearest point to the centroid
     bool operator<(const Piece& other) const { return bound < other.bound; }
   };
   std::priority_queue<Piece> pieces;
@@ -170,7 +174,7 @@ DistanceSummary Summarize(const PolygonSoup& from, const std::vector<Sample>& sa
   return summary;
 }
 
-/// Evenly over the sphere (Fibonacci's spiral).
+/// Return unit vectors spread evenly over the sphere (Fibonacci spiral).
 std::vector<Vector3d> MakeDirections() {
   std::vector<Vector3d> directions;
   for (int i = 0; i < kDirections; ++i) {
@@ -204,7 +208,8 @@ void CompareSeen(const PolygonSoup& solid, const std::vector<Sample>& samples,
     distances.push_back((closest.point - sample.point).norm());
     const Vector3d normal =
         AreaVector(TriangleOf(solid, static_cast<std::size_t>(closest.facet))).stableNormalized();
-    // Which way the original's facets are turned is not always known.
+    // The absolute value makes the angle independent of the original's orientation, which can be
+    // unknown.
     angles.push_back(std::acos(std::min(1.0, std::abs(normal.dot(sample.normal)))));
   }
   comparison.seen_share = double(distances.size()) / double(samples.size());
@@ -213,8 +218,9 @@ void CompareSeen(const PolygonSoup& solid, const std::vector<Sample>& samples,
   comparison.normal_most = NinetyFifth(angles);
 }
 
-/// True iff a point of the triangle, of those looked at, is farther than `distance`.
-/// @param near  found for a point nearby; then for one of the triangle.
+/// Return true iff a tested point of a triangle is farther than `distance` from a surface.
+/// @param near  input: result for a nearby point, a hint. Output: result for a point of the
+///     triangle.
 bool ReachesBeyond(const Triangle& t, const SurfaceDistance& surface, double distance, double step,
                    std::optional<SurfaceDistance::Closest>& near) {
   near = surface.FindClosest(Centre(t), near);
@@ -251,7 +257,7 @@ double ThinShare(const std::vector<Sample>& samples, const SurfaceDistance& soli
 
 std::vector<double> Distances(const std::vector<Sample>& samples, const SurfaceDistance& to) {
   std::vector<double> distances;
-  std::optional<SurfaceDistance::Closest> near;  // samples of a facet follow each other
+  std::optional<SurfaceDistance::Closest> near;  // consecutive samples are on the same triangle
   for (const Sample& sample : samples) {
     near = to.FindClosest(sample.point, near);
     distances.push_back((near->point - sample.point).norm());
@@ -263,7 +269,7 @@ std::vector<double> Distances(const std::vector<Sample>& samples, const SurfaceD
 
 PolygonSoup OriginalOfPart(const PolygonSoup& original, const PolygonSoup& all,
                            const PolygonSoup& part) {
-  /// What is nearest to both is the part's; coordinates may have been rounded.
+  /// Relative tolerance for rounded coordinates. Triangles equally near to both belong to the part.
   constexpr double kSame = 1e-9;
   const SurfaceDistance to_all(all), to_part(part);
   PolygonSoup its{original.vertices, {}};

@@ -7,47 +7,50 @@
 
 namespace regrasp::repair {
 
-/// Distances of one surface's points to another surface, evenly over its area; in the object's unit
-/// of length.
+/// Distances from the points of one surface to another surface, in object units.
+/// The sampled points are spread evenly over the area.
 struct DistanceSummary {
   double mean = 0;
-  double most = 0;     ///< 95 % of the area is no farther
-  double largest = 0;  ///< of the points looked at
-  double bound = 0;    ///< no point is farther than this, up to rounding
-  Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< the point that is farthest
+  double most = 0;     ///< 95th percentile
+  double largest = 0;  ///< maximum over the sampled points
+  double bound = 0;    ///< upper bound of the distance of all points, up to rounding
+  Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< farthest sampled point
 };
 
-/// How a solid differs from the surface that it was made from.
+/// Difference between a solid and the surface that it was made from.
 struct Comparison {
-  DistanceSummary to_solid;     ///< of all of the original
-  double seen_share = 0;        ///< of the original's area that is seen from outside
-  double seen_most = 0;         ///< as DistanceSummary::most, of what is seen
-  DistanceSummary to_original;  ///< of the solid
-  double normal_mean = 0;  ///< radians between a facet seen from outside and the solid's nearest
-  double normal_most = 0;  ///< 95 % of what is seen have turned by no more
-  /// The solid's facets that are no part of the original: some point is farther than
-  /// kInventedDistance from it.
+  DistanceSummary to_solid;     ///< distances from the whole original
+  double seen_share = 0;        ///< share of the original's area that is visible from outside
+  double seen_most = 0;         ///< 95th percentile of the visible points' distances
+  DistanceSummary to_original;  ///< distances from the solid
+  /// Mean angle in radians between a visible triangle and the solid's nearest triangle.
+  double normal_mean = 0;
+  double normal_most = 0;  ///< 95th percentile of these angles
+  /// Marks of the solid's filled triangles.
+  /// A triangle is filled if some point of it is farther than kInventedDistance from the original.
   std::vector<bool> invented;
-  double invented_share = 0;  ///< of the solid's area
-  double thin_share = 0;      ///< of the solid's area, where it is thinner than kThinWall
+  double invented_share = 0;  ///< share of the solid's area
+  double thin_share = 0;      ///< share of the solid's area with a wall thinner than kThinWall
 };
 
-/// A facet of a repaired solid with a point farther than this, over the diameter, from the original
-/// surface was invented: a gap that is filled by less is smaller than what a fingertip feels.
+/// Distance from the original, over the diameter, beyond which a triangle is filled surface.
+/// A fingertip does not feel a filled gap that deviates by less.
 inline constexpr double kInventedDistance = 0.005;
 
-/// A wall thinner than this over the diameter is the two sides of a wrapped sheet.
+/// Wall thickness over the diameter below which a wall is a sheet wrapped on both sides.
 inline constexpr double kThinWall = 0.004;
 
-/// The same surfaces give the same numbers: points are spread without chance. A point is seen from
-/// outside where 3 of 64 rays from it, evenly in all directions, meet nothing.
-/// @param original, solid  facets of three corners.
+/// Compare a surface with the solid made from it.
+/// The result is deterministic because sampled points are spread without random numbers. A point is
+/// visible from outside if at least 3 of 64 rays from it, spread evenly over all directions, hit
+/// nothing.
+/// @param original, solid  surfaces of triangles.
 [[nodiscard]] Comparison Compare(const object::PolygonSoup& original,
                                  const object::PolygonSoup& solid, double diameter);
 
-/// Of an original what a part of its solids was made from: the facets whose centre is no nearer to
-/// another part.
-/// @param all  the part and all others.
+/// Return the triangles of an original from which one part of its solids was made.
+/// These are the triangles whose centroid is not nearer to another part.
+/// @param all  all parts, `part` included.
 [[nodiscard]] object::PolygonSoup OriginalOfPart(const object::PolygonSoup& original,
                                                  const object::PolygonSoup& all,
                                                  const object::PolygonSoup& part);

@@ -24,7 +24,7 @@ bool HasMarks(const PolygonSoup& soup) {
   return std::ranges::find(soup.invented, true) != soup.invented.end();
 }
 
-/// The facets that are marked, or those that are not, as triangles.
+/// Return the marked polygons, or the unmarked ones, as triangles.
 PolygonSoup TrianglesOf(const PolygonSoup& soup, bool marked) {
   PolygonSoup triangles{soup.vertices, {}};
   for (std::size_t f = 0; f < soup.facets.size(); ++f) {
@@ -39,7 +39,8 @@ PolygonSoup TrianglesOf(const PolygonSoup& soup, bool marked) {
   return triangles;
 }
 
-/// Points of a triangle that are looked at: its centre, and halfway to its corners.
+/// Return the tested points of a triangle: its centroid, and the midpoints between centroid and
+/// corners.
 std::array<Vector3d, 4> CornersOf(const PolygonSoup& solid, std::size_t facet) {
   const auto& f = solid.facets[facet];
   const Vector3d &a = solid.vertices[f[0]], &b = solid.vertices[f[1]], &c = solid.vertices[f[2]];
@@ -56,7 +57,7 @@ double AreaOf(const PolygonSoup& triangles) {
   return area;
 }
 
-/// Marks what lies nearer to an original's invented facets than to its others.
+/// Mark triangles that are nearer to the original's filled surface than to its other surface.
 void InheritMarks(const PolygonSoup& original, PolygonSoup& solid) {
   const PolygonSoup invented = TrianglesOf(original, true), known = TrianglesOf(original, false);
   if (invented.facets.empty()) return;

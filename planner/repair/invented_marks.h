@@ -5,17 +5,18 @@
 
 namespace regrasp::repair {
 
-/// Marks the facets of a solid that were invented: those that the comparison with its original
-/// says are none of it, and those that lie where an earlier repair invented the original's.
-/// @param original  as the file has it, with its marks.
-/// @param comparison  of the two; without marks where they are the same.
+/// Mark the filled surface of a solid.
+/// Marked triangles are those that the comparison marks, and those at which the original itself has
+/// marks of an earlier repair.
+/// @param original  surface of the file, with its marks.
+/// @param comparison  comparison of the two surfaces; a default Comparison marks nothing.
 void MarkInvented(const object::PolygonSoup& original, const Comparison& comparison,
                   object::PolygonSoup& solid);
 
-/// The share of the area that is marked.
+/// Return the share of the area that is marked as filled.
 [[nodiscard]] double InventedShare(const object::PolygonSoup& solid);
 
-/// Sorts the facets that were invented behind the others, as the file of a solid has them.
+/// Move marked triangles behind all others, as required by the file format of a solid.
 void InventedLast(object::PolygonSoup& solid);
 
 }  // namespace regrasp::repair

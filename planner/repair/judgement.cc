@@ -20,7 +20,8 @@ Judgement JudgeSurface(const object::PolygonSoup& soup, const object::Reading& a
   object::Reading reading;
   reading.deadline = asked.deadline;
   reading.counts_defects = false;
-  // The largest is taken by a stage, so that its original is known.
+  // Shells::kLargest is not passed on: the stage take-part selects the largest solid, so that the
+  // matching part of the original is known.
   if (asked.shells == object::Shells::kUnion) reading.shells = asked.shells;
   const std::string name = "surface";
   try {

@@ -11,36 +11,39 @@
 
 namespace regrasp::repair {
 
-/// What is to be said against what a stage made.
+/// Verdict on the result of a stage.
 struct Judgement {
   Shortfall shortfall = Shortfall::kNone;
-  std::string complaint;  ///< empty where there is none
-  double deviation = 0;   ///< with kTooFar, over the diameter
+  std::string complaint;  ///< reason of rejection; empty if accepted
+  double deviation = 0;   ///< deviation over the diameter; set with kTooFar
 
   [[nodiscard]] bool passes() const { return shortfall == Shortfall::kNone; }
 };
 
-/// Whether the reader takes a surface: kNoSolid or kSeveralSolids where not.
-/// @param reading  its deadline, and whether several solids beside each other are taken as one body
-///                 (Shells::kUnion).
-/// @throws TimeUp  the deadline came.
+/// Check whether the reader accepts a surface.
+/// @param reading  the deadline, and whether several separate solids count as one object
+///     (Shells::kUnion).
+/// @returns kNone, kNoSolid or kSeveralSolids.
+/// @throws TimeUp  if the deadline passes.
 [[nodiscard]] Judgement JudgeSurface(const object::PolygonSoup& soup,
                                      const object::Reading& reading);
 
-/// Whether it is clear which one of several solids is meant; kNotChosen where not.
-/// @param volume_shares  of each, largest first.
+/// Check whether the options determine which one of several solids is used.
+/// @param volume_shares  volume of each solid over the sum, largest first.
+/// @returns kNone or kNotChosen.
 [[nodiscard]] Judgement JudgeParts(const std::vector<double>& volume_shares,
                                    const object::RepairOptions& options);
 
-/// A surface that is repaired.
+/// Surface before the repair.
 struct Original {
   object::PolygonSoup soup;  ///< triangles
   double diameter = 0;
-  bool open = false;  ///< an edge has one facet
+  bool open = false;  ///< whether an edge has one triangle only
 };
 
-/// Whether a solid is an image of its original: kTooFar, kNotAllThere or kSheet where not. A solid
-/// is no sheet where its original is closed: it is as thin as that.
+/// Check whether a solid represents its original.
+/// A solid of a closed original is never rejected as a sheet, because the original is equally thin.
+/// @returns kNone, kTooFar, kNotAllThere or kSheet.
 [[nodiscard]] Judgement JudgeShape(const Comparison& comparison, const Original& original,
                                    const object::RepairOptions& options);
 

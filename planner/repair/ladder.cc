@@ -23,15 +23,15 @@ namespace {
 
 constexpr char kIsSolid[] = "solid";
 
-/// A solid this close to its original, over the diameter, ends the climb; others are the last word
-/// only where no later stage comes closer.
+/// Deviation over the diameter at which a solid ends the repair. A solid with a larger deviation is
+/// used only if no later stage gives a closer one.
 constexpr double kCloseEnough = 0.002;
 
-/// Where a wrap of an open surface has less than this of the volume of a coarser one, it has
-/// entered a hollow body and leaves nothing but its wall.
+/// Volume ratio of a fine to a coarse wrap of an open surface. Below it the fine wrap has entered a
+/// hollow object and encloses only its wall.
 constexpr double kLeastLeft = 0.5;
 
-/// Whether a stage can do anything about a surface.
+/// Return whether a stage can improve a surface.
 bool Applies(std::string_view stage, const PolygonSoup& soup) {
   if (stage == "fill-holes") return HasOpenEdges(soup);
   if (stage == "unite-shells") return CountShells(soup) > 1;
@@ -54,9 +54,9 @@ class Ladder {
   }
 
  private:
-  // Each true where the climb goes on, false where it ends without a solid.
+  // Each of the following functions returns false if the repair ends without a solid.
 
-  /// A cloud of points becomes a surface first.
+  /// Convert a point cloud to a surface.
   bool JoinsPoints() {
     if (!soup_.facets.empty()) return true;
     auto surface = Run("reconstruct", [&] { return ReconstructSurface(soup_); });
@@ -86,14 +86,14 @@ class Ladder {
     return true;
   }
 
-  /// Whether the reader takes the file's surface, so that there is nothing to do.
+  /// Return whether the reader accepts the surface of the file, so that no repair is required.
   bool TakesAsItIs() {
     climbed_.attempt.stages.emplace_back();
     last().stage = "read";
     last().facets = soup_.facets.size();
     if (!Passes(JudgeSurface(soup_, reading_))) return false;
-    climbed_.solid = soup_;              // with the marks of an earlier repair
-    climbed_.comparison.seen_share = 1;  // and all differences are none
+    climbed_.solid = soup_;              // keeps the marks of an earlier repair
+    climbed_.comparison.seen_share = 1;  // all differences are zero
     return true;
   }
 
@@ -109,7 +109,7 @@ class Ladder {
       auto made = Run(name, [&] { return stage(best); });
       if (!made) continue;
       if (IsCloseEnough(*made)) return true;
-      // What was cut out is not to be missed by those that follow.
+      // These two stages remove surface, which the following stages require.
       const std::string_view stage_name = name;
       if (stage_name != "remove-crossings" && stage_name != "arrange") best = *std::move(made);
     }
@@ -118,8 +118,8 @@ class Ladder {
 
   bool Wraps(const PolygonSoup& best) {
     if (WrapIsCloseEnough("wrap", best)) return true;
-    // What fills a wide hole may hide what is seen through it; a wrap of the surface as it is shows
-    // that, where it does not enter a hollow body.
+    // The filling of a wide hole can hide surface that is visible through the hole. A wrap of the
+    // unfilled surface keeps it visible, unless the wrap enters a hollow object.
     const bool hides = last().shortfall == Shortfall::kTooFar && !HasOpenEdges(best);
     return !closest_ && hides && original_.open &&
            WrapIsCloseEnough("wrap-unfilled", original_.soup);
@@ -128,7 +128,7 @@ class Ladder {
   bool WrapIsCloseEnough(const std::string& stage, const PolygonSoup& surface) {
     auto made = Run(stage, [&] { return WrapSurface(surface); });
     if (!made) return false;
-    const Json& volumes = last().facts["volumes"];  // from the coarser wrap to the finer one
+    const Json& volumes = last().facts["volumes"];  // coarser wrap first
     const double left =
         volumes.back()["volume"].get<double>() / volumes.front()["volume"].get<double>();
     if (HasOpenEdges(surface) && left < kLeastLeft) {
@@ -141,8 +141,8 @@ class Ladder {
     return IsCloseEnough(*std::move(made));
   }
 
-  /// Whether what the last stage made ends the climb. Where it is a solid but not that close it is
-  /// kept, if none before was closer.
+  /// Return whether the result of the last stage ends the repair.
+  /// A solid that is not close enough is stored if it is closer than all earlier ones.
   bool IsCloseEnough(PolygonSoup soup) {
     std::optional<Comparison> comparison = Judge(soup);
     if (!comparison) return false;
@@ -156,8 +156,9 @@ class Ladder {
     return false;
   }
 
-  /// Ends the climb with the closest solid of all, where there is one: its stage is then the last
-  /// one, and says which others were farther off.
+  /// End the repair with the closest solid, if there is one.
+  /// The report then ends with the stage of this solid, which lists solids of other stages as
+  /// farther off.
   bool HasClosest() {
     if (!closest_) return false;
     std::vector<StageReport>& stages = climbed_.attempt.stages;
@@ -185,7 +186,7 @@ class Ladder {
 
   bool MakesCoarser() {
     if (!options_.facets || std::ssize(climbed_.solid->facets) <= *options_.facets) return true;
-    if (original_.soup.facets.empty()) {  // a solid as it is: of triangles, to measure against
+    if (original_.soup.facets.empty()) {  // the file is a solid: triangulate it for the comparison
       if (!Cleans()) return false;
       climbed_.attempt.stages.pop_back();
       const auto is_triangle = [](const auto& facet) { return facet.size() == 3; };
@@ -202,13 +203,15 @@ class Ladder {
     return false;
   }
 
-  /// How long a stage may take. What unites shells may go round for ever where they touch along
-  /// edges; it takes 5 s for 23,000 facets, and others come after it.
+  /// Return the time limit of a stage.
+  /// UniteShells can loop forever if shells touch along edges. It takes 5 s for 23,000 triangles,
+  /// and later stages can replace it.
   static std::chrono::seconds TimeOf(std::string_view stage) {
     return stage == "unite-shells" ? std::chrono::seconds(60) : kStageTime;
   }
 
-  /// @returns nullopt where the stage failed; the report says so.
+  /// Run a stage and append its report.
+  /// @returns nullopt if the stage fails; the report has the reason.
   std::optional<PolygonSoup> Run(const std::string& stage,
                                  const std::function<StageResult()>& task) {
     reading_.Begin("repairing " + name_ + ": " + stage);
@@ -222,10 +225,10 @@ class Ladder {
     return InCanonicalOrder(run.result->soup);
   }
 
-  /// Judges what the last stage made, of several solids the one that is taken.
-  /// @param fine  of a coarser solid the finer one, with its marks: that is far from its original
-  ///              because it is coarse, and only where that one was invented it is, too.
-  /// @returns how it differs from the original, where nothing is wrong with it.
+  /// Check the result of the last stage; of several solids the selected one.
+  /// @param fine  for a simplified solid, the solid before simplification with its marks. A coarse
+  ///     solid is far from the original by nature; therefore its filled surface is that of `fine`.
+  /// @returns the comparison with the original; nullopt if the check fails.
   std::optional<Comparison> Judge(PolygonSoup& soup, const PolygonSoup* fine = nullptr) {
     Judgement judgement = JudgeSurface(soup, reading_);
     Passes(judgement);
@@ -234,7 +237,7 @@ class Ladder {
       const PolygonSoup all = soup;
       if (!TakesPart(soup)) return std::nullopt;
       judgement = JudgeSurface(soup, reading_);
-      // What was asked to be left out is not missing.
+      // Solids that the user excludes by `options.part` do not count as missing.
       if (options_.part) its_original = OriginalOfPart(original_.soup, all, soup);
     }
     if (!Passes(judgement)) return std::nullopt;
@@ -251,8 +254,8 @@ class Ladder {
     return comparison;
   }
 
-  /// Takes what the last stage made, where nothing is wrong with it.
-  /// @param fine  as Judge has it.
+  /// Use the result of the last stage if `Judge` accepts it.
+  /// @param fine  as in `Judge`.
   bool Accepts(PolygonSoup soup, const PolygonSoup* fine = nullptr) {
     std::optional<Comparison> comparison = Judge(soup, fine);
     if (!comparison) return false;
@@ -261,7 +264,7 @@ class Ladder {
     return true;
   }
 
-  /// Of several solids beside each other takes one.
+  /// Select one of several separate solids.
   bool TakesPart(PolygonSoup& soup) {
     auto part = Run("take-part", [&] { return TakePart(soup, options_.part.value_or(1)); });
     if (!part) {
@@ -273,7 +276,7 @@ class Ladder {
     return Passes(JudgeParts(shares, options_));
   }
 
-  /// Writes a judgement of what the last stage made into its report.
+  /// Store a verdict on the result of the last stage in its report.
   bool Passes(const Judgement& judgement) {
     last().shortfall = judgement.shortfall;
     last().outcome = judgement.passes() ? kIsSolid : judgement.complaint;
@@ -289,9 +292,9 @@ class Ladder {
   const object::Reading& reading_;
   Original original_;
   Climbed climbed_;
-  /// The closest of the solids that were made so far.
+  /// Closest solid so far.
   struct Closest {
-    std::vector<StageReport> stages;  ///< up to the one that made it
+    std::vector<StageReport> stages;  ///< stages up to and including the one that made the solid
     PolygonSoup solid;
     Comparison comparison;
   };

@@ -11,16 +11,16 @@
 
 namespace regrasp::repair {
 
-/// What the climb came to.
+/// Result of the repair pipeline.
 struct Climbed {
   Attempt attempt;
-  std::optional<object::PolygonSoup> solid;  ///< none: no stage gave one
-  Comparison comparison;                     ///< of the solid
+  std::optional<object::PolygonSoup> solid;  ///< nullopt if no stage gives one
+  Comparison comparison;                     ///< comparison of the solid with the original
 };
 
-/// Climbs from stage to stage until what comes out is a solid that the reader takes and that keeps
-/// to the options' limits (repair.h).
-/// @throws TimeUp  the deadline came.
+/// Run the repair stages until one gives a valid solid.
+/// A solid is valid if the reader accepts it and it satisfies the limits in `options` (repair.h).
+/// @throws TimeUp  if the deadline passes.
 [[nodiscard]] Climbed Climb(const object::PolygonSoup& soup, const std::string& name,
                             const object::RepairOptions& options, const object::Reading& reading);
 

@@ -65,11 +65,11 @@ namespace {
 using CloudPoint = Kernel::Point_3;
 using Search = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<Kernel>>;
 
-/// A triangle with an edge longer than this, in typical distances between neighbours, bridges what
-/// was not scanned.
+/// Edge length, in typical distances between neighbours, beyond which a triangle bridges an
+/// unscanned region.
 constexpr double kLongEdge = 8;
 
-/// Fewest points that can be a body.
+/// Smallest number of points of an object.
 constexpr std::size_t kFewestPoints = 10;
 
 double MiddleOf(std::vector<double> values) {
@@ -78,17 +78,17 @@ double MiddleOf(std::vector<double> values) {
   return *middle;
 }
 
-/// The middle one of the distances from points to their nearest others.
+/// Return the median distance of a point to its nearest neighbour.
 double TypicalDistance(const Search::Tree& tree, const std::vector<CloudPoint>& points) {
   std::vector<double> distances;
   for (const CloudPoint& p : points) {
-    Search search(tree, p, 2);  // itself first
+    Search search(tree, p, 2);  // the first neighbour is the point itself
     distances.push_back(std::sqrt(std::next(search.begin())->second));
   }
   return MiddleOf(std::move(distances));
 }
 
-/// How widely the neighbours of a point are spread across their plane, over how widely along it.
+/// Return the spread of a point's neighbours across their plane over their smallest spread in it.
 double ScatterAt(const Search::Tree& tree, const CloudPoint& p) {
   constexpr int kNeighbors = 12;
   Search search(tree, p, 1 + kNeighbors);
@@ -99,13 +99,13 @@ double ScatterAt(const Search::Tree& tree, const CloudPoint& p) {
     spread.col(i) = Eigen::Vector3d(offset.x(), offset.y(), offset.z());
   }
   spread.colwise() -= spread.rowwise().mean().eval();
-  const Eigen::Vector3d widths = spread.jacobiSvd().singularValues();  // the widest first
+  const Eigen::Vector3d widths = spread.jacobiSvd().singularValues();  // in decreasing order
   return widths[1] > 0 ? widths[2] / widths[1] : 0;
 }
 
-/// The middle one of points' scatters.
+/// Return the median scatter.
 double ScatterOf(const Search::Tree& tree, const std::vector<CloudPoint>& points) {
-  /// Of more points so many are looked at, evenly among those sorted by place.
+  /// Largest number of evaluated points; taken at equal steps from the sorted points.
   constexpr std::size_t kLooks = 10000;
   const std::size_t step = 1 + points.size() / kLooks;
   std::vector<double> scatters;
@@ -115,10 +115,10 @@ double ScatterOf(const Search::Tree& tree, const std::vector<CloudPoint>& points
   return MiddleOf(std::move(scatters));
 }
 
-/// A number that is a point's own.
+/// Return a hash of a point.
 std::uint64_t OwnNumber(const CloudPoint& p) {
   std::uint64_t bits = 0;
-  for (const double x : {p.x(), p.y(), p.z()}) {  // the mixing of splitmix64
+  for (const double x : {p.x(), p.y(), p.z()}) {  // mixing function of splitmix64
     bits += std::bit_cast<std::uint64_t>(x) + 0x9e3779b97f4a7c15;
     bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
     bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
@@ -127,24 +127,26 @@ std::uint64_t OwnNumber(const CloudPoint& p) {
   return bits;
 }
 
-/// What decides which triangle comes next: its radius. Of equal ones, as they are on grids, CGAL
-/// takes the one whose address is lower, and so another one in another program: the points decide.
+/// Priority of triangles: the radius, with ties broken by a hash of the points.
+/// CGAL breaks ties, which are frequent on grids, by memory address. That depends on the calling
+/// program.
 struct RadiusOrPoints {
   template <class Front, class Cell>
   double operator()(const Front& front, Cell& cell, const int& index) const {
     constexpr double kTies = 1e-9;
     const double radius = front.smallest_radius_delaunay_sphere(cell, index);
-    std::uint64_t own = 0;  // seen from either side the sum is the same
+    std::uint64_t own = 0;  // sum over the corners, hence equal from both sides
     for (int k = 1; k < 4; ++k) own += OwnNumber(cell->vertex((index + k) % 4)->point());
     return radius * (1 + kTies * (double(own) * 0x1p-64));
   }
 };
 
-/// Turns each part of a surface outwards, and gives its facets an order that is their own: the
-/// smallest corner of each first.
+/// Orient each shell outwards, and give its triangles a canonical order that starts at the smallest
+/// corner.
 void MakeCanonical(object::PolygonSoup& soup) {
   const std::vector<int> shells = ShellOfFacets(soup);
-  // About a point that does not depend on their order: of an open part it decides the sign.
+  // The reference point must not depend on the order of the vertices, because it determines the
+  // sign of an open shell's volume.
   const Eigen::Vector3d middle =
       std::accumulate(soup.vertices.begin(), soup.vertices.end(), Eigen::Vector3d(0, 0, 0)) /
       double(soup.vertices.size());

@@ -6,15 +6,15 @@
 
 namespace regrasp::repair {
 
-/// True iff an edge has one facet.
-/// @param soup  as CleanSurface makes it: no edge has more than two facets.
+/// Return true iff an edge has one triangle only.
+/// @param soup  result of CleanSurface: no edge has more than two triangles.
 [[nodiscard]] bool HasOpenEdges(const object::PolygonSoup& soup);
 
-/// Of each facet the part of the surface that it is in: parts have no vertex in common, and are
-/// numbered in the order of their first facets.
+/// Return the shell of each triangle.
+/// Shells share no vertex. They are numbered in the order of their first triangles.
 [[nodiscard]] std::vector<int> ShellOfFacets(const object::PolygonSoup& soup);
 
-/// How many parts of the surface there are that have no vertex in common.
+/// Return the number of shells, that is of parts that share no vertex.
 [[nodiscard]] int CountShells(const object::PolygonSoup& soup);
 
 }  // namespace regrasp::repair

@@ -22,20 +22,21 @@ namespace {
 using Face = Mesh::Face_index;
 using Pairs = std::vector<std::pair<Face, Face>>;
 
-/// Gaps whose filling meets something are made wider by a ring of facets; so often at most.
+/// Largest number of rounds. Each widens the gaps whose filling intersects the surface by a ring of
+/// triangles.
 constexpr int kMostRounds = 12;
 
-/// No more than this share of the facets is cut out: where more meet, bodies pass through each
-/// other.
+/// Largest share of removed triangles. If more intersect, whole solids pass through each other.
 constexpr double kMostCutOut = 0.1;
 
-/// What is cut off by a gap is dropped where it has no more facets than this, nor more than a
-/// hundredth of all.
+/// Components separated by a gap are dropped if they have at most kScrapFacets triangles and at
+/// most 1/kScrapShare of all triangles.
 constexpr std::size_t kScrapFacets = 20;
 constexpr std::size_t kScrapShare = 100;
 
 Pairs FindPairs(const Mesh& mesh) {
-  /// More than this many pairs are no blemishes: shells that pass through each other.
+  /// Number of pairs beyond which shells pass through each other, so that local removal cannot
+  /// help.
   constexpr std::size_t kMostPairs = 20000;
   Pairs pairs;
   pmp::self_intersections(faces(mesh), mesh, std::back_inserter(pairs),
@@ -44,7 +45,7 @@ Pairs FindPairs(const Mesh& mesh) {
   return pairs;
 }
 
-/// A surface that facets are cut out of; the vertices keep their numbers.
+/// Surface with removed triangles. Vertices keep their indices.
 class CutOut {
  public:
   explicit CutOut(const Mesh& whole) : whole_(whole) {
@@ -57,8 +58,8 @@ class CutOut {
     return double(facets_.size()) > kMostCutOut * double(whole_.num_faces());
   }
 
-  /// The surface with its gaps filled, which may meet what is about them; nullopt where a gap
-  /// cannot be filled.
+  /// Return the surface with filled gaps. The filling can intersect the surface.
+  /// @returns nullopt if a gap cannot be filled.
   [[nodiscard]] std::optional<Mesh> Filled() const {
     Mesh mesh = whole_;
     for (const Face f : facets_) CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
@@ -74,8 +75,8 @@ class CutOut {
     return mesh;
   }
 
-  /// By all facets that have a corner in common with some of a filled surface, or with all that is
-  /// cut out.
+  /// Also remove all triangles that share a corner with an intersecting pair of a filled surface,
+  /// or with any removed triangle.
   void Widen(const Mesh& filled, const Pairs& meeting) {
     std::set<Mesh::Vertex_index> corners;
     for (const auto& [one, other] : meeting) {
@@ -96,7 +97,7 @@ class CutOut {
  private:
   void WidenAbout(const std::set<Mesh::Vertex_index>& corners) {
     for (const auto v : corners) {
-      if (std::size_t(v) >= whole_.num_vertices()) continue;  // doubled where parts touch
+      if (std::size_t(v) >= whole_.num_vertices()) continue;  // duplicated where parts touch
       for (const Face f : whole_.faces_around_target(whole_.halfedge(v))) facets_.insert(f);
     }
   }

@@ -15,22 +15,22 @@ using object::PolygonSoup;
 
 namespace {
 
-/// The less, the more the user can do about it.
+/// Return how little the user can do about a shortfall; 0 is the most actionable.
 int RankOf(Shortfall shortfall) {
   switch (shortfall) {
     case Shortfall::kNotChosen:
-      return 0;  // one can be chosen
+      return 0;  // the user can select a solid
     case Shortfall::kNotAllThere:
     case Shortfall::kSheet:
-      return 1;  // what is missing can be scanned, a sheet can get a wall
+      return 1;  // the user can scan the missing surface, or give a sheet a wall
     case Shortfall::kTooFar:
-      return 2;  // a deviation can be allowed
+      return 2;  // the user can allow a deviation
     default:
       return 3;
   }
 }
 
-/// The stage whose outcome says what would help; the last one where none does.
+/// Return the stage with the most actionable outcome; the last stage if none is actionable.
 const StageReport& MostHelpful(const Attempt& attempt) {
   const auto found = std::ranges::min_element(attempt.stages, {}, [](const StageReport& stage) {
     return std::pair(RankOf(stage.shortfall), stage.deviation);
@@ -38,7 +38,8 @@ const StageReport& MostHelpful(const Attempt& attempt) {
   return RankOf(found->shortfall) == RankOf(Shortfall::kNoResult) ? attempt.stages.back() : *found;
 }
 
-/// The reader takes a solid whose facets all turn inwards; other programs do not.
+/// Orient a solid outwards.
+/// The reader accepts inward solids, but other programs do not.
 void TurnOutwards(PolygonSoup& solid) {
   const Eigen::Vector3d& from = solid.vertices[solid.facets[0][0]];
   double volume = 0;
@@ -71,7 +72,7 @@ Repaired Repair(const PolygonSoup& soup, const std::string& name,
   Repaired repaired{std::move(climbed.attempt), *std::move(climbed.solid), 0,
                     std::move(climbed.comparison)};
   if (repaired.solid.invented.empty()) {
-    // A sheet's two sides are both off it.
+    // Both sides of a sheet are off its original, so the comparison would mark all of it.
     MarkInvented(soup, options.thickness ? Comparison() : repaired.comparison, repaired.solid);
   }
   InventedLast(repaired.solid);
@@ -85,7 +86,7 @@ Repaired Repair(const PolygonSoup& soup, const std::string& name,
 }
 
 std::string RepairHint(const std::filesystem::path& path, const object::Reading& reading) {
-  /// A refusal is not delayed by more than this.
+  /// Largest delay of an error message by the trial repair.
   constexpr double kSeconds = 20;
   object::Reading limited = reading;
   const Deadline own = DeadlineAfter(Deadline::Clock::now(), kSeconds);
@@ -148,7 +149,7 @@ Json SummaryJson(const DistanceSummary& summary, double diameter) {
           {"where", {summary.where.x(), summary.where.y(), summary.where.z()}}};
 }
 
-/// Below a thousandth of a percent is rounding.
+/// Format a share. Values below 0.001 % are rounding errors.
 std::string Percent(double share) {
   constexpr double kRounding = 1e-5;
   return share < kRounding ? "0 %" : FormatShort(100 * share, 3) + " %";
@@ -170,7 +171,7 @@ Json OrNull(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-/// What is said alike of a solid and of a refusal.
+/// Return the part of a report that solids and failed repairs have in common.
 Json AttemptJson(const Attempt& attempt, const object::SoupFile& file,
                  const object::RepairOptions& options) {
   Json report;

@@ -16,22 +16,23 @@
 
 namespace regrasp::repair {
 
-/// The stages of a repair, as they were tried.
+/// Executed stages of a repair.
 struct Attempt {
-  double diameter = 0;  ///< of the original
+  double diameter = 0;  ///< diameter of the original
   std::size_t facets_before = 0;
   std::vector<StageReport> stages;
 };
 
-/// A solid made from a surface; the last stage made it.
+/// Solid made from a surface by the last of the stages.
 struct Repaired : Attempt {
-  object::PolygonSoup solid;  ///< triangles; those that were invented are marked
+  object::PolygonSoup solid;  ///< triangles, with marks of filled surface
   double volume = 0;
   Comparison comparison;
 };
 
-/// No stage gave a solid that keeps to the limits. `what()` names the file and the cause of which
-/// most can be learnt: that there are several solids, what is missing, how far the best was off.
+/// Error: no stage gives a solid that satisfies the limits.
+/// `what()` names the file and the most informative cause: several solids, missing surface, or the
+/// deviation of the best solid.
 class NotRepaired : public InputError {
  public:
   NotRepaired(const std::string& name, Attempt attempt);
@@ -41,54 +42,59 @@ class NotRepaired : public InputError {
   Attempt attempt_;
 };
 
-/// Makes a solid of a surface that is none, changing it as little as it can: a ladder of stages,
-/// each harsher than the one before, until what comes out is a solid that the reader takes and that
-/// keeps to the options' limits.
+/// Repair a surface so that it bounds a solid, with as little change as possible.
+/// The stages run in order of increasing change. A solid is valid if the reader accepts it and it
+/// satisfies the limits in `options`. The repair ends at the first valid solid that is close to the
+/// original; without such a solid it returns the closest valid one.
 ///
-/// A surface that is a solid already comes out as it is (stage "read"). Deviation is
-/// Comparison::seen_most over the diameter. What an earlier repair marked as invented stays so. The
-/// same surface gives the same bytes. With Reading::shells the union of solids beside each other is
-/// a solid too, and of several that are left the largest is the part that is taken.
-/// @param name  how messages call it.
-/// @throws NotRepaired  no stage gives such a solid.
-/// @throws TimeUp  the deadline came.
+/// A surface that already bounds a solid is returned unchanged (stage "read"). The deviation is
+/// Comparison::seen_most over the diameter. Marks of filled surface from an earlier repair are
+/// kept. Equal surfaces give equal bytes. `reading.shells` applies as follows: with Shells::kUnion
+/// several separate solids are accepted; with Shells::kLargest the largest solid is taken unless
+/// `options.part` selects another.
+/// @param name  name of the surface in messages.
+/// @throws NotRepaired  if no stage gives such a solid.
+/// @throws TimeUp  if the deadline passes.
 [[nodiscard]] Repaired Repair(const object::PolygonSoup& soup, const std::string& name,
                               const object::RepairOptions& options,
                               const object::Reading& reading = {});
 
-/// A solid of which more than this share of the area was invented is mostly not what was scanned.
+/// Largest accepted share of filled surface. Beyond it too little of the object was scanned.
 inline constexpr double kMostInvented = 0.25;
 
-/// More than this share of thin wall, and a surface was wrapped on both sides.
+/// Share of thin wall beyond which the solid is an open surface wrapped on both sides.
 inline constexpr double kMostThin = 0.1;
 
-/// A part beside another with more than this share of the volume is not dropped unasked.
+/// Volume share beyond which the second largest solid is not dropped without `options.part`.
 inline constexpr double kSmallPart = 0.01;
 
-/// Reads a file and repairs what it holds: `repair` and then ReadObject, without the file between.
-/// @param text  if not null, RepairText.
+/// Read a file and repair its surface.
+/// The result equals that of `repair` followed by ReadObject on its output file.
+/// @param text  receives RepairText if not null.
 /// @throws InputError, TimeUp  as Repair and object::ReadSoup.
 [[nodiscard]] object::ObjectFile ReadRepaired(const std::filesystem::path& path,
                                               const object::RepairOptions& options,
                                               const object::Reading& reading,
                                               std::string* text = nullptr);
 
-/// Of a file that is refused, what a repair would make of it: for the end of the message.
+/// Describe what a repair of a rejected file gives, as a suffix of the error message.
 [[nodiscard]] std::string RepairHint(const std::filesystem::path& path,
                                      const object::Reading& reading);
 
-/// "15728 facets, 34882 after the repair (clean, wrap); deviation 0.0718 % of the diameter, …".
+/// Summarize a repair in one line.
+/// Example: "15728 facets, 34882 after the repair (clean, wrap); deviation 0.0718 % of the
+/// diameter, …".
 [[nodiscard]] std::string RepairText(const Repaired& repaired);
 
-/// The report of a repair (docs/formats.md).
+/// Return the report of a repair (docs/formats.md).
 [[nodiscard]] Json RepairReport(const Repaired& repaired, const object::SoupFile& file,
                                 const object::RepairOptions& options);
 
-/// The report of one that found no solid.
+/// Return the report of a repair that gives no solid.
 [[nodiscard]] Json RefusalReport(const NotRepaired& refusal, const object::SoupFile& file,
                                  const object::RepairOptions& options);
 
-/// The solid as an OBJ file; invented facets are in the group "invented".
+/// Format a solid as an OBJ file. Filled surface is in the group "invented".
 [[nodiscard]] std::string FormatSolid(const object::PolygonSoup& solid);
 
 }  // namespace regrasp::repair

@@ -19,10 +19,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The sum of two unit normals that is shorter than this has no direction.
+/// Length below which the sum of two unit normals has no direction.
 constexpr double kFlat = 1e-6;
 
-/// A side of a facet: from its k-th corner to the next.
+/// Side of a triangle, from its k-th corner to the next.
 struct Side {
   int facet;
   int k;
@@ -31,7 +31,7 @@ struct Side {
   }
 };
 
-/// Two sides at one edge, of facets that follow each other in a ring.
+/// Two sides at one edge, of triangles that are adjacent in a fan.
 using Sides = std::pair<Side, Side>;
 
 class Resolver {
@@ -76,9 +76,10 @@ class Resolver {
     }
   }
 
-  /// About an edge inside and outside take turns. Two facets become neighbours that enclose some
-  /// inside where parts are drawn back, some outside where they are joined; they get a vertex of
-  /// their own in the middle of the edge, in what they enclose.
+  /// Pair the triangles about an edge with more than two of them.
+  /// Inside and outside alternate about the edge. The triangles of a pair enclose inside if parts
+  /// are separated, and outside if parts are joined. Each pair gets a new vertex at the middle of
+  /// the edge, moved into the enclosed region.
   void PairAbout(const std::pair<int, int>& edge, std::vector<Side>& sides) {
     const Vector3d& from = soup_.vertices[edge.first];
     const Vector3d along = (soup_.vertices[edge.second] - from).normalized();
@@ -88,7 +89,7 @@ class Resolver {
       return std::atan2(apex.dot(v), apex.dot(u));
     };
     std::ranges::sort(sides, {}, angle);
-    // Counter-clockwise of a facet that runs against the edge is its inside.
+    // The region counter-clockwise of a triangle that runs against the edge is inside.
     const auto has_inside_next = [&](const Side& side) { return Corner(side) == edge.second; };
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const Side& one = sides[i];
@@ -100,15 +101,15 @@ class Resolver {
       pairs_.emplace_back(one, other);
       touching_.insert({edge.first, edge.second});
       Vector3d between = (joins_ ? 1 : -1) * (NormalOf(one.facet) + NormalOf(other.facet));
-      if (between.norm() < kFlat) between = At(Next(Next(one))) - from;  // a slit, or a blade
+      if (between.norm() < kFlat) between = At(Next(Next(one))) - from;  // a slit or a blade
       middle_of_[one] = middle_of_[other] =
           static_cast<int>(soup_.vertices.size() + middles_.size());
       middles_.push_back((from + soup_.vertices[edge.second]) / 2 + by_ * between.normalized());
     }
   }
 
-  /// Every ring of facets about a vertex gets a vertex of its own; where there is one alone it
-  /// stays where it is.
+  /// Give each fan of triangles about a vertex a vertex of its own.
+  /// The only fan of a vertex keeps its position.
   void NumberRings() {
     std::vector<int> root(3 * soup_.facets.size());
     std::iota(root.begin(), root.end(), 0);
@@ -117,7 +118,7 @@ class Resolver {
       return i;
     };
     const auto place = [](const Side& side) { return 3 * side.facet + side.k; };
-    for (const auto& [one, other] : pairs_) {  // they run against each other
+    for (const auto& [one, other] : pairs_) {  // their directions along the edge are opposite
       root[find(place(one))] = find(place(Next(other)));
       root[find(place(Next(one)))] = find(place(other));
     }
@@ -142,10 +143,10 @@ class Resolver {
     for (int i = 0; i < std::ssize(root); ++i) vertex_of_.push_back(number[find(i)]);
   }
 
-  /// A facet, cut where its sides got a vertex in their middle.
+  /// Add a triangle, split at the new vertices in the middle of its sides.
   void AddFacet(int facet, object::PolygonSoup& resolved) const {
     std::vector<int> outline;
-    std::size_t fan = 0;  // a middle, from which all of the outline is seen
+    std::size_t fan = 0;  // a middle vertex, from which the whole outline is visible
     for (int k = 0; k < 3; ++k) {
       outline.push_back(vertex_of_[3 * facet + k]);
       const auto middle = middle_of_.find({facet, k});
@@ -164,10 +165,11 @@ class Resolver {
   double by_;
   std::vector<Sides> pairs_;
   std::vector<Vector3d> middles_;
-  std::set<int> touching_;         ///< ends of edges of more than two
-  std::map<Side, int> middle_of_;  ///< by side, of those at edges of more than two
+  std::set<int> touching_;  ///< end vertices of edges with more than two triangles
+  /// New middle vertex by side, at edges with more than two triangles.
+  std::map<Side, int> middle_of_;
   std::vector<Vector3d> vertices_;
-  std::vector<int> vertex_of_;  ///< by corner of facet
+  std::vector<int> vertex_of_;  ///< new vertex by triangle corner
 };
 
 }  // namespace

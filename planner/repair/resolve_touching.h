@@ -4,23 +4,24 @@
 
 namespace regrasp::repair {
 
-/// What becomes of parts of a solid that merely touch along an edge.
+/// Treatment of parts of a solid that touch along an edge only.
 enum class Touching {
-  kJoin,  ///< one body: its surface is drawn outwards there
-  kPart,  ///< each is drawn back into its own inside
+  kJoin,  ///< one solid: the surface is moved outwards at the edge
+  kPart,  ///< separate solids: each surface is moved inwards at the edge
 };
 
-/// Moves the surface of a solid by kTouchingMoved · D along edges of more than two facets, and at
-/// vertices where parts touch, so that every edge has two facets and every vertex one ring of them.
-/// Parts that touch at vertices alone are drawn back from each other.
-/// @param soup  triangles that bound a solid: as many along an edge as against it, and no two of
-///              them in one place.
-/// @throws std::runtime_error  about an edge inside and outside do not take turns.
+/// Separate the surface of a solid at its non-manifold edges and vertices.
+/// In the result each edge has two triangles and each vertex one fan of triangles.
+/// Moves the surface by kTouchingMoved · D along edges of more than two triangles and at vertices
+/// where parts touch. Parts that touch at vertices only are always moved apart.
+/// @param soup  triangles that bound a solid: each edge has equally many triangles in both
+///     directions, and no two triangles coincide.
+/// @throws std::runtime_error  if inside and outside do not alternate about an edge.
 [[nodiscard]] object::PolygonSoup ResolveTouching(const object::PolygonSoup& soup,
                                                   Touching touching);
 
-/// Over the diameter: more than what is taken for the same point, a micrometre on what is 10 cm
-/// across.
+/// Displacement over the diameter.
+/// Larger than the distance at which vertices are welded; 1 µm for an object of 10 cm.
 inline constexpr double kTouchingMoved = 1e-5;
 
 }  // namespace regrasp::repair

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kMemoryBytes = std::size_t{8} << 30;
 constexpr std::chrono::minutes kWallTime{10};
 
-/// The facts in one line, then the surface.
+/// Serialize a result: one line of facts, then the surface.
 std::string ToBytes(const StageResult& result) {
   return result.facts.dump() + '\n' + object::SoupToBytes(result.soup);
 }
@@ -34,8 +34,9 @@ std::optional<StageResult> FromBytes(const std::string& bytes) {
   return StageResult{*std::move(soup), ParseJson(bytes.substr(0, end), "facts of a stage")};
 }
 
-/// In a thread, whose heap is empty at first and not what the program has left: much of CGAL goes
-/// by the addresses of what is equal otherwise, and they are in the same order each time so.
+/// Run a stage in a new thread, whose heap is empty.
+/// CGAL often orders equal elements by memory address. An empty heap makes these addresses ascend
+/// in the same order in each run.
 std::string WithItsOwnHeap(const std::function<StageResult()>& stage) {
   return std::async(std::launch::async, [&] { return ToBytes(stage()); }).get();
 }

@@ -10,18 +10,19 @@
 
 namespace regrasp::repair {
 
-/// How a stage ended: with a surface, or with why it has none.
+/// Outcome of a stage: a surface, or the reason why there is none.
 struct StageRun {
   std::optional<StageResult> result;
   std::string failure;
 };
 
-/// Of processor time: a stage takes seconds on a scan, a minute on a million facets.
+/// Limit of processor time of a stage.
+/// A stage takes seconds for a scan and a minute for a million triangles.
 inline constexpr std::chrono::seconds kStageTime{300};
 
-/// Runs a stage in a child process of limited time and memory.
-/// @throws TimeUp  the deadline came.
-/// @throws EnvironmentError  no process can be started.
+/// Run a stage in a child process of limited time and memory.
+/// @throws TimeUp  if the deadline passes.
+/// @throws EnvironmentError  if no process can be started.
 [[nodiscard]] StageRun RunStage(const std::function<StageResult()>& stage, const Deadline& deadline,
                                 std::chrono::seconds processor = kStageTime);
 

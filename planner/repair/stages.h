@@ -10,99 +10,105 @@
 
 namespace regrasp::repair {
 
-/// Why what a stage made is not the solid that is asked for.
+/// Reason why the result of a stage is not the required solid.
 enum class Shortfall {
-  kNone,           ///< it is
+  kNone,           ///< accepted
   kNoResult,       ///< the stage failed
-  kNoSolid,        ///< the reader refuses it
-  kSeveralSolids,  ///< the reader refuses it for nothing else
-  kNotChosen,      ///< of several solids beside each other none was chosen that is there
-  kTooFar,         ///< from the original
-  kNotAllThere,    ///< too much of it was invented
-  kSheet,          ///< the two sides of an open surface
+  kNoSolid,        ///< the reader rejects the surface
+  kSeveralSolids,  ///< the reader rejects the surface only because it is several solids
+  kNotChosen,      ///< several separate solids, and the options select none of them
+  kTooFar,         ///< too far from the original
+  kNotAllThere,    ///< too large a share of filled surface
+  kSheet,          ///< both sides of an open surface
 };
 
-/// A stage that was tried.
+/// Report of one executed stage.
 struct StageReport {
-  std::string stage;            ///< its name in reports: "clean", "fill-holes", …
-  std::string outcome;          ///< "solid", or why what it made is none
-  Json facts = Json::object();  ///< what it did
+  std::string stage;            ///< name in reports: "clean", "fill-holes", …
+  std::string outcome;          ///< "solid", or the reason of rejection
+  Json facts = Json::object();  ///< counts and sizes for the report
   std::size_t facets = 0;
   Shortfall shortfall = Shortfall::kNoResult;
-  double deviation = 0;  ///< with kTooFar, over the diameter
+  double deviation = 0;  ///< deviation over the diameter; set with kTooFar
 };
 
-/// What a stage of the repair made of a surface.
+/// Result of a repair stage.
 struct StageResult {
   object::PolygonSoup soup;
-  /// What it did, for the report: counts and sizes by their names, lengths in the object's unit.
+  /// Counts and sizes by name, for the report. Lengths are in object units.
   Json facts = Json::object();
 };
 
-// The stages, each a function from a surface to a surface, run in a child process: what they rest
-// on is meant for surfaces that are better than these, and crashes on some.
-// They throw std::runtime_error with what they cannot do.
+// Each stage is a function from a surface to a surface. Stages run in a child process because the
+// libraries that they use are made for cleaner surfaces and crash on some inputs. A stage that
+// fails throws std::runtime_error with the reason.
 
-/// The surface of a cloud of points (Cohen-Steiner and Da, advancing front, 2004), without
-/// triangles that bridge what was not scanned. Facts: "scatter", how widely a point's neighbours
-/// are spread across their plane, over how widely they are along it where they are least: near 0 on
-/// a surface, 1 in all directions alike (of the points' scatters the middle one).
-/// @param cloud  vertices without facets.
+/// Reconstruct the surface of a point cloud (advancing front, Cohen-Steiner and Da 2004).
+/// Removes triangles that bridge unscanned regions. The fact "scatter" is the median over points of
+/// the ratio of the neighbours' spread across their plane to their smallest spread in it. It is
+/// near 0 on a surface and 1 for an isotropic cloud.
+/// @param cloud  vertices without polygons.
 [[nodiscard]] StageResult ReconstructSurface(const object::PolygonSoup& cloud);
 
-/// Cuts facets into triangles, makes vertices within kWeldDistance one, drops facets without area
-/// and doubled ones, and turns neighbours the same way round. What comes out is a set of triangles
-/// without edges of three or more: vertices are doubled where parts merely touch.
-/// @throws std::runtime_error  nothing is left.
+/// Convert a polygon soup to clean triangles.
+/// Triangulates polygons, merges vertices within kWeldDistance, drops degenerate and duplicate
+/// triangles and orients neighbours consistently. In the result no edge has more than two
+/// triangles: vertices are duplicated where parts only touch.
+/// @throws std::runtime_error  if no triangle remains.
 [[nodiscard]] StageResult CleanSurface(const object::PolygonSoup& soup);
 
-/// Fills every hole with triangles. Facts: the holes, how long their borders are and how wide.
-/// @param soup  as CleanSurface makes it.
+/// Fill every hole with triangles. The facts list the holes with border length and width.
+/// @param soup  result of CleanSurface.
 [[nodiscard]] StageResult FillHoles(const object::PolygonSoup& soup);
 
-/// Makes one body of closed shells: those that are solid are united, cavities are taken out.
-/// @param soup  closed; no shell meets itself.
+/// Unite closed shells into one solid. Solid shells are united, cavities are subtracted.
+/// @param soup  closed surface whose shells have no self-intersections.
 [[nodiscard]] StageResult UniteShells(const object::PolygonSoup& soup);
 
-/// Of solids beside each other the one that is the `part`-th by volume, counted from 1, with its
-/// cavities. Facts: the shares of the volume.
-/// @param soup  closed, no shells meet.
+/// Return one of several separate solids, with its cavities.
+/// The fact "volume_shares" lists the volume of each solid over the sum.
+/// @param soup  closed surface whose shells do not intersect.
+/// @param part  rank of the solid by volume, from 1 (the largest).
 [[nodiscard]] StageResult TakePart(const object::PolygonSoup& soup, int part);
 
-/// Cuts facets that meet each other out and fills the gaps. Facts: pairs before.
-/// @param soup  closed.
+/// Remove intersecting triangles and fill the gaps.
+/// The fact "crossing_facets" is the number of intersecting triangles before.
+/// @param soup  closed surface.
 [[nodiscard]] StageResult RemoveCrossings(const object::PolygonSoup& soup);
 
-/// Cuts all facets where they meet, in exact arithmetic, and keeps those pieces that lie between
-/// the outside and what the surface winds about at least once: the boundary of all that is inside,
-/// however its shells pass through themselves and each other. Facts: pairs that meet.
-/// @param soup  closed.
+/// Resolve all intersections of a surface in exact arithmetic.
+/// Cuts all triangles along their intersections and keeps the pieces that separate winding number 0
+/// from winding number at least 1. The result bounds the whole interior even if shells pass through
+/// themselves and each other. The fact "meeting_pairs" is the number of intersecting pairs.
+/// @param soup  closed surface.
 [[nodiscard]] StageResult ArrangeSurface(const object::PolygonSoup& soup);
 
-/// Wraps a surface from outside: a ball of kWrapDetail · D that cannot enter an opening smaller
-/// than itself rolls about it (Portaneri and others, Alpha wrapping with an offset, 2022), and the
-/// result is drawn back onto the surface. Facts: the volume from coarse wraps to fine ones.
+/// Wrap a surface from outside (alpha wrapping with an offset, Portaneri et al. 2022).
+/// A sphere of radius kWrapDetail · D rolls over the surface and cannot enter smaller openings. The
+/// vertices of the wrap are then projected onto the surface. The fact "volumes" lists the volume of
+/// a coarser and of the final wrap.
 [[nodiscard]] StageResult WrapSurface(const object::PolygonSoup& soup);
 
-/// A sheet of some thickness about an open surface.
+/// Give an open surface a wall of the given thickness, in object units.
 [[nodiscard]] StageResult Solidify(const object::PolygonSoup& soup, double thickness);
 
-/// At most so many facets (Lindstrom and Turk's edge collapse). Where facets meet by it, it is done
-/// anew without collapses there, and then without such as turn facets over; as it was at first
-/// where they meet all the same.
-/// @param soup  the surface of a solid.
+/// Reduce a surface to at most `facets` triangles (edge collapse of Lindstrom and Turk).
+/// If triangles intersect afterwards, the collapse is repeated without the edges at these places,
+/// and then with collapses that flip triangles excluded. If that fails too, the result is that of
+/// the first attempt, intersections included.
+/// @param soup  surface of a solid.
 [[nodiscard]] StageResult Simplify(const object::PolygonSoup& soup, int facets);
 
-/// A cloud of more scatter than this makes no surface.
+/// Scatter beyond which a point cloud is not a surface.
 inline constexpr double kMostScatter = 0.5;
 
-/// Vertices this close, over the diameter, are one: what 32-bit coordinates are rounded to.
+/// Welding distance over the diameter: the rounding error of 32-bit coordinates.
 inline constexpr double kWeldDistance = 1e-6;
 
-/// Radius of the ball that wraps, over the diameter: openings that are narrower are closed.
+/// Radius of the wrapping sphere over the diameter. Narrower openings are closed.
 inline constexpr double kWrapDetail = 0.01;
 
-/// How far outside of the surface the wrap lies before it is drawn back, over kWrapDetail.
+/// Offset of the wrap from the surface before the projection, over kWrapDetail.
 inline constexpr double kWrapOffset = 0.1;
 
 }  // namespace regrasp::repair

@@ -14,7 +14,7 @@ namespace regrasp::repair {
 
 namespace {
 
-/// Distances here are measured, not decided: doubles will do.
+/// Distances are measurements, not decisions, so doubles suffice.
 using Measuring = CGAL::Simple_cartesian<double>;
 using Triangles = std::vector<Measuring::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Measuring, Triangles::const_iterator>;
@@ -29,7 +29,7 @@ Measuring::Ray_3 ToRay(const Eigen::Vector3d& p, const Eigen::Vector3d& d) {
 
 struct SurfaceDistance::Tree {
   Triangles triangles;
-  std::vector<int> facets;  ///< of each triangle, its number in the soup
+  std::vector<int> facets;  ///< index of each triangle in the soup
   CGAL::AABB_tree<CGAL::AABB_traits<Measuring, Primitive>> tree;
 };
 
@@ -38,7 +38,7 @@ SurfaceDistance::SurfaceDistance(const object::PolygonSoup& soup) : tree_(new Tr
     const auto& f = soup.facets[i];
     const Measuring::Triangle_3 triangle(ToPoint(soup.vertices[f[0]]), ToPoint(soup.vertices[f[1]]),
                                          ToPoint(soup.vertices[f[2]]));
-    // Slivers that rounding makes flat lie at their neighbours, and rays cannot be cut with them.
+    // Degenerate triangles lie on their neighbours, and rays cannot be intersected with them.
     if (Measuring().is_degenerate_3_object()(triangle)) continue;
     tree_->triangles.push_back(triangle);
     tree_->facets.push_back(static_cast<int>(i));
@@ -55,7 +55,7 @@ SurfaceDistance::SurfaceDistance(SurfaceDistance&&) noexcept = default;
 SurfaceDistance::Closest SurfaceDistance::FindClosest(const Eigen::Vector3d& point,
                                                       const std::optional<Closest>& near) const {
   const Measuring::Point_3 query = ToPoint(point);
-  // The tree's own hint is a corner, far away where triangles are long.
+  // The tree's own hint is a corner, which is far away if triangles are long.
   auto hint = tree_->tree.best_hint(query);
   const auto try_hint = [&](Triangles::const_iterator triangle) {
     const Measuring::Point_3 p = Measuring().construct_projected_point_3_object()(*triangle, query);
@@ -88,7 +88,7 @@ double SurfaceDistance::FirstHit(const Eigen::Vector3d& point,
   if (const auto* p = boost::get<Measuring::Point_3>(&hit->first)) {
     return (Eigen::Vector3d(p->x(), p->y(), p->z()) - point).norm();
   }
-  return 0;  // along a triangle's plane
+  return 0;  // the ray is in a triangle's plane
 }
 
 }  // namespace regrasp::repair

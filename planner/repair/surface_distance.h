@@ -8,11 +8,11 @@
 
 namespace regrasp::repair {
 
-/// The distance of points to a set of triangles, and what rays meet of them.
+/// Distance of points to a set of triangles, and ray casts against them.
 class SurfaceDistance {
  public:
-  /// @param triangles  facets of three corners; those without area are passed over.
-  /// @throws std::runtime_error  none has one.
+  /// @param triangles  surface of triangles; degenerate ones are ignored.
+  /// @throws std::runtime_error  if all are degenerate.
   explicit SurfaceDistance(const object::PolygonSoup& triangles);
   ~SurfaceDistance();
   SurfaceDistance(SurfaceDistance&&) noexcept;
@@ -20,12 +20,14 @@ class SurfaceDistance {
   struct Closest {
     Eigen::Vector3d point;
     int facet;
-    int triangle;  ///< by which the next search knows it
+    int triangle;  ///< index of the triangle in the tree, a hint for the next search
   };
-  /// @param near  what was found for a point nearby: the search is as short as that is close.
+  /// Find the point of the surface nearest to `point`.
+  /// @param near  result for a nearby point, optional. The closer that point, the faster the
+  ///     search.
   [[nodiscard]] Closest FindClosest(const Eigen::Vector3d& point,
                                     const std::optional<Closest>& near = std::nullopt) const;
-  /// The distance to the one triangle that was found for another point.
+  /// Return the distance to the triangle found for another point.
   [[nodiscard]] double DistanceTo(const Eigen::Vector3d& point, const Closest& found) const;
   [[nodiscard]] Eigen::Vector3d ClosestPoint(const Eigen::Vector3d& point) const {
     return FindClosest(point).point;
@@ -33,9 +35,10 @@ class SurfaceDistance {
   [[nodiscard]] double DistanceTo(const Eigen::Vector3d& point) const {
     return (ClosestPoint(point) - point).norm();
   }
-  /// True iff a ray from `point` meets a triangle.
+  /// Return true iff a ray from `point` hits a triangle.
   [[nodiscard]] bool IsHit(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
-  /// How far along a ray, whose direction has length 1, the first triangle is; infinity without.
+  /// Return the distance of the first hit along a ray; infinity if there is none.
+  /// @param direction  unit vector.
   [[nodiscard]] double FirstHit(const Eigen::Vector3d& point,
                                 const Eigen::Vector3d& direction) const;
 

@@ -21,7 +21,8 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 namespace {
 
-/// A chain of unions in rounded coordinates would cut where it has cut before.
+/// Exact coordinates are required because a chain of unions in rounded coordinates would intersect
+/// at earlier cuts.
 using ExactMesh = CGAL::Surface_mesh<ExactPoint>;
 
 struct Shell {
@@ -30,7 +31,8 @@ struct Shell {
   CGAL::Bbox_3 box;
 };
 
-/// Largest first, all turned outwards but for cavities: those that turn inwards inside another.
+/// Return the shells, largest first and oriented outwards. Cavities, that is inward shells inside
+/// another shell, are kept.
 std::vector<Shell> ShellsOf(const Mesh& mesh) {
   std::vector<Shell> shells;
   for (Mesh& part : PartsOf(mesh)) {

@@ -21,11 +21,11 @@ namespace {
 
 using Point = Kernel::Point_3;
 
-/// The ball of a coarser wrap than the one that is taken, over its: what it cannot enter counts as
-/// volume.
+/// Radius of the coarse wrap over that of the final wrap. Its volume includes openings that it
+/// cannot enter.
 constexpr double kCoarser = 4;
 
-/// A vertex whose facets meet others once it is drawn back returns to the wrap; so often is looked.
+/// Largest number of rounds that move vertices of bad triangles back to the wrap.
 constexpr int kLooks = 20;
 
 std::vector<Point> PointsOf(const object::PolygonSoup& soup) {
@@ -45,8 +45,9 @@ Eigen::Vector3d ToVector(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 using Faces = std::set<Mesh::Face_index>;
 
-/// Whether a triangle has no normal to speak of. Slivers beside each other have none in common
-/// either, and such a face makes no solid.
+/// Return whether a triangle has no reliable normal.
+/// Adjacent slivers do not share a normal either, and a planar face of slivers does not bound a
+/// solid.
 bool IsSliver(const Point& a, const Point& b, const Point& c, double diameter) {
   if (CGAL::collinear(a, b, c)) return true;
   const double double_area = std::sqrt(CGAL::cross_product(b - a, c - a).squared_length());
@@ -55,7 +56,8 @@ bool IsSliver(const Point& a, const Point& b, const Point& c, double diameter) {
   return double_area / 2 <= object::kSliverThickness * diameter * longest;
 }
 
-/// Those of `faces` that are slivers, meet others of them or have turned over since `before`.
+/// Return the triangles in `faces` that are slivers, intersect each other or have flipped.
+/// @param before  normals before vertices were moved.
 Faces FindBad(const Faces& faces, const Mesh& mesh, const std::vector<Kernel::Vector_3>& before,
               double diameter) {
   Faces bad;
@@ -75,7 +77,7 @@ Faces FindBad(const Faces& faces, const Mesh& mesh, const std::vector<Kernel::Ve
   return bad;
 }
 
-/// `faces` and all about them, ring after ring.
+/// Return `faces` widened by rings of neighbours.
 Faces Widened(Faces faces, const Mesh& mesh) {
   constexpr int kRings = 4;
   for (int ring = 0; ring < kRings; ++ring) {
@@ -90,8 +92,8 @@ Faces Widened(Faces faces, const Mesh& mesh) {
   return faces;
 }
 
-/// Draws vertices onto the surface, but for those where facets would meet.
-/// @returns how many stay outside.
+/// Project the vertices of a wrap onto a surface, unless triangles become bad.
+/// @returns number of vertices that stay on the wrap.
 int DrawBack(Mesh& mesh, const SurfaceDistance& surface, double diameter) {
   std::vector<Point> wrapped;
   std::vector<Kernel::Vector_3> normals;
@@ -103,7 +105,8 @@ int DrawBack(Mesh& mesh, const SurfaceDistance& surface, double diameter) {
   }
   const Faces all(mesh.faces().begin(), mesh.faces().end());
   std::set<Mesh::Vertex_index> outside;
-  // What goes back disturbs only what is about it; all facets are looked at where nothing is left.
+  // A vertex that returns to the wrap affects only its neighbourhood. All triangles are checked
+  // once no bad one remains.
   Faces looked = all;
   for (int look = 0; look < kLooks; ++look) {
     const Faces bad = FindBad(looked, mesh, normals, diameter);
@@ -137,7 +140,7 @@ StageResult WrapSurface(const object::PolygonSoup& soup) {
 }
 
 StageResult Solidify(const object::PolygonSoup& soup, double thickness) {
-  /// The ball that makes a sheet's surface smooth, over its thickness.
+  /// Radius of the wrapping sphere over the thickness; it smooths the surface of a sheet.
   constexpr double kBall = 1;
   StageResult result{SoupOf(Wrap(soup, kBall * thickness, thickness / 2))};
   result.facts["thickness"] = thickness;

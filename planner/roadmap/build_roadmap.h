@@ -11,42 +11,47 @@
 
 namespace regrasp::roadmap {
 
-/// The first of `points` that is the same contact: on the same face, no farther than `tolerance`.
+/// Return the first of `points` that is the same contact: on the same face within `tolerance`.
 [[nodiscard]] std::optional<int> FindContact(const std::vector<grasp::Contact>& points,
                                              const grasp::Contact& contact, double tolerance);
 
-/// Contacts of a grasp of a roadmap, and fingers of the hand: the fifth switches.
+/// Number of contacts of a grasp in a roadmap, and number of fingers of the hand. The fifth finger
+/// is for finger switches.
 inline constexpr int kRoadmapContacts = 4;
 inline constexpr int kRoadmapFingers = hand::kFingersInSpace;
-/// Contact points of a plain roadmap: more need more memory than a small machine has, 65 million
-/// subsets.
+/// Largest number of contact points of a roadmap without clusters. More points have more than 65
+/// million subsets, which exceed the memory of a small machine.
 inline constexpr int kMaxRoadmapContacts = 200;
-/// Contact points of a clustered one: their affinities take 8 N² bytes three times over.
+/// Largest number of contact points of a clustered roadmap. Their affinities require 8 N² bytes
+/// three times.
 inline constexpr int kMaxClusteredContacts = 4000;
 
-/// How many contact points and clusters a roadmap has. Where a request leaves them open: 60 points
-/// and no clusters on a body of at most kMaxRoadmapContacts faces; 1000 points in 50 clusters on
-/// one of more, a mesh. Contact points that are asked for decide in place of the faces.
+/// Numbers of contact points and clusters of a roadmap.
+/// Defaults: 60 points without clusters for a solid with at most kMaxRoadmapContacts faces,
+/// otherwise (a mesh) 1000 points in 50 clusters. If a request states the number of contact points,
+/// that number replaces the number of faces.
 struct RoadmapSize {
   int contacts = 0;
-  int clusters = 0;  ///< 0: none, all subsets of four contact points are looked at
+  int clusters = 0;  ///< 0: no clusters, all subsets of four contact points are tested
 };
 [[nodiscard]] RoadmapSize SizeOf(const planning::PlanRequest& request);
 
-/// Contact points spread over the surface, or over the points that are given, that fingers of the
-/// hand reach.
-/// @throws std::invalid_argument  there are to be fewer than four or too many.
-/// @throws NoGrasp  too few of the given points take a finger.
+/// Return contact points spread over the surface, or over the given points, that fingers can reach.
+/// @throws std::invalid_argument  if the requested number is less than four or too large.
+/// @throws NoGrasp  if too few of the given points accept a finger.
 [[nodiscard]] std::vector<grasp::Contact> SpreadContacts(const planning::PlanRequest& request);
 
-/// The contact points, `joined` first, tested for force closure in all fours.
+/// Build the roadmap of all force-closure grasps of four contact points.
+/// @param contacts  contact points.
+/// @param joined  additional contact points, which are first in the roadmap.
 [[nodiscard]] Roadmap BuildRoadmap(const planning::PlanRequest& request,
                                    const std::vector<grasp::Contact>& contacts,
                                    const std::vector<grasp::Contact>& joined = {});
 
-/// The roadmap of representatives of clusters.
-/// @throws std::invalid_argument  there are to be fewer than four contact points or too many.
-/// @throws NoGrasp  too few of the given points take a finger.
+/// Build the roadmap of the clusters' representatives.
+/// @throws std::invalid_argument  if the requested number of contact points is less than four or
+///     too large.
+/// @throws NoGrasp  if too few of the given points accept a finger.
 [[nodiscard]] ClusteredRoadmap BuildClusteredRoadmap(const planning::PlanRequest& request);
 
 }  // namespace regrasp::roadmap

@@ -16,14 +16,14 @@ namespace regrasp::roadmap {
 
 namespace {
 
-/// Representatives that may shorten a chain, beside its own contacts: enough that one or two
-/// switches are saved, few enough that all their grasps are tested in some milliseconds.
+/// Number of representatives that may shorten a chain, in addition to its own contacts. They are
+/// enough to save one or two switches, and few enough to test all their grasps in milliseconds.
 constexpr int kMoreContacts = 20;
 
 using Kind = planning::GraspChoice::Kind;
 using Status = planning::PlanResult::Status;
 
-/// The plans of one clustered roadmap.
+/// Planner on one clustered roadmap.
 class ClusterSearch {
  public:
   explicit ClusterSearch(const planning::PlanRequest& request)
@@ -97,7 +97,7 @@ class ClusterSearch {
     return result;
   }
 
-  /// The numbers of a grasp's contacts, which are added where they are new.
+  /// Return the numbers of a grasp's contacts. New contacts are added.
   Quadruple Join(const grasp::Grasp& grasp, ContactClusters& clusters) const {
     Quadruple numbers;
     for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -5,12 +5,13 @@
 
 namespace regrasp::roadmap {
 
-/// Plans on a roadmap of clusters: FindContactChain looks for a sequence, and the contacts of the
-/// one that it finds are the contact points of a plain roadmap, which shortens and widens it. A
-/// random grasp is drawn from all force-closure grasps of four contact points; a random goal is
-/// drawn anew while no sequence leads there.
-/// @param request  as Planner::Plan has it.
-/// @throws NoGrasp, TimeUp
+/// Plan a sequence on a roadmap of clusters.
+/// FindContactChain finds a sequence. Its contacts are the contact points of a roadmap without
+/// clusters, which then shortens the sequence and increases its margin. Random grasps are drawn
+/// from all force-closure grasps of four contact points. A random goal is drawn again until there
+/// is a sequence to it.
+/// @param request  as Planner::Plan.
+/// @throws NoGrasp, TimeUp  as SearchContactPoints.
 [[nodiscard]] planning::PlanResult SearchClusters(const planning::PlanRequest& request);
 
 }  // namespace regrasp::roadmap

@@ -39,7 +39,7 @@ ContactClusters ClustersOf(const object::Polyhedron& solid, const plan::Plan& pl
   return ClusterContacts(solid, options);
 }
 
-/// The nearest contact whose normal does not point the other way.
+/// Return the nearest contact whose normal is not opposite.
 int NearestContact(const std::vector<grasp::Contact>& contacts, const grasp::Contact& to) {
   int nearest = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -66,7 +66,7 @@ std::vector<ClusterIndex> ClusterOfTriangles(const object::Polyhedron& solid,
   return cluster_of;
 }
 
-/// The clusters that each cluster meets along an edge of a triangle.
+/// Return the clusters that each cluster shares a triangle edge with.
 std::vector<std::set<ClusterIndex>> Neighbours(const object::Polyhedron& solid,
                                                const std::vector<ClusterIndex>& cluster_of,
                                                int cluster_count) {
@@ -85,8 +85,8 @@ std::vector<std::set<ClusterIndex>> Neighbours(const object::Polyhedron& solid,
   return neighbours;
 }
 
-/// Colours by the greedy rule, those with most neighbours first (Welsh and Powell 1967); where all
-/// colours are taken, the one that the fewest neighbours have.
+/// Colour clusters greedily, those with most neighbours first (Welsh and Powell 1967).
+/// If all colours are used by neighbours, the one of the fewest neighbours is chosen.
 std::vector<int> ColorClusters(const std::vector<std::set<ClusterIndex>>& neighbours) {
   std::vector<ClusterIndex> order;
   for (ClusterIndex i{0}; i < std::ssize(neighbours); ++i) order.push_back(i);
@@ -100,7 +100,7 @@ std::vector<int> ColorClusters(const std::vector<std::set<ClusterIndex>>& neighb
     for (const ClusterIndex other : neighbours[cluster]) {
       if (color[other] >= 0) ++taken[color[other]];
     }
-    // Beginning at another colour each time, so that all are used alike.
+    // Start at a different colour each time, so that all colours are used about equally.
     int best = turn % kClusterColors;
     for (int i = 0; i < kClusterColors; ++i) {
       const int next = (turn + i) % kClusterColors;

@@ -8,25 +8,25 @@
 
 namespace regrasp::roadmap {
 
-/// Colours that neighbouring clusters are told apart by.
+/// Number of colours that distinguish neighbouring clusters.
 inline constexpr int kClusterColors = 8;
 
-/// What a picture shows of clustered contact points.
+/// Display of clustered contact points.
 struct ClusterView {
-  /// By triangle of the solid: a number in 0 … kClusterColors − 1, the same all over a cluster. Two
-  /// clusters that meet have different ones, as far as there are enough.
+  /// Colour by triangle of the solid, in 0 … kClusterColors − 1, uniform within a cluster. Adjacent
+  /// clusters have different colours as far as there are enough colours.
   std::vector<int> color_of_triangle;
   std::vector<Eigen::Vector3d> representatives;
 };
 
-/// The clusters that a plan was made on, found anew. A triangle belongs to the cluster of the
-/// nearest contact point on its side of the body.
-/// @param solid  read as for the plan: with the patches (Plan::patch_radius,
-/// RoadmapNote::roughness)
-///               and the invented surface that take fingers.
-/// @param plan   with a roadmap.
-/// @param given_points  where Plan::at_given_points.
-/// @throws InputError  the note's numbers are none of a roadmap of clusters.
+/// Recompute the clusters on which a plan was made.
+/// A triangle belongs to the cluster of the nearest contact point on its side of the solid.
+/// @param solid  solid read as for the plan, with its contact patches (Plan::patch_radius,
+///     RoadmapNote::roughness) and with the filled surface that accepts fingers.
+/// @param plan   plan with a roadmap.
+/// @param given_points  points to which contacts are restricted; required with
+///     Plan::at_given_points.
+/// @throws InputError  if the roadmap's numbers are not those of a clustered roadmap.
 [[nodiscard]] ClusterView DescribeClusters(
     const object::Polyhedron& solid, const plan::Plan& plan,
     const std::vector<Eigen::Vector3d>* given_points = nullptr);

@@ -14,41 +14,41 @@
 
 namespace regrasp::roadmap {
 
-/// Clusters of a roadmap's contact points: more representatives than this need more memory than a
-/// small machine has.
+/// Limits of the number of clusters. More representatives exceed the memory of a small machine.
 inline constexpr int kFewestClusters = 4;
 inline constexpr int kMostClusters = 200;
 
 struct ClusteredRoadmapOptions {
-  double half_angle = 0;  ///< friction, radians in (0, π/2)
-  int contacts = 1000;    ///< contact points at most
+  double half_angle = 0;  ///< friction angle, radians in (0, π/2)
+  int contacts = 1000;    ///< largest number of contact points
   int clusters = 50;      ///< kFewestClusters … kMostClusters
   std::uint64_t seed = 0;
-  /// Told what is being done.
+  /// Callback for progress messages.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
-  double finger_radius = 0;  ///< of fingers that are not points (reach.h)
-  Deadline deadline = {};    ///< when building ends by TimeUp
-  /// If not null, contact points are at these points only (sampling/given_contacts.h).
+  double finger_radius = 0;  ///< radius of the fingers; 0: points (reach.h)
+  Deadline deadline = {};    ///< deadline of the construction, which then throws TimeUp
+  /// Points to which contact points are restricted (sampling/given_contacts.h); null for none.
   const std::vector<Eigen::Vector3d>* given_points = nullptr;
 };
 
-/// The contact points of a mesh at which a fingertip has clearance, in clusters; no more clusters
-/// than contact points less one.
-/// @throws std::invalid_argument  an option is out of its range.
-/// @throws NoGrasp  too few of the given points take a finger.
+/// Cluster the contact points of a mesh at which a fingertip has clearance.
+/// The number of clusters is reduced to at most one less than the number of contact points.
+/// @throws std::invalid_argument  if an option is out of range.
+/// @throws NoGrasp  if too few of the given points accept a finger.
 [[nodiscard]] ContactClusters ClusterContacts(const object::Polyhedron& solid,
                                               const ClusteredRoadmapOptions& options);
 
-/// A mesh's contact points in clusters, and the roadmap of all force-closure grasps of four of the
-/// clusters' representatives (Phoka 2010, 6.2.2 and 6.2.3). Queries share it and change nothing.
+/// Clustered contact points of a mesh, with the roadmap of their representatives.
+/// The roadmap has all force-closure grasps of four representatives (Phoka 2010, 6.2.2 and 6.2.3).
+/// It is constant and can be shared by queries.
 struct ClusteredRoadmap {
-  /// @throws std::invalid_argument  an option is out of its range.
+  /// @throws std::invalid_argument  if an option is out of range.
   ClusteredRoadmap(const object::Polyhedron& solid, const ClusteredRoadmapOptions& options);
 
   double half_angle;
   object::WrenchFrame frame;
   ContactClusters clusters;
-  Roadmap roadmap;  ///< its points are the representatives, in the order of their clusters
+  Roadmap roadmap;  ///< its points are the representatives in cluster order
   search::Components components;
 };
 

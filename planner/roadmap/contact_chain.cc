@@ -9,7 +9,7 @@ namespace regrasp::roadmap {
 
 namespace {
 
-/// One query's data, and its stages.
+/// Query with its data and stages.
 class ChainSearch {
  public:
   ChainSearch(const ClusteredRoadmap& roadmap, const ContactClusters& clusters, GraspOracle& oracle)
@@ -25,7 +25,8 @@ class ChainSearch {
     const std::vector<Quadruple> middle = JoinInRoadmap(from, to, start, goal);
     if (middle.empty()) return chain;
     chain.by = ContactChain::By::kRoadmap;
-    // An end without a link was joined to the other by its contacts among the representatives.
+    // An end without a link was connected to the other end by its contacts among the
+    // representatives.
     for (RoadmapLink* link : {&chain.start_link, &chain.goal_link}) {
       if (*link == RoadmapLink::kNone) *link = RoadmapLink::kAlgorithm3;
     }
@@ -51,8 +52,9 @@ class ChainSearch {
   }
 
  private:
-  /// The path of an end to the roadmap. Algorithm 3 adds an end to the roadmap even where no path
-  /// leads on to a vertex of before: the other end, added as well, may be joined to it.
+  /// Return the path of an end to the roadmap.
+  /// Algorithm 3 adds an end to the roadmap even if no path connects it to an existing vertex,
+  /// because it can be connected to the other end, which is added as well.
   static LocalPlanners::Path LinkOrAdd(const Quadruple& end, LocalPlanners& local) {
     LocalPlanners::Path path = local.Link(end);
     if (path.grasps.empty()) path.grasps = {end};

@@ -9,39 +9,41 @@
 
 namespace regrasp::roadmap {
 
-/// How a query over a clustered roadmap went.
+/// Result of a query on a clustered roadmap.
 struct ContactChain {
   enum class By {
     kNothing,
-    kRoadmap,     ///< both ends linked to the roadmap and joined in it
-    kSubsets,     ///< last resort: grasps of the contacts of the two ends
+    kRoadmap,     ///< both ends are linked to the roadmap and connected in it
+    kSubsets,     ///< last resort: grasps of the contacts of both ends
     kLastResort,  ///< last resort: grasps of all contact points
   };
   By by = By::kNothing;
-  std::vector<Quadruple> grasps;  ///< from start to goal, both included; empty where there is none
+  std::vector<Quadruple> grasps;  ///< from start to goal, both included; empty if none
   RoadmapLink start_link = RoadmapLink::kNone;
   RoadmapLink goal_link = RoadmapLink::kNone;
-  /// Where nothing joined them and the last resort was tried: whether all that one side reaches was
-  /// seen, so that no sequence exists over these contact points; and what either side reached.
+  /// Whether a failed last resort searched one side completely.
+  /// Then no sequence exists over these contact points.
+  /// The sizes are the numbers of grasps reached from both sides.
   bool exhausted = false;
   std::size_t start_size = 0;
   std::size_t goal_size = 0;
 };
 
-/// Looks for a chain of grasps, each differing from the one before by one contact: by the local
-/// planners from both ends to the roadmap of representatives and a search in it, with the contacts
-/// of an end that the algorithms 1 and 2 don't link among the representatives (Phoka 2010, 6.2.4).
+/// Find a chain of grasps in which consecutive grasps differ in one contact.
+/// Local planners connect both ends to the roadmap of representatives, which is then searched. The
+/// contacts of an end that algorithms 1 and 2 do not link are added to the representatives (Phoka
+/// 2010, 6.2.4).
 ///
-/// With `last_resort`, where that fails: the at most 70 grasps of the two ends' contacts, then the
-/// grasps of all contact points, best first from both ends.
-/// @param clusters  those of the roadmap, with the contacts of start and goal.
-/// @param oracle    of their contacts; both must fit.
+/// If that fails and `last_resort` is set, the grasps of both ends' contacts are searched, at most
+/// 70. Then the grasps of all contact points are searched, best first from both ends.
+/// @param clusters  clusters of the roadmap, with the contacts of start and goal.
+/// @param oracle    evaluator of the contacts in `clusters`; admits both ends.
 [[nodiscard]] ContactChain FindContactChain(const ClusteredRoadmap& roadmap,
                                             const ContactClusters& clusters, GraspOracle& oracle,
                                             const Quadruple& start, const Quadruple& goal,
                                             bool last_resort);
 
-/// Replacements that the last resort looks at before it gives up.
+/// Largest number of replacements that the last resort evaluates.
 inline constexpr std::int64_t kMostLastResortSteps = 5'000'000;
 
 }  // namespace regrasp::roadmap

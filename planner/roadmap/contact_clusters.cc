@@ -15,10 +15,11 @@ namespace regrasp::roadmap {
 
 namespace {
 
-/// Lloyd's iteration hardly ever takes more than thirty; what is left after so many is small.
+/// Largest number of Lloyd iterations. Rarely more than thirty are required, and later changes are
+/// small.
 constexpr int kMaxIterations = 100;
 
-/// n × k squared distances from points to centres.
+/// Return the n × k squared distances from points to centres.
 Eigen::MatrixXd SquaredDistances(const Eigen::MatrixXd& points, const Eigen::MatrixXd& centers) {
   Eigen::MatrixXd distances = -2 * points * centers.transpose();
   distances.colwise() += points.rowwise().squaredNorm();
@@ -26,7 +27,7 @@ Eigen::MatrixXd SquaredDistances(const Eigen::MatrixXd& points, const Eigen::Mat
   return distances.cwiseMax(0);
 }
 
-/// An index with the probability of its weight; any where all weights are 0.
+/// Draw an index with probability proportional to its weight; uniformly if all weights are 0.
 Eigen::Index DrawByWeight(const Eigen::VectorXd& weights, RandomStream& random) {
   const double sum = weights.sum();
   if (!(sum > 0)) return static_cast<Eigen::Index>(random.Index(weights.size()));
@@ -52,7 +53,7 @@ Eigen::MatrixXd DrawCenters(const Eigen::MatrixXd& points, int count, RandomStre
   return centers;
 }
 
-/// Points and the sum of distances to the nearest centres.
+/// Assign points to the nearest centres and sum their squared distances.
 KMeansClusters AssignTo(const Eigen::MatrixXd& centers, const Eigen::MatrixXd& points) {
   KMeansClusters clusters{centers, std::vector<int>(points.rows()), 0};
   const Eigen::MatrixXd distances = SquaredDistances(points, centers);
@@ -66,7 +67,8 @@ KMeansClusters AssignTo(const Eigen::MatrixXd& centers, const Eigen::MatrixXd& p
   }
   for (int j = 0; j < centers.rows(); ++j) {
     if (sizes[j] > 0) continue;
-    // Among points that are not alone; there is one, as there are no more centres than points.
+    // Candidates are points in clusters of several points. There is one because there are at least
+    // as many points as centres.
     Eigen::Index farthest = -1;
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       if (sizes[clusters.cluster_of[i]] < 2) continue;
@@ -124,12 +126,12 @@ KMeansClusters KMeans(const Eigen::MatrixXd& points, int count, int restarts, Ra
 
 namespace {
 
-/// A direction along the surface must keep this share of its length there.
+/// Smallest length of a direction's component along the surface, relative to the radius.
 constexpr double kParallel = 1e-6;
 
-/// arccos x to 7e-5, for −1 ≤ x ≤ 1 (Abramowitz and Stegun 1964, 4.4.45), without branches, so that
-/// the compiler makes vectors of it: an affinity needs no more, and 32 million of them are taken
-/// for a thousand contacts.
+/// Return arccos x to 7e-5 for −1 ≤ x ≤ 1 (Abramowitz and Stegun 1964, 4.4.45).
+/// It has no branches, so that the compiler vectorizes it. The accuracy suffices for affinities, of
+/// which a thousand contacts require 32 million.
 inline double FastArcCosine(double x) {
   const double a = std::min(std::abs(x), 1.0);
   const double positive =
@@ -137,7 +139,7 @@ inline double FastArcCosine(double x) {
   return x < 0 ? std::numbers::pi - positive : positive;
 }
 
-/// Whether a vector leads along the surface at a contact.
+/// Return whether a vector has a component along the surface at a contact.
 bool LeadsAlong(const Eigen::Vector3d& vector, const grasp::Contact& contact, double radius) {
   return contact.n.cross(vector).norm() > kParallel * radius;
 }
@@ -198,13 +200,13 @@ Eigen::MatrixXd WrenchDistances(std::span<const WrenchPyramid> pyramids, const T
 
 namespace {
 
-/// Lanczos vectors an eigenvalue, as Spectra's manual recommends at least two.
+/// Number of Lanczos vectors per eigenvalue; Spectra's manual recommends at least two.
 constexpr int kVectorsPerEigenvalue = 2;
 constexpr int kFewestVectors = 20;
 constexpr int kMaxRestarts = 1000;
-/// Of eigenvalues, whose largest is 1.
+/// Tolerance of eigenvalues, of which the largest is 1.
 constexpr double kEigenvalueTolerance = 1e-12;
-/// Directions with smaller eigenvalues are noise, which their inverse would blow up.
+/// Eigenvalue below which directions are noise that the inverse would amplify.
 constexpr double kSmallestInverted = 1e-9;
 
 struct EigenPairs {
@@ -212,7 +214,7 @@ struct EigenPairs {
   Eigen::MatrixXd vectors;
 };
 
-/// All eigenvalues at once: for few points, and for where the iteration does not converge.
+/// Compute all eigenpairs at once, for few points or if the iteration does not converge.
 EigenPairs LargestOfAll(const Eigen::MatrixXd& matrix, int count) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
   return {solver.eigenvalues().reverse().head(count),
@@ -261,7 +263,7 @@ Eigen::RowVectorXd EmbedAnother(const SpectralEmbedding& embedding,
 
 namespace {
 
-/// Runs of k-means; the best of them is taken.
+/// Number of k-means runs, of which the best is used.
 constexpr int kRestarts = 5;
 
 }  // namespace

@@ -18,13 +18,13 @@ namespace regrasp::roadmap {
 
 namespace {
 
-/// Vertices that a random draw looks at before it gives up; a second of quality tests.
+/// Largest number of vertices that a random draw evaluates; about a second of quality tests.
 constexpr int kMaxVertexDraws = 20'000;
 
-/// Quality tests between two reports of progress, a tenth of a second or so.
+/// Number of quality tests between two progress messages; about a tenth of a second.
 constexpr int kProgressEvery = 100;
 
-/// The planning of one sequence: what its stages share.
+/// Planner of one sequence.
 class ContactPointSearch {
  public:
   ContactPointSearch(const std::vector<grasp::Contact>& contacts,
@@ -71,13 +71,15 @@ class ContactPointSearch {
                            .value());
     }
     const std::optional<int> vertex = roadmap_.Find(points);
-    // Only where a contact was joined to another of the same place can the verdict have changed.
+    // The result of the test can differ only if a contact was merged with another one at the same
+    // point.
     if (!vertex) throw InputError(choice.name + ": too close to the limit of force closure");
     return *vertex;
   }
 
-  /// A vertex of good quality by the seed, out of the start's component where there is a start and
-  /// then another one than it, if the component has another.
+  /// Draw a vertex of sufficient quality.
+  /// If there is a start, the vertex is in its component, and different from it if the component
+  /// has other vertices.
   int DrawVertex(const planning::GraspChoice& choice, RandomUse use, std::optional<int> start) {
     std::vector<int> pool = Pool(start);
     RandomStream random(request_.seed, use);
@@ -108,7 +110,7 @@ class ContactPointSearch {
     return evaluator_.Admits(known_[vertex], [&] { return roadmap_.grasp(vertex); });
   }
 
-  /// Radians, to kMarginTolerance.
+  /// Return the friction margin to kMarginTolerance, radians.
   double Margin(int vertex) {
     return request_.criteria.half_angle -
            evaluator_.RequiredHalfAngle(
@@ -166,7 +168,7 @@ class ContactPointSearch {
   [[nodiscard]] planning::PlanResult Finish(const std::vector<int>& path) const {
     std::vector<grasp::Grasp> grasps;
     for (const int vertex : path) grasps.push_back(roadmap_.grasp(vertex));
-    // The fingers of the first grasp follow the order in which it was given.
+    // The finger order of the first grasp is that of the request.
     grasps.front() = start_.grasp;
     return planning::ResultOf(planning::MakeSwitchSequence(grasps, request_.hand.fingers),
                               evaluator_, "roadmap", request_, goal_.grasp);
@@ -178,7 +180,7 @@ class ContactPointSearch {
   Roadmap roadmap_;
   criteria::GraspEvaluator evaluator_;
   KnownVertices known_;
-  std::int64_t next_report_ = kProgressEvery;  ///< at so many tests
+  std::int64_t next_report_ = kProgressEvery;  ///< number of tests at the next message
 };
 
 }  // namespace

@@ -9,11 +9,12 @@
 
 namespace regrasp::roadmap {
 
-/// What is known of the vertices of a roadmap, of which there are millions and few are asked for: a
-/// number for each vertex, a KnownGrasp for those asked for.
+/// Cached evaluations of the vertices of a roadmap.
+/// There are millions of vertices, of which few are evaluated. Therefore each vertex has only an
+/// index, and each evaluated one a KnownGrasp.
 class KnownVertices {
  public:
-  /// @param initial  what is known of every vertex before it is asked for.
+  /// @param initial  initial evaluation of every vertex.
   KnownVertices(int vertex_count, const criteria::KnownGrasp& initial)
       : initial_(initial), place_(vertex_count, -1) {}
 
@@ -28,20 +29,20 @@ class KnownVertices {
 
  private:
   criteria::KnownGrasp initial_;
-  std::vector<int> place_;  ///< in `known_`; −1 where not asked for
+  std::vector<int> place_;  ///< index in `known_`; −1 if not evaluated
   std::deque<criteria::KnownGrasp> known_;
 };
 
-/// Plans a sequence of finger switches on the plain roadmap of contact points and those of start
-/// and goal: the fewest switches first, then the largest smallest margin to the required
-/// half-angle. Grasps below the quality that is asked for are passed only where there is no other
-/// path, and then a warning names the weakest step.
-/// @param request  as Planner::Plan has it.
-/// @throws NoGrasp, TimeUp
+/// Plan a sequence of finger switches on the roadmap of contact points and those of start and goal.
+/// Minimizes the number of switches, then maximizes the smallest friction margin. Grasps below the
+/// required quality are used only if there is no other path; then a warning names the weakest step.
+/// @param request  as Planner::Plan.
+/// @throws NoGrasp  if no random grasp of sufficient quality is found.
+/// @throws TimeUp  if the deadline passes.
 [[nodiscard]] planning::PlanResult SearchContactPoints(const std::vector<grasp::Contact>& contacts,
                                                        const planning::PlanRequest& request);
 
-/// Radians: differences of margin that a plan does not care for (6e-6 degrees).
+/// Difference of margins, radians, that is irrelevant for a plan (6e-6 degrees).
 inline constexpr double kMarginTolerance = 1e-7;
 
 }  // namespace regrasp::roadmap

@@ -18,7 +18,7 @@ GraspOracle::GraspOracle(const object::Object& object, std::span<const grasp::Co
 
 bool GraspOracle::Admits(const Quadruple& ascending) {
   deadline_.Check();
-  // One contact cannot be held twice.
+  // Two fingers cannot hold one contact.
   if (std::ranges::adjacent_find(ascending) != ascending.end()) return false;
   criteria::ContactSet set;
   for (const int contact : ascending) set.Insert(contact);
@@ -27,7 +27,7 @@ bool GraspOracle::Admits(const Quadruple& ascending) {
 
 namespace {
 
-/// The grasp with another contact in place of one; nullopt where it has that contact already.
+/// Replace one contact of a grasp; nullopt if the grasp has the new contact already.
 std::optional<Quadruple> Replaced(Quadruple grasp, int slot, int contact) {
   if (std::find(grasp.begin(), grasp.end(), contact) != grasp.end()) return std::nullopt;
   grasp[slot] = contact;
@@ -35,7 +35,8 @@ std::optional<Quadruple> Replaced(Quadruple grasp, int slot, int contact) {
   return grasp;
 }
 
-/// How far the contacts that a tree can come to are from the nearest of a grasp.
+/// Return the remoteness of all contacts that a tree can reach: the distance to the nearest contact
+/// of a grasp.
 std::vector<double> RemotenessFrom(const Quadruple& grasp, const Quadruple& root,
                                    const Replacements& replacements,
                                    const std::function<double(int, int)>& distance) {
@@ -58,7 +59,7 @@ Replacements Replacements::AnyOf(std::vector<int> contacts, int count) {
 }
 
 bool GraspTree::QueueEntry::operator<(const QueueEntry& other) const {
-  // The queue's top is the greatest: the least remote, then the first that came.
+  // The greatest entry is on top of the queue: the least remote one, then the earliest.
   return std::tie(other.remoteness, other.from, other.slot, other.position) <
          std::tie(remoteness, from, slot, position);
 }

@@ -13,57 +13,59 @@
 
 namespace regrasp::roadmap {
 
-/// One number for a grasp of four contact points, smaller than 2¹⁶ each.
+/// Return a unique number of a grasp of four contact points below 2¹⁶.
 [[nodiscard]] constexpr std::uint64_t GraspKey(const Quadruple& ascending) {
   std::uint64_t key = 0;
   for (const int contact : ascending) key = key << 16 | static_cast<std::uint64_t>(contact);
   return key;
 }
 
-/// Says whether a sequence may pass a grasp of four contact points: a GraspMemory that is asked by
-/// quadruples, and that makes an end in time.
+/// Evaluator of grasps of four contact points: a GraspMemory for quadruples with a deadline.
 class GraspOracle : public criteria::GraspMemory {
  public:
-  /// @param object    outlives this object.
-  /// @param contacts  at most ContactSet::kMostNumbers.
-  /// @throws std::invalid_argument  there are more contacts.
+  /// @param object    grasped object; outlives this object.
+  /// @param contacts  contact points, at most ContactSet::kMostNumbers.
+  /// @throws std::invalid_argument  if there are more contacts.
   GraspOracle(const object::Object& object, std::span<const grasp::Contact> contacts,
               const criteria::GraspCriteria& criteria, const hand::Hand& hand = {},
               Deadline deadline = {});
 
-  /// @throws TimeUp  the deadline came.
+  /// Return whether a sequence may contain a grasp.
+  /// @throws TimeUp  if the deadline passes.
   [[nodiscard]] bool Admits(const Quadruple& ascending);
 
  private:
   Deadline deadline_;
 };
 
-/// Which contacts may take the place of which.
+/// Allowed replacements of contacts by other contacts.
 struct Replacements {
   std::vector<std::vector<int>> lists;
-  std::vector<int> list_of;  ///< by contact: which list may replace it
-  /// Grasps that this may lead to; empty: all.
+  std::vector<int> list_of;  ///< index of the list of replacements, by contact
+  /// Filter of the resulting grasps; empty: all.
   std::function<bool(const Quadruple&)> allows = {};
 
-  /// Any of `contacts` for any of `count` contacts.
+  /// Allow any of `contacts` as replacement of any of `count` contacts.
   [[nodiscard]] static Replacements AnyOf(std::vector<int> contacts, int count);
 };
 
-/// The grasps that finger switches reach from one grasp, best first, each tested when its turn
-/// comes and not before.
+/// Tree of the grasps that finger switches reach from a root, best first. Each grasp is evaluated
+/// only when it is its turn.
 ///
-/// A grasp is the better, the less remote its contacts are in sum. As the sum is over contacts, the
-/// neighbours of a grasp come in order by themselves when every list of replacements is in order of
-/// remoteness: a grasp in the tree keeps four places in the lists, and not thousands of neighbours
-/// in a queue.
+/// A grasp is better if the sum of its contacts' remoteness is smaller. Because the sum is over
+/// contacts, neighbours of a grasp are generated in order if every list of replacements is sorted
+/// by remoteness. A grasp in the tree therefore requires only four positions in the lists, instead
+/// of thousands of neighbours in a queue.
 class GraspTree {
  public:
-  /// @param oracle      outlives this object. `root` is taken as it is.
-  /// @param remoteness  by contact, >= 0.
+  /// @param root        first grasp, which is not evaluated.
+  /// @param remoteness  remoteness by contact, at least 0.
+  /// @param oracle      evaluator; outlives this object.
   GraspTree(const Quadruple& root, Replacements replacements, std::vector<double> remoteness,
             GraspOracle& oracle);
 
-  /// Tests the next grasp. @returns whether it was one to reach; then last() is it.
+  /// Evaluate the next grasp.
+  /// @returns whether it is reached; if so, it is last().
   bool Step();
   [[nodiscard]] bool exhausted() const { return queue_.empty(); }
 
@@ -71,10 +73,10 @@ class GraspTree {
   [[nodiscard]] bool Has(const Quadruple& grasp) const {
     return numbers_.contains(GraspKey(grasp));
   }
-  /// Grasps reached, the root included.
+  /// Return the number of reached grasps, the root included.
   [[nodiscard]] std::size_t size() const { return reached_.size(); }
 
-  /// From the root to a reached grasp, both included.
+  /// Return the path from the root to a reached grasp, both included.
   [[nodiscard]] std::vector<Quadruple> PathTo(const Quadruple& grasp) const;
 
  private:
@@ -82,12 +84,12 @@ class GraspTree {
     Quadruple grasp;
     int parent;
   };
-  /// The next replacement of one contact of a reached grasp.
+  /// Next replacement of one contact of a reached grasp.
   struct QueueEntry {
-    double remoteness;  ///< of the grasp that would be
+    double remoteness;  ///< remoteness of the resulting grasp
     int from;
     int slot;
-    int position;  ///< in the list
+    int position;  ///< index in the list
     bool operator<(const QueueEntry& other) const;
   };
 
@@ -102,18 +104,18 @@ class GraspTree {
   std::priority_queue<QueueEntry> queue_;
 };
 
-/// How two grasps are joined, or why not.
+/// Result of JoinGrasps.
 struct Junction {
-  std::vector<Quadruple> path;  ///< empty where there is none
-  bool exhausted = false;       ///< there is none: all that one side reaches was seen
-  std::size_t from_size = 0;    ///< grasps that were reached from either side
+  std::vector<Quadruple> path;  ///< empty if none is found
+  bool exhausted = false;  ///< whether one side was searched completely, so that there is no path
+  std::size_t from_size = 0;  ///< number of reached grasps from `from`
   std::size_t to_size = 0;
 };
 
-/// Joins two grasps by a tree from each, grown in turn, each towards the other's root: a best-first
-/// search from both ends (Pohl 1971).
-/// @param distance    between two contacts, >= 0.
-/// @param most_steps  replacements looked at before it gives up.
+/// Connect two grasps by trees that grow alternately, each towards the other root.
+/// This is a bidirectional best-first search (Pohl 1971).
+/// @param distance    distance between two contacts, at least 0.
+/// @param most_steps  largest number of evaluated replacements.
 [[nodiscard]] Junction JoinGrasps(const Quadruple& from, const Quadruple& to,
                                   const Replacements& replacements,
                                   const std::function<double(int, int)>& distance,

@@ -16,21 +16,21 @@ Quadruple Sorted(Quadruple grasp) {
   return grasp;
 }
 
-/// In the order of the clusters.
+/// Return the representatives of clusters, in the order of the clusters.
 Quadruple RepresentativesOf(const ContactClusters& clusters, const FourClusters& of) {
   Quadruple representatives;
   for (int i = 0; i < 4; ++i) representatives[i] = clusters.representative(of[i]);
   return representatives;
 }
 
-/// Contacts for each of the four of a grasp.
+/// Set of contacts for each contact of a grasp.
 using Sets = std::array<std::vector<int>, 4>;
 
 bool ContainsContact(std::span<const int> contacts, int contact) {
   return std::find(contacts.begin(), contacts.end(), contact) != contacts.end();
 }
 
-/// Whether two different contacts of a grasp are one of each set.
+/// Return whether a grasp has two different contacts, one of each set.
 bool HasOneOfEach(const Quadruple& grasp, const std::vector<int>& a, const std::vector<int>& b) {
   for (const int one : grasp) {
     if (!ContainsContact(a, one)) continue;
@@ -41,12 +41,13 @@ bool HasOneOfEach(const Quadruple& grasp, const std::vector<int>& a, const std::
   return false;
 }
 
-/// Replacements that keep to grasps of one contact of each set.
+/// Return replacements that lead only to grasps with one contact of each set.
 ///
-/// The sets are disjoint but for a contact of the grasp that was added to another cluster and is
-/// near the representative of its own: it can stand for either. These two sets are one list then,
-/// and grasps that take both contacts from one of them are left out.
-/// @param sets  outlive the answer.
+/// The sets are disjoint with one exception. A contact of the grasp that moves to another cluster
+/// can be near the representative of its own cluster, and can then represent either set. In this
+/// case the two sets become one list, and grasps with both contacts from one of the sets are
+/// excluded.
+/// @param sets  sets of contacts; outlive the result.
 Replacements OneOfEach(const Sets& sets, const Quadruple& grasp, int contact_count) {
   Replacements replacements{{sets.begin(), sets.end()}, std::vector<int>(contact_count, 0), {}};
   for (int i = 0; i < 4; ++i) {

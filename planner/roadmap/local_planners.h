@@ -11,66 +11,67 @@
 
 namespace regrasp::roadmap {
 
-/// The clusters of a grasp's contacts. A roadmap of representatives numbers its points as their
-/// clusters are: its vertices are found by clusters, not by contacts.
+/// Clusters of the contacts of a grasp. The points of a representative roadmap have the numbers of
+/// their clusters, so its vertices are found by clusters instead of contacts.
 using FourClusters = std::array<ClusterIndex, 4>;
 [[nodiscard]] FourClusters ClustersOf(const ContactClusters& clusters, const Quadruple& grasp);
 
-/// The vertex of the representatives of four clusters.
+/// Return the vertex of the representatives of four clusters.
 [[nodiscard]] std::optional<int> FindVertex(const Roadmap& roadmap, const FourClusters& clusters);
 
-/// How a grasp came to the representative roadmap.
+/// Method by which a grasp is linked to the representative roadmap.
 enum class RoadmapLink {
-  kNone,        ///< not at all
-  kVertex,      ///< it is one of its vertices
-  kAlgorithm1,  ///< to the grasp of its own clusters' representatives
-  kAlgorithm2,  ///< to one that differs from that in one cluster
-  kAlgorithm3,  ///< with its own contacts taken among the representatives
+  kNone,        ///< no link
+  kVertex,      ///< the grasp is a vertex
+  kAlgorithm1,  ///< to the grasp of the representatives of its own clusters
+  kAlgorithm2,  ///< to a grasp that differs from that in one cluster
+  kAlgorithm3,  ///< with its own contacts added to the representatives
 };
 
-/// "vertex", "algorithm-1", …, as plans name it.
+/// Return the name of a link in plans: "vertex", "algorithm-1", …
 [[nodiscard]] const char* RoadmapLinkName(RoadmapLink link);
 
-/// The local planners between grasps of any contact points and the roadmap of the representatives
-/// (Phoka 2010, 6.2.4, Algorithms 1, 2 and 3), each with its grasps tested when they are reached.
+/// Local planners from a grasp of any contact points to the representative roadmap.
+/// They are algorithms 1, 2 and 3 of Phoka 2010, 6.2.4.
+/// They evaluate a grasp only when they reach it.
 class LocalPlanners {
  public:
-  /// @param clusters  with all contacts that grasps are made of.
-  /// @param roadmap   its points are the representatives of the clusters, in their order.
-  /// @param oracle    of the contacts of `clusters`. All must outlive this object.
+  /// @param clusters  clusters with all contacts of the grasps. All arguments outlive this object.
+  /// @param roadmap   roadmap of the representatives, in cluster order.
+  /// @param oracle    evaluator of the contacts of `clusters`.
   LocalPlanners(const ContactClusters& clusters, const Roadmap& roadmap, GraspOracle& oracle);
 
-  /// A path from a grasp to a vertex of the roadmap, both included; empty where there is none.
+  /// Path from a grasp to a vertex of the roadmap, both included; empty if none is found.
   struct Path {
     RoadmapLink link = RoadmapLink::kNone;
     std::vector<Quadruple> grasps;
   };
-  /// The first of the algorithms that finds one, in their order. A grasp that is a vertex itself
-  /// needs none.
+  /// Link a grasp by the first algorithm that finds a path. A grasp that is a vertex requires none.
   [[nodiscard]] Path Link(const Quadruple& grasp);
 
-  /// Where the algorithms 1 and 2 would lead: the vertex of the representatives of the grasp's
-  /// clusters; and the vertex that differs from these in one cluster, whose centre is nearest to
-  /// the contact that moves there. nullopt where there is no such vertex (that is admitted).
+  /// Return the target of algorithm 1 or 2; nullopt if there is no admitted vertex.
+  /// Algorithm 1 aims at the representatives of the grasp's clusters. Algorithm 2 aims at a vertex
+  /// that differs from them in one cluster: the cluster whose centre is nearest to the contact that
+  /// moves to it.
   [[nodiscard]] std::optional<Quadruple> OwnRepresentatives(const Quadruple& grasp);
   struct NearestCluster {
-    Quadruple vertex;      ///< contacts
-    int slot = 0;          ///< of the grasp's contact that moves
-    ClusterIndex cluster;  ///< to this one
+    Quadruple vertex;      ///< contacts of the vertex
+    int slot = 0;          ///< index of the grasp's contact that moves
+    ClusterIndex cluster;  ///< cluster to which it moves
   };
   [[nodiscard]] std::optional<NearestCluster> FindNearestCluster(const Quadruple& grasp);
 
-  /// The algorithms one by one; empty where they don't apply or find no path.
+  /// Run single algorithms; empty if an algorithm does not apply or finds no path.
   [[nodiscard]] std::vector<Quadruple> RunAlgorithm1(const Quadruple& grasp);
   [[nodiscard]] std::vector<Quadruple> RunAlgorithm2(const Quadruple& grasp);
   [[nodiscard]] std::vector<Quadruple> RunAlgorithm3(const Quadruple& grasp);
 
  private:
-  /// The number of a roadmap's vertex, of contacts.
+  /// Return whether a grasp, given by its contacts, is a vertex of the roadmap.
   [[nodiscard]] bool IsVertex(const Quadruple& grasp);
-  /// Contacts near both `contact` and the representative of `cluster`, and both of them: S_i.
+  /// Return the set S_i: `contact`, the representative of `cluster`, and the contacts near both.
   [[nodiscard]] std::vector<int> Between(int contact, ClusterIndex cluster) const;
-  /// A path by contacts of the sets between each contact of the grasp and its cluster.
+  /// Find a path whose contacts are in the sets between each contact of the grasp and its cluster.
   [[nodiscard]] std::vector<Quadruple> JoinWithin(const Quadruple& grasp,
                                                   const FourClusters& clusters,
                                                   const Quadruple& goal);
@@ -80,7 +81,7 @@ class LocalPlanners {
   GraspOracle& oracle_;
 };
 
-/// Replacements that one search looks at before it gives up.
+/// Largest number of replacements that one search evaluates.
 inline constexpr std::int64_t kMostLocalSteps = 2'000'000;
 
 }  // namespace regrasp::roadmap

@@ -11,7 +11,7 @@ namespace regrasp::roadmap {
 
 namespace {
 
-/// Of any two points, whether two fingers cannot be at both.
+/// Return for each pair of points whether two fingers cannot be at both.
 std::vector<bool> FindExcluded(const std::vector<grasp::Contact>& points, double same_point,
                                double finger_radius) {
   const std::size_t count = points.size();
@@ -25,7 +25,7 @@ std::vector<bool> FindExcluded(const std::vector<grasp::Contact>& points, double
   return excluded;
 }
 
-/// The triple that is left when one contact of a grasp leaves.
+/// Return the rank of the triple that remains when one contact of a grasp is released.
 int TripleWithout(const Quadruple& vertex, int left_out) {
   std::array<int, 3> triple;
   std::copy_if(vertex.begin(), vertex.end(), triple.begin(),
@@ -126,8 +126,8 @@ search::Components Roadmap::FindComponents(const Deadline& deadline) const {
       return VerticesWith(triple);
     });
   }
-  // In a group with excluded pairs a vertex is joined to those that it finds among the ones left
-  // over: a search of the group, which leaves a tree of edges.
+  // In a group with excluded pairs, a search of the group gives a tree of edges. Each vertex is
+  // connected to all remaining vertices that it does not exclude.
   std::vector<std::array<int, 2>> edges;
   for (int triple = 0; triple < triple_count(); ++triple) {
     deadline.Check();

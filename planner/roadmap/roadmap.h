@@ -14,7 +14,8 @@
 
 namespace regrasp::roadmap {
 
-/// n over K; 0 where n < K. A template, so that the divisions are by constants.
+/// Return the binomial coefficient of n over K; 0 if n < K. K is a template parameter, so that
+/// divisions are by constants.
 template <int K>
 [[nodiscard]] constexpr std::int64_t Binomial(int n) {
   if constexpr (K == 0) {
@@ -24,34 +25,35 @@ template <int K>
   }
 }
 
-/// The rank of an ascending triple among all triples in colexicographic order: Σ (c_i over i + 1),
-/// the combinatorial number system (Knuth, TAOCP 4A, 7.2.1.3).
+/// Return the rank of an ascending triple in colexicographic order.
+/// The rank is Σ (c_i over i + 1), the combinatorial number system (Knuth, TAOCP 4A, 7.2.1.3).
 ///
 /// Law: a bijection between the triples of {0, …, n − 1} and {0, …, (n over 3) − 1}.
 [[nodiscard]] constexpr std::int64_t CombinationRank(const std::array<int, 3>& ascending) {
   return Binomial<1>(ascending[0]) + Binomial<2>(ascending[1]) + Binomial<3>(ascending[2]);
 }
 
-/// Four contact points, indices in ascending order.
+/// Indices of four contact points in ascending order.
 using Quadruple = std::array<int, 4>;
 
-/// The plain roadmap (Kavraki and others 1996, of grasps: Phoka 2010, chapter VI): every
-/// force-closure grasp of four of the contact points is a vertex; two grasps that share three
-/// contacts are joined, as the fifth finger can take the new contact before the old one leaves.
+/// Roadmap without clusters (Kavraki et al. 1996; for grasps Phoka 2010, chapter 6).
+/// Every force-closure grasp of four contact points is a vertex. Two grasps that share three
+/// contacts are connected, because the fifth finger can make the new contact before the old one is
+/// released.
 ///
-/// Edges are not stored: grasps are listed by the triples of contacts that they contain, and two
-/// different grasps share at most one triple. Contacts at the same point (two normals on an edge of
-/// the solid, say) are never in one grasp nor take turns in one switch, for two fingers cannot
-/// touch one point; nor do contacts where two fingers of a radius would overlap.
+/// Edges are not stored. Grasps are listed by the triples of contacts that they contain, and two
+/// different grasps share at most one triple. Contacts at the same point, such as two normals on an
+/// edge of the solid, are neither in one grasp nor exchanged in one switch, because two fingers
+/// cannot touch one point. The same applies to contacts at which fingers of positive radius would
+/// overlap.
 class Roadmap final : public search::SwitchingGraph {
  public:
-  /// Tests all 4-subsets of the points.
-  /// @param half_angle  radians.
-  /// @param same_point  contacts no farther apart than this are at the same point.
-  /// @param finger_radius  of fingers that are not points (reach.h).
-  /// @param tell  told how much of the work is done.
+  /// Test all subsets of four points.
+  /// @param half_angle  friction angle, radians.
+  /// @param same_point  distance within which contacts are at the same point.
+  /// @param finger_radius  radius of the fingers; 0: points (reach.h).
   /// @throws std::invalid_argument  as TestForceClosure.
-  /// @throws TimeUp  the deadline came.
+  /// @throws TimeUp  if the deadline passes.
   Roadmap(std::vector<grasp::Contact> points, const object::WrenchFrame& frame, double half_angle,
           double same_point, double finger_radius = 0, const Deadline& deadline = {},
           const Tell& tell = {});
@@ -59,28 +61,29 @@ class Roadmap final : public search::SwitchingGraph {
   [[nodiscard]] const std::vector<grasp::Contact>& points() const { return points_; }
   [[nodiscard]] const Quadruple& vertex(int index) const { return vertices_[index]; }
   [[nodiscard]] grasp::Grasp grasp(int index) const;
-  /// The vertex of four contact points in any order; nullopt where they are no vertex.
+  /// Return the vertex of four contact points in any order; nullopt if they are not a vertex.
   [[nodiscard]] std::optional<int> Find(std::span<const int> points) const;
 
   [[nodiscard]] int vertex_count() const override { return static_cast<int>(vertices_.size()); }
   void GetNeighbours(int vertex, std::vector<int>& neighbours) const override;
-  /// The contacts of one grasp that the other lacks: a switch changes one.
+  /// Return the number of contacts in which two grasps differ, because a switch changes one.
   [[nodiscard]] int MinSwitches(int from, int to) const override;
 
-  /// 4-subsets of the contact points, force closure or not.
+  /// Return the number of subsets of four contact points, force closure or not.
   [[nodiscard]] std::int64_t candidate_count() const;
-  /// Unordered pairs of vertices that share three contacts.
-  /// @throws TimeUp  the deadline came.
+  /// Return the number of edges: unordered pairs of vertices connected by a switch.
+  /// @throws TimeUp  if the deadline passes.
   [[nodiscard]] std::int64_t CountEdges(const Deadline& deadline = {}) const;
-  /// @throws TimeUp  the deadline came.
+  /// Find the connected components.
+  /// @throws TimeUp  if the deadline passes.
   [[nodiscard]] search::Components FindComponents(const Deadline& deadline = {}) const;
 
  private:
   void ListByTriples();
   [[nodiscard]] int triple_count() const;
   [[nodiscard]] std::span<const int> VerticesWith(int triple) const;
-  /// Whether the switch between two grasps with a triple in common is between two contacts that
-  /// exclude each other.
+  /// Return whether the switch between two grasps with a common triple is impossible.
+  /// It is if the exchanged contacts exclude each other.
   [[nodiscard]] bool IsExcluded(int vertex, int other) const;
   [[nodiscard]] bool ExcludeEachOther(int a, int b) const {
     return excluded_[a * points_.size() + b];
@@ -89,11 +92,11 @@ class Roadmap final : public search::SwitchingGraph {
 
   std::vector<grasp::Contact> points_;
   std::vector<Quadruple> vertices_;  ///< in lexicographic order
-  /// Vertices that contain a triple are at triple_begin_[triple] … triple_begin_[triple + 1].
+  /// Vertices that contain a triple: triple_begin_[triple] … triple_begin_[triple + 1].
   std::vector<int> triple_begin_;
   std::vector<int> triple_vertices_;
-  std::vector<bool> excluded_;  ///< of any two points: two fingers cannot be at both
-  bool any_excluded_ = false;   ///< with points for fingers hardly ever
+  std::vector<bool> excluded_;  ///< by pair of points: two fingers cannot be at both
+  bool any_excluded_ = false;   ///< rarely true for point fingers
 };
 
 }  // namespace regrasp::roadmap

@@ -24,17 +24,17 @@ namespace {
 
 constexpr int kContacts = 4;
 
-/// Some hundredths of a second; a share of a tenth is then known to 7 %.
+/// Number of tested grasps. They take a few hundredths of a second and give a share of 0.1 to 7 %.
 constexpr int kTestedGrasps = 2000;
 
-// Measured on roadmaps of 60 to 200 contact points at 15° to 80°, as the peak of resident memory: a
-// vertex with its places in the lists of triples, its component and what a search notes of it; a
-// triple in these lists.
+// Measured as the peak resident memory of roadmaps with 60 to 200 contact points at 15° to 80°. A
+// vertex includes its entries in the lists of triples, its component and its search data. A triple
+// includes its entry in these lists.
 constexpr double kBytesOfVertex = 55;
 constexpr double kBytesOfTriple = 8;
 
-/// Of each pair of contact points that are clustered: their distance, their affinity and what is
-/// made of it for the eigenvalues; 26 to 28 measured on 1000 to 4000 contact points.
+/// Bytes per pair of clustered contact points, for distance, affinity and the matrix of the
+/// eigenvalue problem. Measurements gave 26 to 28 for 1000 to 4000 contact points.
 constexpr double kBytesOfPair = 27;
 
 double ForceClosureShare(const object::Polyhedron& solid, double half_angle) {
@@ -116,8 +116,8 @@ std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap,
 
 namespace {
 
-/// The part of the summary that does not depend on clusters.
-/// @param stopwatch  that runs since the roadmap was begun.
+/// Return the part of the summary that does not depend on clusters.
+/// @param stopwatch  stopwatch started before the roadmap was built.
 planning::GraphSummary SummaryOf(const Roadmap& roadmap, const planning::PlanRequest& request,
                                  Stopwatch& stopwatch) {
   planning::GraphSummary summary;

@@ -16,26 +16,26 @@
 
 namespace regrasp::roadmap {
 
-/// What a roadmap takes at most while it is built and searched, within a factor of two: the larger
-/// of the two that its options ask for, the clustering of its contact points, which goes with the
-/// square of their number, and its force-closure grasps, which go with the fourth power of the
-/// number of contact points or representatives and not with the size of the mesh.
+/// Estimate the peak memory of building and searching a roadmap, within a factor of two.
+/// It is the larger one of two estimates. The clustering of contact points is quadratic in their
+/// number. The force-closure grasps grow with the fourth power of the number of contact points or
+/// representatives, and are independent of the size of the mesh.
 ///
-/// The share of force-closure grasps is that of grasps drawn evenly over the surface. What a grasp
-/// takes was measured: at the limits, kMaxRoadmapContacts and kMostClusters, 0.7 to 4 GB, and 0.5
-/// GB for kMaxClusteredContacts.
+/// The share of force-closure grasps is estimated from grasps drawn uniformly over the surface. The
+/// memory per grasp was measured: at the limits kMaxRoadmapContacts and kMostClusters a roadmap
+/// requires 0.7 to 4 GB. kMaxClusteredContacts requires 0.5 GB.
 ///
-/// Law: the same solid and options give the same number.
+/// Law: equal solids and options give equal estimates.
 [[nodiscard]] MemoryNeed EstimateRoadmap(const planning::PlanRequest& request);
 
-/// A force-closure grasp of four of the contact points, all of them equally likely; nullopt where
-/// none of kMaxSurfaceDraws draws is one.
-/// @param evaluator  of the roadmap's solid and half-angle.
+/// Draw a force-closure grasp of four contact points, uniformly.
+/// @param evaluator  evaluator for the roadmap's solid and friction angle.
+/// @returns nullopt if none of kMaxSurfaceDraws grasps is force closure.
 [[nodiscard]] std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap,
                                                         const criteria::GraspEvaluator& evaluator,
                                                         RandomStream& random);
 
-/// A query between two random force-closure grasps, and the time that it took.
+/// Query between two random force-closure grasps, with its duration.
 struct RandomQuery {
   Quadruple start;
   Quadruple goal;
@@ -43,20 +43,22 @@ struct RandomQuery {
   double seconds = 0;
 };
 
-/// Queries between force-closure grasps drawn from all contact points, joined or not, as in tables
-/// 6.1 to 6.6 of Phoka 2010. The same seed gives the same queries whatever the clusters.
-/// @param solid  of the roadmap.
-/// @returns fewer than `count` where grasps can't be drawn.
-/// @param tell  told how many are done.
-/// @throws TimeUp  the deadline came.
+/// Run queries between random force-closure grasps of all contact points.
+/// They correspond to tables 6.1 to 6.6 of Phoka 2010.
+/// Equal seeds give equal queries, whatever the clusters.
+/// @param solid  solid of the roadmap.
+/// @returns solved and unsolved queries; fewer than `count` if no grasps can be drawn.
+/// @throws TimeUp  if the deadline passes.
 [[nodiscard]] std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap,
                                                         const object::Polyhedron& solid, int count,
                                                         std::uint64_t seed, bool last_resort,
                                                         const Deadline& deadline = {},
                                                         const Tell& tell = {});
 
-/// Plans finger switches between grasps of four contact points of a solid (Phoka 2010, chapter VI),
-/// with a hand of kRoadmapFingers fingers: of these grasps it knows every one and every switch.
+/// Planner of finger switches between grasps of four contact points of a solid.
+/// The method is that of Phoka 2010, chapter 6.
+/// The hand has kRoadmapFingers fingers. The roadmap contains all such grasps and all switches
+/// between them.
 class RoadmapPlanner final : public planning::Planner {
  public:
   RoadmapPlanner();

@@ -13,12 +13,12 @@ namespace regrasp::sampling {
 
 namespace {
 
-// The parameters that the paper recommends.
+// Parameters recommended by the paper.
 constexpr int kAlpha = 8;
 constexpr double kBeta = 0.65;
 constexpr double kGamma = 1.5;
 
-/// How strongly two contacts crowd each other, as a function of their distance.
+/// Weight of a pair of contacts as a function of their distance.
 class Crowding {
  public:
   Crowding(std::size_t from, int to, double area)
@@ -34,7 +34,7 @@ class Crowding {
   }
 
  private:
-  /// Of `count` equal discs in the densest packing on the area.
+  /// Return the radius of `count` equal discs in the densest packing on the area.
   static double LargestRadius(int count, double area) {
     return std::sqrt(area / (2 * std::numbers::sqrt3 * count));
   }
@@ -43,14 +43,15 @@ class Crowding {
   double floor_;
 };
 
-/// A contact that another one crowds, and how strongly.
+/// Contact within reach of another one, with the weight of the pair.
 struct Neighbour {
   std::size_t index;
   double weight;
 };
 
-/// Of each contact those that crowd it, in ascending order, so that sums of their weights do not
-/// depend on how they were found: by a sweep along x, as only those within reach count.
+/// Return the neighbours of each contact in ascending order, so that sums of weights are
+/// deterministic.
+/// Sweeps along x, because only neighbours within reach count.
 std::vector<std::vector<Neighbour>> FindNeighbours(const std::vector<grasp::Contact>& contacts,
                                                    const Crowding& crowding) {
   std::vector<std::size_t> along_x(contacts.size());
@@ -77,11 +78,11 @@ std::vector<std::vector<Neighbour>> FindNeighbours(const std::vector<grasp::Cont
   return neighbours;
 }
 
-/// A contact with the weight that it had at some time.
+/// Contact with its weight at the time of insertion.
 struct Weighed {
   double weight;
   std::size_t index;
-  /// The heaviest is on top of a heap, of equals the first.
+  /// Order of a heap with the largest weight on top; ties go to the first contact.
   bool operator<(const Weighed& other) const {
     return weight != other.weight ? weight < other.weight : index > other.index;
   }
@@ -103,7 +104,7 @@ std::vector<grasp::Contact> EliminateSamples(const std::vector<grasp::Contact>& 
   for (std::size_t left = contacts.size(); left > static_cast<std::size_t>(count);) {
     const auto [weight_then, i] = heaviest.top();
     heaviest.pop();
-    // Weights only sink: one that is still as it was is the largest.
+    // Weights only decrease: an unchanged one is the largest.
     if (weight[i] != weight_then) {
       heaviest.push({weight[i], i});
       continue;
@@ -121,7 +122,7 @@ std::vector<grasp::Contact> EliminateSamples(const std::vector<grasp::Contact>& 
 
 namespace {
 
-/// The largest triangle, relative to the area of one point, of a mesh that counts as fine.
+/// Largest triangle of a fine mesh, relative to the area per point.
 constexpr double kFineTriangle = 0.25;
 
 bool IsFine(const object::Polyhedron& solid, double area_per_point) {
@@ -156,7 +157,7 @@ std::vector<grasp::Contact> DrawCandidates(const object::Polyhedron& solid, int 
   return candidates;
 }
 
-/// Leaves out the candidates that are too near the border of their face.
+/// Remove candidates that are too near the border of their face.
 std::vector<grasp::Contact> KeepFromBorders(const object::Polyhedron& solid,
                                             const std::vector<grasp::Contact>& all) {
   std::vector<double> distance(all.size());

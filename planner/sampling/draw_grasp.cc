@@ -13,7 +13,7 @@ namespace regrasp::sampling {
 namespace {
 
 struct Direction {
-  double angle;  ///< in (-pi, pi]
+  double angle;  ///< in (−π, π]
   Eigen::Vector3d normal;
 };
 
@@ -27,9 +27,10 @@ std::vector<Direction> SortedNormals(const object::Object& polygon) {
   return sorted;
 }
 
-/// Of a force-closure grasp of two contacts each lies in the other's cone, and so the two normals
-/// are opposed but for less than both half-angles. Of each normal only those beside its opposite in
-/// the order of angles are looked at.
+/// Return whether a polygon has two edges for a force-closure grasp with two contacts.
+/// Each contact must be in the other contact's cone. The normals are therefore opposed up to twice
+/// the friction angle. For each normal only the neighbours of its opposite in angular order are
+/// tested.
 bool HasOpposedEdges(const object::Object& polygon, double half_angle) {
   const double least = std::cos(2 * half_angle);
   const std::vector<Direction> sorted = SortedNormals(polygon);
@@ -45,7 +46,7 @@ bool HasOpposedEdges(const object::Object& polygon, double half_angle) {
   });
 }
 
-/// The numbers of contacts to try, in their order.
+/// Return the numbers of contacts to try, in order.
 std::vector<int> DrawOrder(const object::Object& object, const grasp::ContactLimits& contacts,
                            RandomStream& random) {
   if (object.dimension() == 3) return {contacts.least};
@@ -67,7 +68,7 @@ grasp::Grasp DrawContacts(const SurfaceSampler& sampler, int contacts, RandomStr
   return drawn;
 }
 
-/// " of radius 0.1"; empty for points.
+/// Format a radius: " of radius 0.1"; empty for points.
 std::string OfRadius(double finger_radius) {
   return finger_radius > 0 ? " of radius " + FormatShort(finger_radius) : "";
 }
@@ -93,7 +94,7 @@ grasp::Grasp DrawOnSurface(const object::Object& object, const grasp::ContactLim
                            const criteria::GraspEvaluator& evaluator, RandomStream& random,
                            const std::string& name, const std::function<void()>& before_draw) {
   const double radius = evaluator.finger_radius();
-  // The ends of a sequence may be anywhere on their faces.
+  // Contacts of start and goal may be anywhere on their faces.
   const SurfaceSampler sampler(object, radius, 0);
   const std::string nothing_reached = name + ": a finger" + OfRadius(radius) + " reaches none of " +
                                       std::to_string(SurfaceSampler::kMostDraws) +

@@ -11,34 +11,34 @@
 
 namespace regrasp::sampling {
 
-/// Thrown for a negative answer: a random grasp could not be drawn, or a planner has no place for a
-/// grasp that it is given. PlanResult::Status::kNoGrasp where planners end.
+/// Negative result: no random grasp is found, or a planner cannot represent a given grasp.
+/// Planners convert it to PlanResult::Status::kNoGrasp.
 struct NoGrasp {
   std::string message;
 };
 
-/// Draws grasps until the evaluator accepts one.
-/// @param draw  gives a grasp.
-/// @returns nullopt where none of `kMaxSurfaceDraws` draws is accepted.
+/// Draw grasps until the evaluator accepts one.
+/// @param draw  function that draws a grasp.
+/// @returns nullopt if none of `kMaxSurfaceDraws` grasps is accepted.
 [[nodiscard]] std::optional<grasp::Grasp> DrawGoodGrasp(const std::function<grasp::Grasp()>& draw,
                                                         const criteria::GraspEvaluator& evaluator);
 
-/// A grasp that the evaluator accepts, of contacts spread evenly over an object's surface. In the
-/// plane the random numbers say how many contacts are tried first; where the object has no such
-/// grasp of that number, the others of the range are. Two contacts are not drawn where no two edges
-/// of a polygon are opposed enough for any.
-/// @param contacts     in space as many as the range has at least.
-/// @param name         how messages call it.
-/// @param before_draw  may throw to make an end.
-/// @throws NoGrasp  none of kMaxSurfaceDraws draws of each number is accepted, or fingers reach
-///                  next to nothing of the surface.
+/// Draw an accepted grasp with contacts uniformly distributed over an object's surface.
+/// In the plane the initial number of contacts is random. If no grasp with that number is accepted,
+/// the other numbers of the range follow. Two contacts are skipped for polygons without
+/// sufficiently opposed edges.
+/// @param contacts     range of the number of contacts; in space only its minimum is used.
+/// @param name         name of the grasp in messages.
+/// @param before_draw  called before each grasp; can throw to stop.
+/// @throws NoGrasp  if none of kMaxSurfaceDraws grasps of each number is accepted, or fingers reach
+///     almost no part of the surface.
 [[nodiscard]] grasp::Grasp DrawOnSurface(
     const object::Object& object, const grasp::ContactLimits& contacts,
     const criteria::GraspEvaluator& evaluator, RandomStream& random, const std::string& name,
     const std::function<void()>& before_draw = [] {});
 
-/// Draws before a random grasp is given up: at a microsecond each below a second, and enough for
-/// objects where one grasp in ten thousand is accepted.
+/// Largest number of drawn grasps. At 1 µs each they take less than a second, and they suffice for
+/// objects that accept one grasp in ten thousand.
 inline constexpr int kMaxSurfaceDraws = 200'000;
 
 }  // namespace regrasp::sampling

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// So many contacts are found for one that is kept, so that those can be spread.
+/// Number of found contacts per kept contact, so that the kept ones can be spread evenly.
 constexpr int kFoundPerContact = 4;
 
 struct Circle {
@@ -26,7 +26,7 @@ struct Circle {
   double radius;
 };
 
-/// The largest circle in a triangle.
+/// Return the incircle of a triangle.
 Circle InCircle(const std::array<Vector3d, 3>& t) {
   const double a = (t[1] - t[2]).norm(), b = (t[2] - t[0]).norm(), c = (t[0] - t[1]).norm();
   const double around = a + b + c;
@@ -34,8 +34,9 @@ Circle InCircle(const std::array<Vector3d, 3>& t) {
           (t[1] - t[0]).cross(t[2] - t[0]).norm() / around};
 }
 
-/// The place on a face nearest to one of its points that is `margin` inside it: towards the middle
-/// of a triangle that has a corner there, from all sides of which it then is so far.
+/// Return a point on a face at distance `margin` from its border, near a given point of the face.
+/// It is on the line from the point to the incentre of a triangle with a corner there. Its distance
+/// from all sides of that triangle is `margin`.
 std::optional<Vector3d> PlaceInside(const object::Polyhedron& solid, FaceIndex face,
                                     const Vector3d& on, double margin) {
   if (solid.DistanceToBorder(face, on) >= margin) return on;
@@ -55,8 +56,7 @@ std::optional<Vector3d> PlaceInside(const object::Polyhedron& solid, FaceIndex f
   return nearest;
 }
 
-/// The faces that a point is on, as far as any is near: those whose normal is nearest to the mean
-/// come first.
+/// Return the faces nearest to a point. Faces with normals nearest to the mean normal come first.
 std::vector<FaceIndex> FacesAt(const object::Polyhedron& solid, const Vector3d& point) {
   std::vector<FaceIndex> faces = solid.FacesNear(point, object::kAtGivenPoint * solid.diameter());
   if (faces.empty()) return faces;
@@ -81,7 +81,7 @@ std::optional<grasp::Contact> ContactAt(const object::Polyhedron& solid, const V
     if (!solid.TakesFingers(face)) continue;
     const auto place = PlaceInside(solid, face, solid.ClosestPoint(face, point), margin);
     if (!place) continue;
-    const Vector3d p = solid.ClosestPoint(face, *place);  // without what rounding took it off by
+    const Vector3d p = solid.ClosestPoint(face, *place);  // removes rounding errors
     if ((p - point).norm() > object::kAtGivenPoint * solid.diameter()) continue;
     if (!solid.IsRough(face, p)) return grasp::Contact{p, solid.inward_normal(face), face};
   }

@@ -11,18 +11,20 @@
 
 namespace regrasp::sampling {
 
-/// A contact at a given point (object/given_points.h): on one of the faces there, inside it by the
-/// least distance that a finger keeps from borders (SurfaceSampler::kFromBorder), so that it has a
-/// normal. Of the faces there the one whose normal is nearest to their mean is taken, of those that
-/// take fingers and are not rough (Object::IsRough).
-/// @returns nullopt  no such contact is within kAtGivenPoint · D of the point.
+/// Return the contact at a point of a point file (object/given_points.h).
+/// The contact is on a face at the point. It has the smallest allowed distance from the face's
+/// border (SurfaceSampler::kFromBorder), so that its normal is defined. Among the faces at the
+/// point that accept fingers and are not rough there (Object::IsRough), it is on the one with the
+/// normal nearest to their mean.
+/// @returns nullopt if no such contact is within kAtGivenPoint · D of the point.
 [[nodiscard]] std::optional<grasp::Contact> ContactAt(const object::Polyhedron& solid,
                                                       const Eigen::Vector3d& point);
 
-/// Contacts at given points (Phoka 2010, chapter 6): `most` of them spread evenly over the surface,
-/// all where there are no more; the same for the same seed.
-/// @throws std::invalid_argument  most < 1.
-/// @throws NoGrasp  fewer than `least` of the points take a contact.
+/// Return contacts at given points (Phoka 2010, chapter 6).
+/// At most `most` contacts are returned, spread evenly over the surface. Equal seeds give equal
+/// contacts.
+/// @throws std::invalid_argument  if most < 1.
+/// @throws NoGrasp  if fewer than `least` points accept a contact.
 [[nodiscard]] std::vector<grasp::Contact> GivenContacts(const object::Polyhedron& solid,
                                                         std::span<const Eigen::Vector3d> points,
                                                         int least, int most, std::uint64_t seed);

@@ -16,10 +16,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Points this near a face, over the diameter, are on it: what rounding makes of them.
+/// Distance over the diameter within which points are on a face; it covers rounding errors.
 constexpr double kOffFace = 1e-9;
 
-/// The nearest face is looked for within this share of the reach first.
+/// Initial search radius for the nearest face, relative to the reach.
 constexpr double kFirstLook = 1.0 / 64;
 
 double AreaOverPerimeter(const object::Object& object, FaceIndex face) {
@@ -30,7 +30,7 @@ double AreaOverPerimeter(const object::Object& object, FaceIndex face) {
   return perimeter > 0 ? object.face_measure(face) / perimeter : 0;
 }
 
-/// Distance to the nearest edge of the contact's face that is not nearly flat.
+/// Return the distance to the nearest sharp edge of a contact's face.
 double DistanceToSharpEdge(const object::Object& object, const grasp::Contact& contact) {
   static const double least_cosine = std::cos(SurfaceSampler::kNearlyFlatAngle);
   const Vector3d n = object.inward_normal(contact.face);
@@ -184,12 +184,12 @@ grasp::Contact SurfaceSampler::DrawNear(const grasp::Contact& contact, double re
 grasp::Contact SurfaceSampler::DrawAround(const grasp::Contact& contact, double reach,
                                           RandomStream& random) const {
   const Vector3d p = DrawBeside(contact, reach, random);
-  // Looking for the nearest face far away is dear, and most are near.
+  // A search for faces in a large radius is expensive, and most faces are near.
   for (double radius = kFirstLook * reach; radius <= reach; radius *= 2) {
     std::vector<FaceIndex> faces = object_.FacesNear(p, radius);
     std::erase_if(faces, [&](FaceIndex face) { return !object_.TakesFingers(face); });
     if (faces.empty()) continue;
-    // Where an edge is nearest, so are both of its faces.
+    // If an edge is nearest, both of its faces are equally near.
     const auto distance = [&](FaceIndex face) {
       return (object_.ClosestPoint(face, p) - p).norm();
     };
@@ -208,7 +208,7 @@ grasp::Contact SurfaceSampler::DrawAround(const grasp::Contact& contact, double 
 Vector3d SurfaceSampler::DrawInwards(FaceIndex face, const Vector3d& border, double reach,
                                      RandomStream& random) const {
   const Vector3d inside = DrawIn(RangeOf(face), random).p - border;
-  // The best grasps are the widest ones: most of the draws stay as near to the border as they may.
+  // The widest grasps are the best: most draws stay as near to the border as allowed.
   const double u = random.Uniform();
   const double inwards = 5 * kFromBorder * object_.diameter() + u * u * u * u * reach;
   return object_.ClosestPoint(face, border + std::min(1.0, inwards / inside.norm()) * inside);

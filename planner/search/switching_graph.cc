@@ -38,7 +38,7 @@ namespace {
 
 constexpr int kUnreached = -1;
 
-/// The vertices around one end, by layers.
+/// Vertices around one end of a path, by layers.
 class Ball {
  public:
   Ball(const SwitchingGraph& graph, int centre)
@@ -63,7 +63,7 @@ class Ball {
     layers_.push_back(std::move(next));
   }
 
-  /// The vertices of the ball's layer `distance` beside some of the layer after it.
+  /// Return the vertices of layer `distance` that are adjacent to vertices of the next layer.
   [[nodiscard]] std::vector<int> Inwards(const std::vector<int>& outer, int distance) {
     std::vector<int> inner;
     for (const int vertex : outer) {
@@ -71,7 +71,7 @@ class Ball {
       for (const int neighbour : neighbours_) {
         if (distance_[neighbour] != distance) continue;
         inner.push_back(neighbour);
-        distance_[neighbour] = kUnreached;  // once is enough
+        distance_[neighbour] = kUnreached;  // each vertex is returned once
       }
     }
     return inner;
@@ -89,7 +89,7 @@ class Ball {
 std::optional<ShortestPaths> FindShortestPaths(const SwitchingGraph& graph, int start, int goal) {
   Ball from_start(graph, start);
   Ball from_goal(graph, goal);
-  // The fronts are the only layers that can meet: a layer further in would have met before.
+  // Only the fronts can meet, because inner layers would have met before.
   std::vector<int> middle;
   while (true) {
     std::ranges::copy_if(from_start.front(), std::back_inserter(middle), [&](int vertex) {
@@ -119,8 +119,9 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// The largest width among the vertices next to `end` that a sequence to `other` in `switches`
-/// switches may pass: no sequence is wider. −∞ where there is none.
+/// Return the largest width of an admitted neighbour of `end` on a path to `other` with `switches`
+/// switches.
+/// It is an upper bound of the width of every path; −∞ if there is none.
 double BestBeside(const SwitchingGraph& graph, int end, int other, int switches,
                   const VertexFilter& admits, const VertexWidth& width) {
   std::vector<int> neighbours;
@@ -137,11 +138,11 @@ double BestBeside(const SwitchingGraph& graph, int end, int other, int switches,
   return -kUnbounded;
 }
 
-/// A vertex at a depth, reached over a sequence with a bottleneck.
+/// Vertex at a depth, with the bottleneck of its path.
 struct State {
   double bottleneck;
   int depth;
-  double width;  ///< of the vertex alone, so that equals prefer the better grasp
+  double width;  ///< width of the vertex only, which breaks ties in favour of better grasps
   int vertex;
   int previous;
 
@@ -218,7 +219,7 @@ class WidestPathSearch {
   const VertexWidth& width_;
   double cap_;
   std::priority_queue<State> queue_;
-  std::unordered_map<std::int64_t, int> previous_;  ///< of the states that are settled
+  std::unordered_map<std::int64_t, int> previous_;  ///< previous vertex of settled states
   std::vector<int> neighbours_;
 };
 
@@ -242,7 +243,7 @@ class Flood {
     met_[start] = true;
   }
 
-  /// Expands one vertex. False where all are.
+  /// Expand one vertex. Returns false if there is none.
   bool Step() {
     if (queue_.empty()) return false;
     const int vertex = queue_.front();
@@ -258,7 +259,7 @@ class Flood {
     return true;
   }
 
-  /// Whether the vertex is reached or next to one that is.
+  /// Return whether the vertex is reached or adjacent to a reached vertex.
   [[nodiscard]] bool Met(int vertex) const { return met_[vertex]; }
   [[nodiscard]] std::vector<int> TakeReached() && { return std::move(reached_); }
 
@@ -271,8 +272,9 @@ class Flood {
   std::vector<int> neighbours_;
 };
 
-/// A* over unit edges, advanced vertex by vertex. Buckets instead of a heap: totals are small
-/// integers, and with a consistent bound they never fall.
+/// A* over unit edges, advanced vertex by vertex.
+/// Uses buckets instead of a heap, because totals are small integers and never decrease with a
+/// consistent bound.
 class AStar {
  public:
   AStar(const SwitchingGraph& graph, int start, int goal, const VertexFilter& admits)
@@ -282,11 +284,12 @@ class AStar {
 
   enum class State { kSearching, kFound, kExhausted };
 
-  /// Expands one vertex.
+  /// Expand one vertex.
   State Step() {
     while (total_ < buckets_.size() && buckets_[total_].empty()) ++total_;
     if (total_ == buckets_.size()) return State::kExhausted;
-    // The latest comes first: among equal totals the search dives towards the goal.
+    // The latest entry comes first: among equal totals the search goes depth-first towards the
+    // goal.
     const Entry entry = buckets_[total_].back();
     buckets_[total_].pop_back();
     if (entry.vertex == goal_) {
@@ -319,7 +322,7 @@ class AStar {
   const SwitchingGraph& graph_;
   int goal_;
   const VertexFilter& admits_;
-  std::vector<int> best_;  ///< distance from the start, as far as is known
+  std::vector<int> best_;  ///< shortest known distance from the start
   std::vector<std::vector<Entry>> buckets_;
   std::size_t total_ = 0;
   int distance_ = 0;
@@ -341,7 +344,7 @@ std::optional<int> FewestSwitches(const SwitchingGraph& graph, int start, int go
       case AStar::State::kSearching:
         break;
     }
-    // The start counts as met whether or not the filter would let a sequence pass it.
+    // The start counts as reached even if the filter does not admit it.
     if (!from_goal.Met(start) && !from_goal.Step()) return std::nullopt;
   }
 }

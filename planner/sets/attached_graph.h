@@ -8,18 +8,19 @@
 
 namespace regrasp::sets {
 
-/// The sets that a grasp is joined to.
+/// Grasp sets that are connected with the start or goal grasp.
 struct GraspEnds {
-  std::set<SetIndex> of_itself;  ///< that it is in
-  std::set<SetIndex> by_switch;  ///< that it comes to by a switch of its own
+  std::set<SetIndex> of_itself;  ///< sets that contain the grasp
+  std::set<SetIndex> by_switch;  ///< sets reached by an additional finger switch
 };
 
-/// A switching graph with a start and a goal grasp as vertices of their own, and without some
-/// switches. Sets that a grasp comes to by a switch of its own are one switch farther than those
-/// that it is in.
+/// Switching graph with a start and a goal grasp as additional vertices, and without banned edges.
+///
+/// Sets that a grasp reaches by an additional finger switch are one edge farther than those that
+/// contain it.
 class AttachedGraph final : public search::SwitchingGraph {
  public:
-  /// @param graph, banned  outlive this object.
+  /// @param graph, banned  must outlive this object.
   AttachedGraph(const search::SwitchingGraph& graph, const GraspEnds& start, const GraspEnds& goal,
                 const std::set<search::VertexPair>& banned)
       : graph_(graph),
@@ -29,9 +30,10 @@ class AttachedGraph final : public search::SwitchingGraph {
 
   [[nodiscard]] int start() const { return start_.grasp; }
   [[nodiscard]] int goal() const { return goal_.grasp; }
-  /// False for the vertices that stand for start and goal, before and after a switch of their own.
+  /// Whether a vertex is a grasp set, and not the start or goal before or after its additional
+  /// switch.
   [[nodiscard]] bool IsSet(int vertex) const { return vertex < graph_.vertex_count(); }
-  /// Whether every sequence passes this set, because an end is joined to no other.
+  /// Whether every sequence passes this set, because it is the only set connected with an end.
   [[nodiscard]] bool IsOnlySetOfAnEnd(int vertex) const;
 
   [[nodiscard]] int vertex_count() const override { return graph_.vertex_count() + 4; }
@@ -40,7 +42,7 @@ class AttachedGraph final : public search::SwitchingGraph {
  private:
   struct End {
     int grasp;
-    int changed;  ///< the grasp once it has been switched
+    int changed;  ///< vertex of the grasp after its additional switch
     GraspEnds sets;
   };
   static bool GetNeighboursOfEnd(const End& end, int vertex, std::vector<int>& neighbours);

@@ -10,21 +10,21 @@
 
 namespace regrasp::sets {
 
-/// A set of grasps: a vertex of a SetGraph.
+/// Index of a set of grasps, which is a vertex of a SetGraph.
 using SetIndex = Index<struct SetTag>;
-/// Two sets that a switch joins.
+/// Two sets that are connected by a switch.
 using SetPair = std::array<SetIndex, 2>;
 
-/// The switching graph of an object's grasp sets, with its edges as a list: what such graphs have
-/// in common, whatever the sets.
+/// Switching graph of an object's grasp sets with an explicit list of edges: the common base of all
+/// such graphs.
 class SetGraph : public search::SwitchingGraph {
  public:
-  /// Pairs of sets that a switch joins; but for those of a kind of which each two are joined, where
-  /// the object's graph has such a kind.
+  /// Pairs of sets that are connected by a switch. If all sets of one kind are connected with each
+  /// other, these pairs are omitted.
   [[nodiscard]] const std::vector<SetPair>& switches() const { return switches_; }
   [[nodiscard]] search::Components components() const;
 
-  /// Wall time that the vertices and the edges took.
+  /// Wall time for the computation of vertices or edges, s.
   [[nodiscard]] double vertex_seconds() const { return vertex_seconds_; }
   [[nodiscard]] double edge_seconds() const { return edge_seconds_; }
 
@@ -32,20 +32,20 @@ class SetGraph : public search::SwitchingGraph {
   void GetNeighbours(int vertex, std::vector<int>& neighbours) const override;
 
  protected:
-  /// tan θ.
-  /// @throws std::invalid_argument  θ is not in (0, π/2).
+  /// Compute tan θ.
+  /// @throws std::invalid_argument  if θ is not in (0, π/2).
   static double CheckedTangent(double half_angle);
 
-  // A graph calls these in this order while it is built.
+  // Stages of construction; a derived graph calls them in this order.
   void BeginVertices();
   void EndVertices(int count);
-  /// @param all_joined  ascending; sets of which each two are joined.
+  /// @param all_joined  sets that are all connected with each other, in ascending order.
   void EndEdges(std::vector<SetPair> switches, const std::vector<SetIndex>& all_joined = {});
 
  private:
   std::vector<SetPair> switches_;
   std::vector<int> all_joined_;
-  std::vector<std::vector<int>> neighbours_;  ///< over switches_, ascending
+  std::vector<std::vector<int>> neighbours_;  ///< neighbours of each set by switches_, ascending
   Stopwatch stopwatch_;
   double vertex_seconds_ = 0;
   double edge_seconds_ = 0;

@@ -1,4 +1,4 @@
-"""What arguments may be, for type checkers."""
+"""Types of arguments, for type checkers."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 Path = Union[str, bytes, os.PathLike]
 Progress = Optional[Callable[[str], object]]
-"""Is called with a line of text; what it raises ends the work."""
+"""A function that is called with one line of text; an exception from it stops the work."""
 
 GivenGrasp = Union[ArrayLike, tuple[ArrayLike, ArrayLike], Path]
 """Points, points and normals, or the path of a grasp file."""

@@ -1,4 +1,4 @@
-"""Grasps: contacts with friction, judged by themselves."""
+"""Grasps: force closure of contacts with friction, for one grasp or millions."""
 
 from __future__ import annotations
 
@@ -12,34 +12,33 @@ from ._regrasp import InputError
 from ._types import ArrayLike, Progress
 from .objects import Object
 
-# Grasps that a core judges in about a tenth of a second: half a microsecond, some 64, or up to a
-# millisecond each.
+# Grasps per part, about a tenth of a second on one processor: half a microsecond, 64 microseconds or up to
+# a millisecond each.
 _PART, _PART_WITH_ANGLE, _PART_WITH_QUALITY = 200_000, 1500, 300
 
 
 @dataclass(frozen=True)
 class ForceClosure:
-    """What `force_closure` says: scalars for one grasp, arrays of shape (N,) for N grasps."""
+    """The result of `force_closure`: scalars for one grasp, arrays (N,) for N grasps."""
 
     is_force_closure: np.ndarray | bool
-    """True if force closure is certified; False for a numerically undecided grasp (`too_close`)."""
+    """Whether the grasp is force closure; False for a grasp that is too close to call."""
     too_close: np.ndarray | bool
-    """Whether it lies within rounding of the border (1e-12 of the size of its wrenches)."""
+    """Whether the grasp is within rounding of the limit (1e-12 of the size of its wrenches)."""
     margin: np.ndarray | float
-    """A lower bound on the margin, dimensionless; positive iff
-    `is_force_closure`. Where the answer is clear
-    early it is not tight."""
+    """Lower bound on the force-closure margin, dimensionless; positive if and only if
+    `is_force_closure`. It is not tight if the verdict is clear early."""
     required_angle_deg: np.ndarray | float | None
-    """The smallest friction half-angle that is proved to be enough; NaN where none is below 90
-    degrees; None where it was not asked for."""
+    """Smallest friction angle that is proved to be sufficient, degrees. NaN if no angle below 90 degrees
+    is; None if not requested."""
     quality: np.ndarray | float | None
-    """The largest ball of wrenches that is resisted with normal forces summing to 1, torques over
-    half the object's diameter (Ferrari and Canny's L1 metric, its lower bound); None where it was
-    not asked for."""
+    """Lower bound on the grasp quality ε (Ferrari and Canny, 1992, L1 metric): the radius of the largest
+    ball of wrenches that normal forces with sum 1 resist, with torques divided by half the object's
+    diameter; None if not requested."""
     quality_upper: np.ndarray | float | None = None
-    """An upper bound on the same; within 1 % of `quality`, or 1e-6."""
+    """Upper bound on ε, within 1 % or 1e-6 of `quality`."""
     _asked: tuple | None = field(default=None, repr=False, compare=False)
-    """Of one grasp on an object: object, points, normals, half-angle; a notebook draws it."""
+    """Object, points, normals and friction angle of one grasp, which a notebook draws."""
 
     @property
     def holds(self) -> np.ndarray | bool:
@@ -57,7 +56,7 @@ class ForceClosure:
         try:
             return _html.drawing(_regrasp.draw_grasp(object._core, points, normals, half_angle, 85),
                                  f"a grasp of {object.name}")
-        except InputError:  # a contact is not on the object, which is not asked here
+        except InputError:  # a contact is not on the object, which is allowed here
             return ""
 
     def _table(self) -> str:
@@ -65,7 +64,7 @@ class ForceClosure:
             verdict = ("force closure" if self.is_force_closure else
                        "too close to call" if self.too_close else "no force closure")
             rows = [["verdict", verdict]]
-            if 1e-9 < abs(self.margin) < 1e9:  # beyond it is the bound of what was clear early
+            if 1e-9 < abs(self.margin) < 1e9:  # beyond it, the bound of an early verdict
                 rows.append(["margin", f"{self.margin:.4g} or more"])
             if self.required_angle_deg is not None:
                 rows.append(["required half-angle", f"{self.required_angle_deg:.2f}°"])
@@ -87,34 +86,35 @@ def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None =
                   torsion: float = 0, active: ArrayLike | None = None,
                   required_angle: bool = False, quality: bool = False, threads: int = 0,
                   progress: Progress = None, touching: ArrayLike | None = None) -> ForceClosure:
-    """Decides whether grasps are force closure, with circular friction cones and a certified margin.
+    """Decide whether grasps are force closure under circular friction cones, with certified margins.
 
     Args:
-        points: where the fingers touch, (k, 3) for one grasp of k contacts, (N, k, 3) for N of
-            them; (…, 2) in the plane. Any unit of length, `object`'s where that is given.
-        normals: of the same shape, unit, into the object.
-        object: the object that is held; only `quality` needs it. Whether the points are on its
-            surface is not asked.
-        mu: friction coefficient, or
-        friction_angle_deg: the half-angle of the cones, atan(mu), in degrees.
-        torsion: of soft fingers the largest torque about a normal over the largest tangential force,
-            in the unit of `points`; 0: hard points, which have no torque.
-        active: bool mask of shape (k,) or (N, k) of the contacts that count; None: all. Points and
-            normals of the other contacts are ignored and may be NaN.
-        required_angle: whether to compute `ForceClosure.required_angle_deg`; some 0.06 ms each.
-        quality: whether to compute `ForceClosure.quality` and its upper bound, within 1 % of each
-            other and with circular cones. Costs about 0.1 ms for each grasp of four contacts and core, 1 to
-            2 ms for symmetric grasps; the verdict alone costs half a microsecond.
-        threads: how many work; 0: as many as the machine has cores. Verdicts do not depend on it.
-        progress: called with a line of text after each part of many grasps; Ctrl-C ends the work after
-            the part that is under way.
+        points: contact points: array (k, 3) for one grasp of k contacts, (N, k, 3) for N grasps;
+            (…, 2) in the plane. In any unit of length, or in that of `object` if it is given.
+        normals: unit normals into the object, of the same shape.
+        object: object that is held. Only `quality` needs it; points need not be on its surface.
+        mu: friction coefficient; give either `mu` or `friction_angle_deg`.
+        friction_angle_deg: friction angle, atan(mu), degrees.
+        torsion: torsional friction length of soft fingers, in the unit of `points`; 0: hard fingers.
+        active: array (k,) or (N, k) of bool, contacts that count; default: all. Points and normals of
+            other contacts are ignored and may be NaN.
+        required_angle: whether to compute `ForceClosure.required_angle_deg`, about 0.06 ms per grasp.
+        quality: whether to compute `ForceClosure.quality` and its upper bound, which differ by at most
+            1 %. It takes about 0.1 ms per grasp of four contacts and up to 2 ms per symmetric grasp.
+            The verdict alone takes half a microsecond.
+        threads: number of threads; 0: one per processor. Verdicts do not depend on it.
+        progress: function that is called with one line of text per part of many grasps. Ctrl-C stops
+            the work after the current part.
         touching: deprecated name of `active`.
 
-    Raises:
-        InputError: names the argument, the grasp and the value.
+    Returns:
+        Verdicts, margins, and the values that were requested.
 
-    Two fingers on opposite faces of a cube can turn it about the line between them; a third one
-    holds it, and so do soft fingers:
+    Raises:
+        InputError: an argument is invalid; the message names the argument, the grasp and the value.
+
+    Two fingers on opposite faces of a cube can rotate it about the line between them. A third finger,
+    or soft fingers, prevent this:
 
     >>> points = [[0, .5, .5], [1, .3, .5], [1, .7, .5]]
     >>> normals = [[1, 0, 0], [-1, 0, 0], [-1, 0, 0]]
@@ -179,7 +179,7 @@ def force_closure(points: ArrayLike, normals: ArrayLike, object: Object | None =
 
 
 def _contacts(points, normals, active) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
-    """The arrays, checked; where no contact is active points are 0 and normals any unit vector."""
+    """Return the checked arrays; contacts that are not active get the point 0 and any unit normal."""
     shapes = "(k, 3) or (N, k, 3), in the plane (k, 2) or (N, k, 2)"
     numbers = _arguments.numbers if active is None else _arguments.numbers_or_nan
     points = numbers("points", points, shapes, (2, 3))
@@ -201,10 +201,10 @@ def _contacts(points, normals, active) -> tuple[np.ndarray, np.ndarray, np.ndarr
 
 
 def _judge(judge, points, normals, active, part: int, progress) -> list[np.ndarray]:
-    """Decisions, margins, required half-angles and bounds on the qualities of all grasps.
+    """Return decisions, margins, required friction angles and quality bounds of all grasps.
 
     Args:
-        active: (N, k), or None where all do.
+        active: array (N, k) of bool; None: all contacts are active.
     """
     if active is None or active.all():
         return _in_parts(judge, points, normals, part, progress)
@@ -215,7 +215,7 @@ def _judge(judge, points, normals, active, part: int, progress) -> list[np.ndarr
         held = active[chosen]
         found = _in_parts(judge, points[chosen][held].reshape(-1, count, 3),
                           normals[chosen][held].reshape(-1, count, 3), part, progress)
-        if not result:  # what nobody holds is not force closure
+        if not result:  # a grasp without contacts is not force closure
             result = [np.full(len(counts), fill, column.dtype) if len(column) else column
                       for fill, column in zip((0, np.nan, np.nan, 0, 0), found)]
         for whole, column in zip(result, found):
@@ -228,8 +228,10 @@ def _judge(judge, points, normals, active, part: int, progress) -> list[np.ndarr
 
 
 def _in_parts(judge, points, normals, part: int, progress) -> list[np.ndarray]:
-    """The same of grasps all of whose contacts are active, part by part: between them the interpreter
-    sees to signals."""
+    """Return the results of grasps whose contacts are all active, computed part by part.
+
+    Between two parts the interpreter handles signals.
+    """
     results, count = [], len(points)
     for begin in range(0, max(count, 1), part):
         end = min(begin + part, count)

@@ -1,4 +1,4 @@
-"""Hands: fingers that are chains of hinges, with a ball at each fingertip."""
+"""Hands: fingers with revolute joints and a sphere at each fingertip."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from ._types import ArrayLike
 
 
 class Hand:
-    """A hand as its file `hand.json` and the model beside it have it (docs/formats.md)."""
+    """A hand, as described by its hand file and the model that the file names (docs/format_hand.md).
+    """
 
     def __init__(self, core: _regrasp.Hand):
         if not isinstance(core, _regrasp.Hand):
@@ -21,7 +22,10 @@ class Hand:
 
     @classmethod
     def read(cls, path: str | os.PathLike) -> Hand:
-        """Reads a hand file and the MJCF or URDF model that it names.
+        """Read a hand file and the MJCF or URDF model that it names.
+
+        Raises:
+            InputError: a file is invalid, or the model has features that plans cannot represent.
 
         >>> Hand.read("models/hands/ring4.json").fingers
         ['finger0', 'finger1', 'finger2', 'finger3']
@@ -30,7 +34,7 @@ class Hand:
 
     @property
     def name(self) -> str:
-        """As its file says."""
+        """Name of the hand, from its file."""
         return self._core.name
 
     @property
@@ -40,22 +44,22 @@ class Hand:
 
     @property
     def joint_names(self) -> list[str]:
-        """Names of the J joints, by finger, from the palm to the tip."""
+        """Names of the J joints, finger by finger, from the palm to the fingertip."""
         return [joint for finger in self._core.joint_names for joint in finger]
 
     @property
     def radii(self) -> np.ndarray:
-        """(F,) radii of the fingertips' balls, metres."""
+        """Radii (F,) of the fingertip spheres, metres."""
         return np.array(self._core.radii)
 
     def tips(self, joints: ArrayLike) -> np.ndarray:
-        """Centres of the fingertips' balls in the palm's frame, metres.
+        """Compute the centres of the fingertip spheres in the palm frame, metres.
 
         Args:
-            joints: angles (J,) or (N, J), radians, in the order of `joint_names`.
+            joints: joint angles (J,) or (N, J), radians, in the order of `joint_names`.
 
         Returns:
-            (F, 3) or (N, F, 3).
+            An array (F, 3) or (N, F, 3).
 
         >>> Hand.read("models/hands/ring4.json").tips(np.zeros(16)).shape
         (4, 3)
@@ -68,17 +72,17 @@ class Hand:
         return tips[0] if joints.ndim == 1 else tips
 
     def ordered(self, names: list[str], joints: ArrayLike) -> np.ndarray:
-        """Angles in the order of `joint_names`.
+        """Return joint angles in the order of `joint_names`.
 
         Args:
-            names: of J or more joints.
-            joints: (N, as many) their angles.
+            names: names of the columns of `joints`; they include all J joints.
+            joints: array (N, K) of joint angles for K names.
 
         Returns:
-            (N, J).
+            An array (N, J).
 
         Raises:
-            InputError: a joint of the hand is missing.
+            InputError: a joint of the hand is missing in `names`.
         """
         names = _arguments.texts("names", names)
         joints = _arguments.numbers("joints", joints, f"(N, {len(names)})", (2,))

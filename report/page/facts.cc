@@ -13,10 +13,10 @@ namespace regrasp::report {
 
 namespace {
 
-/// Significant, as NumberText has.
+/// Number of significant digits, as in NumberText.
 constexpr int kQualityDigits = 3;
 
-/// The style of values that need a line of their own.
+/// Class of values that need a line of their own.
 constexpr char kLong[] = "digest";
 
 void AddGrasp(const Report& report, FactList& facts) {

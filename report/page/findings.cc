@@ -19,7 +19,7 @@ namespace {
 
 constexpr char kNoFinding[] = "–";
 
-/// The steps that were replayed.
+/// Return the steps that were replayed.
 std::vector<const ReportStep*> Replayed(const Report& report) {
   std::vector<const ReportStep*> steps;
   for (const ReportStep& step : report.steps) {
@@ -161,7 +161,7 @@ Element LimitsRow(const sim::DriveLimits& limit) {
   return row;
 }
 
-/// The limits that a replay by a hand relies on.
+/// Return the limits that a replay by a hand assumes.
 std::vector<Element> Limits(const Report& report) {
   if (!report.settings || !report.settings->hand) return {};
   const std::vector<sim::DriveLimits>& limits = report.settings->hand->limits;

@@ -55,7 +55,7 @@ class Page {
                       report_.plan_file, report_.passed(), Statement(), Extent());
   }
 
-  /// How many trials the verdict is about; empty without trials.
+  /// Return the number of trials for the verdict; empty without trials.
   [[nodiscard]] std::string Extent() const {
     if (!report_.trials) return "";
     const sim::TrialSummary& trials = *report_.trials;
@@ -65,7 +65,7 @@ class Page {
                                   std::to_string(trials.options.count) + " trials";
   }
 
-  /// What the verdict says, in words.
+  /// Return the verdict in words.
   [[nodiscard]] std::string Statement() const {
     if (failed_) return FailureStatement();
     const auto failure = DescribeFailure(report_);
@@ -124,7 +124,7 @@ class Page {
   }
 
   [[nodiscard]] Parts Plots() const {
-    if (report_.grasp) return {};  // one entry is no plot
+    if (report_.grasp) return {};  // one entry makes no plot
     Parts figures;
     if (HasAny(&StepMeasures::moved_m)) figures.push_back(MotionFigure());
     if (HasAny(&StepMeasures::margin_deg)) figures.push_back(MarginFigure());
@@ -178,7 +178,7 @@ class Page {
     return anchors;
   }
 
-  /// The picture of what failed comes first, and large.
+  /// The image of the failure comes first, and large.
   [[nodiscard]] Parts FailedFrame() const {
     if (!failed_ || !HasPicture(*failed_)) return {};
     return {Element("div", {{"class", "failure"}}, Parts{Frame(report_.steps[*failed_])})};
@@ -218,7 +218,7 @@ class Page {
                            {"src", DataUri(picture.media_type, picture.bytes)}});
   }
 
-  /// It plays as moving images do: by itself, silently and for ever.
+  /// The animation starts by itself, silently, and repeats.
   [[nodiscard]] static Element MakeVideo(const PagePicture& picture, const std::string& name) {
     return Element("video",
                    {{"aria-label", name},

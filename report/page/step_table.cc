@@ -42,16 +42,16 @@ namespace {
 
 constexpr int kDigits = 3;
 
-/// Numbers from here on, and below there, are written with a power of ten.
+/// Limits from which numbers are written with a power of ten.
 constexpr double kPlainFrom = 1e-3;
 constexpr double kPlainTo = 1e6;
 
-/// Less than an atom says nothing.
+/// Lengths below the size of an atom are meaningless.
 constexpr double kShortest_m = 1e-10;
 
 constexpr char kNothing[] = "–";
 
-/// The number without the zeros at its end, and without a point at its end.
+/// Return the number without trailing zeros and without a trailing point.
 std::string WithoutZeros(std::string text) {
   if (text.find('.') == std::string::npos) return text;
   text.erase(text.find_last_not_of('0') + 1);
@@ -83,7 +83,7 @@ std::string LengthText(double metres) {
 
 namespace {
 
-/// A replay that became unstable may have measured infinity.
+/// An unstable replay can have infinite values.
 std::optional<double> IfFinite(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }

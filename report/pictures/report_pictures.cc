@@ -18,14 +18,14 @@ namespace regrasp::report {
 
 namespace {
 
-/// In the caption of a frame that is not seen from where the others are.
+/// Caption of a frame whose camera differs from that of the others.
 constexpr char kOwnView[] = " (seen from another side)";
 
 constexpr render::Color kGood = {29, 107, 60};
 constexpr render::Color kBad = {179, 38, 30};
 constexpr render::Color kSkipped = {112, 120, 134};
 
-/// So many steps after a failure have a cell of their own in the contact sheet.
+/// Largest number of steps after a failure with a cell of their own in the overview image.
 constexpr int kMostSkipped = 24;
 
 bool Failed(const ReportStep& step) { return step.verdict() == Verdict::kFail; }
@@ -45,19 +45,19 @@ render::SheetLabel MakeLabel(const ReportStep& step) {
           failed};
 }
 
-/// The verdict in a line.
+/// Return the verdict in one line.
 render::SheetLabel MakeHeading(const Report& report) {
   return {HeadingText(report), "", report.passed() ? kGood : kBad};
 }
 
-/// An entry that has a frame: what it shows, and what is wrong where it failed.
+/// An entry with a frame: its snapshot, and the fault if it failed.
 struct Shown {
   const ReportStep* step;
   plan::Snapshot snapshot;
   std::optional<render::FaultMarks> marks = std::nullopt;
 };
 
-/// What the replay saw at the failure; what is planned where it did not come to it.
+/// Return the state of the replay at the failure, or the planned state if there was no replay.
 Shown ShowFailure(const object::Object& object, const plan::Plan& plan, const ReportStep& step,
                   const Report& report, const HandPicture* hand) {
   const plan::Reason reason = step.reason();
@@ -82,7 +82,7 @@ Shown ShowSound(const ReportStep& step, const HandPicture* hand) {
   return shown;
 }
 
-/// Of each entry what a hand does before it comes to rest; not of one that failed.
+/// Return the motion of the hand in each entry before its static grasp; empty for a failed entry.
 std::vector<std::vector<plan::Snapshot>> ShowMotions(const HandPicture& hand,
                                                      const Report& report) {
   std::vector<std::vector<plan::Snapshot>> motions;
@@ -108,7 +108,7 @@ std::vector<Shown> ShowEntries(const object::Object& object, const plan::Plan& p
   return shown;
 }
 
-/// Grey cells for the steps after a failure; the last one stands for all that have no room.
+/// Grey cells for the steps after a failure; the last one represents all steps without a cell.
 void AddSkipped(const Report& report, int cells, render::ContactSheet& sheet) {
   const auto first = std::ranges::find_if(report.steps, &ReportStep::skipped);
   const auto skipped = static_cast<int>(report.steps.end() - first);
@@ -120,7 +120,7 @@ void AddSkipped(const Report& report, int cells, render::ContactSheet& sheet) {
   }
 }
 
-/// The frames of a report, and its animation, are seen from one place.
+/// All frames of a report, and its animation, have the same camera.
 render::FrameRenderer MakeRenderer(const object::Object& object, const Report& report,
                                    const std::vector<Shown>& shown, render::FrameOptions options) {
   std::vector<plan::Snapshot> snapshots;

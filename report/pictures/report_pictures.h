@@ -16,46 +16,48 @@ namespace regrasp::report {
 
 struct DrawingOptions {
   render::FrameOptions frame;
-  const HandPicture* hand = nullptr;  ///< of a plan for a hand; null: fingers without one
-  int workers = 1;                    ///< threads that draw
+  const HandPicture* hand = nullptr;  ///< hand of the plan; null: fingers without a hand
+  int workers = 1;                    ///< number of threads that draw
   int sheet_width = render::kSheetWidth;
-  /// Called with the number of pictures drawn and of all, after each.
+  /// Function that is called with the number of drawn images and of all images, after each.
   std::function<void(int done, int all)> on_picture = [](int, int) {};
 };
 
-/// The picture of an entry.
+/// The image of an entry.
 struct DrawnFrame {
   plan::EntryIndex entry;
   const render::Image& image;
-  bool own_view = false;  ///< not taken from where the others are
+  bool own_view = false;  ///< whether the camera differs from that of the other images
 };
 
-/// How many entries of a report have a frame: up to the one that failed.
+/// Return the number of entries with a frame: all up to the first that failed.
 [[nodiscard]] int CountFrames(const Report& report);
 
-/// Draws a frame of every entry up to the one that failed. The frame of the one that failed shows
-/// what the replay saw, or what is planned where it was not replayed, with what is wrong.
-/// @param take  called with each frame, in order.
-/// @returns the contact sheet: all of them, small, with the verdict in words and grey cells for the
-///          steps after the failure.
-/// @throws EnvironmentError  no rendering context.
-/// @throws what `take` throws.
+/// Draw a frame of each entry, up to the first that failed.
+/// The frame of a failed entry shows the state of the replay, or the plan if there was no replay,
+/// and marks the failure.
+/// @param take  function that is called with each frame, in order.
+/// @returns the overview image: all frames at a small size, the verdict in words, and grey cells
+///     for the steps after the failure.
+/// @throws EnvironmentError  if there is no rendering context.
+/// @throws exceptions of `take`.
 render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
                          const DrawingOptions& options, const Report& report,
                          const std::function<void(const DrawnFrame&)>& take);
 
-/// The same moving picture in several formats.
+/// One animation in several formats.
 struct MovingPictures {
-  std::vector<std::string> bytes;  ///< of the file of each format
-  int width = 0;                   ///< pixels, as is the height
+  std::vector<std::string> bytes;  ///< bytes of the file of each format
+  int width = 0;                   ///< width and height, pixels
   int height = 0;
 };
 
-/// Draws what was replayed as moving pictures, from where the frames are seen; the last rest is the
-/// frame of the step that failed.
-/// @param options  the size is that of the moving pictures.
+/// Draw the replay as an animation from the camera of the frames; it ends with the last static
+/// grasp.
+/// If a step failed, its frame is the last image.
+/// @param options  options of the frames; the size is that of the animation.
 /// @param samples  states during the replay, ascending in time.
-/// @throws EnvironmentError  no rendering context.
+/// @throws EnvironmentError  if there is no rendering context.
 [[nodiscard]] MovingPictures DrawAnimation(const object::Object& object, const plan::Plan& plan,
                                            const DrawingOptions& options,
                                            const std::vector<plan::Snapshot>& samples,

@@ -8,10 +8,10 @@ namespace regrasp_meshes {
 
 namespace {
 
-// Lengths are those of the bodies, in metres.
+// All lengths are in metres.
 
-/// Bends level planes into bowls of this radius, so that a flat base becomes slightly hollow and
-/// its triangles are not all one face.
+/// Bend level planes into bowls of this radius, so that a flat base becomes slightly hollow and its
+/// triangles do not form one face.
 Point HollowBase(const Point& p) {
   constexpr double kRadius = 0.25;
   return {p.x(), p.y(), p.z() + (p.x() * p.x() + p.y() * p.y()) / (2 * kRadius)};
@@ -48,7 +48,7 @@ double SpannerField(const Point& p) {
   return Cut(Join(Join(shaft, ring, 0.010), head, 0.012), jaw, 0.005);
 }
 
-/// A ball with twelve knobs, towards the corners of an icosahedron.
+/// Sphere with twelve knobs in the directions of an icosahedron's vertices.
 double StarField(const Point& p) {
   constexpr double kBall = 0.031;
   constexpr double kKnob = 0.022;

@@ -7,15 +7,15 @@
 
 namespace regrasp_meshes {
 
-/// A smooth body, in metres.
+/// Smooth solid, in metres.
 struct Body {
   std::string name;
-  std::string description;  ///< what the file's first line says
+  std::string description;  ///< first line of the file
   Field field;
-  Point inside;  ///< a point well inside
+  Point inside;  ///< point well inside
 };
 
-/// The bodies that are modelled.
+/// Return all modelled solids.
 std::vector<Body> AllBodies();
 
 }  // namespace regrasp_meshes

@@ -1,5 +1,5 @@
-// Writes a smooth body as OBJ files into the folder that is given. One body a run: CGAL's mesher
-// keeps state from one surface to the next.
+// Write a smooth solid as OBJ files into a given folder. There is one solid per run, because CGAL's
+// mesher keeps state from one surface to the next.
 
 #include <cmath>
 #include <cstdio>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t kTriangles[] = {500, 1000};
 
-/// Metres with nine decimals: the same on machines whose last bits differ.
+/// Format a length in metres with nine decimals. The result is the same on machines with different
+/// last bits.
 std::string Number(double x) {
   constexpr double kUnit = 1e-9;
   char text[32];

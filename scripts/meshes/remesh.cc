@@ -29,19 +29,19 @@ namespace sms = CGAL::Surface_mesh_simplification;
 
 namespace {
 
-// The fine mesh: its triangles are far smaller than any that is wanted.
-constexpr double kSmallestAngleDeg = 30;  ///< the largest that surely ends
-constexpr double kFineRadius = 0.003;     ///< metres, of the balls about triangles
-constexpr double kFineDistance = 0.0002;  ///< metres, from the surface
-constexpr double kFarRadius = 0.2;        ///< metres, of a ball about the whole body
+// Parameters of the fine mesh, whose triangles are much smaller than those of any output.
+constexpr double kSmallestAngleDeg = 30;  ///< largest angle for which termination is guaranteed
+constexpr double kFineRadius = 0.003;     ///< radius of the surface Delaunay balls, m
+constexpr double kFineDistance = 0.0002;  ///< distance from the surface, m
+constexpr double kFarRadius = 0.2;        ///< radius of a sphere around the whole solid, m
 
-constexpr int kRemeshing = 30;     ///< iterations, more than change anything to be seen
-constexpr int kHalvings = 40;      ///< of the interval of edge lengths
-constexpr double kMinEdge = 1e-3;  ///< metres
+constexpr int kRemeshing = 30;     ///< iterations, more than have a visible effect
+constexpr int kHalvings = 40;      ///< bisections of the interval of edge lengths
+constexpr double kMinEdge = 1e-3;  ///< m
 constexpr double kMaxEdge = 5e-2;
 
-/// The same mesh with vertices and triangles in the order of their coordinates. The mesher's own
-/// order follows addresses in memory, and with it would everything that comes after.
+/// Return the mesh with vertices and triangles sorted by coordinates. The mesher's own order
+/// depends on memory addresses, and would affect all later results.
 Mesh InFixedOrder(const Mesh& mesh) {
   std::vector<Kernel::Point_3> points;
   for (const auto v : mesh.vertices()) points.push_back(mesh.point(v));
@@ -68,8 +68,8 @@ Mesh InFixedOrder(const Mesh& mesh) {
 
 Point ToPoint(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-/// Isotropic remeshing with vertices projected to the true surface; a length of 0 only flips edges
-/// and moves vertices.
+/// Remesh isotropically with vertices projected onto the true surface. A length of 0 only flips
+/// edges and moves vertices.
 void Remesh(Mesh& mesh, const Field& field, double edge_length) {
   const auto project = [&](Mesh::Vertex_index v) {
     const Point p = ProjectToSurface(field, ToPoint(mesh.point(v)));
@@ -82,7 +82,7 @@ void Remesh(Mesh& mesh, const Field& field, double edge_length) {
   mesh.collect_garbage();
 }
 
-/// The coarsest remeshing found that has at least so many triangles.
+/// Return the coarsest remeshing found with at least `triangles` triangles.
 Mesh RemeshToAtLeast(const Mesh& fine, const Field& field, std::size_t triangles) {
   double low = kMinEdge;
   double high = kMaxEdge;
@@ -136,7 +136,7 @@ Mesh FineMesh(const Body& body) {
 
 Mesh CoarseMesh(const Mesh& fine, const Field& field, std::size_t triangles) {
   Mesh mesh = RemeshToAtLeast(fine, field, triangles);
-  // A closed triangle mesh has three edges for two triangles.
+  // A closed triangle mesh has three edges per two triangles.
   sms::edge_collapse(mesh, sms::Count_stop_predicate<Mesh>(triangles * 3 / 2 + 1),
                      CGAL::parameters::get_cost(sms::Edge_length_cost<Mesh>())
                          .get_placement(sms::Midpoint_placement<Mesh>()));

@@ -8,9 +8,9 @@ namespace regrasp_meshes {
 
 namespace {
 
-/// Metres: for differences, where bodies are a tenth of a metre and rounding 1e-17.
+/// Step of finite differences, m, for solids of 0.1 m and a rounding error of 1e-17.
 constexpr double kDifference = 1e-6;
-/// Metres: a thousandth of what the files keep.
+/// Tolerance on the surface, m: a thousandth of the resolution of the files.
 constexpr double kOnSurface = 1e-12;
 constexpr int kMaxSteps = 100;
 

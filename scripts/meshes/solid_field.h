@@ -7,32 +7,33 @@ namespace regrasp_meshes {
 
 using Point = Eigen::Vector3d;
 
-/// A solid as a scalar field: negative inside, about the distance to the surface near it.
+/// Solid as a scalar field: negative inside, and approximately the distance to the surface near it.
 using Field = std::function<double(const Point&)>;
 
-/// Distance to an ellipsoid with semi-axes along x, y and z, exact to first order at its surface.
+/// Return the distance to an ellipsoid with semi-axes along x, y and z, exact to first order at its
+/// surface.
 double Ellipsoid(const Point& p, const Point& centre, const Point& semi_axes);
 
-/// Distance to a ball swept from a to b while its radius grows from `at_a` to `at_b` with the
-/// share of the way, to first order in how much it grows.
+/// Return the distance to a ball swept from a to b. Its radius changes linearly from `at_a` to
+/// `at_b`. The result is exact to first order in the change.
 double SweptBall(const Point& p, const Point& a, const Point& b, double at_a, double at_b);
 
-/// Distance to a ring in the plane z = 0 through its centre.
+/// Return the distance to a ring in the plane z = 0 through its centre.
 double Ring(const Point& p, double radius, double tube);
 
-/// Distance in a half-plane (from the axis, along the axis) to a rectangle about the axis, from
-/// `low` to `high`, its corners rounded.
+/// Return the distance in a half-plane (from the axis, along the axis) to a rectangle about the
+/// axis, from `low` to `high`, with rounded corners.
 double RoundedCylinder(const Point& p, double radius, double low, double high, double rounding);
 
-/// The union of two solids, their meeting smoothed over a width of about `blend`: the smooth
+/// Return the union of two solids, blended over a width of about `blend`. This is the smooth
 /// minimum min(a, b) − (max(0, w − |a − b|))³ / (6 w²), w = blend (Quilez 2013).
 double Join(double a, double b, double blend);
 
-/// What the solid b leaves of the solid a, smoothed alike.
+/// Return the difference of the solids a and b, blended in the same manner.
 double Cut(double a, double b, double blend);
 
-/// Where the line through p along the field's gradient meets the field's zero (Newton).
-/// @throws std::runtime_error  it does not converge.
+/// Project a point onto the field's zero along the gradient (Newton).
+/// @throws std::runtime_error  if the iteration does not converge.
 Point ProjectToSurface(const Field& field, const Point& p);
 
 }  // namespace regrasp_meshes

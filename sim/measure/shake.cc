@@ -14,10 +14,10 @@ namespace regrasp::sim {
 
 namespace {
 
-/// In the plane there are two forces and one torque.
+/// Return whether an axis exists: in the plane there are two forces and one torque.
 bool IsAxis(int dimension, bool turn, int axis) { return dimension == 3 || turn == (axis == 2); }
 
-/// "+x"
+/// Return "+x" and so on.
 std::string AxisName(const Push& push) {
   return std::string(push.sign > 0 ? "+" : "-") + "xyz"[push.axis];
 }
@@ -72,7 +72,7 @@ void KeepRest::Restore() {
 
 namespace {
 
-/// The push, or a share of it, as the object's load.
+/// Apply a share of a disturbance as the object's load.
 void Load(ReplayWorld& world, const grasp::Wrench& push_S, double share) {
   const double radius = world.settings().diameter_m / 2;
   world.engine().SetLoad(share * push_S.force, share * radius * push_S.torque_over_radius);
@@ -91,7 +91,7 @@ void PushAdapted(ReplayWorld& world, const grasp::Wrench& push_S) {
 void PushFixed(ReplayWorld& world, const grasp::Wrench& push_S) {
   world.monitor().SetGiving(true);
   world.Run(kPushRamp, [&](double share) { Load(world, push_S, share); });
-  // What swings on the servos for long is not lost, and what slides does not come back.
+  // A long oscillation on the servos is not a loss, and an object that slides does not return.
   (void)WaitUntilStill(world);
   world.MonitorRest();
   world.Run(kPushRamp, [&](double share) { Load(world, push_S, 1 - share); });
@@ -141,14 +141,14 @@ void CheckShake(const ReplaySettings& settings) {
 
 namespace {
 
-/// The first push that is tried, over the squeeze; doubled as long as the object stands it.
+/// First disturbance of the search over the grasp force; it doubles as long as the object resists.
 constexpr double kFirstStress = 0.01;
 
-/// No grasp resists more: forces inside the cones sum to less than the squeeze over cos θ, and half
-/// angles near 90 degrees, where that is more, are not what a hand has.
+/// Upper limit of the search. Forces inside the cones sum to less than the grasp force over cos θ,
+/// so resisting more requires friction angles near 90 degrees, which no hand has.
 constexpr double kMostStress = 10;
 
-/// Whether the object stands a push of `share` of the squeeze.
+/// Return whether the grasp resists a disturbance of `share` of the grasp force.
 bool Resists(ReplayWorld& world, KeepRest& rest, const Push& push, double share) {
   world.StartMonitoring();
   bool stands = false;
@@ -157,7 +157,7 @@ bool Resists(ReplayWorld& world, KeepRest& rest, const Push& push, double share)
              DisturbanceResponse::kAdapted);
     stands = world.monitor().reason() == plan::Reason::kNone;
   } catch (const UnstableError&) {
-    // A push under which the simulation falls apart is not resisted.
+    // A disturbance that makes the simulation unstable is not resisted.
   }
   rest.Restore();
   return stands;

@@ -6,11 +6,11 @@
 
 namespace regrasp::sim {
 
-/// What a replay tells while it runs; both may be empty.
+/// Callbacks of a running replay; both may be empty.
 struct ReplayObserver {
-  std::function<void(const plan::Snapshot&)> on_sample;  ///< every `sample_interval_s`
+  std::function<void(const plan::Snapshot&)> on_sample;  ///< called every `sample_interval_s`
   double sample_interval_s = 0.01;
-  std::function<void(int done, int total)> on_progress;  ///< after every step
+  std::function<void(int done, int total)> on_progress;  ///< called after every step
 };
 
 }  // namespace regrasp::sim

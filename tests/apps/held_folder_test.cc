@@ -24,10 +24,11 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr milliseconds kAtOnce{0};
-/// Far above what anyone here holds a folder.
+/// Time limit, ms, far above the time for which a test holds a folder.
 constexpr milliseconds kHang{120'000};
 
-/// What a forked child returns, which it cannot leave by an exception or a test's failure.
+/// Run work in a forked child, whose result is an exit code: neither an exception nor a test
+/// failure can leave it.
 int InChild(const std::function<int()>& work) {
   const pid_t child = fork();
   if (child == 0) {
@@ -96,7 +97,7 @@ TEST_F(HeldFolderTest, AKilledProcessLeavesNoLockButWhatItAnnounced) {
     });
   };
   EXPECT_EQ(announce({"a.png", "b.png"}), -SIGKILL);
-  // One that is killed too adds to it.
+  // A process that is killed adds its own files as well.
   EXPECT_EQ(announce({"c d.png"}), -SIGKILL);
   {
     const HeldFolder folder(folder_, kAtOnce);
@@ -118,7 +119,7 @@ TEST_F(HeldFolderTest, ChildrenHoldTheFolderUntilTheLastIsGone) {
       _exit(static_cast<int>(read(ends[0], &byte, 1)));
     }
     WriteFile(folder_ / "copy", ReadFile(folder_ / kRunFileName));
-    // As it is after a kill: the file stays.
+    // State after a kill: the file remains.
     fs::create_hard_link(folder_ / kRunFileName, folder_ / "kept");
   }
   fs::rename(folder_ / "kept", folder_ / kRunFileName);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// A folder of its own with some files for each test, gone afterwards.
+/// Fixture with its own folder and some files, removed after each test.
 class OutputFilesTest : public ::testing::Test {
  protected:
   OutputFilesTest()
@@ -132,7 +132,7 @@ TEST_F(OutputFilesTest, AFileMayGoIntoAFolderThatWillBeMade) {
 TEST_F(OutputFilesTest, AResultThatIsGoneIsNoBadInput) {
   EXPECT_EQ(ReadOutput(folder_ / "out/report"), "out/report");
   EXPECT_THROW((void)ReadOutput(folder_ / "gone"), EnvironmentError);
-  EXPECT_THROW((void)ReadOutput("/proc/self/mem"), EnvironmentError);  // a file, not to be read
+  EXPECT_THROW((void)ReadOutput("/proc/self/mem"), EnvironmentError);  // a file that cannot be read
 }
 
 TEST(PathForCiTest, IsFromTheWorkingFolderAndAbsoluteOutsideOfIt) {

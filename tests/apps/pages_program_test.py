@@ -75,6 +75,7 @@ LEFT = {
     "diagnose_a_failure": ["out/cube.start/report.html"],
     "export_hand_plan": ["turn.npz", "scene/scene.xml"],
     "hand_replay": ["out/turn/report.html"],
+    "rotate_a_cube": ["out/half/report.html", "out/slippery/report.json"],
     "robustness_trials": ["out/plan/report.json"],
     "protocols_and_engines": ["out/plan/report.json"],
     "reset_states": ["states/states.npz", "scene/scene.xml"],

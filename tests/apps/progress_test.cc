@@ -7,7 +7,8 @@ namespace progress_test {
 
 using std::chrono::seconds;
 
-/// What a log shows of 100 reports, one a second. Captured, standard error is no terminal.
+/// Return the log of 100 progress reports, one per second. Captured standard error is not a
+/// terminal.
 std::string ShownOf100Seconds(bool quiet) {
   ProgressLog::Clock::time_point now{};
   testing::internal::CaptureStderr();

@@ -15,7 +15,7 @@ constexpr ContestLimits kFewPairs = {5, 1e3};
 struct Case {
   const char* model;
   ContestSetting setting;
-  std::size_t asked;  ///< contenders that work on it
+  std::size_t asked;  ///< number of contenders that support the object
 };
 
 class Contests : public testing::TestWithParam<Case> {};
@@ -67,7 +67,7 @@ TEST(Contest, DrawsTheSamePairsAgain) {
 }
 
 TEST(Contest, HasNoPairsWhereNoGraspIsForceClosure) {
-  // The corners of a triangle are wider than the 10 degrees that two contacts could span.
+  // The corners of a triangle are wider than 10 degrees allow for two contacts.
   const object::ObjectFile file = ReadModel("triangle.wkt");
   EXPECT_TRUE(DrawPairs(*file.object, {Radians(5), 0, 2, 2}, kFewPairs).empty());
   EXPECT_FALSE(DrawPairs(*file.object, {Radians(5), 0, 2, 3}, kFewPairs).empty());

@@ -16,12 +16,12 @@ using Eigen::Vector3d;
 
 const object::WrenchFrame kFrame;
 const grasp::Wrench kWeight = {-Vector3d::UnitZ(), Vector3d::Zero()};
-constexpr double kMostNormal = 40;  // weights
-/// What may stay unbalanced makes it this much less than it is.
+constexpr double kMostNormal = 40;  // multiples of the weight
+/// Relative reduction of the result by the part that may stay unbalanced.
 constexpr double kLess = 0.06;
 constexpr double kMore = 2e-3;
 
-/// On the unit sphere. @param towards  where the inward normal goes.
+/// Return a contact on the unit sphere. @param towards  direction of the inward normal.
 grasp::Contact At(const Vector3d& p, const Vector3d& towards) {
   return {p, towards.normalized(), {}, 0};
 }
@@ -34,7 +34,7 @@ TEST(LeastFrictionTest, OnASlopeItIsTheTangentOfTheAngle) {
     const std::vector<grasp::Contact> below = {
         At(-Vector3d::UnitZ(), {std::sin(angle), 0, std::cos(angle)})};
     const double least = LeastFriction(below, kFrame, {{kWeight}}, kMostNormal);
-    // Of the weight, which is one, so much may stay unbalanced across the slope.
+    // Share of the weight, which is 1, that may stay unbalanced across the slope.
     EXPECT_LE(least, (1 + kMore) * std::tan(angle));
     EXPECT_GT(least, std::tan(angle) - kLess / std::cos(angle));
   }
@@ -52,8 +52,8 @@ TEST(LeastFrictionTest, BetweenTwoFingersItIsTheWeightOverAllTheyPushAndATwistAb
   EXPECT_TRUE(std::isinf(LeastFriction(pair, kFrame, {{kWeight, twist}}, kMostNormal)));
 }
 
-/// Forces and torques both ways along all axes span all wrenches, and those who push hard enough
-/// need for them what force closure needs.
+/// Forces and torques in both directions of all axes span all wrenches. With sufficient normal
+/// forces, they require the friction of force closure.
 TEST(LeastFrictionTest, ForAllDirectionsItIsThatOfForceClosureAndForTheWeightNoMore) {
   constexpr double kHard = 1e6;
   constexpr int kCompared = 8;

@@ -9,8 +9,8 @@ plan::FingerContact At(int finger, double x, double y) {
   return {FingerIndex(finger), {{x, y, 0}, Eigen::Vector3d::UnitX(), FaceIndex(0)}};
 }
 
-/// Finger 2 comes 3 from finger 0 and 5 from finger 1, which both leave in time; then two fingers
-/// move by 1 and 2, and back by 1.
+/// Finger 2 is placed at a distance of 3 from finger 0 and 5 from finger 1, which are both
+/// released. Then two fingers move by 1 and 2, and back by 1.
 plan::Plan SomePlan() {
   plan::Plan plan;
   plan.initial = {At(0, 0, 0), At(1, 8, 0)};

@@ -1,5 +1,5 @@
-// Any bytes as a file of a format that assimp reads, by the letter in front of them: a sound solid,
-// or one line that says what is wrong. assimp may crash in its child process as it likes.
+// Fuzz target: any bytes as a file of a format that assimp reads, selected by the first letter. The
+// result must be a valid solid or a one-line error. assimp may crash in its child process.
 
 #include <array>
 #include <chrono>
@@ -20,11 +20,11 @@ using namespace regrasp;
 constexpr std::array<const char*, 8> kEndings = {".gltf", ".glb", ".dae", ".3mf",
                                                  ".x3d",  ".3ds", ".fbx", ".ac"};
 
-/// Far below a user's limits, for the sake of speed; files here are small.
+/// Limits far below those of a user, for speed: the files here are small.
 constexpr object::AssimpLimits kLimits = {std::size_t{1} << 30, std::chrono::seconds(2),
                                           std::chrono::milliseconds(4000)};
 
-/// Messages name the file with its ending, without which it is kHostileName.
+/// Messages name the file with its ending; without it the name is kHostileName.
 object::PolygonSoup ReadBytes(const std::string& ending, std::string_view bytes) {
   const std::string file = kHostileName + ending;
   try {

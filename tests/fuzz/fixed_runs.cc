@@ -1,5 +1,5 @@
-// Feeds a corpus and a fixed number of mutations of it to a fuzz target, the same ones on every
-// machine: what a fuzzer does, without its compiler and without chance.
+// Run a corpus and a fixed number of its mutations through a fuzz target, the same on every
+// machine. This is a fuzzer without coverage feedback and without randomness between runs.
 
 #include <unistd.h>
 
@@ -25,8 +25,8 @@ using namespace regrasp;
 
 constexpr std::uint64_t kSeed = 7;
 
-/// An input that takes longer hangs, whatever machine this is: the slowest here take tenths of a
-/// second under the sanitizers. The alarm ends the program.
+/// Time limit, s, after which an alarm ends the program: the slowest inputs take tenths of a second
+/// under the sanitizers.
 constexpr unsigned int kHang_s = 120;
 
 std::vector<std::string> ReadCorpus(const std::filesystem::path& folder) {
@@ -38,8 +38,9 @@ std::vector<std::string> ReadCorpus(const std::filesystem::path& folder) {
   return inputs;
 }
 
-/// Leaves the input in a file while it runs, so that it is there if the program ends.
-/// @returns whether a reader read it.
+/// Run the target on an input that is stored in a file meanwhile, so that it remains if the program
+/// ends.
+/// @returns true if a reader accepted it.
 bool Run(const std::string& input, const std::filesystem::path& finding) {
   WriteFile(finding, input);
   const int read_before = TallyOfHostileInputs().read;
@@ -60,7 +61,8 @@ int main(int argc, char** argv) {
   const int mutations = std::atoi(argv[2]);
   const std::filesystem::path finding = argv[3];
   std::cout << "An input that ends the program is left in " << finding << std::endl;
-  // What is read reaches deepest when it changes; what is refused is mostly refused again.
+  // Mutations of accepted inputs reach more code; those of rejected ones are usually rejected
+  // again.
   std::vector<std::string> good;
   for (const std::string& input : inputs) {
     if (Run(input, finding)) good.push_back(input);

@@ -1,5 +1,5 @@
-// Any bytes as a grasp file of a tetrahedron and of a square: contacts on the surface, or one line
-// that says what is wrong.
+// Fuzz target: any bytes as a grasp file of a tetrahedron and of a square. The result must be
+// contacts on the surface or a one-line error.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace regrasp;
 
-/// What was read is on the object, so it reads back as the same bytes.
+/// The contacts are on the object, so the written file is read back as the same bytes.
 void ReadTwice(std::string_view text, const object::Object& object) {
   const grasp::Grasp grasp = plan::ParseGrasp(text, kHostileName, object);
   for (const grasp::Contact& contact : grasp) {

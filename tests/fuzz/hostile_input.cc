@@ -12,7 +12,7 @@ namespace regrasp {
 
 namespace {
 
-/// Normals are unit up to the rounding of one normalisation.
+/// Normals are unit vectors up to the rounding of one normalisation.
 constexpr double kUnitTolerance = 1e-12;
 
 HostileTally tally;

@@ -7,26 +7,26 @@
 
 namespace regrasp {
 
-/// What messages call the bytes that a fuzzer made up.
+/// Name of the fuzzed bytes in messages.
 inline const std::string kHostileName = "hostile";
 
-/// How many inputs were read and how many refused since the program started.
+/// Number of accepted and rejected inputs since the start of the program.
 struct HostileTally {
   int read = 0;
   int refused = 0;
 };
 [[nodiscard]] HostileTally TallyOfHostileInputs();
 
-/// Runs `read` on one input and demands what holds of every input: it returns, or it throws
-/// InputError with one line that starts with kHostileName. Anything else aborts the program, which
-/// is what a fuzzer takes for a finding.
+/// Run `read` on one input and check the common property: it returns, or it throws InputError with
+/// one line that starts with kHostileName. Any other behaviour aborts the program, which a fuzzer
+/// reports as a finding.
 void ReadHostileInput(const std::function<void()>& read);
 
-/// Aborts the program with a message; for whatever a target finds wrong with what it has read.
+/// Abort the program with a message. A target calls it for any fault in the data that it has read.
 [[noreturn]] void ReportFinding(const std::string& what);
 
-/// Demands of an object that was read what the rest of the program relies on: a finite size, a
-/// positive volume, faces with unit normals and an area, and each face found where it is.
+/// Check the properties of an object that the program relies on: a finite size, a positive volume,
+/// faces with unit normals and an area, and each face found at its own points.
 void ExpectSound(const object::Object& object);
 
 }  // namespace regrasp

@@ -1,4 +1,4 @@
-// The property that the fuzz targets demand refuses what it should refuse.
+// The common property of the fuzz targets rejects the behaviour that it must reject.
 
 #include "hostile_input.h"
 

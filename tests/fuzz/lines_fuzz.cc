@@ -1,5 +1,6 @@
-// Any bytes as a file of lines, as a shard to be merged, and as the part of a run that was stopped:
-// read entry by entry, joined and gone on with, or one line that says what is wrong.
+// Fuzz target: any bytes as a JSON Lines file, as a shard to be merged, and as the part of an
+// interrupted run. They must be read entry by entry, merged and continued, or give a one-line
+// error.
 
 #include <unistd.h>
 
@@ -23,12 +24,12 @@ namespace {
 using namespace regrasp;
 using namespace regrasp::apps;
 
-/// A header may say that a million million entries follow.
+/// A header may announce 10¹² entries.
 constexpr std::int64_t kMostFinished = 64;
 
 constexpr int kShards = 3;
 
-/// In memory where there is such a place: a run waits for the disk after each line.
+/// Return a folder in memory if there is one, because a run waits for the disk after each line.
 std::filesystem::path Temporary() {
   const std::filesystem::path memory = "/dev/shm";
   std::error_code error;
@@ -36,7 +37,7 @@ std::filesystem::path Temporary() {
                                                       : std::filesystem::temp_directory_path();
 }
 
-/// A folder of this process, gone with it.
+/// Temporary folder of this process, removed at its end.
 class Folder {
  public:
   Folder() : path_(Temporary() / ("regrasp_lines_fuzz." + std::to_string(getpid()))) {
@@ -57,7 +58,8 @@ const Folder& Scratch() {
   return folder;
 }
 
-/// Messages name a file, which here is always the hostile one; that shards are missing names none.
+/// Messages must name a file, which is always the hostile one. Only messages about missing shards
+/// name none.
 template <class Read>
 void NamingHostile(const std::filesystem::path& file, const Read& read) {
   try {
@@ -105,7 +107,7 @@ void Merge(const std::filesystem::path& file, std::string_view text) {
   if (ReadFile(merged) != text) ReportFinding("a whole that was merged is not itself");
 }
 
-/// What is missing is an error each.
+/// Each missing result becomes an error.
 void GoOn(const std::filesystem::path& part, std::string_view text) {
   const std::string_view first = text.substr(0, text.find('\n'));
   const auto given = ParseHeader(first, part.string() + ": line 1");

@@ -9,11 +9,11 @@ namespace regrasp {
 
 namespace {
 
-/// Longest piece that one change cuts, doubles or copies.
+/// Longest piece that one change deletes, duplicates or copies.
 constexpr std::size_t kLongestPiece = 64;
 constexpr std::size_t kMostChanges = 4;
 
-/// What readers stumble over: ends of ranges, numbers that overflow, brackets, line ends.
+/// Critical texts for readers: limits of ranges, overflowing numbers, brackets, line ends.
 constexpr std::array<std::string_view, 22> kTokens = {
     "0",          "-0",
     "-1",         "1e308",
@@ -34,7 +34,7 @@ std::size_t PieceLength(std::size_t available, std::mt19937_64& random) {
   return 1 + Below(std::min(available, kLongestPiece), random);
 }
 
-/// Replaces the digits at a random place, if there are any, by an extreme number.
+/// Replace the digits at a random position, if there are any, by an extreme number.
 void ReplaceNumber(std::string& bytes, std::string_view token, std::mt19937_64& random) {
   const auto is_digit = [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; };
   const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(Below(bytes.size(), random));
@@ -79,7 +79,7 @@ void ChangeOnce(std::string& bytes, const std::string& other, std::mt19937_64& r
 
 std::string Mutate(std::string input, std::span<const std::string> others,
                    std::mt19937_64& random) {
-  // Half of all have one change only: few inputs bear more and are still read.
+  // Half of the mutations have a single change, because few inputs are still accepted after more.
   const std::size_t changes = Below(2, random) == 0 ? 1 : 2 + Below(kMostChanges - 1, random);
   for (std::size_t k = 0; k < changes; ++k) {
     ChangeOnce(input, others[Below(others.size(), random)], random);

@@ -6,11 +6,11 @@
 
 namespace regrasp {
 
-/// The input with one to four changes: bytes flipped, cut, doubled or overwritten, numbers replaced
-/// by extreme ones, the end cut off, a piece of another input put in.
+/// Return the input with one to four changes: bytes flipped, deleted, duplicated or overwritten,
+/// numbers replaced by extreme ones, the end cut off, or a piece of another input inserted.
 ///
 /// Law: the same engine and inputs give the same bytes on every machine.
-/// @param others  where pieces come from; at least one.
+/// @param others  sources of inserted pieces; at least one.
 [[nodiscard]] std::string Mutate(std::string input, std::span<const std::string> others,
                                  std::mt19937_64& random);
 

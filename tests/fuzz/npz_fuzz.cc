@@ -1,5 +1,5 @@
-// Any bytes as an NPZ or an NPY file: arrays whose shapes fit their numbers, or one line that says
-// what is wrong.
+// Fuzz target: any bytes as an NPZ or an NPY file. The result must be arrays whose shapes match
+// their numbers, or a one-line error.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ReadHostileInput([&] {
     for (const NpzArray& array : ReadNpz(bytes, kHostileName, {"points", "normals"})) check(array);
   });
-  // An archive keeps a sum of each array, which hardly any changed one has.
+  // An archive has a checksum of each array, which is wrong for almost every mutation.
   ReadHostileInput([&] { check(ReadNpy(bytes, kHostileName)); });
   return 0;
 }

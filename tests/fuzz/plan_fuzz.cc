@@ -1,5 +1,5 @@
-// Any bytes as a plan file: a plan that is written as it was read and that the analytic check can
-// check on a small object, or one line that says what is wrong.
+// Fuzz target: any bytes as a plan file. The result must be a plan that is written as it was read
+// and that the analytic check can process on a small object, or a one-line error.
 
 #include <cmath>
 #include <cstddef>
@@ -16,8 +16,8 @@ namespace {
 
 using namespace regrasp;
 
-/// As validate does: where the align is right, exact arithmetic must come to an end, and prove
-/// nothing that the check has refuted.
+/// As in validate: if a sliding step passes the check, exact arithmetic must terminate, and must
+/// not prove anything that the check has refuted.
 void CheckCertificate(const plan::PlanCheck& check, std::size_t index) {
   const auto* align = std::get_if<plan::Align>(&check.located.steps[index]);
   const plan::StepCheck& step = check.steps[index + 1];

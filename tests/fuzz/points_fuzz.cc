@@ -1,4 +1,5 @@
-// Any bytes as a cloud of points, XYZ and PCD: finite points, or one line that says what is wrong.
+// Fuzz target: any bytes as a point cloud, XYZ and PCD. The result must be finite points or a
+// one-line error.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Any bytes as a report of a small plan: what verifying it and summing it up say, or one line that
-// says what is wrong.
+// Fuzz target: any bytes as a report of a small plan. Verification and summary must give a result
+// or a one-line error.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,13 +17,14 @@ namespace {
 
 using namespace regrasp;
 
-/// Digests that reports of the corpus name: hashing is no matter of the reader.
+/// Digest in the reports of the corpus. Hashing is not part of the reader.
 const std::string kObjectDigest(64, '0');
 const std::string kPlanDigest(64, '1');
 
 constexpr double kHalfAngleDegrees = 30;
 
-/// The cube held by six fingers, one of which leaves; then the others move a little.
+/// Return a plan in which six fingers hold the cube, one of them is released, and the others then
+/// slide slightly.
 plan::Plan MakePlan() {
   plan::Plan plan;
   plan.dimension = 3;

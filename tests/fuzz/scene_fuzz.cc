@@ -1,5 +1,6 @@
-// Any bytes as 3MF, if they begin like a ZIP archive, or else as glTF, in this process: a surface
-// or one line that says what is wrong. A child process that reads them would hide a crash.
+// Fuzz target: any bytes as 3MF, if they begin like a ZIP archive, and as glTF if not. The result
+// must be a surface or a one-line error. It runs in this process, because a child process would
+// hide a crash.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace {
 
 using namespace regrasp;
 
-/// The readers leave the file's name to their caller.
+/// The readers leave the file name to their caller.
 object::PolygonSoup ReadScene(std::string_view bytes) {
   try {
     return bytes.starts_with("PK") ? object::Read3mf(bytes) : object::ReadGltf(bytes);

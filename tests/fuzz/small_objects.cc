@@ -3,7 +3,7 @@
 namespace regrasp {
 
 const object::Polyhedron& SmallSolid() {
-  // Never destroyed: nothing runs behind the end of main.
+  // Never destroyed, so that nothing runs after the end of main.
   static const object::Polyhedron* const cube = new object::Polyhedron(object::Polyhedron::FromSoup(
       {{{-1, -1, -1},
         {1, -1, -1},

@@ -5,10 +5,10 @@
 
 namespace regrasp {
 
-/// The cube [-1, 1]^3, which the plans and grasps of tests/data are of.
+/// Return the cube [-1, 1]^3, the object of the plans and grasps in tests/data.
 [[nodiscard]] const object::Polyhedron& SmallSolid();
 
-/// The square [-1, 1]^2.
+/// Return the square [-1, 1]^2.
 [[nodiscard]] const object::Polygon& SmallPolygon();
 
 }  // namespace regrasp

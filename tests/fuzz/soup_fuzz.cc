@@ -1,4 +1,5 @@
-// Any bytes as those that the child process that runs assimp sends: a sound solid, or a refusal.
+// Fuzz target: any bytes as the output of the child process that runs assimp. The result must be a
+// valid solid or a rejection.
 
 #include <cstddef>
 #include <cstdint>

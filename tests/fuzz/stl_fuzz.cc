@@ -1,4 +1,4 @@
-// Any bytes as an STL file: a sound solid, or one line that says what is wrong.
+// Fuzz target: any bytes as an STL file. The result must be a valid solid or a one-line error.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Any bytes as a WKT file: a sound polygon, or one line that says what is wrong.
+// Fuzz target: any bytes as a WKT file. The result must be a valid polygon or a one-line error.
 
 #include <cstddef>
 #include <cstdint>

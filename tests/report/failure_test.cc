@@ -19,7 +19,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// Step 0 passes, step 1 fails for a reason, and needs a half-angle.
+/// Return a report whose step 0 passes and whose step 1 fails for a reason, with a required
+/// friction angle.
 Report FailingFor(Reason reason, double required_deg) {
   Report report;
   report.half_angle = Radians(6);

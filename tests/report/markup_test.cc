@@ -13,7 +13,7 @@ TEST(MarkupTest, MarkupInATextIsEscaped) {
 TEST(MarkupTest, BytesThatAreNoUtf8AndControlCharactersBecomeReplacements) {
   EXPECT_EQ(EscapeMarkup("a\xFFz"), "a\uFFFDz");
   EXPECT_EQ(EscapeMarkup(std::string("\x1B[2J\0\r\x7F", 7)), "\uFFFD[2J\uFFFD\uFFFD\uFFFD");
-  // A sequence that breaks off at the end, and one that is longer than it need be.
+  // A truncated sequence at the end, and an overlong sequence.
   EXPECT_EQ(EscapeMarkup("\xE2\x82"), "\uFFFD");
   EXPECT_EQ(EscapeMarkup("\xC0\xBC").find('<'), std::string::npos);
 }
@@ -47,7 +47,7 @@ TEST(ElementTest, ATextCannotBecomeMarkup) {
   const std::string evil = "</b><script>x</script>&amp;";
   EXPECT_EQ(Element("p", {}, Element("b", {}, evil)).Format(),
             "<p><b>&lt;/b&gt;&lt;script&gt;x&lt;/script&gt;&amp;amp;</b></p>");
-  // The control: what is added verbatim does.
+  // Positive control: text that is added verbatim stays markup.
   Element style("style");
   style.AddVerbatim("a > b {}");
   EXPECT_EQ(style.Format(), "<style>a > b {}</style>");

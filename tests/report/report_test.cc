@@ -46,7 +46,7 @@ Report MakeReport() {
   return report;
 }
 
-/// Step 1 fails in the replay, step 2 is skipped.
+/// Return a report whose step 1 fails in the replay, so that step 2 is skipped.
 Report MakeFailedReport() {
   Report report = MakeReport();
   report.steps[1].replay->reason = plan::Reason::kSlipped;
@@ -305,7 +305,7 @@ TEST(VerdictText, OfAFailedStepSaysWhy) {
   EXPECT_EQ(VerdictText(step), "skipped");
 }
 
-/// All steps pass, and some of 20 trials.
+/// Return a report whose steps all pass, with 20 trials of which some pass.
 Report MakeTrialsReport(int passed, double min_pass_rate) {
   Report report = MakeReport();
   sim::TrialSummary& trials = report.trials.emplace();

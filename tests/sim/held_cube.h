@@ -8,7 +8,7 @@
 
 namespace regrasp::sim {
 
-/// The cube of CubeCase, held, at rest, and monitored from there.
+/// The cube of CubeCase, grasped and static, with monitoring from then on.
 struct HeldCube {
   CubeCase cube;
   plan::Plan plan = MakePlan(cube.Start(), 25);

@@ -15,7 +15,7 @@ namespace regrasp::sim {
 using mujoco::DataPtr;
 using mujoco::ModelPtr;
 
-/// Writes the scene to a file and loads it as any user of MuJoCo does.
+/// Write the scene to a file and load it like a MuJoCo user.
 inline ModelPtr LoadFromFile(const std::string& mjcf) {
   const auto path =
       std::filesystem::path(testing::TempDir()) /

@@ -18,7 +18,7 @@ inline plan::FingerContact OnEdge(const object::Polygon& polygon, int finger, in
   return {FingerIndex(finger), OnEdge(polygon, edge, share)};
 }
 
-/// A contact drawn evenly over the boundary.
+/// Draw a contact uniformly over the boundary.
 inline plan::FingerContact DrawOnBoundary(const object::Polygon& polygon, int finger,
                                           std::mt19937& random) {
   std::vector<double> lengths;
@@ -29,7 +29,7 @@ inline plan::FingerContact DrawOnBoundary(const object::Polygon& polygon, int fi
   return OnEdge(polygon, finger, edge, std::uniform_real_distribution<double>(0, 1)(random));
 }
 
-/// Of a hand with four fingers.
+/// Return a plan for a planar object, by default for a hand of four fingers.
 inline plan::Plan MakePlanarPlan(plan::FingerGrasp initial, double half_angle_deg,
                                  int fingers = 4) {
   plan::Plan plan = MakePlan(std::move(initial), half_angle_deg, fingers);
@@ -37,14 +37,14 @@ inline plan::Plan MakePlanarPlan(plan::FingerGrasp initial, double half_angle_de
   return plan;
 }
 
-/// An L with arms of 80 mm, 40 mm wide, whose inner corner is at (0.04, 0.04): edges 2 (below it,
-/// inward normal −y) and 3 (beside it, inward normal −x) meet there.
+/// Return an L with arms of 80 mm length and 40 mm width. Its concave corner is at (0.04, 0.04),
+/// between edges 2 (below it, inward normal −y) and 3 (next to it, inward normal −x).
 inline object::Polygon MakeL() {
   return object::Polygon::FromWkt("POLYGON((0 0, .08 0, .08 .04, .04 .04, .04 .08, 0 .08, 0 0))",
                                   "L");
 }
 
-/// A square of side 80 mm with a square hole of side 40 mm: edges 4 to 7 are the hole's.
+/// Return a square of side 80 mm with a square hole of side 40 mm, which has the edges 4 to 7.
 inline object::Polygon MakeFrame() {
   return object::Polygon::FromWkt(
       "POLYGON((-.04 -.04, .04 -.04, .04 .04, -.04 .04, -.04 -.04),"
@@ -52,7 +52,8 @@ inline object::Polygon MakeFrame() {
       "frame");
 }
 
-/// Four fingers around a square, one of which goes round a corner at a share of the path.
+/// Return a sliding step with four fingers around a square, one of which turns at a corner at a
+/// share of the path.
 inline plan::Align AroundTheCorner(const object::Polygon& square) {
   const auto grasp = [&](double right, double above, double left, const grasp::Contact& moving) {
     return plan::FingerGrasp{OnEdge(square, 0, 1, right),

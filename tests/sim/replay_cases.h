@@ -14,7 +14,8 @@
 
 namespace regrasp::sim {
 
-/// The contact at `p` on the face whose inward normal is `n`; without a face where there is none.
+/// Return the contact at `p` on the face with the inward normal `n`; without a face if there is
+/// none.
 inline grasp::Contact ContactAt(const object::Object& object, const Eigen::Vector3d& p,
                                 const Eigen::Vector3d& n) {
   grasp::Contact contact{p, n.normalized(), {}};
@@ -32,7 +33,7 @@ inline plan::Plan MakePlan(plan::FingerGrasp initial, double half_angle_deg, int
   return plan;
 }
 
-/// A point drawn evenly over the surface.
+/// Draw a contact uniformly over the surface.
 inline grasp::Contact DrawContact(const object::Polyhedron& body, std::mt19937& random) {
   const auto corners = [&](std::size_t t) {
     const auto& [a, b, c] = body.triangles()[t];
@@ -52,7 +53,7 @@ inline grasp::Contact DrawContact(const object::Polyhedron& body, std::mt19937& 
   return {(1 - s) * a + s * (1 - v) * b + s * v * c, body.inward_normal(face), face};
 }
 
-/// The cube of models/cube.obj held about its middle, and grasps near it.
+/// The cube of models/cube.obj with a grasp about its middle, and grasps near it.
 struct CubeCase {
   object::ObjectFile file = ReadModel("cube.obj");
   const object::Object& object = *file.object;

@@ -19,7 +19,7 @@ std::size_t Count(const std::string& text, const std::string& part) {
   return count;
 }
 
-/// The page from the heading of a plan to that of the next.
+/// Return the page from the heading of a plan to that of the next.
 std::string CardOf(const std::string& page, const std::string& name) {
   const auto begin = page.find(">" + name + "<");
   EXPECT_NE(begin, std::string::npos);

@@ -86,7 +86,7 @@ TEST(BatchSummaryTest, JunitTellsWhatThisRunTook) {
   EXPECT_THAT(xml, HasSubstr("skipped=\"0\" time=\"0.750\">"));
   EXPECT_THAT(xml, HasSubstr("name=\"step 0 hold\" time=\"0.500\""));
   EXPECT_THAT(xml, HasSubstr("name=\"step 1 switch\" time=\"0.125\""));
-  // Neither the summary nor the page says anything of times.
+  // Neither the summary nor the page contains times.
   const BatchSummary untimed{{Passed("good")}, {}};
   EXPECT_EQ(FormatSummaryJson(summary), FormatSummaryJson(untimed));
   EXPECT_EQ(FormatBatchPage(summary), FormatBatchPage(untimed));

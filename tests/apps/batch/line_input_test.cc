@@ -87,7 +87,7 @@ TEST_F(LineInputTest, AHeaderSaysWhichEntriesFollow) {
   EXPECT_EQ(first->entry, 3);
   EXPECT_THAT(first->name, HasSubstr("line 2"));
   EXPECT_THAT(All(std::move(input)), ElementsAre(std::pair(4, "d")));
-  // A whole may be cut, a shard not again.
+  // A whole file can be split, a shard cannot be split again.
   const std::string whole = FormatHeader({"plans", 2, {}, "run"}) + "a\nb\n";
   EXPECT_THAT(All(LinesInput(Write("b.jsonl", whole), {2, 2})), ElementsAre(std::pair(2, "b")));
   EXPECT_THAT(Refusal(header + "c\nd\n", {1, 2}),
@@ -115,7 +115,7 @@ TEST_F(LineInputTest, WhatIsNoFileIsRefused) {
 }
 
 TEST_F(LineInputTest, AFileThatShrinksMeanwhileIsNoticed) {
-  // Longer than what a stream reads ahead.
+  // Longer than the read-ahead of a stream.
   const std::string line(std::size_t{1} << 16, 'x');
   const auto path = Write("a.jsonl", line + "\n" + line + "\n");
   LinesInput input(path);

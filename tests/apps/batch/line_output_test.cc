@@ -21,7 +21,7 @@ std::string LineOf(std::int64_t entry) {
          "\n";
 }
 
-/// Keeps what an earlier run left, as far as `accept` says.
+/// Keep the entries of an earlier run that `accept` accepts.
 void Keep(
     LinesOutput& output,
     const LinesOutput::Accept& accept = [](std::string_view /*line*/) { return true; }) {

@@ -64,7 +64,7 @@ TEST(LinesHeaderTest, ReadsBackAsItWasWrittenAndNothingElseIsOne) {
   EXPECT_EQ(header.range(), (EntryRange{26, 50}));
   EXPECT_EQ(ParseHeader(R"({"format":"regrasp-plan","version":1})", "a.jsonl"), std::nullopt);
   EXPECT_EQ(ParseHeader("", "a.jsonl"), std::nullopt);
-  // One that was cut or edited.
+  // Lines that were truncated or edited.
   const std::vector<std::string> bads = {line.substr(0, line.size() - 3),
                                          line + " ",
                                          R"({"format":"regrasp-lines","version":2})",
@@ -90,7 +90,7 @@ TEST(LineRecordTest, IsToldByItsEntryAndWhatItCameTo) {
     const Json report = {{"format", "regrasp-report"}, {"version", 1}, {"verdict", word}, {"x", 1}};
     EXPECT_EQ(OutcomeOf(FormatRecord(1, report), 1), outcome);
   }
-  // Of another entry, cut, or something else.
+  // Other entry, truncated, or different text.
   EXPECT_EQ(OutcomeOf(plan, 8), std::nullopt);
   EXPECT_EQ(OutcomeOf(plan, 70), std::nullopt);
   EXPECT_EQ(OutcomeOf(plan.substr(0, plan.size() - 1), 7), std::nullopt);

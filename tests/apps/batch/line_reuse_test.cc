@@ -1,5 +1,6 @@
-// Which results of an earlier run over many lines are reused: after any change of one byte exactly
-// those whose inputs are the same. The work is a stub; all else is what the programs use.
+// Law on the reuse of results of an earlier run over many lines: after any change of one byte,
+// exactly the results with unchanged inputs are reused. The work is a stub; all other code is that
+// of the programs.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ class LineReuseTest : public FolderTest {
   LineReuseTest() {
     for (int i = 0; i < kObjects; ++i) WriteObject(i, "object " + std::to_string(i));
     for (int i = 0; i < kEntries; ++i) {
-      // Every tenth line is the same as another one.
+      // Every tenth line is a copy of another one.
       const int same = i % 10 == 9 ? i / 100 : i;
       lines_.push_back(R"({"object":{"file":")" + ObjectName(same % kObjects) + R"("},"seed":)" +
                        std::to_string(same) + "}");
@@ -45,7 +46,7 @@ class LineReuseTest : public FolderTest {
     Write("objects/" + ObjectName(i), bytes);
   }
 
-  /// The object that a line names; none if it is not JSON or names none.
+  /// Return the object that a line names; nullopt if it is not JSON or names none.
   static std::optional<ObjectOfLine> ObjectOf(const std::string& line) {
     try {
       const Json json = ParseJson(line, "line");
@@ -57,14 +58,14 @@ class LineReuseTest : public FolderTest {
     }
   }
 
-  /// All that the result of a line depends on, in plain words; none for a bad line.
+  /// Return all inputs of the result of a line, as text; nullopt for an invalid line.
   [[nodiscard]] std::optional<std::string> StateOf(const std::string& line) const {
     const auto object = ObjectOf(line);
     if (!object || !objects_.contains(object->name)) return std::nullopt;
     return build_ + "|" + option_ + "|" + hand_ + "|" + line + "|" + objects_.at(object->name);
   }
 
-  /// Runs over all lines. @returns the entries that were worked on.
+  /// Run over all lines. @returns processed entries.
   Entries Run() {
     ++run_;
     std::string bytes;
@@ -100,7 +101,7 @@ class LineReuseTest : public FolderTest {
                                      {"state", Sha256(*state)}});
   }
 
-  /// The entries that the last run has made; all must be what they should be now.
+  /// Return the entries that the last run has computed; all must have their expected results.
   [[nodiscard]] Entries Made() const {
     Entries made;
     LinesInput output(Out());
@@ -118,7 +119,8 @@ class LineReuseTest : public FolderTest {
     return made;
   }
 
-  /// Entries whose inputs are not those of their last result, or that have none.
+  /// Return the entries without a result, and those whose inputs differ from those of their last
+  /// result.
   Entries Expected() {
     Entries expected;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -129,7 +131,7 @@ class LineReuseTest : public FolderTest {
     return expected;
   }
 
-  /// Runs and compares. @returns how many entries were worked on.
+  /// Run and compare. @returns number of processed entries.
   std::size_t Check(const std::string& change) {
     const Entries expected = Expected();
     const Entries made = Run();
@@ -144,14 +146,14 @@ class LineReuseTest : public FolderTest {
   [[nodiscard]] fs::path Out() const { return folder_ / "out.jsonl"; }
 
   int Draw(int count) { return std::uniform_int_distribution(0, count - 1)(random_); }
-  /// Replaces a byte by another letter.
+  /// Replace a byte by a different letter.
   void ChangeByte(std::string& text) {
     char& byte = text[Draw(static_cast<int>(text.size()))];
     const char other = static_cast<char>('a' + Draw(26));
     byte = other == byte ? 'A' : other;
   }
 
-  /// Edits a line of the results, with or without leaving it in shape.
+  /// Edit a line of the results, which may stay well-formed or not.
   void EditResult() {
     std::string whole = ReadFile(Out());
     std::vector<std::size_t> begins = {0};
@@ -165,11 +167,11 @@ class LineReuseTest : public FolderTest {
     ChangeByte(line);
     whole.replace(begins[entry], line.size(), line);
     WriteFile(Out(), whole);
-    // Without a header of this run the entries are still known by their seals.
+    // Without a header of this run, the seals still identify the entries.
     last_.erase(entry);
   }
 
-  /// As if a process had been killed while it wrote.
+  /// Leave the files of a process that was killed while it wrote.
   void Kill() {
     const std::string whole = ReadFile(Out());
     const std::string cut = whole.substr(0, Draw(static_cast<int>(whole.size())));
@@ -183,7 +185,7 @@ class LineReuseTest : public FolderTest {
   std::map<std::string, std::string> objects_;  ///< bytes by name
   std::string build_ = "build", option_ = "0.5", hand_ = "hand", identity_ = "run", ending_ = "\n";
   int run_ = 0;
-  std::map<std::int64_t, std::string> last_;  ///< state that the result of an entry comes from
+  std::map<std::int64_t, std::string> last_;  ///< inputs of the last result, by entry
   std::mt19937 random_{kSeed};
 };
 
@@ -275,7 +277,7 @@ TEST_F(LineReuseTest, AnObjectThatIsReplacedByOneOfTheSameNameAndLengthIsNoticed
 }
 
 TEST_F(LineReuseTest, AResultOfAnotherEntryIsNotTaken) {
-  // Two lines and their results change places: every line has a whole, sealed result of its text.
+  // Swap two lines and their results: every line then has a complete, sealed result for its text.
   lines_[1] = lines_[0];
   Check("the first run");
   std::string whole = ReadFile(Out());

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 constexpr int kEntries = 100;
 
-/// Lines with a word each; an odd entry has more to do.
+/// Fixture of lines with one word each; odd entries take more work.
 class LineRunTest : public FolderTest {
  protected:
   LineRunTest() {
@@ -29,7 +29,7 @@ class LineRunTest : public FolderTest {
     input_ = Write("in.jsonl", bytes);
   }
 
-  /// @returns the file that is there in the end.
+  /// @returns content of the final file.
   std::string Run(LineRunOptions options) {
     messages_.clear();
     prepared_.clear();

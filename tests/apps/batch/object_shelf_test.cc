@@ -32,7 +32,7 @@ TEST(ObjectShelfTest, AnObjectIsReadOnceWhileItIsAskedFor) {
     EXPECT_EQ(get("b")->file, "b");
   }
   EXPECT_EQ(reads, 2);
-  // The one that was not asked for longest goes.
+  // The least recently used object is evicted.
   for (std::size_t i = 0; i < ObjectShelf::kMost - 1; ++i) {
     (void)get("other" + std::to_string(i));
     (void)get("a");
@@ -72,7 +72,7 @@ TEST_F(ObjectFinderTest, TakesTheNameWhereItsDigestIsRightAndOtherwiseTheDigest)
   EXPECT_EQ(finder.Find("elsewhere/a.obj", Sha256("aa"), "q"), a);
   EXPECT_EQ(finder.Find("a.obj", Sha256("bb"), "q"), b);
   EXPECT_EQ(finder.Find("renamed.obj", Sha256("bb"), "q"), b);
-  // The reader then says how the digests differ.
+  // The reader then reports how the digests differ.
   EXPECT_EQ(finder.Find("a.obj", Sha256("cc"), "q"), a);
   for (const char* name : {"gone.obj", "", ".."}) {
     try {

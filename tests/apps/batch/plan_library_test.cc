@@ -111,7 +111,7 @@ TEST_F(PlanLibraryTest, PlansInSubfoldersAreNamedAndNotSearched) {
   EXPECT_THAT(Refusal({folder}),
               AllOf(HasSubstr("a/ is a subfolder with 2 plans; subfolders are not searched"),
                     HasSubstr("; help: give --plan " + folder + "/a"), Not(HasSubstr("b/"))));
-  // With a plan beside them they are skipped by name.
+  // With a plan next to them they are skipped by name.
   Write("x/three.json", kPlan);
   const PlanLibrary library = FindPlans({folder});
   EXPECT_THAT(Names(library), ElementsAre("three"));

@@ -7,7 +7,7 @@
 
 namespace regrasp::apps {
 
-/// What may become of a plan of a batch, with names as tests look for them.
+/// Sample results for a plan of a batch, with names for tests.
 inline PlanOutcome Passed(const std::string& name) {
   PlanOutcome plan{name, name + ".json", PlanVerdict::kPass, ReportSummary(), "", false, 0, {}};
   ReportSummary& report = *plan.report;

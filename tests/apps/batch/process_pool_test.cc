@@ -23,7 +23,8 @@
 namespace regrasp::apps {
 namespace process_pool_test {
 
-/// Far above what any child here needs; one that hangs is ended by it and fails the test.
+/// Time limit far above the need of any child here. It ends a child that hangs, which fails the
+/// test.
 constexpr std::chrono::seconds kHang{120};
 
 std::map<int, ChildExit> RunAll(int count, int jobs, const std::function<int(int)>& work) {
@@ -55,7 +56,7 @@ TEST(ProcessPoolTest, EveryTaskRunsInAProcessOfItsOwnAndItsExitCodeComesBack) {
 }
 
 TEST(ProcessPoolTest, TasksThatBecomeKnownWhenOthersEndAreRunToo) {
-  // Each task makes the next one known when it ends, but for the last.
+  // Each task except the last makes the next one available when it ends.
   constexpr int kLast = 5;
   int known = 0, begun = -1;
   std::vector<int> ended;
@@ -205,7 +206,7 @@ TEST(ProcessPoolTest, ASignalStopsTheChildrenAndIsTheAnswer) {
   EXPECT_EQ(errno, ECHILD);
 }
 
-/// What a process that was stopped and its helper both see.
+/// Shared state of a process that was stopped and its helper.
 struct Stop {
   std::atomic<std::int64_t> clock_ns{0};
   std::atomic<bool> over{false};
@@ -217,7 +218,8 @@ bool IsStopped(pid_t process) {
   return text.substr(text.rfind(')') + 2, 1) == "T";
 }
 
-/// Stops this process for an hour by the clock that it is given while one child waits for the end.
+/// Simulate a stop of this process for an hour, by a prescribed clock, while one child waits for
+/// the end.
 /// @returns how that child ended.
 ChildExit::Kind RunThroughAStop(Stop& stop) {
   PoolOptions options{2, std::chrono::minutes(1)};
@@ -237,7 +239,7 @@ ChildExit::Kind RunThroughAStop(Stop& stop) {
   };
   ChildExit::Kind kind = ChildExit::Kind::kSignalled;
   (void)RunInChildren(2, options, work, [&](int index, const ChildExit& exit) {
-    // By now this process has looked at its clock.
+    // By now this process has read its clock.
     if (index == 1) stop.over = true;
     if (index == 0) kind = exit.kind;
   });
@@ -249,7 +251,8 @@ TEST(ProcessPoolTest, TimeInWhichThisProcessIsStoppedDoesNotCount) {
       mmap(nullptr, sizeof(Stop), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(memory, MAP_FAILED);
   auto* stop = new (memory) Stop;
-  // In a process of its own: whoever started the tests must not see them stop.
+  // The test runs in its own process, so that the process that started the tests does not see them
+  // stop.
   const auto run = [&] { std::exit(RunThroughAStop(*stop) == ChildExit::Kind::kExited ? 0 : 1); };
   EXPECT_EXIT(run(), testing::ExitedWithCode(0), "");
   EXPECT_TRUE(stop->over);
@@ -262,7 +265,7 @@ TEST(ProcessPoolTest, TimeThatPassesInSmallStepsCounts) {
   options.now = [&] { return PoolOptions::Clock::time_point(std::chrono::seconds(++looks) / 5); };
   ChildExit::Kind kind = ChildExit::Kind::kExited;
   const auto work = [](int) {
-    // Messages make the parent look at its clock.
+    // Messages make the parent read its clock.
     while (true) std::cerr << "still here" << std::endl;
     return 0;
   };

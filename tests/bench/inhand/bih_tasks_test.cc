@@ -23,7 +23,7 @@ Eigen::Matrix3d About(const Vector3d& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
-/// Roll about x, then pitch about y, then yaw about z, all of the fixed frame.
+/// Return the rotation: roll about x, then pitch about y, then yaw about z, all about fixed axes.
 Eigen::Matrix3d RollPitchYaw(double roll, double pitch, double yaw) {
   return About(Vector3d::UnitZ(), yaw) * About(Vector3d::UnitY(), pitch) *
          About(Vector3d::UnitX(), roll);
@@ -46,7 +46,8 @@ class Bih : public FolderTest {
   }
 };
 
-/// By points of the body as the palm sees them, before and after, instead of by poses.
+/// Independent calculation: points of the object in the palm frame, before and after, instead of
+/// poses.
 TEST_F(Bih, DisplacesTheBodyAsThePalmSeesIt) {
   const BihTasks bih = Read(std::string(kColumns) + kLine);
   ASSERT_EQ(bih.tasks.size(), 1U);
@@ -55,7 +56,7 @@ TEST_F(Bih, DisplacesTheBodyAsThePalmSeesIt) {
   EXPECT_EQ(task.body, "bih-sugar_box");
   const Eigen::Matrix3d before = RollPitchYaw(0.4, -0.5, 0.6);
   const Eigen::Matrix3d after = RollPitchYaw(-1, 0.7, 2.5);
-  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();  // of the body in the palm
+  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();  // pose of the object in the palm frame
   start.linear() = before.transpose();
   start.translation() = -(before.transpose() * Vector3d(0.01, 0.02, 0.03));
   const Eigen::Isometry3d goal = GoalPose(task, bih.bodies.front().centre(), start);

@@ -1,4 +1,4 @@
-// Of one body in one hand, from the task to the row.
+// One object in one hand, from the task to the row.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace score_test {
 
 using testing::HasSubstr;
 
-/// No deadline that a slow machine would come to.
+/// Time limit that a slow machine does not reach, s.
 constexpr double kNoLimit_s = 1e6;
 
 kinematics::HandFile Ring4() {
@@ -36,7 +36,7 @@ Task TurnOf(const std::string& body, char axis, double degrees) {
   return task;
 }
 
-/// A cube of 50 mm that ring4 turns by 90° about z: planned once for all tests.
+/// Plan of a cube of 50 mm that ring4 rotates by 90° about z, made once for all tests.
 struct Planned {
   kinematics::HandFile hand = Ring4();
   std::vector<HandBody> bodies = TenBodies(ProjectPath("models"));
@@ -50,7 +50,7 @@ const Planned& ThePlan() {
   return planned;
 }
 
-/// What is said of a plan that is for something else; empty where it is taken.
+/// Return the error message for a plan of another task; empty if it is accepted.
 std::string Refusal(const Task& task, const HandBody& body, const plan::Plan& plan) {
   try {
     CheckIsFor(task, body, ThePlan().hand, plan, "plan.json");
@@ -77,7 +77,7 @@ TEST(Scoreboard, RefusesAPlanOfAnotherTask) {
   const auto refusal = [&](const Task& task) { return Refusal(task, given.cube, plan); };
   EXPECT_THAT(refusal(TurnOf("cube-50", 'x', 90)), HasSubstr("no plan for turn/cube-50/x90"));
   EXPECT_THAT(refusal(TurnOf("cube-50", 'z', 45)), HasSubstr("45 degrees from its goal"));
-  // Their goals are one orientation.
+  // Both goals have the same orientation.
   EXPECT_THAT(refusal(TurnOf("cube-50", 'z', 450)), HasSubstr("turns by 90 degrees, not by 450"));
   Task moved = given.task;
   moved.move_m.x() = 0.2;
@@ -104,7 +104,7 @@ TEST(Scoreboard, RefusesAPlanForAnotherHandOrMoreFriction) {
   EXPECT_EQ(Refusal(given.task, given.cube, plan), "");
 }
 
-/// Where a task is to go somewhere, a plan ends there.
+/// If a task has a goal position, the plan must end there.
 TEST(Scoreboard, TakesAPlanThatEndsWithinAMillimetreOfItsPlace) {
   const Planned& given = ThePlan();
   const plan::Plan& plan = *given.planned.plan;
@@ -114,7 +114,7 @@ TEST(Scoreboard, TakesAPlanThatEndsWithinAMillimetreOfItsPlace) {
     task.move_m = move;
     return Eigen::Vector3d(GoalPose(task, centre, plan.hand->initial.pose) * centre);
   };
-  // The move that ends where the plan does.
+  // Offset of the end position of the plan from the goal.
   const Eigen::Vector3d off = EndOf(plan).pose * centre - goal(Eigen::Vector3d::Zero());
   Task task = given.task;
   for (int axis = 0; axis < 3; ++axis) {
@@ -159,7 +159,7 @@ TEST_F(ScoreRuns, WriteARowAndAPlanAndAreNotRepeated) {
   EXPECT_EQ(reports, 1);
 }
 
-/// No time: the first task has no plan, and so the second one no start.
+/// Without time the first task has no plan, so the second one has no start.
 TEST(RunChain, DoesNotAskForWhatFollowsATaskWithoutAPlan) {
   const Planned& given = ThePlan();
   Task second = TurnOf("cube-50", 'x', 90);

@@ -29,7 +29,7 @@ TEST(InHandTasks, HaveNamesOfTheirOwn) {
 }
 
 TEST(InHandTasks, TurnEachOfTenBodiesAboutThreeAxesByTwoAngles) {
-  std::map<std::string, std::set<std::pair<int, int>>> turns;  // by body: axis, degrees
+  std::map<std::string, std::set<std::pair<int, int>>> turns;  // axis and degrees, by object
   for (const Task& task : ReadTasks(TasksFile())) {
     if (!task.group.starts_with("turn-")) continue;
     EXPECT_TRUE(task.is_turn());
@@ -50,7 +50,7 @@ TEST(InHandTasks, TurnEachOfTenBodiesAboutThreeAxesByTwoAngles) {
   }
 }
 
-/// What the column `what` says, after the word before it: "facet +y up", "waypoint 0 20 0".
+/// Return the column `what` of each task, without its first word: "facet +y up", "waypoint 0 20 0".
 std::map<std::string, std::string> WhatOfTasks() {
   const CsvTable table = CsvTable::Parse(ReadFile(TasksFile()), "tasks.csv");
   std::map<std::string, std::string> what;
@@ -58,7 +58,7 @@ std::map<std::string, std::string> WhatOfTasks() {
   return what;
 }
 
-/// The facet that is up: by the goal poses, one after the other, from z upright.
+/// The face that is up, computed from the goal poses one after the other, starting with z upright.
 TEST(InHandTasks, TurnTheFacetUpThatTheySay) {
   const auto what = WhatOfTasks();
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -93,7 +93,7 @@ TEST(InHandTasks, MoveCylindersToTheWaypointsThatTheySayWithin25Millimetres) {
   EXPECT_EQ(checked, 18);
 }
 
-/// By rotating points about the centroid and moving them, instead of by poses.
+/// Independent calculation: rotate points about the centroid and move them, instead of using poses.
 TEST(GoalPose, TurnsAboutTheCentroidAndMovesAlongTheAxesOfTheStart) {
   Task task;
   task.turn = {Vector3d::UnitZ(), Radians(90)};
@@ -112,7 +112,7 @@ TEST(GoalPose, TurnsAboutTheCentroidAndMovesAlongTheAxesOfTheStart) {
 
 class TaskFiles : public FolderTest {
  protected:
-  /// What is said of a file with these lines behind the columns.
+  /// Return the error message for a file with these lines after the header.
   std::string Complaint(const std::string& lines) {
     const auto file = folder_ / "tasks.csv";
     WriteFile(file, "name,group,body,after,turn,move_mm\n" + lines);

@@ -9,7 +9,7 @@ namespace regrasp {
 namespace binomial_test {
 
 TEST(ShareInterval, OfAllOrNoneIsTheClosedForm) {
-  // Upper end p of 0 of n: (1 − p)^n = 0.025.
+  // Upper end p for 0 of n: (1 − p)^n = 0.025.
   for (const int n : {1, 10, 100, 1000}) {
     const double end = 1 - std::pow(0.025, 1.0 / n);
     EXPECT_EQ(ComputeShareInterval(0, n, 0.95).lower, 0);
@@ -20,7 +20,7 @@ TEST(ShareInterval, OfAllOrNoneIsTheClosedForm) {
 }
 
 TEST(ShareInterval, LeavesOutTheTailsOfTheBinomialDistribution) {
-  // At the lower end 8 or more of 10 are seen with probability 0.025, at the upper 8 or fewer.
+  // At the lower end 8 or more of 10 occur with probability 0.025, at the upper end 8 or fewer.
   const ShareInterval interval = ComputeShareInterval(8, 10, 0.95);
   const auto chance = [](int k, double p) {
     return std::tgamma(11) / std::tgamma(k + 1) / std::tgamma(11 - k) * std::pow(p, k) *

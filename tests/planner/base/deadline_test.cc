@@ -43,7 +43,7 @@ TEST(Deadline, IsOverTooWhenSomethingElseSaysSo) {
   is_over = true;
   EXPECT_TRUE(other.IsOver());
   EXPECT_TRUE(other.After(0.1).IsOver());
-  // It is no limit of time.
+  // OrWhen does not limit the time.
   EXPECT_FALSE(other.left().has_value());
   EXPECT_FALSE(other.OrWhen([] { return false; }).left().has_value());
   EXPECT_TRUE(other.OrWhen([] { return false; }).IsOver());

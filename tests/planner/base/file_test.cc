@@ -16,7 +16,7 @@ namespace file_test {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-/// A folder of its own for each test, gone afterwards.
+/// Test with a folder of its own, which is removed afterwards.
 class FileTest : public ::testing::Test {
  protected:
   FileTest()

@@ -25,12 +25,13 @@ concept Ordered = requires(A a, B b) {
   a < b;
 };
 
-// A number is no index until it is said to be one; an index is a number.
+// An integer is converted to an index only explicitly. An index is converted to an integer
+// implicitly.
 static_assert(std::is_constructible_v<Leaf, int> && !std::is_convertible_v<int, Leaf>);
 static_assert(!std::is_assignable_v<Leaf&, int>);
 static_assert(std::is_convertible_v<Leaf, int>);
 
-// One kind is neither taken for, nor made from, nor compared with another.
+// Indices of different kinds are neither converted nor compared.
 static_assert(std::is_convertible_v<Leaf, Leaf> && !std::is_convertible_v<Root, Leaf>);
 static_assert(std::is_constructible_v<Leaf, Leaf> && !std::is_constructible_v<Leaf, Root>);
 static_assert(std::is_assignable_v<Leaf&, Leaf> && !std::is_assignable_v<Leaf&, Root>);
@@ -43,7 +44,7 @@ static_assert(std::is_invocable_v<decltype(Paint), Leaf, Root>);
 static_assert(!std::is_invocable_v<decltype(Paint), Root, Leaf>);
 static_assert(!std::is_invocable_v<decltype(Paint), int, int>);
 
-// It costs what an int costs.
+// An index has the size of an int and is trivially copyable.
 static_assert(sizeof(Leaf) == sizeof(int) && std::is_trivially_copyable_v<Leaf>);
 
 TEST(Index, IsNotValidUntilSomethingIsPutIntoIt) {

@@ -17,7 +17,7 @@ using ::testing::StartsWith;
 
 struct BadJson {
   std::string text;
-  std::string words;  ///< that the message must have
+  std::string words;  ///< required in the message
 };
 
 TEST(ParseJson, RefusesWhatIsNotStrictJson) {
@@ -64,7 +64,8 @@ TEST(ParseJson, RefusesWhatIsNotStrictJson) {
       EXPECT_THAT(error.what(), HasSubstr(words)) << text;
       EXPECT_THAT(error.what(), Not(HasSubstr("json.exception")));
       for (const char* c = error.what(); *c != 0; ++c) {
-        EXPECT_TRUE(*c >= 0x20 && *c < 0x7f) << text;  // one line, nothing that a terminal acts on
+        // One line without terminal control characters.
+        EXPECT_TRUE(*c >= 0x20 && *c < 0x7f) << text;
       }
     }
   }
@@ -107,7 +108,7 @@ TEST(ParseJson, ReadsTheLargestObjectAndRefusesALargerOneAnywhere) {
   EXPECT_NO_THROW(static_cast<void>(
       ParseJson("[" + ObjectOf(kMaxJsonMembers) + "," + ObjectOf(kMaxJsonMembers) + "]", "t")));
   for (const std::size_t members : {kMaxJsonMembers + 1, std::size_t{1'000'000}}) {
-    // Where the smaller one is read the larger one takes hours.
+    // If the smaller object is accepted, parsing the larger one takes hours.
     if (HasFailure()) return;
     const std::string large = ObjectOf(members);
     for (const std::string& text : {large, "{\"a\": [" + large + "]}"}) {

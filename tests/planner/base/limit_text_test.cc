@@ -9,7 +9,7 @@
 namespace regrasp {
 namespace limit_text_test {
 
-/// The number at the beginning of a text.
+/// Return the number at the beginning of a text.
 double NumberIn(const std::string& text) {
   const auto number = ParseDouble(text.substr(0, text.find_first_not_of("0123456789.e-")));
   return number.value_or(std::nan(""));

@@ -13,7 +13,7 @@ namespace memory_test {
 
 using ::testing::HasSubstr;
 
-/// Whether UsableMemory is half of `bytes` where the process may have no more address space.
+/// Return whether UsableMemory is half of `bytes` if these limit the address space of the process.
 bool HalvesItsAddressSpace(rlim_t bytes) {
   const pid_t child = fork();
   if (child == 0) {

@@ -19,7 +19,7 @@ Integer IntegerAt(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-/// The files of an archive, by the list at its end.
+/// Return the files of an archive by its central directory.
 std::map<std::string, std::string> Unpack(const std::string& archive) {
   std::map<std::string, std::string> files;
   const std::size_t end = archive.size() - 22;
@@ -31,7 +31,7 @@ std::map<std::string, std::string> Unpack(const std::string& archive) {
     const auto name = IntegerAt<std::uint16_t>(archive, at + 28);
     const auto local = IntegerAt<std::uint32_t>(archive, at + 42);
     EXPECT_EQ(archive.substr(local, 4), "PK\x03\x04");
-    // Both headers say the same, from the version to the lengths.
+    // Both headers are equal from the version to the lengths.
     EXPECT_EQ(archive.substr(local + 4, 26), archive.substr(at + 6, 26));
     files[archive.substr(at + 46, name)] = archive.substr(local + 30 + name, size);
     at += 46 + name;

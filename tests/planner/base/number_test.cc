@@ -78,7 +78,7 @@ TEST(Numbers, AreTheSameUnderALocaleWithCommas) {
       std::locale::global(std::locale(std::locale::classic(), new CommaNumbers));
   const std::string c_before = std::setlocale(LC_ALL, nullptr);
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
-    if (std::setlocale(LC_ALL, name) != nullptr) break;  // where the machine has one
+    if (std::setlocale(LC_ALL, name) != nullptr) break;  // if the machine has it
   }
   EXPECT_EQ(ParseDouble("1.5"), 1.5);
   EXPECT_FALSE(ParseDouble("1,5").has_value());

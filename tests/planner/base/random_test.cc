@@ -44,7 +44,7 @@ TEST(RandomStream, DrawsNormalNumbersOfMeanZeroAndDeviationOne) {
     squares += x * x;
     beyond += std::abs(x) > 1.959964 ? 1 : 0;
   }
-  // Five standard deviations of each.
+  // The tolerances are five standard deviations.
   EXPECT_NEAR(sum / kDraws, 0, 5 / std::sqrt(kDraws));
   EXPECT_NEAR(squares / kDraws, 1, 5 * std::sqrt(2.0 / kDraws));
   EXPECT_NEAR(beyond, 0.05 * kDraws, 5 * std::sqrt(0.05 * 0.95 * kDraws));
@@ -62,7 +62,7 @@ TEST(RandomStream, SpreadsEvenly) {
     sum += x;
     ++counts.at(random.Index(counts.size()));
   }
-  // Five standard deviations of the mean and of a binomial count.
+  // The tolerances are five standard deviations of the mean and of a binomial count.
   EXPECT_NEAR(sum / kDraws, 0.5, 5 * 0.2887 / std::sqrt(kDraws));
   for (const int count : counts) EXPECT_NEAR(count, kDraws / 3, 5 * std::sqrt(kDraws * 2 / 9.0));
 }
@@ -82,7 +82,7 @@ TEST(RandomStream, ChoosesDifferentOnesEachAsOften) {
     ASSERT_NE(two[0], two[1]);
     for (const int one : two) ++chosen.at(one);
   }
-  // Five standard deviations of a binomial count.
+  // The tolerance is five standard deviations of a binomial count.
   for (const int count : chosen) EXPECT_NEAR(count, 0.4 * kTimes, 5 * std::sqrt(kTimes * 0.24));
   std::vector<int> all = random.Choose(kCount, kCount);
   std::ranges::sort(all);

@@ -17,7 +17,7 @@ namespace read_npz_test {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Written by numpy, of the numbers 0 to 11 and their negatives.
+/// Read files that numpy wrote, with the numbers 0 to 11 and their negatives.
 std::vector<NpzArray> ReadSeed(const std::string& name) {
   const auto path = ProjectPath("tests/fuzz/corpus/npz") / name;
   return ReadNpz(ReadFile(path), name, {"points", "normals"});
@@ -32,7 +32,7 @@ std::string Complaint(const std::string& bytes) {
   return "";
 }
 
-/// Of our own array of two numbers, with a part replaced by as many bytes.
+/// Return the error for an array of two numbers in which a part of the bytes is replaced.
 std::string NpyComplaint(const std::string& from, const std::string& to) {
   const std::string npz = FormatNpz({{"a", {2}, {1, 2}}});
   std::string bytes = ZipArchive(npz).Read("a.npy", 1000).value();
@@ -85,7 +85,7 @@ TEST(ReadNpzTest, ReadsWhatNumpyWritesStoredPackedOfEveryTypeAndOrder) {
   EXPECT_EQ(checked, 72);
 }
 
-/// An NPY file of half-precision numbers.
+/// Return an NPY file of half-precision numbers.
 std::string Halves(const std::vector<std::uint16_t>& bits) {
   const std::string npz = FormatNpz({{"a", {bits.size()}, std::vector<double>(bits.size())}});
   std::string bytes = ZipArchive(npz).Read("a.npy", 1000).value();
@@ -122,7 +122,7 @@ TEST(ReadNpzTest, WhatIsNoArrayIsNamed) {
   EXPECT_EQ(Complaint(good), "");
   EXPECT_EQ(Complaint("nothing"), "file.npz: not a ZIP archive");
   EXPECT_EQ(Complaint(good.substr(0, good.size() / 2)), "file.npz: not a ZIP archive");
-  // The archive keeps a sum of what is in it.
+  // The archive has a checksum of its contents.
   std::string spoilt = good;
   spoilt[spoilt.find("<f8")] = '|';
   EXPECT_EQ(Complaint(spoilt), "file.npz: a.npy: compressed data: corrupt");
@@ -134,7 +134,7 @@ TEST(ReadNpzTest, WhatIsNoArrayIsNamed) {
             "a: data: truncated, the shape requires more bytes than the array has");
   EXPECT_EQ(NpyComplaint("(2,)", "(-2)"), "a: header: expected type, order and shape of numbers");
   EXPECT_EQ(NpyComplaint("NUMPY", "NUMPX"), "a: not an NPY array");
-  EXPECT_EQ(NpyComplaint("\n", "x"), "");  // what ends the header does not matter
+  EXPECT_EQ(NpyComplaint("\n", "x"), "");  // the end of the header does not matter
 }
 
 TEST(ReadNpzTest, TextsAreRefused) {

@@ -9,7 +9,7 @@
 namespace regrasp {
 namespace utf8_test {
 
-/// The bytes of a character, 0 to U+10FFFF.
+/// Encode a character, 0 to U+10FFFF.
 std::string Encode(char32_t code) {
   const auto following = [&](int shift) {
     return static_cast<char>(0x80 | ((code >> shift) & 0x3F));

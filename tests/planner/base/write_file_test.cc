@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// A folder of its own for each test, gone afterwards.
+/// Test with a folder of its own, which is removed afterwards.
 class WriteFileTest : public ::testing::Test {
  protected:
   WriteFileTest()
@@ -71,7 +71,7 @@ std::string WhyNot(const std::function<void()>& call) {
   return "no error";
 }
 
-/// Both ways to find out, which say the same.
+/// Return the error of CheckWritable and WriteFile, which must be equal.
 std::string WhyNotWritten(const fs::path& path) {
   const std::string before = WhyNot([&] { CheckWritable(path); });
   EXPECT_EQ(before, WhyNot([&] { WriteFile(path, "x"); }));
@@ -121,7 +121,7 @@ TEST_F(WriteFileTest, TheLongestNameCanBeWritten) {
 }
 
 TEST_F(WriteFileTest, AFullDiskIsAFailureAndLeavesTheOldFile) {
-  // A limit on the size of files stands for the disk.
+  // A limit of the file size simulates a full disk.
   const fs::path path = folder_ / "kept";
   WriteFile(path, "old");
   rlimit before;
@@ -189,7 +189,7 @@ TEST_F(WriteFileTest, AWriteProtectedFileStays) {
   const fs::path path = folder_ / "protected";
   std::ofstream(path) << "old";
   chmod(path.c_str(), 0444);
-  // Root may write whatever the mode says.
+  // Root can write whatever the mode is.
   const bool root = geteuid() == 0;
   if (root) {
     EXPECT_EQ(chown(folder_.c_str(), 1234, 1234), 0);
@@ -221,14 +221,15 @@ TEST_F(WriteFileTest, LinksAreFollowed) {
   EXPECT_THAT(Names(), ElementsAre("dangling", "far", "relative", "twice"));
 }
 
-/// A device of the test's own: a program that replaces what it writes to must not meet the
-/// machine's. @returns false where that is not permitted.
+/// Create a device in the test's folder, so that a program that replaces its target cannot damage
+/// the machine's devices.
+/// @returns false if that is not permitted.
 bool MakeDevice(const fs::path& path, int minor) {
   constexpr int kMemory = 1;
   if (mknod(path.c_str(), S_IFCHR | 0666, makedev(kMemory, minor)) != 0) return false;
   const int opened = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   close(opened);
-  return opened >= 0;  // a file system may have no devices
+  return opened >= 0;  // a file system can forbid devices
 }
 
 TEST_F(WriteFileTest, ADeviceIsWrittenToAndStays) {
@@ -244,7 +245,7 @@ TEST_F(WriteFileTest, ADeviceIsWrittenToAndStays) {
 
 TEST_F(WriteFileTest, ADiskIsRefused) {
   const fs::path disk = folder_ / "disk";
-  // The number of no device.
+  // No device has this number.
   if (mknod(disk.c_str(), S_IFBLK | 0666, makedev(0xfff, 0)) != 0) {
     GTEST_SKIP() << "devices are not permitted";
   }
@@ -270,7 +271,7 @@ TEST_F(WriteFileTest, ADescriptorsNameIsTheDescriptorAtItsPlace) {
   ASSERT_EQ(write(file, "head\n", 5), 5);
   const ino_t before = StatusOf(path).st_ino;
   const std::string name = "/dev/fd/" + std::to_string(file);
-  fs::create_symlink(name, folder_ / "stdout");  // as /dev/stdout is one
+  fs::create_symlink(name, folder_ / "stdout");  // like /dev/stdout
   for (const fs::path& named : {fs::path(name), folder_ / "stdout"}) {
     CheckWritable(named);
     WriteFile(named, "text\n");
@@ -304,7 +305,7 @@ TEST_F(WriteFileTest, ADescriptorMayBeAPipeOrASocketButMustBeForWriting) {
 TEST_F(WriteFileTest, APipeThatIsFullIsWaitedFor) {
   std::array<int, 2> ends;
   ASSERT_EQ(pipe2(ends.data(), O_NONBLOCK), 0);
-  const std::string bytes(1'000'000, 'x');  // more than a pipe holds
+  const std::string bytes(1'000'000, 'x');  // more than the capacity of a pipe
   std::thread writer([&] { WriteFile("/dev/fd/" + std::to_string(ends[1]), bytes); });
   std::size_t count = 0;
   while (count < bytes.size()) count += ReadSome(ends[0]).size();
@@ -323,7 +324,7 @@ TEST_F(WriteFileTest, ALinkAtTheNameOfThisProcessIsNotFollowed) {
   EXPECT_EQ(ReadFile(other), "other");
 }
 
-/// Names of files as they are made in a folder.
+/// Watcher of file names that are created in a folder.
 class Watch {
  public:
   explicit Watch(const fs::path& folder) : events_(inotify_init1(IN_CLOEXEC)) {
@@ -332,7 +333,7 @@ class Watch {
   ~Watch() { close(events_); }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
-  /// Waits for the next.
+  /// Wait for the next name.
   std::string Next() const {
     alignas(inotify_event) std::array<char, sizeof(inotify_event) + NAME_MAX + 1> buffer;
     const ssize_t count = read(events_, buffer.data(), buffer.size());

@@ -18,7 +18,8 @@ using Eigen::Vector3d;
 constexpr double kHalfAngle = Radians(20);
 const double kMu = std::tan(kHalfAngle);
 
-/// Two ways over the sides of a cube; the waypoints name the fingers in different orders.
+/// Return a sliding step with two motions over the sides of a cube. Its waypoints list the fingers
+/// in different orders.
 plan::Align MakeAlign() {
   grasp::Grasp middle = motion::CrossedGrasp();
   middle[0].p.y() += 0.1;
@@ -39,7 +40,7 @@ TEST(AlignCertificateTest, EachWayIsProvedInTheOrderOfItsFirstWaypoint) {
   ASSERT_EQ(certificate->size(), 2U);
   const motion::ProofVerdict verdict = CheckAlignCertificate(align, 3, kMu, *certificate);
   EXPECT_TRUE(verdict.proves()) << verdict.why;
-  // The force of the finger that the waypoint names first pushes along that finger's normal.
+  // The force of the finger that a waypoint lists first points along that finger's normal.
   for (std::size_t w = 0; w < certificate->size(); ++w) {
     for (std::size_t i = 0; i < 4; ++i) {
       const Vector3d& n = align.waypoints[w][i].contact.n;

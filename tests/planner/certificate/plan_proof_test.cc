@@ -22,7 +22,8 @@ const double kMu = std::tan(kHalfAngle);
 
 grasp::Contact At(const Vector3d& p, const Vector3d& n) { return {p, n, {}}; }
 
-/// A hold of a cube of side 2 by two crossed pairs, a switch of one finger, and an align.
+/// Return a plan on a cube of side 2: a hold by two crossed pairs, a finger switch, and a sliding
+/// step.
 plan::Plan MakeCubePlan() {
   plan::Plan plan;
   plan.half_angle = kHalfAngle;
@@ -61,8 +62,9 @@ TEST(PlanProofTest, EveryEntryIsProvedBeforeAndAfterItIsWritten) {
   }
 }
 
-/// An align of four contacts on four sides of a cube of side 2 `half`, in one plane that leans,
-/// from where they are opposite to `apart` times half a side off that.
+/// Return a sliding step of four contacts on four sides of a cube of side 2 `half`.
+/// The contacts are in one inclined plane. They move from opposite positions to `apart` half sides
+/// off them.
 plan::Plan AlignInOnePlane(double half, double lean, double apart) {
   const auto grasp = [&](double off) {
     plan::FingerGrasp held;
@@ -88,7 +90,7 @@ plan::Plan AlignInOnePlane(double half, double lean, double apart) {
 TEST(PlanProofTest, EveryAlignThatTheCheckPassesIsProvedInWriting) {
   const object::ObjectFile file = object::ReadObject(ProjectPath("models/cube.obj"));
   const double half = file.object->diameter() / std::sqrt(12.0);
-  // Contacts in one plane, and such as come near to what the friction bears.
+  // Contacts in one plane, including grasps close to the limit of friction.
   int checked = 0;
   for (const double lean : {0.0, 0.1, 0.3, 0.5}) {
     for (const double apart : {0.1, 0.3}) {

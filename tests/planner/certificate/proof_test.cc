@@ -36,7 +36,8 @@ void ExpectProofsAgreeWithTheTest(int dimension, int contacts) {
       EXPECT_EQ(test.decision, grasp::Decision::kNo);
       ++refuted;
     } else {
-      // Contacts on two parallel sides of a box, say, that only a line of touching twists refutes.
+      // For example, contacts on two parallel sides of a box are refuted only by twists on the
+      // boundary of the polar cones.
       EXPECT_NE(test.decision, grasp::Decision::kYes) << verdict.why;
     }
   }
@@ -55,7 +56,7 @@ TEST(ProofTest, ProofsHoldDownToTheRequiredFrictionAndNotBelow) {
   const grasp::Grasp grasp = motion::CrossedGrasp();
   const GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
   ASSERT_EQ(CheckGraspProof(grasp, 3, kMu, proof).kind, Kind::kForceClosure);
-  // More friction never takes a proof away.
+  // Additional friction never invalidates a proof of force closure.
   EXPECT_EQ(CheckGraspProof(grasp, 3, 2 * kMu, proof).kind, Kind::kForceClosure);
   const auto required = grasp::ComputeRequiredHalfAngle(grasp, {Vector3d::Zero(), 1, 3});
   ASSERT_TRUE(required);
@@ -77,7 +78,7 @@ TEST(ProofTest, ForcesThatDoNotProveAreRefused) {
   const grasp::Grasp grasp = motion::CrossedGrasp();
   const GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
   GraspProof wrong = proof;
-  wrong.forces[2] += Vector3d(0.5, 0, 0);  // out of balance by much: so is what makes up for it
+  wrong.forces[2] += Vector3d(0.5, 0, 0);  // large imbalance, and therefore a large correction
   EXPECT_EQ(CheckGraspProof(grasp, 3, kMu, wrong).kind, Kind::kNothing);
   wrong = proof;
   for (Vector3d& force : wrong.forces) force = -force;
@@ -114,7 +115,8 @@ TEST(ProofTest, ContactsOnOneLineProveNothing) {
 }
 
 TEST(ProofTest, ATwistRefutesUpToTheBorderOfThePolarConeAndNotBeyond) {
-  // Under v = (-1, t, 0) forces (1, y, z) in the cone, |(y, z)| <= mu, work -1 + t y <= -1 + mu t.
+  // For v = (-1, t, 0), a force (1, y, z) in the cone, |(y, z)| <= mu, does the work -1 + t y <= -1
+  // + mu t.
   const grasp::Grasp grasp = {{{0, 0, 0}, {1, 0, 0}}};
   const auto sideways = [&](double t) {
     GraspProof proof;

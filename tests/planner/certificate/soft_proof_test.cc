@@ -1,4 +1,4 @@
-// Proofs of grasps of soft fingers: torques beside the forces, and twists that spin.
+// Proofs of grasps with soft-finger contacts: torques in addition to forces, and twists with spin.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,8 @@ TEST(SoftProofTest, APairIsProvedAndTheSameForcesOfHardPointsAreNoProof) {
   GraspProof without = proof;
   without.torques.clear();
   EXPECT_EQ(Check(Pair(0), without), Kind::kNothing);
-  // Hard points are refuted by a turn about their line, which proves nothing of soft fingers.
+  // Point contacts are refuted by a rotation about their line. This does not refute soft-finger
+  // contacts.
   const GraspProof refuted = FindGraspProof(Pair(0), 3, kHalfAngle);
   EXPECT_EQ(Check(Pair(0), refuted), Kind::kNotForceClosure);
   EXPECT_EQ(Check(Pair(0.2), refuted), Kind::kNothing);
@@ -54,7 +55,7 @@ TEST(SoftProofTest, TorquesOnTheBorderOfTheConesAreNoProof) {
     GraspProof proof;
     proof.kind = GraspProof::Kind::kForces;
     proof.forces = {{1, 0, 0}, {-1, 0, 0}};
-    // About opposite normals they balance.
+    // Torques about opposite normals are balanced.
     proof.torques = {share * 0.2 * 0.5, share * 0.2 * 0.5};
     return CheckGraspProof(grasp, 3, 0.5, proof).kind;
   };
@@ -64,8 +65,8 @@ TEST(SoftProofTest, TorquesOnTheBorderOfTheConesAreNoProof) {
 }
 
 TEST(SoftProofTest, ATwistThatSpinsRefutesUpToTheBorderOfThePolarConeAndNotBeyond) {
-  // Under v = (-1, 0, 0) and a spin s a unit normal force and its largest torque, mu times the
-  // torsion, work -1 + mu 0.25 s.
+  // For v = (-1, 0, 0) and a spin s, a unit normal force with its largest torque, mu times the
+  // torsion, does the work -1 + mu 0.25 s.
   const auto spinning = [](double s) {
     GraspProof proof;
     proof.kind = GraspProof::Kind::kTwist;
@@ -90,7 +91,7 @@ TEST(SoftProofTest, ProofsThatAreChangedProveNothing) {
   expect_nothing([](GraspProof& p) { p.torques.pop_back(); });
   expect_nothing([](GraspProof& p) { p.torques[0] = std::nan(""); });
   expect_nothing([](GraspProof& p) { p.torques = {1, 1}; });
-  // One force alone is what the exact correction takes up.
+  // All forces are negated, because the exact correction could compensate for a single one.
   expect_nothing([](GraspProof& p) {
     for (Vector3d& force : p.forces) force = -force;
   });

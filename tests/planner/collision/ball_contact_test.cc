@@ -19,7 +19,7 @@ object::Polyhedron Read(const std::string& name) {
 }
 
 TEST(BallContactTest, OverAFaceAnEdgeAndACornerOfACubeThereIsOnePoint) {
-  const BallContact cube(Read("cube.obj"), 1);  // of 6 cm about the origin
+  const BallContact cube(Read("cube.obj"), 1);  // edge length 6 cm, centred at the origin
   const auto expect_one = [&](const Vector3d& centre, const Vector3d& nearest) {
     const auto found = cube.Find(centre, 0.02);
     ASSERT_EQ(found.size(), 1U) << centre.transpose();
@@ -37,7 +37,7 @@ TEST(BallContactTest, OverAFaceAnEdgeAndACornerOfACubeThereIsOnePoint) {
 TEST(BallContactTest, InAGrooveThereAreTwo) {
   const object::Polyhedron block = Read("l_block.obj");
   const BallContact surface(block, 1);
-  // Wherever a ball meets faces that face each other, it has a point on each of them.
+  // A sphere between two opposite faces has a point on each of them.
   RandomStream random(3, RandomUse::kGaits);
   const double size = block.diameter();
   int twice = 0;

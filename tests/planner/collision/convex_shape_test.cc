@@ -64,12 +64,12 @@ TEST(ConvexShapeTest, ShapesThatOverlapHaveNoDistance) {
   EXPECT_EQ(Distance(box, {{Vector3d(0, 0, 1.4)}, 0.5}).upper, 0);
   EXPECT_EQ(Distance(box, box).upper, 0);
   EXPECT_FALSE(AreApart(box, box, 0));
-  // Touching is not apart.
+  // Touching shapes are not apart.
   EXPECT_FALSE(AreApart(box, Box({2, 0, 0}, {1, 1, 1}), 0));
 }
 
-/// The separation along a direction is a lower bound whatever finds it, and points of the shapes an
-/// upper one: both by other means than the algorithm's.
+/// Independent bounds: the separation along any direction is a lower bound, the distance of any two
+/// points an upper bound.
 TEST(ConvexShapeTest, BoundsHoldAndMeetOnRandomHulls) {
   RandomStream random(1, RandomUse::kCandidates);
   int apart = 0;
@@ -80,7 +80,7 @@ TEST(ConvexShapeTest, BoundsHoldAndMeetOnRandomHulls) {
     const DistanceBounds bounds = Distance(a, b);
     ASSERT_LE(bounds.lower, bounds.upper);
     ASSERT_NEAR(bounds.lower, bounds.upper, 1e-8 * bounds.upper + 1e-12);
-    // No convex combination of both is nearer.
+    // No convex combination of points of both shapes is nearer.
     for (int j = 0; j < 20; ++j) {
       const auto draw = [&](const ConvexShape& shape) {
         Vector3d sum = Vector3d::Zero();

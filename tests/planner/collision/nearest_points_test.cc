@@ -18,7 +18,7 @@ Vector3d Draw(RandomStream& random) {
   return drawn;
 }
 
-/// A plane between the points that it finds has each hull on its side: none are nearer.
+/// The planes through the two points separate the hulls, so no other points are nearer.
 TEST(NearestPointsTest, ThePlaneThroughEachIsAtTheHull) {
   RandomStream random(2, RandomUse::kTrialContacts);
   int apart = 0;

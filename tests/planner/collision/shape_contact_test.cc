@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr double kHalf = 0.025;
 constexpr double kSkin = 2e-4;
 
-/// A cube of 50 mm about the origin.
+/// Return a cube of edge length 50 mm, centred at the origin.
 const BallContact& Cube() {
   static const BallContact cube(MakeCube(), kHalf);
   return cube;
@@ -122,7 +122,7 @@ TEST(ShapeContactTest, AnEdgeOfTheSolidUnderASideIsFoundAndPushedOut) {
 }
 
 TEST(ShapeContactTest, OfManyContactsTheDeepestOfEachPlaceAreKept) {
-  // A cap of a ball, of many points.
+  // Spherical cap with many points.
   ConvexShape cap;
   cap.radius = kSkin;
   constexpr double kRadius = 0.02;
@@ -146,7 +146,7 @@ TEST(ShapeContactTest, OfManyContactsTheDeepestOfEachPlaceAreKept) {
   }
 }
 
-/// By another route: bounds on the distances of the triangles.
+/// Independent calculation: bounds of the distances to the triangles.
 TEST(ShapeContactTest, TheNearestPlaceIsAsFarAsTheNearestTriangle) {
   RandomStream random(1, RandomUse::kTrialContacts);
   int checked = 0;

@@ -13,7 +13,7 @@ namespace surface_tree_test {
 
 using Eigen::Vector3d;
 
-/// Against every triangle one by one.
+/// Comparison with a linear search over all triangles.
 TEST(SurfaceTreeTest, DistancesAreThoseOfAllTriangles) {
   for (const char* name : {"models/mug500.obj", "models/l_block.obj"}) {
     const object::ObjectFile file = object::ReadObject(ProjectPath(name));

@@ -8,19 +8,20 @@
 namespace regrasp::criteria {
 namespace clearance_test {
 
-/// An L with its inner corner at (1, 1); its edges from (1, 1) go up and to the right.
+/// Return an L-shaped polygon with its inner corner at (1, 1). The edges from (1, 1) extend upwards
+/// and to the right.
 object::Polygon MakeL() {
   return object::Polygon::FromRings({{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}}, "L");
 }
 
-/// On the edge from (2, 1) to (1, 1), a distance from its end in the inner corner.
+/// Return a contact on the edge from (2, 1) to (1, 1), at a distance from the inner corner.
 grasp::Contact NearInnerCorner(const object::Polygon& polygon, double distance) {
   return {{1 + distance, 1, 0}, polygon.inward_normal(FaceIndex(2)), FaceIndex(2)};
 }
 
 TEST(FingertipClearance, EndsWhereTheBallTouchesTheOtherSideOfAConcaveCorner) {
   const object::Polygon polygon = MakeL();
-  // At a right angle the ball's radius is the distance.
+  // At a right angle the sphere's radius equals the distance from the corner.
   const double radius = kFingertipClearance * polygon.diameter();
   EXPECT_FALSE(HasClearance(polygon, NearInnerCorner(polygon, 0)));
   EXPECT_FALSE(HasClearance(polygon, NearInnerCorner(polygon, 0.99 * radius)));

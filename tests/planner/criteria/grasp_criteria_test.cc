@@ -12,7 +12,7 @@ namespace grasp_criteria_test {
 
 class GraspCriteriaTest : public testing::Test {
  protected:
-  /// Fingers of the unit square's bottom and top, so far apart along them.
+  /// Return contacts on the bottom and top of the unit square, displaced along them by `lean`.
   [[nodiscard]] grasp::Grasp Leaning(double lean) const {
     return {{{0.5 - lean / 2, 0, 0}, square_.inward_normal(FaceIndex(0)), FaceIndex(0)},
             {{0.5 + lean / 2, 1, 0}, square_.inward_normal(FaceIndex(2)), FaceIndex(2)}};

@@ -10,7 +10,7 @@
 namespace regrasp::criteria {
 namespace grasp_evaluator_test {
 
-/// Contacts at shares of the unit square's width.
+/// Return contacts on bottom and top, at shares of the unit square's width.
 grasp::Grasp Across(const object::Polygon& square, double bottom, double top) {
   return {{{bottom, 0, 0}, square.inward_normal(FaceIndex(0)), FaceIndex(0)},
           {{top, 1, 0}, square.inward_normal(FaceIndex(2)), FaceIndex(2)}};
@@ -37,7 +37,7 @@ TEST(GraspEvaluator, ScoresGraspsBelowTheQualityNegativelyByTheirQuality) {
   const grasp::Grasp open = Across(square, 0.2, 0.8);
   EXPECT_FALSE(evaluator.IsGood(open));
   EXPECT_EQ(evaluator.Score(open), -1);
-  // Asked for nothing, the weak grasp is good.
+  // Without a required quality the weak grasp is good.
   EXPECT_TRUE(GraspEvaluator(square, {Radians(30), 0}).IsGood(weak));
   EXPECT_GT(GraspEvaluator(square, {Radians(30), 0}).Score(weak), 0);
 }
@@ -96,7 +96,7 @@ TEST(GraspEvaluator, OnlyGoodGraspsHaveAMargin) {
   const GraspEvaluator evaluator(square, {Radians(30), 0.01});
   const grasp::Grasp good = Across(square, 0.4, 0.6);
   EXPECT_EQ(evaluator.Margin(good), evaluator.Score(good));
-  EXPECT_EQ(evaluator.Margin(Across(square, 0.22, 0.79)), std::nullopt);  // poor
+  EXPECT_EQ(evaluator.Margin(Across(square, 0.22, 0.79)), std::nullopt);  // insufficient quality
   EXPECT_EQ(evaluator.Margin(Across(square, 0.2, 0.8)), std::nullopt);    // not force closure
 }
 

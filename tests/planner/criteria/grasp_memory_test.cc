@@ -20,7 +20,7 @@ object::Polygon UnitSquare() {
   return object::Polygon::FromRings({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, "square");
 }
 
-/// Contacts at kSteps places of the bottom of the unit square, then as many of its top.
+/// Return contacts at kSteps positions on the bottom of the unit square, then as many on its top.
 std::vector<grasp::Contact> BottomAndTop(const object::Polygon& square) {
   std::vector<grasp::Contact> contacts;
   for (const FaceIndex face : {FaceIndex(0), FaceIndex(2)}) {
@@ -40,7 +40,7 @@ class GraspMemoryTest : public testing::Test {
     memory.Append(contacts_);
     return memory;
   }
-  /// Pairs of contacts, also at one face or one place.
+  /// Return all pairs of contacts, including pairs on one face or at one point.
   [[nodiscard]] std::vector<ContactSet> Pairs() const {
     std::vector<ContactSet> pairs;
     for (int a = 0; a < static_cast<int>(contacts_.size()); ++a) {
@@ -74,7 +74,7 @@ TEST_F(GraspMemoryTest, AdmitsWhatMeetsTheCriteriaAndTestsEachGraspOnce) {
   }
   EXPECT_GT(good, 10);
   EXPECT_GT(weak, 3);
-  // By numbers once, without numbers in both rounds.
+  // Each grasp is tested once by its numbers, and in both rounds without numbers.
   EXPECT_EQ(memory.counts().force_closure, 3 * std::ssize(Pairs()));
 }
 
@@ -83,12 +83,12 @@ TEST_F(GraspMemoryTest, KnowsAtOneFrictionAndQualityWhatItSawAtOthers) {
   for (const ContactSet& pair : Pairs()) (void)memory.Admits(pair);
   const auto tests = memory.counts().force_closure;
   const auto criteria = memory.counts().criteria;
-  // Less quality: force closure is known; with none nothing is asked.
+  // Lower quality: force closure is known, and without a required quality there is no other test.
   memory.SetShare(0);
   for (const ContactSet& pair : Pairs()) EXPECT_EQ(memory.Admits(pair), IsGood(pair, 20, 0));
   EXPECT_EQ(memory.counts().force_closure, tests);
   EXPECT_EQ(memory.counts().criteria, criteria);
-  // More friction: only grasps that did not hold are tested.
+  // More friction: only grasps that were not force closure are tested.
   memory.SetHalfAngle(Radians(30));
   int more = 0;
   for (const ContactSet& pair : Pairs()) {
@@ -96,7 +96,7 @@ TEST_F(GraspMemoryTest, KnowsAtOneFrictionAndQualityWhatItSawAtOthers) {
     more += IsGood(pair, 20, 0) ? 0 : 1;
   }
   EXPECT_EQ(memory.counts().force_closure, tests + more);
-  // And back.
+  // Back to the initial friction.
   memory.SetHalfAngle(Radians(20));
   for (const ContactSet& pair : Pairs()) EXPECT_EQ(memory.Admits(pair), IsGood(pair, 20, 0));
   EXPECT_EQ(memory.counts().force_closure, tests + more);
@@ -114,7 +114,7 @@ TEST_F(GraspMemoryTest, AcceptsTheEndsOfASequenceWhateverTheyAreWorth) {
 
 TEST_F(GraspMemoryTest, AdmitsNoGraspWhoseFingersOverlap) {
   const double step = 1 / (kSteps + 1.0);
-  // Two contacts of the bottom and one of the top between them.
+  // Two contacts on the bottom, and one on the top between them.
   const ContactSet triple = ContactSet().With(3).With(4).With(kSteps + 3);
   EXPECT_TRUE(Memory(20, 0, {.fingertip_radius = 0.49 * step}).Admits(triple));
   GraspMemory thick = Memory(20, 0, {.fingertip_radius = 0.51 * step});

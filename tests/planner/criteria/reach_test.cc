@@ -15,7 +15,7 @@ namespace reach_test {
 
 using Eigen::Vector3d;
 
-/// The contact at `p` on the face whose inward normal is `n`.
+/// Return the contact at `p` on the face whose inward normal is `n`.
 grasp::Contact At(const object::Object& object, const Vector3d& p, const Vector3d& n) {
   for (const FaceIndex face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
     if ((object.inward_normal(face) - n).norm() < 1e-9) return {p, n, face};
@@ -57,7 +57,7 @@ TEST(Reach, SaysWhatFitsOrHowFarTheWayIsFree) {
   const object::Polyhedron ring = MakeRing();
   const grasp::Contact inside = At(ring, {1, 0, 0.5}, {1, 0, 0});
   EXPECT_FALSE(FindObstacle(ring, At(ring, {3, 0, 0.5}, {-1, 0, 0}), 0.5).has_value());
-  // Between the walls, 2 apart, a ball of radius 0.1 can go 1.8.
+  // Between walls at distance 2, a sphere of radius 0.1 can move 1.8.
   const std::string obstacle = FindObstacle(ring, inside, 0.1).value_or("");
   EXPECT_NE(obstacle.find("1.8 of free path"), std::string::npos) << obstacle;
   const std::string ball = FindObstacle(ring, inside, 1.25).value_or("");
@@ -106,14 +106,14 @@ TEST(Reach, NoFingerComesIntoASealedCavityHoweverThin) {
               "its contact is in a sealed cavity, which no finger reaches from outside");
     EXPECT_TRUE(CanReach(hollow, outside, radius));
   }
-  // A hole of a polygon is a hole through a prism: fingers come from above.
+  // A hole of a polygon is a hole through a prism, which a finger can enter from above.
   const object::Polygon frame = object::Polygon::FromRings(
       {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {3, 1}, {3, 3}, {1, 3}}}, "frame");
   EXPECT_TRUE(CanReach(frame, At(frame, {2, 1, 0}, {0, -1, 0}), 0));
 }
 
-/// The least distance of any of `samples` points of the faces but the contact's own from the
-/// segment about which the finger sweeps.
+/// Return the least distance of sampled points from the axis of the finger's swept volume.
+/// The points are on all faces but the contact's own.
 double SampledClearance(const object::Polyhedron& body, const grasp::Contact& contact,
                         double radius, std::mt19937_64& random) {
   constexpr int kSamples = 4000;
@@ -152,8 +152,8 @@ TEST(Reach, AgreesWithSampledPointsOfTheSurface) {
                                           v * (body.vertices()[k] - body.vertices()[i]),
                                       body.inward_normal(face), face};
       const double radius = 0.02 + 0.5 * uniform(random);
-      // Sampled points lie on the surface: one inside the capsule refutes, and where even a capsule
-      // that is thicker by the samples' spacing holds none, nothing else does.
+      // A sampled point inside the capsule proves that the contact is out of reach. If even a
+      // capsule enlarged by the samples' spacing contains no point, the contact is reachable.
       constexpr double kSpacing = 0.15;
       const double clearance = SampledClearance(body, contact, radius, random);
       if (clearance < radius * (1 - 1e-9)) {

@@ -372,7 +372,7 @@ TEST(FindGaitTest, TheNumberOfHoldingFingersMayChange) {
   }
 }
 
-/// Two fingertips do not balance a sliding third one, so none slides if the hand is simulated.
+/// A sliding finger requires three other holding fingers: two fingertips do not balance it.
 TEST(FindGaitTest, WithSimulationAFingerSlidesBesideThreeOthersOnly) {
   const ThreeAndFour grasps = FindThreeAndFour();
   ASSERT_EQ(grasps.four.size(), 4U);

@@ -145,7 +145,7 @@ double TurnIn(const plan::Step& step) {
 
 TEST(ScheduleTest, TheResultIsThePlanThatExecutedInSimulation) {
   GaitRequest request = RequestFor("cube", 0.8, 180);
-  // A finger that the unrestricted plan places and the simulator rejects.
+  // Finger that the unrestricted plan places and the simulator rejects.
   FingerIndex never_placed;
   const auto places_it = [&](const plan::Step& step) { return PlacesFinger(step, never_placed); };
   const auto is_placed = [&] {

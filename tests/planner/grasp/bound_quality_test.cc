@@ -21,10 +21,11 @@ namespace regrasp::grasp {
 namespace bound_quality_test {
 
 constexpr double kGap = 0.01;
-/// Created facets for four contacts: what limits the time, the same on every machine.
+/// Limit of created facets of the hull for four contacts. It limits the time identically on every
+/// machine.
 constexpr int kFewFacets = 30'000;
 
-/// The support of the wrench set along a unit twist, written out once more.
+/// Compute the support of the wrench set along a unit twist, independently of the library.
 double Support(const Grasp& grasp, const object::WrenchFrame& frame, double half_angle,
                const Eigen::Matrix<double, 6, 1>& y) {
   double best = 0;
@@ -39,7 +40,7 @@ double Support(const Grasp& grasp, const object::WrenchFrame& frame, double half
   return best;
 }
 
-/// The least support over random twists, each followed downhill by random steps.
+/// Return the least support over random twists, each improved by random descent steps.
 double LeastSupport(const Grasp& grasp, double half_angle, RandomGrasps& random) {
   double least = std::numeric_limits<double>::infinity();
   for (int start = 0; start < 100; ++start) {
@@ -59,8 +60,8 @@ double LeastSupport(const Grasp& grasp, double half_angle, RandomGrasps& random)
   return least;
 }
 
-/// The ball in Qhull's hull of pyramids of `sides` sides.
-/// @param outside  whether the pyramids contain the cones instead of lying in them.
+/// Compute the quality by Qhull's hull of pyramids with `sides` sides.
+/// @param outside  true: the pyramids contain the cones; false: they are inscribed.
 double QualityOfPyramids(const Grasp& grasp, double half_angle, int sides, bool outside) {
   const double mu = std::tan(half_angle) / (outside ? std::cos(std::numbers::pi / sides) : 1);
   Eigen::MatrixXd wrenches(6, 1 + sides * static_cast<int>(grasp.size()));
@@ -83,7 +84,7 @@ double QualityOfPyramids(const Grasp& grasp, double half_angle, int sides, bool 
   return least;
 }
 
-/// Four, six and three contacts with many equal minima and coplanar wrenches.
+/// Return grasps of four, six and three contacts with many equal minima and coplanar wrenches.
 std::vector<std::pair<std::string, Grasp>> SymmetricGrasps() {
   std::vector<std::pair<std::string, Grasp>> grasps(4);
   const auto add = [](Grasp& to, const Eigen::Vector3d& p) { to.push_back({p, -p.normalized()}); };
@@ -107,7 +108,7 @@ std::vector<std::pair<std::string, Grasp>> SymmetricGrasps() {
   return grasps;
 }
 
-/// Bounds by the hull itself: these tests must not see the answer of ComputeQuality instead.
+/// Compute bounds by the hull itself, because ComputeQuality may use another method.
 QualityBounds Bound(const Grasp& grasp, const object::WrenchFrame& frame, double half_angle,
                     double gap = kGap) {
   const auto bounds = BoundQualityByHull(grasp, frame, half_angle, gap);
@@ -162,11 +163,11 @@ TEST(BoundQualityTest, LiesBetweenDensePyramidsInsideAndOutsideTheCones) {
     const double half_angle = Radians(random.Uniform(15, 35));
     if (!IsForceClosure(grasp, UnitFrame(3), half_angle)) continue;
     const QualityBounds bounds = Bound(grasp, UnitFrame(3), half_angle);
-    if (bounds.upper < 0.01) continue;  // the pyramids are too far from it
+    if (bounds.upper < 0.01) continue;  // the pyramids are too inaccurate there
     ++checked;
     EXPECT_GE(bounds.upper, QualityOfPyramids(grasp, half_angle, 16, false) - 1e-6);
     EXPECT_LE(bounds.lower, QualityOfPyramids(grasp, half_angle, 16, true) + 1e-6);
-    // Pyramids of four sides are so far off that the comparison can fail.
+    // Pyramids with four sides are so inaccurate that the comparison can fail.
     EXPECT_GT(bounds.lower, QualityOfPyramids(grasp, half_angle, 4, false));
   }
   EXPECT_EQ(checked, 6);
@@ -225,7 +226,7 @@ TEST(BoundQualityTest, OrderRigidMotionAndUnitDoNotMatterAndMoreIsNeverWorse) {
     Grasp more = grasp;
     more.push_back(random.OnBall(1, 3).front());
     EXPECT_GE(Bound(more, UnitFrame(3), half_angle).upper, bounds.lower);
-    // A control: so much less friction is a smaller quality by more than the gap.
+    // Negative control: less friction reduces the quality by more than the gap.
     const QualityBounds less = BoundQuality(grasp, UnitFrame(3), 0.8 * half_angle);
     EXPECT_LT(less.upper, bounds.lower);
   }
@@ -233,7 +234,7 @@ TEST(BoundQualityTest, OrderRigidMotionAndUnitDoNotMatterAndMoreIsNeverWorse) {
 }
 
 TEST(BoundQualityTest, SoftFingersAreBoundedToo) {
-  // Two opposed soft fingers: the torque about their line is the weakest, μ · torsion over two.
+  // Two opposed soft fingers resist the torque about their line least: μ · torsion / 2.
   for (const double torsion : {0.01, 0.1}) {
     Grasp grasp{{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}};
     for (Contact& contact : grasp) contact.torsion = torsion;

@@ -11,7 +11,8 @@
 namespace regrasp::grasp {
 namespace convex_hull_test {
 
-/// The corners of the cross-polytope of so many dimensions, one on each half-axis, and its centre.
+/// Return the corners of the cross-polytope of this dimension, one on each half-axis, and its
+/// centre.
 Eigen::MatrixXd CrossPolytopeAndCentre(int dimension) {
   Eigen::MatrixXd points = Eigen::MatrixXd::Zero(dimension, 2 * dimension + 1);
   for (int axis = 0; axis < dimension; ++axis) {
@@ -21,7 +22,8 @@ Eigen::MatrixXd CrossPolytopeAndCentre(int dimension) {
   return points;
 }
 
-/// How far a point may lie beyond a facet: what the input was joggled by, both ways.
+/// Return the distance by which a point may be beyond a facet of the hull: twice the joggle of the
+/// input.
 double SlackOf(const ConvexHull& hull) { return 2 * hull.joggle + 1e-12; }
 
 TEST(ConvexHull, ACrossPolytopeHasAFacetInEachOrthant) {

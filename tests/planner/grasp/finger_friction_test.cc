@@ -44,7 +44,8 @@ TEST(FingerFrictionTest, AFingerThatIsNotNeededNeedsNoFriction) {
 }
 
 TEST(FingerFrictionTest, WhereNoFingerIsNeededTheOneWhoseLossCostsMostIsTheWeakest) {
-  // Two pairs, of which the second leans more; without a finger of the first the second must hold.
+  // Two pairs, of which the second has the larger required friction. Without a finger of the first
+  // pair, the second must hold.
   const Grasp grasp = {{{-1, 0, 0}, Direction(3)},
                        {{1, 0, 0}, Direction(180)},
                        {{0, -1, 0}, Direction(90 + 9)},
@@ -95,7 +96,7 @@ TEST(FingerFrictionTest, RandomGraspsInSpaceObeyTheLaws) {
       EXPECT_LE(wider[finger].required, fingers[finger].required + 1e-8);
       EXPECT_NEAR(turned[finger].required, fingers[finger].required, 1e-6);
     }
-    // At the critical friction some finger has nothing to spare.
+    // At the required friction angle one of the fingers has no friction margin.
     const auto critical = MeasureFingerFriction(grasp, frame, required->upper);
     ASSERT_EQ(critical.size(), 4u);
     EXPECT_NEAR(critical[WeakestFinger(critical)].required, required->upper, 1e-5);
@@ -103,7 +104,7 @@ TEST(FingerFrictionTest, RandomGraspsInSpaceObeyTheLaws) {
   EXPECT_GT(checked, 10);
 }
 
-/// Of a random body and of one whose fingers are equal in pairs.
+/// Return a random grasp, or one whose fingers are equal in pairs.
 Grasp SomeGrasp(RandomGrasps& random, int trial, int dimension) {
   const int count = 2 + trial % 4;
   if (trial % 3 != 0) return random.OnBall(count, dimension);

@@ -16,7 +16,7 @@ namespace regrasp::grasp {
 namespace force_closure_test {
 
 constexpr int kSides = 64;
-/// GLPK's own feasibility tolerance is 1e-7: margins within this say nothing.
+/// Feasibility tolerance of GLPK is 1e-7, so margins below this are not significant.
 constexpr double kProgramTolerance = 1e-6;
 
 bool PyramidForceClosure(const Grasp& grasp, int dimension, double half_angle, bool circumscribed) {
@@ -40,7 +40,7 @@ struct Agreement {
   int between = 0;
 };
 
-/// Compares with both pyramids; what lies between them proves nothing.
+/// Compare with both pyramids. A grasp between the two pyramids is not decided.
 void Compare(const Grasp& grasp, int dimension, double half_angle, Agreement& agreement) {
   const ForceClosure answer = TestForceClosure(grasp, UnitFrame(dimension), half_angle);
   EXPECT_LE(answer.margin_lower, answer.margin_upper);
@@ -68,7 +68,8 @@ TEST(ForceClosureTest, AgreesWithInscribedAndCircumscribedPyramidsInSpace) {
   }
   EXPECT_GT(agreement.yes, 300);
   EXPECT_GT(agreement.no, 300);
-  // In the gap of the pyramids, or where two contacts balance alone and GLPK's margin is 0.
+  // Grasps between the two pyramids, and grasps in which two contacts balance alone and the margin
+  // of GLPK is 0.
   EXPECT_LT(agreement.between, 40);
   RecordProperty("between", agreement.between);
 }
@@ -87,7 +88,7 @@ TEST(ForceClosureTest, AgreesWithTheLinearProgramInThePlane) {
   EXPECT_LT(agreement.between, 20);
 }
 
-/// Four fingers around the equator of a ball, tetrahedra, …: named grasps of known answer.
+/// Named grasps with a known answer: four fingers around the equator of a sphere, tetrahedra, …
 Grasp Tetrahedron() {
   Grasp grasp;
   for (const Eigen::Vector3d& corner : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, -1, -1),
@@ -120,12 +121,13 @@ TEST(ForceClosureTest, CollinearContactsInSpaceAreNever) {
 }
 
 TEST(ForceClosureTest, AContactVeryFarAwayNeverMakesADefiniteNo) {
-  // The four contacts hold without the fifth, so no answer may be no, however far that is.
+  // The other four contacts are force closure, so the answer must not be no, at any distance of the
+  // fifth.
   for (const double distance : {1e5, 1e8, 1e10, 1e13, 1e16, 1e100, 1e160, 1e300}) {
     Grasp grasp = Tetrahedron();
     grasp.push_back({{distance, 0, 0}, {-1, 0, 0}});
     EXPECT_NE(Decide(grasp, 3, Radians(30)), Decision::kNo) << distance;
-    // All four forces still meet in one point, so the four hold, too.
+    // All four forces still intersect in one point, so the four contacts are force closure too.
     grasp.pop_back();
     grasp[3].p *= distance;
     EXPECT_NE(Decide(grasp, 3, Radians(30)), Decision::kNo) << distance;
@@ -134,13 +136,13 @@ TEST(ForceClosureTest, AContactVeryFarAwayNeverMakesADefiniteNo) {
   Grasp small = Tetrahedron();
   for (Contact& contact : small) contact.p *= 1e-200;
   EXPECT_NE(Decide(small, 3, Radians(30)), Decision::kNo);
-  // The controls: a tenth of a millimetre from each other is resolved, and no is no.
+  // Positive controls: a distance of 0.1 mm is resolved, with the answer no.
   Grasp near{{{0, 0, 0}, {1, 0, 0}},
              {{0, 1e-4, 0}, {1, 0, 0}},
              {{1, 0, 0}, {1, 0, 0}},
              {{0, 1, 0}, {1, 0, 0}}};
   EXPECT_EQ(Decide(near, 3, Radians(30)), Decision::kNo);
-  near[1].p.y() = 0;  // coincident contacts are one
+  near[1].p.y() = 0;  // coincident contacts count as one
   EXPECT_EQ(Decide(near, 3, Radians(30)), Decision::kNo);
 }
 
@@ -150,7 +152,8 @@ TEST(ForceClosureTest, ThreeCollinearContactsAndOneBesideTheirLineAreNever) {
               {{1, 0, 0}, {-1, 0, 0}},
               {{0, 1, 0.2}, {0, -0.6, 0.8}}};
   EXPECT_EQ(Decide(grasp, 3, Radians(30)), Decision::kNo);
-  // The control: the fourth contact's cone contains the line's direction about which it turned.
+  // Positive control: the fourth contact's cone contains the direction of the line, so that it
+  // resists the rotation.
   grasp[3].n = Eigen::Vector3d(0, -1, -0.2).normalized();
   EXPECT_EQ(Decide(grasp, 3, Radians(30)), Decision::kYes);
 }
@@ -166,16 +169,17 @@ TEST(ForceClosureTest, OneContactAndCoincidentContactsAreNever) {
 }
 
 TEST(ForceClosureTest, TwoBalancingContactsDoNotHelpWhereTheOthersPushTheSameWayAboutTheirLine) {
-  // Fingers 0 and 1 squeeze along x; 2 and 3 touch the top and turn the object the same way.
+  // Fingers 0 and 1 press along x. Fingers 2 and 3 touch the top and rotate the object in the same
+  // direction.
   Grasp grasp{{{-1, 0, 0}, {1, 0, 0}},
               {{1, 0, 0}, {-1, 0, 0}},
               {{-0.3, 0.8, 1}, {0, 0, -1}},
               {{0.4, 0.9, 1}, {0, 0, -1}}};
   EXPECT_EQ(Decide(grasp, 3, Radians(20)), Decision::kNo);
-  // The control: finger 3 on the other side of the line.
+  // Positive control: finger 3 on the other side of the line.
   grasp[3].p.y() = -0.9;
   EXPECT_EQ(Decide(grasp, 3, Radians(20)), Decision::kYes);
-  // And with more friction the force of finger 2 reaches across the line.
+  // With more friction the force of finger 2 reaches across the line.
   grasp[3].p.y() = 0.9;
   EXPECT_EQ(Decide(grasp, 3, Radians(45)), Decision::kYes);
 }
@@ -188,7 +192,8 @@ TEST(ForceClosureTest, CoplanarContactsCanBeForceClosureInSpace) {
     grasp.push_back({p, -p});
   }
   EXPECT_EQ(Decide(grasp, 3, Radians(5)), Decision::kYes);
-  // Bent out of the plane by more than the cone, all push upwards.
+  // If the normals tilt out of the plane by more than the cone, all forces have an upward
+  // component.
   for (Contact& contact : grasp) {
     contact.n = (contact.n + std::tan(Radians(6)) * Eigen::Vector3d::UnitZ()).normalized();
   }
@@ -216,7 +221,7 @@ TEST(ForceClosureTest, PlanarFourFingersOnASquareAreForceClosureThoughColumnsAre
   }
 }
 
-/// Calls `check` with random grasps in space and in the plane, about half of them force closure.
+/// Call `check` with random grasps in space and in the plane, about half of them force closure.
 template <typename Check>
 void ForManyGrasps(unsigned seed, Check check) {
   RandomGrasps random(seed);
@@ -269,7 +274,7 @@ TEST(ForceClosureTest, MoreFrictionAndMoreContactsNeverTurnYesIntoNo) {
 }
 
 TEST(ForceClosureTest, NoFamilyOfGridGraspsIsLeftUndecidedWhereItHolds) {
-  // Fingers on a coarse grid of a cube: antipodal pairs, coplanar and collinear ones in plenty.
+  // Fingers on a coarse grid of a cube: many antipodal, coplanar and collinear contacts.
   RandomGrasps random(7);
   int yes = 0;
   for (int trial = 0; trial < 1500; ++trial) {
@@ -284,7 +289,7 @@ TEST(ForceClosureTest, NoFamilyOfGridGraspsIsLeftUndecidedWhereItHolds) {
 }
 
 TEST(ForceClosureTest, WhatIsTooCloseToCallIsNotForceClosure) {
-  // Two opposite fingers, the line through them on the border of both cones.
+  // Two opposite fingers; the line through them is on the boundary of both cones.
   int too_close = 0;
   for (int i = 1; i <= 50; ++i) {
     const double slope = 0.02 * i;

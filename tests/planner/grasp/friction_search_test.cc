@@ -16,7 +16,7 @@
 namespace regrasp::grasp {
 namespace friction_search_test {
 
-/// Sums of unit forces and their torques are balanced, and twists separate, up to this.
+/// Tolerance for the balance of unit forces with their torques, and for the separation by twists.
 constexpr double kRounding = 1e-9;
 
 UnitContacts Draw(RandomGrasps& random, int trial, int dimension) {
@@ -35,7 +35,7 @@ void SetAngle(UnitContact& contact, double half_angle) {
   contact.tangential = std::sin(half_angle);
 }
 
-/// An angle near the last one, as where an interval is halved, or any.
+/// Return an angle near the last one, as in a bisection, or any angle.
 double NextAngle(RandomGrasps& random, double last) {
   const double step = std::pow(10, random.Uniform(-9, 0));
   return std::clamp(last + random.Uniform(-step, step), 1e-3, 1.5);
@@ -45,8 +45,8 @@ struct Agreement {
   int yes = 0, no = 0, too_close = 0;
 };
 
-/// Whatever was asked before, each answer is that of a decision by itself, unless one of the two is
-/// too close to call.
+/// Expect that each answer equals that of a separate decision, whatever the earlier queries, unless
+/// one of the two is too close to call.
 template <int kDim>
 Agreement ExpectEachAsByItself(bool all) {
   RandomGrasps random(all ? 41 : 42);
@@ -86,8 +86,8 @@ TEST(FrictionSearchTest, EachAnswerIsThatOfADecisionByItself) {
   }
 }
 
-/// What the columns of a resumed simplex prove: forces in the cones that balance, or a twist
-/// against which all cones work.
+/// Expect that the columns of a resumed simplex are a proof: forces in the cones that balance, or a
+/// twist on which all cones do positive work.
 template <int kDim>
 void ExpectProof(const WrenchSimplex<kDim>& simplex, const UnitContacts& contacts,
                  typename WrenchSimplex<kDim>::Status status,
@@ -138,12 +138,12 @@ TEST(WrenchSimplexTest, WhatItFindsWhenResumedIsAProof) {
   }
   EXPECT_GT(feasible, 1000);
   EXPECT_GT(infeasible, 300);
-  // Rims turn by up to a radian here, of grasps in which contacts are opposite each other, too.
+  // Here rims rotate by up to a radian, also in grasps with opposite contacts.
   EXPECT_LT(stalled, (feasible + infeasible) / 5);
 }
 
 TEST(WrenchSimplexTest, IsNotResumedWithoutWeights) {
-  // All normals point up: nothing presses down.
+  // All normals point up: no force points down.
   const Grasp grasp{{{1, 0, 0}, {0, 0, 1}}, {{-1, 1, 0}, {0, 0, 1}}, {{0, -1, 0}, {0, 0, 1}}};
   UnitContacts contacts = MakeUnitContacts(grasp, ContactFrame(grasp, 3));
   SetUnitForces(contacts, Radians(20));

@@ -14,8 +14,8 @@
 namespace regrasp::grasp {
 namespace grasp_forces_test {
 
-constexpr double kTotal = 7.5;      // newtons, the total normal force of these tests
-constexpr double kRounding = 1e-9;  // newtons, far above what 60 pivots lose
+constexpr double kTotal = 7.5;      // total normal force in these tests, N
+constexpr double kRounding = 1e-9;  // N, far above the rounding error of 60 pivots
 
 Wrench RandomLoad(RandomGrasps& random, int dimension, double size) {
   Wrench load;
@@ -36,7 +36,7 @@ double Unbalanced(const Grasp& grasp, const object::WrenchFrame& frame, const Gr
   return force.norm() + torque.norm();
 }
 
-/// How much normal force the force has to spare inside the cone; negative outside.
+/// Return the normal component of the distance to the boundary of the cone; negative outside.
 double Spare(const Contact& contact, const Eigen::Vector3d& force, double half_angle) {
   const double normal = contact.n.dot(force);
   return normal - (force - normal * contact.n).norm() / std::tan(half_angle);
@@ -124,20 +124,22 @@ TEST(GraspForcesTest, TwoOpposedFingersPressEquallyAndCarryALoadByFriction) {
 }
 
 TEST(GraspForcesTest, BestEffortUsesWhatTheConesAllow) {
-  // Two fingers that slip: offset 1 over width 2 needs 26.6°. All they can do is to lean.
+  // Two fingers that slip: an offset of 1 over a width of 2 requires 26.6°. The best forces are on
+  // the boundary of the cones.
   const Grasp grasp{{{-1, -0.5, 0}, {1, 0, 0}}, {{1, 0.5, 0}, {-1, 0, 0}}};
   const GraspForces result = ComputeGraspForces(grasp, UnitFrame(2), Radians(20), {}, 10);
   EXPECT_FALSE(result.balanced);
   const GraspForces enough = ComputeGraspForces(grasp, UnitFrame(2), Radians(27), {}, 10);
   EXPECT_TRUE(enough.balanced);
-  // Forces cancel; the torque left is (offset − width tan θ) · 5 N over R = 1.
+  // Forces cancel; the remaining torque is (offset − width tan θ) · 5 N over R = 1.
   EXPECT_NEAR(Unbalanced(grasp, UnitFrame(2), result, {}), 5 - 10 * std::tan(Radians(20)), 1e-6);
 }
 
-/// Forces for one sum of normal forces and those for another one are, by halves, forces for the
-/// mean of both: what the least effort leaves unbalanced is convex in the sum.
+/// The average of forces for two sums of normal forces is valid for the average sum. Hence the
+/// least unbalanced part is a convex function of the sum.
 TEST(GraspForcesTest, WhatTheBestEffortLeavesUnbalancedIsConvexInTheSumOfNormalForces) {
-  constexpr double kNearest = 1e-5;  // of the best efforts, each found to 1e-6 of itself
+  // of the least unbalanced parts, whose relative precision is 1e-6
+  constexpr double kNearest = 1e-5;
   RandomGrasps random(77);
   int best_efforts = 0;
   for (int trial = 0; trial < 600; ++trial) {

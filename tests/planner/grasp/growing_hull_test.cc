@@ -11,7 +11,7 @@
 namespace regrasp::grasp {
 namespace growing_hull_test {
 
-/// Points on the unit sphere in kDim dimensions, pulled towards the origin by up to a half.
+/// Return points on the unit sphere in kDim dimensions, moved towards the origin by up to a half.
 template <int kDim>
 Eigen::MatrixXd RandomPoints(int count, unsigned seed) {
   std::mt19937_64 engine(seed);
@@ -25,8 +25,8 @@ Eigen::MatrixXd RandomPoints(int count, unsigned seed) {
   return points;
 }
 
-/// Inserts the farthest point along the normal of the nearest facet until none is beyond it.
-/// @returns the nearest facet's distance, or −1 if the hull broke.
+/// Insert the farthest point along the normal of the nearest facet until no point is beyond it.
+/// @returns distance of the nearest facet, or −1 if the hull broke down.
 template <int kDim>
 double DistanceByGrowing(const Eigen::MatrixXd& points, GrowingHull<kDim>& hull) {
   hull.Start(1e-6);
@@ -54,7 +54,7 @@ void ExpectSameDistance(int count) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const Eigen::MatrixXd points = RandomPoints<kDim>(count, seed);
     const double expected = DistanceByQhull(points);
-    if (expected < 1e-3) continue;  // the origin is outside, or too near to the border
+    if (expected < 1e-3) continue;  // the origin is outside, or too close to the boundary
     ++inside;
     const double found = DistanceByGrowing<kDim>(points, hull);
     EXPECT_NEAR(found, expected, 2e-6) << kDim << " dimensions, seed " << seed;
@@ -72,7 +72,7 @@ TEST(GrowingHullTest, HasTheNearestFacetOfQhull) {
 }
 
 TEST(GrowingHullTest, SolvesPointsInManyCommonPlanes) {
-  // The corners of a cube, the middles of its edges and of its faces: all facets are degenerate.
+  // Corners of a cube, and the midpoints of its edges and faces: all facets are degenerate.
   Eigen::MatrixXd points(3, 26);
   int count = 0;
   for (int x = -1; x <= 1; ++x) {
@@ -104,7 +104,7 @@ TEST(GrowingHullTest, FacetsBeyondTheLimitAreNotFound) {
   GrowingHull<3> hull;
   hull.Start(1);
   hull.SetLimit(0.34);
-  EXPECT_TRUE(hull.Nearest());  // all are a third away
+  EXPECT_TRUE(hull.Nearest());  // all distances are 1/3
   hull.SetLimit(0.33);
   EXPECT_FALSE(hull.Nearest());
 }

@@ -20,9 +20,9 @@ namespace judge_grasps_test {
 
 constexpr int kContacts = 4;
 constexpr double kHalfAngle = 0.4;
-/// Several of the blocks that threads take.
+/// Number of grasps: several of the blocks that threads process.
 constexpr int kGrasps = 1000;
-/// Enough for both answers.
+/// Number of measured grasps, sufficient for both answers.
 constexpr int kMeasured = 50;
 
 class JudgeGraspsTest : public testing::Test {
@@ -66,7 +66,7 @@ TEST_F(JudgeGraspsTest, DecidesEachAsTheTestForOneDoes) {
     EXPECT_EQ(verdicts.force_closure[i].margin_upper, alone.margin_upper) << i;
     yes += alone.decision == Decision::kYes ? 1 : 0;
   }
-  EXPECT_GT(yes, kGrasps / 20);  // both answers are there
+  EXPECT_GT(yes, kGrasps / 20);  // both answers occur
   EXPECT_LT(yes, kGrasps - kGrasps / 20);
 }
 

@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 
 constexpr double kHalfAngle = Radians(20);
 constexpr double kSqueeze = 50;
-/// Far above the gap of the search, far below any load that is told apart.
+/// Tolerance of a load: far above the gap of the search, far below the difference of the tested
+/// loads.
 constexpr double kNear = 1e-7;
 
 const object::WrenchFrame kPlane{Vector3d::Zero(), 2, 2};
@@ -25,10 +26,10 @@ const object::WrenchFrame kSpace{Vector3d::Zero(), 2, 3};
 Wrench Force(double x, double y, double z) { return {{x, y, z}, Vector3d::Zero()}; }
 Wrench Torque(double x, double y, double z) { return {Vector3d::Zero(), {x, y, z}}; }
 
-/// Two fingers on a line through the origin, 1 from it.
+/// Return two fingers on a line through the origin, at distance 1 from it.
 Grasp Antipodal() { return {{{1, 0, 0}, {-1, 0, 0}}, {{-1, 0, 0}, {1, 0, 0}}}; }
 
-/// Four fingers on a cube of side 2, in the middle of the faces ±x and ±y.
+/// Return four fingers on a cube of side 2, in the middle of the faces ±x and ±y.
 Grasp FourOnACube() {
   return {{{1, 0, 0}, {-1, 0, 0}},
           {{-1, 0, 0}, {1, 0, 0}},
@@ -50,7 +51,7 @@ TEST(LargestLoadTest, APairInThePlaneBearsFrictionAcrossItsLineAndTheWholeSqueez
   for (const double sign : {1.0, -1.0}) {
     EXPECT_NEAR(Largest(Antipodal(), kPlane, {}, Force(sign, 0, 0)), 1, kNear);
     EXPECT_NEAR(Largest(Antipodal(), kPlane, {}, Force(0, sign, 0)), mu, kNear);
-    // Each finger gives μ/2 at a lever of 1; torques count over the radius 2.
+    // Each finger exerts μ/2 with a moment arm of 1. Torques are divided by the radius 2.
     EXPECT_NEAR(Largest(Antipodal(), kPlane, {}, Torque(0, 0, sign)), mu / 2, kNear);
   }
 }
@@ -61,7 +62,7 @@ TEST(LargestLoadTest, FourFingersOnACubeBearWhatTheirFrictionGives) {
     EXPECT_NEAR(Largest(FourOnACube(), kSpace, {}, Force(0, 0, sign)), mu, kNear);
     EXPECT_NEAR(Largest(FourOnACube(), kSpace, {}, Force(sign, 0, 0)), 1, kNear);
     EXPECT_NEAR(Largest(FourOnACube(), kSpace, {}, Torque(0, 0, sign)), mu / 2, kNear);
-    // About x only the fingers on ±y help: they take the whole squeeze.
+    // About x only the fingers on ±y contribute: they take the whole grasp force.
     EXPECT_NEAR(Largest(FourOnACube(), kSpace, {}, Torque(sign, 0, 0)), mu / 2, kNear);
   }
 }

@@ -14,10 +14,10 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 constexpr int kRows = 7;  // balance, and the sum of the normal forces
-/// Lower bound of the margin: any number below what a test compares with.
+/// Lower bound of the margin, below every number in the tests.
 constexpr double kLeastMargin = -1e3;
 
-/// A force and the torque about the contact's normal that goes with it.
+/// Force and its torque about the contact's normal.
 struct Edge {
   Eigen::Vector3d force;
   double torque = 0;
@@ -42,7 +42,7 @@ class Program {
     glp_set_row_bnds(problem_.get(), row, GLP_FX, value, value);
   }
 
-  /// A column with a wrench and a part of the sum of normal forces; its least value.
+  /// Add a column with a wrench, its contribution to the sum of normal forces, and its lower bound.
   int AddColumn(const Vector6& wrench, double normal, double least) {
     const int column = glp_add_cols(problem_.get(), 1);
     glp_set_col_bnds(problem_.get(), column, GLP_LO, least, 0);
@@ -70,9 +70,9 @@ class Program {
   std::unique_ptr<glp_prob, void (*)(glp_prob*)> problem_;
 };
 
-/// Points on the unit sphere, the poles and bands of them between. Some point is within an angle δ
-/// of every direction, δ half a band and half of what lies between two meridians, so that their
-/// hull contains the ball of radius cos δ.
+/// Return points on the unit sphere: the poles and bands between them.
+/// Every direction is within an angle δ of a point, composed of half a band and half of the spacing
+/// of two meridians. Hence the hull contains the ball of radius cos δ.
 std::vector<Eigen::Vector3d> SpherePoints(const Pyramid& pyramid) {
   const int bands = pyramid.sides / 2;
   const double apart = std::numbers::pi / bands;
@@ -91,7 +91,7 @@ std::vector<Eigen::Vector3d> SpherePoints(const Pyramid& pyramid) {
   return points;
 }
 
-/// Points on the unit circle, or farther out so that their polygon contains it.
+/// Return points on the unit circle, or outside it such that their polygon contains it.
 std::vector<Eigen::Vector3d> CirclePoints(const Pyramid& pyramid) {
   const double radius = pyramid.circumscribed ? 1 / std::cos(std::numbers::pi / pyramid.sides) : 1;
   std::vector<Eigen::Vector3d> points;
@@ -102,7 +102,8 @@ std::vector<Eigen::Vector3d> CirclePoints(const Pyramid& pyramid) {
   return points;
 }
 
-/// The edges of a contact's pyramid, of unit normal force; in the plane those of the cone itself.
+/// Return the edges of a contact's pyramid for unit normal force; in the plane those of the cone
+/// itself.
 std::vector<Edge> Edges(const Contact& contact, int dimension, double half_angle,
                         const Pyramid& pyramid) {
   const double tangential = std::tan(half_angle);

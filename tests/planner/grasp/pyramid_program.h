@@ -9,16 +9,17 @@
 
 namespace regrasp::grasp {
 
-/// Friction cones replaced by pyramids, solved by GLPK: a second route to what the library computes
-/// with true cones. Of a soft finger the pyramid is over a polyhedron of as many meridians and half
-/// as many bands instead of the ball of tangential forces and torques.
+/// Friction cones replaced by pyramids and solved by GLPK: an independent method for the results of
+/// the library with true cones.
+/// For a soft finger the ball of tangential forces and torques is replaced by a polyhedron, with as
+/// many meridians as sides and half as many bands.
 struct Pyramid {
   int sides;
-  bool circumscribed;  ///< contains the cone; otherwise inside it
+  bool circumscribed;  ///< true: contains the cone; false: inscribed
 };
 
-/// The largest m such that forces with Σ n·f = 1 balance `load` and every f_i − (m/k) n_i lies in
-/// its pyramid; m may be negative. nullopt where nothing balances.
+/// Return the largest m such that forces with Σ n·f = 1 balance `load` and every f_i − (m/k) n_i
+/// lies in its pyramid. m may be negative; nullopt if no forces balance.
 [[nodiscard]] std::optional<double> PyramidMargin(std::span<const Contact> contacts,
                                                   const object::WrenchFrame& frame,
                                                   double half_angle, const Pyramid& pyramid,

@@ -16,8 +16,8 @@ struct Counts {
   int missed = 0;
 };
 
-/// Asks one filter about many grasps, about each at two thresholds around its quality and at one
-/// that is the same for all.
+/// Query one filter about many grasps, each at two thresholds around its quality and at a common
+/// threshold.
 Counts Ask(int dimension, double half_angle, QualityFilter& filter) {
   constexpr double kSame = 0.05;
   RandomGrasps random(17);

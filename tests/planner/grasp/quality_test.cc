@@ -15,7 +15,7 @@
 namespace regrasp::grasp {
 namespace quality_test {
 
-/// The support of the wrench set in a direction, written out once more.
+/// Compute the support of the wrench set in a direction, independently of the library.
 double Support(const Grasp& grasp, const object::WrenchFrame& frame, double half_angle,
                const Eigen::Vector3d& v, const Eigen::Vector3d& omega) {
   double best = 0;
@@ -28,8 +28,9 @@ double Support(const Grasp& grasp, const object::WrenchFrame& frame, double half
 }
 
 TEST(QualityTest, TwoOpposedFingersInThePlaneHaveTheInradiusOfTheirTetrahedron) {
-  // Rim wrenches (1, ±μ, ∓μ) and (−1, ±μ, ±μ): a tetrahedron, whose facet through the first two
-  // and (−1, μ, μ) has the normal (μ, 1, 1) and the offset μ, the others by symmetry.
+  // The rim wrenches (1, ±μ, ∓μ) and (−1, ±μ, ±μ) form a tetrahedron. Its face through the first
+  // two and (−1, μ, μ) has the normal (μ, 1, 1) and the offset μ. The other faces follow by
+  // symmetry.
   for (const double degrees : {5.0, 20.0, 50.0}) {
     const double mu = std::tan(Radians(degrees));
     const Grasp grasp{{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}};
@@ -153,7 +154,7 @@ TEST(QualityTest, IsBoundedWithLittleWorkNearTheCriticalFriction) {
       EXPECT_GT(bounds.upper, 0);
       EXPECT_LT(bounds.upper, 1e-4);
       EXPECT_LE(bounds.upper - bounds.lower, std::max(kQualityGap, 0.01 * bounds.upper));
-      // Without kQualityGap some take 60,000 for digits that nobody asks for.
+      // Without kQualityGap some grasps create 60,000 facets for irrelevant digits.
       EXPECT_LT(bounds.facets, 40'000);
     }
     ++checked;
@@ -162,8 +163,8 @@ TEST(QualityTest, IsBoundedWithLittleWorkNearTheCriticalFriction) {
 }
 
 TEST(QualityTest, EndsItsWorkWithBoundsThatMayBeFarApart) {
-  // A gap that no rounding allows, and a set as round as this: without the limit on the work four
-  // times as much is done.
+  // The gap is below the rounding error, and the wrench set is almost round: without the limit the
+  // work is four times as much.
   RandomGrasps random(45);
   const Grasp grasp = random.OnBall(24, 3);
   const double half_angle = Radians(20);

@@ -13,7 +13,7 @@
 namespace regrasp::grasp {
 namespace required_half_angle_test {
 
-/// Well above what the bounds may differ by next to an angle that is too close to call.
+/// Tolerance, well above the differences of bounds next to an angle that is too close to call.
 constexpr double kClose = 1e-6;
 
 TEST(RequiredHalfAngleTest, TwoOppositeFingersNeedTheAngleOfTheirOffset) {
@@ -40,7 +40,8 @@ TEST(RequiredHalfAngleTest, ARegularTetrahedronNeedsNone) {
 }
 
 TEST(RequiredHalfAngleTest, ThreeBentFingersNeedTheirBend) {
-  // Three fingers on a circle, all bent upwards: they balance only once the cones reach down.
+  // Three fingers on a circle with normals tilted upwards: they balance only if the cones extend
+  // downwards.
   for (const double bend : {3.0, 20.0, 50.0}) {
     Grasp grasp;
     for (int i = 0; i < 3; ++i) {
@@ -102,7 +103,7 @@ TEST(RequiredHalfAngleTest, BetweenKnownBoundsItIsTheSame) {
     const RequiredHalfAngle narrowed = NarrowRequiredHalfAngle(grasp, frame, known, tolerance);
     EXPECT_NEAR(narrowed.lower, required->lower, kClose);
     EXPECT_NEAR(narrowed.upper, required->upper, kClose);
-    // One that needs less than what is known needs no more than that.
+    // If the grasp requires less than the known angle, that angle is not needed.
     const RequiredHalfAngle above{required->upper + tolerance, Radians(89)};
     EXPECT_LE(NarrowRequiredHalfAngle(grasp, frame, above, tolerance).upper,
               above.lower + tolerance);

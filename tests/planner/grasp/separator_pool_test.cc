@@ -40,7 +40,8 @@ bool HeldOff(const UnitContact& contact, const Twist& twist) {
   return ConeSupport(contact, Velocity<6>(contact, twist.data())) < 0;
 }
 
-/// What some of the twists hold off with the pair and the third, each asked alone.
+/// Return the contacts that no twist excludes together with the pair and the third contact, tested
+/// one by one.
 Word LeftOpenOneByOne(const UnitContacts& contacts, const std::vector<Twist>& twists, int third,
                       int word) {
   Word open = ~Word{0};
@@ -63,7 +64,7 @@ TEST(SeparatorPoolTest, LeavesOpenWhatNoTwistHoldsOff) {
   std::vector<Twist> twists;
   for (int i = 0; i < 40; ++i) {
     twists.push_back(RandomTwist(engine));
-    // Before and after the pair is fixed makes no difference.
+    // The result is the same before and after the pair is fixed.
     if (i == 20) pool.FixPair(kPair[0], kPair[1]);
     pool.Add(twists.back());
   }
@@ -115,7 +116,7 @@ TEST(SeparatorPoolTest, AContactThatIsTouchedIsNotHeldOff) {
       {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), std::cos(0.2), std::sin(0.2)});
   SeparatorPool pool(contacts);
   pool.FixPair(0, 0);
-  // Velocities outside the polar cone, on its border, and inside.
+  // Velocities outside the polar cone, on its boundary, and inside.
   for (const auto& [angle, held] :
        {std::pair{0.2 - 1e-6, false}, {0.2, false}, {0.2 + 1e-6, true}}) {
     const double polar = std::numbers::pi / 2 + angle;

@@ -14,7 +14,7 @@ constexpr double kMu = 0.6;
 constexpr double kRounding = 1e-9;
 const SlidingFriction kFriction{kMu, std::atan(kMu)};
 
-/// Across a contact's normal.
+/// Return a random direction perpendicular to a contact's normal.
 Eigen::Vector3d Across(const Contact& contact, RandomGrasps& random, int dimension) {
   if (dimension == 2) return {-contact.n.y(), contact.n.x(), 0};
   const Eigen::Vector3d drawn = random.Direction(3);

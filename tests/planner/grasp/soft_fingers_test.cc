@@ -1,4 +1,4 @@
-// Contacts with torsion (soft fingers) in everything that is computed of a single grasp.
+// Contacts with torsional friction (soft fingers) in all computations on a single grasp.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,8 @@ Grasp Soft(Grasp grasp, double torsion) {
   return grasp;
 }
 
-/// On two opposite faces of a cube of side 2, the second finger off the first one's line.
+/// Return contacts on two opposite faces of a cube of side 2, the second offset from the line of
+/// the first.
 Grasp Pair(double torsion, double offset = 0) {
   return Soft({{{-1, 0, 0}, {1, 0, 0}}, {{1, offset, 0}, {-1, 0, 0}}}, torsion);
 }
@@ -43,7 +44,7 @@ Decision Decide(const Grasp& grasp, double half_angle) {
   return TestForceClosure(grasp, kFrame, half_angle).decision;
 }
 
-/// Random soft fingers, two to five, on a ball or a box.
+/// Return random soft fingers, two to five, on a sphere or a box.
 Grasp Draw(RandomGrasps& random, int trial) {
   const int count = 2 + trial % 4;
   Grasp grasp = trial % 8 < 4 ? random.OnBall(count, 3) : random.OnBox(count, 3);
@@ -57,14 +58,15 @@ TEST(SoftFingersTest, TwoOnACubeHoldItAndHardPointsDoNot) {
       EXPECT_EQ(Decide(Pair(0), Radians(degrees)), Decision::kNo);
     }
   }
-  // One of them is enough for the torque about the line.
+  // One soft finger is sufficient for the torque about the line.
   Grasp one = Pair(0);
   one[0].torsion = 0.1;
   EXPECT_EQ(Decide(one, Radians(20)), Decision::kYes);
 }
 
 TEST(SoftFingersTest, TwoNeedTheAngleOfTheirOffset) {
-  // Opposite normals: forces other than along the line have torques that no torsion balances.
+  // Opposite normals: forces that are not along the line have torques that torsional friction
+  // cannot balance.
   for (const double offset : {0.0, 0.1, 0.5, 1.0, 3.0}) {
     for (const double torsion : {0.01, 1.0}) {
       const auto required = ComputeRequiredHalfAngle(Pair(torsion, offset), kFrame);
@@ -77,10 +79,10 @@ TEST(SoftFingersTest, TwoNeedTheAngleOfTheirOffset) {
 }
 
 TEST(SoftFingersTest, TwoBentAcrossEachOtherNeedWhatTheirTorsionLeaves) {
-  // Normals bent by β, one towards y and one towards z. Forces ±(a, b, −b) have the torques
-  // ∓2b (0, 1, 1), which torques of 2b/sin β about both normals balance; the normal forces are
-  // a cos β + b sin β. So μ² + 1 is the least of (a² + k b²) / (a cos β + b sin β)², with
-  // k = 2 + 4 / (e sin β)², which is 1 / (cos² β + sin² β / k).
+  // Normals tilted by β, one towards y and one towards z. Forces ±(a, b, −b) have the torques ∓2b
+  // (0, 1, 1), which torques of 2b/sin β about both normals balance. The normal forces are a cos β
+  // + b sin β. Hence μ² + 1 is the minimum of (a² + k b²) / (a cos β + b sin β)², with k = 2 + 4 /
+  // (e sin β)², which is 1 / (cos² β + sin² β / k).
   for (const double bend : {Radians(10), Radians(30), Radians(50)}) {
     double before = bend;
     for (const double torsion : {0.03, 0.3, 3.0, 30.0}) {
@@ -99,8 +101,8 @@ TEST(SoftFingersTest, TwoBentAcrossEachOtherNeedWhatTheirTorsionLeaves) {
 }
 
 TEST(SoftFingersTest, NoTorsionHelpsWhereTheNormalsAreAcrossTheLine) {
-  // A blade along x: all fingers on its line, so that nothing but a torque about x resists a turn
-  // about it, and their normals are y and z.
+  // A blade along x: all fingers are on its line, so that only a torque about x resists a rotation
+  // about it. Their normals are y and z.
   const Grasp blade = {{{-1, 0, 0}, {0, 1, 0}},
                        {{-1, 0, 0}, {0, -1, 0}},
                        {{1, 0, 0}, {0, 0, 1}},
@@ -114,7 +116,7 @@ TEST(SoftFingersTest, NoTorsionHelpsWhereTheNormalsAreAcrossTheLine) {
 
 TEST(SoftFingersTest, AgreesWithInscribedAndCircumscribedPolyhedra) {
   constexpr Pyramid kInside{40, false}, kOutside{40, true};
-  /// GLPK's own feasibility tolerance is 1e-7: margins within this say nothing.
+  /// Feasibility tolerance of GLPK is 1e-7, so margins below this are not significant.
   constexpr double kTolerance = 1e-6;
   RandomGrasps random(71);
   int yes = 0, no = 0, between = 0, helped = 0;
@@ -127,8 +129,8 @@ TEST(SoftFingersTest, AgreesWithInscribedAndCircumscribedPolyhedra) {
     const auto outside = PyramidMargin(grasp, kFrame, half_angle, kOutside, {});
     if (inside && *inside > kTolerance) {
       EXPECT_EQ(answer.decision, Decision::kYes) << trial;
-      // A program's margin m is a share of the mean normal force, of which it takes its part:
-      // ε = m / (k (1 − m)).
+      // A program's margin m is a share of the mean normal force, of which it takes its part: ε = m
+      // / (k (1 − m)).
       const auto epsilon = [&](double m) {
         return m / (static_cast<double>(grasp.size()) * (1 - m));
       };
@@ -164,7 +166,7 @@ TEST(SoftFingersTest, ATorsionOfZeroHasTheBitsOfHardPoints) {
 }
 
 TEST(SoftFingersTest, OfFingersThatDoNotTwistAlmostNoTorsionChangesAlmostNothing) {
-  // Three bent fingers need their bend, as no two of them balance.
+  // Three fingers with tilted normals require their tilt, because no two of them balance.
   for (const double torsion : {0.0, 1e-9, 1e-6}) {
     Grasp grasp;
     for (int i = 0; i < 3; ++i) {
@@ -262,8 +264,8 @@ TEST(SoftFingersTest, TheRimWrenchAttainsTheSupportAndNoOtherExceedsIt) {
 }
 
 TEST(SoftFingersTest, APairBearsForceAndTorqueOnAnEllipse) {
-  // Both fingers press with half of the total; what they bear across and about their line keeps to
-  // (F / μ)² + (T / (μ e))² = 1.
+  // Both fingers exert half of the total normal force. Their tangential force F and their torque T
+  // about the line satisfy (F / μ)² + (T / (μ e))² = 1.
   const double half_angle = Radians(20), mu = std::tan(half_angle), torsion = 0.3;
   for (const double degrees : {0.0, 20.0, 45.0, 70.0, 90.0}) {
     const double c = std::cos(Radians(degrees)), s = std::sin(Radians(degrees));
@@ -273,7 +275,7 @@ TEST(SoftFingersTest, APairBearsForceAndTorqueOnAnEllipse) {
     EXPECT_NEAR(largest->lower, mu, 1e-6) << degrees;
     EXPECT_NEAR(largest->upper, mu, 1e-6) << degrees;
   }
-  // Hard points bear no torque at all about their line.
+  // Hard contacts resist no torque about their line.
   const auto none = ComputeLargestLoad(Pair(0), kFrame, half_angle, {}, {{}, {1, 0, 0}}, 7);
   ASSERT_TRUE(none);
   EXPECT_NEAR(none->upper, 0, 1e-6);

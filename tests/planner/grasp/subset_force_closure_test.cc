@@ -53,7 +53,7 @@ TEST(SubsetForceClosureTest, IndicesBeyondOneWordOfBitsAreRight) {
     beyond += l >= 64;
   }
   EXPECT_GT(beyond, 100);
-  EXPECT_EQ(counts.subsets, 766480);  // 67 over 4
+  EXPECT_EQ(counts.subsets, 766480);  // binomial coefficient of 67 over 4
   EXPECT_EQ(counts.subsets, counts.rejected_by_lines + counts.accepted_by_pairs +
                                 counts.accepted_by_triples + counts.rejected_by_twists +
                                 counts.by_simplex);

@@ -105,7 +105,8 @@ TEST_F(CheckModelTest, AFingertipSphereIsAtItsLink) {
   EXPECT_THAT(refusal({0, 0, 0.024}, 0.04), HasSubstr("reaches 30 mm beyond"));
 }
 
-/// Where the marker is, is in the fingertip sphere: neither planner nor check keep it off objects.
+/// A marker inside the fingertip sphere is part of it: neither the planner nor the check keeps it
+/// away from objects.
 TEST_F(CheckModelTest, AMarkerInsideTheFingertipIsPartOfIt) {
   const auto shapes = [&](const std::string& inside) {
     return InspectHand(Write("ring.xml", RingXml({.inside = inside})))

@@ -33,7 +33,8 @@ class ConvertModelTest : public FolderTest {
   }
 };
 
-/// One hinge of inertia 0.04 kg m² about the axis with one actuator, and what stands about them.
+/// Return a model of one revolute joint with inertia 0.04 kg m² and one actuator, with extra
+/// elements.
 std::string Hinge(const std::string& settings, const std::string& joint,
                   const std::string& actuator) {
   return "<mujoco>" + settings + R"(<worldbody><body name="b"><inertial pos="0 0 0" mass="1"
@@ -71,7 +72,7 @@ TEST_F(ConvertModelTest, PositionGainsOfAClassBecomeAGeneralActuator) {
   EXPECT_THAT(Attributes(compiled.text), Contains("position kv"));
 }
 
-/// The other route: the critical damping of a mass m on a spring k is 2 √(k m).
+/// Independent calculation: the critical damping of a mass m on a spring k is 2 √(k m).
 TEST_F(ConvertModelTest, ADampingRatioIsThatOfTheInertiaThatTheActuatorMoves) {
   const CompiledModel compiled =
       Compile(Hinge("", R"(armature="0.05")", R"(<position joint="j" kp="4" dampratio="0.5"/>)"));
@@ -191,7 +192,7 @@ TEST_F(ConvertModelTest, MeshesOfOneNameInTwoFoldersAreTwo) {
 }
 
 TEST_F(ConvertModelTest, LooksThatMujocoDoesNotTakeAreLeftOut) {
-  // One facet is the wrong way round.
+  // One triangle has the wrong orientation.
   Write("look.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   const CompiledModel compiled = Compile(
       R"(<robot name="r"><link name="a">
@@ -213,7 +214,7 @@ TEST_F(ConvertModelTest, MimicsAreTaken) {
   EXPECT_EQ(compiled.text.mimics[0].multiplier, 1.5);
 }
 
-/// A URDF of two links and a joint with what stands in it.
+/// Return a URDF model of two links and a joint with the given elements.
 std::string JointUrdf(const std::string& inside) {
   return "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"><inertial><mass "
          "value=\"1\"/><inertia "

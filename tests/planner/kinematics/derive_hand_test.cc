@@ -34,7 +34,7 @@ class DeriveHandTest : public FolderTest {
   }
 };
 
-/// Two links of a finger along z that flexes towards +y: a distal link with a capsule.
+/// Return two links of a finger along z that flexes towards +y; the distal link is a capsule.
 std::string FingerXml(const std::string& name, const std::string& place,
                       const std::string& inside = "") {
   return "<body name=\"rh_" + name + "proximal\" " + place + "><joint name=\"" + name +
@@ -46,7 +46,7 @@ std::string FingerXml(const std::string& name, const std::string& place,
          inside + "</body></body>";
 }
 
-/// An arm's link with a palm, on which three fingers point along z and a thumb elsewhere.
+/// Return a link of an arm with a palm, three fingers along z and a thumb in another direction.
 std::string Hand(const std::string& rest = "", const std::string& inside = "") {
   return R"(<mujoco model="test"><compiler autolimits="true"/><worldbody><body name="arm">
     <joint name="wrist" axis="0 0 1" range="-90 90"/><geom type="sphere" size="0.03"/>
@@ -119,7 +119,7 @@ TEST_F(DeriveHandTest, ATendonOfOneActuatorCouplesWhatItPulls) {
   EXPECT_THAT(derived.notes, Contains(HasSubstr("share an actuator by a tendon")));
 }
 
-/// Bodies without a joint between them are one link, wherever on it a marker is.
+/// Bodies without a joint between them are one link, wherever a marker is on it.
 TEST_F(DeriveHandTest, AMarkerFixedToALinkIsNoFingertip) {
   for (const std::string place : {"0.02", "0.0265", "0.0275"}) {
     const DerivedHand derived = Derive(
@@ -153,7 +153,7 @@ TEST_F(DeriveHandTest, WhatIsNoHandIsRefused) {
       HasSubstr("found 2 fingers"));
 }
 
-/// The project's own hands: what is derived is what their files say.
+/// The derived descriptions of the project's hands equal their files.
 TEST_F(DeriveHandTest, RingHandsAreWhatTheirFilesSay) {
   for (const std::string name : {"ring4", "ring5"}) {
     const InspectedHand derived = InspectHand(kHands + name + ".xml");
@@ -182,7 +182,8 @@ TEST(InspectHandTest, TheLargestReachIsThatOfAStraightFinger) {
   EXPECT_LE(LargestReach(finger), 0.13 + 1e-12);
 }
 
-/// Models of others, which are no part of the project: a folder in REGRASP_HANDS, or beside it.
+/// Third-party models are not part of the project. They are in the folder REGRASP_HANDS or next to
+/// the project.
 TEST(InspectHandTest, HandsOfOthersAreUnderstood) {
   const char* given = std::getenv("REGRASP_HANDS");
   const fs::path folder = given != nullptr ? fs::path(given) : ProjectPath("../shared/hands");

@@ -77,7 +77,7 @@ TEST(FitTipTest, ItIsInsideAndMovesAlongWithTheShape) {
         Moved(pose, shape), {pose.linear() * Vector3d::UnitZ(), pose.linear() * Vector3d::UnitX()});
     EXPECT_LT((moved.ball.centre - pose * fitted.ball.centre).norm(), 1e-6);
     EXPECT_NEAR(moved.ball.radius, fitted.ball.radius, 1e-6);
-    // No direction in which the ball reaches farther than the shape.
+    // In no direction does the sphere protrude from the shape.
     for (int k = 0; k < 50; ++k) {
       const Vector3d direction =
           Vector3d(random.Uniform() - 0.5, random.Uniform() - 0.5, random.Uniform() - 0.5)

@@ -25,7 +25,7 @@ Posture RandomPosture(const Finger& finger, RandomStream& random) {
   return posture;
 }
 
-/// The engine's own kinematics are the second route.
+/// MuJoCo's kinematics are the independent reference.
 TEST(HandFileTest, TipsAreWhereTheEngineHasThem) {
   for (const char* name : {"ring4", "ring5"}) {
     const HandModel hand = ReadHand(kHands + name + ".json");
@@ -112,8 +112,8 @@ TEST(InverseKinematicsTest, FollowsATargetWithoutJumps) {
   }
 }
 
-/// Of a posture that has its tip at the target already nothing changes; from one near by the way is
-/// short. Drawn to the middle it would be another posture.
+/// A configuration with its fingertip at the target stays unchanged. A nearby one changes little.
+/// With joint centering the result would be another configuration.
 TEST(InverseKinematicsTest, NearAPostureItStaysNearWhereverTheMiddleIs) {
   const HandModel hand = ReadHand(kHands + "ring5.json");
   RandomStream random(5, RandomUse::kCandidates);
@@ -121,7 +121,7 @@ TEST(InverseKinematicsTest, NearAPostureItStaysNearWhereverTheMiddleIs) {
   const InverseKinematics inverse(finger);
   int drawn_away = 0;
   for (int i = 0; i < 200; ++i) {
-    // Within its range, with something to spare.
+    // The configuration has a margin to its limits.
     const Posture posture =
         inverse.middle() + 0.8 * (RandomPosture(finger, random) - inverse.middle());
     const TipState state = TipAt(finger, posture);
@@ -139,7 +139,7 @@ TEST(InverseKinematicsTest, NearAPostureItStaysNearWhereverTheMiddleIs) {
   EXPECT_GT(drawn_away, 50);
 }
 
-/// No point of a link moves farther than the bound says.
+/// No point of a link moves farther than the bound.
 TEST(FingerKinematicsTest, MotionIsBounded) {
   const HandModel hand = ReadHand(kHands + "ring4.json");
   RandomStream random(4, RandomUse::kCandidates);

@@ -65,7 +65,7 @@ TEST_F(JointRelationsTest, ARatioWithAConstant) {
             0.2);
 }
 
-/// Constraints are between angles beyond the reference position.
+/// Constraints refer to angles relative to the reference configuration.
 TEST_F(JointRelationsTest, ReferencePositionsAreAnOffset) {
   ExpectOne(
       CouplingsOf(Equality(R"(joint1="f3" joint2="f2" polycoef="0.1 1.5 0 0 0")"), R"(ref="0.3")"),
@@ -77,12 +77,13 @@ TEST_F(JointRelationsTest, ReferencePositionsAreAnOffset) {
 }
 
 TEST_F(JointRelationsTest, EqualTendonsAreALinearRelation) {
-  // 2 f2 − f3 = 0.1, as the tendon's length is that beyond the one at rest.
+  // The relation is 2 f2 − f3 = 0.1, because the tendon's length is relative to the reference
+  // configuration.
   ExpectOne(CouplingsOf(R"(<tendon><fixed name="t"><joint joint="f2" coef="2"/>
                            <joint joint="f3" coef="-1"/></fixed></tendon><equality><tendon
                            tendon1="t" polycoef="0.1 0 0 0 0"/></equality>)"),
             2, -0.1);
-  // f3 = 3 f2, by two tendons of one joint each.
+  // The relation is f3 = 3 f2, by two tendons with one joint each.
   ExpectOne(CouplingsOf(R"(<tendon><fixed name="t"><joint joint="f2" coef="1"/></fixed>
                            <fixed name="u"><joint joint="f3" coef="1"/></fixed></tendon><equality>
                            <tendon tendon1="u" tendon2="t" polycoef="0 3 0 0 0"/></equality>)"),
@@ -231,7 +232,7 @@ TEST_F(JointRelationsTest, AHandFileMustCoupleWhatSharesAnActuator) {
   EXPECT_THROW((void)ReadHand(folder_ / "hand.json"), InputError);
 }
 
-/// The engine's kinematics with joints that keep the constraint are the second route.
+/// MuJoCo's kinematics with joints that satisfy the constraint are the independent reference.
 TEST_F(JointRelationsTest, CoupledFingersMoveAsTheEngineHasThem) {
   const std::string path =
       Write("ring.xml",
@@ -268,7 +269,7 @@ TEST_F(JointRelationsTest, CoupledFingersMoveAsTheEngineHasThem) {
   }
 }
 
-/// Three fingers as in RingXml, as a URDF.
+/// Return three fingers as in RingXml, as a URDF model.
 std::string RingUrdf(const std::string& limit, const std::string& mimic) {
   const std::string inertial =
       R"(<inertial><mass value="0.02"/><inertia ixx="1e-5" iyy="1e-5" izz="1e-5" ixy="0" ixz="0"

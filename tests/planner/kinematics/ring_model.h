@@ -6,7 +6,7 @@
 
 namespace regrasp::kinematics {
 
-/// What a test changes in a model of three fingers.
+/// Modifications of a model of three fingers.
 struct RingParts {
   std::string before = "";  ///< first elements of the model
   std::string after = "";   ///< last elements of the model
@@ -16,8 +16,8 @@ struct RingParts {
   std::string inside = "";  ///< elements of each fingertip's body
 };
 
-/// A finger "fK" along z with joints fK1, fK2, fK3 that bends about y, of capsules 0.008 m in
-/// radius and a fingertip sphere of 0.01 m.
+/// Return a finger "fK" along z with joints fK1, fK2, fK3 about y.
+/// Its links are capsules of radius 0.008 m, its fingertip a sphere of radius 0.01 m.
 inline std::string RingFinger(const RingParts& parts, const std::string& name,
                               const std::string& place) {
   const auto capsule = [&](const std::string& end) {
@@ -33,7 +33,7 @@ inline std::string RingFinger(const RingParts& parts, const std::string& name,
          parts.inside + "</body></body></body>";
 }
 
-/// An MJCF model of three fingers on a palm, in radians.
+/// Return an MJCF model of three fingers on a palm, in radians.
 inline std::string RingXml(const RingParts& parts = {}) {
   return R"(<mujoco model="ring"><compiler angle="radian" autolimits="true"/>)" + parts.before +
          "<worldbody><body name=\"palm\">" + parts.palm + R"(<body name="knob" pos="0 0 -0.03">

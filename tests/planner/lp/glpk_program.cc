@@ -15,7 +15,7 @@ GlpkAnswer SolveByGlpk(const ListedProgram& program) {
   glp_set_obj_dir(problem.get(), GLP_MIN);
   glp_add_rows(problem.get(), rows);
   glp_add_cols(problem.get(), columns);
-  // GLPK counts from 1.
+  // GLPK's indices start at 1.
   std::vector<int> at(rows + 1);
   std::vector<double> entries(rows + 1);
   for (int r = 1; r <= rows; ++r) {

@@ -5,7 +5,7 @@
 
 namespace regrasp::lp {
 
-/// A program with its columns written out: minimise costs · λ over λ ≥ 0 with columns λ = right.
+/// Program with a list of columns: minimise costs · λ over λ ≥ 0 with columns λ = right.
 struct ListedProgram {
   Eigen::MatrixXd columns;
   Eigen::VectorXd costs;
@@ -14,11 +14,11 @@ struct ListedProgram {
 
 struct GlpkAnswer {
   bool feasible = false;
-  std::optional<double> least;  ///< none also where the objective has no bound
+  std::optional<double> least;  ///< nullopt also if the objective is unbounded
 };
 
-/// A second route to what Simplex computes: GLPK's simplex method.
-/// @throws std::runtime_error  it fails.
+/// Solve a program by GLPK's simplex method, an independent reference for Simplex.
+/// @throws std::runtime_error  if GLPK fails.
 [[nodiscard]] GlpkAnswer SolveByGlpk(const ListedProgram& program);
 
 }  // namespace regrasp::lp

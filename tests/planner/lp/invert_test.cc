@@ -9,7 +9,7 @@
 namespace regrasp::lp {
 namespace invert_test {
 
-/// Of random matrices, whose condition is a few thousand at most.
+/// Rounding error for random matrices, whose condition number is at most a few thousand.
 constexpr double kRounding = 1e-11;
 
 template <int kRows>

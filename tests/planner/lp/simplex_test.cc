@@ -14,13 +14,13 @@
 namespace regrasp::lp {
 namespace simplex_test {
 
-/// What roundings of programs with entries of about 1 may add up to.
+/// Accumulated rounding error of programs with entries of about 1.
 constexpr double kRounding = 1e-9;
 
-/// No program here takes a tenth as many.
+/// No program in this file takes a tenth of these pivots.
 constexpr Limits kLimits = {.pivots = 500, .refactor_after = 24};
 
-/// A reduced cost below this is rounding.
+/// Rounding error of reduced costs.
 constexpr double kImprovement = 1e-11;
 
 template <int kRows>
@@ -62,7 +62,7 @@ enum class Outcome { kSolved, kInfeasible, kUnbounded, kStalled };
 struct Solution {
   Outcome outcome;
   double least = 0;
-  Eigen::VectorXd weights;  ///< of all columns
+  Eigen::VectorXd weights;  ///< by column
   Eigen::VectorXd dual;
 };
 
@@ -75,7 +75,7 @@ Eigen::VectorXd WeightsOf(const Program& simplex, Eigen::Index columns) {
   return weights;
 }
 
-/// Both phases.
+/// Solve a program in two phases.
 template <int kRows>
 Solution Solve(const ListedProgram& program) {
   Simplex<kRows, ListedColumn<kRows>> simplex;
@@ -93,7 +93,7 @@ Solution Solve(const ListedProgram& program) {
           simplex.dual()};
 }
 
-/// Weights and dual solution prove each other's objective.
+/// Check that weights and dual solution prove each other's objective.
 void ExpectOptimal(const ListedProgram& program, const Solution& solution) {
   const double rounding = kRounding * (1 + solution.weights.lpNorm<1>());
   EXPECT_GE(solution.weights.minCoeff(), -rounding);
@@ -103,7 +103,7 @@ void ExpectOptimal(const ListedProgram& program, const Solution& solution) {
   EXPECT_NEAR(program.right.dot(solution.dual), solution.least, rounding);
 }
 
-/// Entries of columns from −1 to 1, costs from `least_cost` on.
+/// Return a random program with entries from −1 to 1 and costs from `least_cost` on.
 ListedProgram RandomProgram(int rows, int columns, double least_cost, std::mt19937_64& engine) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::uniform_real_distribution<double> cost(least_cost, 1);
@@ -154,7 +154,8 @@ TEST(SimplexTest, OfRandomProgramsIsThatOfGlpk) {
 }
 
 TEST(SimplexTest, FindsTheOptimumThatAProgramIsBuiltFor) {
-  // A basis with positive weights, a dual solution, and other columns that it prices above.
+  // A basis with positive weights, a dual solution, and other columns with higher costs than it
+  // implies.
   constexpr int kRows = 6;
   std::mt19937_64 engine(5);
   std::uniform_real_distribution<double> uniform(0.1, 1);
@@ -177,7 +178,7 @@ TEST(SimplexTest, FindsTheOptimumThatAProgramIsBuiltFor) {
 }
 
 TEST(SimplexTest, SeparatesWhatIsInfeasible) {
-  // All columns have a first entry ≥ 0.1, and the right-hand side has −1.
+  // All columns have a first entry ≥ 0.1, and that of the right-hand side is −1.
   constexpr int kRows = 5;
   std::mt19937_64 engine(3);
   for (int i = 0; i < 50; ++i) {
@@ -192,7 +193,7 @@ TEST(SimplexTest, SeparatesWhatIsInfeasible) {
 }
 
 TEST(SimplexTest, SaysThatAColumnGrowsWithoutEnd) {
-  // λ_0 = 1 + λ_1, and λ_1 is worth something.
+  // λ_0 = 1 + λ_1, and increasing λ_1 reduces the cost.
   ListedProgram program;
   program.columns = Eigen::MatrixXd{{1, -1, 0}, {0, 0, 1}, {0, 0, 0.5}};
   program.costs = Eigen::Vector3d(0, -1, 0);
@@ -205,7 +206,8 @@ TEST(SimplexTest, SaysThatAColumnGrowsWithoutEnd) {
 }
 
 TEST(SimplexTest, EndsOnDegenerateProgramsThatMakeDantzigsRuleCycle) {
-  // Beale 1955, as in Chvátal 1983, page 31: the least is −1, and all bases before it are at 0.
+  // Beale 1955, as in Chvátal 1983, page 31: the minimum is −1, and all earlier bases have the
+  // objective 0.
   ListedProgram program;
   program.columns = Eigen::MatrixXd{{0.5, -5.5, -2.5, 9, 1, 0, 0},  //
                                     {0.5, -1.5, -0.5, 1, 0, 1, 0},
@@ -283,7 +285,7 @@ TEST(SimplexTest, ARefactoredBasisIsTheSame) {
   program.right = program.columns.rowwise().sum();
   Simplex<6, ListedColumn<6>> simplex;
   simplex.StartFeasibility(program.right);
-  for (const int pivots : {2, 500}) {  // with artificial columns, and without
+  for (const int pivots : {2, 500}) {  // with and without artificial columns
     simplex.Run(PriceOf<6>(program, false), {.pivots = pivots});
     const Eigen::MatrixXd inverse = simplex.inverse();
     const Eigen::VectorXd weights = simplex.weights();
@@ -301,7 +303,7 @@ TEST(SimplexTest, RowsThatAreLeftOutCountForNothing) {
   std::mt19937_64 engine(31);
   for (int i = 0; i < 50; ++i) {
     const ListedProgram inner = RandomProgram(3, 9, 0.1, engine);
-    // The same with a row between that nothing satisfies.
+    // The same program with an additional row that cannot be satisfied.
     ListedProgram program = inner;
     program.columns.resize(4, 9);
     program.columns << inner.columns.topRows(2), Eigen::MatrixXd::Ones(1, 9),
@@ -327,7 +329,7 @@ TEST(SimplexTest, RowsThatAreLeftOutCountForNothing) {
 }
 
 TEST(SimplexTest, AColumnOfAnySignDoesNotLeave) {
-  // x − λ_0 = −2, λ_0 + λ_1 = 1, most x: −1, with λ_0 = 1; least x: −2.
+  // x − λ_0 = −2, λ_0 + λ_1 = 1. The maximum of x is −1, with λ_0 = 1; the minimum is −2.
   using Column = ListedColumn<2>;
   const Column second{{0, 1}, 0, 1};
   for (const auto& [cost, x] : {std::pair(-1.0, -1.0), std::pair(1.0, -2.0)}) {
@@ -354,8 +356,8 @@ struct Point {
 };
 
 TEST(SimplexTest, OfADiscAsInfinitelyManyColumnsReachesItsBorder) {
-  // Least −x over weights of points (cos t, sin t) with Σ λ = 1 and a mean of the form (x, 0.3):
-  // columns (sin t, 1), cost −cos t. The best column for a dual solution is closed form.
+  // Minimum of −x over weights of points (cos t, sin t) with Σ λ = 1 and a mean of the form (x,
+  // 0.3): columns (sin t, 1), cost −cos t. The best column for a dual solution has a closed form.
   Simplex<2, Point> simplex;
   simplex.StartFromBasis({Point{{0, 1}}, Point{{0, -1}}}, Eigen::Vector2d(0.3, 1));
   const auto price = [](const Eigen::Vector2d& dual, Point& point) {

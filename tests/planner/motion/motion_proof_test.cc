@@ -21,7 +21,7 @@ using Pieces = std::vector<MotionSegment>;
 constexpr double kHalfAngle = Radians(20);
 const double kMu = std::tan(kHalfAngle);
 
-/// What was seen of random motions.
+/// Counts of verdicts on random motions.
 struct Counts {
   int held = 0;
   int proved = 0;
@@ -29,7 +29,7 @@ struct Counts {
   int in_one_piece = 0;
 };
 
-/// Whether no instant was found that is not force closure.
+/// Return true if all sampled instants are force closure.
 bool SeemsToHold(const GraspMotion& motion, int dimension) {
   for (int k = 0; k <= 200; ++k) {
     if (!grasp::IsForceClosure(GraspAt(motion, k / 200.0), FrameOf(dimension), kHalfAngle))
@@ -38,7 +38,7 @@ bool SeemsToHold(const GraspMotion& motion, int dimension) {
   return true;
 }
 
-/// Proves one motion, and expects that only true ones are proved.
+/// Search for a proof of one motion, and expect that only force-closure motions are proved.
 void Count(const grasp::Grasp& from, const grasp::Grasp& to, int dimension, Counts& counts) {
   const GraspMotion motion = MotionOf(from, to);
   const bool holds = SeemsToHold(motion, dimension);
@@ -93,9 +93,9 @@ TEST(MotionProofTest, VeryShortMotionsAreProved) {
   }
 }
 
-/// Two fingers that press against each other with forces at the border of the cone, or one rounding
-/// on either side of it: intervals cannot tell, and rounded numbers tell wrongly. Of sizes at which
-/// powers overflow or vanish, too.
+/// Two opposite fingers with forces on the boundary of the cone, or one rounding error on either
+/// side of it. Intervals cannot decide this, and rounded numbers decide it wrongly. Sizes include
+/// those at which powers overflow or vanish.
 TEST(MotionProofTest, ForcesAtTheBorderOfAConeAreToldExactly) {
   RandomBoxes random(2);
   constexpr std::array kSizes = {1.0, 1e-100, 1e100};
@@ -108,11 +108,11 @@ TEST(MotionProofTest, ForcesAtTheBorderOfAConeAreToldExactly) {
     for (const double tangential :
          {std::nextafter(border, 0), border, std::nextafter(border, 2 * border)}) {
       const Vector3d force(normal, tangential, 0);
-      // The second one is where the first one's force points to: no torque is left.
+      // The second contact is on the line of the first force, so that there is no torque.
       const grasp::Grasp grasp = {{Vector3d::Zero(), Vector3d::UnitX()},
                                   {force, -Vector3d::UnitX()}};
       const Pieces pieces = {{0, 1, {force, -force}, {force, -force}}};
-      const bool holds = std::fma(mu, normal, -tangential) > 0;  // of the sign of the exact value
+      const bool holds = std::fma(mu, normal, -tangential) > 0;  // has the sign of the exact value
       const ProofVerdict verdict = CheckMotionProof(grasp, grasp, 2, mu, pieces);
       EXPECT_EQ(verdict.proves(), holds) << mu << " " << normal << " " << tangential;
       ++(holds ? inside : outside);
@@ -122,7 +122,8 @@ TEST(MotionProofTest, ForcesAtTheBorderOfAConeAreToldExactly) {
   EXPECT_GT(outside, 100);
 }
 
-/// Every finger turns its normal by up to `most` radians, and some move too.
+/// Return a grasp in which every normal is rotated by up to `most` radians and some contacts are
+/// moved.
 grasp::Grasp Turned(const grasp::Grasp& grasp, int dimension, double most, RandomBoxes& random) {
   grasp::Grasp turned = grasp;
   for (grasp::Contact& contact : turned) {
@@ -147,8 +148,8 @@ TEST(MotionProofTest, TurningNormalsAreProvedAllAlong) {
   }
 }
 
-/// A finger that turns around the corner of a square by a right angle, at a friction at which every
-/// grasp on the way holds.
+/// Finger that turns around the corner of a square by a right angle, at a friction at which every
+/// intermediate grasp is force closure.
 struct Corner {
   grasp::Grasp from = {{Vector3d(1, 1, 0), -Vector3d::UnitX()},
                        {Vector3d(-1, -0.5, 0), Vector3d::UnitX()},
@@ -167,12 +168,12 @@ TEST(MotionProofTest, AFingerTurnsAroundACorner) {
   };
   EXPECT_EQ(verdict(corner.half_angle, *pieces), Kind::kForceClosure);
   EXPECT_EQ(verdict(corner.half_angle + Radians(10), *pieces), Kind::kForceClosure);
-  // No force is inside the cones of both edges at 45° or less.
+  // At 45° or less, no force is inside the cones of both edges.
   EXPECT_EQ(verdict(Radians(44), *pieces), Kind::kNothing);
 }
 
 TEST(MotionProofTest, ConesOfTurningNormalsAreTakenNarrower) {
-  // Pressing along the bisector of two edges at 45° the forces are on the border of both cones.
+  // Forces along the bisector of two edges at 45° are on the boundary of both cones.
   const Corner corner;
   const double half = std::sqrt(0.5);
   const Pieces pieces = {{0,
@@ -193,7 +194,7 @@ TEST(MotionProofTest, ConesOfTurningNormalsAreTakenNarrower) {
 TEST(MotionProofTest, AForceInsideTheConeOfOneEndOnlyIsRefused) {
   const Corner corner;
   Pieces pieces = *FindMotionProof(MotionOf(corner.from, corner.to), 2, corner.half_angle);
-  // Balanced at both ends as before, but for other pieces of the turn.
+  // The forces balance at both ends as before, but belong to other pieces of the rotation.
   Pieces one = {pieces.front()};
   one[0].to = 1;
   const auto verdict = CheckMotionProof(corner.from, corner.to, 2, std::tan(Radians(46)), one);
@@ -205,9 +206,10 @@ TEST(MotionProofTest, AForceInsideTheConeOfOneEndOnlyIsRefused) {
 }
 
 TEST(MotionProofTest, ForcesThatBalanceAtTheEndsOnlyAreRefused) {
-  // Two pairs of fingers of a square, each opposite at one end of the way alone. The forces go over
-  // from one pair to the other: at the ends they balance, the weak ones along the line between
-  // their fingers, and between the ends both pairs turn the square the same way.
+  // Two pairs of fingers of a square, each of which is opposite only at one end of the motion. The
+  // forces change from one pair to the other. They balance at the ends, the weak ones along the
+  // line between their fingers. Between the ends both pairs rotate the square in the same
+  // direction.
   const double apart = 0.4, weak = 0.1;
   const Vector3d up = Vector3d::UnitY(), below(0, -1, 0), above(0, 1, 0), x = Vector3d::UnitX();
   const grasp::Grasp from = {{below - 0.5 * x, up},
@@ -220,7 +222,7 @@ TEST(MotionProofTest, ForcesThatBalanceAtTheEndsOnlyAreRefused) {
   const Vector3d slanted = weak * (up + apart / 2 * x);
   MotionSegment piece{0, 1, {up, -up, slanted, -slanted}, {slanted, -slanted, up, -up}};
   EXPECT_EQ(CheckMotionProof(from, to, 2, kMu, Pieces{piece}).kind, Kind::kNothing);
-  // The control: at rest at either end they prove what they should.
+  // Positive control: as static grasps at either end the forces are a proof.
   MotionSegment start = piece;
   start.end = start.start;
   EXPECT_EQ(CheckMotionProof(from, from, 2, kMu, Pieces{start}).kind, Kind::kForceClosure);

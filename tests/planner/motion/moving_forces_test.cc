@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kHalfAngle = Radians(20);
 
-/// What rounding may leave of the balance of forces up to 1 on arms up to a few radii.
+/// Tolerance of the balance for forces up to 1 with moment arms up to a few radii.
 constexpr double kRounding = 1e-11;
 
 MovingContacts MovingContactsOf(const grasp::Grasp& from, const grasp::Grasp& to) {
@@ -30,7 +30,7 @@ MovingContacts MovingContactsOf(const grasp::Grasp& from, const grasp::Grasp& to
   return contacts;
 }
 
-/// f(t) by the de Casteljau scheme.
+/// Evaluate f(t) by the de Casteljau scheme.
 template <int kDegree>
 Vector3d ForceAt(ForceCoefficients<kDegree> coefficients, double t) {
   for (int level = kDegree; level > 0; --level) {
@@ -58,7 +58,7 @@ void ExpectBalancedInside(const MovingContacts& contacts, const MovingForces<kDe
   }
 }
 
-/// @returns how many motions are proved by degree 1, and by degree 2.
+/// @returns number of motions proved by degree 1, and by degree 2.
 template <int kSpace>
 std::array<int, 2> Prove(int contacts) {
   RandomBoxes random(kSpace);
@@ -90,7 +90,7 @@ TEST(MovingForcesTest, BalanceAtEveryInstantInsideTheCones) {
 }
 
 TEST(MovingForcesTest, AreNotFoundWhereAnInstantIsNotForceClosure) {
-  // Both pairs come to be out of line, one after the other.
+  // Both pairs become misaligned, one after the other.
   const grasp::Grasp from = CrossedGrasp();
   grasp::Grasp to = from;
   to[0].p.y() += 0.85;

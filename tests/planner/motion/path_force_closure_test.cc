@@ -16,10 +16,10 @@ namespace path_force_closure_test {
 
 constexpr unsigned kSeed = 20;
 
-/// Random motions of `count` contacts on the faces of a body: most slide, some turn at an edge.
+/// Random motions of `count` contacts on the faces of an object: most slide, some turn at an edge.
 class RandomMotions {
  public:
-  /// @param turning  the share of contacts that turn.
+  /// @param turning  share of contacts that turn.
   explicit RandomMotions(int dimension, double turning = 0.2)
       : dimension_(dimension), turning_(turning) {}
 
@@ -37,7 +37,7 @@ class RandomMotions {
   int Axis() { return std::uniform_int_distribution<int>(0, dimension_ - 1)(random_); }
   double Sign() { return Uniform(-1, 1) < 0 ? -1 : 1; }
 
-  /// A point of the face ±axis of the cube or square.
+  /// Return a point of the face ±axis of the cube or square.
   grasp::Contact OnFace(int axis, double sign) {
     grasp::Contact contact;
     for (int k = 0; k < dimension_; ++k) contact.p[k] = Uniform(-1, 1);
@@ -84,7 +84,7 @@ class PathForceClosureIn : public testing::TestWithParam<int> {
   }
 };
 
-/// Whether a piece of a motion is proved, by a proof that exact arithmetic accepts.
+/// Return true if a piece of a motion is proved, by a proof that exact arithmetic accepts.
 bool IsProved(const GraspMotion& motion, int dimension, double half_angle, double from, double to) {
   const auto proof = FindSegmentProof(motion, dimension, half_angle, from, to);
   if (!proof) return false;
@@ -94,7 +94,8 @@ bool IsProved(const GraspMotion& motion, int dimension, double half_angle, doubl
   return CheckSegmentProof(start, end, dimension, std::tan(half_angle), *proof).proves();
 }
 
-/// The largest reach around the middle of a motion that is proved, to 1 in 4000; 0 for none.
+/// Return the largest proved interval around the middle of a motion, with a resolution of 1/4000; 0
+/// if none.
 double LargestReach(const GraspMotion& motion, int dimension, double half_angle) {
   double proved = 0, open = 0.5;
   for (int step = 0; step < 12; ++step) {
@@ -110,7 +111,7 @@ TEST_P(PathForceClosureIn, ProvesOnlyWhatDenseSamplingConfirms) {
   int proved = 0, samples = 0;
   for (int i = 0; i < 1000; ++i) {
     const GraspMotion motion = motions.Next(dimension() + i % 3);
-    // Close to the limit, where a proof that claims too much is found out.
+    // Close to the limit, at which an incorrect proof would be detected.
     const auto required = grasp::ComputeRequiredHalfAngle(GraspAt(motion, 0.5), frame(), 1e-6);
     if (!required) continue;
     const double half_angle = required->upper + std::pow(10, motions.Uniform(-4, -0.5));
@@ -178,7 +179,8 @@ TEST_P(PathForceClosureIn, BoundsTheRequiredHalfAngleOfTheWholeWay) {
   EXPECT_GT(checked, 20);
 }
 
-/// How many of random motions that are force closure at all have bounds as near as promised.
+/// Number of random motions with a required friction angle, and of those with the specified
+/// accuracy of the bounds.
 struct Accuracy {
   int bounded = 0;
   int accurate = 0;
@@ -201,7 +203,7 @@ TEST_P(PathForceClosureIn, BoundsAreNearlyAlwaysAsNearAsPromised) {
   const Accuracy slides = CountAccurate(RandomMotions(dimension(), 0), contacts, frame());
   EXPECT_GT(slides.bounded, 20);
   EXPECT_GE(slides.accurate, slides.bounded * 95 / 100);
-  // While normals turn, proofs keep forces inside the cones of both ends of a piece.
+  // If normals rotate, proofs must keep forces inside the cones of both ends of a piece.
   const Accuracy turns = CountAccurate(RandomMotions(dimension(), 0.2), contacts, frame());
   EXPECT_GT(turns.bounded, 20);
   EXPECT_GE(turns.accurate, turns.bounded * 80 / 100);
@@ -225,7 +227,7 @@ TEST(PathForceClosure, BoundsAnAlignThatWeakerProofsBoundByTheFrictionItWasPlann
   EXPECT_LT(bounds->upper - bounds->lower, Radians(0.1));
 }
 
-/// Where the required half-angle of a motion peaks strictly inside, by sampling and refining.
+/// Peak of the required friction angle strictly inside a motion, found by sampling and refinement.
 struct Peak {
   double at = 0;
   double angle = 0;
@@ -249,7 +251,7 @@ std::optional<Peak> FindInnerPeak(const GraspMotion& motion, const object::Wrenc
   if (best == 0 || best == kSamples || peak.angle > Radians(85)) return std::nullopt;
   double from = static_cast<double>(best - 1) / kSamples;
   double to = static_cast<double>(best + 1) / kSamples;
-  while (to - from > 1e-7) {  // ternary search: good enough for a peak, verified by its use
+  while (to - from > 1e-7) {  // ternary search; its accuracy is verified by the uses
     const double left = from + (to - from) / 3, right = to - (to - from) / 3;
     (angle_at(left) < angle_at(right) ? from : to) =
         angle_at(left) < angle_at(right) ? left : right;
@@ -266,7 +268,7 @@ TEST_P(PathForceClosureIn, CatchesForceClosureLostForATenThousandthOfTheWay) {
     const GraspMotion motion = motions.Next(dimension() + 2);
     const std::optional<Peak> peak = FindInnerPeak(motion, frame());
     if (!peak) continue;
-    // Just too little friction at 5e-5 to either side of the peak.
+    // Friction slightly too low at 5e-5 on either side of the peak.
     const auto before =
         grasp::ComputeRequiredHalfAngle(GraspAt(motion, peak->at - 5e-5), frame(), 1e-12);
     const auto after =
@@ -283,7 +285,8 @@ TEST_P(PathForceClosureIn, CatchesForceClosureLostForATenThousandthOfTheWay) {
     EXPECT_EQ(path.decision, grasp::Decision::kNo) << i;
     EXPECT_NEAR(path.at, peak->at, 6e-5);
     if (DecidePathForceClosure(motion, frame(), peak->angle + kPathAngleAccuracy).holds()) ++held;
-    // The peak is at least as high as it was found to be, and lost for an instant only.
+    // The true peak is at least as high as the found one, so that force closure is lost only for an
+    // instant.
     for (const double loss : {1e-7, 1e-10}) {
       const PathForceClosure close = DecidePathForceClosure(motion, frame(), peak->angle - loss);
       EXPECT_FALSE(close.holds()) << i << ", " << loss;
@@ -300,8 +303,9 @@ TEST_P(PathForceClosureIn, CatchesForceClosureLostForATenThousandthOfTheWay) {
 }
 
 TEST(PathForceClosure, RefusesAMotionThatKeepsTooCloseToTheLimit) {
-  // Finger 1 moves along x = 1, finger 0's normal turns with the direction to it, evenly: the angle
-  // between them is 0.3 + atan t − t, within 1e-9 of its largest for the first thousandth.
+  // Finger 1 moves along x = 1, and finger 0's normal rotates uniformly with the direction to it.
+  // The angle between them is 0.3 + atan t − t, which is within 1e-9 of its maximum for the first
+  // thousandth.
   const auto contact = [](double x, double y, double angle) {
     return grasp::Contact{{x, y, 0}, {std::cos(angle), std::sin(angle), 0}};
   };
@@ -331,7 +335,8 @@ TEST(PathForceClosure, EndsWhereTheBudgetOfAllMotionsIsSpent) {
   ProofBudget enough(1'000'000);
   EXPECT_TRUE(DecidePathForceClosure(motion, frame, Radians(50), enough).holds());
   EXPECT_LT(enough.left(), 1'000'000);
-  // One piece more than all together need is looked at, and then none.
+  // The budget is one piece more than the first motion needs. The second motion uses it up, and the
+  // third finds none.
   const std::int64_t needed = 1'000'000 - enough.left();
   ProofBudget shared(needed + 1);
   EXPECT_TRUE(DecidePathForceClosure(motion, frame, Radians(50), shared).holds());
@@ -346,14 +351,14 @@ TEST(PathForceClosure, EndsWhereTheBudgetOfAllMotionsIsSpent) {
   EXPECT_FALSE(ComputePathRequiredHalfAngle(motion, frame, std::nullopt, shared));
 }
 
-/// Motions of four contacts whose points and normals stay in one plane: on the sides of a square in
-/// it, that is turned and moved in space, or not.
+/// Motions of four contacts whose points and normals stay in one plane: on the sides of a square,
+/// which may be rotated and moved in space.
 class CoplanarMotions {
  public:
   enum class Family {
-    kFree,           ///< on four sides, each for itself
-    kParallel,       ///< two and two on opposite sides
-    kPointSymmetric  ///< on four sides, opposite contacts opposite
+    kFree,           ///< on four sides, independently
+    kParallel,       ///< two pairs on opposite sides
+    kPointSymmetric  ///< on four sides, opposite contacts point-symmetric
   };
 
   CoplanarMotions(Family family, bool turned) : family_(family), turned_(turned) {}

@@ -29,7 +29,7 @@ class RandomBoxes {
     contact.p += dimension_ == 3 ? Eigen::Vector3d(5, -3, 2) : Eigen::Vector3d(5, -3, 0);
     return contact;
   }
-  /// Elsewhere on the same sides.
+  /// Return a grasp with contacts at other points of the same sides.
   grasp::Grasp Moved(const grasp::Grasp& grasp, double reach) {
     grasp::Grasp moved = grasp;
     for (grasp::Contact& contact : moved) {
@@ -39,7 +39,7 @@ class RandomBoxes {
     }
     return moved;
   }
-  /// In (−1, 1).
+  /// Return a number in (−1, 1).
   double Uniform() { return uniform_(engine_); }
 
  private:
@@ -52,7 +52,7 @@ inline object::WrenchFrame FrameOf(int dimension) {
   return {Eigen::Vector3d(5, -3, 0), 1.5, dimension};
 }
 
-/// Two pairs of opposite fingers on the sides of a cube.
+/// Return two pairs of opposite fingers on the sides of a cube.
 inline grasp::Grasp CrossedGrasp() {
   return {{Eigen::Vector3d(1, 0.1, 0), -Eigen::Vector3d::UnitX()},
           {Eigen::Vector3d(-1, 0, 0.1), Eigen::Vector3d::UnitX()},

@@ -1,4 +1,4 @@
-// Motions of soft fingers: what their torques prove, and what they do not.
+// Motions of soft fingers: the proofs by their torques, and the limits of these proofs.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr double kHalfAngle = Radians(25);
 
-/// On the faces x = ±1 of a cube.
+/// Return contacts on the faces x = ±1 of a cube.
 grasp::Grasp Pair(const Vector3d& left, const Vector3d& right, double torsion) {
   return {{{-1, left.y(), left.z()}, {1, 0, 0}, {}, torsion},
           {{1, right.y(), right.z()}, {-1, 0, 0}, {}, torsion}};
@@ -32,7 +32,7 @@ GraspMotion Between(const grasp::Grasp& from, const grasp::Grasp& to) {
   return motion;
 }
 
-/// A pair that slides across its faces, one finger before the other.
+/// Pair that slides across its faces, one finger before the other.
 struct Slide {
   explicit Slide(double torsion)
       : from(Pair({0, 0, 0}, {0, 0.2, 0}, torsion)),
@@ -64,8 +64,8 @@ TEST(SoftMotionTest, APairThatSlidesIsProvedAndOfHardPointsNothingIs) {
 }
 
 TEST(SoftMotionTest, ItsRequiredHalfAngleIsTheLargestOffset) {
-  // Of opposite normals it is the angle between them and the line of the contacts, largest at an
-  // end: the offset of the contacts is convex in t.
+  // For opposite normals the required angle is that between them and the line of the contacts. It
+  // is largest at an end, because the offset of the contacts is convex in t.
   const Slide slide(0.2);
   const auto required = ComputePathRequiredHalfAngle(slide.motion, UnitFrame(3), std::nullopt);
   ASSERT_TRUE(required);
@@ -83,7 +83,7 @@ TEST(SoftMotionTest, AProofThatIsChangedIsNone) {
     change(changed.front());
     EXPECT_FALSE(slide.Check(changed).proves());
   };
-  // A little is taken up by what the others have to spare.
+  // A small change is compensated by the margins of the other forces.
   expect_nothing([](MotionSegment& piece) { piece.start_torques[0] += 0.05; });
   expect_nothing([](MotionSegment& piece) { piece.end_torques[1] = 1; });
   expect_nothing([](MotionSegment& piece) { piece.end_torques.pop_back(); });
@@ -91,16 +91,16 @@ TEST(SoftMotionTest, AProofThatIsChangedIsNone) {
     piece.start_torques[1] = std::numeric_limits<double>::infinity();
   });
   expect_nothing([](MotionSegment& piece) { piece.start[0].y() += 0.2; });
-  // The same forces of hard points.
+  // The same forces with hard contacts.
   grasp::Grasp from = slide.from, to = slide.to;
   for (grasp::Contact& contact : from) contact.torsion = 0;
   EXPECT_FALSE(CheckMotionProof(from, to, 3, std::tan(kHalfAngle), *proof).proves());
-  // Of less friction than was proved, the offset of 0.2 needs 5.7°.
+  // With less friction than was proved, the offset of 0.2 requires 5.7°.
   EXPECT_FALSE(CheckMotionProof(slide.from, slide.to, 3, std::tan(Radians(5)), *proof).proves());
 }
 
 TEST(SoftMotionTest, TorquesBeyondTheTorsionProveNothing) {
-  // Two torques of opposite normals balance whatever their size.
+  // Two torques of opposite normals balance, regardless of their size.
   const Slide slide(0.2);
   const auto proof = FindMotionProof(slide.motion, 3, kHalfAngle);
   ASSERT_TRUE(proof);
@@ -124,7 +124,7 @@ TEST(SoftMotionTest, AFingerWhoseNormalTurnsIsAHardPoint) {
   const grasp::Grasp from = Pair({0, 0, 0}, {0, 0, 0}, torsion);
   grasp::Grasp to = from;
   to[0].n = Vector3d(std::cos(0.1), std::sin(0.1), 0);
-  // The other one alone resists turns about the line.
+  // The other finger alone resists rotations about the line.
   const GraspMotion one = Between(from, to);
   EXPECT_TRUE(DecidePathForceClosure(one, UnitFrame(3), kHalfAngle).holds());
   to[1].n = Vector3d(-std::cos(0.1), 0, std::sin(0.1));

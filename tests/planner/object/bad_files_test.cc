@@ -1,4 +1,4 @@
-// The corpus of files that must be refused, and what must never crash whatever it holds.
+// Corpus of files that must be rejected, and robustness of the readers against arbitrary bytes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ using ::testing::StartsWith;
 
 const std::filesystem::path kObjects = ProjectPath("tests/data/objects");
 
-/// File in tests/data/objects/bad, and words that the message must have behind the file's name.
+/// File in tests/data/objects/bad, and words that the message must contain after the file's name.
 const std::map<std::string, std::string> kBadFiles = {
     {"bad_format.ply", "line 2: \"ebcdic\" is not a format"},
     {"bad_type.ply", "line 6: \"quad\" is not a type"},
@@ -174,7 +174,7 @@ TEST(BadFiles, AFileThatIsMissingOrAFolderIsRefused) {
   EXPECT_THROW(static_cast<void>(ReadObject(kObjects)), InputError);
 }
 
-/// Reads bytes in this process as the format of `ending`. @returns whether they are an object.
+/// Read bytes in this process as the format of `ending`. @returns whether they are an object.
 bool IsObject(const std::string& ending, const std::string& bytes) {
   try {
     if (ending == ".wkt") {
@@ -192,7 +192,7 @@ bool IsObject(const std::string& ending, const std::string& bytes) {
   }
 }
 
-/// The sound files of formats that are read in this process.
+/// Return the valid files of formats that are read in this process.
 std::map<std::string, std::string> SoundFiles() {
   std::map<std::string, std::string> files;
   for (const auto& folder : {kObjects / "good", ProjectPath("models")}) {
@@ -206,7 +206,8 @@ std::map<std::string, std::string> SoundFiles() {
   return files;
 }
 
-/// A file of this many bytes is cut behind every one of them, a longer one at as many places.
+/// Maximum number of truncations per file. A file of at most this size is truncated after every
+/// byte.
 constexpr std::size_t kMostCuts = 5000;
 
 TEST(BadFiles, TruncatedAnywhereAFileIsReadOrRefused) {

@@ -57,7 +57,7 @@ TEST(Polygon, EdgesMeetAtTheirVerticesAndOnlyThoseOfTheHoleAreConcave) {
     EXPECT_FALSE(frame.AreNeighbours(f, f));
     EXPECT_FALSE(frame.AreNeighbours(f, FaceIndex((f + 4) % 8)));
   }
-  // Collinear edges are passed as well.
+  // Collinear edges are returned, too.
   const Polygon split = Polygon::FromWkt("POLYGON((0 0, 1 0, 2 0, 2 2, 0 2, 0 0))", "split");
   EXPECT_TRUE(split.BordersOf(FaceIndex(0)).back().convex);
 }
@@ -141,7 +141,7 @@ TEST(Polygon, WktIsReadInAnyCaseAndLayout) {
 
 struct BadWkt {
   std::string text;
-  std::string words;  ///< that the message must have
+  std::string words;  ///< words that the message must contain
 };
 
 TEST(Polygon, BadWktIsRefusedWithRingAndVertex) {
@@ -201,7 +201,7 @@ TEST(Polygon, BadWktIsRefusedWithRingAndVertex) {
 }
 
 TEST(Polygon, PredicatesAreExact) {
-  // The third point is off the line through the others by less than an epsilon would see.
+  // The third point is off the line through the two others by less than a typical tolerance.
   const double up = std::nextafter(0.1, 1);
   const Polygon sliver = Polygon::FromRings({{{0, 0}, {1, 1}, {0.1, up}}}, "sliver");
   EXPECT_GT(sliver.mass_properties().volume, 0);

@@ -12,7 +12,7 @@
 namespace regrasp::plan {
 namespace check_align_test {
 
-/// A plan whose only step aligns from the first to the last of the waypoints.
+/// Return a plan whose only step slides from the first to the last waypoint.
 Plan AlignPlan(Plan plan, std::vector<FingerGrasp> waypoints) {
   plan.initial = waypoints.front();
   plan.goal = ContactsOf(waypoints.back());
@@ -26,7 +26,8 @@ Reason ReasonOf(const object::Object& object, const Plan& plan) {
   return check.steps[1].reason;
 }
 
-/// Slides finger 1 from `from` to `to`; the two others hold the body along z at `hold`.
+/// Return a plan in which finger 1 slides from `from` to `to`, while the two other fingers hold the
+/// object along z at `hold`.
 Plan SlideOnTop(const Eigen::Vector2d& hold, const Eigen::Vector3d& from,
                 const Eigen::Vector3d& to) {
   const auto grasp = [&](const Eigen::Vector3d& at) {
@@ -48,7 +49,7 @@ TEST(CheckAlign, KeepsFingersInsideAFaceThatIsNotConvex) {
 }
 
 TEST(CheckAlign, DoesNotBeginBeyondASlit) {
-  // Narrower than points are known to.
+  // Narrower than the precision of points.
   const double width = 1e-6;
   const object::Polyhedron block =
       MakePrism({{0, 0}, {1, 0}, {1, 1}, {1 + width, 1}, {1 + width, 0}, {3, 0}, {3, 2}, {0, 2}});
@@ -67,7 +68,7 @@ TEST(CheckAlign, KeepsFingersFromCrossingAHoleOfAFace) {
   const Eigen::Vector3d left(-2, 0, 1);
   EXPECT_EQ(ReasonOf(ring, SlideOnTop(hold, left, {0, 2, 1})), Reason::kNone);
   EXPECT_EQ(ReasonOf(ring, SlideOnTop(hold, left, {2, 0, 1})), Reason::kLeavesFace);
-  // Just past the hole's corner at (−1, 1), on either side of it.
+  // Next to the hole's corner at (−1, 1), on either side of it.
   EXPECT_EQ(ReasonOf(ring, SlideOnTop(hold, left, {0, 2.001, 1})), Reason::kNone);
   EXPECT_EQ(ReasonOf(ring, SlideOnTop(hold, left, {0, 1.999, 1})), Reason::kLeavesFace);
 }
@@ -83,7 +84,7 @@ TEST(CheckAlign, LetsAFingerTurnWhereTwoFacesMeet) {
   const FingerGrasp edge_back = grasp({0, 1, 1}, {0, -1, 0});
   const FingerGrasp edge_top = grasp({0, 1, 1}, {0, 0, -1});
   const FingerGrasp top = grasp({0, 0.8, 1}, {0, 0, -1});
-  // At 50° the finger can always push towards the line through the other two.
+  // At 50° the finger can always exert a force towards the line through the other two.
   const Plan plan = EmptyPlan(3, 5, 50);
   EXPECT_EQ(ReasonOf(cube, AlignPlan(plan, {back, edge_back, edge_top, top})), Reason::kNone);
   EXPECT_EQ(ReasonOf(cube, AlignPlan(plan, {back, edge_back, top})), Reason::kLeavesFace);
@@ -93,8 +94,8 @@ TEST(CheckAlign, LetsAFingerTurnWhereTwoFacesMeet) {
 
 TEST(CheckAlign, JudgesForceClosureWhileANormalTurns) {
   // Finger 1 turns at the corner (1, 1) of a square from the right edge to the upper one, against
-  // finger 0 in the opposite corner: with normals on the diagonal friction of 0 would do, at the
-  // ends of the turn it must be 45°.
+  // finger 0 in the opposite corner. With normals on the diagonal no friction is required; at the
+  // ends of the turn 45° are.
   const object::Polygon square = MakeSquare();
   const auto grasp = [](const Eigen::Vector3d& n0, const Eigen::Vector3d& n1) {
     return FingerGrasp{{FingerIndex(0), {{-1, -1, 0}, n0}}, {FingerIndex(1), {{1, 1, 0}, n1}}};
@@ -138,13 +139,13 @@ TEST(CheckAlign, GoesOverFromAnEdgeToACollinearOneAtTheirVertex) {
     EXPECT_EQ(face(0), face(1));
     EXPECT_NE(face(1), face(2));
     EXPECT_EQ(face(2), face(3));
-    // Two vertices at once it cannot pass.
+    // The finger cannot pass two vertices in one segment.
     EXPECT_EQ(ReasonOf(square, AlignPlan(plan, {grasp(-0.3 * sign), grasp(0.3 * sign)})),
               Reason::kLeavesFace);
   }
 }
 
-/// Two fingers of the square, below and above.
+/// Return two fingers of the square, below and above.
 FingerGrasp Pair(double below, double above) {
   return {{FingerIndex(0), {{below, -1, 0}, {0, 1, 0}}},
           {FingerIndex(1), {{above, 1, 0}, {0, -1, 0}}}};
@@ -153,7 +154,8 @@ FingerGrasp Pair(double below, double above) {
 TEST(CheckAlign, FindsForceClosureLostOnlyOnTheWay) {
   const object::Polygon square = MakeSquare();
   const Plan plan = EmptyPlan(2, 4, 20);
-  // Finger 1 follows only when finger 0 has arrived: opposite before and after, apart between.
+  // Finger 1 moves only after finger 0 has arrived: they are opposite before and after, but not in
+  // between.
   const PlanCheck late =
       CheckPlan(square, AlignPlan(plan, {Pair(-0.9, -0.9), Pair(0.9, -0.9), Pair(0.9, 0.9)}));
   EXPECT_EQ(late.steps[1].reason, Reason::kNotForceClosure);
@@ -175,8 +177,9 @@ TEST(CheckAlign, RefusesAMotionAtItsCriticalFriction) {
   EXPECT_TRUE(CheckPlan(square, plan).passed());
 }
 
-/// Three fingers hold a cube; the third passes the first one's place, where all are on one line and
-/// no friction is enough, between its waypoints.
+/// Return a plan in which three fingers hold a cube and the third passes the position of the first.
+/// At that instant, which is between the waypoints, all fingers are collinear and no friction is
+/// sufficient.
 Plan CollinearForAnInstant(double from, double to) {
   const auto grasp = [](double y) {
     return FingerGrasp{{FingerIndex(0), {{1, 0, 0}, {-1, 0, 0}}},
@@ -196,7 +199,7 @@ TEST(CheckAlign, DoesNotPassWhatItCannotProve) {
   EXPECT_FALSE(step.required);
   EXPECT_GT(step.undecided, 0);
   EXPECT_THAT(step.detail, testing::HasSubstr("0.4286 of the path from waypoint 0 to waypoint 1"));
-  // Where bisection meets the instant it is lost.
+  // If bisection hits this instant, force closure is lost.
   EXPECT_EQ(CheckPlan(cube, CollinearForAnInstant(-0.4, 0.4)).steps[1].reason,
             Reason::kNotForceClosure);
   EXPECT_TRUE(CheckPlan(cube, CollinearForAnInstant(0.1, 0.8)).passed());
@@ -211,13 +214,13 @@ TEST(CheckAlign, PassesWhatItCannotProveWhereThatIsAllowed) {
   EXPECT_GT(check.steps[1].undecided, 0);
   EXPECT_EQ(CheckPlan(cube, CollinearForAnInstant(-0.4, 0.4), allowed).steps[1].reason,
             Reason::kNotForceClosure);
-  // Nor where a waypoint is the instant.
+  // The same result if a waypoint is at this instant.
   Plan plan = CollinearForAnInstant(-0.3, 0.4);
   auto& waypoints = std::get<Align>(plan.steps[0]).waypoints;
   waypoints.insert(waypoints.begin() + 1, waypoints.front());
   waypoints[1][2].contact.p.y() = 0;
   EXPECT_EQ(CheckPlan(cube, plan, allowed).steps[1].reason, Reason::kNotForceClosure);
-  // Those of all ways count.
+  // Undecided instants of all segments are counted.
   Plan both = CollinearForAnInstant(-0.3, 0.4);
   auto& ways = std::get<Align>(both.steps[0]).waypoints;
   ways.push_back(ways.front());
@@ -225,9 +228,9 @@ TEST(CheckAlign, PassesWhatItCannotProveWhereThatIsAllowed) {
   EXPECT_GT(CheckPlan(cube, both, allowed).steps[1].undecided, check.steps[1].undecided);
 }
 
-/// Finger 0 turns at a corner while the others slide up a wall, both evenly: the angle between its
-/// normal and the line to finger 1 is kTurn + atan(kTurn t) − kTurn t, near its largest for long.
-/// The others, a little above finger 1, do not help.
+/// Finger 0 turns at a corner while the other fingers slide up a wall, both uniformly. The angle
+/// between its normal and the line to finger 1 is kTurn + atan(kTurn t) − kTurn t, which is near
+/// its maximum for a long time. The other fingers, slightly above finger 1, do not help.
 struct TurnAndSlide {
   static constexpr double kTurn = 0.3;
   object::Polygon body = object::Polygon::FromRings(
@@ -263,7 +266,7 @@ TEST(CheckAlign, SaysWhereTheSearchForProofsEnded) {
 }
 
 TEST(CheckAlign, EndsWhereTheWorkThatAPlanMayTakeIsDone) {
-  // There and back again: with so many fingers the way back takes more than is left.
+  // The motion and its reverse: with 60 fingers the reverse exceeds the remaining budget.
   const auto check = [](int fingers) {
     TurnAndSlide sample(fingers, 1e-4);
     auto& waypoints = std::get<Align>(sample.plan.steps[0]).waypoints;
@@ -280,7 +283,7 @@ TEST(CheckAlign, EndsWhereTheWorkThatAPlanMayTakeIsDone) {
 }
 
 TEST(CheckAlign, JudgesTheWayAtTheFrictionOfTheOptions) {
-  // Opposite before and after; on the way the fingers are far apart, and need 42°.
+  // The fingers are opposite before and after. In between they are far apart, and require 42°.
   const Plan plan =
       AlignPlan(EmptyPlan(2, 4, 60), {Pair(-0.9, -0.9), Pair(0.9, -0.9), Pair(0.9, 0.9)});
   const object::Polygon square = MakeSquare();
@@ -295,7 +298,7 @@ TEST(CheckAlign, JudgesTheWayAtTheFrictionOfTheOptions) {
 
 TEST(CheckAlign, PassesOnlyWithARequiredHalfAngleWithinTheFriction) {
   const object::Polygon square = MakeSquare();
-  // At friction hardly above the critical one the bounds of single grasps are wider than the gap.
+  // Slightly above the required friction, the bounds of single grasps are wider than the margin.
   int passed = 0;
   for (const double above : {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-5, 1e-3}) {
     Plan plan = AlignPlan(EmptyPlan(2, 4, 20), {Pair(-0.8, -0.3), Pair(-0.3, 0.2)});

@@ -1,4 +1,4 @@
-// Where the check of a plan finds force closure lost, and which half-angle it says is required.
+// Position of a loss of force closure and required friction angle, as reported by the plan checker.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace regrasp::plan {
 namespace check_force_closure_test {
 
 TEST(CheckPlan, LosesForceClosureExactlyWhereTwoFingersDo) {
-  // Two opposite fingers a distance s apart sideways hold a square of side 2 iff s/2 < tan θ.
+  // Two opposite fingers with a lateral offset s hold a square of side 2 iff s/2 < tan θ.
   const object::Polygon square = MakeSquare();
   Plan plan = EmptyPlan(2, 4, 20);
   const double limit = 2 * std::tan(plan.half_angle);
@@ -36,7 +36,8 @@ TEST(CheckPlan, LosesForceClosureExactlyWhereTwoFingersDo) {
 
 TEST(CheckPlan, LosesForceClosureWhereAFingerIsMovedTooFar) {
   const object::Polyhedron cube = MakeCube();
-  // The finger on +x, moved towards a corner: bisection finds the place where the grasp is lost.
+  // The finger on +x, moved towards a corner. Bisection finds the position at which force closure
+  // is lost.
   const auto with_shift = [](double shift) {
     Plan plan = CubePlan();
     plan.steps.clear();
@@ -58,7 +59,7 @@ TEST(CheckPlan, LosesForceClosureWhereAFingerIsMovedTooFar) {
 
 TEST(CheckPlan, HoldsGraspsToTheNormalsOfPatchesWhereThePlanSaysSo) {
   const object::Polyhedron cube = MakeCube();
-  // All four contacts are beside edges, where a fingertip feels the next face too.
+  // All four contacts are near edges, where a fingertip also touches the neighbouring face.
   Plan plan = CubePlan();
   plan.steps.clear();
   plan.initial.resize(4);
@@ -108,7 +109,7 @@ TEST(CheckPlan, AGraspThatPassesNeedsNoMoreThanTheFriction) {
     plan.initial = {{FingerIndex(0), {{apart, -1, 0}, {0, 1, 0}}},
                     {FingerIndex(1), {{-apart, 1, 0}, {0, -1, 0}}}};
     plan.goal = ContactsOf(plan.initial);
-    // In the middle of the bounds, where the grasp may hold although that is not known of it yet.
+    // Middle of the bounds, at which the grasp may be force closure without a proof so far.
     const auto bounds = CheckPlan(square, plan).steps[0].required;
     ASSERT_TRUE(bounds);
     plan.half_angle = bounds->lower + (bounds->upper - bounds->lower) / 2;
@@ -122,14 +123,14 @@ TEST(CheckPlan, AGraspThatPassesNeedsNoMoreThanTheFriction) {
   EXPECT_GE(passed, 5);
 }
 
-/// A strip 1 long and so thin that fingers at opposite corners need 8e-7 rad less than a right
-/// angle: required half-angles are looked for up to 1e-6 below it.
+/// A strip of length 1, so thin that fingers at opposite corners require a right angle minus 8e-7
+/// rad. Required friction angles are searched up to 1e-6 below a right angle.
 struct Strip {
   static constexpr double kHeight = 8e-7;
   object::Polygon polygon =
       object::Polygon::FromRings({{{0, 0}, {1, 0}, {1, kHeight}, {0, kHeight}}}, "strip");
 
-  /// A finger below and one above, this far apart along the strip.
+  /// Return a finger below and one above, at this distance along the strip.
   static FingerGrasp Held(double apart) {
     return {{FingerIndex(0), {{0.5 - apart / 2, 0, 0}, {0, 1, 0}}},
             {FingerIndex(1), {{0.5 + apart / 2, kHeight, 0}, {0, -1, 0}}}};
@@ -147,7 +148,7 @@ TEST(CheckPlan, WhatHoldsAtNoHalfAngleThatIsLookedForIsNotProved) {
   const Strip strip;
   ExpectPasses(CheckPlan(strip.polygon, Strip::HoldPlan(0.5)), "1.6e-6 rad to a right angle");
   ExpectFails(CheckPlan(strip.polygon, Strip::HoldPlan(1)), 0, Reason::kNotProved, "8e-7 rad");
-  // The same on the way from a grasp that passes to one.
+  // The same during a motion from a grasp that passes to such a grasp.
   Plan plan = Strip::HoldPlan(0.5);
   plan.steps = {Align{{Strip::Held(0.5), Strip::Held(0.6), Strip::Held(0.5)}}};
   ExpectPasses(CheckPlan(strip.polygon, plan), "1.3e-6 rad on the way");

@@ -12,7 +12,8 @@
 namespace regrasp::plan {
 namespace check_laws_test {
 
-/// The cube's plan and changes of it that fail, so that laws are tested on both verdicts.
+/// Return the cube's plan and changed versions that fail, so that laws are tested for both
+/// verdicts.
 std::vector<Plan> Plans() {
   std::vector<Plan> plans(6, CubePlan());
   plans[1].initial[2].contact.p.z() *= 1.01;
@@ -60,7 +61,8 @@ void ExpectSameVerdict(const PlanCheck& a, const PlanCheck& b) {
     EXPECT_EQ(a.steps[k].force_closure, b.steps[k].force_closure) << k;
     ASSERT_EQ(a.steps[k].required.has_value(), b.steps[k].required.has_value()) << k;
     if (!a.steps[k].required) continue;
-    // The bounds of an align are as accurate as 1e-4 rad; rounding may halve other intervals.
+    // The bounds of a sliding step have an accuracy of 1e-4 rad, because rounding may bisect other
+    // intervals.
     EXPECT_NEAR(a.steps[k].required->upper, b.steps[k].required->upper, 1e-4) << k;
   }
 }

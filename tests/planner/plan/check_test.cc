@@ -17,7 +17,7 @@
 namespace regrasp::plan {
 namespace check_test {
 
-/// One change that makes a passing plan fail, where, and why.
+/// Change that makes a passing plan fail, with the failing entry and the reason.
 struct Control {
   const char* name;
   std::function<void(Plan&)> change;
@@ -45,7 +45,8 @@ Eigen::Vector3d TurnedAboutZ(const Eigen::Vector3d& v, double degrees) {
   return Eigen::AngleAxisd(Radians(degrees), Eigen::Vector3d::UnitZ()) * v;
 }
 
-// The controls that are the same in space and in the plane. Both sample plans begin with a switch.
+// Return the controls that are the same in space and in the plane. Both sample plans begin with a
+// switch.
 std::vector<Control> SharedControls() {
   return {
       {"an initial contact off the surface",
@@ -119,7 +120,7 @@ std::vector<Control> SharedControls() {
   };
 }
 
-/// Fills in the index of the plan's last step (−1) and of the last but one (−2).
+/// Replace the indices −1 and −2 by those of the plan's last step and of the step before it.
 std::vector<Control> ForPlan(std::vector<Control> controls, const Plan& plan) {
   for (Control& control : controls) {
     if (control.index < 0) control.index += static_cast<int>(plan.steps.size()) + 1;
@@ -127,7 +128,7 @@ std::vector<Control> ForPlan(std::vector<Control> controls, const Plan& plan) {
   return controls;
 }
 
-/// The sample plan's hold and first switch.
+/// Return the sample plan's initial grasp and first switch.
 Plan SwitchOnly() {
   Plan plan = CubePlan();
   plan.steps.resize(1);
@@ -136,7 +137,7 @@ Plan SwitchOnly() {
   return plan;
 }
 
-/// Where the contacts of a plan are.
+/// Return the contact points of a plan.
 std::vector<Eigen::Vector3d> PointsOf(Plan plan) {
   std::vector<Eigen::Vector3d> points;
   for (const FingerContact& finger : plan.initial) points.push_back(finger.contact.p);
@@ -295,7 +296,7 @@ TEST(CheckPlan, AcceptsContactsWithinTheTolerances) {
 TEST(CheckPlan, TolerancesAreThoseOfTheFormat) {
   const object::Polyhedron cube = MakeCube();
   const double point = 1e-6 * cube.diameter();
-  // Each change is of the size of a tolerance, times a share.
+  // Change of the size of a tolerance, times a share.
   struct Case {
     const char* name;
     std::function<void(Plan&, double)> change;
@@ -365,7 +366,7 @@ TEST(CheckPlan, AcceptsAnEmptyPlanThatIsAtItsGoal) {
 }
 
 TEST(CheckPlan, LetsFingersMeetOnlyWhileASwitchIsUnderWay) {
-  // A spare finger takes over the very place of another: no grasp at rest has both.
+  // A spare finger takes over the contact of another finger: no static grasp has both.
   Plan plan = CubePlan();
   plan.steps = {Switch{{{FingerIndex(4), plan.initial[2].contact}}, {FingerIndex(2)}}};
   plan.goal = ContactsOf(plan.initial);

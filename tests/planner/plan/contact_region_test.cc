@@ -17,7 +17,7 @@
 namespace regrasp::plan {
 namespace contact_region_test {
 
-/// An uneven outline around a circle, convex and concave corners.
+/// Draw an uneven outline around a circle, with convex and concave corners.
 Ring DrawRing(int edges, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   Ring ring;
@@ -33,7 +33,7 @@ double Measure(const object::Polygon& polygon, const grasp::Grasp& grasp, double
   return MeasureContactRegion(polygon, grasp, Radians(degrees), polygon.diameter());
 }
 
-/// The contact `way` farther along the outer ring.
+/// Return the contact moved by `way` along the outer ring.
 grasp::Contact Along(const object::Polygon& polygon, grasp::Contact contact, double way) {
   const int count = polygon.face_count();
   const auto [from, to] = polygon.edge(contact.face);
@@ -58,7 +58,8 @@ TEST(ContactRegion, OfOppositeContactsOnASquareIsGivenByTheConesOrTheCorners) {
     for (const double height : {0.0, 0.3, 0.7, -0.95}) {
       const grasp::Grasp grasp = {OnEdge(square, 1, (1 + height) / 2),
                                   OnEdge(square, 3, (1 - height) / 2)};
-      // Both off by h, opposite ways: the line between them rises by 2 h over the width of 2.
+      // Both contacts are displaced by h in opposite directions: the line between them rises by 2 h
+      // over the width of 2.
       const double expected = std::min(std::tan(Radians(degrees)), 1 - std::abs(height));
       EXPECT_NEAR(Measure(square, grasp, degrees), expected, 2 * accuracy) << degrees;
       ++checked;
@@ -75,8 +76,8 @@ TEST(ContactRegion, OfSkewContactsIsWhatTheConeHasLeft) {
 }
 
 TEST(ContactRegion, CrossesVerticesAndTheRingsFirstOne) {
-  // A strip whose long sides are cut in uneven pieces that meet in straight angles; the ring's
-  // first vertex lies within the region of the lower contact.
+  // A strip whose long sides are divided into uneven pieces with straight angles. The ring's first
+  // vertex is inside the region of the lower contact.
   const object::Polygon strip = object::Polygon::FromRings(
       {{{0, 0}, {0.1, 0}, {0.13, 0}, {3, 0}, {3, 1}, {0.2, 1}, {-0.05, 1}, {-3, 1}, {-3, 0}}},
       "strip");
@@ -91,7 +92,8 @@ TEST(ContactRegion, OfADiscIsAboutTheHalfAngleTimesTheRadius) {
   const object::Polygon disc = MakeDisc(kEdges, 2);
   for (const double degrees : {10.0, 15.0, 20.0}) {
     const grasp::Grasp grasp = {OnEdge(disc, 7, 0.5), OnEdge(disc, 7 + kEdges / 2, 0.5)};
-    // Contacts off by h and −h tilt the line by h/r; normals are right to half an edge's angle.
+    // Contacts displaced by h and −h tilt the line by h/r; normals are accurate to half an edge's
+    // angle.
     const double slack = 2 * std::numbers::pi / kEdges * 2;
     EXPECT_NEAR(Measure(disc, grasp, degrees), 2 * Radians(degrees), slack);
   }
@@ -120,7 +122,7 @@ TEST(ContactRegion, IsZeroAtTheEndOfTheSetAndWithoutForceClosure) {
   const object::Polygon square = MakeSquare();
   EXPECT_EQ(Measure(square, {OnEdge(square, 1, 0.5), OnEdge(square, 3, 0.9)}, 20), 0);
   EXPECT_EQ(Measure(square, {OnEdge(square, 1, 0.5), OnEdge(square, 2, 0.5)}, 20), 0);
-  // Held across the corner of an edge and the top, at a vertex: from there on nothing holds.
+  // One contact is at a vertex, the end of its edge: beyond it the grasp is not force closure.
   EXPECT_LT(Measure(square, {OnEdge(square, 1, 1), OnEdge(square, 3, 0)}, 20), 1e-6);
 }
 
@@ -141,7 +143,7 @@ TEST(ContactRegion, GivesNoMoreThanTheLimitAndRefusesWhatIsNoGrasp) {
   refuses(grasp, std::numeric_limits<double>::infinity());
 }
 
-/// Random grasps that hold, on random outlines.
+/// Random force-closure grasp on a random outline.
 struct RandomCase {
   object::Polygon polygon;
   grasp::Grasp grasp;
@@ -188,7 +190,8 @@ TEST(ContactRegion, HoldsEveryGraspInsideAndNotAllALittleOutside) {
         ++inside;
       }
     }
-    // The negative control: along the border of a slightly larger square something does not hold.
+    // Negative control: on the boundary of a slightly larger square at least one grasp is not force
+    // closure.
     const double beyond = h + 2e-3;
     bool all = true;
     for (int i = 0; i <= 20 * kGrid && all; ++i) {

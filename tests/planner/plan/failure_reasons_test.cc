@@ -75,7 +75,8 @@ TEST(FailureReasons, BecomeSectionsWithTheirNameAsHeading) {
   const std::string linked = FailureReasonMarkdown(*FindFailureReason("tip-penetrates"));
   EXPECT_THAT(text, StartsWith("### `torque-limit`\n\nWith"));
   EXPECT_THAT(text, HasSubstr("\n\nUsual causes:\n\n- The grasp force"));
-  EXPECT_THAT(text, HasSubstr("\n\nRemedies:\n\n- Use a smaller grasp force (--squeeze).\n- Use a"));
+  EXPECT_THAT(text,
+              HasSubstr("\n\nRemedies:\n\n- Use a smaller grasp force (--squeeze).\n- Use a"));
   EXPECT_THAT(text, Not(HasSubstr("See [")));
   EXPECT_THAT(linked, HasSubstr("\nSee [fingertip geometry](fingertip_geometry.md).\n"));
 }

@@ -13,7 +13,7 @@ namespace fault_test {
 
 using Eigen::Vector3d;
 
-/// The step of CubePlan(), changed, that fails.
+/// Return the failed step of a changed CubePlan().
 StepCheck FailedStep(const std::function<void(Plan&)>& change, const CheckOptions& options = {}) {
   Plan plan = CubePlan();
   change(plan);

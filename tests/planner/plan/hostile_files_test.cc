@@ -1,5 +1,5 @@
-// Plan and grasp files that are broken on purpose: reading them ends in an InputError of one line
-// that names the file, or in a plan that the checker takes. Nothing else.
+// Deliberately broken plan and grasp files. The only allowed results are an InputError with one
+// line that names the file, and a plan that the checker accepts.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ void ExpectOneLineAbout(const std::string& message, const std::string& name) {
   EXPECT_GT(message.size(), name.size() + 2);
 }
 
-/// Reads a plan, and checks it where `check` says so.
+/// Read a plan, and check it if `check` is given.
 Outcome TryPlan(const std::string& text, const object::Object* check = nullptr) {
   try {
     const Plan plan = ParsePlan(text, "hostile.json");
@@ -113,7 +113,7 @@ TEST(HostileFiles, BadFilesOfTheCorpusAreRefused) {
 TEST(HostileFiles, TruncatedAnywhereIsRefused) {
   const std::string plan = FormatPlan(SquarePlan());
   int refused = 0;
-  // Without the final newline and brace.
+  // Every length without the final newline and brace.
   for (std::size_t length = 0; length + 1 < plan.size(); ++length) {
     refused += !TryPlan(plan.substr(0, length)).read;
   }
@@ -147,7 +147,7 @@ TEST(HostileFiles, RandomBytesAreRefusedOrHarmless) {
   EXPECT_GT(read, 0);
 }
 
-/// The pointers of all members and elements of a value.
+/// Collect the JSON pointers of all members and elements of a value.
 void CollectPointers(const Json& value, const Json::json_pointer& at,
                      std::vector<Json::json_pointer>& pointers) {
   if (value.is_object()) {
@@ -227,7 +227,7 @@ TEST(HostileFiles, AnyPartOfAGraspLeftOutOrReplacedIsRefusedOrRead) {
 }
 
 TEST(HostileFiles, GraspsOfFarTooManyFingersAreJudged) {
-  // Comparing all pairs of so many contacts would take hours.
+  // Number of contacts; comparing all their pairs would take hours.
   constexpr int kContacts = 100'000;
   const object::Polyhedron cube = MakeCube();
   FingerGrasp crowd;

@@ -11,7 +11,7 @@ namespace invented_contacts_test {
 
 using ::testing::HasSubstr;
 
-/// A cube whose side at x = 0.5 was invented.
+/// Return a cube whose side at x = 0.5 is a filled surface.
 object::Polyhedron CubeWithInventedSide() {
   object::PolygonSoup cube = soups::UnitCubeSoup();
   cube.invented.assign(cube.facets.size(), false);

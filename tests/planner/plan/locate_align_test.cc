@@ -11,7 +11,8 @@ namespace locate_align_test {
 
 using Eigen::Vector3d;
 
-/// One finger that turns over an edge, at two points that should be one.
+/// Return a sliding step in which one finger turns over an edge, at two points that should be
+/// equal.
 Align TurnOver(const object::Object& object, FaceIndex face, const object::FaceBorder& edge,
                const Vector3d& p, const Vector3d& q) {
   return {{{{FingerIndex(0), {p, object.inward_normal(face), {}}}},

@@ -15,7 +15,7 @@ using testing::ElementsAre;
 
 class LocateGraspsTest : public testing::Test {
  protected:
-  object::ObjectFile cube_ = ReadModel("cube.obj");  // of side 0.06
+  object::ObjectFile cube_ = ReadModel("cube.obj");  // side 0.06
   std::vector<double> points_, normals_;
 
   void Add(const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
@@ -29,10 +29,10 @@ class LocateGraspsTest : public testing::Test {
 };
 
 TEST_F(LocateGraspsTest, SaysOfEachGraspWhatLocateContactSays) {
-  AddPair({0.03 + 1e-9, 0.01, 0.02}, {-1, 0, 0});  // on the surface but for rounding
+  AddPair({0.03 + 1e-9, 0.01, 0.02}, {-1, 0, 0});  // on the surface except for rounding
   AddPair({0.031, 0.01, 0.02}, {-1, 0, 0});
   AddPair({0.03, 0.01, 0.02}, {1, 0, 0});
-  AddPair({0.03, 0.03, 0.02}, {0, -1, 0});  // on an edge: the normal chooses
+  AddPair({0.03, 0.03, 0.02}, {0, -1, 0});  // on an edge, so that the normal determines the face
   AddPair({-0.03, 1e-9, 0}, {1, 0, 0});
   const LocatedGrasps located = LocateGrasps(*cube_.object, points_, normals_, 2);
   EXPECT_THAT(located.reasons, ElementsAre(Reason::kNone, Reason::kOffSurface, Reason::kWrongNormal,

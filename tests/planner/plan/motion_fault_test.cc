@@ -15,7 +15,7 @@ namespace motion_fault_test {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Where a file that says so puts a finger.
+/// Return the contact that a file with these values defines.
 grasp::Contact At(const object::Object& object, const Vector3d& p, const Vector3d& n) {
   const LocatedContact located = LocateContact(object, {p, n.normalized()});
   EXPECT_EQ(located.reason, Reason::kNone) << located.detail;
@@ -28,7 +28,8 @@ bool MayMove(const object::Object& object, const grasp::Contact& from, const gra
   return there;
 }
 
-/// From x = 0, where it is `thin` high, to x = 1 a blade grows by `angle`; its lower side is y = 0.
+/// Return a blade whose height grows from `thin` at x = 0 by `angle` up to x = 1; its lower side is
+/// y = 0.
 std::vector<Vector2d> Blade(double thin, double angle) {
   return {{0, 0}, {1, 0}, {1, thin + std::tan(angle)}, {0, thin}};
 }
@@ -47,7 +48,7 @@ TEST(MotionFault, AThinWallIsNoEdgeToTurnAt) {
     };
     EXPECT_FALSE(across(object::Polygon::FromRings({Blade(thin, angle)}, "blade"), 1e-5, 0));
     EXPECT_FALSE(across(MakePrism(Blade(thin, angle)), 1e-5, 0.5));
-    // Where it ends there is an edge of its own between the two sides.
+    // The end of the blade is an edge between the two sides.
     EXPECT_FALSE(across(MakePrism(Blade(thin, angle)), 0, 0.5));
   }
 }
@@ -63,7 +64,7 @@ TEST(MotionFault, AFingerTurnsAtTheRealEdgesOfAThinWall) {
        std::vector<std::pair<const object::Object*, double>>{{&blade, half}, {&flat, 0.0}}) {
     EXPECT_TRUE(MayMove(*object, At(*object, {0, 0, z}, lower), At(*object, {0, 0, z}, end)));
     EXPECT_TRUE(MayMove(*object, At(*object, {0, thin, z}, upper), At(*object, {0, thin, z}, end)));
-    // As a file with rounded numbers has them.
+    // Coordinates of a file with rounded numbers.
     EXPECT_TRUE(MayMove(*object, At(*object, {4e-7, 0, z}, lower), At(*object, {0, 2e-7, z}, end)));
   }
 }
@@ -83,7 +84,7 @@ TEST(MotionFault, ASharpEdgeIsToBeReachedBeforeItIsTurnedAt) {
 }
 
 TEST(MotionFault, NothingTurnsAtAnEdgeAsSharpAsNormalsAreKnown) {
-  // Between opposite normals there is no shortest turn; they are known to 0.1°.
+  // Opposite normals have no unique shortest rotation. The tolerance is 0.1°.
   for (const auto& [degrees, turns] : {std::pair{0.09, false}, {0.11, true}}) {
     const double angle = Radians(degrees);
     const object::Polyhedron blade = MakePrism({{0, 0}, {1, 0}, {1, std::tan(angle)}});
@@ -95,7 +96,7 @@ TEST(MotionFault, NothingTurnsAtAnEdgeAsSharpAsNormalsAreKnown) {
 }
 
 TEST(MotionFault, FacesThatOnlyShareACornerMeetThere) {
-  // A pyramid of four sides: opposite ones share its top.
+  // A pyramid with four sides: opposite sides share its apex.
   object::PolygonSoup soup;
   soup.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}};
   soup.facets = {{3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
@@ -106,7 +107,8 @@ TEST(MotionFault, FacesThatOnlyShareACornerMeetThere) {
   EXPECT_TRUE(MayMove(pyramid, left, right));
 }
 
-/// A block of 3 × 2 × 1 with a slit of this width from y = 0 to y = 1 at x = 1, through along z.
+/// Return a block of 3 × 2 × 1 with a slit of this width from y = 0 to y = 1 at x = 1, through
+/// along z.
 object::Polyhedron SlitBlock(double width) {
   return MakePrism(
       {{0, 0}, {1, 0}, {1, 1}, {1 + width, 1}, {1 + width, 0}, {3, 0}, {3, 2}, {0, 2}});
@@ -123,7 +125,7 @@ TEST(MotionFault, SlitsAreNotCrossedHoweverNarrow) {
     EXPECT_TRUE(MayMove(block, top(0.5, 1), top(2.5, 1))) << "past its end, " << width;
     EXPECT_TRUE(MayMove(block, top(1, 0), top(1, 1))) << "along its wall, " << width;
     EXPECT_TRUE(MayMove(block, top(1, 0.2), top(0.2, 0.3))) << "away from it, " << width;
-    // Its walls, from the edge on their own side.
+    // The walls of the slit are reached from the edge on their own side.
     const auto wall = [&](double x, double side) { return At(block, {x, 0.5, 1}, {side, 0, 0}); };
     EXPECT_TRUE(MayMove(block, top(1, 0.5), wall(1, -1))) << width;
     EXPECT_TRUE(MayMove(block, top(1 + width, 0.5), wall(1 + width, 1))) << width;
@@ -135,7 +137,7 @@ TEST(MotionFault, SlitsAreNotCrossedHoweverNarrow) {
 TEST(MotionFault, RoundedNumbersMayShaveACorner) {
   const object::Polyhedron block = MakeLBlock();
   const auto top = [&](double x, double y) { return At(block, {x, y, 1}, {0, 0, -1}); };
-  // Past the inner corner (1, 1), or off it by less than points are known to.
+  // Through the concave corner (1, 1), or at a distance below the precision of points.
   EXPECT_TRUE(MayMove(block, top(1.5, 0.5), top(0.5, 1.5)));
   EXPECT_TRUE(MayMove(block, top(1.5, 0.5 + 1e-6), top(0.5, 1.5 + 1e-6)));
   EXPECT_FALSE(MayMove(block, top(1.5, 0.5 + 4e-5), top(0.5, 1.5 + 4e-5)));

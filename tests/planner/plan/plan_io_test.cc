@@ -79,7 +79,7 @@ void ExpectSamePlan(const Plan& a, const Plan& b) {
   }
 }
 
-/// The message of the InputError that reading throws; empty where it reads.
+/// Return the message of the InputError of reading; empty if reading succeeds.
 std::string Complaint(const std::string& text) {
   try {
     static_cast<void>(ParsePlan(text, "plan.json"));
@@ -98,7 +98,7 @@ TEST(PlanIo, ReadsWhatItWrites) {
   }
 }
 
-/// Gives the align of a plan made-up forces, as many as fingers.
+/// Return a plan whose sliding step has invalid proof forces, one per finger.
 Plan WithCertificate(Plan plan) {
   auto& align = std::get<Align>(plan.steps.back());
   align.certificate.emplace();

@@ -21,7 +21,7 @@ FingerContact At(const object::Object& object, int finger, const Vector3d& p, co
 
 std::string DetailOf(const std::optional<Obstacle>& found) { return found ? found->detail : ""; }
 
-/// [−3, 3]² × [0, 1] with the post [−1/2, 1/2]² × [1, 2] on it.
+/// Return [−3, 3]² × [0, 1] with the post [−1/2, 1/2]² × [1, 2] on it.
 object::Polyhedron MakePostPlate() {
   object::PolygonSoup soup;
   const auto add_square = [&](double half, double z) {
@@ -69,7 +69,7 @@ TEST(PlanReach, FingersPlacedInASwitchKeepApartFromThoseThatLeave) {
   EXPECT_NE(found->detail.find("fingers 0 and 2 overlap"), std::string::npos) << found->detail;
   EXPECT_EQ(found->fault.fingers, (std::vector{FingerIndex(0), FingerIndex(2)}));
   EXPECT_EQ(found->fault.grasp.size(), 3u);
-  // After it there is room again: only the switch itself is in the way.
+  // After the switch there is no obstacle: only the switch itself is blocked.
   EXPECT_FALSE(FindRestObstacle(cube, GraspAfter(before, step), 0.2).has_value());
 }
 
@@ -110,7 +110,7 @@ TEST(PlanReach, AFingerTurnsFreelyAroundAConvexEdge) {
   const FingerGrasp turned = {At(cube, 0, {1, 0, 1}, {-1, 0, 0})};
   const FingerGrasp side = {At(cube, 0, {1, 0, 0.5}, {-1, 0, 0})};
   EXPECT_FALSE(FindStepObstacle(cube, top, Align{{top, edge, turned, side}}, 0.5).has_value());
-  // Around the edge it comes close to the finger that holds the side.
+  // Around the edge the finger approaches the finger on the side face.
   const object::Polyhedron l = MakeLBlock();
   const FingerGrasp arm = {At(l, 0, {2.9, 1, 0.5}, {0, -1, 0}),
                            At(l, 1, {3, 0.1, 0.5}, {-1, 0, 0})};
@@ -146,7 +146,7 @@ TEST(PlanReach, TheCheckReportsUnreachableAfterForceClosure) {
   EXPECT_EQ(thick.steps[0].reason, Reason::kUnreachable);
   EXPECT_TRUE(thick.steps[0].force_closure);
   EXPECT_NE(thick.steps[0].detail.find("overlap"), std::string::npos) << thick.steps[0].detail;
-  // The plan's own radius counts where the options have none.
+  // The plan's own radius is used if the options have none.
   plan.finger_radius = 3.0;
   EXPECT_FALSE(CheckPlan(cube, plan).passed());
   EXPECT_TRUE(CheckPlan(cube, plan, {.finger_radius = 0.01}).passed());
@@ -173,13 +173,14 @@ TEST(PlanReach, TheCheckReportsAnAlignOnWhoseWayThereIsNoRoom) {
 }
 
 TEST(PlanReach, TheCheckAllowsWhatReadingRounds) {
-  // Points are read to a millionth of the diameter: fingers that overlap by less touch.
+  // Points have a precision of a millionth of the diameter: fingers with a smaller overlap are in
+  // contact.
   const object::Polyhedron cube = MakeCube();
   Plan plan = CubePlan();
   double least = 1e9;
   for (std::size_t i = 0; i < plan.initial.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      // Two balls of radius r, their centres r outward along the normals.
+      // Two spheres of radius r, with their centres at a distance r outward along the normals.
       const grasp::Contact& a = plan.initial[i].contact;
       const grasp::Contact& b = plan.initial[j].contact;
       double low = 0, high = 10;

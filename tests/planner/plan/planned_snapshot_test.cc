@@ -10,14 +10,14 @@
 namespace regrasp::plan {
 namespace planned_snapshot_test {
 
-/// CubePlan() in metres.
+/// Return CubePlan() in metres.
 Plan PlanInMetres() {
   Plan plan = CubePlan();
   plan.scale = 1;
   return plan;
 }
 
-/// The states of a finger, in order.
+/// Return the states of a finger, in order.
 std::vector<FingerState> StatesOf(const Snapshot& snapshot, int finger) {
   std::vector<FingerState> states;
   for (const FingerState& state : snapshot.fingers) {

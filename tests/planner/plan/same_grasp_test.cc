@@ -11,7 +11,7 @@ namespace same_grasp_test {
 
 constexpr double kTolerance = 1e-6;
 
-/// A contact on the x axis, its normal turned from y towards x.
+/// Return a contact on the x axis, with its normal rotated from y towards x.
 grasp::Contact At(double x, double turn = 0) {
   return {{x, 0, 0}, {std::sin(turn), std::cos(turn), 0}, FaceIndex(0)};
 }
@@ -58,8 +58,8 @@ TEST(AreSameGrasp, OneContactIsNotTwo) {
 }
 
 TEST(AreSameGrasp, PairsContactsThatFitSeveralSoThatAllArePaired) {
-  // Steps of most of the tolerance: each contact fits its neighbours, and the first pair that fits
-  // leaves others without one.
+  // The spacing is 90 % of the tolerance: each contact matches its neighbours, and matching the
+  // first possible pair leaves other contacts unmatched.
   const auto at = [](double steps) { return At(steps * 0.9 * kTolerance); };
   const grasp::Grasp row = {at(0), at(1), at(2), at(3)};
   const grasp::Grasp shifted = {at(1), at(2), at(3), at(4)};

@@ -4,17 +4,20 @@
 
 namespace regrasp::plan {
 
-// Plans that pass, from which the tests make plans that fail.
+// Plans that pass, from which the tests derive plans that fail.
 
-/// On MakeCube(): hold ±x and ±z; place finger 4 on +y, lift finger 2; place finger 2 on −y, lift
-/// finger 3; then all four slide, fingers 2 and 4 in two pieces. Friction 30°, five fingers.
+/// Return a plan on MakeCube().
+/// Fingers hold ±x and ±z. Finger 4 is placed on +y and finger 2 is lifted. Finger 2 is placed on
+/// −y and finger 3 is lifted. Then all four slide, fingers 2 and 4 in two segments. Friction 30°,
+/// five fingers.
 Plan CubePlan();
 
-/// On MakeSquare(): hold below and above; place fingers 2 and 3 right and left, lift 0 and 1; then
-/// both slide up. Friction 20°, four fingers.
+/// Return a plan on MakeSquare().
+/// Fingers hold below and above. Fingers 2 and 3 are placed right and left, and 0 and 1 are lifted.
+/// Then both slide up. Friction 20°, four fingers.
 Plan SquarePlan();
 
-/// A plan with a sha256, a scale and so on, but neither contacts nor steps.
+/// Return a plan with a sha256, a scale and other data, but without contacts and steps.
 Plan EmptyPlan(int dimension, int fingers, double half_angle_deg);
 
 }  // namespace regrasp::plan

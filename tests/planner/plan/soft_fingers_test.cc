@@ -1,4 +1,4 @@
-// Plans of soft fingers: what their torsion changes in the check, and in the file.
+// Plans of soft fingers: effects of torsional friction on the check and on the file.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ FingerGrasp Opposed(double y, double z) {
   return {{FingerIndex(0), {{-1, 0, 0}, {1, 0, 0}}}, {FingerIndex(1), {{1, y, z}, {-1, 0, 0}}}};
 }
 
-/// On MakeCube(): two fingers hold, one of them slides, two others take over.
+/// Return a plan on MakeCube(): two fingers hold, one of them slides, and two others take over.
 Plan PairPlan(double torsion) {
   Plan plan = EmptyPlan(3, 4, 25);
   plan.torsion = torsion;
@@ -82,7 +82,7 @@ TEST(SoftFingersCheck, BelowTheRequiredFrictionNothingPasses) {
 }
 
 TEST(SoftFingersCheck, WhatTurnsOnAPairIsNotProvedAndTheDetailSaysWhy) {
-  // Both fingers go over an edge at once, and nothing but their torques resists a turn.
+  // Both fingers turn over an edge simultaneously, and only their torques resist a rotation.
   const object::Polyhedron prism = MakePrism({{0, 0}, {2, 0}, {2.2, 1}, {2, 2}, {0, 2}, {-0.2, 1}});
   Plan plan = EmptyPlan(3, 3, 40);
   plan.torsion = 0.3;

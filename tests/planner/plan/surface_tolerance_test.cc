@@ -14,7 +14,7 @@ namespace surface_tolerance_test {
 
 constexpr double kHalf = 0.03;
 
-/// The reason why a point is not on the cube's face towards +x, by its normal.
+/// Return the reason why a point is not on the cube's face towards +x, selected by its normal.
 Reason ReasonOf(const object::Object& cube, const Eigen::Vector3d& point) {
   return LocateContact(cube, {point, -Eigen::Vector3d::UnitX()}).reason;
 }
@@ -31,7 +31,7 @@ TEST(SurfaceTolerance, PointsInSinglePrecisionAreOnAnObjectFarFromTheOrigin) {
        {Eigen::Vector3d(3, 0, 0), Eigen::Vector3d(-3, 2.5, 1), Eigen::Vector3d(40, 0, 7)}) {
     int moved = 0;
     for (int i = 0; i < 200; ++i) {
-      // Each size has another rounding error of its face.
+      // Each size has a different rounding error of its face.
       const double half = kHalf * (1 + 1e-3 * i);
       const object::Polyhedron cube = MakeCube(half, offset);
       const Eigen::Vector3d exact = offset + Eigen::Vector3d(half, across(engine), across(engine));
@@ -39,7 +39,7 @@ TEST(SurfaceTolerance, PointsInSinglePrecisionAreOnAnObjectFarFromTheOrigin) {
       EXPECT_EQ(ReasonOf(cube, single), Reason::kNone) << offset.transpose();
       moved += std::abs(single.x() - exact.x()) > 1e-6 * cube.diameter() ? 1 : 0;
     }
-    // The control: some of them are farther off than the tolerance of an object at the origin.
+    // Positive control: some points are farther off than the tolerance of an object at the origin.
     EXPECT_GT(moved, 0) << offset.transpose();
     EXPECT_EQ(ReasonOf(MakeCube(kHalf, offset), offset + Eigen::Vector3d(kHalf + 1e-4, 0, 0)),
               Reason::kOffSurface);

@@ -23,7 +23,7 @@ class Idle final : public Planner {
   [[nodiscard]] PlanResult Plan(const PlanRequest&) const override { return {}; }
 };
 
-/// Requests that ask for one option each.
+/// Return requests that require one option each.
 std::vector<std::pair<PlanOption, PlanRequest>> OneOptionEach() {
   std::vector<std::pair<PlanOption, PlanRequest>> requests;
   const auto add = [&](PlanOption option, const auto& ask) {

@@ -23,7 +23,7 @@ PlanResult None(const std::string& message) {
   return result;
 }
 
-/// What comes of draws whose numbers are counted from 1, and how many there were.
+/// Return the result of draws that get consecutive numbers from 1, and the number of draws.
 template <class Draw>
 std::pair<PlanResult, int> Plan(const Draw& draw) {
   int draws = 0;

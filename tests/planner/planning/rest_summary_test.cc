@@ -23,7 +23,7 @@ using testing::IsEmpty;
 
 class RestSummary : public testing::Test {
  protected:
-  /// Fingers of the unit square's bottom and top.
+  /// Return fingers on the bottom and top of the unit square.
   [[nodiscard]] Rest At(double bottom, double top) const {
     return {{{{bottom, 0, 0}, square_.inward_normal(FaceIndex(0)), FaceIndex(0)},
              {{top, 1, 0}, square_.inward_normal(FaceIndex(2)), FaceIndex(2)}},

@@ -23,8 +23,8 @@ using testing::ThrowsMessage;
 
 constexpr double kHalf = 0.03;
 
-/// Two fingers on each of two opposite faces of the cube, `lean` apart along z at the second pair,
-/// so that the grasp needs some friction.
+/// Return two fingers on each of two opposite faces of the cube. The second pair is displaced by
+/// `lean` along z, so that the grasp requires friction.
 GraspChoice OppositePairs(double lean) {
   const grasp::Grasp grasp = {{{-kHalf, 0.01, 0}, {1, 0, 0}, FaceIndex(0)},
                               {{-kHalf, -0.01, 0}, {1, 0, 0}, FaceIndex(0)},
@@ -33,7 +33,7 @@ GraspChoice OppositePairs(double lean) {
   return {GraspChoice::Kind::kGiven, grasp, "given.json"};
 }
 
-/// Takes grasps of some numbers of contacts and does what it is told.
+/// Planner for grasps of some numbers of contacts that returns a prescribed result.
 class StubPlanner final : public Planner {
  public:
   using Task = std::function<PlanResult(const PlanRequest&)>;
@@ -126,7 +126,8 @@ TEST(Solve, RefusesFrictionAndQualityOutOfRange) {
 TEST(Solve, AcceptsAForceClosureGraspOfFour) { EXPECT_NO_THROW(Check(OppositePairs(0), 10)); }
 
 TEST(Solve, NamesTheHalfAngleThatIsNeeded) {
-  // The pairs' lines lean by atan(0.02 / 0.06) = 18.43°, and nothing holds with less.
+  // The lines of the pairs are inclined by atan(0.02 / 0.06) = 18.43°, which is the required
+  // friction angle.
   EXPECT_THAT([] { Check(OppositePairs(0.02), 15); },
               ThrowsMessage<InputError>(
                   "given.json: /contacts: not force closure: requires a friction angle of "

@@ -10,7 +10,7 @@ namespace switch_sequence_test {
 
 using testing::ElementsAre;
 
-/// A contact that is told from others by one number.
+/// Return a contact identified by one number.
 grasp::Contact At(double x) { return {{x, 0, 0}, {1, 0, 0}, FaceIndex(0)}; }
 
 std::vector<FingerIndex> Fingers(const plan::FingerGrasp& grasp) {

@@ -179,7 +179,7 @@ TEST(Registry, EveryPlannerCountsTheGraphThatItSaysItHas) {
   EXPECT_EQ(graphs, 4);
 }
 
-/// A planner of somebody else's, with a name that is taken.
+/// Third-party planner whose name is already registered.
 class OtherPlanner final : public planning::Planner {
  public:
   explicit OtherPlanner(const std::string& name) : Planner({.name = name, .what = "nothing"}) {}

@@ -27,13 +27,13 @@ using Status = PlanResult::Status;
 constexpr double kDegrees = 15;
 constexpr std::uint64_t kSeeds = 3;
 
-/// More than any grasp has at this friction.
+/// Quality that no grasp has at this friction.
 constexpr double kNoGraspsQuality = 0.9;
 
-/// A margin is known to this, radians.
+/// Accuracy of margins, radians.
 constexpr double kMarginTolerance = 1e-6;
 
-/// What is asked of a planner: a roadmap is a small one.
+/// Return a request for a planner, with a small roadmap.
 PlanRequest Ask(const Planner& planner, std::uint64_t seed = 0, double degrees = kDegrees) {
   PlanRequest request = RequestAt(degrees, seed);
   if (std::ranges::count(planner.traits().options, PlanOption::kContactPoints) > 0) {
@@ -42,7 +42,7 @@ PlanRequest Ask(const Planner& planner, std::uint64_t seed = 0, double degrees =
   return request;
 }
 
-/// Start and goal of a plan that the planner makes between grasps that it draws itself.
+/// Start and goal of a plan between random grasps of the planner.
 struct Ends {
   grasp::Grasp start;
   grasp::Grasp goal;
@@ -55,7 +55,7 @@ std::optional<Ends> DrawEnds(const Planner& planner, const object::Object& objec
   return Ends{plan::ContactsOf(result.plan->initial), result.plan->goal};
 }
 
-/// Why the checker does not pass a plan; empty where it does.
+/// Return why the checker rejects a plan; empty if it accepts it.
 std::string CheckersReason(const object::Object& object, const plan::Plan& plan,
                            const Ends* ends = nullptr) {
   plan::CheckOptions options;
@@ -72,14 +72,14 @@ std::string CheckersReason(const object::Object& object, const plan::Plan& plan,
   return check.passed() ? "" : "not passed";
 }
 
-/// Why a result is no plan that the checker passes; empty where it is.
+/// Return why a result is not a plan that the checker accepts; empty if it is one.
 std::string WhyNoGoodPlan(const object::Object& object, const PlanResult& result,
                           const Ends* ends = nullptr) {
   if (result.status != Status::kFound || !result.plan) return "no plan: " + result.message;
   return CheckersReason(object, *result.plan, ends);
 }
 
-/// Whether a plan says who made it and for what.
+/// Return why the signature of a plan is wrong: its planner and object; empty if it is correct.
 std::string SignatureBreach(const Planner& planner, const object::Object& object,
                             const plan::Plan& plan) {
   if (plan.planner != planner.name()) return "made by " + plan.planner;
@@ -88,7 +88,7 @@ std::string SignatureBreach(const Planner& planner, const object::Object& object
   return plan.half_angle == Radians(kDegrees) ? "" : "for another friction";
 }
 
-/// The first breach that `breach(seed)` finds.
+/// Return the first breach that `breach(seed)` finds.
 template <class Breach>
 std::string ForSeeds(const Breach& breach) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
@@ -99,7 +99,7 @@ std::string ForSeeds(const Breach& breach) {
   return "";
 }
 
-/// The first breach that `breach(ends)` finds of ends of some seeds.
+/// Return the first breach that `breach(ends)` finds for the ends of several seeds.
 template <class Breach>
 std::string ForEnds(const Planner& planner, const object::Object& object, const Breach& breach) {
   return ForSeeds([&](std::uint64_t seed) -> std::string {
@@ -168,7 +168,7 @@ std::string TheMarginIsTheSmallestAtRest(const Planner& planner, const object::O
   });
 }
 
-/// Whether a plan has warnings where a grasp is below the quality, and only there.
+/// Check that a plan has warnings if and only if a grasp is below the quality.
 std::string WarningsBreach(const object::Object& object, const PlanResult& result, double quality) {
   if (!result.plan) return "no plan: " + result.message;
   const bool good = std::ranges::all_of(RestsOf(*result.plan), [&](const grasp::Grasp& grasp) {
@@ -193,7 +193,7 @@ std::string WarnsOfGraspsBelowTheQuality(const Planner& planner, const object::O
                         kNoGraspsQuality);
 }
 
-/// Whether start and goal of a plan, drawn so, have a quality.
+/// Check that the random start and goal of a plan have a quality.
 std::string DrawnQualityBreach(const object::Object& object, const PlanResult& result,
                                double quality) {
   if (!result.plan) return "no plan: " + result.message;
@@ -211,7 +211,7 @@ std::string DrawsNoGraspBelowTheQuality(const Planner& planner, const object::Ob
     PlanRequest request = Ask(planner, 9);
     request.criteria.min_quality = kSomeGraspsQuality;
     const PlanResult some = PlanWith(planner, object, choice, choice, request);
-    // What is drawn over the surface need not be in a set of the planner's, nor joined.
+    // Grasps drawn over the whole surface may be in no set of the planner, or not be connected.
     if (some.plan || choice.kind == GraspChoice::Kind::kRandom) {
       const std::string breach = DrawnQualityBreach(object, some, kSomeGraspsQuality);
       if (!breach.empty()) return choice.name + ": " + breach;
@@ -263,8 +263,8 @@ std::string MoreFrictionLosesNoPlan(const Planner& planner, const object::Object
   });
 }
 
-/// Wherever a deadline comes, the planner says that its time was up; or it has a plan already and
-/// only looks for a better one.
+/// Check that whenever the deadline passes, the planner reports it. The exception is a planner that
+/// already has a plan and is improving it.
 std::string EndsAtItsDeadline(const Planner& planner, const object::Object& object) {
   PlanRequest request = Ask(planner, 1);
   const CountedDeadline never;
@@ -288,7 +288,7 @@ std::string EndsAtItsDeadline(const Planner& planner, const object::Object& obje
   return "";
 }
 
-/// @param object  that is planned for.
+/// @param object  object of the request.
 PlanRequest Asking(PlanOption option, const object::Object& object, PlanRequest request) {
   switch (option) {
     case PlanOption::kMargin:
@@ -322,14 +322,14 @@ PlanRequest Asking(PlanOption option, const object::Object& object, PlanRequest 
       request.explain = true;
       break;
     case PlanOption::kSoftFingers:
-      // Contacts in the plane have none.
+      // Contacts in the plane have no torsion.
       if (object.dimension() == 3) request.hand.torsion = 0.05 * object.diameter();
       break;
-    case PlanOption::kHand:         // gait/gait_planner_test.cc
-    case PlanOption::kGivenPoints:  // are the object's
+    case PlanOption::kHand:         // see gait/gait_planner_test.cc
+    case PlanOption::kGivenPoints:  // depends on the object
     case PlanOption::kFocusPoints:
     case PlanOption::kQueries:
-      break;  // of graphs: plans are the same without them
+      break;  // only for graphs; plans do not depend on them
   }
   return request;
 }

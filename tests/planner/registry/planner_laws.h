@@ -6,10 +6,10 @@
 
 namespace regrasp::registry {
 
-/// What every planner keeps to on every object that it works on.
+/// Law that every planner satisfies for every object that it supports.
 struct PlannerLaw {
   const char* name;
-  /// What of it a planner does not keep to on an object, for people; empty where all is well.
+  /// Describe how a planner breaks the law for an object; empty if it satisfies the law.
   std::string (*breach)(const planning::Planner& planner, const object::Object& object);
 };
 

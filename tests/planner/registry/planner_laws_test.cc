@@ -20,7 +20,7 @@ using planning::Planner;
 using planning::PlanRequest;
 using planning::PlanResult;
 
-/// Objects that the laws are tried on.
+/// Return an object for the laws.
 const object::Object& Read(const std::string& model) {
   static std::map<std::string, object::ObjectFile> files;
   if (!files.contains(model)) files.emplace(model, ReadModel(model));
@@ -41,7 +41,7 @@ void PrintTo(const Case& of, std::ostream* out) { *out << Name(of); }
 std::vector<Case> AllCases() {
   std::vector<Case> cases;
   for (const Planner* planner : AllPlanners()) {
-    if (planner->traits().needs_hand) continue;  // gait_planner_test.cc
+    if (planner->traits().needs_hand) continue;  // see gait_planner_test.cc
     for (const PlannerLaw& law : PlannerLaws()) cases.push_back({planner, law});
   }
   return cases;
@@ -64,7 +64,7 @@ TEST_P(EveryPlanner, Obeys) {
 INSTANTIATE_TEST_SUITE_P(AllLaws, EveryPlanner, testing::ValuesIn(AllCases()),
                          [](const auto& test) { return Name(test.param); });
 
-/// A planner that hands what is asked to a good one, and spoils the request or the result.
+/// Planner that passes requests to a correct planner, and falsifies the request or the result.
 class BadPlanner final : public Planner {
  public:
   using Task = std::function<PlanResult(const Planner& good, PlanRequest request)>;
@@ -81,9 +81,9 @@ class BadPlanner final : public Planner {
 
 struct BadCase {
   const char* name;
-  const char* law;      ///< that it breaks
-  const char* planner;  ///< that it spoils
-  const char* found;    ///< what of it is found
+  const char* law;      ///< law that it breaks
+  const char* planner;  ///< planner that it uses
+  const char* found;    ///< expected breach
   BadPlanner::Task task;
 };
 
@@ -179,7 +179,7 @@ const std::vector<BadCase>& BadCases() {
        }},
       {"LooksAtTheFirstContact", "TheOrderOfContactsDoesNotMatter", "general", "no plan: none",
        [](const Planner& good, PlanRequest request) {
-         static std::set<double> seen;  // the first contacts of starts that are drawn
+         static std::set<double> seen;  // first contacts of random starts
          const double x = request.start.grasp.front().p.x();
          if (seen.empty()) seen.insert(x);
          return seen.contains(x) ? good.Plan(request) : NoSequence();

@@ -14,7 +14,7 @@
 namespace regrasp::registry {
 namespace progress_test {
 
-/// What a stage of the work told of itself: "joining: 3 of 12" is the stage "joining".
+/// Progress messages of a stage: "joining: 3 of 12" belongs to the stage "joining".
 struct Stage {
   int reports = 0;
   long first = -1, last = -1, total = 0;
@@ -44,7 +44,8 @@ class Listener {
   std::map<std::string, Stage> stages_;
 };
 
-/// Every stage counts from nothing to its end, in some hundred reports however much it is.
+/// Check that every stage counts from 0 to its total, in about a hundred messages whatever its
+/// size.
 void ExpectCounted(const Listener& listener, const std::vector<std::string>& names) {
   for (const std::string& name : names) EXPECT_TRUE(listener.stages().contains(name)) << name;
   for (const auto& [name, stage] : listener.stages()) {

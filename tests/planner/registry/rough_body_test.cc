@@ -1,4 +1,5 @@
-// Planners on bodies whose facets are not what a fingertip feels, as those of scans.
+// Planners on objects whose triangles differ from the surface that a fingertip feels, such as
+// scans.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ constexpr double kPatch = 0.15;
 constexpr double kRoughness_deg = 5;
 constexpr double kHalfAngle_deg = 20;
 
-/// A sphere of radius 1 with facets that are up to 30° off.
+/// Return a sphere of radius 1 with triangles whose normals deviate by up to 30°.
 object::Polyhedron RoughSphere(bool felt) {
   object::PolygonSoup sphere = soups::SphereSoup(30);
   for (std::size_t v = 0; v < sphere.vertices.size(); ++v) {
@@ -41,7 +42,7 @@ planning::PlanResult PlanOn(const object::Polyhedron& body, const planning::Plan
   return planning::Solve(planner, request);
 }
 
-/// Whether a plan passes the checker's look at patches.
+/// Return whether a plan passes the checker's test of contact patches.
 bool HoldsWithPatches(const object::Polyhedron& body, plan::Plan plan) {
   plan.half_angle = Radians(kHalfAngle_deg);
   plan.patch_radius = kPatch;

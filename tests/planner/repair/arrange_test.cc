@@ -32,7 +32,7 @@ PolygonSoup Turned(PolygonSoup soup) {
   return soup;
 }
 
-/// The solid that an arrangement makes of a surface; it throws where the reader refuses it.
+/// Arrange a surface. Throws if the reader rejects the result.
 Polyhedron Arranged(const PolygonSoup& soup) {
   return Polyhedron::FromSoup(ArrangeSurface(CleanSurface(soup).soup).soup, "arranged");
 }
@@ -44,7 +44,7 @@ const PolygonSoup kBlock = BoxSoup({0, 0, 0}, {2, 1, 1});
 
 TEST(ArrangeSurface, ShellsThatPassThroughEachOtherBecomeTheirUnion) {
   EXPECT_NEAR(ArrangedVolume(Joined(kBlock, kBar)), 2.25, kTight);
-  // Whatever their order, and whichever way they are turned.
+  // The result does not depend on the order or the orientation of the shells.
   EXPECT_NEAR(ArrangedVolume(Joined(kBar, kBlock)), 2.25, kTight);
   EXPECT_NEAR(ArrangedVolume(Joined(kBlock, Turned(kBar))), 2.25, kTight);
 }
@@ -66,22 +66,22 @@ TEST(ArrangeSurface, ACavityStaysOne) {
 }
 
 TEST(ArrangeSurface, ASpikeThatPassesThroughTheFarSideTakesAwayWhatItIsIn) {
-  // A cube whose top is drawn down to a point below its bottom: what is left of it is what the
-  // surface winds about.
+  // The top of the cube is replaced by a spike to a point below its bottom. The region with winding
+  // number 1 remains.
   PolygonSoup cube = BoxSoup({0, 0, 0}, {1, 1, 1});
   std::erase(cube.facets, std::vector<int>{4, 5, 7, 6});
   cube.vertices.push_back({0.5, 0.5, -1});
   for (const auto& [a, b] : {std::pair{4, 5}, {5, 7}, {7, 6}, {6, 4}}) {
     cube.facets.push_back({a, b, 8});
   }
-  // Without a frustum of height 1 between squares of sides 1 and 1/2.
+  // A frustum of height 1 between squares of sides 1 and 1/2 is removed.
   EXPECT_NEAR(ArrangedVolume(cube), 1 - (1 + 0.5 + 0.25) / 3, kTight);
 }
 
 TEST(ArrangeSurface, PartsThatTouchAlongAnEdgeBecomeOneBody) {
   const PolygonSoup touching = Joined(BoxSoup({0, 0, 0}, {1, 1, 1}), BoxSoup({1, 1, 0}, {2, 2, 1}));
   EXPECT_NEAR(ArrangedVolume(touching), 2, 10 * kTouchingMoved);
-  // The control: the reader takes no edge of four facets.
+  // Control: the reader rejects an edge of four polygons.
   EXPECT_THROW((void)Polyhedron::FromSoup(touching, "touching"), object::MeshError);
 }
 

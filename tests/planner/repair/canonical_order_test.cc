@@ -13,7 +13,7 @@ namespace canonical_order_test {
 using object::PolygonSoup;
 using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
-/// The same surface, numbered by chance.
+/// Number a surface randomly.
 PolygonSoup Shuffled(const PolygonSoup& soup, std::mt19937& random) {
   std::vector<int> place(soup.vertices.size());
   for (std::size_t v = 0; v < place.size(); ++v) place[v] = static_cast<int>(v);

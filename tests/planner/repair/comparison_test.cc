@@ -13,7 +13,7 @@ namespace comparison_test {
 using object::PolygonSoup;
 using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
-/// Each quadrilateral as two triangles.
+/// Split each quadrilateral into two triangles.
 PolygonSoup Cut(const PolygonSoup& soup) {
   PolygonSoup cut{soup.vertices, {}};
   for (const auto& f : soup.facets) {
@@ -42,9 +42,10 @@ TEST(Comparison, OfABoxWithALargerOneKnowsTheDistances) {
   EXPECT_NEAR(grown.to_solid.mean, 0.1, 1e-9);
   EXPECT_NEAR(grown.to_solid.largest, 0.1, 1e-9);
   EXPECT_GE(grown.to_solid.bound, 0.1);
-  // The same everywhere: no piece of a facet can be left out, and their number is limited.
+  // The distance is the same everywhere, so no piece can be pruned, and the number of pieces is
+  // limited.
   EXPECT_LE(grown.to_solid.bound, 0.12);
-  // The larger one's corners are farthest, where samples do not come.
+  // The corners of the larger box are farthest, and no sample is there.
   const double corner = 0.1 * std::sqrt(3);
   EXPECT_LT(grown.to_original.largest, corner);
   EXPECT_GE(grown.to_original.bound, corner);
@@ -54,7 +55,8 @@ TEST(Comparison, OfABoxWithALargerOneKnowsTheDistances) {
 }
 
 TEST(Comparison, OfAFacetThatIsCutAnewTheBoundIsTight) {
-  // A needle of a facet lies wholly on one of the original's: its corners say so at once.
+  // A degenerate triangle is wholly inside a triangle of the original, so its corners give a tight
+  // bound.
   PolygonSoup whole{{{0, 0, 0}, {1, 0, 0}, {0, 1e-4, 0}}, {{0, 1, 2}}};
   PolygonSoup cut = whole;
   cut.vertices.emplace_back(0.5, 0, 0);
@@ -89,7 +91,7 @@ TEST(Comparison, NormalsAreThoseOfTheNearestFacet) {
 }
 
 TEST(Comparison, WhatIsInsideIsNotSeen) {
-  // A box inside another: a third of all that is there with half the edge is a fifth of the area.
+  // A box inside a box of twice the size has a fifth of the total area.
   const PolygonSoup nested =
       Cut(Join(BoxSoup({-1, -1, -1}, {1, 1, 1}), BoxSoup({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})));
   const Comparison comparison = Compare(nested, Box(1), 2 * std::sqrt(3));

@@ -8,7 +8,7 @@ namespace exact_point_test {
 
 using Number = ExactKernel::FT;
 
-/// Where the line from a point to another meets the plane z = 0, as the stages construct it.
+/// Construct the intersection of a line with the plane z = 0 as the stages do.
 ExactPoint Crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Number t = Number(a.z()) / (Number(a.z()) - Number(b.z()));
   const auto at = [&](int axis) { return a[axis] + t * (Number(b[axis]) - Number(a[axis])); };
@@ -32,7 +32,7 @@ TEST(ExactPoint, IsRoundedTheSameWhateverItWasNeededForBefore) {
     EXPECT_EQ(rounded.z(), 0);
     differ += CGAL::to_double(point.x()) != before;
   }
-  // Control: what CGAL says of the same point has changed.
+  // Control: CGAL::to_double of the same point has changed.
   EXPECT_GT(differ, 0);
 }
 

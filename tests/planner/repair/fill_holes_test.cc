@@ -14,7 +14,7 @@ namespace fill_holes_test {
 using Eigen::Vector3d;
 using object::PolygonSoup;
 
-/// A cone over a border: open at its wide end.
+/// Return a cone over a border, open at its wide end.
 PolygonSoup ConeOver(const std::vector<Vector3d>& border) {
   PolygonSoup soup{border, {}};
   const int apex = static_cast<int>(border.size());
@@ -23,7 +23,7 @@ PolygonSoup ConeOver(const std::vector<Vector3d>& border) {
   return soup;
 }
 
-/// A circle whose height goes up and down.
+/// Return a circle with a wave in height.
 std::vector<Vector3d> Wave(int edges, double height) {
   std::vector<Vector3d> border;
   for (int i = 0; i < edges; ++i) {
@@ -33,8 +33,8 @@ std::vector<Vector3d> Wave(int edges, double height) {
   return border;
 }
 
-/// A circle whose vertices are off it by up to a tenth of its radius: much farther than they are
-/// apart where there are many.
+/// Return a circle whose vertices are displaced by up to a tenth of its radius. With many edges
+/// this is much more than the distance between neighbours.
 std::vector<Vector3d> Tangle(int edges) {
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> off(-0.1, 0.1);

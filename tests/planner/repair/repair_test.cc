@@ -36,7 +36,7 @@ Polyhedron SolidOf(const Repaired& repaired) {
 
 std::string LastStage(const Repaired& repaired) { return repaired.stages.back().stage; }
 
-/// What a repair says that finds no solid; nullopt where it finds one.
+/// Return the error of a repair that finds no solid; nullopt if it finds one.
 std::optional<NotRepaired> FindRefusal(const PolygonSoup& soup, const RepairOptions& options) {
   try {
     (void)Repair(soup, "soup", options);
@@ -51,14 +51,14 @@ std::string Refusal(const PolygonSoup& soup, const RepairOptions& options = {}) 
   return refusal ? refusal->what() : "not refused";
 }
 
-/// A cube that lacks a face, and was given it by an earlier repair.
+/// Return a cube whose sixth face was filled by an earlier repair.
 PolygonSoup MarkedCube() {
   PolygonSoup cube = UnitCubeSoup();
   cube.facets.pop_back();
   return Repair(cube, "cube", {}).solid;
 }
 
-/// Facets `first` and behind it of a sphere of 20 rows, from its south to its north in columns.
+/// Return the part of a sphere of 20 rows whose faces are wholly above a height.
 PolygonSoup SphereAbove(double height) {
   PolygonSoup soup = SphereSoup(20);
   std::erase_if(soup.facets, [&](const std::vector<int>& facet) {
@@ -67,7 +67,7 @@ PolygonSoup SphereAbove(double height) {
   return soup;
 }
 
-/// Each triangle as its four similar parts, with its mark; vertices are equal, not the same.
+/// Split each triangle into four similar ones with the same mark. Equal vertices are separate.
 PolygonSoup Quartered(const PolygonSoup& soup) {
   PolygonSoup fine;
   for (std::size_t f = 0; f < soup.facets.size(); ++f) {
@@ -84,7 +84,7 @@ PolygonSoup Quartered(const PolygonSoup& soup) {
   return fine;
 }
 
-/// The inside and the outside of a tube of length 1, without the two rims between them.
+/// Return the inner and outer surface of a tube of length 1, without its two rims.
 constexpr double kTubeRadius = 0.06;
 PolygonSoup RimlessTube(double wall) {
   constexpr int kAround = 24;
@@ -160,14 +160,14 @@ TEST(Repair, WhatWasInventedStaysInventedInACoarserSolid) {
   EXPECT_EQ(LastStage(coarse), "simplify");
   EXPECT_NEAR(InventedShare(coarse.solid), 1.0 / 6, kTight);
   EXPECT_NEAR(SolidOf(coarse).mass_properties().volume, 1, kTight);
-  // Control: without marks nothing of it is invented.
+  // Control: without marks no surface is filled.
   cube.invented.clear();
   EXPECT_EQ(InventedShare(Repair(cube, "cube", options).solid), 0);
 }
 
-/// Edges that were collapsed anyhow would leave facets that meet on this one.
+/// Collapsing edges without care makes triangles of this surface intersect.
 TEST(Repair, WhereCollapsesMakeFacetsMeetOthersAreFound) {
-  // Of the radius, up or down from vertex to vertex without a pattern.
+  // Amplitude over the radius. The sign varies between vertices without a pattern.
   constexpr double kBump = 0.05;
   PolygonSoup bumpy = SphereSoup(30);
   for (std::size_t i = 0; i < bumpy.vertices.size(); ++i) {
@@ -179,10 +179,10 @@ TEST(Repair, WhereCollapsesMakeFacetsMeetOthersAreFound) {
   const Repaired coarse = Repair(bumpy, "bumpy", options);
   EXPECT_EQ(LastStage(coarse), "simplify");
   EXPECT_LE(std::ssize(coarse.solid.facets), 800);
-  // Bumps up and down nearly cancel out: a sixth of what they would add if all were up.
+  // Bumps nearly cancel out: this is a sixth of the volume that they would add if all were outward.
   constexpr double kVolumeOff = 0.1;
   EXPECT_NEAR(SolidOf(coarse).mass_properties().volume, 4 * std::numbers::pi / 3, kVolumeOff);
-  // Where a wall is so thin that there are none it is refused.
+  // If a wall is too thin for any valid collapse, the solid is rejected.
   PolygonSoup hollow = SphereSoup(20);
   const PolygonSoup inside = hollow;
   const int first = static_cast<int>(hollow.vertices.size());
@@ -204,12 +204,12 @@ TEST(Repair, ACoarserSolidIsNotInventedWhereItIsMerelyFarOff) {
   const Repaired coarse = Repair(SphereSoup(20), "sphere", options);
   EXPECT_GT(coarse.comparison.seen_most, 2 * kInventedDistance * coarse.diameter);
   EXPECT_EQ(coarse.comparison.invented_share, 0);
-  // Control: the lid of a gap stays invented.
+  // Control: the filled surface of a gap keeps its mark.
   const double share = Repair(SphereAbove(-0.75), "most", {}).comparison.invented_share;
   const Repaired lid = Repair(SphereAbove(-0.75), "most", options);
   EXPECT_EQ(LastStage(lid), "simplify");
   EXPECT_NEAR(InventedShare(lid.solid), share, 0.5 * share);
-  // And what is asked for is kept to.
+  // The required deviation is respected.
   options.max_deviation = 0.005;
   EXPECT_THAT(Refusal(SphereSoup(20), options), HasSubstr("too far"));
 }
@@ -220,7 +220,7 @@ TEST(Repair, NoContactIsDrawnOnInventedSurface) {
   const Polyhedron solid = SolidOf(Repair(cube, "cube", {}));
   const sampling::SurfaceSampler sampler(solid);
   EXPECT_NEAR(sampler.measure(), 5, kTight);
-  // Control: without the marks all six faces are drawn on.
+  // Control: without marks all six faces are sampled.
   PolygonSoup unmarked = Repair(cube, "cube", {}).solid;
   unmarked.invented.clear();
   const Polyhedron whole = Polyhedron::FromSoup(unmarked, "whole");
@@ -228,7 +228,7 @@ TEST(Repair, NoContactIsDrawnOnInventedSurface) {
 }
 
 TEST(Repair, InventedSurfaceJoinsNoFaceOfTheOriginal) {
-  // A gap in the middle of a flat face: coplanar, and yet a face of its own.
+  // A filled gap in the middle of a planar face is coplanar with it, but a separate face.
   PolygonSoup block = HoleBlockSoup();
   std::erase_if(block.facets, [](const std::vector<int>& f) {
     return f[0] % 8 >= 4 && f[1] % 8 >= 4 && f[2] % 8 >= 4 && f[3] % 8 >= 4;
@@ -270,7 +270,7 @@ TEST(Repair, SolidsBesideEachOtherAreRefusedUnlessOneIsChosen) {
   options.part = 1;
   const Repaired first = Repair(two, "two", options);
   EXPECT_NEAR(first.volume, 2, kTight);
-  // What was asked to be left out is not missing.
+  // Solids that `part` excludes do not count as missing.
   EXPECT_NEAR(first.comparison.seen_most, 0, kTight);
   options.part = 2;
   EXPECT_NEAR(Repair(two, "two", options).volume, 1, kTight);
@@ -279,7 +279,7 @@ TEST(Repair, SolidsBesideEachOtherAreRefusedUnlessOneIsChosen) {
 }
 
 TEST(Repair, ARefusalTellsEachStageAndNamesTheOneThatHelps) {
-  // Two boxes that do not touch, and a hole in one: the wrap, which comes last, cannot help.
+  // Two separate boxes, one with a hole. The wrap, which is the last stage, cannot help.
   PolygonSoup two = Join(BoxSoup({0, 0, 0}, {2, 1, 1}), BoxSoup({5, 0, 0}, {6, 1, 1}));
   two.facets.pop_back();
   const auto refusal = FindRefusal(two, {});
@@ -298,7 +298,7 @@ TEST(Repair, ARefusalTellsEachStageAndNamesTheOneThatHelps) {
 }
 
 TEST(Repair, AFoldIsCutOutAndWhatIsFarFromItStays) {
-  // A vertex that is drawn through the sphere: the fan about it passes through the other side.
+  // A vertex is moved through the sphere, so that its fan of triangles intersects the other side.
   PolygonSoup soup = SphereSoup(40);
   const auto top = std::ranges::max_element(
       soup.vertices, {}, [](const Vector3d& v) { return v.x() + v.y() + 0.5 * v.z(); });
@@ -333,7 +333,7 @@ TEST(Repair, AnOpenSheetIsRefusedAndGetsAWallWhereOneIsAsked) {
 }
 
 TEST(Repair, AThinSolidIsNoSheet) {
-  // A plate of 0.2 % of its diameter, closed, and a box that sticks in it.
+  // A closed plate with a thickness of 0.2 % of its diameter, and a box through it.
   const PolygonSoup plate =
       Join(BoxSoup({0, 0, 0}, {2, 2, 0.005}), BoxSoup({0.9, 0.9, -0.02}, {1.1, 1.1, 0.02}));
   EXPECT_EQ(LastStage(Repair(plate, "plate", {})), "unite-shells");
@@ -342,7 +342,7 @@ TEST(Repair, AThinSolidIsNoSheet) {
 TEST(Repair, AScanOfOneSideIsRefusedWithTheShareThatIsMissing) {
   EXPECT_THAT(Refusal(SphereAbove(-0.01)),
               AllOf(HasSubstr("surface incomplete"), HasSubstr("filled in"), HasSubstr("25 %")));
-  // Control: most of the sphere is enough.
+  // Control: most of the sphere suffices.
   const Repaired most = Repair(SphereAbove(-0.75), "most", {});
   EXPECT_GT(most.comparison.invented_share, 0.05);
   EXPECT_LT(most.comparison.invented_share, 0.25);
@@ -355,14 +355,14 @@ TEST(Repair, AStrayFacetIsDropped) {
   soup.vertices.push_back({0.3, 0.3, 0.8});
   soup.facets.push_back({8, 9, 10});
   RepairOptions options;
-  options.max_deviation = 0.1;  // its ends stand out
+  options.max_deviation = 0.1;  // its ends protrude
   const Repaired repaired = Repair(soup, "soup", options);
   EXPECT_NEAR(repaired.volume, 1, kTight);
   EXPECT_EQ(SolidOf(repaired).face_count(), 6);
 }
 
 TEST(Repair, WhatFormsNoSurfaceIsWrapped) {
-  // Six squares that pass through each other a little: no two have a corner in common.
+  // Six squares that intersect slightly. No two have a corner in common.
   PolygonSoup soup;
   for (const auto& facet : UnitCubeSoup().facets) {
     Vector3d centre = Vector3d::Zero();
@@ -379,7 +379,7 @@ TEST(Repair, WhatFormsNoSurfaceIsWrapped) {
   EXPECT_LT(repaired.comparison.seen_most, 0.01 * repaired.diameter);
   const auto& volumes = repaired.stages.back().facts["volumes"];
   ASSERT_EQ(volumes.size(), 2u);
-  // A finer ball enters more.
+  // A smaller sphere enters more openings.
   EXPECT_GT(volumes[0]["radius"], volumes[1]["radius"]);
   EXPECT_GE(volumes[0]["volume"], volumes[1]["volume"]);
 }
@@ -393,7 +393,7 @@ TEST(Repair, WhatFillsAWideHoleMayHideTheSurfaceAndIsThenLeftOut) {
 }
 
 TEST(Repair, AWrapThatEntersAHollowBodyIsRefused) {
-  // As above, but the ball passes between the rims, and leaves nothing but the two surfaces.
+  // As above, but the sphere passes between the rims, so that only the two surfaces remain.
   const auto refusal = FindRefusal(RimlessTube(0.03), {});
   ASSERT_TRUE(refusal);
   const StageReport& last = refusal->attempt().stages.back();
@@ -435,13 +435,13 @@ TEST(Repair, ASolidTurnsOutwardsWhicheverWayItsFileDoes) {
     for (const auto& facet : solid.facets) {
       const Vector3d& a = solid.vertices[facet[0]];
       const Vector3d normal = (solid.vertices[facet[1]] - a).cross(solid.vertices[facet[2]] - a);
-      EXPECT_GT(normal.dot(a), 0);  // the middle of the cube is the origin
+      EXPECT_GT(normal.dot(a), 0);  // the centre of the cube is the origin
     }
   }
 }
 
 TEST(Repair, ACloudOnAGridIsJoinedTheSameWayWhateverTheMemoryIsLike) {
-  // Many triangles are of one size: their addresses are not to decide which comes first.
+  // Many triangles have equal size. Their order must not depend on addresses.
   PolygonSoup cloud;
   for (int i = 0; i < 11 * 11 * 11; ++i) {
     const Vector3d p(i % 11, i / 11 % 11, i / 121);

@@ -12,8 +12,7 @@ namespace surface_distance_test {
 using Eigen::Vector3d;
 using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
-/// Law: what was found for another point, near or far, shortens the search and does not change what
-/// is found.
+/// Law: a hint from another point, near or far, does not change the result.
 TEST(SurfaceDistance, DoesNotDependOnWhatIsFoundFirst) {
   const SurfaceDistance sphere(SphereSoup(12));
   std::mt19937 random(2);

@@ -15,7 +15,7 @@ namespace cluster_view_test {
 
 const double kHalfAngle = Radians(20), kRoughness = Radians(5);
 
-/// Beside the edges of its facets it is rough, and elsewhere not.
+/// Read a mug that is rough near the edges of its triangles only.
 object::Polyhedron ReadMug(const object::Reading& reading) {
   return dynamic_cast<const object::Polyhedron&>(
       *object::ReadObject(ProjectPath("models/mug500.obj"), reading).object);
@@ -27,7 +27,7 @@ object::Reading ReadingOfPatches() {
   return reading;
 }
 
-/// What the program `plan` asks of a roadmap, and what its plan says of it.
+/// Return the request of the program `plan` for a roadmap.
 planning::PlanRequest RequestOn(const object::Polyhedron& solid, double half_angle) {
   planning::PlanRequest request;
   request.object = &solid;
@@ -67,7 +67,7 @@ TEST(DescribeClusters, FindsThoseOfAPlanWithPatchesAgain) {
   plan.roadmap->roughness = kRoughness;
   const std::vector<Eigen::Vector3d> found = DescribeClusters(solid, plan).representatives;
   EXPECT_EQ(found, RepresentativesOf(roadmap.clusters));
-  // Controls: of a body that is read without patches, and with all of the friction, it has others.
+  // Controls: the representatives differ without contact patches, and with the full friction angle.
   EXPECT_NE(DescribeClusters(ReadMug({}), plan).representatives, found);
   plan.roadmap->roughness.reset();
   EXPECT_NE(DescribeClusters(solid, plan).representatives, found);

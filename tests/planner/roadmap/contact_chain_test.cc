@@ -16,11 +16,11 @@ namespace contact_chain_test {
 
 using By = ContactChain::By;
 
-/// A clustered roadmap of a small mesh and all grasps of its contacts.
+/// Clustered roadmap of a small mesh, and all grasps of its contacts.
 struct Problem {
   Problem(object::Polyhedron body, double degrees, int clusters)
       : solid(std::move(body)),
-        // As many contact points as triangles: their centroids.
+        // The number of contact points equals that of triangles, so they are the centroids.
         roadmap(solid, {.half_angle = Radians(degrees),
                         .contacts = static_cast<int>(solid.triangles().size()),
                         .clusters = clusters,
@@ -36,8 +36,8 @@ struct Problem {
     return FindContactChain(roadmap, roadmap.clusters, oracle, start, goal, last_resort);
   }
 
-  /// Whether start and goal are joined among the representatives and the contacts of those ends
-  /// that the algorithms 1 and 2 did not link.
+  /// Return whether start and goal are connected among the representatives and the contacts of the
+  /// ends that algorithms 1 and 2 do not link.
   [[nodiscard]] bool JoinedByRoadmap(const Quadruple& start, const Quadruple& goal) const {
     GraspOracle oracle(solid, roadmap.clusters.contacts(), {roadmap.half_angle, 0});
     LocalPlanners local(roadmap.clusters, roadmap.roadmap, oracle);

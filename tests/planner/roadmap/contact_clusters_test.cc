@@ -17,7 +17,7 @@ ContactClusters ClustersOf(const object::Polyhedron& solid, int clusters, std::u
   return {Centroids(solid), solid.wrench_frame(), Radians(10), clusters, seed};
 }
 
-/// Clusters named by their first members, so that their numbers don't count.
+/// Name clusters by their first members, so that their numbers do not matter.
 std::vector<int> Partition(const ContactClusters& clusters) {
   std::map<ClusterIndex, int> first;
   std::vector<int> names;
@@ -66,7 +66,7 @@ TEST(ContactClusters, DistancesAreThoseOfOneSpace) {
     EXPECT_EQ(clusters.Distance(a, a), 0);
     for (int b = 0; b < 36; ++b) {
       EXPECT_EQ(clusters.Distance(a, b), clusters.Distance(b, a));
-      EXPECT_LE(clusters.Distance(a, b), 2 + 1e-12);  // of unit vectors
+      EXPECT_LE(clusters.Distance(a, b), 2 + 1e-12);  // distance of unit vectors
       if (clusters.Distance(a, b) > 0.1) ++apart;
       for (ClusterIndex j{0}; j < 6; ++j) {
         EXPECT_LE(clusters.DistanceToCenter(a, j),

@@ -14,8 +14,8 @@
 
 namespace regrasp::roadmap {
 
-/// An explicit graph of grasps, two of which are joined where they share three contacts: what
-/// searches that look at grasps when they are reached are compared with.
+/// Explicit graph of grasps, in which two are connected if they share three contacts. It is the
+/// reference for searches that evaluate grasps lazily.
 class GraspGraph {
  public:
   explicit GraspGraph(const std::set<Quadruple>& grasps) {
@@ -52,10 +52,10 @@ class GraspGraph {
   boost::disjoint_sets_with_storage<> sets_{1 << 18};
 };
 
-/// Says whether four contacts, by their numbers, are a grasp.
+/// Predicate whether four contacts, given by their numbers, are a grasp.
 using IsGrasp = std::function<bool(const Quadruple&)>;
 
-/// Force-closure grasps of the contacts, asked one by one.
+/// Return a predicate for force closure of the contacts.
 inline IsGrasp ForceClosureOf(const std::vector<grasp::Contact>& contacts,
                               const object::WrenchFrame& frame, double half_angle) {
   return [&contacts, frame, half_angle](const Quadruple& g) {
@@ -65,7 +65,7 @@ inline IsGrasp ForceClosureOf(const std::vector<grasp::Contact>& contacts,
   };
 }
 
-/// All grasps that take one contact from each of four sets.
+/// Return all grasps with one contact from each of four sets.
 inline std::set<Quadruple> Product(const std::array<std::vector<int>, 4>& sets,
                                    const IsGrasp& is_grasp) {
   std::set<Quadruple> grasps;
@@ -84,7 +84,7 @@ inline std::set<Quadruple> Product(const std::array<std::vector<int>, 4>& sets,
   return grasps;
 }
 
-/// All grasps of four of the contacts.
+/// Return all grasps of four of the contacts.
 inline std::set<Quadruple> Subsets(std::vector<int> contacts, const IsGrasp& is_grasp) {
   std::sort(contacts.begin(), contacts.end());
   std::set<Quadruple> grasps;
@@ -102,14 +102,14 @@ inline std::set<Quadruple> Subsets(std::vector<int> contacts, const IsGrasp& is_
   return grasps;
 }
 
-/// Contacts of one grasp that the other lacks.
+/// Return the number of contacts in which two grasps differ.
 inline int Differences(const Quadruple& a, const Quadruple& b) {
   return static_cast<int>(std::count_if(
       a.begin(), a.end(), [&](int c) { return std::find(b.begin(), b.end(), c) == b.end(); }));
 }
 
-/// The first fault of a way between two grasps: its ends, a grasp that is none, or a step that
-/// changes another number of contacts than one; nullopt where it has none.
+/// Return the first error of a path between two grasps; nullopt if it is valid.
+/// Errors are wrong ends, an invalid grasp, and a step that does not change exactly one contact.
 inline std::optional<std::string> FaultOf(const std::vector<Quadruple>& way, const Quadruple& from,
                                           const Quadruple& to, const IsGrasp& is_grasp) {
   if (way.empty() || way.front() != from || way.back() != to) return "ends";

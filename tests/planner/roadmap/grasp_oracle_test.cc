@@ -107,7 +107,7 @@ TEST(GraspOracle, MakesAnEndWhenTheTimeIsUp) {
 TEST(GraspOracle, AdmitsNoGraspWithTwoContactsAtOnePoint) {
   Body body;
   GraspOracle plain = body.Oracle();
-  // A twin of contact 0, a hair off and leaning.
+  // Duplicate of contact 0, slightly displaced and inclined.
   grasp::Contact twin = body.contacts[0];
   twin.n = (twin.n + 0.1 * twin.n.unitOrthogonal()).normalized();
   twin.p += 0.5 * body.same_point * twin.n.unitOrthogonal();

@@ -15,7 +15,7 @@ namespace grasp_tree_test {
 
 constexpr std::int64_t kEnoughSteps = std::numeric_limits<std::int64_t>::max();
 
-/// A mesh of at most forty triangles and all grasps of their centroids.
+/// Mesh of at most forty triangles, and all grasps of their centroids.
 struct Problem {
   Problem(object::Polyhedron body, double degrees)
       : solid(std::move(body)),
@@ -47,7 +47,7 @@ struct Problem {
   GraspGraph graph;
 };
 
-/// Some pairs of grasps of one component and of two.
+/// Draw pairs of grasps of one component and of two components.
 std::vector<std::pair<Quadruple, Quadruple>> DrawPairs(GraspGraph& graph, int count,
                                                        std::uint64_t seed) {
   RandomStream random(seed, RandomUse::kStart);
@@ -135,7 +135,7 @@ TEST(JoinGrasps, IsTheSameEachTime) {
 }
 
 TEST(JoinGrasps, KeepsToTheReplacementsAllowed) {
-  // Slots of their own contacts: the first contact of a grasp stays among even numbers.
+  // Replacements keep the parity of the contact numbers.
   Problem problem(MakeConvexBody(20, 4), 25);
   const int count = static_cast<int>(problem.contacts.size());
   Replacements replacements;
@@ -164,8 +164,8 @@ TEST(JoinGrasps, KeepsToTheReplacementsAllowed) {
 }
 
 TEST(JoinGrasps, MovesNoFingerToItsOwnPoint) {
-  // Two contacts at one point, with normals that differ a little: a finger cannot take the one
-  // before another leaves the other.
+  // Two contacts at one point with slightly different normals cannot be exchanged, because two
+  // fingers cannot be there at the same time.
   Problem problem(MakeConvexBody(16, 5), 25);
   const int twin = static_cast<int>(problem.contacts.size());
   grasp::Contact leaning = problem.contacts[0];

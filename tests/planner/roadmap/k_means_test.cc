@@ -20,7 +20,7 @@ Eigen::MatrixXd RandomPoints(int count, int dimension, std::uint64_t seed) {
   return Eigen::MatrixXd::NullaryExpr(count, dimension, [&] { return random.Uniform(); });
 }
 
-/// Blobs of ten points each, within 0.5 of corners ten apart.
+/// Return groups of ten points each, within 0.5 of positions ten apart.
 Eigen::MatrixXd Blobs(int blobs, std::uint64_t seed) {
   Eigen::MatrixXd points = RandomPoints(10 * blobs, 3, seed);
   for (int i = 0; i < points.rows(); ++i) {
@@ -71,7 +71,7 @@ TEST(KMeans, CentersAreMeansAndPointsAreNearestTheirOwn) {
 }
 
 TEST(KMeans, LeavesNoClusterEmpty) {
-  // Three places only, and each of many points.
+  // The points have only three different positions.
   Eigen::MatrixXd points(30, 2);
   for (int i = 0; i < 30; ++i) points.row(i) << i % 3, 0;
   for (int count = 1; count <= 30; ++count) {

@@ -10,7 +10,7 @@ TEST(KnownVertices, KeepWhatIsLearntOfEachVertexApart) {
   criteria::KnownGrasp& last = known[2];
   last.required = 0.25;
   known[0].required = 0.125;
-  // More vertices do not move what is known of others.
+  // Additional vertices do not invalidate references to earlier entries.
   EXPECT_EQ(&known[2], &last);
   EXPECT_EQ(known[2].required, 0.25);
   EXPECT_EQ(known[0].required, 0.125);

@@ -23,7 +23,7 @@ std::vector<grasp::Contact> RepresentativesOf(const ContactClusters& clusters) {
   return points;
 }
 
-/// The clusters of a small mesh, their roadmap, and the same once more by brute force.
+/// Clusters of a small mesh, their roadmap, and the same by brute force.
 struct Problem {
   Problem(object::Polyhedron body, double degrees, int cluster_count)
       : solid(std::move(body)),
@@ -36,7 +36,7 @@ struct Problem {
         is_grasp(ForceClosureOf(clusters.contacts(), frame, half_angle)),
         vertices(Subsets(clusters.representatives(), is_grasp)) {}
 
-  /// All grasps of four contacts, or every so manyth of them.
+  /// Return all grasps of four contacts, or every n-th of them if they are too many.
   [[nodiscard]] std::vector<Quadruple> Sample(std::size_t most) const {
     std::vector<int> all;
     for (int i = 0; i < clusters.clustered_count(); ++i) all.push_back(i);
@@ -60,8 +60,8 @@ struct Problem {
     return grasp;
   }
 
-  /// S_i as section 6.2.4 says: the contacts j of the cluster, the added one among them, with
-  /// F_ij <= F_ii' and F_i'j <= F_ii'.
+  /// Return S_i as defined in section 6.2.4: the contacts j of the cluster, including the added
+  /// one, with F_ij <= F_ii' and F_i'j <= F_ii'.
   [[nodiscard]] std::vector<int> SetBetween(int contact, ClusterIndex cluster) const {
     const int representative = clusters.representative(cluster);
     const double apart = clusters.Distance(contact, representative);
@@ -80,7 +80,7 @@ struct Problem {
     for (int i = 0; i < 4; ++i) sets[i] = SetBetween(grasp[i], of[i]);
     return sets;
   }
-  /// Grasps from which a path leads within the sets, by brute force.
+  /// Return the grasps that have a path within the sets, by brute force.
   [[nodiscard]] std::set<Quadruple> LocalGrasps(const std::array<std::vector<int>, 4>& sets) const {
     return Product(sets, is_grasp);
   }
@@ -96,7 +96,7 @@ struct Problem {
   std::set<Quadruple> vertices;
 };
 
-/// Meshes of at most forty triangles, few and many clusters, little and much friction.
+/// Meshes of at most forty triangles, with few and many clusters, and with low and high friction.
 struct Setting {
   int corners;
   std::uint64_t seed;
@@ -161,7 +161,7 @@ TEST_P(LocalPlannersOn, FindNearestClusterIsTheNearestOfAllVertices) {
     double least = std::numeric_limits<double>::infinity();
     for (int vertex = 0; vertex < problem_.roadmap.vertex_count(); ++vertex) {
       for (int slot = 0; slot < 4; ++slot) {
-        // The vertex without the clusters of the other three contacts.
+        // The clusters of the vertex without those of the other three contacts.
         std::vector<int> rest(problem_.roadmap.vertex(vertex).begin(),
                               problem_.roadmap.vertex(vertex).end());
         for (int i = 0; i < 4; ++i) {

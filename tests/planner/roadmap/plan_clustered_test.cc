@@ -59,7 +59,7 @@ TEST_P(PlanOnModel, EveryPlanPassesTheChecker) {
       EXPECT_THAT(result.plan->roadmap->goal, ContainsRegex("^(vertex|algorithm-|last-resort)"));
     }
   }
-  // The checker is no rubber stamp.
+  // Control: the checker rejects the plan at low friction.
   plan::Plan plan = *PlanWith(RoadmapPlanner(), solid, Random(), Random(), Options()).plan;
   plan.half_angle = Radians(0.5);
   EXPECT_FALSE(plan::CheckPlan(solid, plan).passed());
@@ -143,8 +143,8 @@ TEST(PlanOnClusters, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
   EXPECT_TRUE(plan::CheckPlan(mug, *result.plan).passed());
 }
 
-/// A cube with two grasps of so little friction that no contact of either can be replaced unless
-/// one stands on its very line of force.
+/// Cube with two grasps at low friction. No contact of either grasp can be replaced, except by a
+/// contact on the same line of force.
 struct Isolated {
   object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06}, 8);
   grasp::Contact On(int axis, int sign, double u, double v) const {

@@ -28,7 +28,7 @@ using Status = planning::PlanResult::Status;
 
 constexpr double kHalf = 0.03;
 
-/// A contact on the face of the cube whose outward normal is `axis` times `sign`.
+/// Return a contact on the face of the cube whose outward normal is `axis` times `sign`.
 grasp::Contact OnCube(const object::Polyhedron& cube, int axis, int sign, double u, double v) {
   grasp::Contact contact;
   contact.p[axis] = sign * kHalf;
@@ -39,7 +39,7 @@ grasp::Contact OnCube(const object::Polyhedron& cube, int axis, int sign, double
   return contact;
 }
 
-/// Two and two fingers on the faces across an axis.
+/// Return two contacts on each of the two faces perpendicular to an axis.
 grasp::Grasp AcrossAxis(const object::Polyhedron& cube, int axis, double offset = 0) {
   return {OnCube(cube, axis, -1, 0.012 + offset, 0.003), OnCube(cube, axis, -1, -0.012, -0.002),
           OnCube(cube, axis, 1, 0.012, 0.002), OnCube(cube, axis, 1, -0.012 + offset, -0.003)};
@@ -66,8 +66,8 @@ std::vector<int> JoinedVertex(const Roadmap& roadmap, const grasp::Grasp& grasp)
   return points;
 }
 
-/// The best sequence by brute force: levels of a breadth-first search, and on them the largest
-/// smallest margin, every grasp evaluated.
+/// Best sequence by brute force: breadth-first search by levels, then the largest smallest margin,
+/// with all grasps evaluated.
 struct BestSequence {
   int switches = -1;
   double margin = -std::numeric_limits<double>::infinity();
@@ -171,8 +171,8 @@ TEST(PlanOnRoadmap, PlansPassTheCheckerFromRandomGraspToRandomGrasp) {
 
 TEST(PlanOnRoadmap, SaysWhatWasSearchedWhereThereIsNoSequence) {
   const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  // Two pairs whose torques cancel, so that hardly any friction holds and no contact can leave
-  // unless another takes its very line of force.
+  // Two pairs whose torques cancel. They have almost no friction margin, and no contact can be
+  // replaced, except by a contact on the same line of force.
   const auto pinwheel = [&](int axis) {
     constexpr double kArm = 0.02;
     const int other = (axis + 1) % 3;
@@ -195,7 +195,8 @@ TEST(PlanOnRoadmap, SaysWhatWasSearchedWhereThereIsNoSequence) {
 TEST(PlanOnRoadmap, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
   const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   planning::PlanRequest options = Options(20);
-  options.criteria.min_quality = 0.9;  // more than any grasp of the cube has at this friction
+  // More than the quality of any grasp of the cube at this friction.
+  options.criteria.min_quality = 0.9;
   const planning::PlanResult result = PlanWith(RoadmapPlanner(), cube, Given(AcrossAxis(cube, 0)),
                                                Given(AcrossAxis(cube, 1)), options);
   ASSERT_EQ(result.status, Status::kFound);
@@ -217,7 +218,7 @@ TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {
   EXPECT_GT(found, 5);
 }
 
-/// How often it is told that a sequence is searched.
+/// Return the number of progress messages of the search.
 int CountReports(double min_quality) {
   const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   planning::PlanRequest request = Options(40);

@@ -27,7 +27,7 @@ MemoryNeed NeedOf(const object::Polyhedron& body, planning::PlanRequest request)
   return EstimateRoadmap(request);
 }
 
-#if !defined(__SANITIZE_ADDRESS__)  // which keeps what is freed
+#if !defined(__SANITIZE_ADDRESS__)  // the address sanitizer keeps freed memory
 TEST(RoadmapMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
   const object::Polyhedron box = MakeBox({0.06, 0.05, 0.03});
   const object::Polyhedron mesh = MakeConvexBody(100, 1);
@@ -87,7 +87,7 @@ TEST(RoadmapDeadline, EndsAPlanWhereverItComes) {
     ASSERT_TRUE(
         PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options).plan)
         << clusters;
-    EXPECT_GT(never.looks(), 80) << clusters;  // at every pair of contact points
+    EXPECT_GT(never.looks(), 80) << clusters;  // one check per pair of contact points
     for (int look = 1; look <= never.looks(); look += 1 + look / 5) {
       options.deadline = CountedDeadline(look).deadline();
       const planning::PlanResult result =

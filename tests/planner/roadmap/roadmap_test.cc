@@ -94,7 +94,7 @@ TEST(Roadmap, CountsContactsThatAreNotShared) {
 TEST(Roadmap, NeverHasTwoFingersAtOnePoint) {
   std::vector<grasp::Contact> points = CubePoints(12);
   const Roadmap plain = MakeRoadmap(points, 30);
-  // The same point with a normal that leans a little, as on a border of two faces.
+  // The same point with a slightly inclined normal, as on the border of two faces.
   grasp::Contact twin = points[0];
   twin.n = (twin.n + 0.2 * points[0].p.unitOrthogonal().cross(twin.n)).normalized();
   points.push_back(twin);
@@ -164,7 +164,7 @@ TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
       edges += expected;
     }
     EXPECT_EQ(roadmap.CountEdges(), edges / 2);
-    // Not fewer components than a search finds either.
+    // The number of components equals that of an independent search.
     std::vector<bool> seen(roadmap.vertex_count(), false);
     int found = 0;
     for (int v = 0; v < roadmap.vertex_count(); ++v) {
@@ -180,7 +180,7 @@ TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
   EXPECT_GT(cut, 20);
 }
 
-/// Over after so many looks at it; counts them.
+/// Return a deadline that passes after a number of checks, and counts the checks.
 Deadline AfterLooks(int looks, int& looked) {
   const Deadline::Clock::time_point begin;
   return {begin + Deadline::Clock::duration(looks),

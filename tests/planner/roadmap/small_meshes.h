@@ -19,8 +19,9 @@ inline Eigen::Vector3d DrawDirection(RandomStream& random) {
   return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-/// The convex hull of points on an ellipsoid of some centimetres: 2 · corners − 4 triangles. Facets
-/// are the triples of points that have all others behind them.
+/// Return the convex hull of points on an ellipsoid of a few centimetres, with 2 · corners − 4
+/// triangles.
+/// The triangles are the triples of points that have all other points on their inner side.
 inline object::Polyhedron MakeConvexBody(int corners, std::uint64_t seed,
                                          const Eigen::Vector3d& axes = {0.05, 0.03, 0.04}) {
   RandomStream random(seed, RandomUse::kContactPoints);
@@ -57,7 +58,7 @@ inline std::vector<grasp::Contact> Centroids(const object::Polyhedron& solid) {
   return contacts;
 }
 
-/// A mesh of models/ by its name.
+/// Read a mesh of models/ by its name.
 inline object::Polyhedron ReadMesh(const std::string& name) {
   return ReadSolidModel(name + ".obj");
 }

@@ -11,7 +11,7 @@
 namespace regrasp::roadmap {
 namespace spectral_embedding_test {
 
-/// exp(−|x − y|) of points in a cube: symmetric, in (0, 1].
+/// Return exp(−|x − y|) for points in a cube: symmetric, in (0, 1].
 Eigen::MatrixXd RandomAffinity(int count, std::uint64_t seed) {
   RandomStream random(seed, RandomUse::kContactPoints);
   const Eigen::MatrixXd points =
@@ -29,7 +29,7 @@ Eigen::MatrixXd Normalized(const Eigen::MatrixXd& affinity) {
   return scale.asDiagonal() * affinity * scale.asDiagonal();
 }
 
-/// Few points take all eigenvalues at once, many are iterated for.
+/// For few points all eigenvalues are computed at once, for many points iteratively.
 class EmbedAffinityOfSize : public testing::TestWithParam<int> {};
 
 TEST_P(EmbedAffinityOfSize, HasTheLargestEigenpairsOfASolverForAll) {
@@ -69,8 +69,8 @@ TEST_P(EmbedAffinityOfSize, PlacesItsOwnPointsWhereTheyAre) {
 INSTANTIATE_TEST_SUITE_P(Sizes, EmbedAffinityOfSize, testing::Values(12, 150));
 
 TEST(EmbedAffinity, PutsBlocksApart) {
-  // Points of three balls far from each other: those of a ball come to one place, and places of
-  // different balls are a right angle apart.
+  // Points of three distant groups: the points of a group are embedded close together, and
+  // different groups are embedded at right angles.
   constexpr int kCount = 90;
   const auto block = [](int i) { return i < 20 ? 0 : i < 50 ? 1 : 2; };
   Eigen::MatrixXd affinity = RandomAffinity(kCount, 4);
@@ -89,8 +89,8 @@ TEST(EmbedAffinity, PutsBlocksApart) {
 }
 
 TEST(EmbedAffinity, FindsEigenvaluesAsOftenAsTheyAre) {
-  // Points evenly around a circle: all eigenvalues but the first come in pairs, as on bodies with a
-  // symmetry.
+  // Points evenly spaced on a circle: all eigenvalues but the first come in pairs, as for objects
+  // with a symmetry.
   constexpr int kCount = 150;
   constexpr int kDimension = 9;
   Eigen::MatrixXd affinity(kCount, kCount);

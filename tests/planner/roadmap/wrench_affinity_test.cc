@@ -13,12 +13,13 @@
 namespace regrasp::roadmap {
 namespace wrench_affinity_test {
 
-/// What the header promises of angles.
+/// Accuracy of angles according to the header.
 constexpr double kAngle = 7e-5;
 
 const double kHalfAngle = Radians(10);
 
-/// The distance as the dissertation writes it: arccosines of the library, every shift.
+/// Return the distance as defined in the dissertation: arccosines of the standard library, for
+/// every shift.
 double DistanceByShifts(const WrenchPyramid& a, const WrenchPyramid& b) {
   double least = std::numeric_limits<double>::infinity();
   for (int shift = 0; shift < kPyramidSides; ++shift) {
@@ -86,8 +87,8 @@ TEST(WrenchDistance, IsThatOfAllShiftsWithTheLibrarysArccosine) {
 }
 
 TEST(WrenchDistance, OfForcesAtTheOriginIsTheAngleBetweenTheNormalsAtLeast) {
-  // At the origin there is no torque, and both pyramids start along the axis of the turn, so that
-  // all forces turn by the angle times the sine of their own angle to that axis.
+  // At the origin there is no torque, and both pyramids start along the rotation axis. Each force
+  // rotates by the angle times the sine of its angle to that axis.
   const object::WrenchFrame frame{Eigen::Vector3d::Zero(), 1, 3};
   const Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
   for (const double turn : {0.0, 0.05, 0.3, 1.0}) {
@@ -143,7 +144,7 @@ TEST(WrenchDistance, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
     const object::Polyhedron moved = Moved(body, MotionAndUnit(unit));
     EXPECT_TRUE(WrenchDistances(PyramidsOf(moved)).isApprox(distances, 1e-7)) << unit;
   }
-  // Torques that are not divided by the radius would make the unit count.
+  // If torques were not divided by the radius, the unit would matter.
   object::WrenchFrame frame = body.wrench_frame();
   const std::vector<grasp::Contact> contacts = Centroids(body);
   const auto distance = [&] {

@@ -12,7 +12,7 @@
 namespace regrasp::sampling {
 namespace contact_points_test {
 
-/// Rounding of a projection onto a face, relative to the diameter.
+/// Rounding error of a projection onto a face, relative to the diameter.
 constexpr double kOnFace = 1e-12;
 
 TEST(SpreadContactPoints, LieOnTheirFacesWithRoomToTheBorder) {
@@ -34,7 +34,7 @@ TEST(SpreadContactPoints, GiveEachFaceItsShareOfTheArea) {
   for (FaceIndex face{0}; face < box.face_count(); ++face) {
     const auto count = std::count_if(points.begin(), points.end(),
                                      [&](const grasp::Contact& c) { return c.face == face; });
-    // Purely random points would be off by more than four in one face out of three.
+    // Random points would deviate by more than four on one face out of three.
     EXPECT_NEAR(count, 100 * box.face_measure(face) / area, 4) << "face " << face;
   }
 }
@@ -77,7 +77,7 @@ TEST(SpreadContactPoints, RefusesNone) {
   EXPECT_THROW((void)SpreadContactPoints(MakeBox({0.06, 0.06, 0.06}), 0, 1), std::invalid_argument);
 }
 
-/// The same solid, every vertex mapped.
+/// Return the same solid with mapped vertices.
 template <typename Map>
 object::Polyhedron Moved(const object::Polyhedron& solid, const Map& map) {
   object::PolygonSoup soup;
@@ -88,7 +88,7 @@ object::Polyhedron Moved(const object::Polyhedron& solid, const Map& map) {
 
 constexpr int kPotatoTriangles = 6 * 4 * 4 * 2;
 
-/// A box of four cells along each edge blown up to a potato, so that no two triangles are coplanar.
+/// Return a box of four cells per edge, deformed so that no two triangles are coplanar.
 object::Polyhedron MakePotato() {
   return Moved(MakeBox({2, 3, 4}, 4), [](const Eigen::Vector3d& v) -> Eigen::Vector3d {
     const Eigen::Vector3d n = v.normalized();

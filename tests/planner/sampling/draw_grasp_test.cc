@@ -18,7 +18,7 @@ namespace draw_grasp_test {
 
 constexpr grasp::ContactLimits kFour = {4, 4};
 
-/// What NoGrasp says; empty where nothing is thrown.
+/// Return the message of NoGrasp; empty if none is thrown.
 std::string Refusal(const std::function<void()>& draw) {
   try {
     draw();
@@ -29,8 +29,8 @@ std::string Refusal(const std::function<void()>& draw) {
 }
 
 TEST(DrawOnSurface, DrawsNoTwoContactsOnATriangleWhoseEdgesAreNotOpposedEnough) {
-  // The normals of an equilateral triangle's edges are 60 degrees from opposed: two contacts need a
-  // half-angle of more than 30 degrees.
+  // The normals of an equilateral triangle's edges are 60 degrees from opposite. Two contacts
+  // therefore require a friction angle of more than 30 degrees.
   const object::ObjectFile file = object::ReadObject(ProjectPath("models/triangle.wkt"));
   const object::Object& triangle = *file.object;
   for (const double degrees : {5.0, 25.0, 29.9, 31.0, 50.0}) {
@@ -42,7 +42,7 @@ TEST(DrawOnSurface, DrawsNoTwoContactsOnATriangleWhoseEdgesAreNotOpposedEnough) 
     });
     EXPECT_EQ(refusal.empty(), degrees > 30) << degrees;
     if (refusal.empty()) continue;
-    // Nothing but the number was drawn.
+    // Only the number of contacts was drawn.
     (void)same.Index(1);
     EXPECT_EQ(random.Uniform(), same.Uniform());
     EXPECT_EQ(DrawOnSurface(triangle, {2, 3}, evaluator, random, "start").size(), 3U);
@@ -62,12 +62,13 @@ TEST(DrawOnSurface, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
     EXPECT_GE(grasp::ComputeQuality(grasp, cube.wrench_frame(), Radians(20)).upper, 0.02);
     for (const grasp::Contact& contact : grasp) ++on_face[contact.face];
   }
-  // By symmetry a sixth each; the contacts of one grasp are not independent, hence the wide bound.
+  // Each face has a sixth of the contacts by symmetry. The bound is wide because the contacts of
+  // one grasp are dependent.
   for (const int count : on_face) EXPECT_NEAR(count, 4 * kGrasps / 6, 4 * kGrasps / 12);
 }
 
 TEST(DrawOnSurface, SaysInTheSameWordsThatNoGraspIsThatGood) {
-  // No grasp resists more than its whole squeeze.
+  // No grasp resists more than its grasp force.
   const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const object::ObjectFile square = object::ReadObject(ProjectPath("models/square.wkt"));
   RandomStream random(1, RandomUse::kStart);
@@ -84,7 +85,8 @@ TEST(DrawOnSurface, SaysInTheSameWordsThatNoGraspIsThatGood) {
 }
 
 TEST(DrawOnSurface, SaysThatFingersReachNothing) {
-  // A saw blade: a ball that touches the side of a tooth and is much wider enters the next tooth.
+  // Saw blade: a sphere much larger than the teeth that touches the side of a tooth enters the next
+  // one.
   std::vector<Eigen::Vector2d> ring;
   constexpr int kTeeth = 40;
   for (int i = 0; i < 2 * kTeeth; ++i) {

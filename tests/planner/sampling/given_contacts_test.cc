@@ -31,7 +31,7 @@ TEST(GivenContacts, AreAtTheirPointsInsideAFaceWithItsNormal) {
     EXPECT_GE(sphere.DistanceToBorder(c.face, c.p),
               0.999 * SurfaceSampler::kFromBorder * sphere.diameter());
     EXPECT_EQ(c.n, sphere.inward_normal(c.face));
-    // The normal there, up to what facets of this size differ by.
+    // The normal is radial up to the angle between triangles of this size.
     EXPECT_LT(c.n.dot(c.p.normalized()), -std::cos(Radians(12)));
   }
 }
@@ -39,7 +39,8 @@ TEST(GivenContacts, AreAtTheirPointsInsideAFaceWithItsNormal) {
 TEST(GivenContacts, AreAllThereWhereThereAreFewAndTheSameForTheSameSeed) {
   const object::Polyhedron sphere = SphereOf(8);
   const auto all = GivenContacts(sphere, sphere.vertices(), 4, 1000, 1);
-  // At the two poles corners are too sharp: inside of them a contact would be too far off.
+  // The two poles are excluded: their corners are so sharp that a contact inside a triangle would
+  // be too far away.
   EXPECT_EQ(all.size(), sphere.vertices().size() - 2);
   const auto some = GivenContacts(sphere, sphere.vertices(), 4, 10, 1);
   const auto again = GivenContacts(sphere, sphere.vertices(), 4, 10, 1);

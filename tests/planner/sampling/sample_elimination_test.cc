@@ -12,7 +12,7 @@ namespace sample_elimination_test {
 
 constexpr int kKept = 50;
 
-/// Contacts drawn in the unit square, normals up.
+/// Draw contacts in the unit square, with normals upwards.
 std::vector<grasp::Contact> DrawInSquare(int count) {
   RandomStream random(3, RandomUse::kContactPoints);
   std::vector<grasp::Contact> contacts;
@@ -54,7 +54,7 @@ TEST(EliminateSamples, SpreadsThemFarBetterThanChance) {
   EXPECT_LT(SmallestDistance(by_chance), 0.05);
 }
 
-/// The same rule, every pair looked at and the most crowded found by looking at all.
+/// Apply the same rule by brute force over all pairs and all contacts.
 std::vector<grasp::Contact> EliminatePlainly(const std::vector<grasp::Contact>& contacts, int count,
                                              double area) {
   const double reach = 2 * std::sqrt(area / (2 * std::sqrt(3.0) * count));
@@ -91,7 +91,8 @@ TEST(EliminateSamples, KeepsAllWhereThereAreNoMore) {
 }
 
 TEST(EliminateSamples, DoesNotLetTheTwoSidesOfAPlateCrowdEachOther) {
-  // Five points, each on both sides of a plate of no thickness; the fifth is beside the fourth.
+  // Five points, each on both sides of a plate of zero thickness. The fifth point is close to the
+  // fourth.
   std::vector<grasp::Contact> plate;
   for (const double x : {0.0, 1.0, 2.0, 3.0, 3.1}) {
     plate.push_back({{x, 0, 0}, {0, 0, 1}, FaceIndex(0)});

@@ -15,7 +15,7 @@
 namespace regrasp::sampling {
 namespace surface_sampler_test {
 
-/// Shares of the faces in contacts drawn anywhere, which lie on their faces.
+/// Return the share of contacts per face, and check that the contacts are on their faces.
 std::vector<double> DrawnShares(const object::Object& object, int draws) {
   const SurfaceSampler sampler(object);
   RandomStream random(4, RandomUse::kStart);
@@ -35,7 +35,7 @@ void ExpectSharesOfTheMeasure(const object::Object& object) {
   double sum = 0;
   for (FaceIndex face{0}; face < object.face_count(); ++face) {
     sum += object.face_measure(face);
-    // Four standard deviations at most.
+    // The tolerance is at least four standard deviations.
     EXPECT_NEAR(shares[face], object.face_measure(face) / whole, 0.032) << "face " << face;
   }
   EXPECT_NEAR(sum, whole, 1e-9 * whole);
@@ -81,13 +81,13 @@ TEST(SurfaceSampler, SaysWhereNothingIsValid) {
   const object::Polygon polygon = MakeNotched();
   RandomStream random(4, RandomUse::kStart);
   EXPECT_TRUE(SurfaceSampler(polygon).TryDraw(random));
-  // No point of an edge is as far from its border as the polygon is wide.
+  // No point of an edge is as far from its border as the polygon's width.
   const SurfaceSampler none(polygon, 0, 1);
   EXPECT_FALSE(none.TryDraw(random));
   EXPECT_FALSE(none.IsValid(none.Draw(random)));
 }
 
-/// A rod along z with a regular outline, lengths in metres.
+/// Return a rod along z with a regular cross-section; lengths are in metres.
 object::Polyhedron MakeRod(int sides, double diameter, double length) {
   std::vector<Eigen::Vector2d> outline;
   for (int i = 0; i < sides; ++i) {
@@ -125,7 +125,7 @@ TEST(SurfaceSampler, ThinSidesKeepTheirShareOfContactsWhateverTheirNumber) {
 
 TEST(SurfaceSampler, ContactsKeepTheClearanceFromSharpEdgesAndMayBeBesideNearlyFlatOnes) {
   const object::Polyhedron cube = MakeCube();
-  // Sides of 18.8 mm, at edges of 18 degrees.
+  // The sides are 18.8 mm wide, and their normals differ by 18 degrees.
   const object::Polyhedron drum = MakeRod(20, 0.12, 0.12);
   for (const object::Polyhedron* solid : {&cube, &drum}) {
     const SurfaceSampler sampler(*solid, 0, kClearance);

@@ -8,7 +8,7 @@ namespace fewest_switches_test {
 
 bool AdmitAll(int) { return true; }
 
-/// Distances from `start` by relaxing every edge until nothing changes.
+/// Return distances from `start` by relaxing all edges until nothing changes.
 std::vector<int> BruteForceDistances(const SwitchingGraph& graph, int start,
                                      const std::vector<bool>& admitted) {
   constexpr int kFar = 1'000'000;

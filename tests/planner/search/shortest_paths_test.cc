@@ -6,7 +6,8 @@
 namespace regrasp::search {
 namespace shortest_paths_test {
 
-/// Distances from `start` by relaxing every edge until nothing changes; −1 where there is no path.
+/// Return distances from `start` by relaxing all edges until nothing changes; −1 if there is no
+/// path.
 std::vector<int> BruteForceDistances(const SwitchingGraph& graph, int start) {
   std::vector<int> distance(graph.vertex_count(), -1);
   distance[start] = 0;

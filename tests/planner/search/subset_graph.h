@@ -9,13 +9,13 @@
 
 namespace regrasp::search {
 
-/// A small graph whose vertices are sets of four things, given as bits; sets that share three are
-/// joined. What a roadmap is, without the geometry.
+/// Small graph whose vertices are 4-subsets of a set, given as bits. Subsets that share three
+/// elements are connected, as in a roadmap.
 class SubsetGraph final : public SwitchingGraph {
  public:
   explicit SubsetGraph(std::vector<unsigned> sets) : sets_(std::move(sets)) {}
 
-  /// Keeps each 4-subset of `things` with probability `density`.
+  /// Keep each 4-subset of `things` with probability `density`.
   static SubsetGraph Random(int things, double density, std::mt19937& random) {
     std::vector<unsigned> sets;
     std::bernoulli_distribution keep(density);

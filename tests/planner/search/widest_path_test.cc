@@ -10,7 +10,7 @@ namespace widest_path_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A graph with a filter and widths, and all its sequences tried one by one.
+/// Graph with a filter and widths, and a brute-force search over all paths.
 struct Instance {
   SubsetGraph graph;
   std::vector<bool> admitted;
@@ -26,7 +26,7 @@ struct Instance {
     return instance;
   }
 
-  /// The largest bottleneck over all sequences of `switches` more switches; −∞ where there is none.
+  /// Return the largest bottleneck over all paths of `switches` more switches; −∞ if there is none.
   [[nodiscard]] double BruteForce(int vertex, int goal, int switches) const {
     if (switches == 0) return vertex == goal ? kInfinity : -kInfinity;
     double best = -kInfinity;

@@ -27,7 +27,7 @@ plan::Plan PlanOf(const GraspPath& path, const grasp::Grasp& from, const grasp::
   return plan;
 }
 
-/// Every align's proof in exact arithmetic. @returns how many there are.
+/// Check the proof of every sliding step in exact arithmetic. @returns number of sliding steps.
 int CheckAligns(const GraspPath& path, const SearchSpace& space) {
   int aligns = 0;
   for (const PathStep& step : path.steps) {
@@ -95,7 +95,7 @@ TEST_P(BidirectionalTreeCases, JoinGraspsByWaysThatTheCheckerPasses) {
 }
 
 TEST(BidirectionalTree, WithTooLittleFrictionReachNothingElse) {
-  // At 0.1 degrees a cube's faces allow next to nothing; the ends are taken as they are.
+  // At 0.1 degrees a cube's faces allow almost no motion; the ends are accepted unchanged.
   const object::ObjectFile file = ReadModel("cube.obj");
   RandomStream draws(2, RandomUse::kStart);
   const grasp::Grasp from = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);

@@ -36,8 +36,8 @@ int TurnsOf(const std::vector<grasp::Grasp>& waypoints) {
   return turns;
 }
 
-/// A plan may have it, it is force closure at every instant that is looked at, and its proof holds
-/// in exact arithmetic.
+/// Expect a sliding step that a plan may contain and that is force closure at every sampled
+/// instant. Its proof must be valid in exact arithmetic.
 void ExpectSound(const FaceAlign& align, const SearchSpace& space) {
   constexpr int kInstants = 64;
   const std::vector<grasp::Grasp> waypoints = WaypointsOf(align, space);
@@ -120,7 +120,8 @@ TEST_P(FaceAlignCases, AlignsAcrossEdgesAreProvedAndLegalBothWays) {
   EXPECT_GE(across, 10);
 }
 
-/// A grasp that holds with all fingers of the hand and not without any one of them.
+/// Return true if a grasp is force closure with all fingers of the hand, and not without any one of
+/// them.
 bool NeedsAll(const criteria::ContactSet& set, SearchSpace& space) {
   return set.size() == space.fingers() && space.Admits(set) &&
          std::none_of(set.begin(), set.end(),
@@ -134,8 +135,8 @@ INSTANTIATE_TEST_SUITE_P(Bodies, NeedingAll,
                          [](const auto& test) { return "case" + std::to_string(test.index); });
 
 TEST_P(NeedingAll, OnlyAnAlignAcrossAnEdgeJoinsGraspsThatNeedAllFingers) {
-  // No finger of either can be lifted, and they are not on the same faces: neither a switch nor an
-  // align on one tuple of faces leads anywhere else.
+  // No finger of either grasp can be lifted, and the grasps are on different faces. Hence neither a
+  // switch nor a sliding step on one tuple of faces connects them to other grasps.
   const object::ObjectFile file = ReadModel(GetParam().model);
   const criteria::GraspCriteria criteria{Radians(GetParam().degrees), 0};
   const sampling::SurfaceSampler source(*file.object);
@@ -181,18 +182,18 @@ TEST(FaceAlignTest, PairsContactsAcrossAsFewEdgesAsCanBeAndNoneThatAreFarApart) 
   }();
   const int a = draw(first), b = draw(side), c = draw(opposite);
   const criteria::ContactSet from = criteria::ContactSet().With(a).With(b).With(c);
-  // The contact of face 0 is to change to `third`, the others stay on their faces.
+  // The contact of face 0 moves to `third`, the other contacts stay on their faces.
   const int d = draw(side), e = draw(opposite), f = draw(third);
   const auto pairs = PairContacts(from, criteria::ContactSet().With(d).With(e).With(f), space);
   ASSERT_TRUE(pairs);
   EXPECT_THAT(*pairs,
               testing::UnorderedElementsAre(std::pair(a, f), std::pair(b, d), std::pair(c, e)));
-  // Common contacts stay.
+  // Common contacts stay in place.
   const auto same = PairContacts(from, criteria::ContactSet().With(a).With(d).With(e), space);
   ASSERT_TRUE(same);
   EXPECT_THAT(*same,
               testing::UnorderedElementsAre(std::pair(a, a), std::pair(b, d), std::pair(c, e)));
-  // Two of three on face 0 would have to go there from the other side of the cube.
+  // Two of three contacts would have to move to face 0 from the opposite side of the cube.
   const criteria::ContactSet far =
       criteria::ContactSet().With(draw(opposite)).With(draw(opposite)).With(c);
   const criteria::ContactSet near =
@@ -203,7 +204,8 @@ TEST(FaceAlignTest, PairsContactsAcrossAsFewEdgesAsCanBeAndNoneThatAreFarApart) 
       << "one finger fewer";
 }
 
-/// The friction that the turn of an align needs at a share of it, radians.
+/// Return the friction angle that the rotation in a sliding step requires at a share of it,
+/// radians.
 double RequiredWhileTurning(const std::vector<grasp::Grasp>& waypoints, double t,
                             const object::WrenchFrame& frame) {
   for (std::size_t w = 1; w < waypoints.size(); ++w) {
@@ -216,8 +218,7 @@ double RequiredWhileTurning(const std::vector<grasp::Grasp>& waypoints, double t
 }
 
 TEST(FaceAlignTest, FrictionThatHoldsOnBothSidesOfAnEdgeMayBeTooSmallBetween) {
-  // A direction within θ of the great circle from one normal to the next is, between them, farther
-  // from it than at both ends.
+  // Halfway through the turn, the grasp may require a larger friction angle than at both ends.
   const object::ObjectFile file = ReadModel("cube.obj");
   const object::Object& cube = *file.object;
   const sampling::SurfaceSampler source(cube);

@@ -12,7 +12,8 @@
 namespace regrasp::tree {
 namespace improve_path_test {
 
-/// Force closure of all grasps, every step a switch of the hand or a proved align, no grasp twice.
+/// Expect a path of distinct force-closure grasps. Every step must be a switch of the hand or a
+/// proved sliding step.
 void ExpectIsPath(const GraspPath& path, const SearchSpace& space) {
   const criteria::ContactSet* before = &path.start;
   for (const PathStep& step : path.steps) {
@@ -41,7 +42,7 @@ class ImprovePathCases : public testing::TestWithParam<Case> {
         source_(*file_.object),
         criteria_{Radians(GetParam().degrees), 0} {}
 
-  /// A path between random grasps of some quality.
+  /// Return a path between random grasps of the given quality.
   GraspPath Draw(double quality, std::uint64_t seed, SearchSpace& space) {
     RandomStream draws(seed, RandomUse::kStart);
     const criteria::GraspCriteria criteria{criteria_.half_angle, quality};
@@ -83,7 +84,7 @@ TEST_P(ImprovePathCases, LessTravelIsNeverMoreStepsAndIsWhatTravelOfSays) {
 
 TEST_P(ImprovePathCases, RepairedPathsHaveTheQualityThatTheyAreSaidToHave) {
   constexpr double kQuality = 0.01;
-  // In the plane paths are found at once, and few of them pass weak grasps.
+  // In the plane paths are found immediately, and few of them pass weak grasps.
   const int seeds = GetParam().contacts == 3 ? 24 : 6;
   int repaired = 0;
   int weak = 0;
@@ -121,7 +122,7 @@ TEST(LeastTravel, IsTheLeastOfAllWaysOfSoManySwitches) {
     const criteria::ContactSet to = Take(DrawGrasp(*file.object, 4, criteria, random), space);
     std::vector<int> contacts(space.count());
     for (int k = 0; k < space.count(); ++k) contacts[k] = k;
-    // On small faces there are no aligns: all ways of three switches, one by one.
+    // On small faces there are no sliding steps: test all paths of three switches, one by one.
     std::vector<criteria::ContactSet> grasps;
     for (unsigned mask = 0; mask < 1U << contacts.size(); ++mask) {
       const int size = std::popcount(mask);

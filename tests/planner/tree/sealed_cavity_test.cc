@@ -22,8 +22,8 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// [−1, 1]³ with the cavity [−0.9, 0.9]³, which has nearly half of the surface. First in the file
-/// comes the cavity or the outside.
+/// Return [−1, 1]³ with the cavity [−0.9, 0.9]³, which has nearly half of the surface. The file
+/// begins with the cavity or with the outer surface.
 object::Polyhedron MakeHollowCube(bool cavity_first) {
   object::PolygonSoup cavity = soups::BoxSoup(Vector3d::Constant(-0.9), Vector3d::Constant(0.9));
   soups::Turn(cavity);
@@ -32,7 +32,7 @@ object::Polyhedron MakeHollowCube(bool cavity_first) {
       cavity_first ? soups::Join(cavity, outside) : soups::Join(outside, cavity), "hollow");
 }
 
-/// Counts contacts; none may be in the cavity.
+/// Counts contacts and expects none in the cavity.
 class OutsideOnly {
  public:
   explicit OutsideOnly(const object::Object& object) : object_(object) {}
@@ -62,7 +62,7 @@ TEST_P(SealedCavity, ThePlannerGeneralDrawsNothingFromIt) {
   grasp::Contact contact = source.Draw(random_);
   for (int i = 0; i < 300; ++i) {
     outside_.See(contact = source.Draw(random_));
-    // A wall of 0.1 away from it.
+    // The radius exceeds the wall thickness of 0.1.
     outside_.See(source.DrawAround(contact, 0.2, random_));
     outside_.See(source.DrawOn(contact.face, random_));
   }

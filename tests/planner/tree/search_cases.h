@@ -10,7 +10,7 @@
 
 namespace regrasp::tree {
 
-/// A random grasp of so many contacts that meets the criteria.
+/// Draw a random grasp of `contacts` contacts that meets the criteria.
 [[nodiscard]] inline grasp::Grasp DrawGrasp(const object::Object& object, int contacts,
                                             const criteria::GraspCriteria& criteria,
                                             RandomStream& random, const hand::Hand& hand = {}) {

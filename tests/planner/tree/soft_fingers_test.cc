@@ -1,4 +1,4 @@
-// Sequences of soft fingers, of which two can hold a solid.
+// Sequences of soft fingers, two of which can hold a solid.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ planning::PlanRequest SoftAt(double degrees, std::uint64_t seed = 0) {
   return request;
 }
 
-/// Two fingers on opposite faces of models/cube.obj, across `axis`.
+/// Return two fingers on opposite faces of models/cube.obj, across `axis`.
 grasp::Grasp PairAcross(const object::Object& cube, int axis, double off = 0) {
   grasp::Grasp grasp;
   for (const double side : {-1.0, 1.0}) {
@@ -61,7 +61,7 @@ TEST(SoftFingersPlan, TwoFingersTakeOverFromTwo) {
   EXPECT_GE(CountPairs(*result.plan), 2);
   EXPECT_GT(result.margin, 0);
   ExpectGoodPlan(TreePlanner(), *file.object, result, start, goal);
-  // The same steps are none of hard points.
+  // The same steps are invalid for hard contacts.
   plan::CheckOptions hard;
   hard.torsion = 0;
   EXPECT_FALSE(plan::CheckPlan(*file.object, *result.plan, hard).passed());
@@ -112,7 +112,7 @@ TEST(SoftFingersPlan, HardPointsPlannersAndThePlaneRefuse) {
               HasSubstr("--contact soft: not supported by planner polyhedron"));
   EXPECT_THAT(complaint(*ReadModel("polygon15.wkt").object, "auto", SoftAt(25)),
               HasSubstr("--contact soft"));
-  // So far off the line that 10° do not hold it.
+  // The offset from the line is too large for 10°.
   const grasp::Grasp off = {pair[0], PairAcross(*file.object, 0, 0.02)[1]};
   planning::PlanRequest request = SoftAt(10);
   request.object = file.object.get();

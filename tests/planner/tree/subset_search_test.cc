@@ -28,7 +28,8 @@ std::vector<criteria::ContactSet> AllSets(const std::vector<int>& contacts, int 
   return sets;
 }
 
-/// The fewest switches between two grasps, over all subsets: by the definition of a switch alone.
+/// Return the fewest switches between two grasps, over all subsets, based only on the definition of
+/// a switch.
 int FewestSwitches(const criteria::ContactSet& from, const criteria::ContactSet& to,
                    const std::vector<int>& contacts, const SearchSpace& space) {
   std::vector<criteria::ContactSet> grasps = {from, to};
@@ -114,7 +115,8 @@ TEST_P(SubsetSearchCases, FindsTheFewestSwitchesOfAllSubsets) {
   EXPECT_GT(joined, 0);
 }
 
-/// The least half-angle at which so many switches join two grasps: by its definition alone.
+/// Return the least friction angle at which `steps` switches connect two grasps, based only on its
+/// definition.
 double LeastHalfAngle(const criteria::ContactSet& from, const criteria::ContactSet& to,
                       const std::vector<int>& contacts, int steps, const SearchSpace& space) {
   std::vector<std::pair<criteria::ContactSet, double>> grasps = {{from, 0}, {to, 0}};
@@ -168,7 +170,7 @@ TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
         EXPECT_TRUE(grasp::IsForceClosure(space.GraspOf(step.to), file.object->wrench_frame(),
                                           expected + kAccuracy));
       }
-      // Where its own bound forbids it, no path is looked for.
+      // If the bound excludes a path, none is searched.
       EXPECT_FALSE(
           SearchWidest(from, to, contacts, UseAligns::kNo, steps, criteria.half_angle, space));
     }
@@ -208,7 +210,7 @@ TEST(SubsetSearch, ContactsAtOnePointAreNotHeldAtOnce) {
   RandomStream random(5, RandomUse::kStart);
   const grasp::Grasp grasp = DrawGrasp(*file.object, 4, criteria, random);
   grasp::Grasp shifted = grasp;
-  // The same grasp but for a contact that is not the same one, within reading's tolerance of it.
+  // The same grasp except for a different contact within the reader's tolerance of it.
   shifted[0].p += 1e-7 * file.object->diameter() * shifted[0].n.unitOrthogonal();
   SearchSpace space(*file.object, criteria);
   const criteria::ContactSet from = Take(grasp, space);

@@ -18,7 +18,7 @@ grasp::Contact On(const object::Object& object, const Vector3d& near) {
   return {object.ClosestPoint(face, near), object.inward_normal(face), face};
 }
 
-/// Every leg is a motion that a plan may have.
+/// Expect that every segment is a motion that a plan may contain.
 void ExpectLegal(const object::Object& object, const SurfaceRoute& route) {
   ASSERT_EQ(route.size() % 2, 0u);
   for (std::size_t i = 1; i < route.size(); ++i) {
@@ -26,7 +26,8 @@ void ExpectLegal(const object::Object& object, const SurfaceRoute& route) {
   }
 }
 
-/// The shortest path over one edge of all its points, each leg straight.
+/// Return the length of the shortest path over one edge, over all its points, with straight
+/// segments.
 double ShortestOver(const object::FaceBorder& edge, const Vector3d& p, const Vector3d& q) {
   constexpr int kPoints = 20'000;
   double least = std::numeric_limits<double>::infinity();
@@ -58,7 +59,7 @@ TEST(SurfaceRoute, OverOneEdgeOfACubeIsTheShortestWay) {
     EXPECT_NEAR(LengthOf(*back), LengthOf(*route), 1e-12);
     for (const object::FaceBorder& edge : cube.BordersOf(from.face)) {
       if (edge.beyond != to.face) continue;
-      // The grid of the other route, and the corners that are left out.
+      // Resolution of the grid of the independent search, and of the omitted corners.
       const double accuracy = 1e-3 * cube.diameter();
       EXPECT_NEAR(LengthOf(*route), ShortestOver(edge, from.p, to.p), accuracy);
     }
@@ -90,7 +91,8 @@ TEST(SurfaceRoute, GoesOverSeveralTrianglesOfAMesh) {
     const auto route = FindSurfaceRoute(body, from, to);
     if (!route) continue;
     ExpectLegal(body, *route);
-    // On a body so smooth the path along the surface is hardly longer than the straight line.
+    // On such a smooth object the path along the surface is only slightly longer than the straight
+    // line.
     EXPECT_LT(LengthOf(*route), 1.2 * (from.p - to.p).norm() + 1e-3 * body.diameter());
     longest = std::max(longest, static_cast<int>(route->size()));
   }
@@ -98,20 +100,20 @@ TEST(SurfaceRoute, GoesOverSeveralTrianglesOfAMesh) {
 }
 
 TEST(SurfaceRoute, NeverGoesThroughAConcaveEdge) {
-  // An L. The concave corner is at (1, 1).
+  // L-shaped polygon with its concave corner at (1, 1).
   const object::Polygon ell =
       object::Polygon::FromWkt("POLYGON((0 0, 3 0, 3 1, 1 1, 1 3, 0 3, 0 0))", "ell");
   const grasp::Contact low = On(ell, {2, 1, 0});
   const grasp::Contact high = On(ell, {1, 2, 0});
   ASSERT_TRUE(ell.AreNeighbours(low.face, high.face));
   EXPECT_FALSE(FindSurfaceRoute(ell, low, high));
-  // The convex corners beside it are passed.
+  // The neighbouring convex corners can be passed.
   EXPECT_TRUE(FindSurfaceRoute(ell, low, On(ell, {3, 0.5, 0})));
   EXPECT_TRUE(FindSurfaceRoute(ell, On(ell, {0.5, 3, 0}), high));
 }
 
 TEST(SurfaceRoute, GoesThroughAConcaveEdgeWhereItsTurnIsAllowed) {
-  // The top is bent in the middle by 2 atan(0.1 / 2), 5.7° or 0.0999 radians.
+  // The top has a bend in the middle by 2 atan(0.1 / 2), 5.7° or 0.0999 radians.
   const object::Polygon roof =
       object::Polygon::FromWkt("POLYGON((0 0, 4 0, 4 2, 2 1.9, 0 2, 0 0))", "roof");
   const grasp::Contact right = On(roof, {3, 1.95, 0});
@@ -137,7 +139,7 @@ TEST(SurfaceRoute, GoesRoundTheConcaveEdgeOfABlockOverItsCaps) {
       ++concave;
       const Vector3d middle = (edge.a + edge.b) / 2;
       const double off = 0.05 * block.diameter();
-      // One moves off the edge along the other face's outward normal.
+      // Moves off the edge follow the other face's outward normal.
       const Vector3d n = block.inward_normal(face);
       const Vector3d m = block.inward_normal(edge.beyond);
       const grasp::Contact from{block.ClosestPoint(face, middle - off * m), n, face};

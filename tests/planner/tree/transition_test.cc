@@ -60,7 +60,8 @@ TEST(FindTransition, MovesUntilAFingerCanBeSwitched) {
 }
 
 TEST(FindTransition, FindsNoneWhereTheLaterFacesHoldNothing) {
-  // Two contacts on one face of a cube and one on a neighbouring face: at 10° nothing pushes back.
+  // Two contacts on one face of a cube and one on a neighbouring face: at 10° no force opposes
+  // them.
   const object::ObjectFile file = ReadModel("cube.obj");
   const object::Object& object = *file.object;
   const criteria::GraspCriteria criteria{Radians(10), 0};

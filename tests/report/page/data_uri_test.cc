@@ -6,7 +6,7 @@ namespace regrasp::report {
 namespace data_uri_test {
 
 TEST(DataUriTest, BytesBecomeAUriOfBase64) {
-  // The vectors of RFC 4648.
+  // Test vectors of RFC 4648.
   EXPECT_EQ(DataUri("image/webp", ""), "data:image/webp;base64,");
   EXPECT_EQ(DataUri("image/webp", "f"), "data:image/webp;base64,Zg==");
   EXPECT_EQ(DataUri("image/webp", "foobar"), "data:image/webp;base64,Zm9vYmFy");

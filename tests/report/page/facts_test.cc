@@ -37,7 +37,7 @@ TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {
     step.check.required = grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
   }
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>step 1, 3.00° margin</dd>"));
-  // Where something failed there is something weaker.
+  // If a step failed, the margin of another step is not reported as the weakest.
   report.steps.emplace_back().check.reason = plan::Reason::kNotForceClosure;
   EXPECT_THAT(FormatFacts(report), Not(HasSubstr("° margin")));
 }

@@ -20,7 +20,7 @@ using testing::SizeIs;
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// A hold by a hand with two joints.
+/// Return a report of an initial grasp by a hand with two joints.
 Report HandReport(double first_torque, double second_torque) {
   Report report;
   report.object_file = "cube.obj";

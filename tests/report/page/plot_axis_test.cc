@@ -9,7 +9,7 @@
 namespace regrasp::report {
 namespace plot_axis_test {
 
-/// Values inside the ends, in order, ticks inside and ascending positions.
+/// Expect values between the ends, in order, ticks inside the axis and ascending positions.
 void ExpectSound(const PlotAxis& axis, const std::vector<double>& values) {
   EXPECT_LT(axis.lower, axis.upper);
   for (const double value : values) {

@@ -21,7 +21,7 @@ plan::FingerContact MakeContact(int finger) {
   return {FingerIndex(finger), {{0.01 * finger, 0, 0}, {0, 0, 1}}};
 }
 
-/// A hold and two steps, the last of which fails in the replay when asked.
+/// Initial grasp and two steps, the last of which fails in the replay if requested.
 struct Scene {
   plan::Plan plan;
   Report report;
@@ -117,7 +117,7 @@ TEST(ReportPageTest, NothingFromOutsideCanBecomeMarkup) {
   scene.report.steps[1].replay->detail = evil;
   const std::string page = FormatReportHtml(scene.report, scene.plan, {});
   EXPECT_EQ(Count(page, "<script"), 0);
-  EXPECT_EQ(Count(page, "</title>"), 3);  // of the page and of two plots
+  EXPECT_EQ(Count(page, "</title>"), 3);  // page and two plots
   EXPECT_GE(Count(page, "&lt;script&gt;"), 6);
 }
 

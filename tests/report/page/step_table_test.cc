@@ -15,7 +15,7 @@ std::string Format(const std::vector<Element>& elements) {
   return Element("main", {}, elements).Format();
 }
 
-/// A hold that is not replayed.
+/// Return a report of an initial grasp without replay.
 Report MakeReport() {
   Report report;
   report.half_angle = Radians(20);

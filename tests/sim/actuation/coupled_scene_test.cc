@@ -54,7 +54,8 @@ std::string CoupleAll(const std::string& follower, const std::string& leader,
   return equalities + "</equality>";
 }
 
-/// All constraints of the scene, the model's and the file's, hold at the angles of the coupling.
+/// At the angles of the coupling, all constraints of the scene, from the model and from the file,
+/// are satisfied.
 TEST_F(CoupledSceneTest, ConstraintsAreThoseOfTheCoupling) {
   const kinematics::HandFile hand = Hand(
       {.after = CoupleAll("3", "2", "0.2 1.06 0 0 0") + Servos("12"), .joint3 = R"(ref="0.3")"});

@@ -21,13 +21,13 @@
 
 namespace regrasp::sim {
 
-/// Another text in a file, wherever it stands.
+/// Replacement of a text in a file, at every occurrence.
 struct Edit {
   std::string from;
   std::string to;
 };
 
-/// Hands that differ from ring5 in the text of their model, and plans of theirs for a cube of 5 cm.
+/// Fixture for hands whose model text differs from ring5, and for their plans for a cube of 5 cm.
 class EditedHandTest : public FolderTest {
  protected:
   static constexpr double kScale = 0.8333;
@@ -47,7 +47,7 @@ class EditedHandTest : public FolderTest {
   [[nodiscard]] static std::string RingText() {
     return ReadFile(ProjectPath("models/hands/ring5.xml"));
   }
-  /// @param coupled  The last joint of each finger follows the one before it.
+  /// @param coupled  true: the last joint of each finger follows the joint before it.
   [[nodiscard]] kinematics::HandFile HandWith(const std::vector<Edit>& edits,
                                               bool coupled = false) const {
     Json json = ParseJson(ReadFile(ProjectPath("models/hands/ring5.json")), "ring5.json");
@@ -61,8 +61,8 @@ class EditedHandTest : public FolderTest {
     static_cast<void>(Write("ring5.xml", Edited(RingText(), edits)));
     return kinematics::ReadHandFile(Write("hand.json", json.dump()));
   }
-  /// What a hand without inertia behind its joints, without servos and with coupled joints is: as
-  /// most URDFs, and MJCF with motors.
+  /// Return a hand without inertia behind its joints, without servos and with coupled joints, like
+  /// most URDFs and like MJCF models with torque actuators.
   [[nodiscard]] kinematics::HandFile CoupledHand() const {
     std::vector<Edit> edits = {{" armature=\"0.001\"", ""},
                                {"<position kp=\"2.0\" forcerange=\"-1.0 1.0\"/>",
@@ -79,21 +79,21 @@ class EditedHandTest : public FolderTest {
     edits.push_back({"<actuator>", equalities + "</equality><actuator>"});
     return HandWith(edits, true);
   }
-  /// ring5 on a wrist, which the replay keeps where it is.
+  /// Return ring5 on a wrist, which the replay keeps fixed.
   [[nodiscard]] kinematics::HandFile HandOnWrist() const {
     return HandWith(
         {{"<body name=\"palm\">",
           "<body name=\"palm\"><joint name=\"wrist\" axis=\"1 0 0\" range=\"-30 30\"/>"}});
   }
-  /// A hand whose model is another one than its joints were read from: what is refused when a hand
-  /// is read must not decide in a replay either.
+  /// Return a hand whose compiled model is not the one that its joints were read from. A model that
+  /// the hand reader rejects must not affect a replay either.
   [[nodiscard]] kinematics::HandFile WithModel(kinematics::HandFile hand,
                                                const std::string& model) const {
     hand.compiled = std::make_shared<const kinematics::CompiledModel>(
         kinematics::CompileModel(Write("other.xml", model)));
     return hand;
   }
-  /// The cube turned about z, radians.
+  /// Return a plan that rotates the cube about z by `turn`, radians.
   [[nodiscard]] plan::Plan PlanFor(const kinematics::HandFile& hand, double turn = 0.3) const {
     gait::GaitRequest request;
     request.hand = &hand.hand;

@@ -11,8 +11,7 @@
 namespace regrasp::sim {
 namespace hand_control_test {
 
-/// The force that the last finger of the grasp is asked for in a handover after which it holds no
-/// more.
+/// Return the commanded force of the last finger of the grasp in a handover that releases it.
 Eigen::Vector3d ForceInHandover(HandWorld& world, const object::Polyhedron& solid,
                                 const plan::Plan& plan, double share) {
   world.Place(plan.hand->initial);
@@ -49,7 +48,8 @@ TEST_F(HeldInHand, AShakePushesAndTwists) {
   };
   EXPECT_EQ(shaken(0).reason, plan::Reason::kNone);
   EXPECT_EQ(shaken(0.03).reason, plan::Reason::kNone);
-  // Servos give way to a twist first, and then to a push too, which comes before it.
+  // Servos yield to a torque first. A larger disturbance also fails by its force, which is tested
+  // before the torque.
   const StepReplay twisted = shaken(0.1);
   EXPECT_EQ(twisted.reason, plan::Reason::kObjectMoved);
   ASSERT_TRUE(twisted.fault.push);

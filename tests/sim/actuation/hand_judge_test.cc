@@ -17,7 +17,7 @@ using plan::Reason;
 
 constexpr double kAnything = 1e9;
 
-/// Nothing fails but links that touch.
+/// Return tolerances that only allow failures by colliding links.
 HandTolerance AnyTolerance() {
   return {.length_m = kAnything,
           .angle_rad = kAnything,
@@ -29,12 +29,13 @@ HandTolerance AnyTolerance() {
           .depth_m = kAnything};
 }
 
-/// Of what was measured. Replays are the same until one of them ends: any share decides.
+/// Share of the measured value. Replays are identical until one of them ends, so any share is
+/// decisive.
 constexpr double kAHundredth = 0.01;
 
 class HandJudgeTest : public HeldInHand {
  protected:
-  /// The last entry that is replayed, without a shake.
+  /// Return the last replayed step, without a disturbance test.
   [[nodiscard]] StepReplay Replay(const HandTolerance& tolerance, double force_factor = 1) const {
     HandReplayOptions options;
     options.half_angle = std::atan(kMu);
@@ -44,7 +45,8 @@ class HandJudgeTest : public HeldInHand {
     options.tolerance = tolerance;
     return ReplayHand(hand_, solid(), plan_, options).steps.back();
   }
-  /// That a replay passes with a hundredth more than what was measured, and not with less.
+  /// Expect that a replay passes if the tolerance is 1 % above the measured value, and fails if it
+  /// is 1 % below.
   void ExpectDecides(double HandTolerance::*allowed, double measured, Reason reason) const {
     ASSERT_GT(measured, 0);
     HandTolerance tolerance = AnyTolerance();
@@ -66,7 +68,7 @@ TEST_F(HandJudgeTest, EveryToleranceDecidesByWhatIsMeasured) {
 }
 
 TEST_F(HandJudgeTest, FingersWithoutForceLoseTheirContactsAndActuatorsStandAtTheirLimits) {
-  constexpr double kWeak = 0.02;  // of the actuators' force
+  constexpr double kWeak = 0.02;  // share of the actuators' force limits
   EXPECT_EQ(Replay(AnyTolerance()).reason, Reason::kNone);
   HandTolerance tolerance = AnyTolerance();
   tolerance.lost_s = HandTolerance().lost_s;
@@ -97,7 +99,7 @@ TEST_F(HandJudgeTest, FingersMayBeFromTheirContactsAsFarAsTheyMaySlip) {
   }
 }
 
-/// The least distance of the tips of two fingers.
+/// Return the least distance between two fingertips.
 double LeastTipDistance(const HandWorld& world) {
   double least = std::numeric_limits<double>::infinity();
   for (FingerIndex a{0}; a < std::ssize(world.hand().fingers); ++a) {
@@ -111,11 +113,11 @@ double LeastTipDistance(const HandWorld& world) {
 TEST_F(HandJudgeTest, TipsThatAreInEachOtherTouch) {
   HandWorld world(hand_, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
   plan::HandState state = plan_.hand->initial;
-  state.pose.translation().z() += 1;  // out of the way
+  state.pose.translation().z() += 1;  // out of reach
   std::mt19937 random(1);
   int touching = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    // All fingers of the ring alike: their tips meet about its axis.
+    // With equal joint angles in all fingers of the ring, the fingertips meet on its axis.
     const kinematics::Finger& chain = hand_.hand.fingers[FingerIndex(0)];
     for (std::size_t k = 0; k < state.joints[FingerIndex(0)].size(); ++k) {
       std::uniform_real_distribution<double> angle(chain.lower[k], chain.upper[k]);

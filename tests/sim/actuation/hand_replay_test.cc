@@ -34,7 +34,7 @@ const object::Polyhedron& Cube() {
   return dynamic_cast<const object::Polyhedron&>(*file.object);
 }
 
-constexpr double kScale = 0.8333;  // 5 cm
+constexpr double kScale = 0.8333;  // edge length of 5 cm
 constexpr double kMu = 0.8;
 
 HandReplayOptions Options() {
@@ -50,7 +50,8 @@ ReplayResult ReplayOf(const plan::Plan& plan, const HandReplayOptions& options =
 
 Reason ReasonOf(const ReplayResult& result) { return result.steps.back().reason; }
 
-/// A turn of 150° with a switch and no align, that passes; made once.
+/// Return a plan that passes: a rotation of 150° with a finger switch and without a sliding step.
+/// It is made once.
 const plan::Plan& GoodPlan() {
   static const plan::Plan plan = [] {
     constexpr int kSeeds = 30;
@@ -93,15 +94,15 @@ TEST(HandReplayTest, AGoodPlanEndsWhereItShouldWithinTheToleranceAllAlong) {
     EXPECT_LT(step.hand->torque_share, 1);
     EXPECT_GT(step.hand->simulated_s, 0);
     EXPECT_GE(step.snapshot.fingers.size(), 3U);
-    // What the fingers push with carries the weight, up to what the servos add.
+    // The contact forces support the weight, up to the force that the servos add.
     Vector3d sum = Vector3d::Zero();
     for (const plan::FingerState& finger : step.snapshot.fingers) sum += finger.force_W;
     EXPECT_NEAR(sum.norm(), 0.125 * kGravity, 0.05) << step.index;
   }
 }
 
-/// What a finger was off when it came to its contact would press on for ever: fingers push against
-/// each other then, with forces that nobody planned.
+/// The position error of a finger at contact must not become a lasting unplanned force against the
+/// other fingers.
 TEST(HandReplayTest, AtRestFingersPushAsHardAsIsPlannedAlsoAfterSwitches) {
   const ReplayResult result = ReplayOf(GoodPlan());
   for (const StepReplay& step : result.steps) {
@@ -124,7 +125,7 @@ TEST(HandReplayTest, TheSamePlanGivesTheSameBits) {
   }
 }
 
-/// The friction half-angle that the weakest rest of a plan needs.
+/// Return the friction angle that the weakest static grasp of a plan requires.
 double NeededHalfAngle(const plan::Plan& plan) {
   plan::FingerGrasp holding = plan.initial;
   double most = 0;
@@ -154,14 +155,15 @@ TEST(HandReplayTest, NothingHoldsAtNineTenthsOfTheFrictionThatIsNeeded) {
 TEST(HandReplayTest, AnObjectThatIsTooHeavyFalls) {
   const double squeeze = ReplayOf(GoodPlan()).settings.squeeze_N;
   HandReplayOptions options = Options();
-  // Vertical faces: friction carries no more, and this is a fifth more.
+  // The faces are vertical, so friction supports at most μ times the grasp force. The weight is 20
+  // % more.
   options.mass_factor = 1.2 * kMu * squeeze / (options.mass_kg * kGravity);
   EXPECT_NE(ReasonOf(ReplayOf(GoodPlan(), options)), Reason::kNone);
 }
 
 TEST(HandReplayTest, ActuatorsOfHalfTheForceStandAtTheirLimits) {
   HandReplayOptions options = Options();
-  // Nearly all that the torques allow, once, and then half of it is missing.
+  // First the torques are close to the limits. Then half of the force limit is missing.
   options.squeeze_N = 1.7 * ReplayOf(GoodPlan()).settings.squeeze_N;
   options.shake = 0;
   double share = 0;
@@ -209,8 +211,8 @@ const kinematics::HandFile& FourFingers() {
   return file;
 }
 
-/// A finger on each vertical face of the cube, at one pose, of which one slides by `way` of its
-/// file's units to the side; the others hold the cube alone.
+/// Return a plan at one pose with a finger on each vertical face of the cube. One finger slides
+/// sideways by `way` file units while the other fingers hold the cube.
 plan::Plan SlidingPlan(double way) {
   gait::GaitRequest request;
   request.hand = &FourFingers().hand;
@@ -218,7 +220,7 @@ plan::Plan SlidingPlan(double way) {
   request.scale = kScale;
   request.criteria.half_angle = std::atan(kMu);
   request.seed = 1;
-  request.reserve = gait::Reserve::kNone;  // which has no slides
+  request.reserve = gait::Reserve::kNone;  // required for plans without slides
   request.start_pose = gait::FindGait(request).gait->start.pose;
   request.goal_pose = request.start_pose;
   grasp::Grasp grasp;
@@ -254,7 +256,7 @@ TEST(HandReplayTest, AFingerSlidesAlongTheSurfaceWhileTheOthersHold) {
     EXPECT_EQ(step.reason, Reason::kNone) << step.detail;
     EXPECT_LT(step.hand->off_m, 2e-4);
   }
-  // It is where it should be, and was in touch all along.
+  // The finger is at its target and was in contact throughout.
   const plan::FingerGrasp& end = std::get<plan::Align>(plan.steps[0]).waypoints.back();
   int slid = 0;
   for (const plan::FingerState& finger : result.steps.back().snapshot.fingers) {
@@ -311,7 +313,7 @@ TEST(HandReplayTest, ASlideThatIsBrokenFails) {
   }
 }
 
-/// The hand with another range of a joint, degrees.
+/// Return the hand with a changed joint range, degrees.
 kinematics::HandFile HandWithRange(const std::string& joint, double lower, double upper) {
   const std::string folder = ProjectPath("models/hands/");
   std::string model = ReadFile(folder + "ring5.xml");
@@ -324,7 +326,8 @@ kinematics::HandFile HandWithRange(const std::string& joint, double lower, doubl
 }
 
 TEST(HandReplayTest, AJointThatStopsHalfWayFails) {
-  // The joint of a finger that holds from the beginning which goes farthest in the first move.
+  // Return the joint with the largest motion in the first in-hand motion, among fingers in contact
+  // from the beginning.
   const auto& path =
       std::get<plan::Move>(*std::ranges::find_if(GoodPlan().steps, [](const plan::Step& step) {
         return std::holds_alternative<plan::Move>(step);
@@ -363,7 +366,7 @@ TEST(HandReplayTest, AFailureTellsWhereHandAndObjectWere) {
   EXPECT_FALSE(last.fault.hand->number.empty());
 }
 
-/// The same to the last bit.
+/// Expect bitwise equal results.
 void ExpectSame(const ReplayResult& a, const ReplayResult& b) {
   EXPECT_EQ(a.settings.squeeze_N, b.settings.squeeze_N);
   ASSERT_EQ(a.steps.size(), b.steps.size());
@@ -384,7 +387,8 @@ TEST(HandReplaysTest, GiveWhatEachPlanAloneGivesWhateverWasReplayedBefore) {
   ASSERT_GE(good.steps.size(), 2U);
   plan::Plan begun = good;
   begun.steps.pop_back();
-  // Begins alike; its last move leads the object where its fingers do not go.
+  // Plan with the same beginning, whose last motion moves the object away from the planned
+  // fingertips.
   plan::Plan other = good;
   plan::Move* last_move = nullptr;
   for (plan::Step& step : other.steps) {

@@ -20,7 +20,7 @@
 namespace regrasp::sim {
 namespace hand_scene_export_test {
 
-/// With tips of either kind: the model's own are balls as well.
+/// Both kinds of fingertips are tested, because the model's own fingertips are spheres too.
 class HandSceneExportTest : public FolderTest, public testing::WithParamInterface<TipShape> {};
 INSTANTIATE_TEST_SUITE_P(Tips, HandSceneExportTest,
                          testing::Values(TipShape::kBall, TipShape::kGeometry),
@@ -77,7 +77,7 @@ TEST_P(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
     EXPECT_EQ(data->ncon, static_cast<int>(replay.steps[key].snapshot.fingers.size()));
     const std::array<mjtNum, 3> before = {data->xpos[3 * object], data->xpos[3 * object + 1],
                                           data->xpos[3 * object + 2]};
-    constexpr double kSeconds = 0.5;  // in which it would fall by more than a metre
+    constexpr double kSeconds = 0.5;  // duration of a free fall of more than a metre
     while (data->time < keys[key].time_s + kSeconds) mj_step(model.get(), data.get());
     EXPECT_LT(mju_dist3(before.data(), data->xpos + 3 * object), 1e-3) << key;
   }

@@ -30,7 +30,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 constexpr char kOptions[] = R"(<option timestep="0.001" cone="elliptic"/>)";
-/// Each of them would falsify a verdict.
+/// Each of these options would falsify a verdict.
 constexpr char kOtherOptions[] =
     R"(<option timestep="0.004" gravity="0 0 9" wind="1 2 3" density="1000" viscosity="5"
        cone="pyramidal" impratio="1" iterations="1" tolerance="1" solver="CG" o_margin="1">
@@ -76,7 +76,8 @@ TEST_F(HandWorldTest, TheObjectWeighsWhatItShouldWhateverTheModelDoesWithMasses)
   }
 }
 
-/// But for what collides, which differs as documented: meshes, pairs, names, keyframes.
+/// Everything is equal except the documented differences in collision geometry: meshes, pairs,
+/// names, keyframes.
 TEST_F(HandWorldTest, TheExportedSceneIsTheModelOfTheReplay) {
   for (const kinematics::HandFile& hand :
        {HandWith({}), CoupledHand(), HandOnWrist(), HandWithOtherOptions()}) {
@@ -90,7 +91,7 @@ TEST_F(HandWorldTest, TheExportedSceneIsTheModelOfTheReplay) {
                          "body_inertia", "body_invweight0", "body_subtreemass", "jnt_", "dof_",
                          "eq_", "tendon_", "wrap_", "actuator_", "stat.meaninertia"}),
         IsEmpty());
-    // Another mass, gravity or servo is seen.
+    // Negative control: a changed mass, gravity or servo is detected.
     scene->body_mass[1] *= 1.001;
     scene->opt.gravity[2] = 0;
     scene->actuator_gainprm[0] *= 1.001;
@@ -101,7 +102,7 @@ TEST_F(HandWorldTest, TheExportedSceneIsTheModelOfTheReplay) {
   }
 }
 
-/// The range of each actuator's control.
+/// Return edits that set the control range of each actuator.
 std::vector<Edit> WithControlRanges(
     const std::function<std::array<double, 2>(int finger, int joint)>& range) {
   std::vector<Edit> edits;
@@ -117,7 +118,7 @@ std::vector<Edit> WithControlRanges(
   return edits;
 }
 
-/// The largest that a control of an actuator is outside a range.
+/// Return the largest amount by which a control exceeds its range.
 double LargestOutside(const HandWorld& world,
                       const std::function<std::array<double, 2>(int finger, int joint)>& range) {
   double largest = 0;
@@ -132,7 +133,8 @@ double LargestOutside(const HandWorld& world,
 TEST_F(HandWorldTest, ControlsStayInTheRangesOfTheModel) {
   const kinematics::HandFile plain = HandWith({});
   const plan::Plan plan = PlanFor(plain);
-  // As far as the plan's joints go: a servo presses by a control beyond where its joint is.
+  // The ranges are those of the plan's joint angles. A servo exerts a force by a control beyond the
+  // joint's angle.
   const auto narrow = [&](int f, int k) {
     std::array<double, 2> range = {plan.hand->initial.joints[f][k],
                                    plan.hand->initial.joints[f][k]};
@@ -161,7 +163,7 @@ TEST_F(HandWorldTest, ControlsStayInTheRangesOfTheModel) {
   EXPECT_LE(outside, 1e-12);
   ASSERT_TRUE(result.settings.hand->limits.front().control);
   EXPECT_NEAR(result.settings.hand->limits.front().control->front(), narrow(0, 0)[0], 1e-12);
-  // It cannot press as hard as without the ranges: controls are at their ends.
+  // The contact forces are smaller than without the ranges, because controls are at their limits.
   double at_limit = 0;
   for (const StepReplay& step : result.steps) {
     at_limit = std::max(at_limit, step.hand->control_limit_s);
@@ -202,7 +204,7 @@ TEST_F(HandWorldTest, LimitsAreThoseOfTheModel) {
   EXPECT_EQ(coupled.limits().size(), 15U);
 }
 
-/// Three fingers of two joints each, as a URDF has them.
+/// Return a URDF with three fingers of two joints each.
 std::string UrdfText(const std::string& effort) {
   const std::string inertial =
       R"(<inertial><mass value="0.02"/><inertia ixx="1e-5" iyy="1e-5" izz="1e-5" ixy="0" ixz="0"
@@ -245,7 +247,7 @@ TEST_F(HandWorldTest, TheStrengthOfAUrdfsJointsIsItsEffort) {
   }
 }
 
-/// A finger that never came to the object has no contact to press at.
+/// A finger that has not reached the object has no contact to exert a force at.
 TEST_F(HandWorldTest, AControllerOfFingersFarFromTheObjectAsksForNoForce) {
   const kinematics::HandFile hand = HandWith({});
   const plan::Plan plan = PlanFor(hand);
@@ -268,7 +270,7 @@ TEST_F(HandWorldTest, AControllerOfFingersFarFromTheObjectAsksForNoForce) {
   }
 }
 
-/// The arms are too heavy to follow: it fails, by name.
+/// The links are too heavy to follow the plan, so that the replay fails with a reason.
 TEST_F(HandWorldTest, AHandThatCannotFollowFailsWithAReason) {
   const kinematics::HandFile heavy = HandWith({{"armature=\"0.001\"", "armature=\"10\""}});
   const plan::Plan plan = PlanFor(heavy, 1.2);

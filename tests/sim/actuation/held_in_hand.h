@@ -14,7 +14,7 @@
 
 namespace regrasp::sim {
 
-/// A hand that holds a cube of 5 cm, as a plan for it begins.
+/// Fixture of a hand that holds a cube of 5 cm in the initial grasp of a plan.
 class HeldInHand : public testing::Test {
  protected:
   HeldInHand() {

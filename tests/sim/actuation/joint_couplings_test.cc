@@ -35,7 +35,7 @@ class JointCouplingsTest : public EditedHandTest {
   }
 };
 
-/// The fields of a model that are others once MuJoCo computes them anew.
+/// Return the fields of a model that change if MuJoCo computes them again.
 std::vector<std::string> StaleFields(const mjModel& model) {
   const mujoco::ModelPtr fresh(mj_copyModel(nullptr, &model));
   const mujoco::DataPtr data(mj_makeData(fresh.get()));
@@ -47,7 +47,7 @@ TEST_F(JointCouplingsTest, NoConstantOfTheReplaysModelIsStale) {
   for (const kinematics::HandFile& hand : {HandWith({}), CoupledHand(), HandOnWrist()}) {
     const HandWorld world(hand, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
     EXPECT_THAT(StaleFields(world.model()), IsEmpty());
-    // A change after which nothing is computed anew is seen.
+    // Negative control: a change without recomputation is detected.
     const mujoco::ModelPtr changed(mj_copyModel(nullptr, &world.model()));
     changed->dof_armature[0] += 1;
     const std::vector<std::string> stale = StaleFields(*changed);
@@ -86,7 +86,7 @@ TEST_F(JointCouplingsTest, AJointThatIsOffItsCouplingIsNamed) {
   HandWorld world(hand, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
   for (const double degrees : {0.9, 1.1}) {
     plan::HandState state = plan.hand->initial;
-    state.pose.translation().z() += 1;  // out of the way
+    state.pose.translation().z() += 1;  // out of reach
     state.joints[1][3] += Radians(degrees);
     world.Place(state);
     HandJudge judge(world, solid(), kScale, {});
@@ -121,7 +121,7 @@ TEST_F(JointCouplingsTest, AJointOutsideItsRangeIsNamed) {
   }
 }
 
-/// Ratios, squares and constants of equalities, and tendons.
+/// The model has ratios, squares and constants of equalities, and tendons.
 TEST_F(JointCouplingsTest, ResidualsAreThoseOfTheModelsEqualities) {
   const kinematics::HandFile hand = WithModel(
       HandWith({}),

@@ -11,7 +11,8 @@
 
 namespace regrasp::sim {
 
-/// Whether two arrays have the same numbers up to `tolerance` of the larger one of each.
+/// Return true if two arrays have equal numbers up to `tolerance` of the larger number of each
+/// pair.
 template <typename T>
 bool AreSameNumbers(const T* a, const T* b, std::ptrdiff_t count, double tolerance) {
   return std::equal(a, a + count, b, [tolerance](T x, T y) {
@@ -21,8 +22,9 @@ bool AreSameNumbers(const T* a, const T* b, std::ptrdiff_t count, double toleran
   });
 }
 
-/// The arrays of two models of the same sizes that differ, and the members of their statistics.
-/// @param prefixes  of the names that are compared; all if there are none.
+/// Return the names of the different arrays of two models of the same sizes, and of the different
+/// members of their statistics.
+/// @param prefixes  prefixes of the compared names; empty: all names.
 inline std::vector<std::string> DifferentFields(const mjModel& a, const mjModel& b,
                                                 double tolerance,
                                                 const std::vector<std::string>& prefixes = {}) {
@@ -46,7 +48,7 @@ inline std::vector<std::string> DifferentFields(const mjModel& a, const mjModel&
   return different;
 }
 
-/// The options of two models that differ.
+/// Return the names of the different options of two models.
 inline std::vector<std::string> DifferentOptions(const mjOption& a, const mjOption& b,
                                                  double tolerance) {
   std::vector<std::string> different;

@@ -22,14 +22,15 @@ using testing::HasSubstr;
 
 class PenetrationTest : public EditedHandTest {
  protected:
-  static constexpr double kHalf = 0.03 * kScale;  ///< of the cube's edge
+  static constexpr double kHalf = 0.03 * kScale;  ///< half of the cube's edge, m
 
-  /// Of finger 0, with another sphere at its tip in the model; the hand's file keeps its own.
+  /// Return the hand with a different sphere at the fingertip of finger 0 in the model. The hand
+  /// file keeps its sphere.
   [[nodiscard]] kinematics::HandFile HandWithSphere(const std::string& radius) const {
     return HandWith({{"name=\"finger0_tip\" type=\"sphere\" size=\"0.01\"",
                       "name=\"finger0_tip\" type=\"sphere\" size=\"" + radius + "\""}});
   }
-  /// Whether finger 0 is one of those that hold.
+  /// Return true if finger 0 is a holding finger.
   [[nodiscard]] static bool IsHeldByFirst(const plan::Plan& plan) {
     return plan::FindFinger(plan.initial, FingerIndex(0)) != nullptr;
   }
@@ -52,7 +53,7 @@ TEST_F(PenetrationTest, ShapesAreAsDeepAsTheyAre) {
       }
     }
   }
-  // Wholly inside, far from the surface.
+  // Completely inside, far from the surface.
   const ConvexShape inside{{Vector3d(0.001, 0, 0)}, 0.002};
   EXPECT_TRUE(cube.IsDeeper(inside, 0.02, Vector3d::Zero()));
   EXPECT_TRUE(cube.Contains(Vector3d(kHalf - 1e-6, 0, 0)));
@@ -69,7 +70,7 @@ TEST_F(PenetrationTest, AFingertipThatIsTooDeepInTheObjectIsNamed) {
   const plan::FingerContact& held = plan.initial.front();
   for (const double depth : {4e-4, 6e-4, 5.3e-3}) {
     plan::HandState state = plan.hand->initial;
-    // The object against the finger, whose normal points into it.
+    // Move the object against the finger, whose normal points into the object.
     state.pose.translation() -= depth * (state.pose.linear() * held.contact.n);
     world.Place(state);
     HandJudge judge(world, solid(), kScale, {});
@@ -107,7 +108,7 @@ TEST_F(PenetrationTest, GeometryOfAFingertipIsCheckedAgainstTheObject) {
 
 TEST_F(PenetrationTest, GeometryOfAFingertipIsCheckedAgainstOtherLinks) {
   const kinematics::HandFile plain = HandWith({});
-  // A rod to the side, which meets the next finger when this one bends.
+  // Rod to the side, which touches the next finger if this finger bends.
   const kinematics::HandFile with_rod =
       HandWith({{"<geom name=\"finger0_tip\"",
                  "<geom type=\"capsule\" size=\"0.004\" fromto=\"0 0 0.012 0 0.055 0.012\"/>"
@@ -117,7 +118,7 @@ TEST_F(PenetrationTest, GeometryOfAFingertipIsCheckedAgainstOtherLinks) {
     std::vector<std::string> details;
     for (double angle = 0; angle < 1.2; angle += 0.1) {
       plan::HandState state;
-      state.pose = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 1));  // out of the way
+      state.pose = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 1));  // out of reach
       state.joints.assign(5, std::vector<double>(4, 0));
       state.joints[0][1] = angle;
       world.Place(state);

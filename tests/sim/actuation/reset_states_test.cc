@@ -93,7 +93,7 @@ TEST_F(ResetStatesTest, TheForcesOfAStateCarryTheWeight) {
     const Eigen::Vector4d& q = state.quaternion;
     const Eigen::Vector3d up =
         Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * hand_.hand.up;
-    // Nearly at rest, as it comes to rest in a fraction of a second.
+    // Nearly static, because the object settles in a fraction of a second.
     EXPECT_LT((sum - kGravity * options_.mass_kg * up).norm(), 0.1 * kGravity * options_.mass_kg);
   }
 }
@@ -115,7 +115,7 @@ TEST_F(ResetStatesTest, WithoutControlsOrFrictionTheObjectFalls) {
 }
 
 TEST_F(ResetStatesTest, WhatFallsIsCountedAndNotTaken) {
-  options_.friction_factor = 0.6;  // than the hand believes: some are held all the same
+  options_.friction_factor = 0.6;  // share of the assumed friction; some states still hold
   const DrawnStates drawn = Draw(6, 1, 2);
   ASSERT_EQ(drawn.states.size(), 6U) << drawn.message;
   EXPECT_GT(drawn.fallen_count(), 0);
@@ -130,7 +130,7 @@ TEST_F(ResetStatesTest, WhatNoHandHoldsEndsWithTheReason) {
   EXPECT_TRUE(none.states.empty());
   EXPECT_NE(none.message.find("none of "), std::string::npos) << none.message;
   EXPECT_NE(none.message.find("slipped"), std::string::npos) << none.message;
-  request_.scale = 10;  // half a metre
+  request_.scale = 10;  // edge length of 0.5 m
   const DrawnStates large = Draw(2, 1, 2);
   EXPECT_TRUE(large.states.empty());
   EXPECT_EQ(large.message, "no random grasp within reach of the hand is force closure");

@@ -20,7 +20,7 @@
 namespace regrasp::sim {
 namespace simulate_execution_test {
 
-/// A cube of 5 cm in a hand of five fingers.
+/// Fixture of a cube of 5 cm in a hand of five fingers.
 class ExecutionSimulatorTest : public FolderTest {
  protected:
   planning::PlanRequest Turning(double degrees) const {
@@ -64,7 +64,7 @@ TEST_F(ExecutionSimulatorTest, PlansThatThePlannerTriedAreCarriedOutAndWithLittl
   EXPECT_NE(slipped->detail, "");
 }
 
-/// By a clock that goes on by a second whenever it is looked at: before every entry.
+/// The clock advances by 1 s at each reading, and there is one reading before every step.
 TEST_F(ExecutionSimulatorTest, AtItsDeadlineATrialEndsAndLaterGoesOnFromThere) {
   const planning::PlanResult found = planning::Solve(planner_, Turning(90));
   ASSERT_TRUE(found.plan) << found.message;
@@ -125,7 +125,7 @@ TEST_F(ExecutionSimulatorTest, OfAPlanWhoseTrialWasCutShortItIsSaidThatTheTimeWa
   const planning::PlanResult none = planning::Solve(planner_, request);
   EXPECT_FALSE(none.plan);
   EXPECT_NE(none.message.find("reaches the time limit at the initial grasp"), std::string::npos);
-  EXPECT_FALSE(none.trial);  // which says nothing of what fails
+  EXPECT_FALSE(none.trial);  // a timeout gives no failure reason
 }
 
 TEST_F(ExecutionSimulatorTest, WhatTheMotorsDoNotCarryOutIsNoPlanWhereReserveIsRequired) {

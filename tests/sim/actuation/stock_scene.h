@@ -13,8 +13,8 @@
 
 namespace regrasp::sim {
 
-/// An exported scene as MuJoCo itself loads it. @param folder  where its files are written.
-/// @throws std::runtime_error  it does not; with what it says.
+/// Load an exported scene with the MuJoCo loader. @param folder  folder for its files.
+/// @throws std::runtime_error  if it cannot be loaded; with the message of MuJoCo.
 inline mujoco::ModelPtr LoadStockScene(const std::vector<SceneFile>& files,
                                        const std::filesystem::path& folder) {
   for (const SceneFile& file : files) WriteFile(folder / file.name, file.bytes);

@@ -34,7 +34,7 @@ TEST(TimedPathTest, NothingIsFasterThanItMayBeAndAllOfThePathIsPassed) {
     ++checked;
   }
   EXPECT_GT(checked, 100);
-  // From rest, and to rest.
+  // The velocity is zero at the start and at the end.
   EXPECT_LT(timed.At(kStep).joints[0][0], 0.02 * kHeldJoints * kStep);
 }
 

@@ -24,17 +24,19 @@ namespace tip_geometry_test {
 using Eigen::Vector3d;
 using plan::Reason;
 
-constexpr double kScale = 0.8333;  // 5 cm
+constexpr double kScale = 0.8333;  // edge length of 5 cm
 constexpr double kMu = 0.8;
-constexpr double kFar = 0.015;  ///< or farther, of a ball that is not near
+/// distance of a fingertip sphere that is not near the surface, or a lower bound of it
+constexpr double kFar = 0.015;
 
 const object::Polyhedron& Cube() {
   static const object::ObjectFile file = object::ReadObject(ProjectPath("models/cube.obj"));
   return dynamic_cast<const object::Polyhedron&>(*file.object);
 }
 
-/// ring5, whose tips are the balls of its file, with other geoms at the tips.
-/// @param tip  instead of the sphere: its attributes. @param capsule  likewise.
+/// Return ring5 with other geoms at the fingertips. The fingertips in its file are spheres.
+/// @param tip      attributes that replace the sphere.
+/// @param capsule  attributes that replace the capsule.
 kinematics::HandFile HandWithTips(const std::string& tip, const std::string& capsule) {
   std::string model = ReadFile(ProjectPath("models/hands/ring5.xml"));
   const auto replace = [&](const std::string& from, const std::string& to) {
@@ -49,7 +51,7 @@ kinematics::HandFile HandWithTips(const std::string& tip, const std::string& cap
   replace(R"(type="capsule" size="0.008" fromto="0 0 0 0 0 0.024")", capsule);
   const std::string path = testing::TempDir() + "ring5.xml";
   WriteFile(path, model);
-  // Not read as a hand's file, whose balls must be at its tips.
+  // Replace only the compiled model, because the hand reader requires spheres at the fingertips.
   kinematics::HandFile file = kinematics::ReadHandFile(ProjectPath("models/hands/ring5.json"));
   file.compiled = std::make_shared<const kinematics::CompiledModel>(kinematics::CompileModel(path));
   return file;
@@ -64,7 +66,7 @@ const kinematics::HandFile& Ring() {
   return file;
 }
 
-/// A turn of 30°, which passes.
+/// Return a rotation of 30°, which passes.
 const plan::Plan& Turn() {
   static const plan::Plan plan = [] {
     gait::GaitRequest request;
@@ -83,8 +85,8 @@ const plan::Plan& Turn() {
 
 struct Replayed {
   ReplayResult result;
-  /// At the first rest, or just before it fails: how far the centres of the balls of fingers that
-  /// hold are from the surface.
+  /// Distances of the sphere centres of holding fingers from the surface, in the first static grasp
+  /// or just before the failure.
   std::vector<double> heights;
 
   [[nodiscard]] Reason reason() const { return result.steps.back().reason; }
@@ -181,14 +183,16 @@ TEST(TipGeometryTest, ASmallerTipIsPressedUntilItTouches) {
 }
 
 TEST(TipGeometryTest, ABoxStandsOnItsCornersAndEdges) {
-  // It has the ball inside, and reaches beyond it by 4 mm at its edges and 7 mm at its corners.
+  // The box contains the sphere, and extends beyond it by 4 mm at its edges and 7 mm at its
+  // corners.
   const kinematics::HandFile boxes =
       HandWithTips(R"(type="box" size="0.01 0.01 0.01" pos="0 0 0.024")", kThinCapsule);
   const Replayed ball = ReplayWith(boxes, TipShape::kBall);
   const Replayed own = ReplayWith(boxes, TipShape::kGeometry);
   EXPECT_EQ(ball.reason(), Reason::kTipPenetrates);
   EXPECT_THAT(ball.detail(), testing::HasSubstr("the collision geometry of body finger"));
-  // As the box has the ball inside, that comes no nearer; and no box lies flat with all fingers.
+  // The box contains the sphere, so the sphere's centre is never nearer than the radius. A box does
+  // not lie flat at all fingers.
   ASSERT_FALSE(own.heights.empty()) << own.detail();
   EXPECT_GT(*std::ranges::min_element(own.heights), 0.0099);
   EXPECT_GT(*std::ranges::max_element(own.heights), 0.011);

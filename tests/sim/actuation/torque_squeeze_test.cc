@@ -13,7 +13,7 @@ namespace torque_squeeze_test {
 TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTheForce) {
   constexpr double kMost = 100;
   const auto squeeze = [&](double force_factor) {
-    // Nothing weighs: torques grow with the squeeze alone.
+    // Without gravity the torques depend on the grasp force alone.
     HandWorld world(hand_, solid(), kScale,
                     {.mu = kMu, .mass_kg = kMass, .gravity_m_s2 = 0, .force_factor = force_factor});
     return RestSqueeze(world, solid(), kScale, plan_.hand->initial, plan_.initial, std::atan(kMu),
@@ -22,7 +22,8 @@ TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTh
   const double usual = squeeze(1);
   EXPECT_GT(usual, 0);
   EXPECT_LT(2 * usual, kMost);
-  // Ten halvings leave a thousandth of the most: once of the one, twice of the other.
+  // Ten bisections leave an error of 1/1000 of the maximum, once for one value and twice for the
+  // other.
   EXPECT_NEAR(squeeze(2), 2 * usual, 3e-3 * kMost);
   EXPECT_EQ(squeeze(1e6), kMost);
 }

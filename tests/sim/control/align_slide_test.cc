@@ -21,7 +21,7 @@ void ExpectShares(const AlignShares& shares, double imitated, double slid) {
   EXPECT_NEAR(shares.best_effort, 1 - imitated - slid, 1e-9);
 }
 
-/// Two opposite fingers and one below, which alone is not needed.
+/// Two opposite fingers and one below, which is redundant.
 struct SquareCase {
   object::Polygon square = MakeSquare(0.03);
   plan::FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
@@ -65,8 +65,8 @@ TEST(AlignSlide, MovesAFingerThatTheOthersDoNotNeed) {
 
 TEST(AlignSlide, LeavesTheOthersToTheSpareFingerAndSaysHowMuchOfTheWay) {
   const SquareCase square;
-  // A third of the travel is that of finger 2, the rest that of finger 0, without which two fingers
-  // at a right angle remain.
+  // One third of the travel is that of finger 2. The rest is that of finger 0, without which two
+  // fingers at a right angle remain.
   plan::FingerGrasp end = square.Moved(2, 0.5);
   end[0].contact = OnEdge(square.square, 1, 0.7);
   const StepReplay step =
@@ -89,7 +89,7 @@ TEST(AlignSlide, IsImitationWhereEveryFingerIsNeeded) {
   EXPECT_EQ(result.steps[1].reason, plan::Reason::kNone) << result.steps[1].detail;
   EXPECT_EQ(result.steps[1].align_mode, AlignMode::kImitated);
   ExpectShares(result.steps[1].align_shares, 1, 0);
-  // Without the spare finger all roll together: nothing else is valid.
+  // Without a spare finger all fingers must roll together, because no other option is valid.
   plan.fingers = 3;
   const ReplayResult alone = ReplayPlan(triangle, plan, Sliding());
   ASSERT_EQ(alone.steps.size(), 2u);
@@ -118,8 +118,8 @@ TEST(AlignSlide, FailsBelowTheFrictionThatTheEndNeeds) {
   plan::FingerGrasp end = square.start;
   end[0].contact = OnEdge(square.square, 1, 0.9);
   end[1].contact = OnEdge(square.square, 3, 0.9);
-  // Fingers 0 and 1 end 48 mm of 60 apart along their edges; with finger 2 that needs more than
-  // 10°.
+  // Fingers 0 and 1 end 48 mm apart along their edges, which are 60 mm long. Together with finger 2
+  // this grasp requires more than 10°.
   plan::Plan plan = MakePlanarPlan(square.start, 10);
   plan.steps = {plan::Align{{square.start, end}}};
   const ReplayResult result = ReplayPlan(square.square, plan, Sliding());

@@ -63,7 +63,8 @@ TEST(ReplayAlign, IsSlidWhereNoFingerIsSpare) {
 TEST(ReplayAlign, FailsWhereItEndsInAGraspThatDoesNotHold) {
   const CubeCase cube;
   plan::FingerGrasp target = cube.Start();
-  // Opposite fingers to opposite corners: the line between them is far outside cones of 10 degrees.
+  // Opposite fingers move to opposite corners: the line between them is far outside cones of 10
+  // degrees.
   target[0] = cube.At(0, 0.03, 0.029, 0.029);
   target[1] = cube.At(1, -0.03, -0.029, -0.029);
   target[2] = cube.At(2, 0.029, 0.03, -0.029);
@@ -122,8 +123,8 @@ int CountMoves(const CubeCase& cube, const plan::FingerGrasp& from, const plan::
 
 TEST(AlignScriptTest, CutsUntilTheMixturesAreForceClosureAndSlidesOrRollsWhereNoneIs) {
   const CubeCase cube;
-  // Two opposite pairs slide from one end of their faces to the other: a pair that has half gone
-  // over is far from opposite, so at little friction the path must be cut.
+  // Two opposite pairs slide from one end of their faces to the other. Halfway through the move of
+  // a pair its fingers are far from opposite, so with little friction the path must be subdivided.
   const plan::FingerGrasp from = {cube.At(0, 0.03, -0.02, -0.02), cube.At(1, -0.03, -0.02, -0.02),
                                   cube.At(2, -0.02, 0.03, -0.018),
                                   cube.At(3, -0.02, -0.03, -0.018)};
@@ -135,7 +136,7 @@ TEST(AlignScriptTest, CutsUntilTheMixturesAreForceClosureAndSlidesOrRollsWhereNo
   EXPECT_EQ(CountMoves<FingersSlide>(cube, from, to, 5, {FingerIndex(4)}), 0);
   EXPECT_EQ(CountMoves<FingerHandover>(cube, from, to, 5, {}), 0);
   EXPECT_EQ(CountMoves<FingersRoll>(cube, from, to, 5, {}), 1);
-  // Both pairs end askew: from somewhere on the path on nothing holds.
+  // Both pairs end skew: from a point on the path, the grasp is no longer force closure.
   to = {cube.At(0, 0.03, 0.029, 0.029), cube.At(1, -0.03, -0.029, -0.029),
         cube.At(2, 0.029, 0.03, -0.029), cube.At(3, -0.029, -0.03, 0.029)};
   EXPECT_EQ(CountMoves<FingersSlide>(cube, from, to, 5, {FingerIndex(4)}), 1);

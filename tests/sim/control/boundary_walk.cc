@@ -7,13 +7,13 @@ namespace regrasp::sim {
 
 namespace {
 
-/// A finger's place on the path.
+/// Position of a finger on the path.
 struct Walker {
   const object::Polygon& polygon;
   FingerIndex finger;
   FaceIndex edge;
-  double at;                 ///< length from the edge's beginning
-  double rate;               ///< length in all
+  double at;                 ///< distance from the edge's start
+  double rate;               ///< total length of the walk
   int first = 0, count = 0;  ///< edges of its ring
 
   Walker(const object::Polygon& body, const Walk& walk)
@@ -29,7 +29,7 @@ struct Walker {
     }
   }
 
-  /// The share of the path after which it gets to a vertex.
+  /// Return the share of the path up to the next vertex.
   [[nodiscard]] double Rest() const {
     if (rate == 0) return std::numeric_limits<double>::infinity();
     return (rate > 0 ? polygon.face_measure(edge) - at : at) / std::abs(rate);
@@ -47,7 +47,7 @@ struct Walker {
   }
 };
 
-/// Fingers that get to a vertex within this share of the path do so at once.
+/// Share of the path within which fingers reach their vertices simultaneously.
 constexpr double kAtOnce = 1e-9;
 
 }  // namespace
@@ -125,7 +125,7 @@ object::Polygon MakeRing(int edges) {
 
 object::Polygon DrawOutline(int edges, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<std::pair<double, double>> waves;  // of the radius: size and phase
+  std::vector<std::pair<double, double>> waves;  // amplitude and phase of the radius
   for (int k = 2; k < 8; ++k) waves.emplace_back(0.15 * unit(random) / k, unit(random));
   std::vector<double> turns;
   for (int i = 0; i < edges; ++i) turns.push_back((i + 0.95 * unit(random)) / edges);

@@ -6,8 +6,8 @@
 
 namespace regrasp::sim {
 
-/// A finger that goes along the boundary: from a share of an edge by a length, counter-clockwise
-/// about the material where that is positive.
+/// Walk of a finger along the boundary: it starts at a share of an edge and moves by a length,
+/// counter-clockwise about the material if positive.
 struct Walk {
   int finger = 0;
   int edge = 0;
@@ -15,31 +15,31 @@ struct Walk {
   double length = 0;
 };
 
-/// The align in which all fingers walk at constant rates, with two waypoints wherever one of them
-/// gets to a vertex: before and after its normal turns.
+/// Return the sliding step in which all fingers walk at constant rates. When a finger reaches a
+/// vertex there are two waypoints: before and after its normal turns.
 [[nodiscard]] plan::Align WalkBoundary(const object::Polygon& polygon,
                                        const std::vector<Walk>& walks);
 
-/// A hand of three fingers that holds with two of them and aligns.
+/// Return a plan for a hand of three fingers, two of which hold the object and slide.
 [[nodiscard]] plan::Plan MakeWalkPlan(const object::Polygon& polygon,
                                       const std::vector<Walk>& walks, double half_angle_deg);
 
-/// How often a finger turns at a vertex in an align.
+/// Return the number of turns at vertices in a sliding step.
 [[nodiscard]] int CountTurns(const plan::Align& align);
 
-/// Of discs, gears and rings, metres.
+/// Radius of discs, gears and rings, m.
 inline constexpr double kDiscRadius = 0.05;
 
-/// As many teeth, each of two edges: every other corner is concave. `depth` over the
-/// radius.
+/// Return a gear with `teeth` teeth of two edges each: every other corner is concave. @param depth
+/// depth of the teeth over the radius.
 [[nodiscard]] object::Polygon MakeGear(int teeth, double depth);
 
-/// A disc with a round hole of 60 % of its radius: the first edges are the outer ones, and the k-th
-/// edge of the hole lies at the same angle as the k-th last edge of the disc.
+/// Return a disc with a round hole of 60 % of its radius. The first edges are the outer ones. The
+/// k-th edge of the hole is at the same angle as the k-th last edge of the disc.
 [[nodiscard]] object::Polygon MakeRing(int edges);
 
-/// A smooth irregular outline, its vertices at uneven distances: long and very short edges, convex
-/// and concave corners and almost straight ones.
+/// Draw a smooth irregular outline with vertices at uneven distances. It has long and very short
+/// edges, and convex, concave and almost straight corners.
 [[nodiscard]] object::Polygon DrawOutline(int edges, std::mt19937& random);
 
 }  // namespace regrasp::sim

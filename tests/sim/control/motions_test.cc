@@ -27,7 +27,7 @@ TEST(TakeHoldTest, AtRestTheFingersCarryTheWeightAndNothingElse) {
       const double cube_weight = s.mass_kg * kGravity;
       const Vector3d carried = SumOfForces(held.world);
       const Vector3d expected(0, 0, gravity ? cube_weight : 0);
-      // What still moves when it counts as still takes or gives less.
+      // An object that counts as static may still accelerate slightly, which changes the force.
       constexpr double kStillMoving = 0.01;
       EXPECT_LT((carried - expected).norm(), kStillMoving * cube_weight) << carried.transpose();
     }
@@ -40,7 +40,8 @@ TEST(TakeHoldTest, PlannedForcesBalanceTheWeight) {
   Vector3d sum = Vector3d::Zero();
   for (const FingerIndex f : held.world.HoldingFingers()) sum += held.world.fingers()[f].force_S;
   const Vector3d up(0, 0, s.mass_kg * s.gravity_m_s2);
-  constexpr double kPlanned = 1e-3;  // of the weight; forces are a solution of a linear program
+  // share of the weight; planned forces are the solution of a linear program
+  constexpr double kPlanned = 1e-3;
   EXPECT_LT((sum - up).norm(), kPlanned * up.norm()) << sum.transpose();
 }
 

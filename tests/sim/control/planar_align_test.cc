@@ -8,7 +8,7 @@ namespace planar_align_test {
 
 constexpr double kGood = 1e-4;
 
-/// Every finger of `target` is there in the snapshot, and moved.
+/// Expect that every finger of `target` is present in the snapshot and moved.
 void ExpectArrived(const object::Object& object, const plan::Snapshot& shown,
                    const plan::FingerGrasp& target, double tolerance) {
   std::size_t arrived = 0;
@@ -24,7 +24,7 @@ void ExpectArrived(const object::Object& object, const plan::Snapshot& shown,
   EXPECT_EQ(arrived, target.size());
 }
 
-/// The hold and one align, which must be carried out in this way.
+/// Expect that a plan of the initial grasp and one sliding step is executed in the given mode.
 void ExpectAligned(const object::Polygon& polygon, const plan::Plan& plan, AlignMode mode) {
   const ReplayResult result = ReplayPlan(polygon, plan, {});
   ASSERT_EQ(result.steps.size(), 2u);
@@ -62,14 +62,14 @@ TEST(PlanarAlign, IsSlidWhereNoFingerIsSpare) {
 }
 
 TEST(PlanarAlign, TwoFingersAreHandedOverTogetherAtLittleFriction) {
-  // At 1 degree a finger can be 1 mm off the other's normal, and they move 48 mm.
+  // At 1 degree a finger can be 1 mm off the other's normal, and the fingers move by 48 mm.
   const object::Polygon square = MakeSquare(0.03);
   const plan::FingerGrasp from = {OnEdge(square, 0, 1, 0.1), OnEdge(square, 1, 3, 0.9)};
   const plan::FingerGrasp to = {OnEdge(square, 0, 1, 0.9), OnEdge(square, 1, 3, 0.1)};
   plan::Plan plan = MakePlanarPlan(from, 1, 4);
   plan.steps = {plan::Align{{from, to}}};
   ExpectAligned(square, plan, AlignMode::kImitated);
-  // One spare finger alone has to go in many small pieces.
+  // With a single spare finger the path needs many small pieces.
   plan.fingers = 3;
   ExpectAligned(square, plan, AlignMode::kImitated);
 }
@@ -93,7 +93,7 @@ TEST(PlanarAlign, TurnsAFingerOverACornerWithAndWithoutASpareFinger) {
 
 TEST(PlanarAlign, TurnsAFingerInAnInnerCorner) {
   const object::Polygon l = MakeL();
-  // Edge 2 ends in the inner corner, where edge 3 begins.
+  // Edge 2 ends in the concave corner, at which edge 3 begins.
   plan::FingerGrasp start = {OnEdge(l, 0, 2, 0.8), OnEdge(l, 1, 0, 0.5), OnEdge(l, 2, 5, 0.5)};
   plan::FingerGrasp corner = start, turned = start, end = start;
   corner[0] = OnEdge(l, 0, 2, 1);

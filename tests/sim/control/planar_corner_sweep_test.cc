@@ -13,15 +13,15 @@ namespace regrasp::sim {
 namespace planar_corner_sweep_test {
 
 constexpr unsigned kSeed = 4;
-/// A little more than the shake: these must pass.
+/// Quality slightly above the disturbance: plans with it must pass.
 constexpr double kLeastQuality = 0.011;
-/// Draws of a grasp, and halvings of a walk; what finds nothing is left out, and the tests count
-/// what is left.
+/// Number of draws of a grasp, and of bisections of a walk. Failed draws are omitted; the tests
+/// count the rest.
 constexpr int kMostDraws = 20000, kHalvings = 6;
-/// Of the critical friction: here everything must fail.
+/// Share of the required friction at which every plan must fail.
 constexpr double kTooLittle = 0.9;
 
-/// Draws plans of 2-finger grasps of an outline, for a hand of three fingers.
+/// Sampler of plans with two-finger grasps of an outline, for a hand of three fingers.
 class Dice {
  public:
   Dice(const object::Polygon& polygon, double half_angle_deg, std::mt19937& random)
@@ -42,7 +42,8 @@ class Dice {
            grasp::QualityAtLeast(grasp, polygon_.wrench_frame(), half_angle, kLeastQuality);
   }
 
-  /// A walk of both fingers, halved until it is force closure all along and ends in a good grasp.
+  /// Draw a walk of both fingers, bisected until it is force closure throughout and ends in a good
+  /// grasp.
   [[nodiscard]] std::optional<plan::Plan> DrawWalk() {
     const std::optional<grasp::Grasp> start = DrawGrasp();
     if (!start) return std::nullopt;
@@ -57,7 +58,7 @@ class Dice {
     return std::nullopt;
   }
 
-  /// Switches of one finger for another between good grasps.
+  /// Draw switches of one finger for another between good grasps.
   [[nodiscard]] std::optional<plan::Plan> DrawSwitches(int switches) {
     const std::optional<grasp::Grasp> start = DrawGrasp();
     if (!start) return std::nullopt;
@@ -102,13 +103,14 @@ class Dice {
   std::mt19937& random_;
 };
 
-/// What a sweep of plans came to.
+/// Counts of a sweep of plans.
 struct Tally {
   int plans = 0, steps = 0, turns = 0, refuted = 0;
   double drift = 0;
 };
 
-/// The plan passes the replay, and fails where the friction is less than its critical one.
+/// Expect that the plan passes the replay, and count whether it fails with less than its required
+/// friction.
 void MotionMonitor(const object::Polygon& polygon, const plan::Plan& plan, Tally& tally) {
   const plan::PlanCheck check = plan::CheckPlan(polygon, plan);
   ASSERT_TRUE(check.passed());

@@ -12,7 +12,7 @@ namespace planar_corner_test {
 
 constexpr double kGood = 1e-4;
 
-/// Moves of a script, each of two switches of fingers.
+/// Return the number of moves of a script, each of two finger switches.
 int CountMoves(const object::Polygon& polygon, const plan::Plan& plan) {
   const AlignLimits limits{
       plan.half_angle, {FingerIndex(2)}, 1e-3 * polygon.diameter(), 1e-4 * polygon.diameter()};
@@ -20,8 +20,8 @@ int CountMoves(const object::Polygon& polygon, const plan::Plan& plan) {
       WriteAlignScript(polygon, std::get<plan::Align>(plan.steps.front()), limits).moves.size());
 }
 
-/// The align passes the check and the replay, imitated with the third finger, and every finger
-/// arrives.
+/// Expect that the sliding step passes the check and the replay, imitated with the third finger,
+/// and that every finger reaches its target.
 void ExpectPasses(const object::Polygon& polygon, const plan::Plan& plan, int least_turns,
                   int most_moves) {
   const plan::Align& align = std::get<plan::Align>(plan.steps.front());
@@ -64,7 +64,7 @@ TEST(PlanarCorner, FingersWalkAroundADiscOfSixtyEdgesPastThirtyCorners) {
 TEST(PlanarCorner, OneFingerGoesPastManyCornersInOneMoveWhereForceClosureAllows) {
   const object::Polygon disc = MakeDisc(180, kDiscRadius);
   const double side = disc.face_measure(FaceIndex(0));
-  // 15 corners are 30 degrees of the circle: the line tilts by 15.
+  // 15 edges are 30 degrees of the circle: the line tilts by 15.
   const plan::Plan plan = MakeWalkPlan(disc, {{0, 0, 0.5, 15 * side}, {1, 90, 0.5, 0}}, 20);
   ExpectPasses(disc, plan, 15, 1);
 }
@@ -83,7 +83,7 @@ TEST(PlanarCorner, FingersPassConcaveCornersWithoutRestingThere) {
   const double side = gear.face_measure(FaceIndex(0));
   const plan::Plan plan = MakeWalkPlan(gear, {{0, 0, 0.5, 10 * side}, {1, 24, 0.5, 10 * side}}, 22);
   ExpectPasses(gear, plan, 20, 16);
-  // The negative control: a finger that has to stay in a concave corner cannot stand there.
+  // Negative control: a finger cannot remain in a concave corner.
   const plan::Plan into = MakeWalkPlan(gear, {{0, 0, 0.5, 0.5 * side}, {1, 24, 0.5, 0}}, 22);
   const ReplayResult result = ReplayPlan(gear, into, {});
   ASSERT_EQ(result.steps.size(), 2u);
@@ -94,7 +94,7 @@ TEST(PlanarCorner, FingersPassConcaveCornersWithoutRestingThere) {
 TEST(PlanarCorner, AFingerInTheHoleAndOneOutsideWalkAroundARing) {
   constexpr int kEdges = 60;
   const object::Polygon ring = MakeRing(kEdges);
-  // The hole runs clockwise: find its edge beside the outer edge 0.
+  // The hole is clockwise: find its edge next to the outer edge 0.
   const Eigen::Vector3d outside = OnEdge(ring, 0, 0.5).p;
   FaceIndex inside;
   for (FaceIndex edge{kEdges}; edge < ring.face_count(); ++edge) {
@@ -108,8 +108,8 @@ TEST(PlanarCorner, AFingerInTheHoleAndOneOutsideWalkAroundARing) {
 }
 
 TEST(PlanarCorner, ShortEdgesAndAlmostStraightCornersAreNoObstacle) {
-  // The lower side is cut in edges of 0.3 % of the diameter; their corners are straight or bend by
-  // a hundredth of a degree, one way and the other.
+  // The lower side is divided into edges of 0.3 % of the diameter. Their corners are straight or
+  // bend by 0.01° in either direction.
   std::vector<Eigen::Vector2d> ring = {{0.1, 0.06}, {0, 0.06}, {0, 0}};
   constexpr double kStep = 3.5e-4, kBend = 6e-8;
   for (int i = 1; i <= 60; ++i) {
@@ -123,7 +123,7 @@ TEST(PlanarCorner, ShortEdgesAndAlmostStraightCornersAreNoObstacle) {
 }
 
 TEST(PlanarCorner, CornersOfExactlyAStraightAngleArePassed) {
-  // Normals cannot tell which of the edges a waypoint at a vertex is on.
+  // Normals do not determine the edge of a waypoint at a vertex.
   const object::Polygon bar = object::Polygon::FromRings(
       {{{0, 0}, {0.02, 0}, {0.04, 0}, {0.05, 0}, {0.1, 0}, {0.1, 0.06}, {0.05, 0.06}, {0, 0.06}}},
       "bar");
@@ -162,8 +162,8 @@ TEST(PlanarCorner, AContactVeryNearToACornerIsHeldAndShaken) {
 TEST(PlanarCorner, AnAlignThatLeavesForceClosureOnTheWayFailsInCheckAndReplay) {
   const object::Polygon disc = MakeDisc(60, kDiscRadius);
   const double side = disc.face_measure(FaceIndex(0));
-  // One finger goes 8 edges ahead, the other follows: at both ends they are opposite, in between
-  // the line is 24 degrees off.
+  // One finger moves 8 edges ahead and the other follows. They are opposite at both ends; in
+  // between the line is 24 degrees off.
   plan::Align ahead = WalkBoundary(disc, {{0, 0, 0.5, 8 * side}, {1, 30, 0.5, 0}});
   const plan::Align after = WalkBoundary(disc, {{0, 8, 0.5, 0}, {1, 30, 0.5, 8 * side}});
   ahead.waypoints.insert(ahead.waypoints.end(), after.waypoints.begin() + 1, after.waypoints.end());

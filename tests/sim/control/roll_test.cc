@@ -9,7 +9,7 @@ namespace roll_test {
 
 constexpr double kGood = 1e-4;
 
-/// The replay of an align by a hand without a spare finger.
+/// Replay a sliding step with a hand without a spare finger.
 StepReplay ReplayAlone(const object::Object& object, plan::Plan plan, const plan::Align& align) {
   plan.fingers = static_cast<int>(plan.initial.size());
   plan.steps = {align};
@@ -19,7 +19,7 @@ StepReplay ReplayAlone(const object::Object& object, plan::Plan plan, const plan
   return result.steps.back();
 }
 
-/// All fingers rolled to the last waypoint, and the object hardly moved.
+/// Expect that all fingers rolled to the last waypoint, and that the object moved only slightly.
 void ExpectRolled(const object::Object& object, const StepReplay& step, const plan::Align& align) {
   EXPECT_EQ(step.reason, plan::Reason::kNone) << step.detail;
   EXPECT_NEAR(step.align_shares.best_effort, 1, 1e-9);
@@ -63,8 +63,8 @@ TEST(RollFingers, FailsWhereTheFrictionIsTooSmallOnTheWay) {
   plan::FingerGrasp end = start;
   end[0].contact = OnEdge(square, 1, 0.9);
   end[1].contact = OnEdge(square, 3, 0.9);
-  // Fingers 0 and 1 end 48 mm of 60 apart along their edges: with finger 2 that needs more than
-  // 10°.
+  // Fingers 0 and 1 end 48 mm apart along their edges, which are 60 mm long. Together with finger 2
+  // this grasp requires more than 10°.
   const StepReplay step = ReplayAlone(square, MakePlanarPlan(start, 10), plan::Align{{start, end}});
   EXPECT_NE(step.reason, plan::Reason::kNone);
 }

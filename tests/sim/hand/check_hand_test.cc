@@ -46,7 +46,7 @@ gait::GaitRequest RequestForTheCube() {
   return request;
 }
 
-/// With moves and switches; made once.
+/// Return a plan with in-hand motions and finger switches, made once.
 const plan::Plan& GoodPlan() {
   static const plan::Plan plan = [] {
     gait::GaitRequest request = RequestForTheCube();
@@ -59,7 +59,7 @@ const plan::Plan& GoodPlan() {
   return plan;
 }
 
-/// From one grasp to another one at one pose, each the first of a seed.
+/// Return a plan from one grasp to another at one pose, each the first of a seed.
 plan::Plan Regrasp(std::uint64_t seed) {
   gait::GaitRequest request = RequestForTheCube();
   request.reserve = gait::Reserve::kNone;
@@ -84,7 +84,8 @@ plan::Plan Regrasp(std::uint64_t seed) {
   return plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
 }
 
-/// Whether it has a slide, the first stretch of which is long enough to need states on its way.
+/// Return true if a slide of the plan has a first segment long enough to require intermediate
+/// states.
 bool HasLongSlide(const plan::Plan& plan) {
   for (const plan::Step& step : plan.steps) {
     const auto* align = std::get_if<plan::Align>(&step);
@@ -93,7 +94,7 @@ bool HasLongSlide(const plan::Plan& plan) {
   return false;
 }
 
-/// A regrasp at one pose in which fingers slide; made once.
+/// Return a regrasp at one pose with slides, made once.
 const plan::Plan& SlidingPlan() {
   static const plan::Plan plan = [] {
     for (std::uint64_t seed = 1; seed < 20; ++seed) {
@@ -117,7 +118,7 @@ int FirstOf(const plan::Plan& plan, const std::string& kind) {
 plan::Move& FirstMove(plan::Plan& plan) {
   return std::get<plan::Move>(plan.steps[FirstOf(plan, "move")]);
 }
-/// The step with the move that has most states.
+/// Return the step whose in-hand motion has the most states.
 int LongestMove(const plan::Plan& plan) {
   const auto states = [](const plan::Step& step) {
     const auto* move = std::get_if<plan::Move>(&step);
@@ -138,7 +139,7 @@ TEST(CheckHandTest, APlanOfTheSearchPasses) {
   EXPECT_TRUE(plan::CheckPlan(Cube(), GoodPlan()).passed());
 }
 
-/// The ring hand with joint 3 of each finger coupled to joint 2 by its model.
+/// Fixture of the ring hand, in whose model joint 3 of each finger is coupled to joint 2.
 class CoupledHandTest : public FolderTest {
  protected:
   CoupledHandTest() {
@@ -194,7 +195,7 @@ TEST_F(CoupledHandTest, AJointOffItsCouplingIsNamed) {
   kinematics::HandFile free = kinematics::ReadHandFile(kHand);
   plan.hand->sha256 = free.hand.sha256;
   EXPECT_TRUE(CheckHand(free, Cube(), plan).empty());
-  // A coupling that the file alone has.
+  // A coupling that only the file has.
   file_ = free;
   file_.description.couplings = {{"finger2_joint3", "finger2_joint2", 1, 0}};
   expect_fails("coupling of joint finger2_joint3 in the hand's file");
@@ -260,10 +261,10 @@ struct Control {
   const char* name;
   Reason reason;
   const char* words;
-  std::function<int(plan::Plan&)> change;  ///< @returns the entry at fault
+  std::function<int(plan::Plan&)> change;  ///< applies the change; returns the failing entry
 };
 
-/// Changes of one thing, each of which fails for its own reason.
+/// Each single change fails for its own reason.
 TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
   const std::vector<Control> controls = {
       {"a posture that is not where the contact is", Reason::kTipOffContact, "tip of finger",
@@ -355,23 +356,23 @@ TEST(CheckHandTest, ATipOffItsContactIsToldWithItsPlace) {
   const plan::HandFaultPlace& place = faults.front().fault.hand.value();
   ASSERT_TRUE(place.tip);
   const double off = (place.tip->found - place.tip->expected).norm();
-  // The last two links are 60 mm long at most.
+  // The last two links are at most 60 mm long.
   EXPECT_GT(off, 1e-4);
   EXPECT_LT(off, 0.6e-3);
   EXPECT_THAT(faults.front().detail, testing::HasSubstr(FormatLength(off)));
   EXPECT_EQ(place.number, FormatLength(off));
-  // The contact is a radius from the ball that it expects.
+  // The distance between the contact and the expected sphere centre is one radius.
   const Vector3d contact = place.state.pose * (plan.scale * held.contact.p);
   EXPECT_NEAR((contact - place.tip->expected).norm(), place.tip->radius, 1e-12);
 }
 
-/// A free finger that swings through the object and back, and nothing else.
+/// Only a free finger moves: it swings through the object and back.
 TEST(CheckHandTest, AFingerThroughTheObjectCollides) {
   plan::Plan plan = GoodPlan();
   plan::HandPath& path = FirstSwitch(plan).motion->place;
   ASSERT_GE(path.size(), 3U);
   const FingerIndex moving = FirstSwitch(plan).place.front().finger;
-  // All straight to the contact from outside: across whatever is between, or else far inside.
+  // The straight finger ends far inside the object, or crosses links between it and its contact.
   plan::HandState through = path[path.size() / 2];
   for (double& angle : through.joints[moving]) angle = 1.2;
   through.joints[moving][0] = 0;
@@ -385,12 +386,12 @@ TEST(CheckHandTest, AFingerThroughTheObjectCollides) {
   EXPECT_THAT(fault.fingers, testing::Contains(moving));
   EXPECT_THAT(fault.hand->links,
               testing::Contains(testing::Field(&plan::HandLink::finger, moving)));
-  // Where it is worst, and not where the clearance is only just missed.
+  // The fault is at the deepest penetration, not at the first state below the clearance.
   EXPECT_LT(*fault.hand->gap_m, 0);
   EXPECT_THAT(faults.front().detail, testing::HasSubstr("m into"));
 }
 
-/// What is too near but not in each other is told by its distance.
+/// If links are too near without penetration, the message states their distance.
 TEST(CheckHandTest, AClearanceThatIsMissedIsToldWithWhatThereIs) {
   const auto faults = CheckHand(kHand, Cube(), GoodPlan(), {.clearance_m = 0.02});
   ASSERT_EQ(faults.size(), 1U);
@@ -464,7 +465,8 @@ TEST(GapTest, AWayOutIsAsLongAsTheOverlap) {
   EXPECT_LE(FreeingDistance(box(0), {&apart, 1}, ways), 1e-6);
 }
 
-/// By the other algorithm, and close to its answer: many small steps are needed there.
+/// Compare with the other distance algorithm, close to its answer, where many small steps are
+/// necessary.
 TEST(GapTest, IsDecidedCloseToTheDistance) {
   RandomStream random(1, RandomUse::kGaits);
   const auto hull = [&random](const Vector3d& centre) {
@@ -479,7 +481,7 @@ TEST(GapTest, IsDecidedCloseToTheDistance) {
     const std::vector<Vector3d> a = hull({0, 0, 0});
     const std::vector<Vector3d> b = hull({5 + 2 * random.Normal(), random.Normal(), 0});
     const double distance = collision::Distance({a, 0}, {b, 0}).lower;
-    // A clearance is no thousandth of a link.
+    // Skip distances so small that 0.1 % of them is below the resolution of the bodies.
     if (distance < 0.05) continue;
     ++apart;
     EXPECT_TRUE(HaveGap(MakeConvexBody(a, 0), MakeConvexBody(b, 0), distance * (1 - 1e-3))) << i;

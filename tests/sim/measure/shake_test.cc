@@ -42,11 +42,12 @@ TEST(ProtocolTest, AGoodGraspPassesBothAndTheAdaptedOneDecides) {
   const StepReplay fixed = HoldUnder(Protocol::kFixed, cube.object, plan);
   EXPECT_FALSE(adapted.fixed);
   EXPECT_FALSE(fixed.adapted);
-  // Each shake starts from the same saved rest: which others run makes no difference.
+  // Each disturbance starts from the same saved state, so that it does not depend on the other
+  // disturbances.
   EXPECT_EQ(adapted.moved_m, both.adapted->moved_m);
   EXPECT_EQ(fixed.moved_m, both.fixed->moved_m);
   EXPECT_EQ(fixed.slip_m, both.fixed->slip_m);
-  // Fixed forces give way on the servos, adapted ones need not.
+  // With fixed forces the servos yield, with adapted forces they need not.
   EXPECT_GT(fixed.give_m, 1e-5 * cube.object.diameter());
   EXPECT_EQ(adapted.give_m, 0);
 }
@@ -58,7 +59,7 @@ TEST(ProtocolTest, BothFailBelowTheRequiredFriction) {
   EXPECT_NE(hold.adapted->reason, plan::Reason::kNone);
   EXPECT_NE(hold.fixed->reason, plan::Reason::kNone);
   const object::Polygon square = MakeSquare(0.03);
-  // Each contact sees the other 18.4° off its normal.
+  // The line to the other contact is 18.4° off each normal.
   const plan::Plan pair =
       MakePlanarPlan({OnEdge(square, 0, 1, 0.333), OnEdge(square, 1, 3, 0.333)}, 17);
   const StepReplay planar = HoldUnder(Protocol::kBoth, square, pair);

@@ -12,8 +12,8 @@
 namespace regrasp::sim {
 namespace stress_test {
 
-/// How far the two routes may differ, over the limit: the bisection's 1 %, and as much for a replay
-/// that ends before the object has moved far.
+/// Tolerance between the two methods, over the limit: 1 % for the bisection, and the rest for a
+/// replay that ends before the object has moved far.
 constexpr double kAgree = 0.03;
 
 constexpr double kHalfAngleDeg = 25;
@@ -29,7 +29,7 @@ const DirectionStress& Of(const std::vector<DirectionStress>& stress, const std:
                             [](const DirectionStress& s) { return PushName(s.push); });
 }
 
-/// The cube of side 6 cm held in the middle of four faces.
+/// Return a grasp of the cube of side 6 cm at the middle of four faces.
 plan::FingerGrasp MiddleOfFourFaces(const CubeCase& cube) {
   return {cube.At(0, 0.03, 0, 0), cube.At(1, -0.03, 0, 0), cube.At(2, 0, 0.03, 0),
           cube.At(3, 0, -0.03, 0)};
@@ -40,7 +40,7 @@ TEST(StressTest, BothRoutesGiveWhatTheFrictionOfFourFingersOnACubeBears) {
   const auto stress = StressOf(cube.object, MakePlan(MiddleOfFourFaces(cube), kHalfAngleDeg));
   ASSERT_EQ(stress.size(), 12u);
   const double mu = std::tan(Radians(kHalfAngleDeg));
-  // The weight is a tenth of the shake, which is a hundredth of the squeeze.
+  // The weight is a tenth of the disturbance, which is a hundredth of the grasp force.
   const double weight = 1e-3;
   const double lever = 0.03 / (cube.object.diameter() / 2);
   for (const auto& [name, limit] : {std::pair{"force -z", mu - weight},
@@ -65,7 +65,8 @@ TEST(StressTest, BothRoutesGiveWhatAPairInThePlaneBears) {
   }
 }
 
-/// How many directions of random grasps of a body agree, and how many there are.
+/// Return the number of directions in which both methods agree for random grasps of an object, and
+/// the total number.
 std::pair<int, int> CountAgreeing(const std::string& model, int grasps) {
   const object::ObjectFile file = ReadModel(model);
   const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);

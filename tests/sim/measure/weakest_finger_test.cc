@@ -9,7 +9,7 @@ namespace weakest_finger_test {
 
 using plan::EntryIndex;
 
-/// Of the grasps one by one what WeakestFingers is to find of an entry.
+/// Compute the expected result of WeakestFingers for a step from its grasps one by one.
 std::optional<NeedOfFinger> WeakestOf(const std::vector<plan::FingerGrasp>& grasps,
                                       const object::WrenchFrame& frame, double half_angle) {
   std::vector<NeedOfFinger> needs;

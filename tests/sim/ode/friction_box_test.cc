@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 constexpr double kMu = 0.4;
 constexpr double kSlack = 1e-9;
 
-/// A unit normal and a force, not always inside the cone.
+/// Unit normal and a force, which is not always inside the cone.
 struct Draw {
   Vector3d normal, force;
 
@@ -68,7 +68,7 @@ TEST(KeepsCone, LetsForcesInsidePassAndThoseOutsideNot) {
   const Vector3d n = Vector3d::UnitZ();
   const FrictionBox box = BoxInCircle(n, n, kMu);
   EXPECT_TRUE(KeepsCone(n, box, {0.1, 0.1, 1}, kMu, kSlack));
-  // The same force on a contact that presses less than the box was made for.
+  // The same force violates the cone if the normal force is smaller than that of the box.
   EXPECT_FALSE(KeepsCone(n, box, {0.1, 0.1, 0.3}, kMu, kSlack));
 }
 

@@ -25,7 +25,7 @@ ReplayOptions ByOde() {
   return options;
 }
 
-/// The cube's scene before any finger holds it.
+/// Scene of the cube before any finger holds it.
 struct FreeCube {
   CubeCase cube;
   Scene scene = MakeScene(cube.object, MakePlan(cube.Start(), 25), 0, ByOde());
@@ -39,7 +39,7 @@ TEST(OdeEngineTest, WhatNothingHoldsFalls) {
   for (int i = 0; i < kSteps; ++i) free.engine.Step();
   const double time = kSteps * free.scene.settings.timestep_s;
   EXPECT_NEAR(free.engine.time(), time, 1e-12);
-  // The integration is a step ahead of the parabola.
+  // The numerical integration is one step ahead of the parabola.
   const double fallen = kGravity * time * time / 2 * (1 + 1.0 / kSteps);
   EXPECT_NEAR(free.engine.object_pose().translation().z(), -fallen, 1e-9 * fallen);
 }

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double kThickness = 0.5;
 
-/// A rectangle of 2 by 1 in the plane z = 0, about the origin, seen from above.
+/// Return a rectangle of 2 by 1 in the plane z = 0, about the origin, seen from above.
 ContactPatch Rectangle() {
   return {{{-1, -0.5, 0}, {1, -0.5, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}, true};
 }
@@ -39,7 +39,7 @@ TEST(TouchPatch, BeyondTheFaceARimIsTouched) {
   EXPECT_TRUE(touch->point.isApprox(Vector3d(1, 0, 0), 1e-12));
   EXPECT_TRUE(touch->normal.isApprox(Vector3d(-0.6, 0, -0.8), 1e-12));
   EXPECT_NEAR(touch->depth, 0.05, 1e-12);
-  // And a side below it.
+  // Below the edge, the side face is nearest.
   const auto side = TouchPatch(Prism(), {1.03, 0, -0.2}, 0.1);
   ASSERT_TRUE(side);
   EXPECT_TRUE(side->normal.isApprox(-Vector3d::UnitX(), 1e-12));

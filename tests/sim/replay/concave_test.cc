@@ -8,7 +8,7 @@
 namespace regrasp::sim {
 namespace concave_test {
 
-/// Expects that the plan passes and its fingers touch where they were planned.
+/// Expect that the plan passes and that its fingers touch the object at the planned points.
 void ExpectPassesAsPlanned(const object::Object& object, const plan::Plan& plan) {
   const ReplayResult result = ReplayPlan(object, plan, {});
   for (const StepReplay& step : result.steps) {
@@ -29,7 +29,7 @@ TEST(ReplayConcave, TouchesTheInnerCornerFacesOfTheLBlock) {
                               {FingerIndex(2), inner_x},
                               {FingerIndex(3), ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
                              30);
-  // Closer to the concave edge than a fingertip is usually thick.
+  // Closer to the concave edge than the usual radius of a fingertip.
   plan.steps = {plan::Switch{{{FingerIndex(4), ContactAt(l, {0.0415, 0.04, 0}, {0, -1, 0})}},
                              {FingerIndex(0)}}};
   ExpectPassesAsPlanned(l, plan);
@@ -39,7 +39,7 @@ TEST(ReplayConcave, TouchesTheInnerCornerFacesOfTheLBlock) {
 TEST(ReplayConcave, TouchesTheInsideOfAHole) {
   const object::ObjectFile file = ReadModel("hole_block.obj");
   const auto& block = dynamic_cast<const object::Polyhedron&>(*file.object);
-  // The faces of the hole: those whose outward normal points at the middle of the block.
+  // Faces of the hole: their outward normals point towards the centroid of the block.
   std::vector<grasp::Contact> walls;
   for (FaceIndex f{0}; f < block.face_count(); ++f) {
     const Eigen::Vector3d inward = block.inward_normal(f);
@@ -48,7 +48,8 @@ TEST(ReplayConcave, TouchesTheInsideOfAHole) {
     if (inward.dot(away) > 0) walls.push_back({point, inward, f});
   }
   ASSERT_GE(walls.size(), 3u) << "the model has no hole";
-  // Pressed outwards from inside the hole by every third wall or so, and along it from outside.
+  // Fingers press outwards on about every third wall of the hole, and one presses along the hole
+  // from outside.
   plan::FingerGrasp grasp;
   const std::size_t stride = walls.size() / 3;
   for (FingerIndex i{0}; i < 3; ++i) {
@@ -98,7 +99,7 @@ TEST(ContactPatches, CoverTheSurfaceInASharpCornerWithNoMore) {
   const double size = 0.002;
   int checked = 0;
   for (FaceIndex face{0}; face < body.face_count(); ++face) {
-    // No rectangle fits into an angle of 60° down to its corner.
+    // An angle of 60° has no room for a rectangle at its corner.
     const Eigen::Vector3d& apex = body.BordersOf(face).front().a;
     const auto patches = MakeContactPatches(body, {face, apex, apex}, size);
     ASSERT_EQ(patches.size(), 1u);
@@ -135,8 +136,8 @@ TEST(ContactPatches, AreRectanglesInTheCornersOfFacesToo) {
   EXPECT_EQ(checked, 12);
 }
 
-/// Replays the hold of a grasp on models/body40.obj with finger 1 in the
-/// obtuse corner of a face, with and without the friction that it needs.
+/// Replay a grasp of models/body40.obj with finger 1 in the obtuse corner of a face, with and
+/// without the required friction.
 TEST(ReplayConcave, HoldsWithAFingerInTheCornerOfAFace) {
   const object::ObjectFile file = ReadModel("body40.obj");
   const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
@@ -158,14 +159,15 @@ TEST(ReplayConcave, HoldsWithAFingerInTheCornerOfAFace) {
   ASSERT_LT(body.DistanceToBorder(plan.initial[1].contact.face, plan.initial[1].contact.p), 1e-9);
   const ReplayResult held = ReplayPlan(body, plan, {});
   EXPECT_EQ(held.steps.at(0).reason, plan::Reason::kNone) << held.steps[0].detail;
-  // With less friction than the grasp needs it slips, as it should.
+  // With less than the required friction the object must slip.
   plan::Plan slippery = plan;
   slippery.half_angle = Radians(6);
   EXPECT_NE(ReplayPlan(body, slippery, {}).steps.at(0).reason, plan::Reason::kNone);
 }
 
 TEST(Clearance, IsTheDistanceToAWallAtARightAngle) {
-  // A ball that touches two walls at right angles touches each at its radius from the other.
+  // A sphere in contact with two perpendicular walls touches each at the distance of its radius
+  // from the other wall.
   const object::ObjectFile file = ReadModel("l_block.obj");
   const grasp::Contact contact = ContactAt(*file.object, {0.0415, 0.04, 0}, {0, -1, 0});
   EXPECT_NEAR(criteria::ComputeClearance(*file.object, contact, 0.02), 0.0015, 1e-9);

@@ -18,7 +18,7 @@ namespace disagreement_test {
 
 using testing::HasSubstr;
 
-/// A hold whose findings a test chooses: at first analysis and replay both pass.
+/// Initial grasp with findings chosen by the test; by default analysis and replay both pass.
 struct Hold {
   const object::Object& object;
   plan::Plan plan;
@@ -34,7 +34,7 @@ struct Hold {
   [[nodiscard]] std::optional<Disagreement> Explain() const {
     return ExplainDisagreement({object, plan, check, replay, settings});
   }
-  /// What is said where the replay fails.
+  /// Return the explanation if the replay fails.
   [[nodiscard]] Disagreement ExplainFailure(plan::Reason reason = plan::Reason::kSlipped) {
     replay.reason = replay.adapted->reason = reason;
     return Explain().value();
@@ -87,7 +87,7 @@ TEST(DisagreementTest, AContactInAConcaveCornerIsNamed) {
 
 TEST(DisagreementTest, AFingertipThickerThanTheHoleHasNoClearance) {
   const object::Polygon frame = MakeFrame();
-  // From inside the hole, of side 4 cm, outwards.
+  // Fingers press outwards from inside the hole, which has a side of 4 cm.
   const plan::FingerGrasp grasp = {OnEdge(frame, 0, 4, 0.5), OnEdge(frame, 1, 6, 0.5)};
   Hold hold(frame, MakePlanarPlan(grasp, 25));
   EXPECT_NE(hold.ExplainFailure().cause, Cause::kNoClearance);
@@ -101,7 +101,7 @@ TEST(DisagreementTest, AFingertipThickerThanTheHoleHasNoClearance) {
 TEST(DisagreementTest, AWeightThatTheSqueezeDoesNotCarryIsNamed) {
   const CubeCase cube;
   ReplayOptions options;
-  options.squeeze_N = 3;  // of a weight of 2.1 N, at friction 0.47
+  options.squeeze_N = 3;  // for a weight of 2.1 N, at friction 0.47
   Hold hold(cube.object, MakePlan(cube.Start(), 25), options);
   const Disagreement found = hold.ExplainFailure();
   EXPECT_EQ(found.cause, Cause::kWeight);
@@ -172,7 +172,8 @@ TEST(DisagreementTest, APassOfWhatTheAnalysisFailsHasItsOwnCauses) {
 
 TEST(DisagreementTest, AReplayThatPassesAGraspThatTheAnalysisRefusesSaysWhy) {
   const CubeCase cube;
-  // So near to its critical friction what is missing does not move the object without a shake.
+  // So close to the required friction, the missing force does not move the object without a
+  // disturbance.
   const double required =
       grasp::ComputeRequiredHalfAngle(plan::ContactsOf(cube.Start()), cube.object.wrench_frame())
           ->lower;
@@ -191,7 +192,7 @@ TEST(DisagreementTest, AReplayThatPassesAGraspThatTheAnalysisRefusesSaysWhy) {
   EXPECT_EQ(found->cause, Cause::kNoShake);
 }
 
-/// A hold that both engines replayed.
+/// Initial grasp replayed by both engines.
 struct HoldOfTwo : Hold {
   using Hold::Hold;
 

@@ -13,11 +13,12 @@ namespace regrasp::sim {
 
 namespace {
 
-constexpr double kBelow = 0.9;  ///< of the critical μ: must fail
-constexpr double kAbove = 1.5;  ///< of the critical μ: must pass where the quality allows
+constexpr double kBelow = 0.9;  ///< share of the required μ: must fail
+/// multiple of the required μ: must pass if the quality is sufficient
+constexpr double kAbove = 1.5;
 
-/// The friction coefficient at which a grasp becomes force closure; none where that is at an angle
-/// outside (0.1°, 50°).
+/// Return the required friction coefficient of a grasp; nullopt if its angle is outside (0.1°,
+/// 50°).
 std::optional<double> CriticalMu(const object::Object& body, const plan::FingerGrasp& grasp) {
   const auto required =
       grasp::ComputeRequiredHalfAngle(plan::ContactsOf(grasp), body.wrench_frame());

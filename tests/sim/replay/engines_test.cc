@@ -1,4 +1,4 @@
-// The second engine: the same plans, judged alike.
+// Tests of the second engine, which must give the same verdicts on the same plans.
 
 #include <gtest/gtest.h>
 
@@ -104,7 +104,7 @@ TEST(OdeReplay, LosesTheObjectWhereAnAlignNeedsMoreFriction) {
   plan::FingerGrasp end = start;
   end[0].contact = OnEdge(square, 1, 0.9);
   end[1].contact = OnEdge(square, 3, 0.9);
-  // Fingers 0 and 1 end 48 mm of 60 apart along their edges.
+  // Fingers 0 and 1 end 48 mm apart along their edges.
   plan::Plan plan = MakePlanarPlan(start, 10, 3);
   plan.steps = {plan::Align{{start, end}}};
   const ReplayResult result = ReplayPlan(square, plan, kOde);
@@ -121,7 +121,7 @@ TEST(OdeReplay, KnowsBothProtocols) {
   ASSERT_TRUE(step.adapted && step.fixed);
   EXPECT_EQ(step.adapted->reason, plan::Reason::kNone);
   EXPECT_EQ(step.fixed->reason, plan::Reason::kNone);
-  // On its servos the object gives way under a push.
+  // With fixed forces the servos yield under the disturbance force.
   EXPECT_GT(step.fixed->give_m, 10 * step.adapted->moved_m);
 }
 
@@ -154,7 +154,8 @@ TEST(BothEngines, TheResultIsMujocosWithWhatOdeSaysBeside) {
   }
 }
 
-/// Grasps of a body by a few fingers, above and below their critical friction.
+/// Return the number of grasps with equal verdicts of both engines, above and below their required
+/// friction.
 int CountAgreeing(const object::Object& body, int count,
                   const std::function<plan::FingerGrasp(std::mt19937&)>& draw) {
   constexpr unsigned kSeed = 2023;

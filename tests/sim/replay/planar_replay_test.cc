@@ -32,7 +32,7 @@ TEST(PlanarHold, LosesTheSameGraspsBelowTheirCriticalFriction) {
   EXPECT_TRUE(LosesObject(ReplayPlan(square, MakePlanarPlan(pair, 2.6), {}).steps.at(0).reason));
   EXPECT_EQ(ReplayPlan(square, MakePlanarPlan(pair, 4.3), {}).steps.at(0).reason,
             plan::Reason::kNone);
-  // Three normals that turn the triangle the same way.
+  // Three normals with moments of the same sign about the centre.
   const plan::FingerGrasp twisted = {OnEdge(triangle, 0, 0, 0.6), OnEdge(triangle, 1, 1, 0.6),
                                      OnEdge(triangle, 2, 2, 0.6)};
   const double critical =
@@ -48,7 +48,7 @@ TEST(PlanarHold, LosesTheSameGraspsBelowTheirCriticalFriction) {
       plan::Reason::kNone);
 }
 
-/// Two fingers for two, one more, one away, and one for another.
+/// Switches of two fingers for two, of one finger added, one removed, and one for another.
 plan::Plan SquareSwitches(const object::Polygon& square) {
   plan::Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.45), OnEdge(square, 1, 3, 0.5)}, 20);
   plan.steps = {
@@ -69,7 +69,7 @@ TEST(PlanarSwitch, PlacesAndReleasesOneTwoOrNoFingersAtOnce) {
 TEST(PlanarSwitch, FailsWhereACarryingFingerLeaves) {
   const object::Polygon square = MakeSquare(0.03);
   plan::Plan plan = SquareSwitches(square);
-  // Below and above hold; beside each other they do not.
+  // Contacts below and above are force closure; neighbouring contacts are not.
   plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)},
                              {FingerIndex(0), FingerIndex(2)}}};
   const ReplayResult result = ReplayPlan(square, plan, {});
@@ -81,7 +81,7 @@ TEST(PlanarSwitch, FailsWhereACarryingFingerLeaves) {
 TEST(PlanarSwitch, FailsWhereTheNewGraspNeedsMoreFriction) {
   const object::Polygon square = MakeSquare(0.03);
   plan::Plan plan = SquareSwitches(square);
-  // 24 mm off the normal of 60: 21.8 degrees.
+  // 24 mm off the normal at a distance of 60 mm: 21.8 degrees.
   plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.7)},
                              {FingerIndex(0), FingerIndex(1)}}};
   EXPECT_EQ(ReplayPlan(square, plan, {}).steps.at(1).reason, plan::Reason::kNone);
@@ -93,7 +93,7 @@ TEST(PlanarSwitch, FailsWhereTheNewGraspNeedsMoreFriction) {
 TEST(PlanarConcave, TouchesBothEdgesOfAnInnerCorner) {
   const object::Polygon l = MakeL();
   plan::Plan plan = MakePlanarPlan({OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)}, 20);
-  // 0.4 and 0.04 mm from the corner, closer than a fingertip is usually thick.
+  // 0.4 and 0.04 mm from the corner, closer than the usual radius of a fingertip.
   plan.steps = {
       plan::Switch{{OnEdge(l, 2, 3, 0.01), OnEdge(l, 3, 5, 0.6)}, {FingerIndex(0), FingerIndex(1)}},
       plan::Switch{{OnEdge(l, 0, 2, 0.999), OnEdge(l, 1, 0, 0.5)},
@@ -123,9 +123,9 @@ TEST(PlanarConcave, CannotBeHeldInTheInnerCornerItself) {
 
 TEST(PlanarHole, IsHeldFromInsideAndThroughItsWall) {
   const object::Polygon frame = MakeFrame();
-  // Pressed apart from inside: edges 4 and 6 are the hole's left and right.
+  // Fingers press outwards in the hole: edges 4 and 6 are its left and right.
   plan::Plan plan = MakePlanarPlan({OnEdge(frame, 0, 4, 0.45), OnEdge(frame, 1, 6, 0.5)}, 15);
-  // Then the wall below is pinched between hole and outside.
+  // Afterwards the wall below is pinched between hole and outside.
   plan.steps = {plan::Switch{{OnEdge(frame, 2, 7, 0.6), OnEdge(frame, 3, 0, 0.45)},
                              {FingerIndex(0), FingerIndex(1)}}};
   const ReplayResult result = ReplayPlan(frame, plan, {});
@@ -139,7 +139,7 @@ TEST(PlanarHole, IsLostWhereItsFingersPressBesideEachOther) {
   EXPECT_TRUE(LosesObject(ReplayPlan(frame, MakePlanarPlan(grasp, 15), {}).steps.at(0).reason));
 }
 
-/// Everything measured in a replay, in diameters and turns.
+/// Return all measurements of a replay, in diameters and radians.
 std::vector<double> Measure(const object::Polygon& polygon, const plan::Plan& plan,
                             const ReplayOptions& options) {
   const ReplayResult result = ReplayPlan(polygon, plan, options);
@@ -154,7 +154,7 @@ std::vector<double> Measure(const object::Polygon& polygon, const plan::Plan& pl
 }
 
 void ExpectEqualUpToRounding(const std::vector<double>& a, const std::vector<double>& b) {
-  // Contacts at rest are 1e-7 D deep and found to 1e-9 D.
+  // Static contacts have a penetration of 1e-7 D, with an error of 1e-9 D.
   constexpr double kRounding = 1e-10;
   ASSERT_EQ(a.size(), b.size());
   ASSERT_GT(a.size(), 0u);

@@ -16,13 +16,13 @@ namespace planar_sweep_test {
 
 constexpr unsigned kSeed = 31;
 constexpr double kHalfAngle = Radians(20);
-/// Draws of a grasp, of an align and of a switch; polygons on which they find nothing are left out
-/// and the tests count what is left.
+/// Number of draws of a grasp and of a sliding step. Polygons without a result are omitted; the
+/// tests count the rest.
 constexpr int kMostDraws = 20000, kMostAligns = 300;
-/// A little more than the shake: these must pass.
+/// Quality slightly above the disturbance: plans with it must pass.
 constexpr double kLeastQuality = 0.011;
 
-/// A star of so many edges with random arms: mostly concave.
+/// Return a star with `edges` edges and random arms, which is usually concave.
 object::Polygon MakeStar(int edges, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   std::vector<Eigen::Vector2d> ring;
@@ -34,7 +34,7 @@ object::Polygon MakeStar(int edges, std::mt19937& random) {
   return object::Polygon::FromRings({ring}, "star");
 }
 
-/// Draws contacts and grasps on a polygon.
+/// Sampler of contacts and grasps on a polygon.
 class Dice {
  public:
   Dice(const object::Polygon& polygon, std::mt19937& random) : polygon_(polygon), random_(random) {}
@@ -47,7 +47,7 @@ class Dice {
     const int edge = Number(polygon_.face_count());
     return OnEdge(polygon_, edge, Share());
   }
-  /// Empty where so many draws find none.
+  /// Return a grasp; empty if kMostDraws draws find none.
   [[nodiscard]] plan::FingerGrasp DrawGrasp(int fingers) {
     for (int i = 0; i < kMostDraws; ++i) {
       plan::FingerGrasp grasp;
@@ -70,7 +70,8 @@ class Dice {
   std::mt19937& random_;
 };
 
-/// A random align inside the edges of a grasp, or over a corner, that is force closure all along.
+/// Draw a sliding step that is force closure throughout, inside the edges of a grasp or over a
+/// corner.
 std::optional<plan::Plan> DrawAlign(const object::Polygon& polygon, int fingers, bool corner,
                                     Dice& dice) {
   for (int i = 0; i < kMostAligns; ++i) {
@@ -81,7 +82,8 @@ std::optional<plan::Plan> DrawAlign(const object::Polygon& polygon, int fingers,
       held = OnEdge(polygon, held.finger, held.contact.face, dice.Share());
     }
     if (corner) {
-      // Some edge's end is the start of the next, but for the last one, which meets the first.
+      // The end of the edge is the start of the next one, except for the last edge, which meets the
+      // first.
       const int edge = from[0].contact.face, next = (edge + 1) % polygon.face_count();
       waypoints.back()[0] = OnEdge(polygon, from[0].finger, edge, 1);
       waypoints.push_back(waypoints.back());
@@ -123,7 +125,7 @@ TEST(PlanarSweep, RandomAlignsThatAreForceClosureAllTheWayPass) {
   EXPECT_GE(checked, 50);
 }
 
-/// A switch between the grasp and a random one that is good, or is not force closure.
+/// Draw a switch between the grasp and a random one, which is good, or is not force closure.
 std::optional<plan::Switch> DrawSwitch(const plan::FingerGrasp& before, bool good, Dice& dice) {
   std::vector<FingerIndex> holding, free;
   for (FingerIndex f{0}; f < 4; ++f) {
@@ -146,7 +148,7 @@ std::optional<plan::Switch> DrawSwitch(const plan::FingerGrasp& before, bool goo
   return std::nullopt;
 }
 
-/// So many switches between good grasps, then one to a bad one; fewer where a draw finds none.
+/// Draw `switches` switches between good grasps, then one to a bad grasp; fewer if a draw fails.
 plan::Plan DrawWalk(int fingers, int switches, Dice& dice) {
   plan::FingerGrasp grasp = dice.DrawGrasp(fingers);
   plan::Plan plan = MakePlanarPlan(grasp, Degrees(kHalfAngle));

@@ -6,22 +6,22 @@
 
 namespace regrasp::sim {
 
-/// What a good grasp may move or slide in a step, and how far off a finger may touch, over the
-/// diameter: a tenth of the tolerance.
+/// Limit of the motion and slip of a good grasp in a step, and of the error of its contact points,
+/// over the diameter: a tenth of the tolerance.
 inline constexpr double kGood = 1e-4;
 
-/// Expects that so many entries pass, with next to no motion.
+/// Expect that `entries` steps pass, almost without motion.
 void ExpectGood(const ReplayResult& result, std::size_t entries);
 
-/// The object moved, slipped or lost a contact.
+/// Return true if the object moved, slipped or lost a contact.
 [[nodiscard]] bool LosesObject(plan::Reason reason);
 
-/// Expects that at rest, in every entry of the replay, every finger touches where it was planned,
-/// and presses.
+/// Expect that in the static grasp of every step, every finger touches the object at its planned
+/// point with a positive force.
 void ExpectTouchesAsPlanned(const object::Object& object, const plan::Plan& plan,
                             const ReplayResult& result);
 
-/// Expects that two replays of a plan are the same bits: all samples, and what is measured.
+/// Expect that two replays of a plan are bitwise equal: all samples and all measurements.
 void ExpectSameBitsTwice(const object::Object& object, const plan::Plan& plan);
 
 }  // namespace regrasp::sim

@@ -49,7 +49,7 @@ TEST(ReplayHold, FrictionOptionOverridesThePlan) {
 TEST(ReplayHold, DropsTheObjectWhereGravityIsMoreThanTheSqueezeBears) {
   const CubeCase cube;
   ReplayOptions options;
-  options.squeeze_N = 0.5;  // of a weight of 2.1 N, at friction 0.47
+  options.squeeze_N = 0.5;  // for a weight of 2.1 N, at friction 0.47
   const plan::Plan plan = MakePlan(cube.Start(), 25);
   EXPECT_TRUE(LosesObject(ReplayPlan(cube.object, plan, options).steps.at(0).reason));
   options.gravity = false;
@@ -88,7 +88,7 @@ TEST(ReplayFault, OfAnObjectThatMovesHasThePushAndWhereItWas) {
   const double size = step.fault.push->force_N.norm() + step.fault.push->torque_Nm.norm();
   EXPECT_GT(size, 0);
   EXPECT_TRUE(step.fault.X_WO_before.has_value());
-  // The snapshot is of that instant, not of the rest before it.
+  // The snapshot is that of the failure, not that of the static grasp before it.
   EXPECT_GT((step.snapshot.X_WO.translation()).norm(), step.displacement_m / 2);
 }
 
@@ -177,7 +177,8 @@ TEST(ReplayPlanTest, EveryStepIsMeasuredForItself) {
   plan::FingerGrasp before = plan.initial;
   for (std::size_t i = 1; i < result.steps.size(); ++i) {
     const plan::FingerGrasp& place = std::get<plan::Switch>(plan.steps[i - 1]).place;
-    // What held before the step, and what it places; no finger that an earlier step released.
+    // Fingers that hold before the step, and fingers that it places; not those released by an
+    // earlier step.
     std::set<int> held, measured;
     for (const plan::FingerContact& contact : before) held.insert(contact.finger);
     for (const plan::FingerContact& contact : place) held.insert(contact.finger);
@@ -213,7 +214,7 @@ TEST(ReplayPlanTest, LeavesNoLogFileBehindAndGivesTheEnginesHooksBack) {
   EXPECT_EQ(mju_user_warning, nullptr);
 }
 
-/// The cube's four switches at another size and mass.
+/// Replay the cube's four switches at another size and mass.
 ReplayResult ReplayScaled(double scale, double density) {
   const CubeCase cube;
   plan::Plan plan = FourSwitches(cube);
@@ -234,7 +235,7 @@ TEST(ReplayScale, ReplaysBodiesFromGramsToTonnes) {
 
 TEST(ReplayScale, MovesTheSameAtEverySizeAndMass) {
   const ReplayResult one = ReplayScaled(1, 1000);
-  // From 60 nm to 60 km.
+  // Sizes from 60 nm to 60 km.
   for (const double scale : {1e-6, 1e-3, 1e6}) {
     for (const double density : {1.0, 1e4}) {
       SCOPED_TRACE(scale);
@@ -248,7 +249,7 @@ TEST(ReplayScale, MovesTheSameAtEverySizeAndMass) {
       }
     }
   }
-  // The control: with too little friction it fails at every size as well.
+  // Negative control: with too little friction the grasp also fails at every size.
   const CubeCase cube;
   for (const double scale : {1e-6, 1e6}) {
     plan::Plan plan = MakePlan(cube.Start(), 4);

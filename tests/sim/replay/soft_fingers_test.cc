@@ -1,4 +1,4 @@
-// Replays of soft fingers: contacts with torsion.
+// Replays of soft fingers: contacts with torsional friction.
 
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
@@ -21,7 +21,8 @@ namespace soft_fingers_test {
 
 constexpr double kDegrees = 25;
 
-/// Two fingers on opposite faces of the cube, the second one off the first one's line.
+/// Return a plan with two fingers on opposite faces of the cube, the second offset from the line of
+/// the first.
 plan::Plan PairOnCube(const CubeCase& cube, double torsion, double offset = 0,
                       double degrees = kDegrees) {
   plan::Plan plan = MakePlan({cube.At(0, -0.03, 0, 0), cube.At(1, 0.03, offset, 0)}, degrees, 3);
@@ -34,8 +35,8 @@ plan::Reason ReasonOf(const CubeCase& cube, const plan::Plan& plan,
   return ReplayPlan(cube.object, plan, options).steps.at(0).reason;
 }
 
-/// A torsion at which the pair's quality is that many times the shake: it resists μ torsion / R
-/// about its line.
+/// Return the torsional friction length at which the pair's quality is `times_shake` times the
+/// disturbance: the pair resists μ torsion / R about its line.
 double TorsionFor(const CubeCase& cube, double times_shake) {
   const double radius = cube.object.diameter() / 2;
   return times_shake * ReplayOptions().shake * radius / std::tan(Radians(kDegrees));
@@ -48,7 +49,7 @@ TEST(SoftFingersReplay, TwoHoldACubeAndHardPointsLoseIt) {
 }
 
 TEST(SoftFingersReplay, WhatTheyResistAboutTheirLineIsTheTorsionThatTheyHave) {
-  // The analytic quality is this torque, so that the shake is more or less than it.
+  // The analytic quality is this torque, so the disturbance is below or above it.
   const CubeCase cube;
   int held = 0, lost = 0;
   for (const double times : {0.8, 0.95, 1.05, 1.25}) {
@@ -85,7 +86,7 @@ TEST(SoftFingersReplay, TheLargestPushInEveryDirectionIsThatOfTheAnalysis) {
 }
 
 TEST(SoftFingersReplay, AWeightTakesOfTheTorqueAboutTheLineWhatTheEllipseSays) {
-  // The weight takes a share s of the friction, which leaves √(1 − s²) of it to twist with.
+  // The weight takes a share s of the friction, so that √(1 − s²) of it remains for the torque.
   const CubeCase cube;
   const double torsion = 0.02, mu = std::tan(Radians(kDegrees));
   ReplayOptions options;
@@ -160,7 +161,7 @@ TEST(SoftFingersReplay, ATwoFingerSequencePasses) {
   plan::Plan plan = PairOnCube(cube, 0.01);
   plan.steps = {plan::Switch{{cube.At(2, 0.002, 0.03, 0.001)}, {}},
                 plan::Switch{{}, {FingerIndex(0)}}};
-  // Fingers 1 and 2 alone, on faces at a right angle, do not hold it.
+  // Fingers 1 and 2 alone, on perpendicular faces, are not force closure.
   plan::SetTorsion(0.01, plan);
   EXPECT_TRUE(LosesObject(ReplayPlan(cube.object, plan, {}).steps.back().reason));
   plan.fingers = 4;
@@ -182,7 +183,7 @@ TEST(SoftFingersReplay, TheMarginCountsTheTorqueAsATangentialForce) {
   ASSERT_TRUE(step.adapted);
   const auto least = SmallestMargin(step.adapted->shake_margins);
   ASSERT_TRUE(least);
-  // The shake about the line takes nearly all of the friction.
+  // The disturbance about the line takes almost all of the friction.
   EXPECT_GT(*least, 0);
   EXPECT_LT(*least, Radians(5));
 }

@@ -15,7 +15,7 @@
 namespace regrasp::sim {
 namespace trials_test {
 
-constexpr double kTip = 1e-3;  ///< metres
+constexpr double kTip = 1e-3;  ///< m
 
 TrialOptions Trials(int count, double position, double friction, double mass = 0) {
   TrialOptions trials;
@@ -27,7 +27,7 @@ TrialOptions Trials(int count, double position, double friction, double mass = 0
   return trials;
 }
 
-/// The cube's grasp needs 5.3°.
+/// Return the number of passed trials. The cube's grasp requires 5.3°.
 int Passes(double half_angle_deg, const TrialOptions& trials) {
   const CubeCase cube;
   return RunTrials(cube.object, MakePlan(cube.Start(), half_angle_deg), {}, trials, kTip).passed;
@@ -77,7 +77,7 @@ TEST(ContactNoise, HasTheStandardDeviationThatWasAskedFor) {
     const plan::Plan noisy = AddContactNoise(cube.object, plan, {kDeviation, kTip}, random);
     squares += (noisy.initial[0].contact.p - plan.initial[0].contact.p).squaredNorm();
   }
-  // Two directions; five standard deviations of the sum of their squares.
+  // Two directions. The tolerance is five standard deviations of the sum of squares.
   const double mean = squares / kDraws / (kDeviation * kDeviation);
   EXPECT_NEAR(mean, 2, 5 * 2 / std::sqrt(kDraws));
 }
@@ -95,7 +95,7 @@ TEST(ContactNoise, WithoutDeviationChangesNothing) {
 
 TEST(ContactNoise, GoesOverABorderOntoTheNextFace) {
   const CubeCase cube;
-  // A millimetre from the edge, off by three in the mean.
+  // One millimetre from the edge, with a noise of 3 mm.
   const plan::Plan plan = MakePlan({cube.At(0, 0.03, 0.029, 0)}, 25);
   constexpr int kDraws = 400;
   int beyond = 0;
@@ -109,12 +109,13 @@ TEST(ContactNoise, GoesOverABorderOntoTheNextFace) {
     ++beyond;
     EXPECT_LT(is.p.x(), 0.03 + 1e-9);
   }
-  // A normal deviate of more than a third; five standard deviations of the count.
+  // The normal deviate must exceed 1/3. The tolerance is five standard deviations of the count.
   const double share = std::erfc(1.0 / 3 / std::sqrt(2)) / 2;
   EXPECT_NEAR(beyond, share * kDraws, 5 * std::sqrt(kDraws * share * (1 - share)));
 }
 
-/// On the top of GriddedBoxSoup(50, 1e-5), whose facets are a fifth of the noise.
+/// Return a contact on the top of GriddedBoxSoup(50, 1e-5), whose triangles have a fifth of the
+/// size of the noise.
 grasp::Contact OnTop(const object::Polyhedron& box, double x, double y) {
   const FaceIndex face = box.FacesNear({x, y, 0}, 1e-4).front();
   return {box.ClosestPoint(face, {x, y, 0}), box.inward_normal(face), face};
@@ -162,7 +163,7 @@ TEST(ContactNoise, LeavesAnAlignAWayAlongTheSurface) {
       object::Polyhedron::FromSoup(soups::GriddedBoxSoup(50, 1e-5), "soup");
   const FingerIndex first(0), second(1);
   plan::FingerGrasp begin = {{first, OnTop(box, 0.303, 0.311)}, {second, OnTop(box, 0.703, 0.711)}};
-  // Within a facet, and the other stays.
+  // The first finger moves inside a triangle, the other stays.
   plan::FingerGrasp end = begin;
   end[0].contact.p += Eigen::Vector3d(1e-3, 1e-3, 0);
   end[0].contact.p = box.ClosestPoint(begin[0].contact.face, end[0].contact.p);
@@ -187,14 +188,14 @@ TEST(ContactNoise, LeavesAnAlignAWayAlongTheSurface) {
 
 TEST(Trials, WithoutErrorsAllPassAsTheNominalReplayDoes) {
   EXPECT_EQ(Passes(25, Trials(5, 0, 0)), 5);
-  // And all fail where it fails.
+  // All trials fail if the plan itself fails.
   EXPECT_EQ(Passes(4, Trials(5, 0, 0)), 0);
 }
 
 TEST(Trials, LoseAPlanNearItsCriticalFrictionAndKeepOneWithFrictionToSpare) {
   constexpr int kCount = 30;
   const int spare = Passes(25, Trials(kCount, 0, 0.1));
-  // With 0.96 of its friction the grasp is weaker than the shake.
+  // With 0.96 of its friction the grasp resists less than the disturbance.
   const int little = Passes(7, Trials(kCount, 0, 0.01));
   const int more = Passes(7, Trials(kCount, 0, 0.1));
   const int most = Passes(7, Trials(kCount, 0, 0.5));

@@ -1,4 +1,4 @@
-// Fingers on facets that are far smaller than a fingertip.
+// Fingers on faces that are much smaller than a fingertip.
 
 #include "sim/scene/contact_patches.h"
 
@@ -18,13 +18,13 @@ namespace contact_patches_test {
 
 using Eigen::Vector3d;
 
-constexpr double kRadius = 0.05;  // metres
+constexpr double kRadius = 0.05;  // m
 constexpr double kDiameter = 2 * kRadius;
 constexpr double kHalfAngle = Radians(30);
-constexpr double kQuality = 0.02;  // the shake is 0.01
+constexpr double kQuality = 0.02;  // the disturbance is 0.01
 
-/// A ball of facets that are `finest` · D wide at its two poles on the x axis, and coarser by half
-/// from ring to ring towards the equator.
+/// Return a sphere with faces of width `finest` · D at its two poles on the x axis. The width grows
+/// by half from ring to ring towards the equator.
 object::Polyhedron MakeBall(double finest, int sectors) {
   std::vector<double> angles;
   for (double a = 2 * finest; a < std::numbers::pi / 2; a *= 1.5) angles.push_back(a);
@@ -54,7 +54,7 @@ object::Polyhedron MakeBall(double finest, int sectors) {
   return object::Polyhedron::FromSoup(soup, "ball");
 }
 
-/// The face whose centre is nearest to a point.
+/// Return the face whose centre is nearest to a point.
 FaceIndex NearestFace(const object::Polyhedron& body, const Vector3d& near) {
   FaceIndex nearest{0};
   const auto distance = [&](FaceIndex face) { return (body.CentroidOf(face) - near).norm(); };
@@ -64,8 +64,8 @@ FaceIndex NearestFace(const object::Polyhedron& body, const Vector3d& near) {
   return nearest;
 }
 
-/// A point drawn evenly over a triangle of the face, or over that part of it next to its first
-/// corner which is `share` as wide.
+/// Draw a contact uniformly over a triangle of the face, or over its part next to the first corner
+/// that is `share` as wide.
 grasp::Contact DrawOnFace(const object::Polyhedron& body, FaceIndex face, double share,
                           std::mt19937& random) {
   const auto& [a, b, c] = body.triangles()[body.TrianglesOf(face).front()];
@@ -76,7 +76,7 @@ grasp::Contact DrawOnFace(const object::Polyhedron& body, FaceIndex face, double
           body.inward_normal(face), face};
 }
 
-/// A good grasp of four with two fingers on the finest facets, there within `share` of a corner.
+/// Draw a good grasp of four with two fingers on the finest faces, within `share` of a corner.
 plan::FingerGrasp DrawGrasp(const object::Polyhedron& ball, double share, std::mt19937& random) {
   for (;;) {
     plan::FingerGrasp grasp;
@@ -98,13 +98,13 @@ bool IsRectangle(const object::Polyhedron& body, const grasp::Contact& contact) 
   return patches.size() == 1 && patches.front().rectangle;
 }
 
-/// Over D. Fingers on large faces slip by 5e-9; those that the engine lets touch off their place by
-/// 1e-6 and more.
+/// Slip limit, over D. Fingers on large faces slip by 5e-9. Fingers whose contact points the engine
+/// misplaces slip by 1e-6 and more.
 constexpr double kNoSlip = 1e-7;
 
-/// What holds of four grasps of a ball touch, and that they pass.
+/// Replays of four grasps of a sphere, which must pass, with counts of their contact patches.
 struct Holds {
-  int rectangles = 0, others = 0;  ///< patches on the finest facets
+  int rectangles = 0, others = 0;  ///< patches on the finest faces
 
   void Replay(double finest, int sectors, double share, std::mt19937& random) {
     SCOPED_TRACE(std::to_string(finest) + " " + std::to_string(sectors));
@@ -138,8 +138,8 @@ TEST(FineFacets, HoldAFingertipInTheirSharpCorners) {
   EXPECT_GT(holds.others, 0);
 }
 
-/// How far the corners of the engine's meshes are from those of the patches, over D; −1 without
-/// any.
+/// Return the largest distance of the patches' corners from the corners of the engine's meshes,
+/// over D; −1 without meshes.
 double LargestMeshError(const Scene& scene, const mjModel& model, mjData& data) {
   mj_kinematics(&model, &data);
   double largest = -1;
@@ -176,7 +176,7 @@ TEST(FineFacets, AreWhereTheyAreAlthoughTheEngineKeepsMeshesInSinglePrecision) {
     const DataPtr data(mj_makeData(model.get()));
     const double error = LargestMeshError(scene, *model, *data);
     if (error >= 0) ++meshes;
-    // A corner about the body's centre would be off by 8e-9.
+    // With corners relative to the object's centre the error would be 8e-9.
     EXPECT_LT(error, 2e-9);
   }
   EXPECT_GT(meshes, 5);

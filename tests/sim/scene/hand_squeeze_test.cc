@@ -11,7 +11,7 @@ namespace hand_squeeze_test {
 
 constexpr double kMass = 0.216;
 
-/// The largest weight, over the squeeze, that the cube's initial grasp carries.
+/// Return the largest weight that the cube's initial grasp supports, over the grasp force.
 double Carried(const CubeCase& cube, const plan::Plan& plan) {
   return grasp::ComputeLargestLoad(plan::ContactsOf(plan.initial), cube.object.wrench_frame(),
                                    plan.half_angle, {},
@@ -40,7 +40,7 @@ TEST(HandSqueeze, GrowsWithTheWeightUpToTheStrongestGrip) {
 TEST(HandSqueeze, IsThatOfTheGraspThatCarriesTheWeightWorst) {
   const CubeCase cube;
   plan::Plan plan = MakePlan(cube.Start(), 20);
-  // Finger 4 below, finger 0 leaves: what then holds is another grasp.
+  // Finger 4 is placed below and finger 0 is released, so that another grasp holds the object.
   plan.steps = {plan::Switch{{cube.At(4, 0.03, 0.02, 0.02)}, {FingerIndex(0)}}};
   const double first = HandSqueeze(cube.object, plan, 1, plan.half_angle, kMass);
   const double both = HandSqueeze(cube.object, plan, 2, plan.half_angle, kMass);
@@ -72,7 +72,7 @@ TEST(HandSqueeze, IsTakenByTheReplayWhereItIsAskedFor) {
                    HandSqueeze(cube.object, plan, 1, plan.half_angle, hand.settings.mass_kg));
   EXPECT_LT(hand.settings.squeeze_N, usual.settings.squeeze_N / 50);
   EXPECT_EQ(hand.steps.at(0).reason, plan::Reason::kNone) << hand.steps[0].detail;
-  // What no hand can hold is dropped, and was not by the usual squeeze.
+  // An object that no hand can hold is dropped. With the default grasp force it was not.
   options.mass_kg = 50;
   EXPECT_NE(ReplayPlan(cube.object, plan, options).steps.at(0).reason, plan::Reason::kNone);
   options.hand_squeeze = false;

@@ -1,4 +1,5 @@
-// Fingers on bodies that are not convex: where they touch, and what they should not touch.
+// Fingers on non-convex objects: the contacts that they must have, and the contacts that they must
+// not have.
 
 #include <gtest/gtest.h>
 
@@ -17,22 +18,23 @@ namespace nonconvex_contacts_test {
 
 using Eigen::Vector3d;
 
-/// What the fingers of grasps at rest touched.
+/// Counts of contacts of the fingers in static grasps.
 struct TouchCount {
   int contacts = 0;
-  int ghosts = 0;            ///< a face that is not its own, or a force that its own cannot give
-  int missed = 0;            ///< no force at a finger that holds
-  double largest_error = 0;  ///< of the place, over the diameter
+  int ghosts = 0;            ///< wrong face, or a force that the planned face cannot exert
+  int missed = 0;            ///< holding fingers without force
+  double largest_error = 0;  ///< error of the contact point, over the diameter
 };
 
-/// A finger whose force is smaller than this share of all forces presses on nothing.
+/// Share of all forces below which a finger counts as without force.
 constexpr double kNoForce = 1e-9;
-/// A force may lie outside the friction cone by what the engine's contacts creep, radians.
+/// Angle by which a force may exceed the friction cone because the engine's contacts creep,
+/// radians.
 constexpr double kOutside = 0.01;
-/// A fingertip may touch this far off its place, over the diameter: a tenth of what is a slip.
+/// Tolerance of a fingertip's contact point, over the diameter: a tenth of the slip limit.
 constexpr double kTouch = 1e-4;
 
-/// Compares where the fingers touch at rest with where the grasp has them.
+/// Compare the contact points in the static grasp with those of the plan.
 void Count(const object::Object& object, const plan::FingerGrasp& planned,
            const plan::Snapshot& rest, double half_angle, TouchCount& count) {
   double all_forces = 0;
@@ -58,7 +60,7 @@ void Count(const object::Object& object, const plan::FingerGrasp& planned,
   }
 }
 
-/// Replays the hold of a grasp and counts.
+/// Replay a grasp and count its contacts.
 TouchCount Hold(const object::Object& object, const plan::FingerGrasp& grasp, double degrees) {
   const plan::Plan plan = MakePlan(grasp, degrees);
   const ReplayResult result = ReplayPlan(object, plan, {});
@@ -75,7 +77,7 @@ void ExpectTouchesItsOwn(const TouchCount& count, int contacts) {
   EXPECT_LT(count.largest_error, kTouch);
 }
 
-/// Squares about the z axis, each joined to the next: solids of steps, posts and holes.
+/// Return a solid of squares about the z axis, each connected to the next: steps, posts and holes.
 object::Polyhedron MakeTower(const std::vector<std::pair<double, double>>& half_and_height) {
   object::PolygonSoup soup;
   for (const auto& [half, z] : half_and_height) {
@@ -94,12 +96,12 @@ object::Polyhedron MakeTower(const std::vector<std::pair<double, double>>& half_
   return object::Polyhedron::FromSoup(soup, "tower");
 }
 
-/// 10 × 10 × 6 cm with a blind hole of 2 × 2 cm, 4 cm deep, in its top.
+/// Return a block of 10 × 10 × 6 cm with a blind hole of 2 × 2 cm, 4 cm deep, in its top.
 object::Polyhedron MakeBlindHole() {
   return MakeTower({{0.05, 0}, {0.05, 0.06}, {0.01, 0.06}, {0.01, 0.02}});
 }
 
-/// A box without a lid, 10 × 10 × 6 cm, with walls of 0.2 mm and a floor of 1 cm.
+/// Return a box without a lid, 10 × 10 × 6 cm, with walls of 0.2 mm and a floor of 1 cm.
 object::Polyhedron MakeThinBox() {
   return MakeTower({{0.05, 0}, {0.05, 0.06}, {0.0498, 0.06}, {0.0498, 0.01}});
 }
@@ -113,7 +115,7 @@ TEST(NonconvexContacts, FingersPressInABlindHole) {
                                                 ContactAt(body, {0.05, 0.002, 0.039}, {-1, 0, 0})}),
                           30);
   ExpectTouchesItsOwn(count, 4);
-  // Two on opposite walls of the hole, pressing outwards, one on its ground.
+  // Two fingers press outwards on opposite walls of the hole, one presses on its bottom.
   count = Hold(body,
                plan::FingersInOrder({ContactAt(body, {-0.01, 0, 0.04}, {-1, 0, 0}),
                                      ContactAt(body, {0.01, 0.001, 0.041}, {1, 0, 0}),
@@ -124,8 +126,8 @@ TEST(NonconvexContacts, FingersPressInABlindHole) {
 }
 
 TEST(NonconvexContacts, FingersPinchThinWallsFromBothSides) {
-  // The walls are thinner than the pieces of surface under a contact are thick. Two pinches alone
-  // let the body turn about the line between them.
+  // The walls are thinner than the contact patches. Two pinch grasps alone let the object rotate
+  // about the line between them.
   const object::Polyhedron body = MakeThinBox();
   const TouchCount count =
       Hold(body,
@@ -172,7 +174,8 @@ TEST(NonconvexContacts, FingersTouchBothFacesOfAnInnerCornerDownToATenThousandth
   EXPECT_EQ(holds, 4);
 }
 
-/// 10 × 10 × 6 cm with a pit (or a bump, where deeper is negative) as wide as deep in its top.
+/// Return a block of 10 × 10 × 6 cm with a pit in its top, or a bump if `deeper` is negative. The
+/// pit is as deep as wide.
 object::Polyhedron MakePitted(double width, double deeper) {
   return MakeTower({{0.05, 0}, {0.05, 0.06}, {width / 2, 0.06}, {width / 2, 0.06 - deeper}});
 }
@@ -216,7 +219,8 @@ TEST(NonconvexContacts, AFingerOnAFaceThatIsSmallerThanItsTipIsJudged) {
     const ReplayResult result = ReplayPlan(body, plan, {});
     ASSERT_EQ(result.steps.size(), 1u);
     EXPECT_NE(result.steps[0].reason, plan::Reason::kSimulationUnstable) << result.steps[0].detail;
-    // A tip that holds on to less than it may slip may fall into the pit, but not off the bump.
+    // A fingertip whose support is narrower than the slip limit may fall into the pit, but not off
+    // the bump.
     if (deeper < 0) {
       EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone) << result.steps[0].detail;
     }
@@ -225,10 +229,10 @@ TEST(NonconvexContacts, AFingerOnAFaceThatIsSmallerThanItsTipIsJudged) {
   }
 }
 
-/// A random grasp of four that the shake leaves alone, each finger with room to stand.
+/// Draw a grasp of four that resists the disturbance, with clearance for each finger.
 plan::FingerGrasp DrawGrasp(const object::Polyhedron& body, double half_angle,
                             std::mt19937& random) {
-  constexpr double kQuality = 0.015;  // the shake is 0.01
+  constexpr double kQuality = 0.015;  // the disturbance is 0.01
   constexpr int kMostDraws = 100'000;
   for (int draw = 0; draw < kMostDraws; ++draw) {
     grasp::Grasp grasp;
@@ -245,8 +249,8 @@ plan::FingerGrasp DrawGrasp(const object::Polyhedron& body, double half_angle,
   return {};
 }
 
-/// Whether a finger there stands in a hole, a channel or beside a wall: a ball as large as the body
-/// does not fit.
+/// Return true if a contact is in a hole, in a channel or next to a wall: a sphere as large as the
+/// object does not fit there.
 bool IsInside(const object::Object& object, const grasp::Contact& contact) {
   return criteria::ComputeClearance(object, contact, object.diameter()) < object.diameter();
 }
@@ -300,7 +304,7 @@ TEST(NonconvexContacts, WrongContactsAreSeen) {
   other[0].contact = ContactAt(l, {0.04, 0.05, 0.012}, {-1, 0, 0});
   EXPECT_EQ(count(other, rest).ghosts, 1);
   EXPECT_GT(count(other, rest).largest_error, kTouch);
-  // A force from the side, as of a wall that is not there.
+  // A force from the side, like that of a non-existent wall.
   plan::Snapshot pushed = rest;
   for (plan::FingerState& state : pushed.fingers) {
     if (state.finger == 1) state.force_W = state.force_W.norm() * Vector3d::UnitX();

@@ -29,7 +29,7 @@ TEST(PlanarSceneMjcf, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
   };
   const double weight = model->body_mass[1] * 9.81;
   EXPECT_LT(push(weight), 1e-3 * frame.diameter());
-  // Without the controls nothing holds it.
+  // Without the controls the object falls.
   mj_resetDataKeyframe(model.get(), data.get(), 0);
   mju_zero(data->ctrl, model->nu);
   EXPECT_GT(push(weight), 1e-2 * frame.diameter());
@@ -48,7 +48,7 @@ TEST(PlanarSceneMjcf, HasThePrismsMassItsJointsAndFingersAlongZ) {
   EXPECT_EQ(model->jnt_type[0], mjJNT_SLIDE);
   EXPECT_EQ(model->jnt_type[1], mjJNT_SLIDE);
   EXPECT_EQ(model->jnt_type[2], mjJNT_HINGE);
-  // A box of 80 mm without one of 40 mm: the principal moments of both prisms about their middle.
+  // A box of 80 mm without one of 40 mm: principal moments of both prisms about their centre.
   const auto moment = [](double m, double a, double b) { return m * (a * a + b * b) / 12; };
   const double outer = 1000 * 0.0064 * 0.012, inner = 1000 * 0.0016 * 0.012;
   std::array<double, 3> expected = {moment(outer, 0.08, 0.08) - moment(inner, 0.04, 0.04),
@@ -86,7 +86,7 @@ TEST(PlanarSceneMjcf, FingersDoNotCollideWithEachOther) {
   EXPECT_EQ(pairs, 6);
 }
 
-/// Lower and upper end of a patch along its edge, as shares of the edge.
+/// Return the lower and upper end of a patch along its edge, as shares of the edge.
 std::pair<double, double> Ends(const object::Polygon& polygon, FaceIndex edge,
                                const ContactPatch& patch) {
   const auto [from, to] = polygon.edge(edge);
@@ -127,12 +127,13 @@ TEST(EdgePatch, CoversThePathAndItsSurroundingsAndEndsWithTheEdge) {
 
 TEST(PlanarClearance, IsTheLargestDiscThatTouchesOnlyAtTheContact) {
   const object::Polygon l = MakeL(), frame = MakeFrame();
-  // A disc that touches both edges of a right angle touches each at its radius from the corner.
+  // A disc in contact with both edges of a right angle touches each at the distance of its radius
+  // from the corner.
   EXPECT_NEAR(criteria::ComputeClearance(l, OnEdge(l, 2, 0.9), 0.1), 0.004, 1e-12);
   EXPECT_NEAR(criteria::ComputeClearance(l, OnEdge(l, 3, 0.02), 0.1), 0.0008, 1e-12);
-  // In the hole the wall opposite limits it.
+  // In the hole the opposite wall limits the clearance.
   EXPECT_NEAR(criteria::ComputeClearance(frame, OnEdge(frame, 4, 0.5), 0.1), 0.02, 1e-12);
-  // Convex edges and ends do not.
+  // Convex edges and ends do not limit it.
   EXPECT_EQ(criteria::ComputeClearance(l, OnEdge(l, 0, 0.5), 0.1), 0.1);
   EXPECT_EQ(criteria::ComputeClearance(l, OnEdge(l, 0, 1), 0.1), 0.1);
 }

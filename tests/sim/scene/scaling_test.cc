@@ -8,7 +8,7 @@
 namespace regrasp::sim {
 namespace scaling_test {
 
-/// A rod along x, 1 m long, with a square section.
+/// Return a rod along x, 1 m long, with a square section.
 object::Polyhedron MakeRod(double width) {
   const double a = 0.5, b = width / 2;
   const object::PolygonSoup soup{
@@ -24,7 +24,7 @@ object::Polyhedron MakeRod(double width) {
   return object::Polyhedron::FromSoup(soup, "rod");
 }
 
-/// Two pairs of opposite fingers across the rod, `apart` m from each other.
+/// Return a plan with two pairs of opposite fingers across the rod, `apart` m from each other.
 plan::Plan HoldRod(const object::Polyhedron& rod, double width, double apart,
                    double half_angle_deg) {
   const double b = width / 2, x = apart / 2, off = 0.3 * b;
@@ -54,7 +54,7 @@ TEST(Needle, IsHeldByAGraspWhoseQualityExceedsTheShakeAndByNoOther) {
     const double quality =
         grasp::ComputeQuality(plan::ContactsOf(plan.initial), rod.wrench_frame(), plan.half_angle)
             .lower;
-    // Torques are over half the length, and friction has half the width to turn the rod by.
+    // Torques are divided by half the length, but friction has only half the width as moment arm.
     EXPECT_LT(quality, width);
     EXPECT_GT(quality, width / 2);
     for (const double share : {0.6, 0.9}) {
@@ -73,7 +73,8 @@ TEST(Needle, IsLostWithoutForceClosureForItsOwnReason) {
     SCOPED_TRACE(width);
     const object::Polyhedron rod = MakeRod(width);
     plan::Plan plan = HoldRod(rod, width, 0.8, 35);
-    // Both pairs at one place: nothing but friction on its width stops a turn across the rod.
+    // With both pairs at one place, only friction across the rod's width resists a rotation across
+    // the rod.
     for (plan::FingerContact& held : plan.initial) held.contact.p.x() = 0.1;
     const StepReplay hold = ShakeRod(rod, plan, 1e-3);
     EXPECT_TRUE(FailsForItsOwnReason(hold)) << plan::ReasonName(hold.reason) << " " << hold.detail;

@@ -1,6 +1,5 @@
-// What holds the object in the exported scene: fingers, by Coulomb's friction at points, and
-// nothing else. The scene is read as a user of MuJoCo reads it, and so are scenes that were
-// tampered with.
+// Only Coulomb friction at the fingers' point contacts holds the object in the exported scene. The
+// test loads the scene like a MuJoCo user, and also loads tampered scenes.
 
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
@@ -17,7 +16,7 @@
 namespace regrasp::sim {
 namespace scene_physics_test {
 
-/// Collects what is at fault in a scene.
+/// Collects the faults of a scene.
 class PhysicsAudit {
  public:
   explicit PhysicsAudit(const mjModel& model)
@@ -54,7 +53,7 @@ class PhysicsAudit {
     const int finger = mj_name2id(&m_, mjOBJ_GEOM, "finger0");
     Expect(m_.geom_friction[3 * g] == m_.geom_friction[3 * finger], "a geom has other friction");
     const bool of_object = m_.geom_bodyid[g] == object_;
-    // Fingers touch patches of the object: no finger another one, and nothing the world.
+    // Fingers touch patches of the object, but not each other. Nothing touches the world.
     Expect(of_object ? m_.geom_contype[g] == 0 : m_.geom_conaffinity[g] == 0,
            "something else touches than fingers and patches");
     Expect(m_.geom_bodyid[g] != 0, "something else touches than fingers and patches");
@@ -106,7 +105,7 @@ TEST(ScenePhysics, NorAPlanarOne) {
   EXPECT_EQ(FaultsOf(mjcf), std::set<std::string>());
 }
 
-/// A change of the scene, and what the audit says of it.
+/// Change of the scene, and the expected finding of the audit.
 struct Tampering {
   std::string what, from, to, fault;
 };
@@ -138,7 +137,7 @@ const std::vector<Tampering> kTamperings = {
 
 TEST(ScenePhysics, EveryTamperingIsSeenForWhatItIs) {
   std::string scene = CubeScene();
-  // The stored controls are as many as the actuators are.
+  // The number of stored controls equals the number of actuators.
   const std::string end = "</keyframe>";
   const std::size_t keyframe = scene.find("<keyframe>");
   scene.erase(keyframe, scene.find(end) + end.size() - keyframe);

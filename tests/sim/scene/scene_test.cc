@@ -28,7 +28,7 @@ TEST(SceneMjcfTest, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
   for (int i = 0; i < kSteps; ++i) mj_step(model.get(), data.get());
   const double moved = mju_norm3(data->qpos);
   EXPECT_LT(moved, 1e-3 * cube.object.diameter());
-  // Without the controls it falls.
+  // Without the controls the object falls.
   mj_resetDataKeyframe(model.get(), data.get(), 0);
   mju_zero(data->ctrl, model->nu);
   for (int i = 0; i < kSteps; ++i) mj_step(model.get(), data.get());
@@ -83,7 +83,7 @@ TEST(SceneTest, OnlyFingersThatTouchAreCounted) {
     return bits.size();
   };
   EXPECT_EQ(fingers_that_touch(), plan.initial.size());
-  // Finger after finger takes over the same place.
+  // One finger after the other takes over the same contact.
   FingerIndex last = plan.initial.front().finger;
   for (FingerIndex finger{33}; finger < 33 + 31 - static_cast<int>(plan.initial.size()); ++finger) {
     plan.steps.push_back(plan::Switch{{{finger, plan.initial.front().contact}}, {last}});
@@ -105,7 +105,7 @@ Scene CubeScene(const CubeCase& cube) {
                    0, {});
 }
 
-/// MJCF without what is said in it for people.
+/// Return the MJCF without comments.
 std::string WithoutComments(std::string mjcf) {
   for (std::size_t begin; (begin = mjcf.find("<!--")) != std::string::npos;) {
     mjcf.erase(begin, mjcf.find("-->", begin) + 3 - begin);
@@ -120,10 +120,10 @@ TEST(SceneMjcfTest, LeavesOutWhatLaterVersionsOfMujocoRenamed) {
   for (const char* renamed : {"mpr_", "ccd_", "njmax", "nconmax", "directional"}) {
     EXPECT_EQ(read.find(renamed), std::string::npos) << renamed;
   }
-  // Who wants the collision tolerance of the replay is told how to ask for it.
+  // A comment states how to set the collision tolerance of the replay.
   EXPECT_NE(mjcf.find("mpr_iterations=\"500\""), std::string::npos);
   EXPECT_EQ(mjcf.find("brace"), std::string::npos);
-  // The replay itself asks for it.
+  // The replay itself sets it.
   EXPECT_NE(WithoutComments(FormatScene(CubeScene(cube), cube.object, {}, false)).find("mpr_"),
             std::string::npos);
 }

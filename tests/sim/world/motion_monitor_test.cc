@@ -155,7 +155,7 @@ TEST(MotionMonitorTest, TheSmallestConeMarginOfEveryFingerThatPressesStays) {
   monitor.AddForce(FingerIndex(0), {0, 0, 5}, up);
   monitor.AddForce(FingerIndex(1), {0, 2, 2}, up);
   monitor.AddForce(FingerIndex(1), {0, 0, 2}, up);
-  monitor.AddForce(FingerIndex(2), {0, 0.004, 0.004}, up);  // hardly presses
+  monitor.AddForce(FingerIndex(2), {0, 0.004, 0.004}, up);  // small normal force
   ASSERT_EQ(monitor.margins().size(), 2u);
   EXPECT_NEAR(monitor.margins().at(FingerIndex(0)), std::atan(1.0), 1e-12);
   EXPECT_NEAR(monitor.margins().at(FingerIndex(1)), 0, 1e-12);
@@ -173,14 +173,14 @@ TEST(MotionMonitorTest, MarginsAreTheLeastOfAllForces) {
   FingerMargins expected;
   for (int i = 0; i < 1000; ++i) {
     const FingerIndex finger(i % 3);
-    // Swings that grow and fade, and in the end repeat nearly the same force.
+    // Oscillations that grow and fade, and finally repeat nearly the same force.
     const double slope = i < 900 ? 0.5 * std::sin(0.01 * i) * std::cos(0.37 * i) : 0.3 + 1e-15 * i;
     const double twist = finger == FingerIndex(2) ? 0.05 * std::abs(slope) : 0;
     const Eigen::Vector3d force = (2 + std::sin(i)) * (normal + slope * tangent);
     monitor.AddForce(finger, force, normal, twist);
     AddMargin(finger, ConeMargin(force, normal, std::atan(settings.mu), twist), expected);
   }
-  constexpr double kRoundings = 1e-15;  // radians: some of an angle
+  constexpr double kRoundings = 1e-15;  // rounding error of an angle, radians
   const FingerMargins margins = monitor.margins();
   ASSERT_EQ(margins.size(), expected.size());
   for (const auto& [finger, margin] : expected) EXPECT_NEAR(margins.at(finger), margin, kRoundings);

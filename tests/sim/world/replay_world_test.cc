@@ -13,7 +13,7 @@ namespace replay_world_test {
 
 using testing::HasSubstr;
 
-/// Drags a finger by a share of D.
+/// Drag a finger by a share of D.
 void Drag(ReplayWorld& world, int finger, double share, const Eigen::Vector3d& direction) {
   world.fingers()[finger].anchor_S += share * world.settings().diameter_m * direction;
   ComeToRest(world);
@@ -30,7 +30,7 @@ TEST(MonitorOfAReplay, SeesAFingerThatIsDraggedOverTheSurface) {
 }
 
 TEST(MonitorOfAReplay, SeesAFingerSlipThatHasSlidOnPurposeBefore) {
-  // Two opposite fingers, and one below that is not needed and slides.
+  // Two opposite fingers, and a redundant one below, which slides.
   const object::Polygon square = MakeSquare(0.03);
   const plan::FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
                                    OnEdge(square, 2, 0, 0.4)};
@@ -63,7 +63,7 @@ TEST(MonitorOfAReplay, SeesAtRestThatAFingerIsOffTheSurface) {
 }
 
 TEST(MonitorOfAReplay, SeesUnderAFixedPushThatAFingerIsOffTheSurface) {
-  // The square comes away from one of two opposite fingers, whose servos give way, and back again.
+  // The square moves away from one of two opposite fingers, whose servos yield, and back again.
   const object::Polygon square = MakeSquare(0.03);
   const plan::Plan plan =
       MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)}, 70);
@@ -80,7 +80,7 @@ TEST(MonitorOfAReplay, SeesUnderAFixedPushThatAFingerIsOffTheSurface) {
 }
 
 TEST(MonitorOfAReplay, SeesAfterAFixedPushThatAFingerIsOffTheSurface) {
-  // Only under the push does the cube come to a finger that is a little off it.
+  // Only under the disturbance force does the cube touch a finger that is slightly apart.
   HeldCube held;
   ReplayWorld& world = held.world;
   const double D = world.settings().diameter_m;
@@ -110,7 +110,7 @@ TEST(MonitorOfAReplay, WhatDoesNotComeToRestHasMovedHoweverFarItCame) {
   ReplayOptions options;
   options.tolerance = 1;
   HeldCube held(options);
-  // Nothing holds it any more: it falls all the time, by less than the tolerance.
+  // Without contact the cube falls continuously, by less than the tolerance.
   for (WorldFinger& finger : held.world.fingers()) {
     finger.force_S.setZero();
     finger.anchor_S -= 0.05 * held.world.settings().diameter_m * finger.contact.n;
@@ -123,8 +123,8 @@ TEST(MonitorOfAReplay, WhatDoesNotComeToRestHasMovedHoweverFarItCame) {
   EXPECT_THAT(monitor.detail(), HasSubstr("did not come to rest"));
 }
 
-/// Expects that the first step of a plan passes at a tolerance a little above what it moves and
-/// slips, and at a smaller one fails for what exceeds it.
+/// Expect that the first step of a plan passes at a tolerance slightly above its motion and slip.
+/// At a smaller tolerance it must fail for the quantity that exceeds it.
 void ExpectJudgedByTheTolerance(const object::Object& object, const plan::Plan& plan,
                                 AlignChoice align) {
   ReplayOptions options;

@@ -13,7 +13,7 @@
 namespace regrasp::sim {
 namespace stillness_test {
 
-/// Shares of the derived time step.
+/// Tested time steps, as shares of the derived time step.
 constexpr double kTimesteps[] = {1, 0.5, 0.125};
 
 ReplayOptions WithTimestep(double factor) {
@@ -22,9 +22,10 @@ ReplayOptions WithTimestep(double factor) {
   return options;
 }
 
-/// Two opposite fingers in the middle of the sides of the square. A push of ρ F asks for friction
-/// of ρ, a turn of ρ F R for ρ D / side = √2 ρ. With a little less than that the square turns until
-/// it is wedged between the fingers, by less than the tolerance where the shake is small.
+/// Replay two opposite fingers in the middle of the sides of the square.
+/// A force of ρ F requires a friction coefficient of ρ, and a torque of ρ F R requires ρ D / side =
+/// √2 ρ. With slightly less, the square rotates until it is wedged between the fingers. If the
+/// disturbance is small, this rotation is below the tolerance.
 plan::Reason Pinch(double friction, const ReplayOptions& options) {
   const object::Polygon square = MakeSquare(0.03);
   const plan::Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)},
@@ -71,7 +72,7 @@ TEST(Stillness, AShakeThatABodyThatNothingHoldsWouldStandIsRefused) {
   options.shake = 2 * LeastShake(1e-3);
   options.tolerance = 1e-3;
   EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, plan::Reason::kNone);
-  options.shake = 0;  // asks for none
+  options.shake = 0;  // requires no minimum
   EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, plan::Reason::kNone);
 }
 
@@ -94,7 +95,8 @@ TEST(Stillness, ASmallShakeTellsAPinchThatSlidesFromOneThatHolds) {
   EXPECT_EQ(Pinch(1.1 * needed, options), plan::Reason::kNone);
 }
 
-/// The largest push that a planar grasp resists in every direction of the shake, over the squeeze.
+/// Return the largest disturbance that a planar grasp resists in every direction of the test, over
+/// the grasp force.
 double LargestShake(const object::Polygon& polygon, const grasp::Grasp& grasp, double half_angle) {
   double least = 1;
   for (const Push& push : PushDirections(2)) {
@@ -105,8 +107,8 @@ double LargestShake(const object::Polygon& polygon, const grasp::Grasp& grasp, d
   return least;
 }
 
-/// A plan to hold a grasp of two or three that needs a little more squeeze than it has, at most
-/// `most` times as much, to resist the default shake.
+/// Draw a plan with a grasp of two or three fingers that slightly fails to resist the default
+/// disturbance. It requires at most `most` times its grasp force.
 plan::Plan DrawNearLimit(const object::Polygon& polygon, double most, std::mt19937& random) {
   std::uniform_real_distribution<double> degrees(5, 35);
   for (int draw = 0;; ++draw) {
@@ -136,7 +138,7 @@ TEST(Stillness, PlanarGraspsThatNeedALittleMoreSqueezeFailAndPassWithLessShake) 
   }
 }
 
-/// Replays a grasp at a share of the friction that it needs, with every time step.
+/// Replay a grasp at a share of its required friction, with every time step.
 void ExpectFailsAtEveryTimeStep(const object::Polyhedron& body, const plan::FingerGrasp& grasp,
                                 double friction) {
   const plan::Plan plan = MakePlan(grasp, Degrees(std::atan(friction)), 4);
@@ -187,7 +189,7 @@ TEST(Stillness, AHeldBodyIsStillAndStaysSo) {
 TEST(Stillness, AFingerThatMovesIsWaitedForThoughTheBodyIsStill) {
   HeldCube held;
   ReplayWorld& world = held.world;
-  // One more that counts as holding, far from the cube.
+  // Additional finger that counts as holding, far from the cube.
   const FingerIndex apart{4};
   world.fingers()[apart].holding = true;
   world.StartMonitoring();
