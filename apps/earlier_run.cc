@@ -133,7 +133,7 @@ void ExpectFree(const HeldFolder& folder, const std::set<std::string>& own,
     if (there != fs::file_type::directory && own.contains(name)) continue;
     throw InputError(path.string() +
                      ": is in the way of a result, and no earlier run wrote it: move it away, or "
-                     "give another --out");
+                     "give another --output");
   }
 }
 

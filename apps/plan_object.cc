@@ -55,7 +55,7 @@ void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object,
                      std::to_string(object.object->dimension()));
   }
   if (!IsFor(plan, object) && !given.allow_object_change) {
-    throw InputError(WrongObject(plan, object, given) + " (--allow-object-change accepts it)");
+    throw InputError(WrongObject(plan, object, given) + " (--allow object-change permits it)");
   }
   if (given.scale && *given.scale != plan.scale) {
     throw InputError("--scale " + FormatDouble(*given.scale) + ": the plan's scale is " +

@@ -76,7 +76,7 @@ void ExpectTorsion(const plan::JsonReader& settings, double torsion) {
   if (found == torsion) return;
   settings.Fail("the report is about a torsion of " + FormatShort(found) +
                 ", which is not that of the plan or of --torsion, " + FormatShort(torsion) +
-                "; give --contact and --torsion where the report was made with them");
+                "; give --torsion if the report was made with them");
 }
 
 std::string Summary(const std::vector<plan::StepCheck>& checks, std::size_t proved,

@@ -46,7 +46,7 @@ std::string MendFriction(const ReportStep& step, const Report& report) {
 std::string MendReplay(const ReportStep& step, const Report& report) {
   if (report.settings && report.settings->hand) {
     return "a plan with more to spare (plan at less friction than is checked, --min-quality 0.05 "
-           "or more), moves in which tips roll less, or a larger --tolerance-mm, --tolerance-deg";
+           "or more), moves in which tips roll less, or a larger --tolerance in mm, deg";
   }
   const bool shaken = report.settings && report.settings->shake > 0;
   switch (step.disagreement ? step.disagreement->cause : Cause::kUnknown) {
@@ -54,11 +54,11 @@ std::string MendReplay(const ReportStep& step, const Report& report) {
     case Cause::kNoClearance:
       return "contacts farther from concave corners, or thinner fingers (--finger-radius)";
     case Cause::kWeight:
-      return "a larger --squeeze, a lighter object (--mass, --density), or more friction "
+      return "a larger --grasp-force, a lighter object (--mass, --density), or more friction "
              "(--friction-angle)";
     case Cause::kQuality:
-      return "a plan of better grasps (plan --min-quality above the --shake), more friction "
-             "(--friction-angle), or a smaller --shake";
+      return "a plan of better grasps (plan --min-quality above the --disturbance), more friction "
+             "(--friction-angle), or a smaller --disturbance";
     case Cause::kEdge:
       return "contacts farther from the borders of their faces";
     case Cause::kConeReached:
@@ -66,8 +66,9 @@ std::string MendReplay(const ReportStep& step, const Report& report) {
              "margin)";
     default:
       return std::string("more friction (--friction-angle)") +
-             (shaken ? ", a smaller --shake" : "") +
-             " or a larger --tolerance; --stress shows in which direction the grasp is weak";
+             (shaken ? ", a smaller --disturbance" : "") +
+             " or a larger --tolerance; --disturbance limits shows in which direction the grasp is "
+             "weak";
   }
 }
 
@@ -119,13 +120,13 @@ std::string MendOf(const ReportStep& step, const Report& report) {
       return MendFriction(step, report);
     case Reason::kNotProved:
       return "a little more friction (--friction-angle" + DegreesAsked(step, report) +
-             "), waypoints in between, or --allow-undecided where the pieces without a proof are "
+             "), waypoints in between, or --allow undecided where the pieces without a proof are "
              "few";
     case Reason::kUnreachable:
       return MendReach(step.fault());
     case Reason::kOffPoint:
-      return "contacts at points that the object's file gives, joined by switches (plan --contacts "
-             "given)";
+      return "contacts at points that the object's file gives, joined by switches (plan --planner "
+             "points=given)";
     case Reason::kHandJumps:
       return "a path in every step whose first state is the last one before it, with all joints of "
              "the hand";
@@ -137,20 +138,22 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kHandCollides:
       return MendCollision(step.fault());
     case Reason::kTorqueLimit:
-      return "a smaller --squeeze, a lighter object (--mass), or postures in which the finger has "
+      return "a smaller --grasp-force, a lighter object (--mass), or postures in which the finger "
+             "has "
              "more strength";
     case Reason::kCouplingViolated:
       return step.fault().hand
                  ? "joint angles that keep the couplings of the hand's model; plan again with a "
                    "hand file that hand --model writes"
                  : "a model whose coupling is as hard as that of the real hand (solref and solimp "
-                   "of its equality), a smaller --squeeze, or a plan whose states keep the "
+                   "of its equality), a smaller --grasp-force, or a plan whose states keep the "
                    "coupling";
     case Reason::kTipPenetrates:
       return "a fingertip sphere that the model's geometry is inside (hand --model fits one), or a "
              "plan with a larger margin";
     case Reason::kSimulationUnstable:
-      return "another --squeeze or --mass, a smaller --shake, or the right --scale where the "
+      return "another --grasp-force or --mass, a smaller --disturbance, or the right --scale where "
+             "the "
              "object is of no usual size";
     case Reason::kContactLost:
     case Reason::kSlipped:
@@ -171,7 +174,7 @@ std::string MendOf(const ReportStep& step, const Report& report) {
 std::string HandToleranceText(const sim::HandTolerance& tolerance) {
   return "the object may be " + FormatLength(tolerance.length_m) + " and " +
          FormatDegrees(Degrees(tolerance.angle_rad)) +
-         " from where the plan has it (--tolerance-mm, --tolerance-deg), at rest half of that; a "
+         " from where the plan has it (--tolerance in mm, deg), at rest half of that; a "
          "tip that holds may slip by " +
          FormatLength(tolerance.slip_m);
 }

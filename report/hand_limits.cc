@@ -72,9 +72,10 @@ void AddHandWarnings(const Report& report, std::vector<std::string>& warnings) {
                        TorqueText(torque) + " N·m");
   }
   if (covered > kMentionedDepth) {
-    warnings.push_back("the collision geometry of a fingertip is up to " + FormatLength(covered) +
-                       " inside the object at rest, where its sphere touches; help: validate with "
-                       "--tip geometry");
+    warnings.push_back(
+        "the collision geometry of a fingertip is up to " + FormatLength(covered) +
+        " inside the object in static grasps, where its sphere touches; help: validate with "
+        "--replay tip=geometry");
   }
 }
 

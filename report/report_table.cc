@@ -29,7 +29,7 @@ std::string SqueezeText(const sim::ReplaySettings& settings) {
              (settings.shake >= sim::kLeastShakeForSqueeze ? "is only a tenth of the shake"
                                                            : "hardly counts") +
              ", as verdicts depend on forces over the squeeze alone; no hand presses like that "
-             "(--squeeze realistic does as hands do)";
+             "(--grasp-force realistic does as hands do)";
     case sim::SqueezeSource::kHand:
       if (settings.squeeze_N >= sim::kStrongestGrip_N) {
         return squeeze + ": the most that a hand applies, less than it would take here";
@@ -41,7 +41,7 @@ std::string SqueezeText(const sim::ReplaySettings& settings) {
              ": what the torques of the hand's actuators allow, at most twelve weights, six if a "
              "force limit is unknown, or 4 N";
     case sim::SqueezeSource::kGiven:
-      return squeeze + ": as --squeeze says";
+      return squeeze + ": as --grasp-force says";
   }
   return squeeze;
 }
@@ -133,7 +133,7 @@ std::string TrialsRequiredText(const sim::TrialSummary& summary) {
   const auto [share, required] =
       FormatWithLimit(100 * summary.share(), 100 * summary.options.min_pass_rate, kPercentDigits);
   return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
-         " trials pass (" + share + " %), and --min-pass-rate requires " + required + " %";
+         " trials pass (" + share + " %), and --trials min-pass-rate requires " + required + " %";
 }
 
 std::string TrialsShareText(const sim::TrialSummary& summary) {

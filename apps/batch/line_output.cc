@@ -115,7 +115,7 @@ void LinesOutput::TakePart(bool fresh) {
   if (!ours || (!fresh && !begins)) {
     throw InputError(part_.string() + ": line 1: " +
                      (ours ? "is the part of a run with other input, other options or another "
-                             "build, which was stopped; --fresh throws it away"
+                             "build, which was stopped; --restart discards it"
                            : "is in the way, and no run of this program has left it") +
                      "; or give another output");
   }

@@ -37,11 +37,12 @@ Judgement JudgeSurface(const object::PolygonSoup& soup, const object::Reading& a
 Judgement JudgeParts(const std::vector<double>& volume_shares,
                      const object::RepairOptions& options) {
   if (options.part || volume_shares.size() < 2 || volume_shares[1] <= kSmallPart) return {};
-  return {Shortfall::kNotChosen,
-          std::to_string(volume_shares.size()) + " solids beside each other, with " +
-              object::SharesText(volume_shares) +
-              " of the volume; --part K takes one (1: the largest), --shells union all as one "
-              "body"};
+  return {
+      Shortfall::kNotChosen,
+      std::to_string(volume_shares.size()) + " solids beside each other, with " +
+          object::SharesText(volume_shares) +
+          " of the volume; --repair part=K takes one (1: the largest), --shells union all as one "
+          "body"};
 }
 
 Judgement JudgeShape(const Comparison& comparison, const Original& original,
@@ -52,7 +53,7 @@ Judgement JudgeShape(const Comparison& comparison, const Original& original,
             "the solid is too far from its surface: 95 % of what is seen from outside lies "
             "within " +
                 PercentOf(deviation) + " of the diameter, " + PercentOf(options.max_deviation) +
-                " are allowed (--max-deviation)",
+                " are allowed (--repair max-deviation)",
             deviation};
   }
   if (options.thickness) return {};
@@ -61,12 +62,12 @@ Judgement JudgeShape(const Comparison& comparison, const Original& original,
             "the surface is not all there: " + PercentOf(comparison.invented_share) +
                 " of the solid's would be invented, " + PercentOf(kMostInvented) +
                 " at most are taken; scan the other sides too, or give an open sheet a wall "
-                "(--solidify THICKNESS)"};
+                "(--repair wall=T)"};
   }
   if (original.open && comparison.thin_share > kMostThin) {
     return {Shortfall::kSheet, "it is an open sheet: " + PercentOf(comparison.thin_share) +
                                    " of the solid would be thinner than " + PercentOf(kThinWall) +
-                                   " of the diameter; give it a wall (--solidify THICKNESS)"};
+                                   " of the diameter; give it a wall (--repair wall=T)"};
   }
   return {};
 }

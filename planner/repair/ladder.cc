@@ -135,7 +135,7 @@ class Ladder {
       last().shortfall = Shortfall::kSheet;
       last().outcome = "it is an open sheet: a wrap enters it, and leaves " +
                        FormatShort(100 * left, 3) +
-                       " % of the volume of a coarser one; give it a wall (--solidify THICKNESS)";
+                       " % of the volume of a coarser one; give it a wall (--repair wall=T)";
       return false;
     }
     return IsCloseEnough(*std::move(made));
@@ -198,7 +198,7 @@ class Ladder {
     const auto coarse = Run("simplify", [&] { return Simplify(fine, *options_.facets); });
     if (!coarse) return false;
     if (Accepts(*coarse, &fine)) return true;
-    last().outcome += "; with a larger --faces it may come out";
+    last().outcome += "; with a larger --repair max-triangles it may come out";
     return false;
   }
 

@@ -105,7 +105,7 @@ std::vector<grasp::Contact> GivenContacts(const object::Polyhedron& solid,
                   std::to_string(found.size()) + " take a finger, at least " +
                   std::to_string(least) +
                   " are needed: the others are no points of the surface, "
-                  "on edges or rough places of it (--roughness), or invented"};
+                  "on edges or rough places of it (--patch roughness), or invented"};
   }
   return EliminateSamples(found, most, SurfaceSampler(solid).measure());
 }

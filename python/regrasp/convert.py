@@ -49,31 +49,31 @@ def parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="regrasp-convert", description="Converts grasps and plans between formats, and says what "
         "it could not carry over.", epilog=_EPILOG)
-    parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format; of .csv and "
-                        "for .mcap one")
-    parser.add_argument("--output", required=True, metavar="FILE", help=".yaml, .npz, .json or .mcap")
-    parser.add_argument("--hand", metavar="FILE", help="hand file; for .json and .npz; for .mcap also "
-                        "the fingertips")
-    parser.add_argument("--palm", metavar="X,Y,Z[,QW,QX,QY,QZ]", help="the palm's frame in that of the "
-                        "body whose poses the files give, metres and a quaternion, --palm=-1,2,3 where "
-                        "it begins with a minus (default: they are the palm's own)")
-    parser.add_argument("--object", metavar="FILE", help="object file; for .npz and of .csv")
-    parser.add_argument("--object-pose", metavar="X,Y,Z,QW,QX,QY,QZ", help="the object's pose in the "
-                        "world of a dictionary (.npy, .npz), instead of the file's or if it has none")
-    parser.add_argument("--scale", type=float, metavar="METRES_PER_UNIT", help="of the object file "
-                        "(default: the scale in the file of the grasps, 1 if it has none)")
-    parser.add_argument("--tolerance-mm", type=float, default=2, metavar="MM", help="a fingertip "
-                        "touches that is no farther from the surface, or deeper in it; so far a contact "
-                        "of .csv may be off it (default 2)")
-    parser.add_argument("--fingers", metavar="NAME,...", help="those whose contacts are "
-                        "written, and which must all touch (default: all fingers, where they touch)")
-    parser.add_argument("--frame", choices=["object", "world"], help="that contacts of .csv are in, "
-                        "where all fingers touch all the time and so the file does not tell")
-    parser.add_argument("--mesh-scale", type=float, default=1, metavar="X", help="by which HiDex scales "
-                        "the object's file, scale in its setup.yaml; of .csv (default 1)")
-    parser.add_argument("--mu", type=float, metavar="X", help="friction coefficient; of .csv to .json")
-    parser.add_argument("--version", action="version", version=f"regrasp-convert {version}",
-                        help="print the version and exit")
+    parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format, a single one for "
+                        ".csv and .mcap")
+    parser.add_argument("-o", "--output", required=True, metavar="FILE", help="output file, .yaml, .npz, .json "
+                        "or .mcap")
+    parser.add_argument("--hand", metavar="FILE", help="hand file. Required for .json and .npz; adds fingertips "
+                        "to .mcap")
+    parser.add_argument("--palm", metavar="X,Y,Z[,QW,QX,QY,QZ]", help="pose of the palm frame in the body whose "
+                        "poses the files contain. Metres and unit quaternion; --palm=-1,2,3 if it starts with a "
+                        "minus [default: identity]")
+    parser.add_argument("--object", metavar="FILE", help="object file. Required for .npz and from .csv")
+    parser.add_argument("--object-pose", metavar="X,Y,Z,QW,QX,QY,QZ", help="pose of the object in the world of a "
+                        "dictionary (.npy, .npz). Replaces the pose in the file")
+    parser.add_argument("--scale", type=float, metavar="METRES_PER_UNIT", help="metres per length unit of the "
+                        "object file [default: that of the grasps, otherwise 1]")
+    parser.add_argument("--tolerance-mm", type=float, default=2, metavar="MM", help="largest distance of a contact "
+                        "from the surface in mm [default: 2]")
+    parser.add_argument("--fingers", metavar="NAME,...", help="fingers whose contacts are written and must all "
+                        "touch [default: all that touch]")
+    parser.add_argument("--frame", choices=["object", "world"], help="frame of the contacts in .csv. Required if "
+                        "all fingers touch throughout")
+    parser.add_argument("--mesh-scale", type=float, default=1, metavar="X", help="scale of the object in the "
+                        "setup.yaml of HiDex, for .csv [default: 1]")
+    parser.add_argument("--mu", type=float, metavar="X", help="friction coefficient, from .csv to .json")
+    parser.add_argument("-V", "--version", action="version", version=f"regrasp-convert {version}",
+                        help="print the version")
     parser.add_argument("--help-as", action=_HelpAs, metavar="FORMAT", help=argparse.SUPPRESS)
     return parser
 

@@ -135,7 +135,7 @@ void CheckShake(const ReplaySettings& settings) {
   const double least = LeastShake(settings.tolerance);
   if (settings.shake == 0 || settings.shake > least) return;
   throw InputError("replay: a body that nothing holds would stand a shake of " +
-                   FormatShort(settings.shake) + " (--shake) with a tolerance of " +
+                   FormatShort(settings.shake) + " (--disturbance) with a tolerance of " +
                    FormatShort(settings.tolerance) +
                    " (--tolerance); the shake has to be larger than " + FormatShort(least));
 }

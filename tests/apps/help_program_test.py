@@ -1,4 +1,4 @@
-"""What all programs say of their options: --help, manual page, completions, and mistyped ones."""
+"""Options of all programs: help texts, manual page, completions, lists, old names and mistyped ones."""
 
 import os
 import re
@@ -11,25 +11,31 @@ from program_case import ProgramCase
 
 PROGRAMS = ("plan", "validate", "graph", "figure", "repair", "merge", "hand")
 
-# Of what shells show beside an option, on a terminal of 100 columns.
+# Longest summary of an option in a shell with 100 columns, and longest line of -h.
 SUMMARY_LENGTH = 72
+SHORT_LINE = 120
+
+
+# Most options that `validate --help` lists, and that all programs have together.
+MOST_OF_VALIDATE, MOST_OF_ALL = 45, 130
 
 
 def options_in(text):
-    """The options that --help lists: each begins a line, indented by two."""
-    return re.findall(r"^  (--[a-z-]+)", text, re.MULTILINE)
+    """The options that a help text lists: each starts a line, indented by two."""
+    text = re.sub(r"Usage:\n(?:  .*\n)+", "", text)
+    return re.findall(r"^  (?:-[a-zA-Z], )?(--[a-z-]+)", text, re.MULTILINE)
 
 
 def is_first_clause(summary, text):
     """All of the text up to a stop."""
     rest = text.removeprefix(summary)
     return rest != text and (not rest or rest == " (required)" or
-                             re.match(r"[;:.] | \(default", rest) is not None)
+                             re.match(r"[;:.](?: |$)| \[default", rest) is not None)
 
 
 class Help(ProgramCase):
-    def help(self, program, **environment):
-        return self.assert_done("--help", program=program,
+    def help(self, program, level="--help-all", **environment):
+        return self.assert_done(level, program=program,
                                 environment={"COLUMNS": None, **environment}).stdout
 
     def help_as(self, kind, program):
@@ -50,22 +56,61 @@ class Help(ProgramCase):
             text = texts[80]
             self.assertEqual(text.split("Examples:\n")[1].count("  " + program + " --"), 2)
 
-    def test_the_documents_list_every_option_as_help_does_and_no_other(self):
+    def pages(self):
+        """The sections of docs/options.md by their titles."""
         path = os.path.join(program_case.ARGUMENTS.source, "docs", "options.md")
         with open(path, encoding="utf-8") as file:
-            pages = dict(re.findall(r"^## (\S+)\n(.*?)(?=^## |\Z)", file.read(), re.DOTALL | re.M))
+            return dict(re.findall(r"^## (\S+)\n(.*?)(?=^## |\Z)", file.read(), re.DOTALL | re.M))
+
+    def test_the_documents_list_every_option_as_help_does_and_no_other(self):
+        pages = self.pages()
         # regrasp-convert is in Python, and tests/python has its test.
-        self.assertEqual(sorted(pages), sorted([*PROGRAMS, "regrasp-convert"]))
+        self.assertEqual(sorted(pages), sorted(["General", *PROGRAMS, "regrasp-convert"]))
+        listed_in = r"^- `(?:-[a-zA-Z], )?(--[a-z-]+)"
+        general = re.findall(listed_in, pages["General"], re.M)
         for program in PROGRAMS:
             page = pages[program]
-            listed = re.findall(r"^- `(--[a-z-]+)", page, re.M)
-            self.assertEqual(listed, options_in(self.help(program)))
+            listed = re.findall(listed_in, page, re.M)
+            help_text = self.help(program)
+            self.assertEqual(sorted([*listed, *general]), sorted(options_in(help_text)))
             made = self.help_as("markdown", program)
             self.assertEqual(f"## {program}\n{page}".rstrip(), made.rstrip(),
                              "docs/options.md is out of date: docs/developing.md says how it is made")
-            # Negative controls: one that is left out, and one that is no more.
-            self.assertNotEqual(listed[1:], options_in(self.help(program)))
-            self.assertNotEqual(["--gone", *listed], options_in(self.help(program)))
+            # Negative controls: a missing option, and one that does not exist.
+            self.assertNotEqual(sorted([*listed[1:], *general]), sorted(options_in(help_text)))
+            self.assertNotIn("--gone", options_in(help_text))
+
+    def test_there_are_few_options(self):
+        usual = options_in(self.help("validate", "--help"))
+        self.assertLessEqual(len(usual), MOST_OF_VALIDATE)
+        self.assertGreater(len(options_in(self.help("validate"))), len(usual))
+        listed = [option for page in self.pages().values()
+                  for option in re.findall(r"^- `", page, re.M)]
+        self.assertLessEqual(len(listed), MOST_OF_ALL)
+
+    def test_the_short_help_has_one_line_per_option(self):
+        for program in PROGRAMS:
+            text = self.help(program, "-h")
+            self.assertEqual(options_in(text), options_in(self.help(program, "--help")))
+            self.assertNotIn("Examples:", text)
+            lines = text.split("\n\n", 2)[2].splitlines()
+            names = [line for line in lines if re.match("  -", line)]
+            self.assertEqual(len(names), len(options_in(text)))
+            for line in lines:
+                self.assertTrue(not line or re.match(r"  -|[A-Z]|--help-all also|options", line),
+                                line)
+                self.assertLessEqual(len(line), SHORT_LINE, line)
+
+    def test_short_names_are_those_of_long_ones(self):
+        self.assertEqual(self.assert_done("-V", program="plan").stdout,
+                         self.assert_done("--version", program="plan").stdout)
+        ends = ["--object", self.model("cube.obj"), "--start", "random", "--goal", "random", "--mu",
+                "0.5", "-o", "plan.json"]
+        self.assertEqual(self.assert_done("-q", *ends, program="plan").stderr, "")
+        self.assertTrue(os.path.exists(self.path("plan.json")))
+        for jobs in (["-j", "2"], ["-j2"]):
+            self.assert_refused(2, "--jobs requires --batch or --hand", *ends, *jobs, program="plan")
+        self.assert_refused(2, "unknown option -x (", *ends, "-x", program="plan")
 
     def test_a_mistyped_option_is_told_before_a_missing_one(self):
         for self.program in PROGRAMS:
@@ -73,7 +118,7 @@ class Help(ProgramCase):
             wrong = right[:-2] + right[-1]
             for typed, words in ((wrong, [wrong, "x"]), (wrong, [wrong + "=x"]),
                                  (right[1:], [right[1:], "x"])):
-                self.assert_refused(2, f"unknown option {typed}; did you mean {right}? (", *words)
+                self.assert_refused(2, f"unknown option {typed}; similar: {right} (", *words)
             self.assert_refused(2, "unknown option --frobnicate (", "--frobnicate")
             # The right one is asked for where it is missing, and not complained of.
             self.assert_refused(2, f"{right} is required ({self.program} --help lists all)")
@@ -82,34 +127,146 @@ class Help(ProgramCase):
         ends = ["--start", "random", "--goal", "random", "--output", "plan.json", "--mu", "0.3",
                 "--object", self.model("cube.obj")]
         for program, words, more in (
-                ("plan", "did you mean uniform?", ["--spanning", "unifrom", *ends]),
-                ("plan", "did you mean margin?", ["--optimize", "marign", *ends]),
-                ("plan", "did you mean roadmap?", ["--planner", "raodmap", *ends]),
-                ("plan", "did you mean random?", [*ends[2:], "--start", "randm"]),
-                ("graph", "did you mean adaptive?", ["--spanning", "adaptiv", *ends[6:]]),
-                ("figure", "did you mean svg?",
-                 ["--format", "sgv", "--plan", "plan.json", "--out", "figures", *ends[8:]]),
-                ("validate", "did you mean slide?",
-                 ["--align", "slid", "--plan", "plan.json", *ends[8:]])):
+                ("plan", "similar: uniform", ["--planner", "spanning=unifrom", *ends]),
+                ("plan", "similar: margin", ["--optimize", "marign", *ends]),
+                ("plan", "similar: roadmap", ["--planner", "raodmap", *ends]),
+                ("plan", "similar: random", [*ends[2:], "--start", "randm"]),
+                ("graph", "similar: adaptive", ["--planner", "spanning=adaptiv", *ends[6:]]),
+                ("figure", "similar: svg",
+                 ["--format", "sgv", "--plan", "plan.json", "--output", "figures", *ends[8:]]),
+                ("validate", "similar: slide",
+                 ["--replay", "align=slid", "--plan", "plan.json", *ends[8:]])):
             self.program = program
             self.assert_refused(2, words, *more)
 
-    def test_words_without_quotes_are_told_with_them(self):
+    def test_words_instead_of_a_list_are_told_with_it(self):
         hand = ["--hand", "no.json", "--object", "no.obj", "--mu", "0.8", "--output", "plan.json"]
-        for typed, right in ((["--turn", "z", "90"], '--turn "z 90"'),
+        for typed, right in ((["--turn", "z", "90"], "--turn z,90"),
                              (["--goal-pose", "0", "0", "-0.1", "1", "0", "0", "0"],
-                              '--goal-pose "0 0 -0.1 1 0 0 0"')):
+                              "--goal-pose 0,0,-0.1,1,0,0,0")):
             self.program = "plan"
-            self.assert_refused(2, f"{typed[0]}: its words are one argument, in quotes: {right}",
-                                *hand[:2], *typed, *hand[2:])
-            # In quotes they are taken: what is wrong then is the file.
-            self.assert_refused(2, "no.json: no such file", *hand, typed[0], " ".join(typed[1:]))
+            self.assert_refused(2, f"{typed[0]}: expected one list with commas, found "
+                                f"{len(typed) - 1} words; help: {right}", *hand[:2], *typed, *hand[2:])
+            # With commas, and with spaces in quotes, it is accepted: the file is not found.
+            for separator in ",", " ":
+                self.assert_refused(2, "no.json: no such file", *hand, typed[0],
+                                    separator.join(typed[1:]))
+
+    def test_settings_of_lists_are_checked(self):
+        """The message starts with the option's name and states the error in its list."""
+        rest = ["--object", "no.obj", "--mu", "0.3"]
+        plan = [*rest, "--start", "random", "--goal", "random", "--output", "plan.json"]
+        validate = [*rest, "--plan", "no.json"]
+        for self.program, more, option, value, words in (
+                ("plan", plan, "--planner", "roadmap,cluster=9", ': unknown setting "cluster", expected '
+                 "one of spanning=, points=, clusters=, fallback=, budget=; similar: clusters="),
+                ("plan", plan, "--planner", "roadmap,clusters=9,clusters=9", " clusters: found twice"),
+                ("plan", plan, "--planner", "roadmap,general", ': expected one of spanning='),
+                ("plan", plan, "--planner", "roadmap,", ': expected one of spanning='),
+                ("plan", plan, "--repair", "part=0", " part: expected an integer from 1"),
+                ("plan", plan, "--allow", "fill", ': expected one of filled, large-graph, found "fill"; '
+                 "similar: filled"),
+                ("validate", validate, "--view", "30", ': expected AZIMUTH,ELEVATION, as in 30,20'),
+                ("validate", validate, "--view", "30,20,10", ': expected one of orthographic, zoom='),
+                ("validate", validate, "--tolerance", "2cm", ": expected a number, or one with the unit"),
+                ("validate", validate, "--tolerance", "2mm,3mm", ": found two tolerances of one kind"),
+                ("validate", validate, "--replay", "points,hand", ": found points and hand"),
+                ("validate", validate, "--trials", "min-pass-rate=1", ": the number of trials is required"),
+                ("figure", ["--object", "no.obj", "--plan", "no.json", "-o", "out"], "--size", "85",
+                 ': expected one of width=, sheet=, font=, found "85"')):
+            self.assert_refused(2, f"error: {option}{words}", *more, option, value)
+            # Negative control: the rest of the command line is right.
+            self.assert_refused(2, ("no.obj", "no.json")[self.program != "plan"], *more)
+
+    def old_names(self):
+        """The renamed options in apps/renamed_options.cc: programs, old and new name, new value."""
+        path = os.path.join(program_case.ARGUMENTS.source, "apps", "renamed_options.cc")
+        with open(path, encoding="utf-8") as file:
+            table = file.read()
+        named = {name: value for name, value in re.findall(r'char (k\w+)\[\] = "([^"]*)"', table)}
+        rows = re.findall(r'^    \{(\w+|"[^"]*"), "(--[^"]+)", "(--[^"]+)", "([^"]*)"\},$', table, re.M)
+        return [(program, old, new, value) for programs, old, new, value in rows
+                for program in named.get(programs, programs.strip('"')).split()]
+
+    def test_every_old_name_is_accepted_unlisted(self):
+        """A command with an old name and one with the new name end with the same error, of a file
+        that does not exist."""
+        usual = {"plan": ["--object", "no.obj", "--mu", "0.3", "--start", "random", "--goal", "random",
+                          "--output", "plan.json"],
+                 "graph": ["--object", "no.obj", "--mu", "0.3"],
+                 "validate": ["--object", "no.obj", "--plan", "no.json"],
+                 "figure": ["--object", "no.obj", "--plan", "no.json", "--output", "out"],
+                 "repair": ["--object", "no.obj", "--output", "out.obj"],
+                 "merge": ["--shards", "no.jsonl", "--output", "out.jsonl"]}
+        # Other required options, and values other than 5.
+        states = ["--object", "no.obj", "--mu", "0.3", "--hand", "no.json", "--export-states", "2"]
+        grasps = ["--object", "no.obj", "--mu", "0.3", "--grasps", "no.npz"]
+        by_hand = [*usual["validate"], "--hand", "no.json"]
+        other = {"--required-angle": grasps, "--quality": grasps, "--min-quality": states,
+                 "--feedback": by_hand, "--tip": by_hand, "--tolerance-mm": by_hand,
+                 "--tolerance-deg": by_hand, "--joint-noise": [*by_hand, "--trials", "2"],
+                 "--reserve": [*usual["plan"][:4], "--output", "plan.json", "--hand", "no.json",
+                               "--turn", "z,90"],
+                 "--animate-size": [*usual["validate"], "--animate"]}
+        values = {"--spanning": "uniform", "--align": "slide", "--feedback": "none",
+                  "--tip": "geometry", "--animate-size": "64x64", "--reserve": "none",
+                  "--out": "out", "--min-pass-rate": "0.5", "--min-quality": "0.5",
+                  "--sheet-width": "500", "--width": "85"}
+        for name in ("--position-noise", "--friction-error", "--mass-error"):
+            other[name], values[name] = [*usual["validate"], "--trials", "2"], "0.5"
+        other["--min-pass-rate"] = [*usual["validate"], "--trials", "2"]
+        flags = ("--fresh",)
+        rows = self.old_names()
+        self.assertGreater(len(rows), 50)
+        for program, old, new, item in rows:
+            rest = other.get(old, usual[program])
+            if old == "--out":
+                rest = [word for word in rest if word not in ("--output", "out")]
+            if old == "--fresh" and program != "merge":
+                rest = {"plan": [*rest, "--batch", "no.jsonl"],
+                        "validate": [*rest, "no_2.json"]}[program]
+            if old == "--compare":
+                rest = [*rest, "--sampling", "9"]
+            if old == "--queries":
+                rest = [*rest, "--planner", "clusters=9"]
+            if (program, old) == ("graph", "--no-lazy"):
+                rest = [*rest, "--planner", "queries=9"]
+            value = values.get(old, "5")
+            took = [value] if "*" in item or (not item and old not in flags) else []
+            now = [new, item.replace("*", value)] if item else [new, *took]
+            with self.subTest(program=program, old=old):
+                expected = self.run_program(*rest, *now, program=program)
+                self.assertEqual(expected.returncode, 2, expected.stderr)
+                self.assertRegex(expected.stderr, r"\bno(_2)?\.(obj|json|jsonl|npz)")
+                self.assertNotIn("unknown", expected.stderr)
+                for words in ([old, *took], *([[f"{old}={value}"]] if took else [])):
+                    done = self.run_program(*rest, *words, program=program)
+                    self.assertEqual((done.returncode, done.stderr), (2, expected.stderr))
+                listed = options_in(self.help(program))
+                self.assertIn(new, listed)
+                self.assertNotIn(old, listed)
+
+    def test_an_old_name_is_noted_once_it_has_worked(self):
+        words = ["--object", self.model("cube.obj"), "--start", "random", "--goal", "random", "--mu",
+                 "0.5", "--output", "plan.json"]
+        self.program = "plan"
+        notes = [line for line in self.assert_done(*words, "--planner", "roadmap", "--contacts", "20",
+                                                   "--contact", "hard").stderr.splitlines()
+                 if "note:" in line]
+        self.assertEqual(notes, ["plan: note: --contacts 20 is now --planner points=20",
+                                 "plan: note: --contact hard is now --torsion 0"])
+        first = self.read("plan.json")
+        now = ["--planner", "roadmap,points=20", "--torsion", "0"]
+        self.assertNotIn("note:", self.assert_done(*words, *now).stderr)
+        self.assertEqual(self.read("plan.json"), first)
+        self.assertEqual(self.assert_done(*words, "--planner", "roadmap", "--contacts", "20",
+                                          "--quiet").stderr, "")
 
     def test_a_missing_value_is_told_and_not_taken_from_the_next_option(self):
         rest = ["--object", "no.obj", "--mu", "0.3", "--output", "plan.json"]
         self.program = "plan"
         for words in (["--start", *rest], [*rest, "--start"]):
-            self.assert_refused(2, "--start: its value is missing: --start FILE|random", *words)
+            self.assert_refused(2, "--start: a value is required: --start FILE|random", *words)
         # What only begins like an option is a value.
         self.assert_refused(2, "found \"-1\"", *rest[:2], "--mu", "-1", *rest[4:])
 
@@ -127,7 +284,7 @@ class Help(ProgramCase):
         """What --help says of each option, in one line."""
         texts, option = {}, None
         for line in self.help(program, COLUMNS="120").split("Examples:")[0].splitlines():
-            head = re.match(r"""  (--[a-z-]+)(?: "[^"]*"| \S+)?(?:  +(.*))?$""", line)
+            head = re.match(r"""  (?:-[a-zA-Z], )?(--[a-z-]+)(?: \S+)?(?:  +(.*))?$""", line)
             if head:
                 option = head[1]
                 texts[option] = head[2] or ""
@@ -173,8 +330,8 @@ class Help(ProgramCase):
             self.assertEqual(done.stderr, "")
             return done.stdout.split()
         self.write("some plan.json", "")
-        self.assertEqual(complete("plan", "--spann"), ["--spanning"])
-        self.assertEqual(complete("plan", "--spanning", "u"), ["uniform"])
+        self.assertEqual(complete("plan", "--optim"), ["--optimize"])
+        self.assertEqual(complete("plan", "--optimize", "m"), ["margin"])
         self.assertEqual(complete("validate", "--plan", "so"), ["some", "plan.json"])
         self.assertEqual(complete("validate", "--mass", ""), [])
 

@@ -20,7 +20,7 @@ REGIONS = ("--optimize", "regions")
 MANY_FACES = ("body14", "body24", "body34", "body36", "body38", "body40", "body42", "body47",
               "body67")
 # Their focus cells are many; fewer with little friction and uniform spanning.
-CONCURRENT = ("--planner", "polyhedron", "--spanning", "uniform")
+CONCURRENT = ("--planner", "polyhedron,spanning=uniform")
 FRICTION_OF_MANY_FACES = "10"
 
 
@@ -64,7 +64,7 @@ class Models(ProgramCase):
     def validate(self, name, *more):
         """Exit code and report; frames are left to the tests of the pictures."""
         done = self.run_program("--object", self.body(name), "--plan", "plan.json",
-                                "--out", "out", "--no-frames", *more, program="validate")
+                                "--output", "out", "--frames", "none", *more, program="validate")
         return done, json.loads(self.read("out/report.json"))
 
     def test_models_are_as_the_generator_writes_them(self):

@@ -18,7 +18,7 @@ CGAL_ARCHIVE = "/usr/share/doc/libcgal-dev/data.tar.gz"
 ASSIMP_MODELS = "/usr/share/assimp/models"
 
 FRICTION_ANGLE = "20"
-QUICK = ("--planner", "roadmap", "--contacts", "8")  # where only the answer to the file counts
+QUICK = ("--planner", "roadmap,points=8")  # where only the answer to the file counts
 LARGEST_LOOKED_AT = 300_000  # bytes, of the files that are merely read
 LARGEST_OF_ASSIMP = 60_000
 

@@ -67,7 +67,7 @@ TEST(Failure, OfAPlanWhoseStepsPassAreTheTrialsThatFail) {
   EXPECT_FALSE(failure->entry.valid());
   EXPECT_EQ(failure->headline(),
             "trials-failed: 6 of 20 trials with noise fail: 6 slipped; first in step 1: 6");
-  EXPECT_EQ(failure->why, "14 of 20 trials pass (70 %), and --min-pass-rate requires 100 %");
+  EXPECT_EQ(failure->why, "14 of 20 trials pass (70 %), and --trials min-pass-rate requires 100 %");
   EXPECT_THAT(failure->mend, Not(HasSubstr("--min-pass-rate"))) << "loosens the test";
   EXPECT_EQ(VerdictHeadline(report), failure->headline());
   EXPECT_EQ(HeadingText(report),
@@ -125,7 +125,7 @@ TEST(Failure, OfAReplayGoesByTheLikelyCause) {
   const auto failure = DescribeFailure(report);
   EXPECT_EQ(failure->what, "finger 2 slipped");
   EXPECT_THAT(failure->why, EndsWith("; likely cause: too heavy"));
-  EXPECT_THAT(failure->mend, HasSubstr("--squeeze"));
+  EXPECT_THAT(failure->mend, HasSubstr("--grasp-force"));
   EXPECT_NE(failure->mend, unknown);
 }
 
@@ -143,10 +143,10 @@ TEST(Failure, AsksForLessOfTheShakeOnlyWhereThereIsOne) {
   report.steps[1].replay.emplace().reason = Reason::kObjectMoved;
   report.settings.emplace();
   report.settings->mass_kg = report.settings->squeeze_N = 1;
-  EXPECT_THAT(DescribeFailure(report)->mend, Not(HasSubstr("--shake")));
+  EXPECT_THAT(DescribeFailure(report)->mend, Not(HasSubstr("--disturbance")));
   EXPECT_THAT(SqueezeText(*report.settings), Not(HasSubstr("the shake")));
   report.settings->shake = 0.01;
-  EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--shake"));
+  EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--disturbance"));
   EXPECT_THAT(SqueezeText(*report.settings), HasSubstr("a tenth of the shake"));
 }
 

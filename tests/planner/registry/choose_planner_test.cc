@@ -135,10 +135,10 @@ TEST(PlannerFor, RefusesWhatThePlannerDoesNotServeAndNamesOneThatDoes) {
   planning::PlanRequest request = On(Planar());
   request.effort = 5;
   EXPECT_EQ(PlannerFor("general", request).name(), "general");
-  EXPECT_THAT(
-      [&] { (void)PlannerFor("polygon", request); },
-      ThrowsMessage<InputError>(AllOf(
-          StartsWith("--effort: the planner polygon has no such option"), HasSubstr("general"))));
+  EXPECT_THAT([&] { (void)PlannerFor("polygon", request); },
+              ThrowsMessage<InputError>(
+                  AllOf(StartsWith("--planner budget: the planner polygon has no such option"),
+                        HasSubstr("general"))));
   EXPECT_THAT([&] { (void)PlannerFor("roadmap", On(Planar())); },
               ThrowsMessage<InputError>(StartsWith(
                   "file.obj: a planar object, and the planner roadmap works on solids only")));

@@ -109,9 +109,9 @@ TEST(SoftFingersPlan, HardPointsPlannersAndThePlaneRefuse) {
   };
   EXPECT_THAT(complaint(*file.object, "general", RequestAt(25)), HasSubstr("found 2"));
   EXPECT_THAT(complaint(*file.object, "polyhedron", SoftAt(25)),
-              HasSubstr("--contact soft: the planner polyhedron has no such option"));
+              HasSubstr("--torsion: the planner polyhedron has no such option"));
   EXPECT_THAT(complaint(*ReadModel("polygon15.wkt").object, "auto", SoftAt(25)),
-              HasSubstr("--contact soft"));
+              HasSubstr("--torsion"));
   // So far off the line that 10° do not hold it.
   const grasp::Grasp off = {pair[0], PairAcross(*file.object, 0, 0.02)[1]};
   planning::PlanRequest request = SoftAt(10);
