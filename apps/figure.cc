@@ -14,6 +14,7 @@
 #include "apps/commands.h"
 #include "apps/entry_names.h"
 #include "apps/help.h"
+#include "apps/list_option.h"
 #include "apps/options.h"
 #include "apps/output_files.h"
 #include "apps/plan_object.h"
@@ -90,50 +91,56 @@ struct FigureProgram {
 };
 
 void FigureProgram::AddTo(CLI::App& app) {
-  BeginGroup(app, "Object, plan and figures");
-  app.add_option("--object", object_path, "Object file: a polygon (WKT) or a closed surface mesh")
+  BeginGroup(app, "Input");
+  app.add_option("--object", object_path, "Object file. A polygon (WKT) or a closed surface mesh")
       ->required()
       ->type_name("FILE");
   app.add_option("--plan", plan_path, "Plan file")->required()->type_name("FILE");
-  app.add_option("--out", out, "Folder for the figures")->required()->type_name("DIR");
-  AddChoice<std::string>(app, "--format", format, {{"svg", "svg"}, {"pdf", "pdf"}, {"png", "png"}},
-                         "Format of the figures (default svg)");
-  BeginGroup(app, "Size and choice");
-  AddNumber(app, "--width", style.width_mm, kWidths,
-            "Width of the figure of a step, millimetres (default 85, a column)", "MM");
-  AddNumber(app, "--sheet-width", style.sheet_width_mm, kWidths,
-            "Width of the sheet, millimetres (default 174, two columns)", "MM");
-  AddNumber(app, "--font-size", style.font_pt, kFontSizes,
-            "Size of captions and numbers, points; lines and markers are larger and smaller with "
-            "them (default 7.5)",
-            "PT");
+  AddScale(app, scale, "Metres per length unit of the object file. Must be that of the plan");
+  ListOption("--allow")
+      .Word("object-change", [this] { allow_object_change = true; })
+      .AddTo(app, "object-change",
+             "Exceptions to permit.\n"
+             "object-change: an object file with different content than the plan was made for");
+  BeginGroup(app, "Figures");
+  ListOption("--format")
+      .Values("svg, pdf or png",
+              {ChoiceParser<std::string>(format, {{"svg", "svg"}, {"pdf", "pdf"}, {"png", "png"}})})
+      .Word("gltf", [this] { gltf = true; })
+      .AddTo(app, "svg|pdf|png[,gltf]",
+             "Format of the figures [default: svg]\n"
+             "gltf: also write each step as a scene in binary glTF 2.0, in metres");
+  ListOption("--size")
+      .Key("width", NumberParser(style.width_mm, kWidths))
+      .Key("sheet", NumberParser(style.sheet_width_mm, kWidths))
+      .Key("font", NumberParser(style.font_pt, kFontSizes))
+      .AddTo(app, "KEY=VALUE,…",
+             "Sizes of the figures [default: width=85,sheet=174,font=7.5]\n"
+             "width=MM: width of the figure of a step\n"
+             "sheet=MM: width of the sheet\n"
+             "font=PT: font size, with which lines and markers scale");
   app.add_option("--panels", panels,
-                 "Entries on the sheet, 0 the hold, k the k-th step: 0,2-4 (default all)")
+                 "Entries on the sheet. 0 is the initial grasp, k is step k, as in 0,2-4 "
+                 "[default: all]")
       ->type_name("LIST");
   app.add_flag("--contact-space", contact_space,
-               "Also draw the contact space, and each switch in it: contact_space.FORMAT, "
-               "contact_space_001.FORMAT …; needs a plan of 2-finger grasps");
-  BeginGroup(app, "Solids");
+               "Also draw the contact space and each switch in it. Requires a plan of 2-finger "
+               "grasps");
   AddView(app, solid.view);
   AddEdges(app, solid.body);
-  app.add_flag("--export-gltf", gltf,
-               "Also write each step as a scene to turn around, in binary glTF 2.0: 000_hold.glb, "
-               "001_switch.glb …, metres");
-  BeginGroup(app, "What is let pass");
-  app.add_flag("--allow-object-change", allow_object_change,
-               "Accept an object file with other bytes than the plan was made for");
-  AddScale(app, scale, "Metres per unit of length of the object file; must be the plan's");
+  BeginGroup(app, "Output");
+  app.add_option("-o,--output", out, "Folder for the figures")->required()->type_name("DIR");
   AddQuiet(app, quiet);
   app.footer(
-      "  figure --object polygon15.wkt --plan polygon15.json --out figures --format pdf\n"
-      "  figure --object cube.obj --plan cube.json --out figures --view 30,20\n");
+      "  figure --object polygon15.wkt --plan polygon15.json --output figures --format pdf\n"
+      "  figure --object cube.obj --plan cube.json --output figures --view 30,20\n");
 }
 
 void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const {
   if (plan.hand) {
     throw InputError("--plan: " + plan_path + " is a plan for the hand " + plan.hand->file +
                      ": figures of hands are not supported, expected a plan for fingers; help: "
-                     "draw it with validate --out DIR");
+                     "draw it with validate --output DIR");
   }
   if (contact_space && object.object->dimension() != 2) {
     throw InputError("--contact-space: " + object_path + " is a solid, not a planar object");
@@ -295,7 +302,7 @@ void FigureProgram::WriteFigures(const object::Object& object, const plan::Plan&
 
 void FigureProgram::CheckOut() const {
   OutputFiles outputs;
-  outputs.folders.push_back({"--out", out, [this](const std::string& name) {
+  outputs.folders.push_back({"--output", out, [this](const std::string& name) {
                                return name == SheetName(format) || IsFigureName(name, format);
                              }});
   CheckOutputsDiffer({{"--object", object_path}, {"--plan", plan_path}}, outputs);

@@ -7,6 +7,7 @@
 #include "apps/commands.h"
 #include "apps/graph_text.h"
 #include "apps/help.h"
+#include "apps/list_option.h"
 #include "apps/output_files.h"
 #include "apps/planner_options.h"
 #include "apps/program.h"
@@ -22,9 +23,6 @@ using namespace regrasp;
 
 constexpr char kProgram[] = "graph";
 
-/// More queries take minutes on bodies where many fail.
-constexpr int kMostQueries = 100'000;
-
 /// More focus points take minutes.
 constexpr int kMostSamples = 10'000'000;
 
@@ -33,7 +31,6 @@ struct GraphProgram {
   std::string json;
   planning::GraphTasks tasks;
   bool compare = false;
-  bool no_lazy = false;
 
   void AddTo(CLI::App& app);
   int Run() const;
@@ -48,32 +45,33 @@ struct GraphProgram {
 };
 
 void GraphProgram::AddTo(CLI::App& app) {
-  common.AddTo(app, "polygon in the plane, roadmap in space, unless an option asks for another");
-  BeginGroup(app, "What is counted and told");
-  app.add_option("--json", json,
-                 "Also write the counts as JSON; - is standard output, instead "
-                 "of the table")
+  common.AddTo(app, PlannerOptions::Purpose::kGraph);
+  ListOption("--sampling")
+      .Values("the number of focus points", {IntegerParser(tasks.focus_points, 1, kMostSamples)})
+      .Word("compare", [this] { compare = true; })
+      .AddTo(app, "N[,compare]",
+             "Find focus cells with N random focus points. They are drawn in a box that contains "
+             "all cells (planner polyhedron only). compare: also print which share of the graph "
+             "they find");
+  BeginGroup(app, "Output");
+  app.add_option("--json", json, "Write the counts as JSON. - is standard output")
       ->type_name("FILE");
-  AddInteger(
-      app, "--sampling", tasks.focus_points, 1, kMostSamples,
-      "Look for cells of the planner polyhedron by so many random focus points: in a box that "
-      "contains all cells, instead of directly");
-  app.add_flag("--compare", compare,
-               "Also say how much of the direct graph the points of --sampling found");
-  AddInteger(app, "--queries", tasks.queries, 1, kMostQueries,
-             "Also answer so many random queries on a roadmap of clusters: between force-closure "
-             "grasps of its contact points");
-  app.add_flag("--no-lazy", no_lazy,
-               "No search beyond the representatives in --queries: none among the grasps of all "
-               "contact points where they do not join start and goal");
+  SetUsage(app, "--object FILE (--friction-angle DEG | --mu X)");
+  MarkRare(app, {"--patch"});
   app.footer(
-      "  graph --object polygon40.wkt --friction-angle 10 --spanning uniform\n"
+      "  graph --object polygon40.wkt --friction-angle 10 --planner polygon,spanning=uniform\n"
       "  graph --object part.obj --mu 0.3 --planner polyhedron --json graph.json\n");
 }
 
 void GraphProgram::CheckUsage() const {
-  if (compare && tasks.focus_points == 0) throw InputError("--compare: needs --sampling");
-  if (no_lazy && tasks.queries == 0) throw InputError("--no-lazy: needs --queries");
+  if (compare && tasks.focus_points == 0) {
+    throw InputError(
+        "--sampling compare: requires the number of focus points, as in --sampling "
+        "1000,compare");
+  }
+  if (!common.fallback && common.queries == 0) {
+    throw InputError("--planner fallback: requires the setting queries");
+  }
   if (json == "-") return;
   OutputFiles outputs;
   outputs.Add("--json", json);
@@ -116,8 +114,8 @@ int GraphProgram::Run() const {
   planning::PlanRequest request = common.RequestFor(*object.object);
   const auto given_points = common.ReadGivenPoints();
   if (given_points) request.given_points = &*given_points;
-  request.last_resort = !no_lazy;
   request.graph = tasks;
+  request.graph->queries = common.queries;
   const planning::Planner& planner = common.PlannerFor(request);
   const planning::GraphSummary summary = Summarize(planner, request);
   const std::string text = FormatJson(GraphJson(summary, request.criteria.half_angle));

@@ -1,4 +1,4 @@
-// hand: says of a model of a hand which of its links are palm and fingertips, and writes hand.json.
+// hand: finds palm and fingertips in a model of a hand, and writes its hand file.
 
 #include <filesystem>
 #include <iostream>
@@ -35,18 +35,15 @@ struct HandProgram {
 };
 
 void HandProgram::AddTo(CLI::App& app) {
-  BeginGroup(app, "Files");
-  app.add_option("--model", model, "The hand: an MJCF or URDF model, or a hand.json that names one")
+  BeginGroup(app, "Input");
+  app.add_option("--model", model, "Hand model. MJCF or URDF, or a hand file that names one")
       ->type_name("FILE")
       ->required();
-  app.add_option(
-         "--output", output,
-         "Where the hand's description goes, as JSON; it names the model relative to itself")
-      ->type_name("hand.json");
-  app.add_option("--picture", picture,
-                 "Where a picture of the hand with its fingertips' balls goes (PNG)")
-      ->type_name("FILE.png");
-  BeginGroup(app, "Messages");
+  BeginGroup(app, "Output");
+  app.add_option("-o,--output", output, "Hand file (JSON). The model's path is relative to it")
+      ->type_name("FILE");
+  app.add_option("--picture", picture, "Image of the hand with its fingertip spheres (PNG)")
+      ->type_name("FILE");
   AddQuiet(app, quiet);
   app.footer(
       "  hand --model right_hand.xml --output hand.json --picture hand.png\n"

@@ -1,5 +1,6 @@
 #include "apps/hand_options.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -15,19 +16,24 @@ namespace {
 
 constexpr double kMostTurns = 10;
 constexpr double kLargestClearance_m = 0.05;
-/// Of a quaternion's length: it may have been written with a few digits.
+/// Tolerance of a quaternion's length, for text with few digits.
 constexpr double kLargestNormError = 1e-3;
 constexpr double kFarthest_m = 10;
 
-/// "z 90" as a turn.
+/// Lists are accepted with commas and with spaces.
+std::string SpacesForCommas(std::string text) {
+  std::ranges::replace(text, ',', ' ');
+  return text;
+}
+
+/// Parse "z,90".
 planning::Turn ParseTurn(const std::string& turn) {
-  std::istringstream words(turn);
+  std::istringstream words(SpacesForCommas(turn));
   std::string axis;
   std::string rest;
   double degrees = 0;
   const auto fail = [&]() -> planning::Turn {
-    throw InputError("--turn: expected an axis and degrees, as in \"z 90\", found \"" + turn +
-                     "\"");
+    throw InputError("--turn: expected an axis and degrees, as in z,90, found \"" + turn + "\"");
   };
   if (!(words >> axis >> degrees) || words >> rest || axis.size() != 1) return fail();
   const std::size_t which = std::string("xyz").find(axis);
@@ -40,13 +46,13 @@ planning::Turn ParseTurn(const std::string& turn) {
 }
 
 Eigen::Isometry3d ParsePose(const std::string& option, const std::string& text) {
-  std::istringstream words(text);
+  std::istringstream words(SpacesForCommas(text));
   std::array<double, 7> v = {};
   for (double& number : v) {
     if (words >> number && std::isfinite(number)) continue;
     throw InputError(option +
-                     ": expected a position and a quaternion, 7 numbers as in \"0 0 0.12 "
-                     "1 0 0 0\", found \"" +
+                     ": expected a position and a quaternion, 7 numbers as in "
+                     "0,0,0.12,1,0,0,0, found \"" +
                      text + "\"");
   }
   if (std::string rest; words >> rest) {
@@ -71,39 +77,38 @@ Eigen::Isometry3d ParsePose(const std::string& option, const std::string& text) 
 }  // namespace
 
 void HandOptions::AddTo(CLI::App& app) {
-  BeginGroup(app, "A hand");
+  BeginGroup(app, "Hand");
   app.add_option("--hand", hand,
-                 "The hand that moves the object; a file of the format regrasp-hand. The plan then "
-                 "has the joints of every finger and the object's pose in the palm all along")
+                 "Hand file. The plan then contains joint trajectories and the object's pose in "
+                 "the palm frame")
       ->type_name("FILE");
-  app.add_option(
-         "--turn", turn,
-         "Turn the object in the hand; about an axis of its own by so many degrees, as in "
-         "\"z 90\". The hand begins where the object's z axis is upright and its fingers "
-         "reach most, unless --start or --start-pose say otherwise; the object's middle may "
-         "end some millimetres away")
-      ->type_name("\"AXIS DEGREES\"");
+  app.add_option("--turn", turn,
+                 "Rotate the object about one of its axes, as in z,90. The program chooses the "
+                 "initial pose unless --start or --start-pose states it; the object's centre can "
+                 "end some millimetres off")
+      ->type_name("AXIS,DEGREES");
   for (const auto& [option, value, what] :
        {std::tuple("--start-pose", &start_pose,
-                   "Where the object is in the hand at first; position of its origin in the "
-                   "palm's frame, metres, and quaternion, as in \"0 0 0.12 1 0 0 0\""),
-        {"--goal-pose", &goal_pose, "Where it is to be in the end; written likewise"}}) {
-    app.add_option(option, *value, what)->type_name("\"X Y Z QW QX QY QZ\"");
+                   "Initial pose of the object in the palm frame. Position in metres and unit "
+                   "quaternion, as in 0,0,0.12,1,0,0,0"),
+        {"--goal-pose", &goal_pose,
+         "Goal pose of the object in the palm frame. As --start-pose"}}) {
+    app.add_option(option, *value, what)->type_name("X,Y,Z,QW,QX,QY,QZ");
   }
   AddNumber(app, "--clearance", clearance_m, {0, kLargestClearance_m, true, true},
-            "What links keep from each other, from the palm and from the object; in metres "
-            "(default 0.001)",
+            "Minimum distance of links from each other, palm and object, metres "
+            "[default: 0.001]",
             "M");
   AddChoice<planning::Reserve>(
-      app, "--reserve", reserve,
+      app, "--robustness", reserve,
       {{"preferred", planning::Reserve::kPreferred},
        {"required", planning::Reserve::kRequired},
        {"none", planning::Reserve::kNone}},
-      "Something to spare, for the hand's own motors: forces well inside their cones, better "
-      "grasps that also hold where contacts roll to, more clearance, no slides. Plans are tried on "
-      "the hand's model, and one is taken that its motors carry out. required, or there is no "
-      "plan, and it is said what fails; preferred, otherwise one is written that they do not carry "
-      "out, with a warning; none, nothing is tried (default required)");
+      "Required robustness of a hand plan [default: required]\n"
+      "required: return only plans that execute in simulation on the hand's actuators\n"
+      "preferred: otherwise write the best plan with a warning\n"
+      "none: no simulation, no extra margins");
+  MarkRare(app, {"--clearance"});
 }
 
 void HandOptions::Check(const std::string& start, const std::string& goal) const {
@@ -115,14 +120,13 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
   if (!given()) return;
   const bool moves = !turn.empty() || !goal_pose.empty();
   if (!moves && goal.empty()) {
-    throw InputError(
-        "--hand: --turn, --goal-pose or --goal says what the hand is to do, as in --turn \"z 90\"");
+    throw InputError("--hand: requires a task, --turn, --goal-pose or --goal; help: --turn z,90");
   }
   if (!moves && start.empty() && start_pose.empty()) {
-    throw InputError("--goal: --start or --start-pose says what is before it");
+    throw InputError("--goal: with --hand requires --start or --start-pose");
   }
   if (!turn.empty() && !goal_pose.empty()) {
-    throw InputError("--turn: --goal-pose says already how the object is to be in the end");
+    throw InputError("--turn: cannot be used with --goal-pose");
   }
 }
 

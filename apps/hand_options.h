@@ -21,9 +21,9 @@ struct HandOptions {
 
   [[nodiscard]] bool given() const { return !hand.empty(); }
   /// Checks the options against each other. @param start, goal  of `plan --start` and `--goal`.
-  /// @throws InputError  they say too little or too much.
+  /// @throws InputError  if a task is missing or stated twice.
   void Check(const std::string& start, const std::string& goal) const;
-  /// Fills in what is to be done. @throws InputError  as the options are written.
+  /// Fill in the task. @throws InputError  if an option is malformed.
   void AskFor(planning::InHandTask& task) const;
 };
 

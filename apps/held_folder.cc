@@ -105,7 +105,7 @@ Descriptor Lock(const fs::path& folder, const fs::path& file, std::chrono::milli
       const std::vector<std::string> holders = LinesWith(kHolder, ReadAll(opened));
       throw EnvironmentError(folder.string() + ": " +
                              (holders.empty() ? "another process" : "process " + holders.back()) +
-                             " is writing into this folder; wait for it, or give another --out");
+                             " is writing into this folder; wait for it, or give another --output");
     }
     std::this_thread::sleep_for(kPause);
   }

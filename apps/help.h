@@ -7,14 +7,25 @@
 
 namespace regrasp::apps {
 
-/// What is said of an option.
+/// Help text of an option.
 struct OptionHelp {
-  std::string name;     ///< "--object"
-  std::string type;     ///< "FILE", "imitate|slide"; empty for a flag
-  std::string text;     ///< what it does, with unit and default
-  std::string summary;  ///< its first clause, which shells show beside the name
+  std::string name;        ///< "--object"
+  std::string short_name;  ///< "-o"; empty if there is none
+  std::string type;        ///< "FILE", "points|hand"; empty for a flag
+  std::string text;        ///< purpose, unit and default; then one line per setting
+  std::string summary;     ///< first clause of the text, for `-h` and shells
+  std::string usual;       ///< "[default: 0.01]", from the end of the text; can be empty
   bool required = false;
-  std::vector<std::string> choices;  ///< where it takes one of some words
+  bool value_optional = false;       ///< the option can be given without a value
+  bool rare = false;                 ///< listed by --help-all only
+  std::vector<std::string> choices;  ///< words among its values
+};
+
+/// Options that a help text lists, and their form.
+enum class HelpLevel {
+  kShort,  ///< -h: one line per option, no rare options
+  kFull,   ///< --help: no rare options
+  kAll,    ///< --help-all
 };
 
 struct HelpGroup {
@@ -22,11 +33,27 @@ struct HelpGroup {
   std::vector<OptionHelp> options;
 };
 
-/// Of the options that all programs have; CLI11 puts --help there. It comes last in all texts.
+/// Group of the options that all programs have; CLI11 puts --help there. It comes last in all
+/// texts.
 inline constexpr char kGeneralGroup[] = "Options";
 
-/// Options that are added from here on belong to a group of this name.
+/// Title of that group.
+inline constexpr char kGeneralTitle[] = "General";
+
+/// Return "-o, --output FILE".
+[[nodiscard]] std::string NamesOf(const OptionHelp& option);
+
+/// Put the options that are added from here on into a group of this name.
 void BeginGroup(CLI::App& app, const std::string& name);
+
+/// Mark an option as rare: only --help-all lists it.
+void MarkRare(CLI::Option* option);
+
+/// Mark options of these names as rare.
+void MarkRare(CLI::App& app, const std::vector<std::string>& names);
+
+/// Set the part of the usage between the program's name and "[options]".
+void SetUsage(const CLI::App& app, const std::string& usage);
 
 /// All options in their groups, in the order in which they were added.
 [[nodiscard]] std::vector<HelpGroup> HelpGroups(const CLI::App& app);
@@ -34,27 +61,28 @@ void BeginGroup(CLI::App& app, const std::string& name);
 /// The subcommands of `regrasp`; other programs have none.
 [[nodiscard]] std::vector<const CLI::App*> Subcommands(const CLI::App& app);
 
-/// "plan --object FILE --start FILE|random [options]", "regrasp COMMAND [options]".
+/// Return "plan --object FILE --output FILE [options]", "regrasp COMMAND [options]": the text of
+/// SetUsage, otherwise the required options.
 [[nodiscard]] std::string UsageText(const CLI::App& app);
 
-/// What --help prints: usage, what the program does, its subcommands, the options by groups, and
-/// the examples (the app's footer). Lines are no longer than `width` characters where words are
-/// not.
-[[nodiscard]] std::string HelpText(const CLI::App& app, int width);
+/// Return what -h, --help or --help-all prints: usage, purpose, subcommands, the options by groups,
+/// and except for -h the examples (the app's footer). Lines are no longer than `width` characters
+/// unless a word is; -h does not wrap the lines of options.
+[[nodiscard]] std::string HelpText(const CLI::App& app, int width, HelpLevel level);
 
-/// How wide text on standard output may be: COLUMNS, or what the terminal says, otherwise 80.
+/// Return the width of text on standard output: COLUMNS, the width of the terminal, otherwise 80.
 [[nodiscard]] int HelpWidth();
 
 /// Break text into lines of at most `width` characters, each indented by `indent` spaces; ends with
 /// a newline.
 [[nodiscard]] std::string WrapText(const std::string& text, int indent, int width);
 
-/// What makes the manual page and the completions of the shells from the same options; `format` is
-/// "man", "bash", "zsh", "fish" or "markdown".
-/// @throws InputError  another format.
+/// What makes the manual page ("man"), the completion of a shell ("bash", "zsh", "fish") or the section
+/// of docs/options.md ("markdown") for the same options.
+/// @throws InputError  if `format` is a different one.
 [[nodiscard]] std::string FormatHelpAs(std::string_view format, const CLI::App& app);
 
-/// The same for each of them.
+/// The same for each format.
 [[nodiscard]] std::string ManPage(const CLI::App& app);
 [[nodiscard]] std::string BashCompletion(const CLI::App& app);
 [[nodiscard]] std::string ZshCompletion(const CLI::App& app);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <sstream>
 
 #include "apps/help.h"
 #include "apps/program.h"
@@ -41,6 +42,16 @@ std::string Escape(const std::string& text) {
   return (request ? "\\&" : "") + escaped;
 }
 
+/// Escape the lines of a text; each starts a new line of the page.
+std::string EscapeLines(const std::string& text) {
+  std::string page;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    page += (page.empty() ? "" : ".br\n") + Escape(line) + "\n";
+  }
+  return page;
+}
+
 std::string Upper(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
   return text;
@@ -49,7 +60,7 @@ std::string Upper(std::string text) {
 std::string OptionText(const OptionHelp& option) {
   return ".TP\n.B " + Escape(option.name) +
          (option.type.empty() ? "" : " \\fI" + Escape(option.type) + "\\fR") + "\n" +
-         Escape(option.text + (option.required ? " (required)" : "")) + "\n";
+         EscapeLines(option.text + (option.required ? " (required)" : ""));
 }
 
 /// Each with its own page.

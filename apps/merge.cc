@@ -30,16 +30,17 @@ struct MergeProgram {
 };
 
 void MergeProgram::AddTo(CLI::App& app) {
-  BeginGroup(app, "Shards and result");
+  BeginGroup(app, "Input");
   app.add_option("--shards", shards,
-                 "Files of all shards of a run, in any order: of plan --batch --shard I/N, or the "
+                 "Files of all shards of a run, in any order. Of plan --batch --shard I/N, or "
                  "reports.jsonl of validate")
       ->type_name("FILE")
       ->required();
-  app.add_option("--output", output, "Where the whole goes, as one run without --shard writes it")
+  BeginGroup(app, "Output");
+  app.add_option("-o,--output", output, "Joined file, as one run without --shard writes it")
       ->type_name("FILE")
       ->required();
-  app.add_flag("--fresh", fresh, "Throw away what an earlier merge with the same --output left");
+  app.add_flag("--restart", fresh, "Discard the results of an earlier merge");
   AddQuiet(app, quiet);
   app.footer(
       "  merge --shards shards/plans.*.jsonl --output plans.jsonl\n"
@@ -55,7 +56,7 @@ int MergeProgram::Run() const {
   CheckOutputsDiffer(inputs, outputs);
   std::error_code error;
   if (std::filesystem::exists(output, error) && !std::filesystem::is_regular_file(output, error)) {
-    throw regrasp::InputError("--output: " + output + " is no file");
+    throw regrasp::InputError("--output: " + output + " is not a file");
   }
   const std::vector<ShardFile> found = FindShards({shards.begin(), shards.end()});
   CheckOutputsWritable(outputs);

@@ -27,8 +27,8 @@ int Distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string DidYouMean(const std::string& given, const std::vector<std::string>& words) {
-  // Nobody mistypes a word into one that is much longer than all of them.
+std::string SimilarWord(const std::string& given, const std::vector<std::string>& words) {
+  // Longer than every word and its plausible misspellings.
   constexpr std::size_t kLongest = 64;
   constexpr int kCharactersAnEdit = 3;
   if (given.size() > kLongest) return "";
@@ -43,7 +43,7 @@ std::string DidYouMean(const std::string& given, const std::vector<std::string>&
     }
   }
   const int most = std::max(1, static_cast<int>(given.size()) / kCharactersAnEdit);
-  return least <= most ? "; did you mean " + nearest + "?" : "";
+  return least <= most ? "; similar: " + nearest : "";
 }
 
 }  // namespace regrasp::apps

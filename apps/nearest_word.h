@@ -5,12 +5,12 @@
 
 namespace regrasp::apps {
 
-/// "; did you mean --object?": the word that was probably meant; empty where none is near.
+/// Return "; similar: --object" for the most similar of some words; empty if none is similar.
 ///
-/// A word that begins with what was given is, and otherwise the one that the fewest insertions,
-/// deletions, replacements and swaps of neighbours turn it into, at most one in three characters
-/// (Damerau 1964); of equal ones the first.
-[[nodiscard]] std::string DidYouMean(const std::string& given,
-                                     const std::vector<std::string>& words);
+/// A word that starts with the given text is similar. Otherwise similarity is the number of
+/// insertions, deletions, replacements and transpositions (Damerau 1964), at most one per three
+/// characters; the first of equally similar words is taken.
+[[nodiscard]] std::string SimilarWord(const std::string& given,
+                                      const std::vector<std::string>& words);
 
 }  // namespace regrasp::apps

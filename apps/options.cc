@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "apps/help.h"
+#include "apps/list_option.h"
 #include "apps/nearest_word.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -71,8 +72,8 @@ std::size_t FindChoice(const std::string& name, const std::string& given,
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
   std::string expected;
   for (const std::string& word : words) expected += (expected.empty() ? "" : ", ") + word;
-  throw CLI::ValidationError(
-      name, "expected one of " + expected + ", found \"" + given + "\"" + DidYouMean(given, words));
+  throw CLI::ValidationError(name, "expected one of " + expected + ", found \"" + given + "\"" +
+                                       SimilarWord(given, words));
 }
 
 CLI::Option* AddSeed(CLI::App& app, std::uint64_t& value, const std::string& description) {
@@ -81,7 +82,7 @@ CLI::Option* AddSeed(CLI::App& app, std::uint64_t& value, const std::string& des
 }
 
 CLI::Option* AddQuiet(CLI::App& app, bool& value) {
-  return app.add_flag("--quiet", value, "Print only errors, warnings and why something failed")
+  return app.add_flag("-q,--quiet", value, "Print only errors, warnings and failures")
       ->group(kGeneralGroup);
 }
 
@@ -90,9 +91,10 @@ std::vector<std::pair<std::string, std::vector<std::string>>> GivenOptions(
   std::vector<std::pair<std::string, std::vector<std::string>>> given;
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
-    if (option->count() > 0 && !change_nothing.contains(name)) {
-      given.emplace_back(name, option->results());
-    }
+    if (option->count() == 0 || change_nothing.contains(name)) continue;
+    const std::vector<std::string> values =
+        IsList(*option) ? std::vector{JoinItems(option->results())} : option->results();
+    given.emplace_back(name, values);
   }
   return given;
 }
@@ -111,13 +113,13 @@ void FrictionOptions::AddTo(CLI::App& app) {
   const NumberRange angle = {
       .lower = 0, .upper = 90, .lower_included = false, .upper_included = false};
   AddNumber(app, "--friction-angle", degrees_, angle,
-            "Half-angle of the friction cone, degrees in (0, 90)", "DEG");
+            "Friction angle, the half-angle of the friction cone. Degrees in (0, 90)", "DEG");
   AddNumber(app, "--mu", mu_, NumberRange::Positive(),
-            "Coefficient of friction, the tangent of the half-angle; instead of --friction-angle");
+            "Friction coefficient, the tangent of the friction angle. Replaces --friction-angle");
 }
 
 std::optional<double> FrictionOptions::half_angle() const {
-  if (degrees_ && mu_) throw InputError("--friction-angle and --mu exclude each other");
+  if (degrees_ && mu_) throw InputError("--friction-angle: cannot be used with --mu");
   if (!degrees_ && !mu_) return std::nullopt;
   const double angle = degrees_ ? Radians(*degrees_) : std::atan(*mu_);
   // A huge or tiny number may round onto an end of the interval, in radians or in degrees.
@@ -125,45 +127,34 @@ std::optional<double> FrictionOptions::half_angle() const {
     throw InputError(degrees_ ? "--friction-angle " + FormatDouble(*degrees_) +
                                     ": too close to an end of (0°, 90°)"
                               : "--mu " + FormatDouble(*mu_) +
-                                    ": the half-angle is too close to an end of (0°, 90°)");
+                                    ": the friction angle is too close to an end of (0°, 90°)");
   }
   return angle;
 }
 
 std::string FrictionOptions::warning() const {
-  // Rubber on rough surfaces comes to 2.
+  // Rubber on rough surfaces has up to 2.
   constexpr double kMostUsual = 3;
   if (!mu_ || *mu_ <= kMostUsual) return "";
   return "--mu " + FormatDouble(*mu_) +
-         ": hardly any fingertip has that much friction, rubber 1 to 2; "
-         "a half-angle in degrees is --friction-angle";
+         ": implausible friction coefficient, rubber has 1 to 2; help: give an angle in degrees "
+         "with --friction-angle";
 }
 
 double FrictionOptions::required_half_angle() const {
   const std::optional<double> angle = half_angle();
-  if (!angle) throw InputError("friction is missing: give --friction-angle DEG or --mu X");
+  if (!angle) throw InputError("friction: --friction-angle DEG or --mu X is required");
   return *angle;
 }
 
 void ContactOptions::AddTo(CLI::App& app, const std::string& usual) {
-  AddChoice<std::optional<bool>>(
-      app, "--contact", soft_, {{"hard", false}, {"soft", true}},
-      "What a contact resists. hard: forces inside its friction cone; soft: also a torque about "
-      "its normal, as much as --torsion says (default " +
-          usual + ")");
-  AddNumber(app, "--torsion", torsion_, NumberRange::Positive(),
-            "Torsion of soft fingers, in the object file's own unit of length; the largest torque "
-            "about a contact's normal over its largest tangential force, as two thirds of the "
-            "radius of a round patch that presses evenly. Both together keep to an ellipse",
-            "R");
-}
-
-std::optional<double> ContactOptions::torsion() const {
-  if (torsion_ && soft_ != true) throw InputError("--torsion: goes with --contact soft");
-  if (!soft_) return std::nullopt;
-  if (!*soft_) return 0;
-  if (!torsion_) throw InputError("--contact soft: needs --torsion, a length");
-  return torsion_;
+  AddNumber(app, "--torsion", torsion_, NumberRange::NotNegative(),
+            "Torsional friction length of soft fingers. Ratio of maximum torque about the contact "
+            "normal to maximum tangential force, in object units; 2a/3 for a uniform round patch "
+            "of radius a. Force and torque together stay in an ellipsoid. 0: hard contacts "
+            "[default: " +
+                usual + "]",
+            "E");
 }
 
 }  // namespace regrasp::apps

@@ -22,13 +22,18 @@ struct NumberRange {
   [[nodiscard]] static NumberRange NotNegative();
 };
 
-/// Reads a finite number, the same under any locale.
-/// @throws CLI::ValidationError  it is none, or outside the range; names the option.
+/// Return the long name among "-j,--jobs".
+[[nodiscard]] inline std::string LongName(const std::string& names) {
+  return names.substr(names.find("--"));
+}
+
+/// Parse a finite number, the same under any locale.
+/// @throws CLI::ValidationError  if the text is not a number in the range; names the option.
 [[nodiscard]] double ParseNumber(const std::string& name, const std::string& text,
                                  const NumberRange& range);
 
-/// Reads a decimal integer of `Integer` (int, std::uint64_t) in [lower, upper].
-/// @throws CLI::ValidationError  likewise.
+/// Parse a decimal integer of type `Integer` (int, std::uint64_t) in [lower, upper].
+/// @throws CLI::ValidationError  as ParseNumber.
 template <class Integer>
 [[nodiscard]] Integer ParseInteger(const std::string& name, const std::string& text, Integer lower,
                                    Integer upper);
@@ -39,8 +44,8 @@ template <class Value>
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, Value& value,
                        const NumberRange& range, const std::string& description,
                        const std::string& type = "X") {
-  const auto parse = [name, range, &value](const std::string& text) {
-    value = ParseNumber(name, text, range);
+  const auto parse = [label = LongName(name), range, &value](const std::string& text) {
+    value = ParseNumber(label, text, range);
   };
   return app.add_option_function<std::string>(name, parse, description)->type_name(type);
 }
@@ -50,18 +55,18 @@ CLI::Option* AddNumber(CLI::App& app, const std::string& name, Value& value,
 template <class Value, class Integer>
 CLI::Option* AddInteger(CLI::App& app, const std::string& name, Value& value, Integer lower,
                         Integer upper, const std::string& description) {
-  const auto parse = [name, lower, upper, &value](const std::string& text) {
-    value = ParseInteger<Integer>(name, text, lower, upper);
+  const auto parse = [label = LongName(name), lower, upper, &value](const std::string& text) {
+    value = ParseInteger<Integer>(label, text, lower, upper);
   };
   return app.add_option_function<std::string>(name, parse, description)->type_name("N");
 }
 
-/// The place of a word among those that an option takes.
-/// @throws CLI::ValidationError  it is none of them; names the one that was probably meant.
+/// Return the index of a word among the choices of an option.
+/// @throws CLI::ValidationError  if it is not one of them; names a similar one.
 [[nodiscard]] std::size_t FindChoice(const std::string& name, const std::string& given,
                                      const std::vector<std::string>& words);
 
-/// Adds an option that takes one of some words, each of which stands for a value.
+/// Add an option whose value is one of some words.
 template <class Value>
 CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value& value,
                        const std::vector<std::pair<std::string, Value>>& choices,
@@ -78,43 +83,44 @@ CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value& value,
   return app.add_option_function<std::string>(name, choose, description)->type_name(type);
 }
 
-/// Adds `--seed N`, any number of 64 bits.
+/// Add `--seed N`, an integer of 64 bits.
 CLI::Option* AddSeed(CLI::App& app, std::uint64_t& value, const std::string& description);
 
-/// Adds `--scale METRES_PER_UNIT`.
+/// Add `--scale METRES_PER_UNIT`.
 /// @param value  a double, or an optional one.
 template <class Value>
 CLI::Option* AddScale(
     CLI::App& app, Value& value,
-    const std::string& description = "Metres per unit of length of the object file (default 1)") {
+    const std::string& description = "Metres per length unit of the object file [default: 1]") {
   return AddNumber(app, "--scale", value, NumberRange::Positive(), description, "METRES_PER_UNIT");
 }
 
-/// Adds `--quiet`.
+/// Add `-q, --quiet`.
 CLI::Option* AddQuiet(CLI::App& app, bool& value);
 
-/// The options that are given, each with its values, but for those that change no result.
+/// Return the given options with their values, except those that change no result. The items of a
+/// list option are one value, whether it was given once or several times.
 [[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> GivenOptions(
     const CLI::App& app, const std::set<std::string>& change_nothing);
 
-/// Friction as the command line gives it: the cone's half-angle or its tangent.
+/// Friction of the command line: the friction angle or its tangent.
 class FrictionOptions {
  public:
-  /// Adds `--friction-angle DEG` and `--mu X`.
+  /// Add `--friction-angle DEG` and `--mu X`.
   void AddTo(CLI::App& app);
 
-  /// As if --friction-angle had been given, and no --mu; or the other way round.
+  /// Set the friction as if the option --friction-angle, or --mu, were given alone.
   void SetDegrees(double degrees);
   void SetMu(double mu);
 
-  /// The half-angle in radians; nullopt where neither option is given.
-  /// @throws InputError  both are given, or the half-angle is not inside (0°, 90°) as a double.
+  /// Friction angle in radians; nullopt if neither option is given.
+  /// @throws InputError  if both are given, or the angle is not inside (0°, 90°) as a double.
   [[nodiscard]] std::optional<double> half_angle() const;
 
-  /// @throws InputError  also where neither is given.
+  /// @throws InputError  as half_angle, or if neither is given.
   [[nodiscard]] double required_half_angle() const;
 
-  /// Of a coefficient that hardly any fingertip has; otherwise empty.
+  /// Warning about an implausible coefficient; otherwise empty.
   [[nodiscard]] std::string warning() const;
 
  private:
@@ -122,20 +128,18 @@ class FrictionOptions {
   std::optional<double> mu_;
 };
 
-/// What contacts are, as the command line gives it: hard points or soft fingers.
+/// Contact model of the command line: hard points or soft fingers.
 class ContactOptions {
  public:
-  /// Adds `--contact hard|soft` and `--torsion R`.
-  /// @param usual  what holds where neither is given: "hard", "that of the plan".
+  /// Add `--torsion E`.
+  /// @param usual  text of the default: "0", "that of the plan".
   void AddTo(CLI::App& app, const std::string& usual);
 
-  /// grasp::Contact::torsion, the object's unit of length, 0 of hard points; nullopt where nothing
-  /// is given.
-  /// @throws InputError  --torsion without --contact soft, or that without --torsion.
-  [[nodiscard]] std::optional<double> torsion() const;
+  /// Torsional friction length (grasp::Contact::torsion), in the object's length unit; 0 for hard
+  /// points, nullopt if the option is not given.
+  [[nodiscard]] std::optional<double> torsion() const { return torsion_; }
 
  private:
-  std::optional<bool> soft_;
   std::optional<double> torsion_;
 };
 

@@ -1,10 +1,17 @@
-// The reference page of a command, docs/command_NAME.md, from the texts that --help prints.
+// The reference page of a command, docs/command_NAME.md, from its help texts.
 
 #include "apps/help.h"
 
 namespace regrasp::apps {
 
 namespace {
+
+/// Format all lines of a text but the first as items of a list.
+std::string AsItems(const std::string& text) {
+  std::string items;
+  for (const char c : text) items += c == '\n' ? "\n  - " : std::string(1, c);
+  return items;
+}
 
 /// The page of `regrasp` itself, docs/commands.md, links to the pages of all commands.
 std::string CommandTable(const CLI::App& app) {
@@ -20,8 +27,8 @@ std::string CommandTable(const CLI::App& app) {
 std::string GroupSection(const HelpGroup& group) {
   std::string text = "\n## " + group.name + "\n\n";
   for (const OptionHelp& option : group.options) {
-    text += "- `" + option.name + (option.type.empty() ? "" : " " + option.type) + "` " +
-            (option.required ? "(required) " : "") + option.text + "\n";
+    text += "- `" + NamesOf(option) + "` " + (option.required ? "(required) " : "") +
+            (option.rare ? "(rare) " : "") + AsItems(option.text) + "\n";
   }
   return text;
 }
@@ -32,8 +39,8 @@ std::string MarkdownHelp(const CLI::App& app) {
   const bool commands = !Subcommands(app).empty();
   const std::string command = (commands ? "" : "regrasp ") + app.get_name();
   std::string text = "# " + command + "\n\nThis page is the reference of `" + command + "`. `" +
-                     command + " --help` prints the same text. [Exit codes](exit_codes.md) are " +
-                     "those of all commands.\n\n" + app.get_description() + "\n\n```\n" +
+                     command + " --help-all` prints the same text. [Exit codes](exit_codes.md) " +
+                     "are those of all commands.\n\n" + app.get_description() + "\n\n```\n" +
                      (commands ? "" : "regrasp ") + UsageText(app) + "\n```\n";
   if (commands) text += CommandTable(app);
   for (const HelpGroup& group : HelpGroups(app)) text += GroupSection(group);

@@ -67,7 +67,7 @@ void RefuseMisspelt(const plan::JsonReader& reader, const Json& object,
                     const std::vector<std::string>& names) {
   for (const auto& [name, value] : object.items()) {
     if (std::ranges::find(names, name) != names.end()) continue;
-    const std::string meant = DidYouMean(name, names);
+    const std::string meant = SimilarWord(name, names);
     if (!meant.empty()) reader.Fail("unknown member " + name + meant);
   }
 }

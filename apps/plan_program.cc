@@ -22,16 +22,13 @@ namespace regrasp::apps {
 
 namespace {
 
-/// A day's work.
-constexpr std::int64_t kMostEffort = 100'000'000'000;
-
 /// Instead of a grasp file.
 constexpr char kRandom[] = "random";
 constexpr char kRandomAny[] = "random-any";
 
 constexpr int kMostJobs = 1024;
 
-/// Of a plan that a planner found and `validate` would fail.
+/// Message for a plan that a planner found and the checker fails.
 std::string CheckerComplaint(const plan::PlanCheck& check) {
   const auto failed = std::ranges::find_if(
       check.steps, [](const plan::StepCheck& step) { return step.reason != plan::Reason::kNone; });
@@ -49,23 +46,20 @@ PlanProgram::PlanProgram()
     : jobs(std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostJobs)) {}
 
 void PlanProgram::AddTo(CLI::App& app) {
-  common.AddTo(app, "general, unless an option asks for what only another has");
-  BeginGroup(app, "Start, goal and result");
-  AddEnds(app);
-  BeginGroup(app, "What the sequence is like");
-  AddNumber(app, "--min-quality", min_quality, NumberRange::NotNegative(),
-            "Quality that random grasps have at least; the sequence prefers such grasps and a "
-            "warning says where it must go below: the largest ball of wrenches resisted, normal "
-            "forces summing to 1, torques over half the diameter (default 0.01)");
-  AddNumber(app, "--finger-radius", finger_radius, NumberRange::Positive(),
-            "Radius of the fingers, in the object file's own unit of length: contacts that a "
-            "finger cannot come to straight along the normal, and grasps in which two fingers "
-            "overlap, are avoided (default: fingers are points)",
-            "R");
+  common.AddTo(app, PlannerOptions::Purpose::kPlan);
   AddSearch(app);
+  BeginGroup(app, "Start and goal");
+  AddEnds(app);
   hand.AddTo(app);
+  BeginGroup(app, "Output");
+  app.add_option("-o,--output", output, "Plan file. - is standard output")
+      ->type_name("FILE")
+      ->required();
   BeginGroup(app, "Many plans");
   AddBatch(app);
+  SetUsage(app,
+           "--object FILE (--start FILE --goal FILE | --hand FILE --turn AXIS,DEGREES) "
+           "(--friction-angle DEG | --mu X) --output FILE");
   app.footer(
       "  plan --object cube.obj --friction-angle 20 --start start.json --goal goal.json \\\n"
       "       --output plan.json\n"
@@ -74,64 +68,56 @@ void PlanProgram::AddTo(CLI::App& app) {
 }
 
 void PlanProgram::AddEnds(CLI::App& app) {
-  const std::string kinds =
-      "; needed where no --hand is given, which takes files only: a grasp file, random (a grasp of "
-      "the planner's own "
-      "graph; under auto like random-any) "
-      "or random-any (evenly over the surface)";
-  app.add_option("--start", start.value, "Start grasp" + kinds)
+  app.add_option("--start", start.value,
+                 "Start grasp. A grasp file, random (from the planner's graph; random-any with "
+                 "--planner auto) or random-any (uniform on the surface). Required without --hand, "
+                 "which supports files only")
       ->type_name("FILE|random|random-any");
-  app.add_option("--goal", goal.value, "Goal grasp" + kinds)->type_name("FILE|random|random-any");
-  app.add_option("--output", output, "Where the plan goes; - is standard output")
-      ->type_name("FILE")
-      ->required();
+  app.add_option("--goal", goal.value, "Goal grasp. As --start")
+      ->type_name("FILE|random|random-any");
 }
 
 void PlanProgram::AddSearch(CLI::App& app) {
-  app.add_flag("--no-lazy", no_lazy,
-               "No search beyond the representatives on a roadmap of clusters: none among the "
-               "grasps of all contact points where they do not join start and goal");
+  AddNumber(app, "--min-quality", min_quality, NumberRange::NotNegative(),
+            "Minimum grasp quality ε (Ferrari-Canny) of random grasps. The plan prefers such "
+            "grasps, and a warning names the weakest step below it. Normal forces sum to 1, "
+            "torques are relative to half the diameter [default: 0.01]");
+  AddNumber(app, "--finger-radius", finger_radius, NumberRange::Positive(),
+            "Radius of the fingers, object units. Contacts that a finger cannot approach along the "
+            "normal and grasps with overlapping fingers are avoided [default: 0, point fingers]",
+            "R");
   AddChoice<planning::Objective>(
       app, "--optimize", objective,
       {{"steps", planning::Objective::kSteps},
        {"margin", planning::Objective::kMargin},
        {"travel", planning::Objective::kTravel},
        {"regions", planning::Objective::kRegions}},
-      "What makes a sequence good: with the planner general steps (the fewest found, then margin; "
-      "the default), margin (the weakest grasp's margin, with two steps more at most), travel (the "
-      "fewest found, then the least travel of the fingers); with the planner contour regions "
-      "(every switch where the smaller of its two grasps' contact regions is largest; default: "
-      "well inside both sets); with --hand margin (of the plans found that the hand's motors carry "
-      "out the one with the largest share of the replay's limits to spare; default: the first)");
-  AddInteger(
-      app, "--effort", effort, std::int64_t{1}, kMostEffort,
-      "When to give up; the planner general after so many force-closure tests, each of some "
-      "microseconds (default " +
-          std::to_string(tree::TreePlanner::kDefaultEffort) +
-          "), with --hand after so many grasps searched, each of some milliseconds (default " +
-          std::to_string(gait::kDefaultExpanded) + ")");
-  app.add_flag(
-      "--explain", explain,
-      "Look for what would be enough where no sequence is found; the smallest friction (of "
-      "the planner general), with --hand also the size of the object and a tilt of the "
-      "palm, for as long again as --time-limit says");
+      "Objective [default: steps]\n"
+      "steps: fewest steps, then largest margin of the weakest grasp\n"
+      "margin: largest margin, with at most two more steps; with --hand the largest tolerance "
+      "margin in simulation\n"
+      "travel: fewest steps, then least fingertip travel\n"
+      "regions (planner contour): largest independent contact regions");
+  app.add_flag("--explain", explain,
+               "If no plan is found, search for a sufficient change. The smallest friction "
+               "(planner general); with --hand also object size and palm tilt. Takes up to "
+               "another --time-limit");
+  MarkRare(app, {"--patch"});
 }
 
 void PlanProgram::AddBatch(CLI::App& app) {
-  app.add_option(
-         "--batch", batch,
-         "File of queries, JSON Lines, each of which gets a plan; what a query does not say the "
-         "other options do, and --object is a folder or the object of all. --output gets a "
-         "line for each, in their order: a plan, or why there is none. A run that was "
-         "stopped goes on where it was")
+  app.add_option("--batch", batch,
+                 "File of queries in JSON Lines. --output gets one line per query, a plan or the "
+                 "reason why there is none. Other options are defaults of all queries, and "
+                 "--object is their object or a folder of objects. An interrupted run continues")
       ->type_name("FILE");
-  app.add_option("--shard", shard, "Part I of N of the queries alone; merge joins the results")
+  app.add_option("--shard", shard, "Part I of N of the queries. `merge` joins the results")
       ->type_name("I/N");
-  AddInteger(app, "--jobs", jobs, 1, kMostJobs,
-             "Queries of --batch planned at a time, or with --hand searches made (default: one a "
-             "processor); without --time-limit no plan depends on it");
-  app.add_flag("--fresh", fresh,
-               "Throw away what an earlier run with --batch and the same --output left");
+  AddInteger(app, "-j,--jobs", jobs, 1, kMostJobs,
+             "Number of parallel queries with --batch, or searches with --hand. Without "
+             "--time-limit plans do not depend on it [default: one per processor]");
+  app.add_flag("--restart", fresh, "Discard the results of an earlier run of --batch");
+  MarkRare(app, {"--shard"});
 }
 
 planning::GraspChoice PlanProgram::Choose(const PlanEnd& end, const object::Object& object) const {
@@ -142,8 +128,8 @@ planning::GraspChoice PlanProgram::Choose(const PlanEnd& end, const object::Obje
   const std::string& value = end.value;
   // No such file, and nearly one of the words.
   if (!end.is_random() && !std::filesystem::exists(value)) {
-    const std::string meant = DidYouMean(value, {kRandom, kRandomAny});
-    if (!meant.empty()) throw InputError(end.option + ": there is no file " + value + meant);
+    const std::string meant = SimilarWord(value, {kRandom, kRandomAny});
+    if (!meant.empty()) throw InputError(end.option + ": file " + value + " not found" + meant);
   }
   if (!end.is_random()) return {Kind::kGiven, plan::ReadGrasp(value, object), value};
   const bool any = value == kRandomAny || common.planner == "auto";
@@ -155,10 +141,8 @@ planning::PlanRequest PlanProgram::RequestFor(const object::Object& object) cons
   request.hand.fingertip_radius = finger_radius;
   request.criteria.min_quality = min_quality;
   request.objective = objective;
-  request.last_resort = !no_lazy;
-  request.effort = effort;
   request.explain = explain;
-  if (batch.empty()) request.jobs = jobs;  // else there are as many processes
+  if (batch.empty()) request.jobs = jobs;  // a batch has as many processes
   return request;
 }
 
@@ -197,8 +181,8 @@ void PlanProgram::CheckEnds() const {
   for (const PlanEnd& end : {start, goal}) {
     if (hand.given() && end.is_random()) {
       throw InputError(end.option +
-                       ": with --hand a grasp file, or nothing, as the program "
-                       "chooses a grasp that the hand reaches; found " +
+                       ": with --hand expected a grasp file, or nothing to let the "
+                       "program choose a grasp, found " +
                        end.value);
     }
     // Without a hand a plan is from a grasp to a grasp; a hand chooses those that are not given.
@@ -236,21 +220,22 @@ FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoin
 }
 
 void PlanProgram::Finish(const CLI::App& app) {
-  for (const char* name : {"--turn", "--start-pose", "--goal-pose", "--clearance", "--reserve"}) {
+  for (const char* name :
+       {"--turn", "--start-pose", "--goal-pose", "--clearance", "--robustness"}) {
     if (app.count(name) > 0 && !hand.given())
       throw InputError(std::string(name) + " requires --hand");
   }
   if (batch.empty()) {
-    for (const char* name : {"--shard", "--fresh"}) {
-      if (app.count(name) > 0) throw InputError(std::string(name) + " goes with --batch");
+    for (const char* name : {"--shard", "--restart"}) {
+      if (app.count(name) > 0) throw InputError(std::string(name) + " requires --batch");
     }
     if (app.count("--jobs") > 0 && !hand.given()) {
-      throw InputError("--jobs goes with --batch or --hand");
+      throw InputError("--jobs requires --batch or --hand");
     }
     return;
   }
   given = GivenOptions(app, {"--help", "--version", "--object", "--start", "--goal", "--hand",
-                             "--output", "--batch", "--shard", "--jobs", "--fresh", "--quiet"});
+                             "--output", "--batch", "--shard", "--jobs", "--restart", "--quiet"});
 }
 
 }  // namespace regrasp::apps

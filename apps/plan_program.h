@@ -23,7 +23,7 @@ namespace regrasp::apps {
 /// The program's name, before its messages.
 inline constexpr char kPlanName[] = "plan";
 
-/// A start or a goal, as it is asked for.
+/// A start or a goal on the command line.
 struct PlanEnd {
   std::string option;  ///< "--start"
   std::string value;   ///< a grasp file, "random" or "random-any"; empty: not given
@@ -34,16 +34,16 @@ struct PlanEnd {
   [[nodiscard]] bool is_random() const;
 };
 
-/// The points of the object's file that contacts are to be at, where that is asked.
+/// Points of the object's file that contacts must be at, if required.
 using GivenPoints = std::optional<std::vector<Eigen::Vector3d>>;
 
-/// What was planned, and what the checker says of it.
+/// Result of planning and of the checker.
 struct FinishedPlan {
   planning::PlanResult result;
-  plan::PlanCheck check;  ///< where there is a plan
+  plan::PlanCheck check;  ///< if there is a plan
 };
 
-/// What the command line of `plan` asks for.
+/// Options of `plan`.
 struct PlanProgram {
   PlannerOptions common;
   PlanEnd start{"--start", "", "", ""};
@@ -52,16 +52,14 @@ struct PlanProgram {
   double min_quality = criteria::GraspCriteria().min_quality;
   double finger_radius = 0;  ///< 0: points
   planning::Objective objective = planning::Objective::kSteps;
-  bool no_lazy = false;
-  std::optional<std::int64_t> effort;
   bool explain = false;
   HandOptions hand;
-  /// Of --hand, where ReadHand was called.
+  /// File of --hand after ReadHand.
   std::shared_ptr<const kinematics::HandFile> hand_file;
-  std::string batch;  ///< a file of queries, each of which says more or other than this
+  std::string batch;  ///< file of queries, which override the options
   std::string shard;
   int jobs;
-  bool fresh = false;  ///< of a batch: does again what an earlier run did
+  bool fresh = false;  ///< discard the results of an earlier run
   /// Given options that change results, each with its values.
   std::vector<std::pair<std::string, std::vector<std::string>>> given;
   /// Called once when the search for a hand's plan begins, after the input has been checked.
@@ -70,17 +68,17 @@ struct PlanProgram {
   PlanProgram();
   /// Adds all options to the command line; they are set when it is parsed.
   void AddTo(CLI::App& app);
-  /// After parsing: finds out what is given and whether it goes together.
-  /// @throws InputError  it does not.
+  /// Check the parsed options.
+  /// @throws InputError  if they are inconsistent.
   void Finish(const CLI::App& app);
 
-  /// @throws InputError  the ends are too few, or do not go with a hand.
+  /// @throws InputError  if an end is missing or cannot be used with a hand.
   void CheckEnds() const;
-  /// Reads the hand's file, where there is one.
-  /// @throws InputError  it is no good.
+  /// Read the hand's file, if there is one.
+  /// @throws InputError  if it is not valid.
   void ReadHand();
-  /// Plans once, and makes of what is found a plan that stands alone.
-  /// @throws InputError  the object and the options do not go together.
+  /// Plan once, and complete a found plan for writing.
+  /// @throws InputError  if object and options are inconsistent.
   [[nodiscard]] FinishedPlan Plan(const object::ObjectFile& object, const GivenPoints& given) const;
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/help.h"
+#include "apps/list_option.h"
 #include "apps/nearest_word.h"
 #include "apps/program.h"
 #include "apps/progress.h"
@@ -10,14 +11,24 @@
 #include "planner/base/error.h"
 #include "planner/base/memory.h"
 #include "planner/base/number.h"
+#include "planner/gait/request.h"
 #include "planner/object/given_points.h"
 #include "planner/object/reading.h"
 #include "planner/registry/registry.h"
 #include "planner/roadmap/build_roadmap.h"
+#include "planner/tree/tree_planner.h"
 
 namespace regrasp::apps {
 
 namespace {
+
+constexpr double kMostRoughness_deg = 45;
+
+/// Hours of search.
+constexpr std::int64_t kLargestBudget = 100'000'000'000;
+
+/// More queries take minutes on objects where many fail.
+constexpr int kMostQueries = 100'000;
 
 std::vector<std::string> NamesForUsers() {
   std::vector<std::string> names = {"auto"};
@@ -25,94 +36,110 @@ std::vector<std::string> NamesForUsers() {
   return names;
 }
 
-/// Spelled out rather than left to CLI11, so that the message says why a known name is refused.
-std::string CheckPlanner(const std::string& name) {
+/// @throws CLI::ValidationError  if there is no planner of this name.
+void CheckPlanner(const std::string& option, const std::string& name) {
   const std::vector<std::string> names = NamesForUsers();
-  if (std::ranges::find(names, name) != names.end()) return {};
-  return "the planner \"" + name + "\" does not exist in this version; there are " +
-         registry::PlannerNames() + DidYouMean(name, names);
+  if (std::ranges::find(names, name) != names.end()) return;
+  throw CLI::ValidationError(option, "the planner \"" + name +
+                                         "\" does not exist in this version, expected one of " +
+                                         registry::PlannerNames() + SimilarWord(name, names));
 }
 
-/// The planners, each with what it plans.
+/// One line per planner: "general: any force-closure grasps, on any object".
 std::string PlannersText() {
-  std::string text = "auto";
+  std::string text;
   for (const planning::Planner* planner : registry::AllPlanners()) {
-    text += ", " + planner->name() + " (" + planner->traits().what + ")";
+    text += (text.empty() ? "" : "\n") + planner->name() + ": " + planner->traits().what;
   }
   return text;
 }
 
+std::string PlannerHelp(PlannerOptions::Purpose purpose) {
+  const bool plans = purpose == PlannerOptions::Purpose::kPlan;
+  return std::string("Planner and its settings. auto is ") +
+         (plans ? "general" : "polygon in the plane and roadmap in space") +
+         " unless another option needs a different planner [default: auto]\n" + PlannersText() +
+         "\nspanning=adaptive|uniform (polygon, polyhedron): opening angle of focus cells, as "
+         "large "
+         "as the normals permit or the friction angle [default: adaptive]\n"
+         "points=N|given (roadmap): number of contact points, or the points of the object file "
+         "[default: 60, with clusters 1000]\n"
+         "clusters=N (roadmap): number of clusters of contact points [default: 50 for more than " +
+         std::to_string(roadmap::kMaxRoadmapContacts) +
+         " points, otherwise none]\n"
+         "fallback=yes|no (roadmap): search all contact points if clusters do not connect start "
+         "and "
+         "goal [default: yes]\n" +
+         (plans
+              ? "budget=N (general, gait): search budget in force-closure tests [default: " +
+                    std::to_string(tree::TreePlanner::kDefaultEffort) +
+                    "] or expanded grasps [default: " + std::to_string(gait::kDefaultExpanded) + "]"
+              : "queries=N (roadmap with clusters): also answer N random queries between "
+                "force-closure grasps");
+}
+
 }  // namespace
 
-void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
-  BeginGroup(app, "Object and friction");
+void PlannerOptions::AddTo(CLI::App& app, Purpose purpose) {
+  BeginGroup(app, "Input");
   app.add_option("--object", object,
-                 "The object: a polygon (WKT) or a closed surface mesh (OBJ, OFF, PLY, STL, …)")
+                 "Object file. A polygon (WKT) or a closed surface mesh (OBJ, OFF, PLY, STL, …)")
       ->type_name("FILE")
       ->required();
   AddScale(app, scale);
   repair.AddWithSwitch(app);
-  AddNumber(app, "--patch", patch, NumberRange::NotNegative(),
-            "Radius of the patch that a fingertip touches; in the object file's unit of length: "
-            "fingers keep off places where the facet's normal is not the mean over the patch, and "
-            "grasps hold with either (default: 2 % of the diameter with --repair, otherwise 0: "
-            "facets are as they are)",
-            "R");
-  AddNumber(app, "--roughness", roughness_deg, {0, 45, false, true},
-            "Degrees by which a contact's normal may differ from its patch's; with so much less "
-            "friction is planned (default 5)",
-            "DEG");
-  app.add_flag("--allow-invented", allow_invented,
-               "Fingers may stand on surface that a repair invented; otherwise planners keep off "
-               "it, as nobody knows what is there");
+  ListOption("--patch")
+      .Values("a radius", {NumberParser(patch, NumberRange::NotNegative())})
+      .Key("roughness", NumberParser(roughness_deg, {0, kMostRoughness_deg, false, true}))
+      .AddTo(app, "R[,roughness=DEG]",
+             "Radius of the contact patch, object units. Planners avoid places whose normal "
+             "differs from the mean normal of the patch. Grasps are force closure with either "
+             "normal [default: 2 % of the diameter with --repair, otherwise 0]\n"
+             "roughness=DEG: largest difference, which reduces the friction angle [default: 5]");
+  BeginGroup(app, "Friction and contact");
   friction.AddTo(app);
-  contact.AddTo(app, "hard");
+  if (purpose == Purpose::kPlan) contact.AddTo(app, "0");
   BeginGroup(app, "Planner");
-  std::string type;
-  for (const std::string& name : NamesForUsers()) type += (type.empty() ? "" : "|") + name;
-  app.add_option("--planner", planner,
-                 "The planner: " + PlannersText() + " (default auto: " + automatic + ")")
-      ->type_name(type)
-      ->check(CheckPlanner);
-  AddChoice<planning::Spanning>(
-      app, "--spanning", spanning,
-      {{"adaptive", planning::Spanning::kAdaptive}, {"uniform", planning::Spanning::kUniform}},
-      "How wide cones of focus cells are: adaptive, as the normals allow, or uniform, all of the "
-      "friction's half-angle; of polygon and polyhedron (default adaptive)");
-  AddContacts(app);
-  AddInteger(app, "--clusters", clusters, roadmap::kFewestClusters, roadmap::kMostClusters,
-             "Clusters that the roadmap sorts its contact points into: it looks at all grasps of "
-             "their representatives only (default: 50 where there are more than " +
-                 std::to_string(roadmap::kMaxRoadmapContacts) +
-                 " contact points to choose or faces, otherwise none)");
-  AddSeed(app, seed, "Seed of everything that is drawn at random (default 0)");
-  app.add_flag(
-      "--force", force,
-      "Build a planner's graph also where it takes more than half of the memory; otherwise "
-      "that is refused");
+  AddPlanner(app, purpose);
+  AddSeed(app, seed, "Random seed [default: 0]");
   AddNumber(app, "--time-limit", time_limit_s, NumberRange::Positive(),
-            "Longest time from the program's start, seconds: after it reading, planning and "
-            "building a graph give up; a plan then depends on the machine",
+            "Time limit in seconds from the start of the program. Reading, planning and graph "
+            "construction stop then, so plans depend on the machine",
             "S");
+  ListOption("--allow")
+      .Word("filled", [this] { allow_invented = true; })
+      .Word("large-graph", [this] { force = true; })
+      .AddTo(app, "WORD,…",
+             "Exceptions to permit.\nfilled: contacts on surface that a repair filled in\n"
+             "large-graph: a graph that needs more than half of the memory");
   AddQuiet(app, quiet);
 }
 
-void PlannerOptions::AddContacts(CLI::App& app) {
-  const auto parse = [this](const std::string& text) {
+void PlannerOptions::AddPlanner(CLI::App& app, Purpose purpose) {
+  std::string type;
+  for (const std::string& name : NamesForUsers()) type += (type.empty() ? "" : "|") + name;
+  ListOption list("--planner");
+  list.Values("a planner's name", {[this](const std::string& option, const std::string& name) {
+                CheckPlanner(option, name);
+                planner = name;
+              }});
+  list.Key("spanning",
+           ChoiceParser<planning::Spanning>(spanning, {{"adaptive", planning::Spanning::kAdaptive},
+                                                       {"uniform", planning::Spanning::kUniform}}));
+  list.Key("points", [this](const std::string& name, const std::string& text) {
     contacts_given = text == "given";
-    if (contacts_given) {
-      contacts.reset();
-    } else {
-      contacts = ParseInteger<int>("--contacts", text, roadmap::kFewestClusters,
-                                   roadmap::kMaxClusteredContacts);
-    }
-  };
-  app.add_option_function<std::string>(
-         "--contacts", parse,
-         "Contact points of the roadmap: so many spread evenly over the surface, on a mesh at the "
-         "centres of its facets, or given, at points that the object's file gives (of a cloud its "
-         "points, of a mesh its vertices) and nowhere else (default 60, in clusters 1000)")
-      ->type_name("N|given");
+    if (contacts_given) return;
+    contacts =
+        ParseInteger<int>(name, text, roadmap::kFewestClusters, roadmap::kMaxClusteredContacts);
+  });
+  list.Key("clusters", IntegerParser(clusters, roadmap::kFewestClusters, roadmap::kMostClusters));
+  list.Key("fallback", ChoiceParser<bool>(fallback, {{"yes", true}, {"no", false}}));
+  if (purpose == Purpose::kPlan) {
+    list.Key("budget", IntegerParser(budget, std::int64_t{1}, kLargestBudget));
+  } else {
+    list.Key("queries", IntegerParser(queries, 1, kMostQueries));
+  }
+  list.AddTo(app, type + "[,KEY=VALUE,…]", PlannerHelp(purpose));
 }
 
 std::optional<std::vector<Eigen::Vector3d>> PlannerOptions::ReadGivenPoints() const {
@@ -133,8 +160,10 @@ planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const
   request.seed = seed;
   request.deadline = deadline();
   request.spanning = spanning;
-  request.contact_points = contacts;
+  if (!contacts_given) request.contact_points = contacts;
   request.clusters = clusters;
+  request.last_resort = fallback;
+  request.effort = budget;
   return request;
 }
 
@@ -156,13 +185,13 @@ void PlannerOptions::NotePlaces(plan::RoadmapNote& note) const {
 double PlannerOptions::PlannedHalfAngle() const {
   const double half_angle = friction.required_half_angle();
   if (!patch_felt()) return half_angle;
-  // A cone about a facet's normal, narrower by the angle to the patch's, lies within the patch's.
+  // A cone about a triangle's normal, narrower by the angle to the patch's normal, is inside the
+  // patch's cone.
   const double planned = half_angle - Radians(roughness_deg);
   if (planned > 0) return planned;
-  throw InputError("--roughness: of the friction's half-angle, " +
-                   FormatShort(Degrees(half_angle)) +
-                   "°, nothing is left to plan with; ask for less "
-                   "than that");
+  throw InputError("--patch roughness: must be less than the friction angle, " +
+                   FormatShort(Degrees(half_angle)) + "°, found " + FormatShort(roughness_deg) +
+                   "°");
 }
 
 Deadline PlannerOptions::deadline() const {
@@ -196,7 +225,7 @@ const planning::Planner& PlannerOptions::PlannerFor(const planning::PlanRequest&
   if (force) return found;
   if (const auto need = found.EstimateMemory(request)) {
     const std::string why = MemoryComplaint(*need, UsableMemory());
-    if (!why.empty()) throw InputError(object + ": " + why + " (--force builds it all the same)");
+    if (!why.empty()) throw InputError(object + ": " + why + " (--allow large-graph permits it)");
   }
   return found;
 }

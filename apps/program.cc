@@ -4,16 +4,19 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "apps/colour.h"
 #include "apps/help.h"
 #include "apps/nearest_word.h"
+#include "apps/renamed_options.h"
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"
 #include "planner/base/text_table.h"
@@ -51,29 +54,30 @@ int FlushResults(const std::string& program, int exit_code) {
 
 /// What the build makes manual pages and completions with.
 constexpr char kHelpAs[] = "--help-as";
+constexpr char kHelpAll[] = "--help-all";
 
-/// Whether a word is an option: no negative number, and not "-", which is standard input or output.
-bool IsOption(std::string_view word) {
-  return word.starts_with("-") && word.size() > 1 &&
-         (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
-}
-
-/// @param words  all that follows an option up to the next one.
-/// @throws InputError  it has no value, or one of several words that are no single argument.
-void CheckValue(const OptionHelp& option, std::span<const char* const> words) {
-  if (!option.type.empty() && words.empty()) {
-    throw InputError(option.name + ": its value is missing: " + option.name + " " + option.type);
+/// @param words  the words between an option and the next one.
+/// @throws InputError  if the option has no value, or several words instead of one list.
+void CheckValue(const OptionHelp& option, std::span<const std::string> words) {
+  if (!option.type.empty() && words.empty() && !option.value_optional) {
+    throw InputError(option.name + ": a value is required: " + option.name + " " + option.type);
   }
-  if (!option.type.starts_with('"') || words.size() < 2) return;
+  if (option.type.find(',') == std::string::npos || words.size() < 2) return;
   std::string value;
-  for (const char* word : words) value += (value.empty() ? "" : " ") + std::string(word);
-  throw InputError(option.name + ": its words are one argument, in quotes: " + option.name + " \"" +
-                   value + "\"");
+  for (const std::string& word : words) value += (value.empty() ? "" : ",") + word;
+  throw InputError(option.name + ": expected one list with commas, found " +
+                   std::to_string(words.size()) + " words; help: " + option.name + " " + value);
 }
 
-/// What is mistyped is told before what is missing.
-/// @throws InputError  there is no such option, or as CheckValue.
-void CheckOptions(const CLI::App& app, int argc, const char* const* argv) {
+/// True for "-j4", the only short name that its value can follow without a space.
+bool IsShortNumber(const std::string& word) {
+  return word.size() > 2 && word.starts_with("-j") &&
+         word.find_first_not_of("0123456789", 2) == std::string::npos;
+}
+
+/// Check the names of options before CLI11 reports missing ones.
+/// @throws InputError  if there is no such option, or as CheckValue.
+void CheckOptions(const CLI::App& app, std::span<const std::string> words) {
   std::vector<OptionHelp> options;
   std::vector<std::string> names;
   for (const HelpGroup& group : HelpGroups(app)) {
@@ -82,13 +86,14 @@ void CheckOptions(const CLI::App& app, int argc, const char* const* argv) {
       names.push_back(option.name);
     }
   }
-  const std::span<const char* const> words(argv, argc);
-  for (int i = 1; i < argc; ++i) {
-    const std::string given = argv[i];
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& given = words[i];
     if (given == "--") return;
     const std::string name = given.substr(0, given.find('='));
-    if (!IsOption(name) || name == "-h" || name == kHelpAs) continue;
-    const auto known = std::ranges::find(options, name, &OptionHelp::name);
+    if (!IsOption(name) || name == kHelpAs || IsShortNumber(name)) continue;
+    const auto known = std::ranges::find_if(options, [&](const OptionHelp& option) {
+      return option.name == name || option.short_name == name;
+    });
     if (known != options.end()) {
       const auto rest = words.subspan(i + 1);
       const auto next = std::ranges::find_if(rest, IsOption) - rest.begin();
@@ -97,25 +102,47 @@ void CheckOptions(const CLI::App& app, int argc, const char* const* argv) {
     }
     // "-object" is taken for "--object".
     const std::string meant = name[1] == '-' ? name : "-" + name;
-    throw InputError("unknown option " + name + DidYouMean(meant, names) + " (" + app.get_name() +
-                     " --help lists all)");
+    throw InputError("unknown option " + name + SimilarWord(meant, names) + " (" + app.get_name() +
+                     " --help-all lists all)");
   }
 }
 
-int Run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
-  if (argc == 3 && argv[1] == std::string(kHelpAs)) {
-    std::cout << FormatHelpAs(argv[2], app);
+/// The level of help that is requested first.
+std::optional<HelpLevel> RequestedHelp(std::span<const std::string> words) {
+  for (const std::string& word : words) {
+    if (word == "--") return std::nullopt;
+    if (word == "-h") return HelpLevel::kShort;
+    if (word == "--help") return HelpLevel::kFull;
+    if (word == kHelpAll) return HelpLevel::kAll;
+  }
+  return std::nullopt;
+}
+
+/// Report old names of options, unless --quiet is given.
+void PrintNotes(const std::string& program, const RenamedWords& renamed) {
+  for (const char* quiet : {"-q", "--quiet"}) {
+    if (std::ranges::find(renamed.words, quiet) != renamed.words.end()) return;
+  }
+  for (const std::string& note : renamed.notes) PrintMessage(program, "note: " + note);
+}
+
+int Run(CLI::App& app, std::vector<std::string> words, const std::string& called,
+        const std::function<int()>& run) {
+  if (words.size() == 2 && words[0] == kHelpAs) {
+    std::cout << FormatHelpAs(words[1], app);
     return kExitDone;
   }
-  // What is said of the command line names the program as it was called.
-  const std::string called = "regrasp " + app.get_name();
-  if (argc > 0 && argv[0] == called) app.name(called);
-  CheckOptions(app, argc, argv);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::cout << HelpText(app, HelpWidth());
+  const std::string program = app.get_name();
+  // Messages on the command line contain the program's name as it was called.
+  if (called == "regrasp " + program) app.name(called);
+  const RenamedWords renamed = RenameOptions(program, words);
+  CheckOptions(app, renamed.words);
+  if (const auto help = RequestedHelp(renamed.words)) {
+    std::cout << HelpText(app, HelpWidth(), *help);
     return kExitDone;
+  }
+  try {
+    app.parse(std::vector<std::string>(renamed.words.rbegin(), renamed.words.rend()));
   } catch (const CLI::Success& text) {
     // --version, --explain
     std::cout << text.what() << '\n';
@@ -123,7 +150,10 @@ int Run(CLI::App& app, int argc, const char* const* argv, const std::function<in
   } catch (const CLI::ParseError& error) {
     throw InputError(std::string(error.what()) + " (" + app.get_name() + " --help lists all)");
   }
-  return run();
+  const int code = run();
+  // Bad input is one line: notes are for command lines that work.
+  if (code <= kExitNegative) PrintNotes(program, renamed);
+  return code;
 }
 
 }  // namespace
@@ -174,12 +204,16 @@ std::string ProgramVersion() { return REGRASP_VERSION; }
 
 int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
   const std::string program = app.get_name();
-  app.set_version_flag("--version", program + " " + ProgramVersion(), "Print the version and exit")
+  app.set_version_flag("-V,--version", program + " " + ProgramVersion(), "Print the version")
       ->group(kGeneralGroup);
-  app.get_help_ptr()->description("Print this text and exit");
+  app.get_help_ptr()->description("Print help. -h prints one line per option");
+  app.add_flag_callback(
+         kHelpAll, [] {}, "Print help with rare options")
+      ->group(kGeneralGroup);
   return RunGuarded(program, [&] {
     PrepareProcess();
-    return Run(app, argc, argv, run);
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    return Run(app, words, argc > 0 ? argv[0] : "", run);
   });
 }
 

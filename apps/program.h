@@ -18,14 +18,14 @@ enum ExitCode : int {
 /// The body of every main(): parses the command line, runs the program and turns what is thrown
 /// into one line on standard error, "plan: cube.obj: …", and an exit code.
 ///
-/// Bad usage and InputError give 2. EnvironmentError, exhausted memory and a standard output that
-/// cannot be written give 3, and so does an error that nobody foresaw, which is ours. --help and
-/// --version print to standard output and give 0, and so does `--help-as man|bash|zsh|fish`, alone
-/// on the command line: what the build makes the manual page and completions with. Called as
-/// "regrasp plan", by `regrasp`, usage and hints say so. An option that
-/// there is not is told before all else, with the one that was probably meant. Closed standard
-/// streams are taken, so that no file gets their place; SIGXFSZ is ignored, so that a file that may
-/// not grow is an error.
+/// Bad usage and InputError give 2. EnvironmentError, exhausted memory, an unwritable standard
+/// output and unexpected errors give 3. -h, --help, --help-all and --version print to standard
+/// output and give 0, and so does `--help-as man|bash|zsh|fish|markdown`, which the build uses.
+/// Called as "regrasp plan", by `regrasp`, usage and messages contain that name. Old names of
+/// options (renamed_options.h) are accepted; if the program returns, a note on standard error names
+/// the new one. Unknown options are reported first, with a similar one. Closed standard streams are
+/// opened, so that no file gets their number; SIGXFSZ is ignored, so that the file size limit is an
+/// error.
 /// @param app  with all its options; its name is the program's. --version is added here.
 /// @param run  called after parsing; returns the exit code.
 int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);

@@ -28,7 +28,7 @@ void CheckCommand(const std::string& name) {
   std::vector<std::string> names;
   for (const Command& command : kCommands) names.emplace_back(command.name);
   if (std::ranges::find(names, name) != names.end()) return;
-  throw InputError("unknown command " + name + DidYouMean(name, names) +
+  throw InputError("unknown command " + name + SimilarWord(name, names) +
                    " (regrasp --help lists all)");
 }
 

@@ -1,4 +1,5 @@
-// repair: makes a solid of a scan, of a broken mesh or of several shells, and says what it changed.
+// repair: makes a closed solid from a scan, a broken mesh or several shells, and reports the
+// changes.
 
 #include "planner/repair/repair.h"
 
@@ -35,25 +36,24 @@ struct RepairProgram {
 };
 
 void RepairProgram::AddTo(CLI::App& app) {
-  BeginGroup(app, "Files");
-  app.add_option("--object", object, "The scan or mesh (OBJ, OFF, PLY, STL, glTF, …)")
+  BeginGroup(app, "Input");
+  app.add_option("--object", object, "Scan or mesh (OBJ, OFF, PLY, STL, glTF, …)")
       ->type_name("FILE")
       ->required();
-  app.add_option("--output", output,
-                 "Where the solid goes, as OBJ; facets that were invented are in its group "
-                 "invented, where planners place no finger")
-      ->type_name("FILE.obj")
-      ->required();
-  app.add_option("--report", report,
-                 "Where a report of each stage and what it changed goes (JSON); of a refusal too")
-      ->type_name("FILE");
-  BeginGroup(app, "What the solid is like");
+  BeginGroup(app, "Repair");
   options.AddTo(app);
-  BeginGroup(app, "Messages");
+  BeginGroup(app, "Output");
+  app.add_option("-o,--output", output,
+                 "Closed solid (OBJ). Its group `invented` contains the filled triangles, which "
+                 "planners avoid")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--report", report, "Report of all stages and their changes (JSON)")
+      ->type_name("FILE");
   AddQuiet(app, quiet);
   app.footer(
       "  repair --object scan.ply --output solid.obj --report repair.json\n"
-      "  repair --object pieces.obj --output solid.obj --part 1 --faces 5000\n");
+      "  repair --object pieces.obj --output solid.obj --repair part=1,max-triangles=5000\n");
 }
 
 int RepairProgram::Run() const {

@@ -1,7 +1,6 @@
 #include "apps/repair_options.h"
 
-#include <vector>
-
+#include "apps/list_option.h"
 #include "apps/options.h"
 
 namespace regrasp::apps {
@@ -12,47 +11,43 @@ constexpr int kFewestFacets = 4;
 constexpr int kMostFacets = 1'000'000;
 constexpr int kMostParts = 100'000;
 
-std::vector<CLI::Option*> AddAll(CLI::App& app, double& max_deviation_percent,
-                                 object::RepairOptions& options) {
-  return {AddNumber(app, "--max-deviation", max_deviation_percent, NumberRange::Positive(),
-                    "Largest deviation of the solid, percent of its diameter: 95 % of the surface "
-                    "that is seen from outside stays within it (default 1)",
-                    "PERCENT"),
-          AddInteger(app, "--faces", options.facets, kFewestFacets, kMostFacets,
-                     "Most triangles of the solid, within --max-deviation (default: as many as "
-                     "come out)"),
-          AddInteger(app, "--part", options.part, 1, kMostParts,
-                     "Which of several solids beside each other, by volume, from 1 (default: "
-                     "refused where a second one has more than 1 % of the volume)"),
-          AddNumber(app, "--solidify", options.thickness, NumberRange::Positive(),
-                    "Thickness of the wall that an open sheet gets; in the object file's unit of "
-                    "length",
-                    "THICKNESS")};
-}
-
-void AddShells(CLI::App& app, std::optional<object::Shells>& shells) {
-  AddChoice<std::optional<object::Shells>>(
-      app, "--shells", shells,
-      {{"union", object::Shells::kUnion}, {"largest", object::Shells::kLargest}},
-      "What several closed shells are: union, all are one rigid body, also beside each other; "
-      "largest, the one of the largest volume and its cavities is the object (default: refused, "
-      "but for a solid and its cavities)");
-}
-
 }  // namespace
 
+void RepairOptions::AddShells(CLI::App& app) {
+  AddChoice<std::optional<object::Shells>>(
+      app, "--shells", shells_,
+      {{"union", object::Shells::kUnion}, {"largest", object::Shells::kLargest}},
+      "Treatment of several closed shells. By default only one solid with cavities is accepted\n"
+      "union: all shells are one rigid body\n"
+      "largest: keep the shell of largest volume and its cavities");
+}
+
+CLI::Option* RepairOptions::AddRepair(CLI::App& app, const std::string& purpose,
+                                      bool value_optional) {
+  ListOption list("--repair");
+  list.Key("max-deviation", NumberParser(max_deviation_percent_, NumberRange::Positive()))
+      .Key("max-triangles", IntegerParser(options_.facets, kFewestFacets, kMostFacets))
+      .Key("part", IntegerParser(options_.part, 1, kMostParts))
+      .Key("wall", NumberParser(options_.thickness, NumberRange::Positive()));
+  const std::string text =
+      purpose +
+      ".\nmax-deviation=PERCENT: largest deviation of 95 % of the visible surface, relative to the "
+      "object's diameter [default: 1]\n"
+      "max-triangles=N: simplify to at most N triangles\n"
+      "part=K: keep the solid of K-th largest volume\n"
+      "wall=T: replace an open sheet by a wall of thickness T, object units";
+  return value_optional ? list.AddOptionalTo(app, "[KEY=VALUE,…]", text)
+                        : list.AddTo(app, "KEY=VALUE,…", text);
+}
+
 void RepairOptions::AddTo(CLI::App& app) {
-  AddShells(app, shells_);
-  AddAll(app, max_deviation_percent_, options_);
+  AddShells(app);
+  AddRepair(app, "Settings of the repair", false);
 }
 
 void RepairOptions::AddWithSwitch(CLI::App& app) {
-  AddShells(app, shells_);
-  CLI::Option* repair = app.add_flag(
-      "--repair", wanted_,
-      "Make a solid of a scan or a broken mesh; as the program repair does; fingers keep off what "
-      "it must invent");
-  for (CLI::Option* option : AddAll(app, max_deviation_percent_, options_)) option->needs(repair);
+  AddShells(app);
+  switch_ = AddRepair(app, "Repair a scan or broken mesh. Planners avoid filled surface", true);
 }
 
 object::RepairOptions RepairOptions::Get() const {

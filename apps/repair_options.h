@@ -2,26 +2,30 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <string>
 
 #include "planner/object/object.h"
 
 namespace regrasp::apps {
 
-/// What is made of a surface that is no solid, as the command line asks it.
+/// How a surface that is not a closed solid is read, as the command line states it.
 class RepairOptions {
  public:
-  /// Adds --shells, --max-deviation, --faces, --part and --solidify.
+  /// Add --shells and --repair, the settings of the program `repair`.
   void AddTo(CLI::App& app);
-  /// Adds --repair too, without which all but --shells are refused.
+  /// Add --shells and --repair [SETTINGS], which requests a repair.
   void AddWithSwitch(CLI::App& app);
 
-  [[nodiscard]] bool wanted() const { return wanted_; }
+  [[nodiscard]] bool wanted() const { return switch_ != nullptr && switch_->count() > 0; }
   [[nodiscard]] object::RepairOptions Get() const;
   /// With and without a repair.
   [[nodiscard]] std::optional<object::Shells> shells() const { return shells_; }
 
  private:
-  bool wanted_ = false;
+  void AddShells(CLI::App& app);
+  CLI::Option* AddRepair(CLI::App& app, const std::string& purpose, bool value_optional);
+
+  const CLI::Option* switch_ = nullptr;  ///< option that requests a repair
   double max_deviation_percent_ = 100 * object::RepairOptions().max_deviation;
   object::RepairOptions options_;
   std::optional<object::Shells> shells_;

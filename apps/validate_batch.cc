@@ -108,11 +108,11 @@ PlanLibrary FindLibrary(const ValidateOptions& options) {
   const fs::path folder = options.Folder();
   OutputFiles outputs;
   outputs.Add("--junit", options.junit);
-  outputs.folders.push_back({"--out", folder, [](const std::string& name) {
+  outputs.folders.push_back({"--output", folder, [](const std::string& name) {
                                return name == kSummaryName || name == kIndexName;
                              }});
   for (const LibraryPlan& plan : library.plans) {
-    outputs.folders.push_back({"--out", folder / plan.name, IsValidationFile});
+    outputs.folders.push_back({"--output", folder / plan.name, IsValidationFile});
   }
   CheckOutputsDiffer(InputsOf(options, library), outputs);
   // That of a plan is its own matter.

@@ -85,8 +85,8 @@ class ValidateLines {
  private:
   void CheckOutput(const std::string& reports) const {
     OutputFiles outputs;
-    outputs.Add("--out", reports);
-    outputs.Add("--out", reports + kPartEnding);
+    outputs.Add("--output", reports);
+    outputs.Add("--output", reports + kPartEnding);
     CheckOutputsDiffer({{"--object", options_.object_path},
                         {"--plan", options_.plan_path},
                         {"--start", options_.start},

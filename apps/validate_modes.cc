@@ -3,17 +3,19 @@
 #include <set>
 #include <string>
 
+#include "apps/list_option.h"
 #include "planner/base/error.h"
 
 namespace regrasp::apps {
 namespace {
 
-/// @param why  after the name of an option that is given and not served.
+/// @param why  follows the name of a given option that is not served.
+/// @throws InputError  if there is one.
 void RefuseOthers(const CLI::App& app, const std::set<std::string>& served,
                   const std::string& why) {
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
-    if (option->count() > 0 && !served.contains(name)) throw InputError(name + " " + why);
+    if (option->count() > 0 && !served.contains(name)) throw InputError(name + ": " + why);
   }
 }
 
@@ -24,74 +26,77 @@ constexpr double kLongestTime_s = 1e6;
 
 void AddBatch(CLI::App& app, ValidateOptions& options) {
   app.add_option("--shard", options.shard,
-                 "Part I of N of the plans in a file of lines alone; merge joins the results")
+                 "Part I of N of a file of plans (*.jsonl). `merge` joins the results")
       ->type_name("I/N");
-  AddInteger(app, "--jobs", options.jobs, 1, kMostJobs,
-             "How many of several plans are validated at a time; of --export-states, threads "
-             "(default: one a processor)");
+  AddInteger(app, "-j,--jobs", options.jobs, 1, kMostJobs,
+             "Number of plans that are validated in parallel, or threads of --export-states "
+             "[default: one per processor]");
   AddNumber(app, "--time-limit", options.time_limit_s,
             {.lower = 0, .upper = kLongestTime_s, .lower_included = false},
-            "Longest time that one of several plans may take, seconds; it is then stopped and "
-            "counts as an error (default: none)",
-            "S");
-  app.add_flag(
-      "--fresh", options.fresh,
-      "Validate all of several plans anew; of a file of lines throw away what an earlier run left; "
-      "otherwise a plan keeps the results of an earlier "
-      "run where plan, object, options and the program's build are the same and no result was "
-      "edited");
+            "Time limit per plan in seconds. A plan that exceeds it counts as an error", "S");
+  app.add_flag("--restart", options.fresh,
+               "Discard results of an earlier run. Otherwise a plan is validated again only if its "
+               "inputs, the options or the program changed");
 }
 
 void AddStates(CLI::App& app, ValidateOptions& options) {
-  // Of a million the file has some 700 MB.
+  // The file of a million states has about 700 MB.
   constexpr int kMostStates = 1'000'000;
-  CLI::Option* states = AddInteger(
-      app, "--export-states", options.states, 1, kMostStates,
-      "Make so many states in which a hand holds the object, instead of a plan; for those who "
-      "train policies. Random grasps anywhere in the hand: it takes hold, and the state that it "
-      "comes to is held for a second in MuJoCo from what is stored, velocities zero, all controls "
-      "as they are. What is not held is counted, and not written. In states.npz are joints (N, J), "
-      "rad; controls (N, A); object_position (N, 3), m, and object_quaternion (N, 4), w x y z, in "
-      "the palm's frame; holds (N, F), which fingers do; and what else docs/formats.md describes. "
-      "--export-mjcf writes the scene that they are for");
-  AddNumber(app, "--min-quality", options.min_quality, {0, 1},
-            "Quality that grasps of --export-states have at least (default 0.01)")
-      ->needs(states);
+  ListOption("--export-states")
+      .Values("the number of states", {IntegerParser(options.states, 1, kMostStates)})
+      .Key("min-quality", NumberParser(options.min_quality, {0, 1}))
+      .AddTo(app, "N[,min-quality=Q]",
+             "Sample N static grasps with the hand and write them to states.npz. Each is verified "
+             "to hold the object for 1 s in simulation\n"
+             "min-quality=Q: minimum grasp quality [default: 0.01]");
 }
 
 void CheckForGrasps(ValidateOptions& options, const CLI::App& app) {
-  const std::set<std::string> of_replay = {"--mass",          "--density",   "--thickness",
-                                           "--finger-radius", "--squeeze",   "--shake",
-                                           "--protocol",      "--tolerance", "--engine"};
-  std::set<std::string> served = {
-      "--object",         "--grasps",   "--required-angle", "--quality", "--out",
-      "--friction-angle", "--mu",       "--max-deviation",  "--faces",   "--part",
-      "--repair",         "--solidify", "--shells",         "--quiet",   "--scale",
-      "--replay",         "--contact",  "--torsion"};
+  const std::set<std::string> of_replay = {"--mass",          "--density",     "--thickness",
+                                           "--finger-radius", "--grasp-force", "--protocol",
+                                           "--tolerance",     "--engine",      "--disturbance"};
+  std::set<std::string> served = {"--object", "--grasps",  "--compute", "--output",
+                                  "--mu",     "--repair",  "--shells",  "--friction-angle",
+                                  "--quiet",  "--torsion", "--scale",   "--replay"};
   options.replay_grasps = app.count("--replay") > 0;
   if (options.replay_by_hand) {
-    throw InputError("--replay hand: goes with a plan; grasps are replayed by points");
+    throw InputError("--replay hand: requires a plan, expected --replay points with --grasps");
   }
   served.insert(of_replay.begin(), of_replay.end());
-  RefuseOthers(app, served, "goes with a plan or a single grasp, not with --grasps");
+  RefuseOthers(app, served, "cannot be used with --grasps, requires a plan or a single grasp");
+  for (const char* setting : {"--replay align", "--replay tip", "--replay feedback",
+                              "--tolerance mm", "--tolerance deg"}) {
+    if (options.settings.contains(setting)) {
+      throw InputError(std::string(setting) + ": cannot be used with --grasps");
+    }
+  }
+  if (options.replay.stress) {
+    throw InputError("--disturbance limits: cannot be used with --grasps");
+  }
   if (options.replay_grasps) return;
   for (const std::string& name : of_replay) {
-    if (app.count(name) > 0) throw InputError(name + " goes with --replay points, of --grasps");
+    if (app.count(name) > 0) {
+      throw InputError(name + ": with --grasps requires --replay points");
+    }
   }
 }
 
 void CheckForStates(const ValidateOptions& options, const CLI::App& app) {
-  RefuseOthers(
-      app,
-      {"--object",       "--hand",          "--export-states", "--min-quality", "--seed",
-       "--jobs",         "--out",           "--export-mjcf",   "--scale",       "--friction-angle",
-       "--mu",           "--mass",          "--density",       "--squeeze",     "--clearance",
-       "--tolerance-mm", "--tolerance-deg", "--max-deviation", "--faces",       "--part",
-       "--repair",       "--solidify",      "--shells",        "--quiet"},
-      "does not go with --export-states");
-  if (options.hand.empty()) throw InputError("--export-states: needs a hand (--hand)");
+  RefuseOthers(app,
+               {"--object", "--hand", "--export-states", "--seed", "--jobs", "--output",
+                "--export-mjcf", "--scale", "--friction-angle", "--mu", "--mass", "--density",
+                "--grasp-force", "--clearance", "--tolerance", "--repair", "--shells", "--quiet"},
+               "cannot be used with --export-states");
+  if (options.states == 0) {
+    throw InputError(
+        "--export-states: the number of states is required, as in --export-states 100");
+  }
+  if (options.settings.contains("--tolerance diameters")) {
+    throw InputError("--tolerance: with --export-states requires the unit mm or deg");
+  }
+  if (options.hand.empty()) throw InputError("--export-states: requires --hand");
   if (options.replay.hand_squeeze) {
-    throw InputError("--squeeze realistic: goes with ideal fingers; with --export-states newtons");
+    throw InputError("--grasp-force realistic: cannot be used with --export-states");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "apps/help.h"
+#include "apps/list_option.h"
 #include "apps/validate_modes.h"
 #include "apps/view_options.h"
 #include "planner/base/error.h"
@@ -18,10 +19,9 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Adds an option that takes a size in pixels, "1280x960".
-CLI::Option* AddSize(CLI::App& app, const std::string& name, int& width, int& height,
-                     const std::string& what, const std::string& usual) {
-  const auto parse = [name, &width, &height](const std::string& text) {
+/// Return a parser of a size in pixels, "1280x960".
+ListOption::Parser SizeParser(int& width, int& height) {
+  return [&width, &height](const std::string& name, const std::string& text) {
     const std::size_t x = text.find('x');
     const auto side = [&](const std::string& digits) {
       const std::optional<double> value = ParseDouble(digits);
@@ -36,12 +36,6 @@ CLI::Option* AddSize(CLI::App& app, const std::string& name, int& width, int& he
     width = side(text.substr(0, x));
     height = side(x == std::string::npos ? "" : text.substr(x + 1));
   };
-  return app
-      .add_option_function<std::string>(
-          name, parse,
-          what + ", pixels, each side from " + std::to_string(render::kMinFrameSide) + " to " +
-              std::to_string(render::kMaxFrameSide) + " (default " + usual + ")")
-      ->type_name("WxH");
 }
 
 void AddInputs(CLI::App& app, ValidateOptions& options) {
@@ -49,286 +43,290 @@ void AddInputs(CLI::App& app, ValidateOptions& options) {
     return app.add_option(name, value, text)->type_name("FILE");
   };
   add("--object", options.object_path,
-      "Object file; or a folder, in which each plan's object is the file that it names")
+      "Object file, or a folder with the object files that the plans name")
       ->required();
-  CLI::Option* plan = add("--plan", options.plans,
-                          "Plan file, - for standard input; or several, or a folder of plans "
-                          "(every *.json), each of which is "
-                          "validated in a process of its own; or a file of lines (*.jsonl), as "
-                          "plan --batch writes it; or --grasp");
+  CLI::Option* plan =
+      add("--plan", options.plans,
+          "Plan file. - is standard input. Several files, a folder of plans (*.json) or a file of "
+          "plan --batch (*.jsonl) are validated in parallel processes");
   CLI::Option* grasp =
       add("--grasp", options.grasp_path,
-          "Grasp file: asks for a single grasp, at the friction given here, whether it is force "
-          "closure, the half-angle that it needs, its quality, and its weakest finger: the one "
-          "whose own friction may fall least while all others keep theirs; holds and shakes it")
+          "Validate a single grasp. Reports force closure, required friction angle, quality and "
+          "the finger with the smallest friction margin, and simulates the grasp")
           ->excludes(plan);
   CLI::Option* grasps =
       add("--grasps", options.grasps_path,
-          "NPZ file of many grasps: arrays points and normals of shape (N, k, 3), or (N, k, 2) in "
-          "the plane; says of each whether it is on the object and force closure, by analysis "
-          "alone, and writes verdicts.npz; normals may be left out in the interior of faces, and "
-          "holds (N, k) says which contacts count. With --replay points also holds and shakes each "
-          "that is force closure")
+          "Check many grasps in an NPZ file. Arrays points and normals (N, k, 3), or (N, k, 2) in "
+          "the plane; holds (N, k) is the mask of contacts. Normals can be omitted in the interior "
+          "of faces. Writes verdicts.npz; with --replay points also simulates force-closure grasps")
           ->excludes(plan)
           ->excludes(grasp);
-  app.add_flag("--required-angle", options.required_angle,
-               "With --grasps, also the half-angle that each needs; some 64 microseconds each")
+  ListOption("--compute")
+      .Word("required-angle", [&options] { options.required_angle = true; })
+      .Word("quality", [&options] { options.quality = true; })
+      .AddTo(app, "required-angle|quality[,…]",
+             "Also compute for --grasps.\n"
+             "required-angle: required friction angle, 64 µs per grasp\n"
+             "quality: grasp quality within 1 %, 0.1 ms per grasp")
       ->needs(grasps);
-  app.add_flag("--quality", options.quality,
-               "With --grasps, also the quality of each, within 1 %; about 0.1 ms each")
-      ->needs(grasps);
-  add("--start", options.start, "Grasp file that the plan's initial grasp must be")
-      ->excludes(grasp);
-  add("--goal", options.goal, "Grasp file that the plan's goal must be")->excludes(grasp);
+  add("--start", options.start, "Grasp file that the initial grasp must equal")->excludes(grasp);
+  add("--goal", options.goal, "Grasp file that the goal grasp must equal")->excludes(grasp);
   add("--hand", options.hand,
-      "Hand file, of a plan for a hand: also check joints, limits, tips and collisions along all "
-      "paths of the hand")
+      "Hand file of a hand plan. Also checks joint limits, fingertips and collisions along all "
+      "paths")
       ->excludes(grasp);
-  AddNumber(app, "--clearance", options.clearance_m, {0, 0.05, true, true},
-            "What links keep from each other, from the palm and from the object; in metres, with "
-            "--hand (default 0.001)",
-            "M");
   add("--verify", options.verify,
-      "Check the proofs of a report that --certificates wrote: in exact rational arithmetic, "
-      "against this plan and object, at the plan's friction or the one that is given, and all else "
-      "that a plan must be; nothing is replayed or written")
+      "Check the certificates in a report of this plan. Uses exact rational arithmetic, simulates "
+      "nothing and writes nothing")
       ->excludes(grasp);
+  ListOption("--allow")
+      .Word("object-change", [&options] { options.allow_object_change = true; })
+      .Word("undecided", [&options] { options.allow_undecided = true; })
+      .AddTo(app, "object-change|undecided[,…]",
+             "Exceptions to permit.\n"
+             "object-change: an object file with different content than the plan was made for\n"
+             "undecided: sliding steps with up to a thousandth of a segment neither proved nor "
+             "refuted");
 }
 
 void AddOutputs(CLI::App& app, ValidateOptions& options) {
   const auto add = [&app](const std::string& name, std::string& value, const std::string& text) {
     return app.add_option(name, value, text)->type_name("FILE");
   };
-  add("--out", options.out,
-      "Folder for report and frames, verdicts or states (default out/<plan, grasp or object "
-      "name>); of several plans a folder "
-      "for each in it, index.html and summary.json (default out/<folder name> or out/batch); of a "
-      "file of lines reports.jsonl")
+  add("-o,--output", options.out,
+      "Folder for report and frames, verdicts or states. For several plans it has one folder per "
+      "plan, index.html and summary.json; for a file of plans reports.jsonl [default: out/NAME of "
+      "the input]")
       ->type_name("DIR");
   app.add_flag("--certificates", options.certificates,
-               "Also write proofs of force closure into the report: for every grasp and all along "
-               "every align, contact forces that prove it, or a twist that refutes it");
+               "Also write proofs of force closure into the report. Contact forces that prove it "
+               "or a twist that refutes it, for every grasp and sliding step");
   add("--junit", options.junit, "Write the verdicts as JUnit XML");
   add("--json", options.json,
-      "Write the report here too; - is standard output, instead of the table");
+      "Write the report to this file too. - is standard output and replaces the table");
   add("--export-mjcf", options.mjcf,
-      "Write the scene of the replay as MJCF; without what versions of MuJoCo name differently. "
-      "With --replay hand a folder: scene.xml, which has a keyframe for each rest, and the hand's "
-      "meshes");
+      "Write the simulated scene as MJCF. With --replay hand a folder with scene.xml, one keyframe "
+      "per static grasp, and meshes");
   add("--trajectory", options.trajectory,
-      "Write what every finger does during the replay as CSV: time (s), place (m), force (N). With "
-      "--replay hand what the hand does, as NPZ where the file ends in .npz, otherwise as CSV: "
-      "time, joints (rad), "
-      "controls of its actuators, the object's pose in the palm (m, quaternion)");
+      "Write the trajectory of the replay as CSV. Per finger time (s), position (m) and force (N); "
+      "with --replay hand joints, controls and object pose, as NPZ if the file ends in .npz");
 }
 
-/// The object and the fingers, beside what the plan says of them.
+/// Object and fingers, in addition to the plan.
 void AddBodies(CLI::App& app, ValidateOptions& options) {
   options.friction.AddTo(app);
-  options.contact.AddTo(app, "that of the plan; of grasps hard");
+  options.contact.AddTo(app, "that of the plan; 0 for grasps");
+  BeginGroup(app, "Object and fingers");
   AddScale(app, options.scale,
-           "Metres per unit of length of the object file; must be the plan's, 1 for a grasp where "
-           "left out");
+           "Metres per length unit of the object file. Must be that of the plan; 1 for grasps by "
+           "default");
   options.repair.AddWithSwitch(app);
   CLI::Option* mass = AddNumber(app, "--mass", options.replay.mass_kg, NumberRange::Positive(),
-                                "Mass of the object, kg; instead of --density", "KG");
+                                "Mass of the object in kg. Replaces --density", "KG");
   AddNumber(app, "--density", options.replay.density_kg_m3, NumberRange::Positive(),
-            "Density of the object, kg/m^3 (default 1000)", "KG_M3")
+            "Density of the object in kg/m^3 [default: 1000]", "KG_M3")
       ->excludes(mass);
   AddNumber(app, "--thickness", options.replay.thickness, NumberRange::Positive(),
-            "Thickness of the prism that a planar object is: in the object file's own unit of "
-            "length (default a quarter of the diameter)");
+            "Thickness of a planar object, object units [default: a quarter of the diameter]");
   AddNumber(app, "--finger-radius", options.replay.finger_radius, NumberRange::Positive(),
-            "Radius of the fingers, in the object file's own unit of length: a finger that cannot "
-            "come straight along the normal to its contact, or overlaps another, is unreachable "
-            "(default that of the plan, otherwise fingers are points)",
+            "Radius of the fingers, object units. A finger must reach its contact along the normal "
+            "and not overlap others [default: that of the plan, otherwise 0]",
             "R");
+  AddNumber(app, "--clearance", options.clearance_m, {0, 0.05, true, true},
+            "Minimum distance of links from each other, palm and object. Metres, with --hand "
+            "[default: 0.001]",
+            "M");
 }
 
-void AddSqueeze(CLI::App& app, sim::ReplayOptions& replay) {
+void AddGraspForce(CLI::App& app, sim::ReplayOptions& replay) {
   const auto parse = [&replay](const std::string& text) {
     replay.hand_squeeze = text == "realistic";
     if (!replay.hand_squeeze) {
-      replay.squeeze_N = ParseNumber("--squeeze", text, NumberRange::Positive());
+      replay.squeeze_N = ParseNumber("--grasp-force", text, NumberRange::Positive());
     }
   };
   app.add_option_function<std::string>(
-         "--squeeze", parse,
-         "Sum of the normal forces of a grasp at rest, newtons; or realistic: what a hand applies, "
-         "twice what the weight needs in the grasp of the plan that carries it worst, at most 200 "
-         "N (default: such that the weight is a tenth of the shake force, 1000 weights at the "
-         "default shake)")
+         "--grasp-force", parse,
+         "Sum of the normal forces of a static grasp, newtons. realistic: twice what the weight "
+         "requires in the weakest grasp, at most 200 N. By default the weight is a tenth of the "
+         "disturbance force")
       ->type_name("N|realistic");
 }
 
-/// How the object is held, disturbed and examined.
-void AddReplay(CLI::App& app, ValidateOptions& options) {
-  AddSqueeze(app, options.replay);
-  AddNumber(app, "--shake", options.replay.shake, NumberRange::NotNegative(),
-            "Size of the shake: force over squeeze, and torque over squeeze times half the "
-            "diameter (default 0.01)",
-            "RHO");
-  AddChoice<sim::EngineChoice>(
-      app, "--engine", options.replay.engine,
-      {{"mujoco", sim::EngineChoice::kMujoco},
-       {"ode", sim::EngineChoice::kOde},
-       {"both", sim::EngineChoice::kBoth}},
-      "Physics engine of the replay: mujoco, or ode, the Open Dynamics Engine, with the same "
-      "scene, "
-      "motions and shakes, judged alike; both replays in both, MuJoCo decides, and every step on "
-      "which they differ is named (default mujoco)");
-  AddChoice<sim::Protocol>(
-      app, "--protocol", options.replay.protocol,
-      {{"adapted", sim::Protocol::kAdapted},
-       {"fixed", sim::Protocol::kFixed},
-       {"both", sim::Protocol::kBoth}},
-      "How the fingers respond to the shake: adapted with forces planned for each "
-      "direction, fixed with the forces of the rest and the stiffness of their servos "
-      "alone; both runs both, the adapted one decides (default adapted)");
-  app.add_flag("--stress", options.replay.stress,
-               "Also find the largest push and turn that each rest resists: in every direction, by "
-               "bisection in the replay and by analysis; takes some ten times as long");
-  AddNumber(app, "--tolerance", options.replay.tolerance, NumberRange::Positive(),
-            "How far the object may move and a fingertip slip; in diameters of the object "
-            "(default 0.001)");
-  AddChoice<sim::AlignChoice>(
-      app, "--align", options.replay.align,
-      {{"imitate", sim::AlignChoice::kImitate}, {"slide", sim::AlignChoice::kSlide}},
-      "How aligns are carried out. imitate: spare fingers take over for each finger while it goes "
-      "to its target. slide: a finger slides along the surface while the others alone hold the "
-      "object, and is taken over for only where they do not (default imitate). Without a spare "
-      "finger those that cannot slide roll, all at once");
+void AddDisturbance(CLI::App& app, ValidateOptions& options) {
+  ListOption("--disturbance")
+      .Values("a number", {NumberParser(options.replay.shake, NumberRange::NotNegative())})
+      .Word("limits", [&options] { options.replay.stress = true; })
+      .AddTo(app, "RHO[,limits]",
+             "Size of the disturbance test. Force over grasp force, and torque over grasp force "
+             "times half the diameter [default: 0.01]\n"
+             "limits: also find the largest resisted force and torque in every direction, about "
+             "ten times as slow");
 }
 
-/// Of the replay by a hand.
-void AddHandReplay(CLI::App& app, ValidateOptions& options) {
-  AddChoice<bool>(app, "--replay", options.replay_by_hand, {{"points", false}, {"hand", true}},
-                  "Who carries the plan out: points, ideal fingers without a hand, or hand, the "
-                  "model of --hand with its own actuators, gravity and friction (default hand "
-                  "where --hand is given, otherwise points)");
-  constexpr double kMetre = 1e3;
-  AddNumber(app, "--tolerance-mm", options.tolerance_mm, {0, kMetre, false, true},
-            "How far the object may be from its planned place; with --replay hand, half of it at "
-            "rest (default 2)",
-            "MM");
-  AddNumber(app, "--tolerance-deg", options.tolerance_deg, {0, 180, false, true},
-            "How far the object may be turned from its plan; with --replay hand, half of it at "
-            "rest (default 5)",
-            "DEG");
-  AddChoice<bool>(app, "--feedback", options.feedback, {{"pose", true}, {"none", false}},
-                  "What the hand knows of the object; with --replay hand. pose: joint targets are "
-                  "corrected by its pose, as a camera sees it; none: they are not (default pose)");
-  AddChoice<sim::TipShape>(
-      app, "--tip", options.tip,
-      {{"ball", sim::TipShape::kBall}, {"geometry", sim::TipShape::kGeometry}},
-      "What of a fingertip touches the object; with --replay hand. ball: the ball of the hand's "
-      "file, for which plans are made. geometry: what the model's tip link has for collisions "
-      "(boxes, capsules, hulls of meshes); fingers are still placed, steered and held to their "
-      "contacts as planned for balls, so that it tells whether such a plan holds (default ball)");
+/// Parse "0.001" (object diameters), "2mm" or "5deg".
+void ParseTolerance(ValidateOptions& options, const std::string& name, const std::string& text) {
+  constexpr double kMetre_mm = 1e3, kHalfTurn_deg = 180;
+  const std::size_t end = text.find_first_not_of("0123456789.+-eE");
+  // "2e" would be read as a number with an exponent.
+  const std::string unit = end == std::string::npos ? "" : text.substr(end);
+  const std::string number = text.substr(0, end);
+  if (!options.settings.insert(name + " " + (unit.empty() ? "diameters" : unit)).second) {
+    throw CLI::ValidationError(name, "found two tolerances of one kind, expected one");
+  }
+  if (unit.empty()) {
+    options.replay.tolerance = ParseNumber(name, number, NumberRange::Positive());
+  } else if (unit == "mm") {
+    options.tolerance_mm = ParseNumber(name, number, {0, kMetre_mm, false, true});
+  } else if (unit == "deg") {
+    options.tolerance_deg = ParseNumber(name, number, {0, kHalfTurn_deg, false, true});
+  } else {
+    throw CLI::ValidationError(
+        name, "expected a number, or one with the unit mm or deg, found \"" + text + "\"");
+  }
+}
+
+void AddReplay(CLI::App& app, ValidateOptions& options) {
+  ListOption("--replay", &options.settings)
+      .Word("points", [&options] { options.replay_by_hand = false; })
+      .Word("hand", [&options] { options.replay_by_hand = true; })
+      .Key("align", ChoiceParser<sim::AlignChoice>(options.replay.align,
+                                                   {{"imitate", sim::AlignChoice::kImitate},
+                                                    {"slide", sim::AlignChoice::kSlide}}))
+      .Key("tip",
+           ChoiceParser<sim::TipShape>(options.tip, {{"ball", sim::TipShape::kBall},
+                                                     {"geometry", sim::TipShape::kGeometry}}))
+      .Key("feedback", ChoiceParser<bool>(options.feedback, {{"pose", true}, {"none", false}}))
+      .AddTo(app, "points|hand[,KEY=VALUE,…]",
+             "Simulation model that executes the plan [default: hand with --hand, otherwise "
+             "points]\n"
+             "points: ideal point fingers\n"
+             "hand: the model of --hand with its actuators, gravity and friction\n"
+             "align=imitate|slide (points): free fingers take over while a finger is "
+             "repositioned, or fingers slide along the surface [default: imitate]\n"
+             "tip=ball|geometry (hand): collision shape of fingertips, the sphere of the hand file "
+             "or the geoms of the model [default: ball]\n"
+             "feedback=pose|none (hand): joint targets follow the measured object pose or not "
+             "[default: pose]");
+  AddChoice<sim::EngineChoice>(app, "--engine", options.replay.engine,
+                               {{"mujoco", sim::EngineChoice::kMujoco},
+                                {"ode", sim::EngineChoice::kOde},
+                                {"both", sim::EngineChoice::kBoth}},
+                               "Physics engine of the replay [default: mujoco]\n"
+                               "ode: Open Dynamics Engine with the same scene and disturbances\n"
+                               "both: MuJoCo decides, and differing steps are listed");
+  AddGraspForce(app, options.replay);
+  AddDisturbance(app, options);
+  AddChoice<sim::Protocol>(app, "--protocol", options.replay.protocol,
+                           {{"adapted", sim::Protocol::kAdapted},
+                            {"fixed", sim::Protocol::kFixed},
+                            {"both", sim::Protocol::kBoth}},
+                           "Response of the fingers to the disturbance [default: adapted]\n"
+                           "adapted: forces planned per direction\n"
+                           "fixed: constant forces and servo stiffness\n"
+                           "both: adapted decides");
+  ListOption("--tolerance")
+      .AnyValue([&options](const std::string& name, const std::string& text) {
+        ParseTolerance(options, name, text);
+      })
+      .AddTo(app, "X|MMmm,DEGdeg",
+             "Tolerances of object motion [default: 0.001 or 2mm,5deg]\n"
+             "X (--replay points): object diameters, also for fingertip slip\n"
+             "MMmm, DEGdeg (--replay hand): displacement and rotation, half of them for static "
+             "grasps");
 }
 
 void AddTrialOptions(CLI::App& app, ValidateOptions& options) {
   constexpr int kMostTrials = 1'000'000;
-  constexpr double kMostJointNoise = 45;
+  constexpr double kMostJointNoise_deg = 45;
   const NumberRange share{0, sim::kMostError};
   CLI::Option* trials =
-      AddInteger(app, "--trials", options.trials.count, 1, kMostTrials,
-                 "Repeat the replay N times with noise in contacts, friction and mass. The plan "
-                 "passes if the replay without noise does and --min-pass-rate of the trials do; "
-                 "the verdict names how many");
-  AddNumber(app, "--min-pass-rate", options.trials.min_pass_rate,
-            {.lower = 0, .upper = 1, .lower_included = false},
-            "Share of the trials that must pass, above 0 and at most 1 (default 1: all of them)",
-            "RATE")
+      ListOption("--trials")
+          .Values("the number of trials", {IntegerParser(options.trials.count, 1, kMostTrials)})
+          .Key("min-pass-rate", NumberParser(options.trials.min_pass_rate,
+                                             {.lower = 0, .upper = 1, .lower_included = false}))
+          .AddTo(app, "N[,min-pass-rate=RATE]",
+                 "Repeat the replay N times with noise. The replay without noise must pass too\n"
+                 "min-pass-rate=RATE: required share of passing trials [default: 1]");
+  ListOption("--noise", &options.settings)
+      .Key("position", NumberParser(options.trials.position_noise, share))
+      .Key("friction", NumberParser(options.trials.friction_error, share))
+      .Key("mass", NumberParser(options.trials.mass_error, share))
+      .Key("joints", NumberParser(options.joint_noise_deg, {0, kMostJointNoise_deg}))
+      .AddTo(app, "KEY=VALUE,…",
+             "Standard deviations of the noise of --trials.\n"
+             "position=X: contacts along the surface, with --replay hand the initial object pose, "
+             "in object diameters [default: 0.01]\n"
+             "friction=X: relative error of the friction coefficient [default: 0.1]\n"
+             "mass=X: relative error of the mass [default: 0.1]\n"
+             "joints=DEG (--replay hand): measured joint angles [default: 0.5]")
       ->needs(trials);
-  AddSeed(app, options.trials.seed,
-          "Seed of the noise, or of what --export-states draws (default 0)");
-  AddNumber(app, "--position-noise", options.trials.position_noise, share,
-            "Standard deviation of each contact along the surface; in diameters of the object "
-            "(default 0.01). With --replay hand of where the object is at first, along each axis, "
-            "and about it over half the diameter")
-      ->needs(trials);
-  AddNumber(app, "--friction-error", options.trials.friction_error, share,
-            "Relative standard deviation of the friction coefficient (default 0.1)")
-      ->needs(trials);
-  AddNumber(app, "--mass-error", options.trials.mass_error, share,
-            "Relative standard deviation of the mass (default 0.1)")
-      ->needs(trials);
-  AddNumber(app, "--joint-noise", options.joint_noise_deg, {0, kMostJointNoise},
-            "Standard deviation of what the hand takes a joint's angle for; degrees, of --replay "
-            "hand (default 0.5)",
-            "DEG")
-      ->needs(trials);
+  AddSeed(app, options.trials.seed, "Random seed of --trials or --export-states [default: 0]");
 }
 
 void AddVideo(CLI::App& app, std::string& video) {
   const auto parse = [&video](const std::string& file) {
     if (!render::FindAnimationFormat(file)) {
-      throw CLI::ValidationError("--video",
-                                 "\"" + file + "\" is no name that ends in .mp4, .gif or .webp");
+      throw CLI::ValidationError(
+          "--video", "expected a name that ends in .mp4, .gif or .webp, found \"" + file + "\"");
     }
     video = file;
   };
   app.add_option_function<std::string>("--video", parse,
-                                       "Write the replay as a moving picture into this file: .mp4 "
-                                       "(H.264), .gif or .webp; without "
-                                       "--animate it is the one that the report page shows")
+                                       "Write an animation of the replay to this file. .mp4 "
+                                       "(H.264), .gif or .webp; the HTML report shows it unless "
+                                       "--animate is given")
       ->type_name("FILE");
 }
 
-constexpr char kAnimateSize[] = "--animate-size";
+constexpr char kAnimationSize[] = "--size animation";
 
 void AddPictures(CLI::App& app, ValidateOptions& options) {
-  CLI::Option* none = app.add_flag_callback(
-      "--no-frames", [&options] { options.frames = Frames::kNone; }, "Draw no frames");
-  AddChoice<Frames>(
-      app, "--frames", options.frames,
-      {{"all", Frames::kAll}, {"failed", Frames::kFailed}, {"none", Frames::kNone}},
-      "Which plans and grasps get frames; all, those that failed, or none (default all; of a file "
-      "of lines none, and those that get frames have a folder each)")
-      ->excludes(none);
-  app.add_flag(
-      "--show-focus", options.frame.show_focus,
-      "Also show the focus point of four concurrent contacts: in frames of a solid, with the "
-      "lines to it and the contact regions that it gives");
-  app.add_flag(
-      "--show-clusters", options.show_clusters,
-      "Also show the clusters of a plan over clustered contact points: on the surface, with "
-      "their representatives as dots");
+  AddChoice<Frames>(app, "--frames", options.frames,
+                    {{"all", Frames::kAll}, {"failed", Frames::kFailed}, {"none", Frames::kNone}},
+                    "Which plans and grasps get frames [default: all; none for a file of plans]");
+  ListOption("--show")
+      .Word("focus", [&options] { options.frame.show_focus = true; })
+      .Word("clusters", [&options] { options.show_clusters = true; })
+      .AddTo(app, "focus|clusters[,…]",
+             "Also draw in frames of a solid.\n"
+             "focus: focus point of four concurrent contacts and their contact regions\n"
+             "clusters: clusters of contact points and their representatives");
   options.frame.crop = true;
-  AddSize(app, "--size", options.frame.width, options.frame.height,
-          "Size of the frames. Without it they are at most as large as the default, and cropped to "
-          "what is drawn",
-          std::to_string(options.frame.width) + "x" + std::to_string(options.frame.height))
-      ->each([&options](const std::string& /*size*/) { options.frame.crop = false; });
-  AddInteger(
-      app, "--sheet-width", options.sheet_width, render::kMinOverviewWidth,
+  const ListOption::Parser size = SizeParser(options.frame.width, options.frame.height);
+  ListOption("--size", &options.settings)
+      .Values("WxH", {[&options, size](const std::string& name, const std::string& text) {
+                size(name, text);
+                options.frame.crop = false;
+              }})
+      .Key("animation", SizeParser(options.animation_width, options.animation_height))
+      .Key("overview",
+           IntegerParser(options.sheet_width, render::kMinOverviewWidth,
       render::kMaxOverviewWidth,
-      "Width of the contact sheet overview.png, pixels; frames are not enlarged for it (default "
-      "1600)");
+      .AddTo(app, "WxH[,animation=WxH][,overview=W]",
+             "Size of frames, pixels. By default frames are cropped to their content [default: " +
+                 std::to_string(options.frame.width) + "x" + std::to_string(options.frame.height) +
+                 "]\n"
+                 "animation=WxH: size of animations [default: half of the frames]\n"
+                 "overview=W: width of overview.png [default: 1600]");
   AddFrameView(app, options.frame);
   app.add_flag("--animate", options.animate,
-               "Also write the whole replay as a moving picture: replay.webp, slowed down and seen "
-               "as the frames are; the report page shows it")
-      ->excludes(none);
+               "Also write the replay as an animation, replay.webp. The HTML report shows it");
   AddVideo(app, options.video);
-  AddSize(app, kAnimateSize, options.animation_width, options.animation_height,
-          "Size of moving pictures", "half of --size");
 }
 
-/// Each keeps two pictures of four samples a pixel in memory.
+/// Each keeps two images with four samples per pixel in memory.
 constexpr int kMostWorkers = 16;
 
-constexpr char kSeveralPlans[] = "goes with several plans, a folder or a file of lines";
-constexpr char kSinglePlan[] = "goes with a single plan or grasp";
+constexpr char kSeveralPlans[] = "requires several plans, a folder or a file of plans (*.jsonl)";
+constexpr char kSinglePlan[] = "requires a single plan or grasp";
 
-/// Options that say where things come from, where they go and how fast; --start and --goal count
-/// by what their files hold.
+/// Options of inputs, outputs and speed; the content of files is compared by itself.
 const std::set<std::string>& ChangeNothing() {
   static const std::set<std::string> kNames = {
-      "--help", "--version",     "--object",     "--plan",  "--grasp", "--out",  "--junit",
-      "--json", "--export-mjcf", "--trajectory", "--start", "--goal",  "--hand", "--verify",
-      "--jobs", "--fresh",       "--time-limit", "--quiet", "--video", "--shard"};
+      "--help",   "--help-all", "--version",     "--object",     "--plan",  "--grasp", "--output",
+      "--junit",  "--json",     "--export-mjcf", "--trajectory", "--start", "--goal",  "--hand",
+      "--verify", "--jobs",     "--restart",     "--time-limit", "--quiet", "--video", "--shard"};
   return kNames;
 }
 
@@ -341,41 +339,93 @@ ValidateOptions::ValidateOptions() {
 }
 
 void ValidateOptions::AddTo(CLI::App& app) {
-  BeginGroup(app, "Object, and what is validated");
+  BeginGroup(app, "Input");
   AddInputs(app, *this);
-  BeginGroup(app, "Results");
-  AddOutputs(app, *this);
-  BeginGroup(app, "Friction, body and fingers");
+  BeginGroup(app, "Friction and contact");
   AddBodies(app, *this);
-  BeginGroup(app, "Replay");
+  BeginGroup(app, "Simulation");
   AddReplay(app, *this);
-  BeginGroup(app, "Replay by a hand");
-  AddHandReplay(app, *this);
-  BeginGroup(app, "Trials with noise");
   AddTrialOptions(app, *this);
   BeginGroup(app, "Reset states");
   AddStates(app, *this);
+  BeginGroup(app, "Output");
+  AddOutputs(app, *this);
   BeginGroup(app, "Pictures");
   AddPictures(app, *this);
-  BeginGroup(app, "Several plans");
+  BeginGroup(app, "Many plans");
   AddBatch(app, *this);
-  BeginGroup(app, "What is let pass");
-  app.add_flag("--allow-object-change", allow_object_change,
-               "Accept an object file with other bytes than the plan was made for");
-  app.add_flag("--allow-undecided", allow_undecided,
-               "Pass aligns that are proved but for a little: up to a thousandth of a segment "
-               "between two waypoints is neither proved nor refuted; otherwise they fail as "
-               "not-proved");
   AddQuiet(app, quiet);
+  MarkRare(app, {"--compute", "--verify", "--clearance", "--thickness", "--show", "--edges",
+                 "--background", "--shard", "--trajectory", "--export-mjcf"});
+  SetUsage(app,
+           "--object FILE (--plan FILE… | --grasp FILE | --grasps FILE | --hand FILE "
+           "--export-states N)");
   app.footer(
       "  validate --object cube.obj --plan plan.json\n"
-      "  validate --object models --plan plans --out out/plans --no-frames --junit junit.xml\n");
+      "  validate --object models --plan plans --output out/plans --frames none --junit "
+      "junit.xml\n");
+}
+
+void ValidateOptions::Refuse(const CLI::App& app, std::initializer_list<const char*> names,
+                             const std::string& why) const {
+  for (const char* name : names) {
+    // An option, or one of its settings.
+    const bool setting = std::string(name).find(' ') != std::string::npos;
+    if (setting ? settings.contains(name) : app.count(name) > 0) {
+      throw InputError(std::string(name) + ": " + why);
+    }
+  }
+}
+
+void ValidateOptions::CheckPlans(const CLI::App& app) {
+  if (!for_lines()) Refuse(app, {"--shard"}, "requires a file of plans (*.jsonl)");
+  if (for_lines()) {
+    Refuse(
+        app,
+        {"--trajectory", "--export-mjcf", "--verify", "--json", "--video", "--animate", "--junit"},
+        "cannot be used with a file of plans (*.jsonl)");
+    if (app.count("--frames") == 0) frames = Frames::kNone;
+    plan_path = plans.front();
+  } else if (for_batch()) {
+    Refuse(app, {"--trajectory", "--export-mjcf", "--verify", "--json", "--video"}, kSinglePlan);
+    if (std::ranges::find(plans, kStandardStream) != plans.end()) {
+      throw InputError("--plan -: " + std::string(kSinglePlan));
+    }
+  } else {
+    Refuse(app, {"--jobs", "--time-limit", "--restart"}, kSeveralPlans);
+    if (!for_grasp()) plan_path = plans.front();
+  }
+}
+
+void ValidateOptions::CheckReplay(const CLI::App& app) {
+  if (!settings.contains("--replay points") && !settings.contains("--replay hand")) {
+    replay_by_hand = !hand.empty();
+  }
+  if (settings.contains("--replay points") && settings.contains("--replay hand")) {
+    throw InputError("--replay: found points and hand, expected one of them");
+  }
+  if (replay_by_hand) {
+    if (hand.empty()) throw InputError("--replay hand: requires --hand");
+    if (replay.stress) throw InputError("--disturbance limits: requires --replay points");
+    Refuse(app,
+           {"--engine", "--protocol", "--tolerance diameters", "--replay align", "--finger-radius"},
+           "requires --replay points");
+    trials.joint_noise = Radians(joint_noise_deg);
+    return;
+  }
+  Refuse(
+      app,
+      {"--tolerance mm", "--tolerance deg", "--replay feedback", "--replay tip", "--noise joints"},
+      "requires --replay hand");
+  if (trajectory_is_npz()) {
+    throw InputError("--trajectory: " + trajectory + ": NPZ requires --replay hand");
+  }
 }
 
 void ValidateOptions::Finish(const CLI::App& app) {
   tolerance.length_m = 1e-3 * tolerance_mm;
   tolerance.angle_rad = Radians(tolerance_deg);
-  if (for_states()) {
+  if (app.count("--export-states") > 0) {
     CheckForStates(*this, app);
     return;
   }
@@ -387,44 +437,15 @@ void ValidateOptions::Finish(const CLI::App& app) {
     return;
   }
   if (for_grasp() && allow_object_change) {
-    throw InputError("--allow-object-change: a grasp file names no object");
+    throw InputError("--allow object-change: a grasp file names no object");
   }
-  const auto refuse = [&app](std::initializer_list<const char*> names, const std::string& why) {
-    for (const char* name : names) {
-      if (app.count(name) > 0) throw InputError(std::string(name) + " " + why);
-    }
-  };
-  if (!for_lines()) refuse({"--shard"}, "goes with a file of lines");
-  if (for_lines()) {
-    refuse(
-        {"--trajectory", "--export-mjcf", "--verify", "--json", "--video", "--animate", "--junit"},
-        "does not go with a file of lines");
-    if (app.count("--frames") == 0) frames = Frames::kNone;
-    plan_path = plans.front();
-  } else if (for_batch()) {
-    refuse({"--trajectory", "--export-mjcf", "--verify", "--json", "--video"}, kSinglePlan);
-    if (std::ranges::find(plans, kStandardStream) != plans.end()) {
-      throw InputError("--plan - " + std::string(kSinglePlan));
-    }
-  } else {
-    refuse({"--jobs", "--time-limit", "--fresh"}, kSeveralPlans);
-    if (!for_grasp()) plan_path = plans.front();
+  CheckPlans(app);
+  CheckReplay(app);
+  if (trials.count == 0) {
+    Refuse(app, {"--trials"}, "the number of trials is required, as in --trials 20");
+    Refuse(app, {"--seed"}, "requires --trials or --export-states");
   }
-  if (app.count("--replay") == 0) replay_by_hand = !hand.empty();
-  if (replay_by_hand) {
-    if (hand.empty()) throw InputError("--replay hand: needs the hand (--hand)");
-    refuse({"--engine", "--protocol", "--stress", "--tolerance", "--align", "--finger-radius"},
-           "goes with --replay points");
-  } else {
-    refuse({"--tolerance-mm", "--tolerance-deg", "--feedback", "--tip", "--joint-noise"},
-           "goes with --replay hand");
-    if (trajectory_is_npz()) {
-      throw InputError("--trajectory: " + trajectory + ": NPZ goes with --replay hand");
-    }
-  }
-  if (trials.count == 0) refuse({"--seed"}, "goes with --trials or --export-states");
-  if (replay_by_hand) trials.joint_noise = Radians(joint_noise_deg);
-  if (!animates()) refuse({kAnimateSize}, "goes with --animate or --video");
+  if (!animates()) Refuse(app, {kAnimationSize}, "requires --animate or --video");
   animation_crop = frame.crop && animation_width == 0;
   if (animation_width == 0) {
     animation_width = std::max(render::kMinFrameSide, frame.width / 2);
@@ -455,7 +476,7 @@ std::filesystem::path ValidateOptions::Folder() const {
   if (!out.empty()) return out;
   const fs::path parent = "out";
   if (plan_path.empty() && plans.size() > 1) return parent / "batch";
-  // What comes by standard input has no name.
+  // Standard input has no name.
   if (InputPath() == kStandardStream) return parent / "plan";
   if (!for_batch()) return parent / fs::path(InputPath()).stem();
   // "plans/" and "." have names too.

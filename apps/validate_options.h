@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,13 +23,13 @@ namespace regrasp::apps {
 /// The program's name, before its messages.
 inline constexpr char kValidateName[] = "validate";
 
-/// Of --plan and --json: standard input and output.
+/// Name of standard input (--plan) and standard output (--json).
 inline constexpr char kStandardStream[] = "-";
 
-/// Of which plans and grasps frames are drawn.
+/// Plans and grasps that get frames.
 enum class Frames { kAll, kFailed, kNone };
 
-/// What the command line of `validate` asks for.
+/// Options of `validate`.
 struct ValidateOptions {
   std::string object_path;         ///< for plans also a folder, where each finds the file it names
   std::vector<std::string> plans;  ///< files and folders
@@ -35,8 +37,8 @@ struct ValidateOptions {
   std::string grasp_path;          ///< instead of a plan
   std::string grasps_path;         ///< many of them, as arrays
   bool required_angle = false;     ///< of each of those, too
-  bool quality = false;            ///< likewise
-  bool replay_grasps = false;      ///< holds and shakes those that are force closure
+  bool quality = false;            ///< of each of those, too
+  bool replay_grasps = false;      ///< simulate those that are force closure
   int states = 0;                  ///< reset states that are made, instead of a plan
   double min_quality = criteria::GraspCriteria().min_quality;  ///< of their grasps
   std::string out;
@@ -51,11 +53,11 @@ struct ValidateOptions {
   double clearance_m = sim::HandCheckOptions().clearance_m;
   bool replay_by_hand = false;  ///< on the hand's own model, not by ideal fingers
   bool feedback = true;         ///< of that replay: joint targets follow the object's pose
-  sim::TipShape tip = sim::TipShape::kBall;  ///< of the same: what touches the object
+  sim::TipShape tip = sim::TipShape::kBall;  ///< of that replay: collision shape
   double tolerance_mm = 2;                   ///< of the same
   double tolerance_deg = 5;
   sim::HandTolerance tolerance;  ///< after Finish
-  std::string verify;            ///< a report whose proofs are checked; nothing else is done
+  std::string verify;            ///< a report whose certificates are checked
   FrictionOptions friction;
   ContactOptions contact;
   RepairOptions repair;  ///< of a grasp's object; a plan holds its own
@@ -64,11 +66,12 @@ struct ValidateOptions {
   double joint_noise_deg = 0.5;
   sim::TrialOptions trials;  ///< a count of 0: none
   render::FrameOptions frame;
-  int animation_width = 0;  ///< pixels; after Finish those of --animate-size, or half of --size
+  int animation_width =
+      0;  ///< pixels; after Finish those of --size animation, or half of the frames
   int animation_height = 0;
   bool animation_crop = false;
   std::string video;
-  int workers;  ///< threads that draw pictures
+  int workers;  ///< threads that draw frames
   int sheet_width = render::kOverviewWidth;
   Frames frames = Frames::kAll;
   bool animate = false;
@@ -77,12 +80,14 @@ struct ValidateOptions {
   bool allow_object_change = false;
   bool allow_undecided = false;
   bool quiet = false;
-  bool silent = false;  ///< says not even why something failed: the caller does
+  bool silent = false;  ///< print no failures: the caller does
   int jobs;             ///< plans at a time, or threads that make states
   std::optional<double> time_limit_s;
   bool fresh = false;  ///< validates again what an earlier run did
-  std::string shard;   ///< of a file of lines; empty: all
-  /// Given options that change results, each with its values: what a run's digest is over.
+  std::string shard;   ///< part of a JSON Lines file; empty: all
+  /// Given settings of list options: "--replay tip", "--tolerance mm".
+  std::set<std::string> settings;
+  /// Given options that change results, each with its values: input of a run's digest.
   std::vector<std::pair<std::string, std::vector<std::string>>> given;
 
   ValidateOptions();
@@ -94,7 +99,7 @@ struct ValidateOptions {
 
   /// Several plans, or a folder of them.
   [[nodiscard]] bool for_batch() const;
-  /// A file of lines with a plan in each.
+  /// A JSON Lines file of plans.
   [[nodiscard]] bool for_lines() const;
   [[nodiscard]] bool trajectory_is_npz() const;
   [[nodiscard]] bool for_grasp() const { return !grasp_path.empty(); }
@@ -106,8 +111,16 @@ struct ValidateOptions {
   }
   /// The plan, the grasp or the grasps; of states the object.
   [[nodiscard]] const std::string& InputPath() const;
-  /// Where results go: `out`, or out/<plan, grasp, object or folder name>, or out/batch.
+  /// Folder of the results: `out`, or out/<plan, grasp, object or folder name>, or out/batch.
   [[nodiscard]] std::filesystem::path Folder() const;
+
+ private:
+  /// @param names  options ("--engine") and settings ("--replay tip").
+  /// @throws InputError  if one of them is given.
+  void Refuse(const CLI::App& app, std::initializer_list<const char*> names,
+              const std::string& why) const;
+  void CheckPlans(const CLI::App& app);
+  void CheckReplay(const CLI::App& app);
 };
 
 }  // namespace regrasp::apps

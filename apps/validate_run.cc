@@ -98,7 +98,7 @@ render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const Valid
   if (!options.show_clusters) return frame;
   const auto* solid = dynamic_cast<const object::Polyhedron*>(task.object->object.get());
   if (solid == nullptr || !task.plan.roadmap) {
-    throw InputError("--show-clusters: " + options.InputPath() +
+    throw InputError("--show clusters: " + options.InputPath() +
                      " was not made on a roadmap of clustered contact points");
   }
   frame.clusters = roadmap::DescribeClusters(

@@ -30,16 +30,16 @@ OutputFiles OutputsOf(const ValidateOptions& options) {
   OutputFiles outputs;
   if (!options.verify.empty()) return outputs;
   if (options.for_grasps()) {
-    outputs.folders.push_back(
-        {"--out", options.Folder(), [](const std::string& name) { return name == kVerdictsName; }});
+    outputs.folders.push_back({"--output", options.Folder(),
+                               [](const std::string& name) { return name == kVerdictsName; }});
     return outputs;
   }
   if (options.for_states()) {
     if (!options.mjcf.empty()) {
       outputs.folders.push_back({"--export-mjcf", options.mjcf, sim::IsSceneFile});
     }
-    outputs.folders.push_back(
-        {"--out", options.Folder(), [](const std::string& name) { return name == kStatesName; }});
+    outputs.folders.push_back({"--output", options.Folder(),
+                               [](const std::string& name) { return name == kStatesName; }});
     return outputs;
   }
   outputs.Add("--junit", options.junit);
@@ -51,7 +51,7 @@ OutputFiles OutputsOf(const ValidateOptions& options) {
     outputs.Add("--export-mjcf", options.mjcf);
   }
   outputs.Add("--video", options.video);
-  outputs.folders.push_back({"--out", options.Folder(), IsValidationFile});
+  outputs.folders.push_back({"--output", options.Folder(), IsValidationFile});
   return outputs;
 }
 
@@ -93,7 +93,7 @@ plan::Plan ParsePlanOf(const ValidateOptions& options, const std::string& text) 
 
 /// Return how to read the object of a plan.
 object::Reading ReadingOf(const plan::Plan& plan, object::Reading reading) {
-  // No verdict depends on these, but --show-clusters computes clusters without rough places.
+  // No verdict depends on these, but --show clusters computes clusters without rough places.
   if (plan.roadmap && plan.roadmap->roughness) {
     reading.patch = {plan.patch_radius, *plan.roadmap->roughness};
   }
@@ -180,7 +180,7 @@ void FinishTask(const ValidateOptions& options, ValidateTask& task) {
 
 void CheckTorsionFits(const ValidateOptions& options, const object::Object& object) {
   if (options.contact.torsion().value_or(0) == 0 || object.dimension() == 3) return;
-  throw InputError("--contact soft: " + options.object_path +
+  throw InputError("--torsion: " + options.object_path +
                    " is planar, and no contact has a torque about its normal there");
 }
 

@@ -55,7 +55,7 @@ struct ValidateTask {
 void CheckOutputs(const ValidateOptions& options);
 
 /// Check that a planar object has no torsional friction.
-/// @throws InputError  --contact soft is given for a planar object.
+/// @throws InputError  --torsion is given for a planar object.
 void CheckTorsionFits(const ValidateOptions& options, const object::Object& object);
 
 /// Read the object of --grasp, --grasps or --export-states, and repair it if requested.

@@ -7,13 +7,13 @@
 
 namespace regrasp::apps {
 
-/// Adds `--view`: where pictures are taken from.
+/// Add `--view AZIMUTH,ELEVATION`, the view direction.
 void AddView(CLI::App& app, std::optional<render::ViewDirection>& view);
 
-/// Adds `--edges` and `--crease-angle`: which lines of an object are drawn.
+/// Add `--edges`, the drawn lines of an object and their crease angle.
 void AddEdges(CLI::App& app, render::BodyOptions& body);
 
-/// Adds both, `--zoom` and `--orthographic`.
+/// Add `--view` with zoom and projection, `--edges` and `--background`.
 void AddFrameView(CLI::App& app, render::FrameOptions& frame);
 
 }  // namespace regrasp::apps

@@ -55,10 +55,10 @@ std::string MendReplay(const ReportStep& step, const Report& report) {
     case Cause::kNoClearance:
       return "use contacts farther from concave corners, or thinner fingers (--finger-radius)";
     case Cause::kWeight:
-      return "use a larger --squeeze, a lighter object (--mass, --density), or more friction "
+      return "use a larger --grasp-force, a lighter object (--mass, --density), or more friction "
              "(--friction-angle)";
     case Cause::kQuality:
-      return "plan better grasps (plan --min-quality above the --shake), or use more friction "
+      return "plan better grasps (plan --min-quality above the --disturbance), or use more friction "
              "(--friction-angle)";
     case Cause::kEdge:
       return "use contacts farther from the borders of their faces";
@@ -67,7 +67,7 @@ std::string MendReplay(const ReportStep& step, const Report& report) {
              "--optimize margin)";
     default:
       return "use more friction (--friction-angle), or plan with more friction margin (plan "
-             "--optimize margin); note: --stress reports in which direction the grasp is weak";
+             "--optimize margin); note: --disturbance limits reports in which direction the grasp is weak";
   }
 }
 
@@ -120,12 +120,12 @@ std::string MendOf(const ReportStep& step, const Report& report) {
       return MendFriction(step, report);
     case Reason::kNotProved:
       return "use slightly more friction (--friction-angle" + DegreesAsked(step, report) +
-             "), add waypoints, or pass --allow-undecided if few pieces have no proof";
+             "), add waypoints, or pass --allow undecided if few pieces have no proof";
     case Reason::kUnreachable:
       return MendReach(step.fault());
     case Reason::kOffPoint:
-      return "use contacts at points of the object's file, connected by switches (plan --contacts "
-             "given)";
+      return "use contacts at points of the object's file, connected by switches (plan --planner "
+             "points=given)";
     case Reason::kHandJumps:
       return "begin the path of every step with the last state before it, with all joints of the "
              "hand";
@@ -137,7 +137,7 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kHandCollides:
       return MendCollision(step.fault());
     case Reason::kTorqueLimit:
-      return "use a smaller --squeeze, a lighter object (--mass), or joint configurations in which "
+      return "use a smaller --grasp-force, a lighter object (--mass), or joint configurations in which "
              "the finger is stronger";
     case Reason::kCouplingViolated:
       return step.fault().hand
@@ -145,13 +145,13 @@ std::string MendOf(const ReportStep& step, const Report& report) {
                    "joint "
                    "angles keep"
                  : "use a model whose coupling is as hard as that of the real hand (solref and "
-                   "solimp of its equality), a smaller --squeeze, or a plan whose states keep "
+                   "solimp of its equality), a smaller --grasp-force, or a plan whose states keep "
                    "the coupling";
     case Reason::kTipPenetrates:
       return "use a fingertip sphere inside the model's geometry (hand --model fits one), or plan "
              "with a larger margin";
     case Reason::kSimulationUnstable:
-      return "check --squeeze, --mass and --scale";
+      return "check --grasp-force, --mass and --scale";
     case Reason::kContactLost:
     case Reason::kSlipped:
     case Reason::kObjectMoved:
@@ -172,7 +172,7 @@ std::string MendOf(const ReportStep& step, const Report& report) {
 std::string HandToleranceText(const sim::HandTolerance& tolerance) {
   return "limit: the object is " + FormatLength(tolerance.length_m) + " and " +
          FormatDegrees(Degrees(tolerance.angle_rad)) +
-         " from its planned pose (--tolerance-mm, --tolerance-deg), in a static grasp half of "
+         " from its planned pose (--tolerance in mm and deg), in a static grasp half of "
          "that; a "
          "finger in contact slips " +
          FormatLength(tolerance.slip_m);

@@ -53,7 +53,7 @@ void AddHandWarnings(const Report& report, std::vector<std::string>& warnings) {
   if (covered > kMentionedDepth) {
     warnings.push_back("the collision geometry of a fingertip is up to " + FormatLength(covered) +
                        " inside the object when its sphere touches; help: validate with "
-                       "--tip geometry");
+                       "--replay tip=geometry");
   }
 }
 

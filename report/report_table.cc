@@ -28,7 +28,7 @@ std::string SqueezeText(const sim::ReplaySettings& settings) {
              (settings.shake >= sim::kLeastShakeForSqueeze
                   ? ": default, the weight is 10 % of the disturbance"
                   : ": default, the weight is negligible") +
-             "; not realistic for a hand, use --squeeze realistic";
+             "; not realistic for a hand, use --grasp-force realistic";
     case sim::SqueezeSource::kHand:
       if (settings.squeeze_N >= sim::kStrongestGrip_N) {
         return squeeze + ": largest grasp force of a hand, less than required here";
@@ -41,7 +41,7 @@ std::string SqueezeText(const sim::ReplaySettings& settings) {
              "unknown), "
              "or 4 N";
     case sim::SqueezeSource::kGiven:
-      return squeeze + ": given by --squeeze";
+      return squeeze + ": given by --grasp-force";
   }
   return squeeze;
 }
@@ -133,7 +133,7 @@ std::string TrialsRequiredText(const sim::TrialSummary& summary) {
   const auto [share, required] =
       FormatWithLimit(100 * summary.share(), 100 * summary.options.min_pass_rate, kPercentDigits);
   return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
-         " trials pass (" + share + " %), --min-pass-rate requires " + required + " %";
+         " trials pass (" + share + " %), --trials min-pass-rate requires " + required + " %";
 }
 
 std::string TrialsShareText(const sim::TrialSummary& summary) {

@@ -33,7 +33,7 @@ struct WeakestPush {
 /// "in 14 of 20 trials", behind "pass": there is no verdict on trials without their numbers.
 [[nodiscard]] std::string TrialsPassText(const sim::TrialSummary& summary);
 
-/// "14 of 20 trials pass (70 %), and --min-pass-rate requires 100 %".
+/// "14 of 20 trials pass (70 %), and --trials min-pass-rate requires 100 %".
 [[nodiscard]] std::string TrialsRequiredText(const sim::TrialSummary& summary);
 
 /// "93 of 100 pass: 93 %, with 95 % confidence between 86.1 and 97.1 %; required 100 %".

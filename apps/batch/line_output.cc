@@ -116,7 +116,7 @@ void LinesOutput::TakePart(bool fresh) {
     throw InputError(part_.string() + ": line 1: " +
                      (ours
                           ? "belongs to an interrupted run with different input, options or build; "
-                            "help: pass --fresh to discard it"
+                            "help: pass --restart to discard it"
                           : "cannot overwrite a file that regrasp did not write; help: move it") +
                      ", or pass another output");
   }

@@ -93,7 +93,7 @@ std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCou
                       [](std::int64_t sum, const auto& one) { return sum + one.second; }),
       "whose simulated execution fails (" + FailuresText(best.execution_failures) + ")");
   if (request.reserve == Reserve::kRequired) {
-    text += "; help: --reserve none omits the robustness margins";
+    text += "; help: --robustness none omits the robustness margins";
   }
   return text;
 }

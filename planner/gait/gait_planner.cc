@@ -177,7 +177,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   GaitRequest request = RequestFor(asked);
   if (request.seeks_most_margin && (!request.simulate || request.reserve == Reserve::kNone)) {
     throw InputError(OptionName(PlanOption::kMargin) +
-                     ": requires simulated plans, cannot be used with --reserve none");
+                     ": requires simulated plans, cannot be used with --robustness none");
   }
   const auto time = request.deadline.left();
   const GaitResult found = FindGait(request);
@@ -187,7 +187,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     result.message = found.message;
     if (found.execution) {
       if (!found.execution->is_cut_short) result.trial = found.execution->reason;
-      result.message += "; help: --reserve preferred writes the best plan anyway";
+      result.message += "; help: --robustness preferred writes the best plan anyway";
     }
     if (request.deadline.IsOver()) result.message += "; time limit reached";
     if (asked.explain) {

@@ -93,7 +93,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .causes = "The required friction angle is within rounding of the available one.\n"
                "Contacts are collinear or coincide for an instant.",
      .remedies = "Add waypoints.\nPlan with a slightly larger friction margin.\n"
-                 "Pass --allow-undecided if you accept few undecided pieces without a proof.",
+                 "Pass --allow undecided if you accept few undecided pieces without a proof.",
      .see = "analytic_check.md#force-closure-along-a-sliding-step",
      .about = "how it is decided"},
     {.name = "unreachable",
@@ -116,7 +116,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
          "surface.",
      .causes = "The object is a surface reconstructed from points, and the plan uses contacts "
                "between them.",
-     .remedies = "Plan with --contacts given."},
+     .remedies = "Plan with --planner points=given."},
     {.name = "hand-jumps",
      .check = kHand,
      .meaning =
@@ -156,7 +156,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .causes = "The grasp force is too large for the actuators.\n"
                "The object is too heavy.\n"
                "The finger is almost extended, so that a joint needs a large torque.",
-     .remedies = "Use a smaller grasp force (--squeeze).\nUse a lighter object.\n"
+     .remedies = "Use a smaller grasp force (--grasp-force).\nUse a lighter object.\n"
                  "Use joint configurations in which the finger is stronger."},
     {.name = "coupling-violated",
      .check = kHand,
@@ -186,7 +186,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                 "any other fault. The step was not evaluated.",
      .causes = "The unit of length is wrong, so that the object is very large or very small.\n"
                "Grasp force and mass are out of proportion.",
-     .remedies = "Check the grasp force (--squeeze), the mass (--mass, --density) and --scale."},
+     .remedies = "Check the grasp force (--grasp-force), the mass (--mass, --density) and --scale."},
     {.name = "contact-lost",
      .check = kReplay,
      .meaning = "A holding finger left the surface. In a hand replay: it had no force for 20 ms. "
@@ -204,22 +204,22 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                "[`cone-reached`](likely_causes.md#cone-reached).\n"
                "The grasp has no friction margin, and the fingertips roll.",
      .remedies = "Plan with a larger friction margin (plan --optimize margin, or plan at less "
-                 "friction than you check).\nPlan with --min-quality above --shake."},
+                 "friction than you check).\nPlan with --min-quality above --disturbance."},
     {.name = "object-moved",
      .check = kReplay,
      .meaning = "The object moved by more than --tolerance, or still moved at the end of "
                 "the step or under a disturbance. In a hand replay: it is farther from its planned "
-                "pose than --tolerance-mm or --tolerance-deg allow.",
+                "pose than --tolerance allows in mm or deg.",
      .causes = "The likely cause in the report, for example "
                "[`quality-below-shake`](likely_causes.md#quality-below-shake) or "
                "[`weight`](likely_causes.md#weight).\n"
                "In a hand replay, the joints yield under the contact forces.",
-     .remedies = "Plan grasps of higher quality (plan --min-quality above --shake).\n"
+     .remedies = "Plan grasps of higher quality (plan --min-quality above --disturbance).\n"
                  "Plan with a larger friction margin (plan --optimize margin)."},
     {.name = "trials-failed",
      .check = kTrials,
      .meaning =
-         "The plan passes without noise, and fewer trials pass than --min-pass-rate requires.",
+         "The plan passes without noise, and fewer trials pass than --trials min-pass-rate requires.",
      .causes = "The plan has too little margin for the given errors of friction, pose or joints.",
      .remedies = "Plan with a larger friction margin (plan --optimize margin).\n"
                  "Reduce the errors of the real hand and object, and pass the smaller values.",
@@ -254,13 +254,13 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                 "disturbance.",
      .causes = "The grasp force is small for the object's mass.\n"
                "The grasp is weak in the direction of gravity.",
-     .remedies = "Use a larger grasp force (--squeeze).\n"
+     .remedies = "Use a larger grasp force (--grasp-force).\n"
                  "Use a lighter object (--mass, --density).\nUse more friction."},
     {.name = "quality-below-shake",
      .check = kCause,
      .meaning = "The grasp quality ε (Ferrari-Canny) is below the size of the disturbance test.",
      .causes = "The grasp is force closure with a small margin.",
-     .remedies = "Plan with --min-quality above --shake."},
+     .remedies = "Plan with --min-quality above --disturbance."},
     {.name = "edge",
      .check = kCause,
      .meaning = "A contact is nearer to the border of its face than a finger may slip.",
@@ -279,8 +279,8 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
     {.name = "no-shake",
      .check = kCause,
      .meaning = "Without a disturbance the replay does not test the grasp.",
-     .causes = "--shake 0 was passed.",
-     .remedies = "Omit --shake 0."},
+     .causes = "--disturbance 0 was passed.",
+     .remedies = "Omit --disturbance 0."},
     {.name = "critical-friction",
      .check = kCause,
      .meaning = "The friction is less than 2 % below the required one. Between two engines: within "
@@ -291,13 +291,13 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .check = kCause,
      .meaning = "One of two engines did not converge.",
      .causes = "See [`simulation-unstable`](failure_reasons.md#simulation-unstable).",
-     .remedies = "Check the grasp force (--squeeze), the mass (--mass, --density) and --scale."},
+     .remedies = "Check the grasp force (--grasp-force), the mass (--mass, --density) and --scale."},
     {.name = "unknown",
      .check = kCause,
      .meaning = "No other likely cause applies.",
      .causes = "The values that the report contains were examined.",
      .remedies =
-         "Run `validate --stress`, which reports the direction in which the grasp is weak."},
+         "Run `validate --disturbance limits`, which reports the direction in which the grasp is weak."},
 });
 
 /// Return the items of a text with one per line as a Markdown list.

@@ -24,27 +24,27 @@ std::string OptionName(PlanOption option) {
     case PlanOption::kRegions:
       return "--optimize regions";
     case PlanOption::kUniformSpanning:
-      return "--spanning uniform";
+      return "--planner spanning=uniform";
     case PlanOption::kContactPoints:
-      return "--contacts";
+      return "--planner points";
     case PlanOption::kGivenPoints:
-      return "--contacts given";
+      return "--planner points=given";
     case PlanOption::kClusters:
-      return "--clusters";
+      return "--planner clusters";
     case PlanOption::kNoLastResort:
-      return "--no-lazy";
+      return "--planner fallback=no";
     case PlanOption::kEffort:
-      return "--effort";
+      return "--planner budget";
     case PlanOption::kExplain:
       return "--explain";
     case PlanOption::kHand:
       return "--hand";
     case PlanOption::kSoftFingers:
-      return "--contact soft";
+      return "--torsion";
     case PlanOption::kFocusPoints:
       return "--sampling";
     case PlanOption::kQueries:
-      return "--queries";
+      return "--planner queries";
   }
   return {};
 }
@@ -88,7 +88,7 @@ std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
     return "planner " + planner.name() + ": graph not supported";
   }
   if (planar && request.hand.torsion > 0) {
-    return "--contact soft cannot be used with a planar object";
+    return "--torsion cannot be used with a planar object";
   }
   const std::vector<PlanOption>& has = planner.traits().options;
   for (const PlanOption option : OptionsOf(request)) {

@@ -38,11 +38,12 @@ Judgement JudgeSurface(const object::PolygonSoup& soup, const object::Reading& a
 Judgement JudgeParts(const std::vector<double>& volume_shares,
                      const object::RepairOptions& options) {
   if (options.part || volume_shares.size() < 2 || volume_shares[1] <= kSmallPart) return {};
-  return {Shortfall::kNotChosen,
-          std::to_string(volume_shares.size()) + " separate solids, with " +
-              object::SharesText(volume_shares) +
-              " of the volume; help: --part K selects one (1: the largest), --shells union unites "
-              "all"};
+  return {
+      Shortfall::kNotChosen,
+      std::to_string(volume_shares.size()) + " separate solids, with " +
+          object::SharesText(volume_shares) +
+          " of the volume; help: --repair part=K selects one (1: the largest), --shells union unites "
+          "all"};
 }
 
 Judgement JudgeShape(const Comparison& comparison, const Original& original,
@@ -52,7 +53,7 @@ Judgement JudgeShape(const Comparison& comparison, const Original& original,
     return {Shortfall::kTooFar,
             "the solid deviates too much: 95 % of the visible surface is within " +
                 PercentOf(deviation) + " of the diameter, limit " +
-                PercentOf(options.max_deviation) + " (--max-deviation)",
+                PercentOf(options.max_deviation) + " (--repair max-deviation)",
             deviation};
   }
   if (options.thickness) return {};
@@ -61,12 +62,12 @@ Judgement JudgeShape(const Comparison& comparison, const Original& original,
             "surface incomplete: " + PercentOf(comparison.invented_share) +
                 " of the solid would be filled in, limit " + PercentOf(kMostInvented) +
                 "; help: scan the other sides too, or give an open sheet a wall "
-                "(--solidify THICKNESS)"};
+                "(--repair wall=T)"};
   }
   if (original.open && comparison.thin_share > kMostThin) {
     return {Shortfall::kSheet, "open sheet: " + PercentOf(comparison.thin_share) +
                                    " of the solid would be thinner than " + PercentOf(kThinWall) +
-                                   " of the diameter; help: --solidify THICKNESS gives it a wall"};
+                                   " of the diameter; help: --repair wall=T gives it a wall"};
   }
   return {};
 }

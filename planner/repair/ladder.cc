@@ -135,7 +135,7 @@ class Ladder {
       last().shortfall = Shortfall::kSheet;
       last().outcome =
           "open sheet: a wrap enters it and keeps " + FormatShort(100 * left, 3) +
-          " % of the volume of a coarser one; help: --solidify THICKNESS gives it a wall";
+          " % of the volume of a coarser one; help: --repair wall=T gives it a wall";
       return false;
     }
     return IsCloseEnough(*std::move(made));
@@ -199,7 +199,7 @@ class Ladder {
     const auto coarse = Run("simplify", [&] { return Simplify(fine, *options_.facets); });
     if (!coarse) return false;
     if (Accepts(*coarse, &fine)) return true;
-    last().outcome += "; help: use a larger --faces";
+    last().outcome += "; help: use a larger --repair max-triangles";
     return false;
   }
 

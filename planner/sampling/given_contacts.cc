@@ -105,7 +105,7 @@ std::vector<grasp::Contact> GivenContacts(const object::Polyhedron& solid,
                   " given points for fingers, found " + std::to_string(found.size()) + " of " +
                   std::to_string(points.size()) +
                   ": a point must be on the surface, and not on an edge, a rough place "
-                  "(--roughness) or a filled surface"};
+                  "(--patch roughness) or a filled surface"};
   }
   return EliminateSamples(found, most, SurfaceSampler(solid).measure());
 }

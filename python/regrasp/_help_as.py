@@ -10,6 +10,9 @@ import re
 
 from ._regrasp import InputError, version
 
+# Options of all programs, which the page lists once.
+_GENERAL = ("--help", "--version")
+
 KINDS = ["man", "bash", "zsh", "fish", "markdown"]
 
 
@@ -108,6 +111,8 @@ def _markdown(parser) -> str:
              parser.description + " " + " ".join(parser.epilog.split()), "", "```", _usage(parser), "```", "",
              "## Options", ""]
     for name, value, text, needed in _options(parser):
+        if name in _GENERAL:
+            continue
         lines.append(f"- `{name}{' ' + value if value else ''}`{' (required)' if needed else ''} "
                      f"{text[:1].upper() + text[1:]}")
     return "\n".join(lines) + "\n"

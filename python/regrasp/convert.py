@@ -47,34 +47,33 @@ class NoContacts(Exception):
 def parser() -> argparse.ArgumentParser:
     """Return the parser of the program's options."""
     parser = _Parser(
-        prog="regrasp-convert", description="Convert grasps and plans between formats, and report what "
-        "the output format cannot represent.", epilog=_EPILOG)
-    parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format; one file for .csv "
-                        "and .mcap")
-    parser.add_argument("--output", required=True, metavar="FILE", help="output file: .yaml, .npz, .json or .mcap")
-    parser.add_argument("--hand", metavar="FILE", help="hand file; required for .json and .npz; adds the fingertips "
+        prog="regrasp-convert", description="Converts grasps and plans between formats, and says what "
+        "it could not carry over.", epilog=_EPILOG)
+    parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format, a single one for "
+                        ".csv and .mcap")
+    parser.add_argument("-o", "--output", required=True, metavar="FILE", help="output file, .yaml, .npz, .json "
+                        "or .mcap")
+    parser.add_argument("--hand", metavar="FILE", help="hand file. Required for .json and .npz; adds fingertips "
                         "to .mcap")
-    parser.add_argument("--palm", metavar="X,Y,Z[,QW,QX,QY,QZ]", help="pose of the palm frame in the "
-                        "frame of the body whose poses the files contain; metres and a quaternion. Write "
-                        "--palm=-1,2,3 if it starts with a minus (default: identity)")
-    parser.add_argument("--object", metavar="FILE", help="object file; required for .npz and for input .csv")
-    parser.add_argument("--object-pose", metavar="X,Y,Z,QW,QX,QY,QZ", help="pose of the object in the "
-                        "world frame of a dictionary (.npy, .npz); replaces that of the file")
-    parser.add_argument("--scale", type=float, metavar="METRES_PER_UNIT", help="scale of the object file "
-                        "(default: the scale in the file of the grasps, or 1)")
-    parser.add_argument("--tolerance-mm", type=float, default=2, metavar="MM", help="largest distance "
-                        "of a fingertip from the surface, outside or inside, that counts as contact; "
-                        "largest distance of a contact of .csv from the surface (default 2)")
-    parser.add_argument("--fingers", metavar="NAME,...", help="fingers whose contacts are "
-                        "written; grasps without contact of each of them are omitted (default: all fingers "
-                        "in contact)")
-    parser.add_argument("--frame", choices=["object", "world"], help="frame of the contacts of .csv; "
-                        "required if all fingers are always in contact, because the file does not contain it")
-    parser.add_argument("--mesh-scale", type=float, default=1, metavar="X", help="scale that HiDex applies to "
-                        "the object file (scale in its setup.yaml); for .csv (default 1)")
-    parser.add_argument("--mu", type=float, metavar="X", help="friction coefficient; required for .csv to .json")
-    parser.add_argument("--version", action="version", version=f"regrasp-convert {version}",
-                        help="print the version and exit")
+    parser.add_argument("--palm", metavar="X,Y,Z[,QW,QX,QY,QZ]", help="pose of the palm frame in the body whose "
+                        "poses the files contain. Metres and unit quaternion; --palm=-1,2,3 if it starts with a "
+                        "minus [default: identity]")
+    parser.add_argument("--object", metavar="FILE", help="object file. Required for .npz and from .csv")
+    parser.add_argument("--object-pose", metavar="X,Y,Z,QW,QX,QY,QZ", help="pose of the object in the world of a "
+                        "dictionary (.npy, .npz). Replaces the pose in the file")
+    parser.add_argument("--scale", type=float, metavar="METRES_PER_UNIT", help="metres per length unit of the "
+                        "object file [default: that of the grasps, otherwise 1]")
+    parser.add_argument("--tolerance-mm", type=float, default=2, metavar="MM", help="largest distance of a contact "
+                        "from the surface in mm [default: 2]")
+    parser.add_argument("--fingers", metavar="NAME,...", help="fingers whose contacts are written and must all "
+                        "touch [default: all that touch]")
+    parser.add_argument("--frame", choices=["object", "world"], help="frame of the contacts in .csv. Required if "
+                        "all fingers touch throughout")
+    parser.add_argument("--mesh-scale", type=float, default=1, metavar="X", help="scale of the object in the "
+                        "setup.yaml of HiDex, for .csv [default: 1]")
+    parser.add_argument("--mu", type=float, metavar="X", help="friction coefficient, from .csv to .json")
+    parser.add_argument("-V", "--version", action="version", version=f"regrasp-convert {version}",
+                        help="print the version")
     parser.add_argument("--help-as", action=_HelpAs, metavar="FORMAT", help=argparse.SUPPRESS)
     return parser
 

@@ -134,7 +134,7 @@ double LeastShake(double tolerance) {
 void CheckShake(const ReplaySettings& settings) {
   const double least = LeastShake(settings.tolerance);
   if (settings.shake == 0 || settings.shake > least) return;
-  throw InputError("--shake " + FormatShort(settings.shake) +
+  throw InputError("--disturbance " + FormatShort(settings.shake) +
                    " is too small to detect a lost grasp at --tolerance " +
                    FormatShort(settings.tolerance) + ", expected more than " + FormatShort(least));
 }

@@ -11,7 +11,7 @@ from picture_pixels import webp_durations
 from program_case import ProgramCase
 
 XHTML = "{http://www.w3.org/1999/xhtml}"
-SMALL = ["--size", "128x96", "--animate-size", "64x48"]
+SMALL = ["--size", "128x96,animation=64x48"]
 
 # Duration of the last frame of a plan, ms.
 PASSED_REST, FAILED_REST = 2500, 4000
@@ -47,12 +47,12 @@ class Animation(ProgramCase):
 
     def of_plan(self, *more):
         self.write_json("plan.json", self.plan)
-        return ["--object", self.model("cube.obj"), "--plan", "plan.json", "--out", "result",
+        return ["--object", self.model("cube.obj"), "--plan", "plan.json", "--output", "result",
                 *more]
 
     def of_grasp(self, *more):
         return ["--object", self.model("cube.obj"), "--grasp", self.model("cube.start.json"),
-                "--friction-angle", "20", "--out", "result", *more]
+                "--friction-angle", "20", "--output", "result", *more]
 
     def replay(self):
         return self.read("result/replay.webp")
@@ -72,7 +72,7 @@ class Animation(ProgramCase):
         page = self.read("result/report.html").decode()
         self.assertEqual(page.count('<div class="replay">'), 1)
         self.assertEqual(page.count("<img "), 3)
-        self.assert_done(*self.of_plan("--no-frames"))
+        self.assert_done(*self.of_plan("--frames", "none"))
         self.assertFalse(os.path.exists(self.path("result/replay.webp")))
         self.assertNotIn('<div class="replay">', self.read("result/report.html").decode())
 
@@ -82,27 +82,26 @@ class Animation(ProgramCase):
                 if contact["finger"] not in step["release"]]
 
     def test_options_that_do_not_go_together_are_refused(self):
-        self.assert_refused(2, "--animate", *self.of_grasp("--animate", "--no-frames"))
-        self.assert_refused(2, "--animate-size goes with --animate or --video",
-                            *self.of_grasp("--animate-size", "96x64"))
-        self.assert_refused(2, "--animate-size",
-                            *self.of_grasp("--animate", "--animate-size", "1x1"))
+        self.assert_refused(2, "--size animation: requires --animate or --video",
+                            *self.of_grasp("--size", "animation=96x64"))
+        self.assert_refused(2, "--size animation: expected WxH",
+                            *self.of_grasp("--animate", "--size", "animation=1x1"))
         for name in ("film.avi", "film", "-", "film.mp4.txt"):
             self.assert_refused(2, ["--video", f'"{name}"', ".mp4, .gif or .webp"],
                                 *self.of_grasp("--video", name))
         self.write_json("plan.json", self.plan)
-        self.assert_refused(2, "--video goes with a single plan", "--object",
-                            self.model("cube.obj"), "--plan", "plan.json", "plan.json", "--out",
+        self.assert_refused(2, "--video: requires a single plan", "--object",
+                            self.model("cube.obj"), "--plan", "plan.json", "plan.json", "--output",
                             "result", "--video", "film.mp4")
         self.write("plan.gif", self.read("plan.json"))
         self.assert_refused(2, ["plan.gif", "--plan", "--video"], "--object",
-                            self.model("cube.obj"), "--plan", "plan.gif", "--out", "result",
+                            self.model("cube.obj"), "--plan", "plan.gif", "--output", "result",
                             "--video", "plan.gif")
         self.assert_refused(3, "nowhere", *self.of_grasp("--video", "nowhere/film.mp4"))
 
     def test_a_video_has_the_format_of_its_name_and_half_of_the_frames_size(self):
         for name in ("film.gif", "film.mp4", "film.webp"):
-            self.assert_done(*self.of_grasp("--no-frames", "--size", "130x98", "--video", name))
+            self.assert_done(*self.of_grasp("--frames", "none", "--size", "130x98", "--video", name))
         self.assertEqual(gif_size(self.read("film.gif")), (65, 49))
         self.assertEqual(webp_size(self.read("film.webp")), (65, 49))
         film = self.read("film.mp4")
@@ -130,12 +129,12 @@ class Animation(ProgramCase):
         for ending, element in (("gif", "img data:image/gif"), ("mp4", "video data:video/mp4"),
                                 ("webp", "img data:image/webp")):
             name = "film." + ending
-            self.assert_done(*self.of_grasp("--no-frames", *SMALL, "--video", name))
+            self.assert_done(*self.of_grasp("--frames", "none", *SMALL, "--video", name))
             self.assertEqual(self.replay_on_page(), (element, self.read(name)))
             self.assertIn(b"media-src data:;", self.read("result/report.html"))
         self.assert_done(*self.of_grasp(*SMALL, "--animate", "--video", "film.mp4"))
         self.assertEqual(self.replay_on_page(), ("img data:image/webp", self.replay()))
-        self.assert_done(*self.of_grasp("--no-frames"))
+        self.assert_done(*self.of_grasp("--frames", "none"))
         self.assertEqual(self.replay_on_page(), (None, b""))
 
     def test_the_same_plan_gives_the_same_bytes_on_one_core_as_on_all(self):
@@ -155,7 +154,7 @@ class Animation(ProgramCase):
     def test_it_is_seen_as_the_frames_are(self):
         self.assert_done(*self.of_grasp("--animate", *SMALL))
         usual = self.replay()
-        for option in (["--view", "200,50"], ["--zoom", "1.3"], ["--orthographic"],
+        for option in (["--view", "200,50"], ["--view", "zoom=1.3"], ["--view", "orthographic"],
                        ["--edges", "none"], ["--finger-radius", "0.004"]):
             self.assert_done(*self.of_grasp("--animate", *SMALL, *option))
             self.assertNotEqual(self.replay(), usual, option)
@@ -165,7 +164,7 @@ class Animation(ProgramCase):
         self.plan["goal"] = {"contacts": [
             {key: contact[key] for key in ("point", "normal")} for contact in
             self.contacts_after_a_switch()]}
-        self.assert_done(*self.of_plan("--no-frames", "--video", "good.gif"))
+        self.assert_done(*self.of_plan("--frames", "none", "--video", "good.gif"))
         self.assertFalse(any(map(is_red, gif_colours(self.read("good.gif")))))
         # Failures in the replay, in the check of a step, and in that of the initial grasp.
         bad = copy.deepcopy(self.plan)
@@ -174,7 +173,7 @@ class Animation(ProgramCase):
         hold = copy.deepcopy(self.plan)
         contact = hold["initial"]["contacts"][0]
         contact["point"] = [p - 0.004 * n for p, n in zip(contact["point"], contact["normal"])]
-        for plan, more in ((self.plan, ["--shake", "0.5"]), (bad, []), (hold, [])):
+        for plan, more in ((self.plan, ["--disturbance", "0.5"]), (bad, []), (hold, [])):
             self.plan = plan
             done = self.run_program(*self.of_plan(*SMALL, "--animate", "--video", "bad.gif", *more))
             self.assertEqual(done.returncode, 1, done.stderr)
@@ -194,7 +193,7 @@ class Animation(ProgramCase):
         self.assertEqual(shown.count("drawing the moving picture: frame"), count)
 
     def test_the_trajectory_is_the_same_with_an_animation(self):
-        self.assert_done(*self.of_grasp("--no-frames", "--trajectory", "alone.csv"))
+        self.assert_done(*self.of_grasp("--frames", "none", "--trajectory", "alone.csv"))
         self.assert_done(*self.of_grasp("--animate", *SMALL, "--trajectory", "beside.csv"))
         self.assertEqual(self.read("alone.csv"), self.read("beside.csv"))
 

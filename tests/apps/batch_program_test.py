@@ -113,8 +113,8 @@ class Batch(ProgramCase):
         return names
 
     def arguments(self, *more, out="result"):
-        return ["--object", program_case.ARGUMENTS.source + "/models", "--plan", "plans", "--out",
-                out, "--no-frames", *more]
+        return ["--object", program_case.ARGUMENTS.source + "/models", "--plan", "plans", "--output",
+                out, "--frames", "none", *more]
 
     def run_batch(self, code, *more, out="result"):
         done = self.run_program(*self.arguments(*more, out=out))
@@ -198,11 +198,11 @@ class Batch(ProgramCase):
     def test_each_plan_has_what_a_single_run_writes(self):
         names = self.use_few()
         self.run_program("--object", program_case.ARGUMENTS.source + "/models", "--plan", "plans",
-                         "--out", "result", "--size", "160x120")
+                         "--output", "result", "--size", "160x120")
         for name in names:
             plan = "plans/" + name
             model = self.model(name.split("_")[0] + ".wkt")
-            self.assert_done("--object", model, "--plan", plan, "--out", "single", "--size",
+            self.assert_done("--object", model, "--plan", plan, "--output", "single", "--size",
                              "160x120")
             single = tree(self.path("single"))
             self.assertIn("000_hold.png", single)
@@ -234,14 +234,14 @@ class Batch(ProgramCase):
             for plan, frame in (("plans", "weak/000_hold.png"),
                                 ("plans/weak.json", "000_hold.png")):
                 self.run_program("--object", program_case.ARGUMENTS.source + "/models", "--plan",
-                                 plan, "--out", out, "--size", "160x120", "--junit", "junit.xml")
+                                 plan, "--output", out, "--size", "160x120", "--junit", "junit.xml")
                 attached = [case.find("system-out").text for case in
                             ElementTree.parse(self.path("junit.xml")).iter("testcase")
                             if case.find("system-out") is not None]
                 self.assertEqual(attached, [f"[[ATTACHMENT|{folder}/{frame}]]"])
                 self.assertTrue(os.path.isfile(os.path.join(self.folder, folder, frame)))
                 shutil.rmtree(self.path(out))
-        self.run_batch(1, "--no-frames", "--junit", "junit.xml")
+        self.run_batch(1, "--frames", "none", "--junit", "junit.xml")
         self.assertNotIn(b"ATTACHMENT", self.read("junit.xml"))
 
     def times(self, *more):
@@ -258,7 +258,7 @@ class Batch(ProgramCase):
         self.assertGreaterEqual(suite, sum(cases) - 0.001 * len(cases))  # times are rounded
         # Reused results are not replayed.
         self.assertEqual(set(self.times()[1]), {0})
-        self.assertGreater(sum(self.times("--fresh")[1]), 0)
+        self.assertGreater(sum(self.times("--restart")[1]), 0)
 
     def links(self):
         """Return the sources of the images and the targets of the links in index.html."""
@@ -272,7 +272,7 @@ class Batch(ProgramCase):
         os.rename(self.path("plans/square_01.json"), self.path("plans/a: 100% #1?<b>.json"))
         self.write("plans/broken.json", "{")
         arguments = ["--object", program_case.ARGUMENTS.source + "/models", "--plan", "plans",
-                     "--out", "result", "--size", "64x48"]
+                     "--output", "result", "--size", "64x48"]
         for kept in ("", "4 kept"):
             done = self.run_program(*arguments)
             self.assertIn(kept, done.stdout)
@@ -309,7 +309,7 @@ class Batch(ProgramCase):
 
     def test_the_folder_is_named_after_the_plans_where_none_is_given(self):
         self.use_few()
-        models = ["--object", program_case.ARGUMENTS.source + "/models", "--no-frames", "--quiet"]
+        models = ["--object", program_case.ARGUMENTS.source + "/models", "--frames", "none", "--quiet"]
         self.run_program("--plan", "plans/", *models)
         self.assertTrue(os.path.exists(self.path("out/plans/summary.json")))
         self.run_program("--plan", "plans/weak.json", "plans/square_01.json", *models)
@@ -318,14 +318,14 @@ class Batch(ProgramCase):
     def test_quiet_prints_nothing_and_one_object_serves_all_plans(self):
         self.use(["square_01.json", "square_02.json"])
         done = self.assert_done("--object", self.model("square.wkt"), "--plan", "plans", "--quiet",
-                                "--no-frames", "--out", "result")
+                                "--frames", "none", "--output", "result")
         self.assertEqual(done.stdout + done.stderr, "")
         self.assertEqual(len(self.verdicts()), 2)
 
     def test_one_plan_finds_its_object_in_a_folder_too(self):
         self.use(["square_01.json"])
         self.assert_done("--object", program_case.ARGUMENTS.source + "/models", "--plan",
-                         "plans/square_01.json", "--no-frames", "--out", "result")
+                         "plans/square_01.json", "--frames", "none", "--output", "result")
         self.assertEqual(json.loads(self.read("result/report.json"))["object"]["file"],
                          "square.wkt")
 
@@ -345,7 +345,7 @@ class Batch(ProgramCase):
             self.addCleanup(os.close, master)
             done = subprocess.run(
                 [os.path.join(program_case.ARGUMENTS.programs, "validate"),
-                 *self.arguments("--fresh", *quiet)],
+                 *self.arguments("--restart", *quiet)],
                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=terminal,
                 cwd=self.folder, timeout=HANG_SECONDS, check=False)
             os.close(terminal)
@@ -468,10 +468,10 @@ class Batch(ProgramCase):
         self.assertEqual(count(1), 0)
         self.assertEqual(count(1), 4)
         self.assertEqual(count(1, "--jobs", "3", "--time-limit", LIMIT_SECONDS), 4)
-        self.assertEqual(count(1, "--fresh"), 0)
+        self.assertEqual(count(1, "--restart"), 0)
         # An option that changes results, and back again: only the last results are kept.
-        self.assertEqual(count(1, "--shake", "0.005"), 0)
-        self.assertEqual(count(1, "--shake", "0.005"), 4)
+        self.assertEqual(count(1, "--disturbance", "0.005"), 0)
+        self.assertEqual(count(1, "--disturbance", "0.005"), 4)
         self.assertEqual(count(1), 0)
         # The same plan with different bytes.
         plan = json.loads(Batch.plans[names[0]])
@@ -485,7 +485,7 @@ class Batch(ProgramCase):
     def test_failures_that_are_kept_are_printed_as_new_ones(self):
         self.use_few()
         said = [sorted(line for line in self.run_batch(1, *more).stderr.splitlines()
-                       if " fails: " in line) for more in ((), (), ("--quiet",), ("--fresh",))]
+                       if " fails: " in line) for more in ((), (), ("--quiet",), ("--restart",))]
         self.assertTrue(said[0])
         self.assertRegex(said[0][0], r"^validate: \w+: step \d+ .* fails: .*; why: .*; help: ")
         for again in said[1:]:
@@ -501,11 +501,11 @@ class Batch(ProgramCase):
         os.remove(self.path("plans/square_01.json"))
         self.assert_refused(2, ["plans: no plan found", "more/ is a subfolder with 1 plan",
                                 "; help: give --plan plans/more"],
-                            "--object", self.model(""), "--plan", "plans", "--out", "none")
+                            "--object", self.model(""), "--plan", "plans", "--output", "none")
 
     def test_no_result_that_was_edited_is_kept(self):
         self.use(["square_01.json"])
-        arguments = ["--object", self.model("square.wkt"), "--plan", "plans", "--out", "result",
+        arguments = ["--object", self.model("square.wkt"), "--plan", "plans", "--output", "result",
                      "--size", "64x48"]
         self.assert_done(*arguments)
         results = tree(self.path("result/square_01"))
@@ -547,7 +547,7 @@ class Batch(ProgramCase):
 
     def test_pictures_are_part_of_what_is_kept(self):
         self.use(["square_01.json"])
-        arguments = ["--object", self.model("square.wkt"), "--plan", "plans", "--out", "result",
+        arguments = ["--object", self.model("square.wkt"), "--plan", "plans", "--output", "result",
                      "--size", "160x120"]
         self.run_batch(0)
         self.assertNotIn("kept", self.assert_done(*arguments).stdout)
@@ -560,8 +560,8 @@ class Batch(ProgramCase):
     def test_an_object_that_changed_is_validated_again(self):
         self.use(["square_01.json", "square_02.json"])
         shutil.copy(self.model("square.wkt"), self.path("square.wkt"))
-        arguments = ["--object", "square.wkt", "--plan", "plans", "--out", "result", "--no-frames",
-                     "--allow-object-change"]
+        arguments = ["--object", "square.wkt", "--plan", "plans", "--output", "result", "--frames", "none",
+                     "--allow", "object-change"]
         self.assert_done(*arguments)
         self.assertIn("2 kept", self.assert_done(*arguments).stdout)
         with open(self.path("square.wkt"), "a", encoding="ascii") as file:
@@ -571,7 +571,7 @@ class Batch(ProgramCase):
     def test_an_interrupt_stops_the_children(self):
         self.use_few()
         for stop in (signal.SIGINT, signal.SIGTERM):
-            batch, child = self.start_hanging("--fresh")
+            batch, child = self.start_hanging("--restart")
             batch.send_signal(stop)
             batch.communicate(timeout=HANG_SECONDS)
             self.assertEqual(batch.returncode, -stop)
@@ -612,7 +612,7 @@ class Batch(ProgramCase):
         self.use_few()
         batch, child = self.start_hanging()
         before = tree(self.path("result"))
-        for arguments in (self.arguments(), self.arguments("--fresh")):
+        for arguments in (self.arguments(), self.arguments("--restart")):
             done = self.run_program(*arguments)
             self.assertEqual(done.returncode, 3)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
@@ -643,7 +643,7 @@ class Batch(ProgramCase):
         for words, plans in [("summary.json: is the file of --plan", "."),
                              ("summary.json: is in the way", "plans")]:
             self.assert_refused(2, words, "--object", self.model("square.wkt"), "--plan", plans,
-                                "--out", ".", "--no-frames")
+                                "--output", ".", "--frames", "none")
             self.assertEqual(self.read("summary.json"), Batch.plans["square_01.json"])
         # A summary of an earlier run is replaced.
         self.run_batch(1)
@@ -653,7 +653,7 @@ class Batch(ProgramCase):
 
     def test_files_of_others_stay_and_are_named_where_they_are_in_the_way(self):
         self.use(["square_01.json", "square_02.json"])
-        arguments = ["--object", self.model("square.wkt"), "--plan", "plans", "--out", "result",
+        arguments = ["--object", self.model("square.wkt"), "--plan", "plans", "--output", "result",
                      "--size", "64x48"]
         os.makedirs(self.path("result/square_01/123_align.png"))
         others = {"notes.txt": b"mine", "017_align.png": b"my picture", "replay.webp": b"film"}
@@ -695,11 +695,11 @@ class Batch(ProgramCase):
                 ["weak.json: is the file of --plan, and --junit", "--junit", "plans/weak.json"],
                 ["square.wkt: is the file of --object, and --junit", "--junit",
                  "models/square.wkt"],
-                ["report.json: is the file of --plan, and --out", "--plan",
+                ["report.json: is the file of --plan, and --output", "--plan",
                  "result/triangle_00/report.json"],
         ]:
-            self.assert_refused(2, words, "--object", "models", "--plan", "plans", "--out",
-                                "result", "--no-frames", *arguments)
+            self.assert_refused(2, words, "--object", "models", "--plan", "plans", "--output",
+                                "result", "--frames", "none", *arguments)
             refused += 1
         self.assertEqual(refused, 3)
         self.assertEqual(tree(self.folder), before)
@@ -734,18 +734,18 @@ class Batch(ProgramCase):
         for words, arguments in [
                 ("must have different names", [*models, "--plan", "plans", "other"]),
                 ("must have different names", [*models, "--plan", "plans/weak.json", "other/weak.json"]),
-                ("--trajectory goes with a single plan", [*library, "--trajectory", "t.csv"]),
-                ("--export-mjcf goes with a single plan", [*library, "--export-mjcf", "s.xml"]),
-                ("--verify goes with a single plan", [*library, "--verify", "report.json"]),
+                ("--trajectory: requires a single plan", [*library, "--trajectory", "t.csv"]),
+                ("--export-mjcf: requires a single plan", [*library, "--export-mjcf", "s.xml"]),
+                ("--verify: requires a single plan", [*library, "--verify", "report.json"]),
                 ("--grasp", [*library, "--grasp", self.model("square.start.json")]),
                 ("--jobs", [*library, "--jobs", "0"]),
                 ("--jobs", [*library, "--jobs", "two"]),
                 ("--time-limit", [*library, "--time-limit", "0"]),
                 ("--time-limit", [*library, "--time-limit", "1e9"]),
-                ("--jobs goes with several plans", [*models, "--plan", "plans/weak.json", "--jobs",
+                ("--jobs: requires several plans", [*models, "--plan", "plans/weak.json", "--jobs",
                                                     "2"]),
-                ("--fresh goes with several plans", [*models, "--plan", "plans/weak.json",
-                                                     "--fresh"]),
+                ("--restart: requires several plans", [*models, "--plan", "plans/weak.json",
+                                                     "--restart"]),
                 ("is a folder", [*models, "--grasp", self.model("square.start.json"), "--mu", "1"]),
         ]:
             with self.subTest(arguments=arguments):

@@ -37,14 +37,14 @@ class Cloud(ProgramCase):
                                 "plan.json", *more)
 
     def validate(self, *more, path="egg.xyz"):
-        return self.run_program("--object", path, "--plan", "plan.json", "--no-frames", "--out",
+        return self.run_program("--object", path, "--plan", "plan.json", "--frames", "none", "--output",
                                 "result", *more, program="validate")
 
     def points(self):
         return [tuple(map(float, line.split())) for line in egg().splitlines()]
 
     def test_contacts_of_a_plan_at_given_points_are_there(self):
-        done = self.plan("--contacts", "given")
+        done = self.plan("--planner", "points=given")
         self.assertIn("contacts: at given points, at most ", done.stderr)
         plan = json.loads(self.read("plan.json"))
         self.assertEqual(plan["contacts"], "given")
@@ -68,23 +68,23 @@ class Cloud(ProgramCase):
         self.assertEqual(self.validate().returncode, 0)
         plan["contacts"] = "given"
         self.write_json("plan.json", plan)
-        done = self.run_program("--object", "egg.xyz", "--plan", "plan.json", "--no-frames",
-                                "--out", "again", program="validate")
+        done = self.run_program("--object", "egg.xyz", "--plan", "plan.json", "--frames", "none",
+                                "--output", "again", program="validate")
         self.assertEqual(done.returncode, 1, done.stderr)
         step = json.loads(self.read("again/report.json"))["steps"][0]
         self.assertEqual(step["reason"], "off-point")
 
     def test_the_points_are_those_of_the_cloud_and_not_of_the_solid(self):
-        self.plan("--contacts", "given")
+        self.plan("--planner", "points=given")
         self.assert_done("--object", "egg.xyz", "--output", "solid.obj", program="repair")
         done = self.validate(path="solid.obj")
         self.assertEqual(done.returncode, 2)
         self.assertIn("points of egg.xyz", done.stderr)
 
     def test_only_planners_of_contact_points_keep_to_given_ones(self):
-        self.assert_refused(2, "--contacts given: not supported by planner general",
+        self.assert_refused(2, "--planner points=given: not supported by planner general",
                             "--object", "egg.xyz", "--repair", "--mu", "0.6", "--start", "random",
-                            "--goal", "random", "--planner", "general", "--contacts", "given",
+                            "--goal", "random", "--planner", "general,points=given",
                             "--output", "p.json", "--quiet")
 
 

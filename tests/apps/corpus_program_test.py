@@ -74,7 +74,7 @@ def outcome_as_it_is(path):
         grasp = os.path.join(folder, "none.json")
         done = subprocess.run(
             [os.path.join(program_case.ARGUMENTS.programs, "validate"), "--quiet", "--object", path,
-             "--grasp", grasp, "--mu", "0.5", "--out", os.path.join(folder, "out")],
+             "--grasp", grasp, "--mu", "0.5", "--output", os.path.join(folder, "out")],
             capture_output=True, text=True, timeout=program_case.HANG_SECONDS, check=False)
         if done.returncode == 2 and grasp in done.stderr:
             return "accepted"

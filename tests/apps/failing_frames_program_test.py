@@ -28,7 +28,7 @@ class FailingFrames(ProgramCase):
 
     def arguments(self, *more):
         self.write_json("plan.json", self.plan)
-        return ["--object", self.model("cube.obj"), "--plan", "plan.json", "--out", "result",
+        return ["--object", self.model("cube.obj"), "--plan", "plan.json", "--output", "result",
                 "--size", "x".join(map(str, SIZE)), *more]
 
     def assert_frame_of_failure(self, index, reason, *more, finger=True):
@@ -151,16 +151,16 @@ class FailingFrames(ProgramCase):
         return 1, ("--finger-radius", "0.06")
 
     def break_simulation_unstable(self):
-        return 0, ("--squeeze", "100", "--shake", "1e30", "--tolerance", "1e32")
+        return 0, ("--grasp-force", "100", "--disturbance", "1e30", "--tolerance", "1e32")
 
     def break_contact_lost(self):
-        return 0, ("--squeeze", "3", "--mu", "0.36")
+        return 0, ("--grasp-force", "3", "--mu", "0.36")
 
     def break_slipped(self):
         return 0, ("--tolerance", "1e-12")
 
     def break_object_moved(self):
-        return 1, ("--squeeze", "20", "--tolerance", "1e-6")
+        return 1, ("--grasp-force", "20", "--tolerance", "1e-6")
 
     def break_start_differs(self):
         return 0, ("--start", self.model("cube.goal.json"))

@@ -42,14 +42,14 @@ class Figure(ProgramCase):
         self.write_json("plan.json", self.plan)
 
     def arguments(self, *more, **changes):
-        options = {"--object": self.model("square.wkt"), "--plan": "plan.json", "--out": "result"}
+        options = {"--object": self.model("square.wkt"), "--plan": "plan.json", "--output": "result"}
         options.update({"--" + key: value for key, value in changes.items()})
         return [word for key, value in options.items() if value is not None
                 for word in (key, value)] + list(more)
 
     def draw(self, *more, **changes):
         self.assert_done(*self.arguments(*more, **changes))
-        return sorted(os.listdir(self.path(changes.get("out", "result"))))
+        return sorted(os.listdir(self.path(changes.get("output", "result"))))
 
     def refuse(self, words, *more, code=2, **changes):
         return self.assert_refused(code, words, *self.arguments(*more, **changes))
@@ -57,7 +57,7 @@ class Figure(ProgramCase):
     def test_a_plan_for_a_hand_is_refused(self):
         hand = self.model(os.path.join("hands", "ring4.json"))
         self.assert_done("--object", self.model("cube.obj"), "--scale", "0.8", "--mu", "0.8",
-                         "--hand", hand, "--turn", "z 90", "--reserve", "none", "--output",
+                         "--hand", hand, "--turn", "z,90", "--robustness", "none", "--output",
                          "hand_plan.json", program="plan")
         self.refuse("hand_plan.json is a plan for the hand ring4", object=self.model("cube.obj"),
                     plan="hand_plan.json")
@@ -118,8 +118,8 @@ class Figure(ProgramCase):
 
     def test_draws_the_same_bytes_twice(self):
         for ending in ("svg", "pdf", "png"):
-            names = self.draw(format=ending, out="first")
-            self.draw(format=ending, out="second")
+            names = self.draw(format=ending, output="first")
+            self.draw(format=ending, output="second")
             self.assertEqual(names, self.names(ending))
             for name in names:
                 self.assertEqual(self.read("first/" + name), self.read("second/" + name), name)
@@ -193,7 +193,7 @@ class Figure(ProgramCase):
         fork = self.use_two_finger_plan()
         steps = ["000_hold", "001_switch", "002_align"]
         for ending in ("svg", "pdf", "png"):
-            names = self.draw("--contact-space", object=fork, format=ending, out=ending)
+            names = self.draw("--contact-space", object=fork, format=ending, output=ending)
             self.assertEqual(names, [name + "." + ending for name in
                                      steps + ["contact_space", "contact_space_001", "sheet"]])
         svg = ElementTree.fromstring(self.read("svg/contact_space_001.svg"))
@@ -213,7 +213,7 @@ class Figure(ProgramCase):
     def test_draws_the_same_contact_space_twice(self):
         fork = self.use_two_finger_plan()
         for out in ("first", "second"):
-            self.draw("--contact-space", object=fork, out=out)
+            self.draw("--contact-space", object=fork, output=out)
         for name in ("contact_space.svg", "contact_space_001.svg"):
             self.assertEqual(self.read("first/" + name), self.read("second/" + name), name)
         self.assertNotEqual(self.read("first/contact_space.svg"),
@@ -222,7 +222,7 @@ class Figure(ProgramCase):
     def test_a_switch_of_both_contacts_is_in_the_overview_only(self):
         self.write("plan.json", self.data("plan_good", "square_two_for_two.json"))
         square = self.write("square.wkt", "POLYGON((-1 -1, 1 -1, 1 1, -1 1, -1 -1))")
-        names = self.draw("--contact-space", "--allow-object-change", object=square)
+        names = self.draw("--contact-space", "--allow", "object-change", object=square)
         self.assertIn("contact_space.svg", names)
         self.assertEqual([name for name in names if name.startswith("contact_space_")], [])
 
@@ -242,7 +242,7 @@ class Figure(ProgramCase):
     # Invalid usage.
 
     def test_refuses_missing_options(self):
-        for name in ("object", "plan", "out"):
+        for name in ("object", "plan", "output"):
             self.refuse("--" + name, **{name: None})
 
     def test_refuses_other_formats(self):
@@ -257,15 +257,15 @@ class Figure(ProgramCase):
         for file_format in ("svg", "pdf", "png"):
             names = [f"{i:03d}_{kind}.{file_format}" for i, kind in enumerate(kinds)]
             self.assertEqual(self.draw(object=self.model("cube.obj"), format=file_format,
-                                       out=file_format), sorted(names + ["sheet." + file_format]))
+                                       output=file_format), sorted(names + ["sheet." + file_format]))
         usual = self.read("svg/000_hold.svg")
         for options in (["--view", "30,20"], ["--edges", "none"]):
-            self.draw(*options, object=self.model("cube.obj"), out="other")
+            self.draw(*options, object=self.model("cube.obj"), output="other")
             self.assertNotEqual(self.read("other/000_hold.svg"), usual)
 
     def test_scenes_are_written_where_asked_and_do_not_stay(self):
         scenes = [name[:-3] + "glb" for name in self.names("svg") if name[0] == "0"]
-        self.assertEqual(self.draw("--export-gltf"), sorted(self.names("svg") + scenes))
+        self.assertEqual(self.draw("--format", "gltf"), sorted(self.names("svg") + scenes))
         for name in scenes:
             data = self.read("result/" + name)
             self.assertEqual(struct.unpack("<4sII", data[:12]), (b"glTF", 2, len(data)))
@@ -273,9 +273,9 @@ class Figure(ProgramCase):
         self.assertEqual(self.draw(), sorted(self.names("svg") + ["003_switch.glb"]))
 
     def test_widths_text_and_panels_are_as_asked(self):
-        self.draw(format="png", out="usual")
-        self.draw("--width", "42.5", "--font-size", "5", "--panels", "0,2-3", format="png",
-                  out="other")
+        self.draw(format="png", output="usual")
+        self.draw("--size", "width=42.5,font=5", "--panels", "0,2-3", format="png",
+                  output="other")
         size = {name: struct.unpack(">II", self.read(name)[16:24])
                 for name in ("usual/000_hold.png", "other/000_hold.png", "usual/sheet.png",
                              "other/sheet.png")}
@@ -285,7 +285,7 @@ class Figure(ProgramCase):
 
     def test_refuses_panels_and_sizes_that_are_none(self):
         for options in (["--panels", "5"], ["--panels", "3-1"], ["--panels", "a"],
-                        ["--panels", "1,"], ["--width", "1"], ["--font-size", "0"]):
+                        ["--panels", "1,"], ["--size", "width=1"], ["--size", "font=0"]):
             with self.subTest(options=options):
                 self.refuse(options[0], *options)
 
@@ -314,7 +314,7 @@ class Figure(ProgramCase):
         square = "POLYGON((-0.03 -0.03, 0.03 -0.03, 0.03 0.03, -0.03 0.03, -0.03 -0.03))"
         self.write("other.wkt", square + " \n")
         self.refuse(["plan.json", "sha256", "other.wkt"], object="other.wkt")
-        self.assertEqual(self.draw("--allow-object-change", object="other.wkt"), self.names("svg"))
+        self.assertEqual(self.draw("--allow", "object-change", object="other.wkt"), self.names("svg"))
 
     def test_refuses_another_scale(self):
         self.refuse("--scale", "--scale", "2")
@@ -357,8 +357,8 @@ class Figure(ProgramCase):
 
     def test_a_folder_that_cannot_be_written_is_not_bad_input(self):
         self.write("taken", "a file, not a folder")
-        self.refuse("taken", out="taken", code=3)
-        self.refuse("taken", out="taken/below", code=3)
+        self.refuse("taken", output="taken", code=3)
+        self.refuse("taken", output="taken/below", code=3)
         self.assertEqual(self.read("taken"), b"a file, not a folder")
 
 

@@ -18,7 +18,7 @@ class Frames(ProgramCase):
 
     def draw(self, *options, out="result"):
         """Return the frames by name, and the report's description of the run."""
-        self.assert_done("--object", self.model("cube.obj"), "--plan", "plan.json", "--out", out,
+        self.assert_done("--object", self.model("cube.obj"), "--plan", "plan.json", "--output", out,
                          "--size", "320x240", *options)
         return {name: self.read(f"{out}/{name}") for name in os.listdir(self.path(out))
                 if name.endswith(".png")}
@@ -26,7 +26,7 @@ class Frames(ProgramCase):
     def test_each_option_of_the_view_changes_every_frame_and_nothing_else(self):
         usual = self.draw(out="usual")
         self.assertEqual(self.draw(out="again"), usual)
-        for options in (["--view", "30,20"], ["--zoom", "1.5"], ["--orthographic"],
+        for options in (["--view", "30,20"], ["--view", "zoom=1.5"], ["--view", "orthographic"],
                         ["--edges", "none"], ["--finger-radius", "0.004"]):
             with self.subTest(options=options):
                 frames = self.draw(*options)
@@ -36,7 +36,7 @@ class Frames(ProgramCase):
 
     def test_edges_of_a_cube_are_all_creases(self):
         self.assertEqual(self.draw("--edges", "all", out="all"), self.draw("--edges", "crease"))
-        self.assertNotEqual(self.draw("--crease-angle", "91", out="smooth"), self.draw())
+        self.assertNotEqual(self.draw("--edges", "angle=91", out="smooth"), self.draw())
 
     def size_of(self, path):
         """Return width and height of a PNG file, and whether it has an alpha channel."""
@@ -44,7 +44,7 @@ class Frames(ProgramCase):
         return struct.unpack(">II", header[:8]) + (header[9] == 6,)
 
     def test_without_a_size_frames_are_cropped_to_what_is_drawn(self):
-        files = ["--object", self.model("cube.obj"), "--plan", "plan.json", "--out"]
+        files = ["--object", self.model("cube.obj"), "--plan", "plan.json", "--output"]
         self.assert_done(*files, "cropped", "--view", "0,0")
         width, height, _ = self.size_of("cropped/000_hold.png")
         self.assertLess(width, 1280)
@@ -54,7 +54,7 @@ class Frames(ProgramCase):
 
     def test_the_sheet_has_the_width_that_is_asked_for(self):
         for width in (300, 600):
-            self.draw("--sheet-width", str(width))
+            self.draw("--size", f"overview={width}")
             found, _, _ = self.size_of("result/overview.png")
             self.assertTrue(0.95 * width <= found <= width, found)
 
@@ -75,7 +75,7 @@ class Frames(ProgramCase):
                          self.model(f"{model}.goal.json"), "--friction-angle", "20", "--output",
                          f"{model}.json", program="plan")
         self.assert_done("--object", self.model(f"{model}.obj"), "--plan", f"{model}.json",
-                         "--out", model, "--size", "320x240", *options)
+                         "--output", model, "--size", "320x240", *options)
         return self.read(f"{model}/report.html").count(b"seen from another side")
 
     def test_a_frame_in_which_a_finger_is_hidden_has_a_view_of_its_own_and_the_page_says_so(self):
@@ -87,15 +87,15 @@ class Frames(ProgramCase):
         self.assertEqual(self.draw("--view=-330,20", out="a"), self.draw("--view", "30,20"))
 
     def test_refuses_views_that_are_none(self):
-        files = ["--object", self.model("cube.obj"), "--plan", "plan.json", "--out", "result"]
+        files = ["--object", self.model("cube.obj"), "--plan", "plan.json", "--output", "result"]
         for options, words in ((["--view", "30"], ["--view", '"30"', "30,20"]),
                                (["--view", "30,91"], ["--view", "91"]),
                                (["--view", "a,b"], ["--view", "a"]),
-                               (["--zoom", "0"], ["--zoom", "0"]),
+                               (["--view", "zoom=0"], ["--view zoom", "0"]),
                                (["--background", "blue"], ["--background", "blue"]),
-                               (["--sheet-width", "10"], ["--sheet-width", "10"]),
+                               (["--size", "overview=10"], ["--size overview", "10"]),
                                (["--edges", "some"], ["--edges", "some"]),
-                               (["--crease-angle", "181"], ["--crease-angle", "181"])):
+                               (["--edges", "angle=181"], ["--edges angle", "181"])):
             with self.subTest(options=options):
                 self.assert_refused(2, words, *files, *options)
 

@@ -42,7 +42,7 @@ class Gait(ProgramCase):
         while Gait.made is None:
             seed += 1
             self.assertLess(seed, 20, "no plan of moves and switches")
-            self.assert_done(*self.arguments("--turn", "z 200", "--seed", str(seed)))
+            self.assert_done(*self.arguments("--turn", "z,200", "--seed", str(seed)))
             plan = json.loads(self.read("plan.json"))
             if {step["kind"] for step in plan["steps"]} == {"move", "switch"}:
                 Gait.made = plan
@@ -50,13 +50,13 @@ class Gait(ProgramCase):
 
     def validate(self, plan, *more):
         self.write_json("plan.json", plan)
-        done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json", "--out",
+        done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json", "--output",
                                 "result", *SMALL, *more, program="validate")
         return done, self.report()
 
     def test_a_plan_passes_with_its_hand_and_without(self):
         plan = self.plan_in_hand()
-        for more in (("--hand", self.hand("ring4")), ("--no-frames",)):
+        for more in (("--hand", self.hand("ring4")), ("--frames", "none",)):
             done, report = self.validate(plan, *more)
             self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
         self.assertIn("--hand ring4.json checks its joints", done.stderr)
@@ -68,7 +68,7 @@ class Gait(ProgramCase):
         """
         ring5 = self.hand("ring5")
         turn = ("--object", self.model("cube.obj"), "--scale", "0.8333", "--mu", "0.5",
-                "--min-quality", "0.06", "--hand", ring5, "--turn", "z 30")
+                "--min-quality", "0.06", "--hand", ring5, "--turn", "z,30")
         self.assert_done(*turn, "--output", "plan.json")
         plan = json.loads(self.read("plan.json"))
         by_hand = ("--hand", ring5, "--replay", "hand", "--mu", "0.8")
@@ -86,31 +86,31 @@ class Gait(ProgramCase):
         self.check_tips(plan, by_hand)
         # A tolerance of 10 µm is exceeded, the servos yield to a large disturbance, and no hand
         # holds 20 kg.
-        for more, reasons in ((("--tolerance-mm", "0.01"), ("object-moved",)),
-                              (("--shake", "0.3"), ("object-moved", "slipped", "contact-lost")),
+        for more, reasons in ((("--tolerance", "0.01mm"), ("object-moved",)),
+                              (("--disturbance", "0.3"), ("object-moved", "slipped", "contact-lost")),
                               (("--mass", "20"), ("torque-limit", "object-moved", "slipped",
                                                   "contact-lost"))):
             done, report = self.validate(plan, *by_hand, *more)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn([step["reason"] for step in report["steps"] if step["reason"]][0],
                           reasons)
-            self.assertIn("allowed" if more[0] == "--tolerance-mm" else "verdict", done.stdout)
+            self.assertIn("allowed" if more[0] == "--tolerance" else "verdict", done.stdout)
         # Replay by the hand is the default for a plan with a hand.
-        _, by_points = self.validate(plan, "--hand", ring5, "--replay", "points", "--no-frames")
+        _, by_points = self.validate(plan, "--hand", ring5, "--replay", "points", "--frames", "none")
         self.assertNotIn("hand", by_points["settings"])
-        _, usual = self.validate(plan, "--hand", ring5, "--no-frames")
+        _, usual = self.validate(plan, "--hand", ring5, "--frames", "none")
         self.assertIn("hand", usual["settings"])
         points = ("--hand", ring5, "--replay", "points")
-        for more, words in ((("--replay", "hand"), "needs the hand"),
-                            ((*points, "--feedback", "none"), "goes with --replay hand"),
-                            ((*points, "--tip", "geometry"), "--tip goes with --replay hand"),
-                            (("--hand", ring5, "--tip", "box"), "--tip: "),
-                            (("--hand", ring5, "--tip"), "--tip"),
-                            ((*points, "--trials", "2", "--joint-noise", "1"),
-                             "goes with --replay hand"),
+        for more, words in ((("--replay", "hand"), "--replay hand: requires --hand"),
+                            ((*points, "--replay", "feedback=none"), "--replay feedback: requires --replay hand"),
+                            ((*points, "--replay", "tip=geometry"), "--replay tip: requires --replay hand"),
+                            (("--hand", ring5, "--replay", "tip=box"), "--replay tip: "),
+                            (("--hand", ring5, "--replay"), "--replay"),
+                            ((*points, "--trials", "2", "--noise", "joints=1"),
+                             "requires --replay hand"),
                             (("--hand", ring5, "--engine", "ode"),
-                             "--engine goes with --replay points"),
-                            (("--hand", ring5, "--stress"), "goes with --replay points")):
+                             "--engine: requires --replay points"),
+                            (("--hand", ring5, "--disturbance", "limits"), "requires --replay points")):
             done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
                                     *more, program="validate")
             self.assertEqual(done.returncode, 2)
@@ -119,7 +119,7 @@ class Gait(ProgramCase):
     def check_trajectory(self, plan, by_hand):
         """Both formats have the same content, and begin and end like the plan."""
         for name in ("hand.csv", "hand.npz"):
-            done, _ = self.validate(plan, *by_hand, "--no-frames", "--trajectory", name)
+            done, _ = self.validate(plan, *by_hand, "--frames", "none", "--trajectory", name)
             self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.path("hand.csv"), encoding="utf-8", newline="") as file:
             header, *rows = csv.reader(file)
@@ -147,14 +147,14 @@ class Gait(ProgramCase):
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
                                 "--trajectory", "points.npz", program="validate")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("NPZ goes with --replay hand", done.stderr)
+        self.assertIn("NPZ requires --replay hand", done.stderr)
         self.assertFalse(os.path.exists(self.path("points.npz")))
 
     def check_trials(self, plan, by_hand):
         for noise, passed in (("0", 3), ("0.3", 0)):
-            done, report = self.validate(plan, *by_hand, "--no-frames", "--trials", "3",
-                                         "--position-noise", noise, "--joint-noise", noise,
-                                         "--friction-error", "0", "--mass-error", "0")
+            done, report = self.validate(plan, *by_hand, "--frames", "none", "--trials", "3",
+                                         "--noise", f"position={noise},joints={noise}",
+                                         "--noise", "friction=0,mass=0")
             expected = (0, "pass") if passed else (1, "fail")
             self.assertEqual((done.returncode, report["verdict"]), expected, done.stderr)
             self.assertEqual({step["verdict"] for step in report["steps"]}, {"pass"})
@@ -169,7 +169,7 @@ class Gait(ProgramCase):
         contact."""
         reports = {}
         for tip in ("ball", "geometry"):
-            more = ("--no-frames", "--tip", tip, "--trials", "2", "--trajectory", tip + ".csv",
+            more = ("--frames", "none", "--replay", "tip=" + tip, "--trials", "2", "--trajectory", tip + ".csv",
                     "--export-mjcf", tip)
             done, report = self.validate(plan, *by_hand, *more)
             self.assertEqual({step["verdict"] for step in report["steps"]}, {"pass"})
@@ -187,7 +187,7 @@ class Gait(ProgramCase):
             for name in ("displacement_m", "slip_m"):
                 self.assertAlmostEqual(ball["simulation"][name], own["simulation"][name],
                                        delta=1e-6)
-        _, usual = self.validate(plan, *by_hand, "--no-frames")
+        _, usual = self.validate(plan, *by_hand, "--frames", "none")
         self.assertEqual(usual["settings"]["hand"]["tip"], "ball")
 
     def changed_hand(self, *changes):
@@ -203,7 +203,7 @@ class Gait(ProgramCase):
 
     def test_what_a_verdict_cannot_rely_on_is_warned_of(self):
         cube = ("--object", self.model("cube.obj"), "--hand", "ring4.json")
-        turn = ("--scale", "0.8", "--mu", "0.8", "--turn", "z 5", "--reserve", "none", "--output",
+        turn = ("--scale", "0.8", "--mu", "0.8", "--turn", "z,5", "--robustness", "none", "--output",
                 "plan.json")
         for changes, words in (
                 ((), None),
@@ -215,14 +215,14 @@ class Gait(ProgramCase):
             self.changed_hand(*changes)
             for program, done in (
                     ("plan", self.assert_done(*cube, *turn)),
-                    ("validate", self.assert_done(*cube, "--plan", "plan.json", "--no-frames",
+                    ("validate", self.assert_done(*cube, "--plan", "plan.json", "--frames", "none",
                                                   "--replay", "points", program="validate"))):
                 with self.subTest(program=program, words=words):
                     if words:
                         self.assertIn(words, done.stderr)
                     else:
                         self.assertNotIn("warning", done.stderr)
-        done = self.run_program(*cube, "--plan", "plan.json", "--no-frames", program="validate")
+        done = self.run_program(*cube, "--plan", "plan.json", "--frames", "none", program="validate")
         self.assertEqual(done.returncode, 2)
         self.assertIn("moves joint finger2_joint3", done.stderr)
 
@@ -238,10 +238,10 @@ class Gait(ProgramCase):
         self.assert_done("--model", "ring4.xml", "--output", "ring4.json", "--quiet",
                          program="hand")
         self.assert_done("--object", self.model("cube.obj"), "--hand", "ring4.json", "--scale",
-                         "0.8", "--mu", "0.8", "--turn", "z 5", "--reserve", "none", "--output",
+                         "0.8", "--mu", "0.8", "--turn", "z,5", "--robustness", "none", "--output",
                          "coupled.json")
         coupled = json.loads(self.read("coupled.json"))
-        points = ("--hand", "ring4.json", "--replay", "points", "--no-frames")
+        points = ("--hand", "ring4.json", "--replay", "points", "--frames", "none")
         done, _ = self.validate(coupled, *points)
         self.assertEqual(done.returncode, 0, done.stderr)
         plan["hand"]["sha256"] = coupled["hand"]["sha256"]
@@ -264,15 +264,15 @@ class Gait(ProgramCase):
         cube = ("--object", self.model("cube.obj"), "--hand", "hand.json")
         self.assert_refused(2, "hand.json: /fingers/3/tip: body finger3_distal has no geom that "
                             "collides", *cube, "--scale", "0.8333", "--mu", "0.8", "--turn",
-                            "z 20", "--output", "plan.json")
-        self.assert_refused(2, "--tip does not go with --export-states", *cube, "--mu", "0.8",
-                            "--export-states", "1", "--tip", "geometry", program="validate")
+                            "z,20", "--output", "plan.json")
+        self.assert_refused(2, "--replay: cannot be used with --export-states", *cube, "--mu", "0.8",
+                            "--export-states", "1", "--replay", "tip=geometry", program="validate")
 
     def check_scene(self, plan, by_hand):
         """The scene has a keyframe for each static grasp, in a new folder, and is the same twice.
         """
         for name in ("new/scene", "again"):
-            done, _ = self.validate(plan, *by_hand, "--no-frames", "--export-mjcf", name)
+            done, _ = self.validate(plan, *by_hand, "--frames", "none", "--export-mjcf", name)
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(os.listdir(self.path("again")), ["scene.xml"])  # no meshes
         text = self.read("again/scene.xml")
@@ -327,17 +327,17 @@ class Gait(ProgramCase):
                   for grasp in (plan["initial"], {"contacts": left}, again["initial"],
                                 again["goal"])]
         self.assertEqual(points[:2], points[2:])
-        done, report = self.validate(again, "--hand", self.hand("ring4"), "--no-frames")
+        done, report = self.validate(again, "--hand", self.hand("ring4"), "--frames", "none")
         self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
         self.write_json("two.json", {"format": "regrasp-grasp", "version": 1,
                                      "contacts": json.loads(self.read("goal.json"))["contacts"][:2]})
         self.assert_refused(2, "two.json: /contacts: the planner gait needs 3 to 4 contacts, found 2",
-                              *self.arguments("--turn", "z 9", "--start", "two.json"))
+                              *self.arguments("--turn", "z,9", "--start", "two.json"))
 
     def test_the_same_arguments_give_the_same_bytes(self):
         texts = []
         for name, jobs in (("a.json", 1), ("b.json", 1), ("c.json", 3)):
-            self.assert_done(*self.arguments("--turn", "z -120", "--seed", "5", "--jobs", str(jobs),
+            self.assert_done(*self.arguments("--turn", "z,-120", "--seed", "5", "--jobs", str(jobs),
                                              output=name))
             texts.append(self.read(name))
         self.assertEqual(texts[0], texts[1])
@@ -442,7 +442,7 @@ class Gait(ProgramCase):
         _, words = self.break_joint_limit(plan)
         self.write_json("plans/limit.json", plan)
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plans", "--hand",
-                                self.hand("ring4"), "--out", "library", *SMALL,
+                                self.hand("ring4"), "--output", "library", *SMALL,
                                 program="validate")
         self.assertEqual(done.returncode, 1, done.stderr)
         page = self.read("library/index.html").decode()
@@ -451,7 +451,7 @@ class Gait(ProgramCase):
 
     def test_the_moving_picture_shows_the_hand_on_its_way(self):
         plan = self.plan_in_hand()
-        small = ("--no-frames", "--animate-size", "64x48")
+        small = ("--frames", "none", "--size", "animation=64x48")
         self.validate(plan, *small, "--video", "without.webp")
         done, _ = self.validate(plan, *small, "--hand", self.hand("ring4"), "--video", "with.webp")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -485,80 +485,80 @@ class Gait(ProgramCase):
                 (off, 0, "tip-off-contact", "from its contact"),
                 (jump, move + 1, "hand-jumps", "object begins the step 100"),
                 (goal, len(goal["steps"]), "goal-not-reached", "1 mm")):
-            done, report = self.validate(broken, "--hand", self.hand("ring4"), "--no-frames")
+            done, report = self.validate(broken, "--hand", self.hand("ring4"), "--frames", "none")
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertEqual(report["steps"][step]["reason"], reason)
             self.assertIn(words, report["steps"][step]["detail"])
             # Without the hand the plan passes.
-            done, report = self.validate(broken, "--no-frames")
+            done, report = self.validate(broken, "--frames", "none")
             self.assertEqual(report["verdict"], "pass", done.stderr)
 
     def test_more_clearance_than_there_is_fails(self):
         done, report = self.validate(self.plan_in_hand(), "--hand", self.hand("ring4"),
-                                     "--clearance", "0.02", "--no-frames")
+                                     "--clearance", "0.02", "--frames", "none")
         self.assertEqual(done.returncode, 1)
         self.assertIn("hand-collides", [step["reason"] for step in report["steps"]])
 
     def test_links_keep_the_clearance_that_is_asked_for(self):
         verdicts = []
         for clearance in ("0.0005", "0.008"):
-            self.assert_done(*self.arguments("--turn", "z 120", "--reserve", "none", "--clearance",
+            self.assert_done(*self.arguments("--turn", "z,120", "--robustness", "none", "--clearance",
                                              clearance))
             _, report = self.validate(json.loads(self.read("plan.json")), "--hand",
                                       self.hand("ring4"), "--clearance", "0.008", "--replay",
-                                      "points", "--no-frames")
+                                      "points", "--frames", "none")
             verdicts.append(report["verdict"])
         self.assertEqual(verdicts, ["fail", "pass"])
 
     def test_what_the_motors_do_not_carry_out_is_written_only_where_that_is_asked_for(self):
         # Rolling fingertips slip if the plan has no friction margin.
         turn = ("--object", self.model("cube.obj"), "--mu", "0.3", "--hand", self.hand("ring4"),
-                "--turn", "z 90", "--output", "plan.json")
+                "--turn", "z,90", "--output", "plan.json")
         self.assert_refused(1, ("none executes in simulation", "the best fails at step ",
                                 "(slipped)", "mm allowed",
-                                "help: --reserve preferred writes the best plan anyway"),
+                                "help: --robustness preferred writes the best plan anyway"),
                             *turn, "--quiet")
         self.assertIn("the plan does not execute in simulation: it fails at ",
-                      self.assert_done(*turn, "--reserve", "preferred").stderr)
+                      self.assert_done(*turn, "--robustness", "preferred").stderr)
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json", "--hand",
-                                self.hand("ring4"), "--out", "result", "--no-frames",
+                                self.hand("ring4"), "--output", "result", "--frames", "none",
                                 program="validate")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("slipped", done.stdout)
 
     def test_bad_usage_is_one_line(self):
         for words, more in (
-                ("--goal says what the hand is to do", ()),
-                ('expected an axis and degrees, as in "z 90", found "90"', ("--turn", "90")),
-                ('found "w 90"', ("--turn", "w 90")),
-                ("at most 3600", ("--turn", "z 1e9")),
-                ("other than 0", ("--turn", "z 0")),
-                ("found random", ("--turn", "z 90", "--start", "random")),
-                ("--goal-pose says already", ("--turn", "z 90", "--goal-pose", "0 0 0.1 1 0 0 0")),
-                ('7 numbers as in "0 0 0.12 1 0 0 0", found "0 0 0.1"', ("--goal-pose", "0 0 0.1")),
-                ("length must be 1, found 1.414", ("--goal-pose", "0 0 0.1 1 1 0 0")),
-                ("in metres from the palm, found 50 m", ("--goal-pose", "0 0 50 1 0 0 0")),
-                ("says what is before it", ("--goal", "goal.json")),
+                ("requires a task, --turn, --goal-pose or --goal", ()),
+                ('expected an axis and degrees, as in z,90, found "90"', ("--turn", "90")),
+                ('found "w,90"', ("--turn", "w,90")),
+                ("at most 3600", ("--turn", "z,1e9")),
+                ("other than 0", ("--turn", "z,0")),
+                ("found random", ("--turn", "z,90", "--start", "random")),
+                ("--turn: cannot be used with --goal-pose", ("--turn", "z,90", "--goal-pose", "0,0,0.1,1,0,0,0")),
+                ('7 numbers as in 0,0,0.12,1,0,0,0, found "0,0,0.1"', ("--goal-pose", "0,0,0.1")),
+                ("length must be 1, found 1.414", ("--goal-pose", "0,0,0.1,1,1,0,0")),
+                ("in metres from the palm, found 50 m", ("--goal-pose", "0,0,50,1,0,0,0")),
+                ("--goal: with --hand requires --start or --start-pose", ("--goal", "goal.json")),
                 ("--hand: not supported by planner general; help: use --planner gait",
-                 ("--turn", "z 90", "--planner", "general")),
+                 ("--turn", "z,90", "--planner", "general")),
                 ("no planner supports this combination for a solid: --optimize travel (general), --hand (gait)",
-                 ("--turn", "z 90", "--optimize", "travel")),
+                 ("--turn", "z,90", "--optimize", "travel")),
                 ("--optimize margin: requires simulated plans",
-                 ("--turn", "z 90", "--optimize", "margin", "--reserve", "none"))):
+                 ("--turn", "z,90", "--optimize", "margin", "--robustness", "none"))):
             self.assert_refused(2, words, *self.arguments(*more))
         self.assert_refused(2, "planner gait requires a hand (--hand)", "--object",
                             self.model("cube.obj"), "--mu", "0.5", "--output", "plan.json",
                             "--planner", "gait", "--start", "random", "--goal", "random")
         self.assert_refused(2, "--start is required", "--object", self.model("cube.obj"), "--mu",
                             "0.5", "--output", "plan.json")
-        for option, value in (("--turn", "z 90"), ("--goal-pose", "0 0 0.1 1 0 0 0"),
-                              ("--start-pose", "0 0 0.1 1 0 0 0"), ("--clearance", "0.002"),
-                              ("--reserve", "none")):
+        for option, value in (("--turn", "z,90"), ("--goal-pose", "0,0,0.1,1,0,0,0"),
+                              ("--start-pose", "0,0,0.1,1,0,0,0"), ("--clearance", "0.002"),
+                              ("--robustness", "none")):
             self.assert_refused(2, f"{option} requires --hand", "--object", self.model("cube.obj"),
                                 "--mu", "0.5", "--output", "plan.json", option, value)
         self.assert_refused(2, "no planar objects", "--object", self.model("square.wkt"), "--mu",
                             "0.5", "--output", "plan.json", "--hand", self.hand("ring4"), "--turn",
-                            "z 90")
+                            "z,90")
 
     def test_hands_that_are_none_are_one_line(self):
         with open(self.hand("ring4"), encoding="utf-8") as file:
@@ -581,21 +581,21 @@ class Gait(ProgramCase):
                 ("nowhere.xml", lambda bad: bad.update(model="nowhere.xml"))):
             changed(change)
             self.assert_refused(2, words, "--object", self.model("cube.obj"), "--mu", "0.8",
-                                "--hand", "hand.json", "--turn", "z 90", "--output", "plan.json")
+                                "--hand", "hand.json", "--turn", "z,90", "--output", "plan.json")
 
     def test_a_model_is_told_how_it_becomes_a_hand(self):
         model = self.hand("ring4").replace(".json", ".xml")
         self.assert_refused(2, f"hand --model {model} --output", "--object",
                             self.model("cube.obj"), "--mu", "0.8", "--hand", model, "--turn",
-                            "z 90", "--output", "plan.json")
+                            "z,90", "--output", "plan.json")
 
     def test_a_folder_with_an_earlier_run_is_written_again(self):
         plan = self.plan_in_hand()
-        for more in ((), ("--hand", self.hand("ring4")), ("--no-frames",), ()):
+        for more in ((), ("--hand", self.hand("ring4")), ("--frames", "none",), ()):
             done, _ = self.validate(plan, *more)
             self.assertEqual(done.returncode, 0, done.stderr)
             names = [name for name in os.listdir(self.path("result")) if "_move" in name]
-            self.assertEqual(bool(names), more != ("--no-frames",))
+            self.assertEqual(bool(names), more != ("--frames", "none",))
 
     def test_no_result_is_reused_after_a_change_of_the_hand_or_its_model(self):
         os.mkdir(self.path("hands"))
@@ -614,7 +614,7 @@ class Gait(ProgramCase):
             for plans, out in (("plans", "folder"), ("plans.jsonl", "lines")):
                 done = self.run_program(
                     "--object", self.model("cube.obj"), "--plan", plans, "--hand",
-                    "hands/ring4.json", "--replay", "points", "--frames", "none", "--out", out,
+                    "hands/ring4.json", "--replay", "points", "--frames", "none", "--output", out,
                     program="validate")
                 self.assertEqual(done.returncode, code, done.stderr)
                 said = done.stdout.splitlines()[-1] if plans == "plans" else done.stderr
@@ -634,20 +634,20 @@ class Gait(ProgramCase):
 
     def test_no_gait_says_what_stopped_it(self):
         done = self.run_program("--object", self.model("cube.obj"), "--scale", "20", "--mu", "0.8",
-                                "--hand", self.hand("ring4"), "--turn", "z 90", "--output",
+                                "--hand", self.hand("ring4"), "--turn", "z,90", "--output",
                                 "plan.json")
         self.assertEqual(done.returncode, 1)
         self.assertIn("0 of 90 degrees", done.stderr)
         self.assertFalse(os.path.exists(self.path("plan.json")))
 
     def test_the_size_and_mass_are_told_before_the_search(self):
-        done = self.assert_done(*self.arguments("--turn", "z 9", "--reserve", "none"))
+        done = self.assert_done(*self.arguments("--turn", "z,9", "--robustness", "none"))
         # A cube of 60 mm at a scale of 0.8.
         self.assertEqual(done.stderr.splitlines()[0],
                          "plan: cube.obj: 48 × 48 × 48 mm, 8.31 cm across, 111 g at the density of "
                          "water")
         self.assertEqual(done.stderr.count("across"), 1, done.stderr)
-        quiet = self.assert_done(*self.arguments("--turn", "z 9", "--reserve", "none", "--quiet"))
+        quiet = self.assert_done(*self.arguments("--turn", "z,9", "--robustness", "none", "--quiet"))
         self.assertEqual(quiet.stderr, "")
 
     def test_an_object_in_millimetres_is_warned_of_with_a_hand_too(self):
@@ -655,8 +655,8 @@ class Gait(ProgramCase):
         self.write("cube_mm.obj", text.decode())
         for more in ((), ("--quiet",)):
             done = self.run_program("--object", "cube_mm.obj", "--mu", "0.8", "--hand",
-                                    self.hand("ring4"), "--turn", "z 90", "--output", "plan.json",
-                                    "--effort", "20", *more)
+                                    self.hand("ring4"), "--turn", "z,90", "--output", "plan.json",
+                                    "--planner", "budget=20", *more)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn("plan: warning: the object is 104 m across, 2.16e+08 kg: millimetres? "
                           "use --scale 0.001 (10.4 cm across)\n", done.stderr)
@@ -664,22 +664,22 @@ class Gait(ProgramCase):
 
     def test_no_plan_names_the_option_that_may_help(self):
         done = self.run_program("--object", self.model("cube.obj"), "--scale", "20", "--mu", "0.8",
-                                "--hand", self.hand("ring4"), "--turn", "z 90", "--output",
+                                "--hand", self.hand("ring4"), "--turn", "z,90", "--output",
                                 "plan.json")
         self.assertEqual(done.returncode, 1)
         self.assertIn("help: --explain", done.stderr)
 
     def test_a_pose_out_of_reach_is_refused_with_the_reach(self):
-        for option, pose in (("--goal-pose", "1 1 1 1 0 0 0"), ("--goal-pose", "0 0 0.6 1 0 0 0"),
-                             ("--start-pose", "0 0.9 0 1 0 0 0")):
-            more = ("--turn", "z 90") if option == "--start-pose" else ()
+        for option, pose in (("--goal-pose", "1,1,1,1,0,0,0"), ("--goal-pose", "0,0,0.6,1,0,0,0"),
+                             ("--start-pose", "0,0.9,0,1,0,0,0")):
+            more = ("--turn", "z,90") if option == "--start-pose" else ()
             self.assert_refused(2, "out of reach of every finger, expected at least 3", option,
                                 pose, *more, *self.arguments())
         self.assert_refused(2, "m from the first joint of finger finger", "--goal-pose",
-                            "1 1 1 1 0 0 0", *self.arguments())
+                            "1,1,1,1,0,0,0", *self.arguments())
         # Within reach of the finger's base, so that the search runs, regardless of its result.
-        done = self.run_program(*self.arguments("--goal-pose", "0 0 0.06 1 0 0 0", "--effort", "2",
-                                                "--reserve", "none"))
+        done = self.run_program(*self.arguments("--goal-pose", "0,0,0.06,1,0,0,0", "--planner", "budget=2",
+                                                "--robustness", "none"))
         self.assertNotEqual(done.returncode, 2, done.stderr)
 
     def test_thin_rods_of_many_sides_are_turned_as_those_of_few(self):
@@ -694,18 +694,18 @@ class Gait(ProgramCase):
                 lines.append(f"f {i + 1} {j + 1} {sides + j + 1} {sides + i + 1}")
             self.write("rod.obj", "\n".join(lines) + "\n")
             done = self.run_program("--object", "rod.obj", "--mu", "0.8", "--hand",
-                                    self.hand("ring4"), "--turn", "z 20", "--reserve", "none",
+                                    self.hand("ring4"), "--turn", "z,20", "--robustness", "none",
                                     "--output", "plan.json")
             self.assertEqual(done.returncode, 0, (sides, done.stderr))
 
     def test_effort_is_when_to_give_up(self):
         for effort, code in (("2", 1), ("8000", 0)):
-            done = self.run_program(*self.arguments("--turn", "z 300", "--effort", effort))
+            done = self.run_program(*self.arguments("--turn", "z,300", "--planner", "budget=" + effort))
             self.assertEqual(done.returncode, code, done.stderr)
 
     def test_explain_says_what_would_do(self):
         done = self.run_program("--object", self.model("cube.obj"), "--scale", "20", "--mu", "0.8",
-                                "--hand", self.hand("ring4"), "--turn", "z 90", "--explain",
+                                "--hand", self.hand("ring4"), "--turn", "z,90", "--explain",
                                 "--time-limit", "1", "--output", "plan.json")
         self.assertEqual(done.returncode, 1)
         self.assertIn("no effect: more friction, another size of the object, a tilt of the "

@@ -57,7 +57,7 @@ class General(ProgramCase):
                 aligns += self.kinds(plan).count("align")
                 replay = self.run_program(
                     "--object", self.model(body), "--plan", self.path("plan.json"),
-                    "--no-frames", "--out", self.path("out"), program="validate")
+                    "--frames", "none", "--output", self.path("out"), program="validate")
                 self.assertEqual(replay.returncode, 0, f"{body} {seed}\n{replay.stdout}")
         self.assertGreater(aligns, 0)
 
@@ -78,8 +78,8 @@ class General(ProgramCase):
     def validate(self, body, align):
         """Replay the plan and return the report."""
         replay = self.run_program(
-            "--object", self.model(body), "--plan", self.path("plan.json"), "--align", align,
-            "--no-frames", "--out", self.path("out"), program="validate")
+            "--object", self.model(body), "--plan", self.path("plan.json"), "--replay", "align=" + align,
+            "--frames", "none", "--output", self.path("out"), program="validate")
         self.assertEqual(replay.returncode, 0, f"{body} {align}\n{replay.stdout}")
         with open(self.path("out/report.json"), encoding="utf-8") as file:
             return json.load(file)
@@ -137,7 +137,7 @@ class General(ProgramCase):
     def test_says_what_was_reached_where_nothing_is_found(self):
         # Two grasps of five contacts that require sliding steps, with almost no search budget.
         for seed in range(40):
-            done = self.run_program(*self.arguments("pyramid.obj", seed, "--effort", "1",
+            done = self.run_program(*self.arguments("pyramid.obj", seed, "--planner", "budget=1",
                                                     "--min-quality", "0", degrees="5"))
             if done.returncode == 1:
                 break
@@ -148,9 +148,9 @@ class General(ProgramCase):
     def test_refuses_options_of_other_planners(self):
         for words, arguments in (
                 ("--explain", self.arguments("cube.obj", 0, "--explain", planner="roadmap")),
-                ("--clusters", self.arguments("cube.obj", 0, "--clusters", "20")),
+                ("--planner clusters", self.arguments("cube.obj", 0, "--planner", "clusters=20")),
                 ("--optimize regions", self.arguments("cube.obj", 0, "--optimize", "regions")),
-                ("--effort", self.arguments("cube.obj", 0, "--effort", "0")),
+                ("--planner budget", self.arguments("cube.obj", 0, "--planner", "budget=0")),
                 ("--time-limit", self.arguments("cube.obj", 0, "--time-limit", "-1"))):
             self.assert_refused(2, words, *arguments)
 

@@ -21,7 +21,7 @@ class Graph(ProgramCase):
     program = "graph"
 
     def arguments(self, *more):
-        return ["--object", self.model("cube.obj"), "--contacts", "20", *more]
+        return ["--object", self.model("cube.obj"), "--planner", "points=20", *more]
 
     def tables(self, text):
         """Return the rows of the tables by their first cell, with the other cells as numbers."""
@@ -72,18 +72,18 @@ class Graph(ProgramCase):
     def test_a_graph_that_takes_more_than_half_of_the_memory_is_refused_unless_forced(self):
         large = self.write("large.wkt", regular_polygon(3000))  # terabytes
         self.assert_refused(2, ["large.wkt: the graph of the planner polygon: ",
-                                "3000 edges require", "edges fit", "--force"],
+                                "3000 edges require", "edges fit", "--allow large-graph"],
                             "--object", large, "--friction-angle", "15")
         self.assert_refused(2, ["the graph of the planner polyhedron", "999 faces require"],
                             "--object", self.model("ellipsoid1000.obj"), "--friction-angle", "15",
                             "--planner", "polyhedron")
-        self.assert_done(*self.polygon("--friction-angle", "10", "--force"))
+        self.assert_done(*self.polygon("--friction-angle", "10", "--allow", "large-graph"))
 
     def test_a_contour_that_takes_more_than_half_of_the_memory_is_refused(self):
         count = 60_000  # more than a hundred gigabytes
         large = self.write("large.wkt", regular_polygon(count))
         words = ["large.wkt: the graph of the planner contour: ",
-                 f"{count} edges require", "edges fit", "--force"]
+                 f"{count} edges require", "edges fit", "--allow large-graph"]
         self.assert_refused(2, words, "--object", large, "--friction-angle", "85", "--planner",
                             "contour")
         done = self.run_program("--object", large, "--friction-angle", "85", "--planner", "contour",
@@ -103,8 +103,8 @@ class Graph(ProgramCase):
         if limited("graph", "--version").returncode != 0:
             self.skipTest("the address sanitizer does not run in a small address space")
         for more, words in (
-                (["--contacts", "200"], "for 200 contact points"),
-                (["--contacts", "1000", "--clusters", "200"], "for 200 clusters")):
+                (["--planner", "points=200"], "for 200 contact points"),
+                (["--planner", "points=1000,clusters=200"], "for 200 clusters")):
             roadmap = ["--object", self.model("cube.obj"), "--friction-angle", "60", "--planner",
                        "roadmap", *more]
             for program, ends in (("graph", []),
@@ -114,9 +114,9 @@ class Graph(ProgramCase):
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn("cube.obj: the graph of the planner roadmap: ", done.stderr)
                 self.assertIn(words, done.stderr)
-        small = [*roadmap[:-3], "30"]
+        small = [*roadmap[:-1], "points=30"]
         self.assertEqual(limited("graph", *small).returncode, 0)
-        self.assertEqual(limited("graph", *small, "--force").returncode, 0)
+        self.assertEqual(limited("graph", *small, "--allow", "large-graph").returncode, 0)
 
     def polygon(self, *more):
         return ["--object", self.model("square.wkt"), *more]
@@ -155,7 +155,7 @@ class Graph(ProgramCase):
 
     def test_a_polyhedron_is_counted_directly_and_by_sampling(self):
         body = ["--object", self.model("body14.obj"), "--friction-angle", "10", "--planner",
-                "polyhedron", "--spanning", "uniform"]
+                "polyhedron,spanning=uniform"]
         done = self.assert_done(*body, "--json", "graph.json")
         self.assertIn("polyhedron of body14.obj, 14 faces, 10°, uniform", done.stdout)
         graph = json.loads(self.read("graph.json"))
@@ -166,7 +166,7 @@ class Graph(ProgramCase):
         self.assertGreater(min(cells, links), 10)
         shares = []
         for points in ("20", "2000", "2000"):
-            done = self.assert_done(*body, "--sampling", points, "--compare", "--json",
+            done = self.assert_done(*body, "--sampling", points, "--sampling", "compare", "--json",
                                     "sampled.json")
             self.assertIn("of the direct graph sampling found", done.stdout)
             shares.append(json.loads(self.read("sampled.json"))["compare"])
@@ -179,7 +179,7 @@ class Graph(ProgramCase):
         triangle = self.write("triangle.wkt", "POLYGON((0 0, 1 0, 0.5 0.866, 0 0))")
         def counts(angle, spanning):
             done = self.assert_done("--object", triangle, "--friction-angle", angle,
-                                    "--spanning", spanning, "--json", "-")
+                                    "--planner", "spanning=" + spanning, "--json", "-")
             graph = json.loads(done.stdout)
             self.assertEqual("concurrent-parallel" in graph["edges"], spanning == "adaptive")
             return graph["types"]["concurrent"]["vertices"]
@@ -192,7 +192,7 @@ class Graph(ProgramCase):
         self.assertEqual(json.loads(done.stdout)["format"], "regrasp-graph")
 
     def test_an_empty_graph_is_an_answer(self):
-        done = self.assert_done("--object", self.model("cube.obj"), "--contacts", "4",
+        done = self.assert_done("--object", self.model("cube.obj"), "--planner", "points=4",
                                 "--friction-angle", "0.1", "--json", "-")
         graph = json.loads(done.stdout)
         self.assertEqual((graph["vertices"], graph["components"]), (0, 0))
@@ -218,20 +218,18 @@ class Graph(ProgramCase):
     def test_an_option_that_the_planner_lacks_is_refused_with_one_that_has_it(self):
         solid = ["--object", self.model("cube.obj"), "--friction-angle", "20"]
         for options, lacking, having in (
-                (["--spanning", "uniform"], "roadmap", "polyhedron"),
+                (["--planner", "spanning=uniform"], "roadmap", "polyhedron"),
                 (["--sampling", "9"], "roadmap", "polyhedron"),
-                (["--contacts", "20"], "polyhedron", "roadmap"),
-                (["--clusters", "9"], "polyhedron", "roadmap"),
-                (["--queries", "9"], "polyhedron", "roadmap")):
-            self.assert_refused(2, [f"{options[0]}", f": not supported by planner {lacking}",
+                (["--planner", "points=20"], "polyhedron", "roadmap"),
+                (["--planner", "clusters=9"], "polyhedron", "roadmap"),
+                (["--planner", "queries=9"], "polyhedron", "roadmap")):
+            self.assert_refused(2, [f"{options[0]} {options[1]}".split("=")[0].rstrip(" 9"), f": not supported by planner {lacking}",
                                     f"use --planner {having}"],
                                 *solid, *options, "--planner", lacking)
         self.assert_refused(2, "not supported by planner contour; help: use --planner polygon",
-                            *self.polygon("--mu", "1", "--spanning", "uniform", "--planner",
-                                          "contour"))
+                            *self.polygon("--mu", "1", "--planner", "contour,spanning=uniform"))
         # A planner accepts its own options, and the default value of another planner's option.
-        self.assert_done(*solid, "--contacts", "20", "--planner", "roadmap", "--spanning",
-                         "adaptive")
+        self.assert_done(*solid, "--planner", "roadmap,points=20,spanning=adaptive")
 
     def test_without_a_name_the_planner_is_the_first_with_a_graph_and_every_option(self):
         def planner(*arguments):
@@ -240,16 +238,16 @@ class Graph(ProgramCase):
         self.assertEqual(planner(*self.polygon()), "polygon")
         self.assertEqual(planner(*self.arguments()), "roadmap")
         body = ["--object", self.model("body14.obj")]
-        self.assertEqual(planner(*body, "--spanning", "uniform"), "polyhedron")
+        self.assertEqual(planner(*body, "--planner", "spanning=uniform"), "polyhedron")
         self.assertEqual(planner(*body, "--sampling", "5"), "polyhedron")
-        self.assert_refused(2, ["--contacts (roadmap)", "--spanning uniform (polyhedron)"],
-                            *self.arguments("--mu", "0.3", "--spanning", "uniform"))
+        self.assert_refused(2, ["--planner points (roadmap)", "--planner spanning=uniform (polyhedron)"],
+                            *self.arguments("--mu", "0.3", "--planner", "spanning=uniform"))
 
     def test_a_time_limit_ends_the_building_of_every_graph(self):
         cases = [self.polygon("--planner", "polygon"), self.polygon("--planner", "contour"),
                  ["--object", self.model("body14.obj"), "--planner", "polyhedron"],
                  self.arguments("--planner", "roadmap"),
-                 self.arguments("--planner", "roadmap", "--clusters", "8")]
+                 self.arguments("--planner", "roadmap,clusters=8")]
         for case in cases:
             case = [*case, "--friction-angle", "20", "--json", "graph.json"]
             self.assert_refused(1, "time was up", *case, "--time-limit", "1e-9")
@@ -259,19 +257,20 @@ class Graph(ProgramCase):
 
     def test_refuses_bad_usage_and_bad_input(self):
         self.assert_refused(2, "--object", "--friction-angle", "20")
-        self.assert_refused(2, "friction is missing", *self.arguments())
-        self.assert_refused(2, "exclude", *self.arguments("--mu", "1", "--friction-angle", "20"))
+        self.assert_refused(2, "friction: --friction-angle DEG or --mu X is required", *self.arguments())
+        self.assert_refused(2, "cannot be used with --mu", *self.arguments("--mu", "1", "--friction-angle", "20"))
         self.assert_refused(2, "planner general: graph not supported; help: use --planner roadmap",
                             *self.arguments("--mu", "1", "--planner", "general"))
-        self.assert_refused(2, "--queries requires --clusters",
-                            *self.arguments("--mu", "1", "--queries", "9"))
+        self.assert_refused(2, "--planner queries requires clusters",
+                            *self.arguments("--mu", "1", "--planner", "queries=9"))
         self.assert_refused(2, "--sampling", *self.arguments("--mu", "1", "--sampling", "100"))
-        self.assert_refused(2, "--compare", *self.arguments("--mu", "1", "--planner", "polyhedron",
-                                                            "--compare"))
+        self.assert_refused(2, "--sampling compare: requires the number of focus points",
+                            *self.arguments("--mu", "1", "--planner", "polyhedron", "--sampling",
+                                            "compare"))
         self.assert_refused(2, "no.obj", "--object", "no.obj", "--mu", "1")
         self.assert_refused(2, "planar", *self.polygon("--mu", "1", "--planner", "roadmap"))
         self.assert_refused(2, "solid", *self.arguments("--mu", "1", "--planner", "polygon"))
-        self.assert_refused(2, "vague", *self.polygon("--mu", "1", "--spanning", "vague"))
+        self.assert_refused(2, "vague", *self.polygon("--mu", "1", "--planner", "spanning=vague"))
 
     def test_an_output_that_cannot_be_written_is_the_environments_fault(self):
         self.assert_refused(3, "missing/graph.json",

@@ -1,4 +1,4 @@
-"""Help on options in all programs: --help, manual page, completions, and mistyped options."""
+"""Options of all programs: help texts, manual page, completions, lists, old names and mistyped ones."""
 
 import os
 import re
@@ -11,25 +11,38 @@ from program_case import ProgramCase
 
 PROGRAMS = ("plan", "validate", "graph", "figure", "repair", "merge", "hand")
 
-# Maximum length of the summary that shells show next to an option, on a terminal of 100 columns.
+# Longest summary of an option in a shell with 100 columns, and longest line of -h.
 SUMMARY_LENGTH = 72
+SHORT_LINE = 120
+
+
+# Most options that `validate --help` lists, and that all programs have together.
+MOST_OF_VALIDATE, MOST_OF_ALL = 45, 130
+
+
+# An option in a list of a page.
+LISTED = r"^- `(?:-[a-zA-Z], )?(--[a-z-]+)"
+
+# The options that all programs have.
+GENERAL = ("--help", "--help-all", "--quiet", "--version")
 
 
 def options_in(text):
-    """Return the options that --help lists: each begins a line, indented by two."""
-    return re.findall(r"^  (--[a-z-]+)", text, re.MULTILINE)
+    """Return the options that a help text lists: each starts a line, indented by two."""
+    text = re.sub(r"Usage:\n(?:  .*\n)+", "", text)
+    return re.findall(r"^  (?:-[a-zA-Z], )?(--[a-z-]+)", text, re.MULTILINE)
 
 
 def is_first_clause(summary, text):
     """Return True if the summary is the text up to a punctuation mark."""
     rest = text.removeprefix(summary)
     return rest != text and (not rest or rest == " (required)" or
-                             re.match(r"[;:.] | \(default", rest) is not None)
+                             re.match(r"[;:.](?: |$)| \[default", rest) is not None)
 
 
 class Help(ProgramCase):
-    def help(self, program, **environment):
-        return self.assert_done("--help", program=program,
+    def help(self, program, level="--help-all", **environment):
+        return self.assert_done(level, program=program,
                                 environment={"COLUMNS": None, **environment}).stdout
 
     def help_as(self, kind, program):
@@ -57,14 +70,48 @@ class Help(ProgramCase):
     def test_each_command_has_a_page_that_lists_every_option_and_no_other(self):
         for program in PROGRAMS:
             page = self.page("command_" + program)
-            listed = re.findall(r"^- `(--[a-z-]+)", page, re.M)
+            listed = re.findall(LISTED, page, re.M)
             self.assertEqual(listed, options_in(self.help(program)))
             self.assertEqual(page, self.help_as("markdown", program),
                              f"command_{program}.md is out of date: run scripts/command-pages")
             self.assertTrue(page.startswith(f"# regrasp {program}\n"))
             # Negative controls: a missing option, and one that the program does not have.
             self.assertNotEqual(listed[1:], options_in(self.help(program)))
-            self.assertNotEqual(["--gone", *listed], options_in(self.help(program)))
+            self.assertNotIn("--gone", options_in(self.help(program)))
+
+    def test_there_are_few_options(self):
+        usual = options_in(self.help("validate", "--help"))
+        self.assertLessEqual(len(usual), MOST_OF_VALIDATE)
+        self.assertGreater(len(options_in(self.help("validate"))), len(usual))
+        # The options of all programs, such as --help, count once.
+        listed = [option for program in PROGRAMS for option in re.findall(LISTED, self.page("command_" + program), re.M)
+                  if option not in GENERAL]
+        self.assertLessEqual(len(listed) + len(GENERAL) + len(re.findall(
+            LISTED, self.page("command_convert"), re.M)), MOST_OF_ALL)
+
+    def test_the_short_help_has_one_line_per_option(self):
+        for program in PROGRAMS:
+            text = self.help(program, "-h")
+            self.assertEqual(options_in(text), options_in(self.help(program, "--help")))
+            self.assertNotIn("Examples:", text)
+            lines = text.split("\n\n", 2)[2].splitlines()
+            names = [line for line in lines if re.match("  -", line)]
+            self.assertEqual(len(names), len(options_in(text)))
+            for line in lines:
+                self.assertTrue(not line or re.match(r"  -|[A-Z]|--help-all also|options", line),
+                                line)
+                self.assertLessEqual(len(line), SHORT_LINE, line)
+
+    def test_short_names_are_those_of_long_ones(self):
+        self.assertEqual(self.assert_done("-V", program="plan").stdout,
+                         self.assert_done("--version", program="plan").stdout)
+        ends = ["--object", self.model("cube.obj"), "--start", "random", "--goal", "random", "--mu",
+                "0.5", "-o", "plan.json"]
+        self.assertEqual(self.assert_done("-q", *ends, program="plan").stderr, "")
+        self.assertTrue(os.path.exists(self.path("plan.json")))
+        for jobs in (["-j", "2"], ["-j2"]):
+            self.assert_refused(2, "--jobs requires --batch or --hand", *ends, *jobs, program="plan")
+        self.assert_refused(2, "unknown option -x (", *ends, "-x", program="plan")
 
     def test_the_page_of_commands_links_to_all_of_them(self):
         page = self.page("commands")
@@ -82,7 +129,7 @@ class Help(ProgramCase):
             wrong = right[:-2] + right[-1]
             for typed, words in ((wrong, [wrong, "x"]), (wrong, [wrong + "=x"]),
                                  (right[1:], [right[1:], "x"])):
-                self.assert_refused(2, f"unknown option {typed}; did you mean {right}? (", *words)
+                self.assert_refused(2, f"unknown option {typed}; similar: {right} (", *words)
             self.assert_refused(2, "unknown option --frobnicate (", "--frobnicate")
             # The correct option is reported as missing, and not as unknown.
             self.assert_refused(2, f"{right} is required ({self.program} --help lists all)")
@@ -91,35 +138,147 @@ class Help(ProgramCase):
         ends = ["--start", "random", "--goal", "random", "--output", "plan.json", "--mu", "0.3",
                 "--object", self.model("cube.obj")]
         for program, words, more in (
-                ("plan", "did you mean uniform?", ["--spanning", "unifrom", *ends]),
-                ("plan", "did you mean margin?", ["--optimize", "marign", *ends]),
-                ("plan", "did you mean roadmap?", ["--planner", "raodmap", *ends]),
-                ("plan", "did you mean random?", [*ends[2:], "--start", "randm"]),
-                ("graph", "did you mean adaptive?", ["--spanning", "adaptiv", *ends[6:]]),
-                ("figure", "did you mean svg?",
-                 ["--format", "sgv", "--plan", "plan.json", "--out", "figures", *ends[8:]]),
-                ("validate", "did you mean slide?",
-                 ["--align", "slid", "--plan", "plan.json", *ends[8:]])):
+                ("plan", "similar: uniform", ["--planner", "spanning=unifrom", *ends]),
+                ("plan", "similar: margin", ["--optimize", "marign", *ends]),
+                ("plan", "similar: roadmap", ["--planner", "raodmap", *ends]),
+                ("plan", "similar: random", [*ends[2:], "--start", "randm"]),
+                ("graph", "similar: adaptive", ["--planner", "spanning=adaptiv", *ends[6:]]),
+                ("figure", "similar: svg",
+                 ["--format", "sgv", "--plan", "plan.json", "--output", "figures", *ends[8:]]),
+                ("validate", "similar: slide",
+                 ["--replay", "align=slid", "--plan", "plan.json", *ends[8:]])):
             self.program = program
             self.assert_refused(2, words, *more)
 
-    def test_words_without_quotes_are_told_with_them(self):
+    def test_words_instead_of_a_list_are_told_with_it(self):
         hand = ["--hand", "no.json", "--object", "no.obj", "--mu", "0.8", "--output", "plan.json"]
-        for typed, right in ((["--turn", "z", "90"], '--turn "z 90"'),
+        for typed, right in ((["--turn", "z", "90"], "--turn z,90"),
                              (["--goal-pose", "0", "0", "-0.1", "1", "0", "0", "0"],
-                              '--goal-pose "0 0 -0.1 1 0 0 0"')):
+                              "--goal-pose 0,0,-0.1,1,0,0,0")):
             self.program = "plan"
-            self.assert_refused(2, f"{typed[0]}: its words are one argument, in quotes: {right}",
-                                *hand[:2], *typed, *hand[2:])
-            # In quotes the words are accepted; the next error is the file.
-            self.assert_refused(2, "no.json: no such file", *hand, typed[0], " ".join(typed[1:]))
+            self.assert_refused(2, f"{typed[0]}: expected one list with commas, found "
+                                f"{len(typed) - 1} words; help: {right}", *hand[:2], *typed, *hand[2:])
+            # With commas, and with spaces in quotes, it is accepted: the file is not found.
+            for separator in ",", " ":
+                self.assert_refused(2, "no.json: no such file", *hand, typed[0],
+                                    separator.join(typed[1:]))
+
+    def test_settings_of_lists_are_checked(self):
+        """The message starts with the option's name and states the error in its list."""
+        rest = ["--object", "no.obj", "--mu", "0.3"]
+        plan = [*rest, "--start", "random", "--goal", "random", "--output", "plan.json"]
+        validate = [*rest, "--plan", "no.json"]
+        for self.program, more, option, value, words in (
+                ("plan", plan, "--planner", "roadmap,cluster=9", ': unknown setting "cluster", expected '
+                 "one of spanning=, points=, clusters=, fallback=, budget=; similar: clusters="),
+                ("plan", plan, "--planner", "roadmap,clusters=9,clusters=9", " clusters: found twice"),
+                ("plan", plan, "--planner", "roadmap,general", ': expected one of spanning='),
+                ("plan", plan, "--planner", "roadmap,", ': expected one of spanning='),
+                ("plan", plan, "--repair", "part=0", " part: expected an integer from 1"),
+                ("plan", plan, "--allow", "fill", ': expected one of filled, large-graph, found "fill"; '
+                 "similar: filled"),
+                ("validate", validate, "--view", "30", ': expected AZIMUTH,ELEVATION, as in 30,20'),
+                ("validate", validate, "--view", "30,20,10", ': expected one of orthographic, zoom='),
+                ("validate", validate, "--tolerance", "2cm", ": expected a number, or one with the unit"),
+                ("validate", validate, "--tolerance", "2mm,3mm", ": found two tolerances of one kind"),
+                ("validate", validate, "--replay", "points,hand", ": found points and hand"),
+                ("validate", validate, "--trials", "min-pass-rate=1", ": the number of trials is required"),
+                ("figure", ["--object", "no.obj", "--plan", "no.json", "-o", "out"], "--size", "85",
+                 ': expected one of width=, sheet=, font=, found "85"')):
+            self.assert_refused(2, f"error: {option}{words}", *more, option, value)
+            # Negative control: the rest of the command line is right.
+            self.assert_refused(2, ("no.obj", "no.json")[self.program != "plan"], *more)
+
+    def old_names(self):
+        """The renamed options in apps/renamed_options.cc: programs, old and new name, new value."""
+        path = os.path.join(program_case.ARGUMENTS.source, "apps", "renamed_options.cc")
+        with open(path, encoding="utf-8") as file:
+            table = file.read()
+        named = {name: value for name, value in re.findall(r'char (k\w+)\[\] = "([^"]*)"', table)}
+        rows = re.findall(r'^    \{(\w+|"[^"]*"), "(--[^"]+)", "(--[^"]+)", "([^"]*)"\},$', table, re.M)
+        return [(program, old, new, value) for programs, old, new, value in rows
+                for program in named.get(programs, programs.strip('"')).split()]
+
+    def test_every_old_name_is_accepted_unlisted(self):
+        """A command with an old name and one with the new name end with the same error, of a file
+        that does not exist."""
+        usual = {"plan": ["--object", "no.obj", "--mu", "0.3", "--start", "random", "--goal", "random",
+                          "--output", "plan.json"],
+                 "graph": ["--object", "no.obj", "--mu", "0.3"],
+                 "validate": ["--object", "no.obj", "--plan", "no.json"],
+                 "figure": ["--object", "no.obj", "--plan", "no.json", "--output", "out"],
+                 "repair": ["--object", "no.obj", "--output", "out.obj"],
+                 "merge": ["--shards", "no.jsonl", "--output", "out.jsonl"]}
+        # Other required options, and values other than 5.
+        states = ["--object", "no.obj", "--mu", "0.3", "--hand", "no.json", "--export-states", "2"]
+        grasps = ["--object", "no.obj", "--mu", "0.3", "--grasps", "no.npz"]
+        by_hand = [*usual["validate"], "--hand", "no.json"]
+        other = {"--required-angle": grasps, "--quality": grasps, "--min-quality": states,
+                 "--feedback": by_hand, "--tip": by_hand, "--tolerance-mm": by_hand,
+                 "--tolerance-deg": by_hand, "--joint-noise": [*by_hand, "--trials", "2"],
+                 "--reserve": [*usual["plan"][:4], "--output", "plan.json", "--hand", "no.json",
+                               "--turn", "z,90"],
+                 "--animate-size": [*usual["validate"], "--animate"]}
+        values = {"--spanning": "uniform", "--align": "slide", "--feedback": "none",
+                  "--tip": "geometry", "--animate-size": "64x64", "--reserve": "none",
+                  "--out": "out", "--min-pass-rate": "0.5", "--min-quality": "0.5",
+                  "--sheet-width": "500", "--width": "85"}
+        for name in ("--position-noise", "--friction-error", "--mass-error"):
+            other[name], values[name] = [*usual["validate"], "--trials", "2"], "0.5"
+        other["--min-pass-rate"] = [*usual["validate"], "--trials", "2"]
+        flags = ("--fresh",)
+        rows = self.old_names()
+        self.assertGreater(len(rows), 50)
+        for program, old, new, item in rows:
+            rest = other.get(old, usual[program])
+            if old == "--out":
+                rest = [word for word in rest if word not in ("--output", "out")]
+            if old == "--fresh" and program != "merge":
+                rest = {"plan": [*rest, "--batch", "no.jsonl"],
+                        "validate": [*rest, "no_2.json"]}[program]
+            if old == "--compare":
+                rest = [*rest, "--sampling", "9"]
+            if old == "--queries":
+                rest = [*rest, "--planner", "clusters=9"]
+            if (program, old) == ("graph", "--no-lazy"):
+                rest = [*rest, "--planner", "queries=9"]
+            value = values.get(old, "5")
+            took = [value] if "*" in item or (not item and old not in flags) else []
+            now = [new, item.replace("*", value)] if item else [new, *took]
+            with self.subTest(program=program, old=old):
+                expected = self.run_program(*rest, *now, program=program)
+                self.assertEqual(expected.returncode, 2, expected.stderr)
+                self.assertRegex(expected.stderr, r"\bno(_2)?\.(obj|json|jsonl|npz)")
+                self.assertNotIn("unknown", expected.stderr)
+                for words in ([old, *took], *([[f"{old}={value}"]] if took else [])):
+                    done = self.run_program(*rest, *words, program=program)
+                    self.assertEqual((done.returncode, done.stderr), (2, expected.stderr))
+                listed = options_in(self.help(program))
+                self.assertIn(new, listed)
+                self.assertNotIn(old, listed)
+
+    def test_an_old_name_is_noted_once_it_has_worked(self):
+        words = ["--object", self.model("cube.obj"), "--start", "random", "--goal", "random", "--mu",
+                 "0.5", "--output", "plan.json"]
+        self.program = "plan"
+        notes = [line for line in self.assert_done(*words, "--planner", "roadmap", "--contacts", "20",
+                                                   "--contact", "hard").stderr.splitlines()
+                 if "note:" in line]
+        self.assertEqual(notes, ["plan: note: --contacts 20 is now --planner points=20",
+                                 "plan: note: --contact hard is now --torsion 0"])
+        first = self.read("plan.json")
+        now = ["--planner", "roadmap,points=20", "--torsion", "0"]
+        self.assertNotIn("note:", self.assert_done(*words, *now).stderr)
+        self.assertEqual(self.read("plan.json"), first)
+        self.assertEqual(self.assert_done(*words, "--planner", "roadmap", "--contacts", "20",
+                                          "--quiet").stderr, "")
 
     def test_a_missing_value_is_told_and_not_taken_from_the_next_option(self):
         rest = ["--object", "no.obj", "--mu", "0.3", "--output", "plan.json"]
         self.program = "plan"
         for words in (["--start", *rest], [*rest, "--start"]):
-            self.assert_refused(2, "--start: its value is missing: --start FILE|random", *words)
-        # A word that only begins like an option is a value.
+            self.assert_refused(2, "--start: a value is required: --start FILE|random", *words)
+        # What only begins like an option is a value.
         self.assert_refused(2, "found \"-1\"", *rest[:2], "--mu", "-1", *rest[4:])
 
     def test_completions_have_every_option(self):
@@ -136,7 +295,7 @@ class Help(ProgramCase):
         """Return the text of --help for each option, on one line."""
         texts, option = {}, None
         for line in self.help(program, COLUMNS="120").split("Examples:")[0].splitlines():
-            head = re.match(r"""  (--[a-z-]+)(?: "[^"]*"| \S+)?(?:  +(.*))?$""", line)
+            head = re.match(r"""  (?:-[a-zA-Z], )?(--[a-z-]+)(?: \S+)?(?:  +(.*))?$""", line)
             if head:
                 option = head[1]
                 texts[option] = head[2] or ""
@@ -182,8 +341,8 @@ class Help(ProgramCase):
             self.assertEqual(done.stderr, "")
             return done.stdout.split()
         self.write("some plan.json", "")
-        self.assertEqual(complete("plan", "--spann"), ["--spanning"])
-        self.assertEqual(complete("plan", "--spanning", "u"), ["uniform"])
+        self.assertEqual(complete("plan", "--optim"), ["--optimize"])
+        self.assertEqual(complete("plan", "--optimize", "m"), ["margin"])
         self.assertEqual(complete("validate", "--plan", "so"), ["some", "plan.json"])
         self.assertEqual(complete("validate", "--mass", ""), [])
 

@@ -39,7 +39,7 @@ class Lines(ProgramCase):
         return done
 
     def validate(self, plans, out, *options, code=0):
-        done = self.run_program("--object", self.model(""), "--plan", plans, "--out", out, *options,
+        done = self.run_program("--object", self.model(""), "--plan", plans, "--output", out, *options,
                                 program="validate")
         self.assertEqual(done.returncode, code, done.stderr)
         return done
@@ -56,7 +56,7 @@ class Lines(ProgramCase):
             shutil.copy(self.model(name), self.path("objects"))
 
     def validate_copies(self, plans, *options, code=0):
-        done = self.run_program("--object", "objects", "--plan", plans, "--out", "out", *options,
+        done = self.run_program("--object", "objects", "--plan", plans, "--output", "out", *options,
                                 program="validate")
         self.assertEqual(done.returncode, code, done.stderr)
         return done
@@ -90,7 +90,7 @@ class Lines(ProgramCase):
             plans[i].pop("warnings", None)
             self.unseal(plans[i])
             self.assertEqual(plans[i], json.loads(self.read("one.json")))
-            self.assert_done("--object", self.model(""), "--plan", "one.json", "--no-frames", "--out",
+            self.assert_done("--object", self.model(""), "--plan", "one.json", "--frames", "none", "--output",
                              "one", program="validate")
             one = json.loads(self.read("one/report.json"))
             self.assertEqual(reports[i].pop("query"), i + 1)
@@ -121,7 +121,7 @@ class Lines(ProgramCase):
         self.plan("plans.jsonl")
         self.validate("plans.jsonl", "whole")
         command = [os.path.join(program_case.ARGUMENTS.programs, "validate"), "--object",
-                   self.model(""), "--plan", "plans.jsonl", "--out", "killed", "--jobs", "1"]
+                   self.model(""), "--plan", "plans.jsonl", "--output", "killed", "--jobs", "1"]
         part = self.path("killed/reports.jsonl.part")
         for end in (signal.SIGKILL, signal.SIGTERM):
             before = os.path.getsize(part) if os.path.exists(part) else 0
@@ -155,7 +155,7 @@ class Lines(ProgramCase):
             else:
                 self.assertNotIn("kept", said)
             fresh = self.read("out/reports.jsonl")
-            self.run_program("--object", "objects", "--plan", plans, "--out", "fresh", "--fresh",
+            self.run_program("--object", "objects", "--plan", plans, "--output", "fresh", "--restart",
                              *options, program="validate")
             self.assertEqual(fresh, self.read("fresh/reports.jsonl"))
 
@@ -207,7 +207,7 @@ class Lines(ProgramCase):
         os.chmod(self.write("validate", bytes(program)), 0o755)
         for kept in (False, True):
             done = subprocess.run(
-                [self.path("validate"), "--object", self.model(""), "--plan", "plans.jsonl", "--out",
+                [self.path("validate"), "--object", self.model(""), "--plan", "plans.jsonl", "--output",
                  "out"], cwd=self.folder, capture_output=True, text=True, check=True,
                 timeout=program_case.HANG_SECONDS)
             self.assertEqual("3 kept" in done.stderr, kept, done.stderr)
@@ -279,7 +279,7 @@ class Lines(ProgramCase):
         done = self.plan("other.jsonl", "--min-quality", "0.02", code=2)
         self.assertIn("other.jsonl.part: line 1: belongs to an interrupted run with different input", done.stderr)
         self.assertEqual(self.read("other.jsonl.part"), self.read("plans.jsonl"))
-        self.plan("other.jsonl", "--min-quality", "0.02", "--fresh")
+        self.plan("other.jsonl", "--min-quality", "0.02", "--restart")
         self.assertEqual(sorted(os.listdir(self.folder)),
                          ["other.jsonl", "plans.jsonl", "queries.jsonl"])
 
@@ -298,9 +298,9 @@ class Lines(ProgramCase):
                ({**good, "scale": 0}, "/scale: must be positive, found 0"),
                ({**good, "min_quality": -1}, "/min_quality: must not be negative, found -1"),
                ({**good, "start": "anywhere"}, "/start"),
-               ({**good, "fricton": {"mu": 0.8}}, "unknown member fricton; did you mean friction?"),
+               ({**good, "fricton": {"mu": 0.8}}, "unknown member fricton; similar: friction"),
                ({"object": {"fil": "cube.obj"}},
-                "/object: unknown member fil; did you mean file?"),
+                "/object: unknown member fil; similar: file"),
                ({**good, "start": {"format": "regrasp-grasp"}}, '/start: "version" is missing'),
                ({"object": {"file": "cube.obj", "sha256": "0" * 64}},
                 f"/object/sha256: the query is for another file, expected cube.obj (SHA-256 "
@@ -376,13 +376,13 @@ class Lines(ProgramCase):
         plan = self.lines("plans.jsonl")[1]
         self.assertEqual(plan["object"]["sha256"], sha256)
         os.rename(self.path("objects/renamed.obj"), self.path("objects/again.obj"))
-        self.assert_done("--object", "objects", "--plan", "plans.jsonl", "--out", "out",
+        self.assert_done("--object", "objects", "--plan", "plans.jsonl", "--output", "out",
                          program="validate")
         # A plan is a bad line if no file has its digest.
         plan["object"]["sha256"] = "0" * 64
         plan["object"]["file"] = "again.obj"
         self.write_lines("bad.jsonl", [plan])
-        done = self.run_program("--object", "objects", "--plan", "bad.jsonl", "--out", "bad",
+        done = self.run_program("--object", "objects", "--plan", "bad.jsonl", "--output", "bad",
                                 program="validate")
         self.assertEqual(done.returncode, 2)
         self.assertIn("validate: bad.jsonl: line 1: /object/sha256: the plan is for another object "
@@ -396,7 +396,7 @@ class Lines(ProgramCase):
         plans[1]["friction"]["half_angle_deg"] = 0.5
         self.write_lines("plans.jsonl", plans)
         for frames, folders in (([], []), (["--frames", "failed"], ["0000002"])):
-            done = self.validate("plans.jsonl", "out", *frames, "--fresh", code=1)
+            done = self.validate("plans.jsonl", "out", *frames, "--restart", code=1)
             self.assertIn("plans.jsonl: line 2: step 0 (hold) fails", done.stderr)
             self.assertIn("2 pass, 1 fail", done.stderr)
             self.assertEqual(sorted(os.listdir(self.path("out"))), [*folders, "reports.jsonl"])
@@ -405,7 +405,7 @@ class Lines(ProgramCase):
         # The same for a plan in its own file.
         for plan, pictures in ((plans[0], False), (plans[1], True)):
             self.write_json("one.json", plan)
-            self.run_program("--object", self.model(""), "--plan", "one.json", "--out", "one",
+            self.run_program("--object", self.model(""), "--plan", "one.json", "--output", "one",
                              "--frames", "failed", program="validate")
             self.assertEqual(os.path.exists(self.path("one/000_hold.png")), pictures)
 
@@ -443,8 +443,8 @@ class Lines(ProgramCase):
     def test_options_that_do_not_go_together_are_refused(self):
         self.write_lines("queries.jsonl", self.queries(3))
         one = ("--object", self.model("cube.obj"), *ENDS)
-        for option in (["--jobs", "2"], ["--shard", "1/2"], ["--fresh"]):
-            self.assert_refused(2, f"{option[0]} goes with --batch", *one, "--output", "o", *option)
+        for option in (["--jobs", "2"], ["--shard", "1/2"], ["--restart"]):
+            self.assert_refused(2, f"{option[0]} requires --batch", *one, "--output", "o", *option)
         many = (*one, "--batch", "queries.jsonl")
         for words, rest in (("--shard: expected I/N", ["--output", "o", "--shard", "3/2"]),
                             ("--output: with --batch a file", ["--output", "-"]),
@@ -454,10 +454,10 @@ class Lines(ProgramCase):
         self.plan("plans.jsonl")
         plans = ("--object", self.model(""), "--plan", "plans.jsonl")
         for option in (["--junit", "j"], ["--json", "-"], ["--animate"], ["--trajectory", "t"]):
-            self.assert_refused(2, f"{option[0]} does not go with a file of lines", *plans, *option,
+            self.assert_refused(2, f"{option[0]}: cannot be used with a file of plans", *plans, *option,
                                 program="validate")
         self.write_json("plan.json", self.lines("plans.jsonl")[1])
-        self.assert_refused(2, "--shard goes with a file of lines", "--object", self.model(""),
+        self.assert_refused(2, "--shard: requires a file of plans", "--object", self.model(""),
                             "--plan", "plan.json", "--shard", "1/2", program="validate")
 
 

@@ -25,7 +25,7 @@ class ClusteredGraph(ProgramCase):
 
     def test_counts_the_grasps_of_representatives(self):
         for clusters in (20, 30):
-            graph = self.graph("--clusters", str(clusters))
+            graph = self.graph("--planner", f"clusters={clusters}")
             self.assertEqual((graph["planner"], graph["faces"], graph["clusters"]),
                              ("roadmap", 500, clusters))
             kind = graph["types"]["representative"]
@@ -43,20 +43,20 @@ class ClusteredGraph(ProgramCase):
         self.assertEqual(graph["types"]["representative"]["candidates"], FOURS[50])
 
     def test_a_mesh_of_more_triangles_is_thinned(self):
-        graph = self.graph("--contacts", "300", "--clusters", "20")
+        graph = self.graph("--planner", "points=300,clusters=20")
         self.assertEqual((graph["faces"], graph["clusters"]), (300, 20))
 
     def test_few_contacts_have_no_clusters(self):
-        graph = self.graph("--contacts", "20")
+        graph = self.graph("--planner", "points=20")
         self.assertEqual(graph["faces"], 20)
         self.assertNotIn("clusters", graph)
 
     def test_has_fewer_clusters_than_contacts(self):
-        graph = self.graph("--contacts", "6", "--clusters", "50")
+        graph = self.graph("--planner", "points=6,clusters=50")
         self.assertEqual((graph["faces"], graph["clusters"]), (6, 5))
 
     def test_answers_queries(self):
-        queries = self.graph("--clusters", "30", "--queries", "10")["queries"]
+        queries = self.graph("--planner", "clusters=30,queries=10")["queries"]
         self.assertEqual((queries["count"], queries["connected"]), (10, 10))
         self.assertGreater(queries["shortest_seconds"], 0)
         self.assertLessEqual(queries["shortest_seconds"], queries["mean_seconds"])
@@ -64,15 +64,15 @@ class ClusteredGraph(ProgramCase):
 
     def test_without_the_last_resort_some_queries_fail(self):
         def connected(*more):
-            return self.graph("--clusters", "20", "--queries", "30", *more,
+            return self.graph("--planner", "clusters=20,queries=30", *more,
                               model="spanner500")["queries"]["connected"]
         self.assertEqual(connected(), 30)
-        joined = connected("--no-lazy")
+        joined = connected("--planner", "fallback=no")
         self.assertGreater(joined, 0)
         self.assertLess(joined, 30)
 
     def test_prints_clusters_and_queries(self):
-        done = self.assert_done(*self.arguments("--clusters", "30", "--queries", "5"))
+        done = self.assert_done(*self.arguments("--planner", "clusters=30,queries=5"))
         self.assertIn("roadmap of mug500.obj, 500 contact points, 10°, 30 clusters", done.stdout)
         self.assertRegex(done.stdout, r"(?m)^5 of 5 random queries joined, \S+ to \S+ ms each, "
                                       r"mean \S+ ms$")
@@ -80,24 +80,25 @@ class ClusteredGraph(ProgramCase):
 
     def test_the_seed_decides_the_clusters(self):
         def counts(seed):
-            graph = self.graph("--clusters", "30", "--seed", seed)
+            graph = self.graph("--planner", "clusters=30", "--seed", seed)
             return graph["vertices"], graph["edges"]
         self.assertEqual(counts("1"), counts("1"))
         self.assertNotEqual(counts("1"), counts("2"))
 
     def test_refuses_bad_usage(self):
         for clusters in ("3", "201", "0", "-5", "many", "20.5"):
-            self.assert_refused(2, "--clusters", *self.arguments("--clusters", clusters))
+            self.assert_refused(2, "--planner clusters",
+                                *self.arguments("--planner", "clusters=" + clusters))
         for contacts in ("3", "4001", "none"):
-            self.assert_refused(2, "--contacts", *self.arguments("--contacts", contacts))
+            self.assert_refused(2, "--planner points",
+                                *self.arguments("--planner", "points=" + contacts))
         for queries in ("0", "-1", "all"):
-            self.assert_refused(2, "--queries",
-                                *self.arguments("--clusters", "20", "--queries", queries))
-        self.assert_refused(2, ["--queries", "--clusters"],
-                            *self.arguments("--contacts", "20", "--queries", "5"))
-        self.assert_refused(2, "--queries", *self.arguments("--planner", "polyhedron",
-                                                            "--queries", "5"))
-        self.assert_refused(2, ["--no-lazy", "--queries"], *self.arguments("--no-lazy"))
+            self.assert_refused(2, "--planner queries",
+                                *self.arguments("--planner", "clusters=20,queries=" + queries))
+        self.assert_refused(2, ["--planner queries", "clusters"],
+                            *self.arguments("--planner", "points=20,queries=5"))
+        self.assert_refused(2, "--planner queries", *self.arguments("--planner", "polyhedron,queries=5"))
+        self.assert_refused(2, ["--planner fallback", "queries"], *self.arguments("--planner", "fallback=no"))
 
 
 class PlansOnMeshes(ProgramCase):
@@ -105,8 +106,8 @@ class PlansOnMeshes(ProgramCase):
 
     def arguments(self, model="mug500", *more, **changes):
         options = {"--object": self.model(model + ".obj"), "--start": "random", "--goal": "random",
-                   "--output": "plan.json", "--friction-angle": "10", "--planner": "roadmap",
-                   "--clusters": "30"}
+                   "--output": "plan.json", "--friction-angle": "10",
+                   "--planner": "roadmap,clusters=30"}
         options.update({"--" + key.replace("_", "-"): value for key, value in changes.items()})
         return [word for pair in options.items() for word in pair] + list(more)
 
@@ -122,7 +123,7 @@ class PlansOnMeshes(ProgramCase):
     def test_says_what_linked_the_ends(self):
         links = set()
         for seed in ("1", "2", "3"):
-            plan = self.plan("mug500", seed=seed, contacts="600")
+            plan = self.plan("mug500", seed=seed, planner="roadmap,points=600,clusters=30")
             self.assertEqual((plan["planner"], plan["fingers"]), ("roadmap", 5))
             note = plan["roadmap"]
             self.assertEqual((note["contacts"], note["clusters"], note["seed"]),
@@ -153,8 +154,8 @@ class PlansOnMeshes(ProgramCase):
     def test_without_the_last_resort_some_plans_are_not_found(self):
         codes = set()
         for seed in range(30):
-            arguments = self.arguments("spanner500", "--no-lazy", seed=str(seed), clusters="20",
-                                       goal="random-any")
+            arguments = self.arguments("spanner500", "--planner", "fallback=no", seed=str(seed),
+                                       planner="roadmap,clusters=20", goal="random-any")
             done = self.run_program(*arguments)
             codes.add(done.returncode)
             if done.returncode == 1:
@@ -164,7 +165,7 @@ class PlansOnMeshes(ProgramCase):
                 self.assertRegex(done.stderr, r"goal (has no link|is linked by)")
                 self.assertNotIn("last resort", done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1)
-                arguments.remove("--no-lazy")
+                arguments[arguments.index("fallback=no")] = "fallback=yes"
                 self.assert_done(*arguments)
             if codes == {0, 1}:
                 return
@@ -172,8 +173,9 @@ class PlansOnMeshes(ProgramCase):
 
     def test_refuses_bad_usage(self):
         for clusters in ("3", "201", "x"):
-            self.assert_refused(2, "--clusters", *self.arguments(clusters=clusters))
-        self.assert_refused(2, "--contacts", *self.arguments(contacts="5000"))
+            self.assert_refused(2, "--planner clusters",
+                                *self.arguments(planner="roadmap,clusters=" + clusters))
+        self.assert_refused(2, "--planner points", *self.arguments(planner="roadmap,points=5000"))
         self.assert_refused(2, "no.json", *self.arguments(start="no.json"))
 
     def test_plans_pass_the_replay(self):
@@ -183,7 +185,7 @@ class PlansOnMeshes(ProgramCase):
                 with self.subTest(model=model, seed=seed):
                     self.plan(model, seed=seed)
                     done = self.assert_done("--object", self.model(model + ".obj"), "--plan",
-                                            "plan.json", "--out", "out", "--no-frames",
+                                            "plan.json", "--output", "out", "--frames", "none",
                                             program="validate")
                     self.assertIn("pass", done.stdout + done.stderr)
                     report = json.loads(self.read("out/report.json"))
@@ -198,8 +200,8 @@ class PlansOnMeshes(ProgramCase):
     def test_frames_show_the_clusters_where_asked(self):
         self.plan("mug500", seed="1")
         frames = []
-        for shown in ((), ("--show-clusters",)):
-            self.assert_done("--object", self.model("mug500.obj"), "--plan", "plan.json", "--out",
+        for shown in ((), ("--show", "clusters",)):
+            self.assert_done("--object", self.model("mug500.obj"), "--plan", "plan.json", "--output",
                              "out", "--size", "320x240", *shown, program="validate")
             frames.append(self.read("out/000_hold.png"))
         # The images differ only in the colours of the surface.
@@ -208,15 +210,15 @@ class PlansOnMeshes(ProgramCase):
 
     def test_frames_show_the_clusters_of_plans_with_patches(self):
         mug = self.model("mug500.obj")
-        plan = self.plan("mug500", "--patch", "0.002", friction_angle="30", clusters="20")
+        plan = self.plan("mug500", "--patch", "0.002", friction_angle="30", planner="roadmap,clusters=20")
         note = plan["roadmap"]
         self.assertEqual((note["roughness_deg"], "invented" in note), (5, False))
         frames = []
         for roughness in (5, 20):
             plan["roadmap"]["roughness_deg"] = roughness  # negative control: different clusters
             self.write_json("other.json", plan)
-            self.assert_done("--object", mug, "--plan", "other.json", "--out", "out", "--size",
-                             "320x240", "--show-clusters", program="validate")
+            self.assert_done("--object", mug, "--plan", "other.json", "--output", "out", "--size",
+                             "320x240", "--show", "clusters", program="validate")
             frames.append(self.read("out/000_hold.png"))
         self.assertNotEqual(frames[0], frames[1])
 
@@ -224,9 +226,9 @@ class PlansOnMeshes(ProgramCase):
         self.assert_done("--object", self.model("cube.obj"), "--start", "random", "--goal", "random",
                          "--output", "plan.json", "--friction-angle", "20", "--planner", "roadmap")
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
-                                "--show-clusters", "--out", "out", program="validate")
+                                "--show", "clusters", "--output", "out", program="validate")
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("--show-clusters", done.stderr)
+        self.assertIn("--show clusters", done.stderr)
         self.assertEqual(done.stderr.count("\n"), 1)
         self.assertFalse(os.path.exists(self.path("out")))
 
@@ -238,7 +240,7 @@ class PlansOnMeshes(ProgramCase):
         place["point"], place["normal"] = other["point"], other["normal"]
         self.write_json("plan.json", plan)
         done = self.run_program("--object", self.model("ellipsoid500.obj"), "--plan", "plan.json",
-                                "--out", "out", "--no-frames", program="validate")
+                                "--output", "out", "--frames", "none", program="validate")
         self.assertEqual(done.returncode, 1, done.stderr)
         report = json.loads(self.read("out/report.json"))
         self.assertEqual(report["verdict"], "fail")

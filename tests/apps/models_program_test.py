@@ -22,7 +22,7 @@ REGIONS = ("--optimize", "regions")
 MANY_FACES = ("body14", "body24", "body34", "body36", "body38", "body40", "body42", "body47",
               "body67")
 # Models with many focus cells; there are fewer with little friction and uniform spanning.
-CONCURRENT = ("--planner", "polyhedron", "--spanning", "uniform")
+CONCURRENT = ("--planner", "polyhedron,spanning=uniform")
 FRICTION_OF_MANY_FACES = "10"
 
 
@@ -66,7 +66,7 @@ class Models(ProgramCase):
     def validate(self, name, *more):
         """Return exit code and report; the image tests check the frames."""
         done = self.run_program("--object", self.body(name), "--plan", "plan.json",
-                                "--out", "out", "--no-frames", *more, program="validate")
+                                "--output", "out", "--frames", "none", *more, program="validate")
         return done, json.loads(self.read("out/report.json"))
 
     def test_models_are_as_the_generator_writes_them(self):

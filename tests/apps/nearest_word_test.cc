@@ -7,21 +7,21 @@ namespace nearest_word_test {
 
 const std::vector<std::string> kWords = {"--object", "--output", "--friction-angle", "--mu"};
 
-TEST(DidYouMean, NamesTheWordThatFewEditsMake) {
+TEST(SimilarWord, NamesTheWordThatFewEditsMake) {
   for (const char* given : {"--objct", "--obejct", "--objects", "--obiect"}) {
-    EXPECT_EQ(DidYouMean(given, kWords), "; did you mean --object?") << given;
+    EXPECT_EQ(SimilarWord(given, kWords), "; similar: --object") << given;
   }
 }
 
-TEST(DidYouMean, NamesTheWordThatWasBegun) {
-  EXPECT_EQ(DidYouMean("--fric", kWords), "; did you mean --friction-angle?");
+TEST(SimilarWord, NamesTheWordThatWasBegun) {
+  EXPECT_EQ(SimilarWord("--fric", kWords), "; similar: --friction-angle");
 }
 
-TEST(DidYouMean, SaysNothingWhereNoWordIsNear) {
-  EXPECT_EQ(DidYouMean("--verbose", kWords), "");
-  EXPECT_EQ(DidYouMean("", kWords), "");
-  EXPECT_EQ(DidYouMean("--object", {}), "");
-  EXPECT_EQ(DidYouMean("--object" + std::string(100, 't'), kWords), "");
+TEST(SimilarWord, SaysNothingWhereNoWordIsNear) {
+  EXPECT_EQ(SimilarWord("--verbose", kWords), "");
+  EXPECT_EQ(SimilarWord("", kWords), "");
+  EXPECT_EQ(SimilarWord("--object", {}), "");
+  EXPECT_EQ(SimilarWord("--object" + std::string(100, 't'), kWords), "");
 }
 
 }  // namespace nearest_word_test

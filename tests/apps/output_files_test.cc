@@ -42,7 +42,7 @@ class OutputFilesTest : public ::testing::Test {
   }
   [[nodiscard]] OutputFiles AndFolder(OutputFiles outputs, const std::string& name) const {
     outputs.folders.push_back(
-        {"--out", folder_ / name, [](const std::string& file) { return file == "report"; }});
+        {"--output", folder_ / name, [](const std::string& file) { return file == "report"; }});
     return outputs;
   }
   [[nodiscard]] std::string WhyNot(const std::string& input, const OutputFiles& outputs) const {
@@ -77,14 +77,14 @@ TEST_F(OutputFilesTest, AnInputIsNoOutputByWhateverName) {
 }
 
 TEST_F(OutputFilesTest, AFileInAnOutputFolderIsNoInputIfItMayBeReplaced) {
-  EXPECT_THAT(WhyNot("out/report", AndFolder({}, "out")), HasSubstr("--input, and --out"));
-  EXPECT_THAT(WhyNot("out/report", AndFolder({}, "out_link")), HasSubstr("--input, and --out"));
+  EXPECT_THAT(WhyNot("out/report", AndFolder({}, "out")), HasSubstr("--input, and --output"));
+  EXPECT_THAT(WhyNot("out/report", AndFolder({}, "out_link")), HasSubstr("--input, and --output"));
   fs::create_hard_link(folder_ / "plan", folder_ / "out" / "hard");
   EXPECT_EQ(WhyNot("plan", AndFolder({}, "out")), "");
   EXPECT_EQ(WhyNot("out/hard", AndFolder({}, "out")), "");
   fs::remove(folder_ / "out" / "report");
   fs::create_symlink("../plan", folder_ / "out" / "report");
-  EXPECT_THAT(WhyNot("plan", AndFolder({}, "out")), HasSubstr("--input, and --out"));
+  EXPECT_THAT(WhyNot("plan", AndFolder({}, "out")), HasSubstr("--input, and --output"));
 }
 
 TEST_F(OutputFilesTest, TwoOutputsAreTwoFiles) {
@@ -95,7 +95,7 @@ TEST_F(OutputFilesTest, TwoOutputsAreTwoFiles) {
   EXPECT_THAT(WhyNot("other", Files("new", "dangling")), refused);
   EXPECT_THAT(WhyNot("other", Files("out/new", "out_link/new")), refused);
   EXPECT_EQ(WhyNot("other", Files("new", "newer")), "");
-  const auto in_folder = AllOf(HasSubstr("--first and --out"), HasSubstr("both"));
+  const auto in_folder = AllOf(HasSubstr("--first and --output"), HasSubstr("both"));
   EXPECT_THAT(WhyNot("other", AndFolder(Files("out/report"), "out")), in_folder);
   EXPECT_THAT(WhyNot("other", AndFolder(Files("new/report"), "new")), in_folder);
   EXPECT_THAT(WhyNot("other", AndFolder(Files("new/report"), "new/")), in_folder);
@@ -116,7 +116,8 @@ TEST_F(OutputFilesTest, WhatCannotBeWrittenIsFoundAndNothingIsLeft) {
   EXPECT_THAT(WhyNotWritable(AndFolder({}, "plan/a/b")), HasSubstr("plan/a/b: cannot be written"));
   EXPECT_THAT(WhyNotWritable(AndFolder({}, "dangling")), HasSubstr("dangling: cannot be written"));
   OutputFiles none;
-  none.folders.push_back({"--out", "/proc/regrasp/out", [](const std::string&) { return false; }});
+  none.folders.push_back(
+      {"--output", "/proc/regrasp/out", [](const std::string&) { return false; }});
   EXPECT_THAT(WhyNotWritable(none), HasSubstr("/proc/regrasp/out: cannot be written"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 7);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "out"), fs::directory_iterator()), 1);

@@ -97,9 +97,9 @@ class Outputs(ProgramCase):
 
     def test_validate_never_writes_onto_its_inputs(self):
         self.make_inputs()
-        common = ["--object", "square.wkt", "--no-frames", "--start", "square.start.json",
+        common = ["--object", "square.wkt", "--frames", "none", "--start", "square.start.json",
                   "--goal", "square.goal.json"]
-        plan = [*common, "--plan", "plan.json", "--out", "result"]
+        plan = [*common, "--plan", "plan.json", "--output", "result"]
         for option in ("--junit", "--trajectory", "--export-mjcf"):
             for output in ("plan.json", "hard.json", "link.json"):
                 self.assert_unharmed([output, f"is the file of --plan, and {option}"], "validate",
@@ -110,11 +110,11 @@ class Outputs(ProgramCase):
             self.assert_unharmed("is the file of --goal", "validate", *plan, option,
                                  "square.goal.json")
             self.assert_unharmed("is the file of --grasp", "validate", "--object", "square.wkt",
-                                 "--mu", "0.4", "--no-frames", "--grasp", "square.start.json",
+                                 "--mu", "0.4", "--frames", "none", "--grasp", "square.start.json",
                                  option, "square.start.json")
             # The name of the file depends on the plan.
             self.assert_unharmed("is the file of --object", "validate", "--object", ".", "--plan",
-                                 "plan.json", "--out", "result", option, "square.wkt")
+                                 "plan.json", "--output", "result", option, "square.wkt")
 
     def test_files_in_the_output_folder_that_are_inputs_stay(self):
         self.make_inputs()
@@ -123,27 +123,27 @@ class Outputs(ProgramCase):
             for link in (name, "link.json"):
                 os.remove(self.path("link.json"))
                 os.symlink(name, self.path("link.json"))
-                self.assert_unharmed([name, "is the file of --plan, and --out"], "validate",
-                                     "--object", "square.wkt", "--plan", link, "--out", ".")
+                self.assert_unharmed([name, "is the file of --plan, and --output"], "validate",
+                                     "--object", "square.wkt", "--plan", link, "--output", ".")
             os.rename(self.path(name), self.path("plan.json"))
         os.rename(self.path("square.wkt"), self.path("report.html"))
-        self.assert_unharmed("is the file of --object, and --out", "validate", "--object",
-                             "report.html", "--plan", "plan.json", "--out", ".")
+        self.assert_unharmed("is the file of --object, and --output", "validate", "--object",
+                             "report.html", "--plan", "plan.json", "--output", ".")
         os.rename(self.path("report.html"), self.path("square.wkt"))
         for name in ("sheet.svg", "000_hold.svg", "contact_space_001.svg"):
             os.rename(self.path("plan.json"), self.path(name))
-            self.assert_unharmed([name, "is the file of --plan, and --out"], "figure",
-                                 "--object", "square.wkt", "--plan", name, "--out", ".")
+            self.assert_unharmed([name, "is the file of --plan, and --output"], "figure",
+                                 "--object", "square.wkt", "--plan", name, "--output", ".")
             os.rename(self.path(name), self.path("plan.json"))
 
     def test_two_outputs_are_two_files(self):
         self.make_inputs()
-        plan = ["--object", "square.wkt", "--plan", "plan.json", "--out", "result", "--no-frames"]
+        plan = ["--object", "square.wkt", "--plan", "plan.json", "--output", "result", "--frames", "none"]
         self.assert_unharmed("--junit and --trajectory would both", "validate", *plan, "--junit",
                              "new", "--trajectory", "./new")
-        self.assert_unharmed("--junit and --out would both", "validate", *plan, "--junit",
+        self.assert_unharmed("--junit and --output would both", "validate", *plan, "--junit",
                              "result/report.json")
-        self.assert_unharmed("--export-mjcf and --out would both", "validate", *plan,
+        self.assert_unharmed("--export-mjcf and --output would both", "validate", *plan,
                              "--export-mjcf", "result/003_align.png")
         self.assert_done(*plan, "--junit", "result/junit.xml", program="validate")
 
@@ -166,7 +166,7 @@ class Outputs(ProgramCase):
             self.program = program
             for out in ("taken", "taken/x", "/proc/x/y"):
                 self.assert_refused(3, [out, "cannot be written"], "--object", broken, "--plan",
-                                    broken, "--out", out)
+                                    broken, "--output", out)
         self.assertEqual(self.read("taken"), b"")
 
     def test_a_folder_that_vanished_during_the_run_is_an_error(self):
@@ -177,7 +177,7 @@ class Outputs(ProgramCase):
             # written.
             run = subprocess.Popen(
                 [os.path.join(program_case.ARGUMENTS.programs, "validate"), "--object",
-                 "square.wkt", "--plan", "plan.json", "--out", "result", "--no-frames",
+                 "square.wkt", "--plan", "plan.json", "--output", "result", "--frames", "none",
                  "--trajectory", "pipe"], cwd=self.folder, stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
             while run.poll() is None and not os.path.exists(self.path("result/report.html")):
@@ -215,7 +215,7 @@ class Outputs(ProgramCase):
         shutil.copy(self.path("plan.json"), self.path("plans/good.json"))
         self.write("plans/bad.json", plan[:-100])
         # Messages of child processes use pipes.
-        batch = ["--object", "square.wkt", "--plan", "plans", "--no-frames", "--out"]
+        batch = ["--object", "square.wkt", "--plan", "plans", "--frames", "none", "--output"]
         self.assertEqual(self.shell("validate", [*batch, "open"], "").returncode, 2)
         for streams, code in (("<&-", 2), ("2>&-", 2), (">&-", 3), (">&- 2>&-", 3), (closed, 3)):
             done = self.shell("validate", [*batch, "result"], streams)

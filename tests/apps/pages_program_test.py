@@ -21,7 +21,7 @@ SHORTER = [("--export-states 100000", "--export-states 3")]
 CUBE = """plan --quiet --object models/cube.obj --friction-angle 20 --start models/cube.start.json \
 --goal models/cube.goal.json --output plan.json
 """
-TURN = """plan --quiet --hand models/hands/ring4.json --object models/cube.obj --mu 0.8 --turn "z 30" \
+TURN = """plan --quiet --hand models/hands/ring4.json --object models/cube.obj --mu 0.8 --turn z,30 \
 --output turn.json
 """
 
@@ -44,7 +44,7 @@ EXAMPLES = ("cp models/*.obj models/*.wkt .; cp models/cube.start.json start.jso
             "echo '{\"object\": {\"file\": \"cube.obj\"}}' > queries.jsonl\n"
             "plan --quiet --object . --batch queries.jsonl --mu 0.5 --start random --goal random "
             "--output shards/plans.1.jsonl\n"
-            "validate --quiet --object . --plan shards/plans.1.jsonl --out shards/1\n"
+            "validate --quiet --object . --plan shards/plans.1.jsonl --output shards/1\n"
             "cp models/hands/ring4.xml "
             "right_hand.xml\nplan --quiet --object models/polygon15.wkt --friction-angle 20 --planner "
             "polygon --start models/polygon15.start.json --goal models/polygon15.goal.json "

@@ -27,7 +27,7 @@ class Plan(ProgramCase):
             "--goal": self.model("cube.goal.json"),
             "--output": "plan.json",
             "--friction-angle": "20",
-            "--contacts": "30",
+            "--planner": "points=30",
         }
         options.update({"--" + key.replace("_", "-"): value for key, value in changes.items()})
         return [word for key, value in options.items() if value is not None
@@ -41,7 +41,7 @@ class Plan(ProgramCase):
 
     def polygon_arguments(self, **changes):
         """Return a valid command line for a polygon."""
-        options = {"object": self.model("polygon15.wkt"), "contacts": None,
+        options = {"object": self.model("polygon15.wkt"), "planner": None,
                    "start": self.model("polygon15.start.json"),
                    "goal": self.model("polygon15.goal.json")}
         return self.arguments(**dict(options, **changes))
@@ -70,7 +70,7 @@ class Plan(ProgramCase):
             with self.subTest(model=name):
                 self.assert_done(*self.arguments(
                     object=self.model(name + ".obj"), start=self.model(name + ".start.json"),
-                    goal=self.model(name + ".goal.json"), contacts=None))
+                    goal=self.model(name + ".goal.json"), planner=None))
                 plan = json.loads(self.read("plan.json"))
                 self.assertEqual(plan["format"], "regrasp-plan")
                 self.assertEqual((plan["planner"], plan["fingers"]), ("general", 5))
@@ -183,9 +183,9 @@ class Plan(ProgramCase):
 
     def test_tells_the_margin_that_validate_tells(self):
         weakest = []
-        for model, arguments in (("cube.obj", self.arguments(contacts=None)),
+        for model, arguments in (("cube.obj", self.arguments(planner=None)),
                                  ("stone.obj", self.arguments(
-                                     object=self.model("stone.obj"), contacts=None,
+                                     object=self.model("stone.obj"), planner=None,
                                      start=self.model("stone.start.json"),
                                      goal=self.model("stone.goal.json"))),
                                  ("polygon15.wkt", self.polygon_arguments(planner="polygon"))):
@@ -194,8 +194,8 @@ class Plan(ProgramCase):
                 told = re.search(r"weakest: (step (\d+) \((\w+)\), which requires a friction "
                                  r"angle of (\S+) of 20\.00 degrees); ", said)
                 checked = self.assert_done(
-                    "--object", self.model(model), "--plan", "plan.json", "--out", "result",
-                    "--no-frames", program="validate").stdout
+                    "--object", self.model(model), "--plan", "plan.json", "--output", "result",
+                    "--frames", "none", program="validate").stdout
                 self.assertIn(f"weakest: {told[1]}\n", checked)
                 margin = self.report()["margins"]["friction"]
                 self.assertEqual((margin["step"], f"{math.ceil(100 * margin['required_half_angle_deg'] - 1e-4) / 100:.2f}"),
@@ -217,7 +217,7 @@ class Plan(ProgramCase):
         options = {"object": triangle, "start": turned(0.4), "goal": turned(0.6),
                    "friction_angle": "35"}
         steps = [[step["kind"] for step in self.plan(self.polygon_arguments(
-            spanning=spanning, **options))["steps"]] for spanning in ("adaptive", "uniform")]
+            planner="spanning=" + spanning, **options))["steps"]] for spanning in ("adaptive", "uniform")]
         self.assertEqual(steps[0], ["align"])
         self.assertEqual((steps[1][0], steps[1][-1]), ("switch", "switch"))
 
@@ -279,7 +279,7 @@ class Plan(ProgramCase):
 
     def test_warns_of_a_coefficient_of_friction_that_is_an_angle(self):
         done = self.assert_done(*self.arguments(friction_angle=None, mu="20"), "--quiet")
-        self.assertIn("plan: warning: --mu 20: hardly any fingertip", done.stderr)
+        self.assertIn("plan: warning: --mu 20: implausible friction coefficient", done.stderr)
         for usual in ({"friction_angle": None, "mu": "3"}, {"friction_angle": "80"}):
             self.assertEqual(self.assert_done(*self.arguments(**usual), "--quiet").stderr, "")
 
@@ -300,7 +300,7 @@ class Plan(ProgramCase):
     def test_same_seed_gives_the_same_bytes(self):
         plans = []
         for seed in ("5", "5", "6"):
-            self.assert_done(*self.arguments(start="random-any", goal="random", planner="roadmap",
+            self.assert_done(*self.arguments(start="random-any", goal="random", planner="roadmap,points=30",
                                              seed=seed))
             plans.append(self.read("plan.json"))
         self.assertEqual(plans[0], plans[1])
@@ -331,7 +331,7 @@ class Plan(ProgramCase):
         self.assert_done(*self.arguments(start="random-any", goal="random-any", seed="3"))
         self.assertEqual(self.read("plan.json"), under_auto)
         self.assert_done(*self.arguments(start="random", goal="random", seed="3",
-                                         planner="roadmap"))
+                                         planner="roadmap,points=30"))
         self.assertNotEqual(self.read("plan.json"), under_auto)
 
     def test_start_just_off_the_surface_is_projected(self):
@@ -370,7 +370,7 @@ class Plan(ProgramCase):
         grasps = {"start": self.write_json("start.json", pinwheel(0, 1)),
                   "goal": self.write_json("goal.json", pinwheel(1, 2))}
         said = self.refuse(["no sequence", "12 contact points", "495 subsets of four"],
-                           code=1, friction_angle="2", contacts="4", **grasps).stderr
+                           code=1, friction_angle="2", planner="points=4", **grasps).stderr
         sizes = re.search(r"subsets of four, (\d+) force-closure grasps; the start's component "
                           r"has (\d+) of them, the goal's (\d+)$", said)
         self.assertTrue(sizes, said)
@@ -420,14 +420,13 @@ class Plan(ProgramCase):
         self.assert_refused(2, "stray", *self.arguments(), "stray")
 
     def test_refuses_no_friction_and_two(self):
-        self.refuse("friction is missing", friction_angle=None)
-        self.refuse("exclude each other", mu="0.3")
+        self.refuse("friction: --friction-angle DEG or --mu X is required", friction_angle=None)
+        self.refuse("--friction-angle: cannot be used with --mu", mu="0.3")
 
     def test_refuses_numbers_that_are_none_or_out_of_range(self):
         cases = {
             "friction_angle": ("0", "90", "-5", "nan", "inf", "20x", "", "1e999", "2,5", "1e-323"),
             "seed": ("-1", "1.5", "18446744073709551616", "x"),
-            "contacts": ("3", "4001", "4.5", "-60"), "clusters": ("3", "201", "4.5"),
             "min_quality": ("-0.1", "nan", "inf"),
             "scale": ("0", "-1", "nan", "inf"),
         }
@@ -435,6 +434,10 @@ class Plan(ProgramCase):
             for value in values:
                 with self.subTest(option=option, value=value):
                     self.refuse("--" + option.replace("_", "-"), **{option: value})
+        for setting, values in (("points", ("3", "4001", "4.5", "-60")), ("clusters", ("3", "201", "4.5"))):
+            for value in values:
+                with self.subTest(setting=setting, value=value):
+                    self.refuse(f"--planner {setting}", planner=f"{setting}={value}")
         for value in ("0", "-1", "nan", "1e300", "1e-400"):
             with self.subTest(mu=value):
                 self.refuse("--mu", friction_angle=None, mu=value)
@@ -445,7 +448,7 @@ class Plan(ProgramCase):
     def test_refuses_planners_that_do_not_exist(self):
         for planner in ("generals", "none", ""):
             self.refuse("planner", planner=planner)
-        self.refuse("--spanning", spanning="neither")
+        self.refuse("--planner spanning", planner="spanning=neither")
 
     # Invalid input.
 
@@ -503,10 +506,10 @@ class Plan(ProgramCase):
                             *self.polygon_arguments(optimize="regions"), "--explain")
 
     def test_refuses_an_option_that_the_planner_does_not_have_and_names_one_that_does(self):
-        for option, planner, other in ((("--effort", "5"), "polygon", "general"),
-                                       (("--no-lazy",), "polyhedron", "roadmap"),
-                                       (("--contacts", "40"), "general", "roadmap"),
-                                       (("--spanning", "uniform"), "roadmap", "polyhedron")):
+        for option, planner, other in ((("--planner", "budget=5"), "polygon", "general"),
+                                       (("--planner", "fallback=no",), "polyhedron", "roadmap"),
+                                       (("--planner", "points=40"), "general", "roadmap"),
+                                       (("--planner", "spanning=uniform"), "roadmap", "polyhedron")):
             with self.subTest(option=option):
                 arguments = (self.polygon_arguments if planner == "polygon" else self.arguments)
                 given = arguments(planner=planner, **({} if planner == "polygon" else

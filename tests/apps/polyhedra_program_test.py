@@ -71,8 +71,7 @@ class Bodies(ProgramCase):
         for faces in FACES:
             with self.subTest(faces=faces):
                 self.assert_done("--object", self.model(self.name(faces)), "--friction-angle",
-                                 str(HALF_ANGLE), "--planner", "polyhedron", "--spanning",
-                                 "uniform", "--json", "graph.json")
+                                 str(HALF_ANGLE), "--planner", "polyhedron,spanning=uniform", "--json", "graph.json")
                 graph = json.loads(self.read("graph.json"))
                 self.assertEqual(graph["faces"], faces)
                 self.assertGreaterEqual(graph["vertices"], 20 if faces < 34 else 400)
@@ -119,7 +118,7 @@ class Sequences(ProgramCase):
     body = "body24.obj"  # its focus cells form several components
 
     def arguments(self, start, goal, seed="1", planner="polyhedron", output="plan.json"):
-        spanning = ("--spanning", "uniform") if planner == "polyhedron" else ()
+        spanning = ("--planner", "spanning=uniform") if planner == "polyhedron" else ()
         return ("--object", self.model(self.body), "--friction-angle", str(HALF_ANGLE),
                 "--planner", planner, *spanning, "--start", start, "--goal", goal,
                 "--seed", seed, "--output", output)

@@ -71,8 +71,8 @@ class ProgramCase(unittest.TestCase):
         if ProgramCase.cube_plan is None:
             self.assert_done(
                 "--object", self.model("cube.obj"), "--start", self.model("cube.start.json"),
-                "--goal", self.model("cube.goal.json"), "--friction-angle", "20", "--contacts",
-                "30", "--output", "plan.json", program="plan")
+                "--goal", self.model("cube.goal.json"), "--friction-angle", "20", "--planner",
+                "points=30", "--output", "plan.json", program="plan")
             ProgramCase.cube_plan = json.loads(self.read("plan.json"))
         return copy.deepcopy(ProgramCase.cube_plan)
 
@@ -81,7 +81,7 @@ class ProgramCase(unittest.TestCase):
             return file.read()
 
     def report(self):
-        """Return the report of validate --out result, which must follow its schema."""
+        """Return the report of validate --output result, which must follow its schema."""
         report = json.loads(self.read("result/report.json"))
         schema = os.path.join(ARGUMENTS.source, "docs", "report.schema.json")
         with open(schema, encoding="utf-8") as file:

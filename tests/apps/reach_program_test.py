@@ -31,8 +31,8 @@ class Reach(ProgramCase):
                                 "--output", "plan.json", "--quiet", *more)
 
     def validate(self, model, *more):
-        done = self.run_program("--object", self.model(model), "--plan", "plan.json", "--out",
-                                "out", "--no-frames", *more, program="validate")
+        done = self.run_program("--object", self.model(model), "--plan", "plan.json", "--output",
+                                "out", "--frames", "none", *more, program="validate")
         return done, json.loads(self.read("out/report.json"))
 
     def reasons(self, report):
@@ -83,8 +83,8 @@ class Reach(ProgramCase):
 
     def test_a_grasp_alone_is_checked_with_the_radius(self):
         arguments = ("--object", self.model("hole_block.obj"), "--grasp",
-                     self.model("hole_block.start.json"), "--friction-angle", "20", "--out", "out",
-                     "--no-frames")
+                     self.model("hole_block.start.json"), "--friction-angle", "20", "--output", "out",
+                     "--frames", "none")
         self.assert_done(*arguments, program="validate")
         done = self.run_program(*arguments, "--finger-radius", "0.002", program="validate")
         self.assertEqual(done.returncode, 1, done.stderr)
@@ -130,8 +130,8 @@ class Reach(ProgramCase):
         self.write_hollow_cube()
         hollow = ("--object", "hollow.obj", *FRICTION)
         for name, code in (("outside", 0), ("inside", 1)):
-            done = self.run_program(*hollow, "--grasp", name + ".json", "--out", name,
-                                    "--no-frames", program="validate")
+            done = self.run_program(*hollow, "--grasp", name + ".json", "--output", name,
+                                    "--frames", "none", program="validate")
             self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         entry = json.loads(self.read("inside/report.json"))["steps"][0]
         self.assertEqual(entry["reason"], "unreachable")
@@ -156,8 +156,8 @@ class Reach(ProgramCase):
                     grasps += [w["contacts"] for w in step.get("waypoints", [])]
                 for contact in sum(grasps, []):
                     self.assertAlmostEqual(max(map(abs, contact["point"])), 0.03, delta=1e-9)
-                self.assert_done("--object", "hollow.obj", "--plan", "plan.json", "--out", "out",
-                                 "--no-frames", "--quiet", program="validate")
+                self.assert_done("--object", "hollow.obj", "--plan", "plan.json", "--output", "out",
+                                 "--frames", "none", "--quiet", program="validate")
 
     def test_bad_radii_are_refused(self):
         cube = ("--object", self.model("cube.obj"), *FRICTION, "--start",

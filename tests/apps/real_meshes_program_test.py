@@ -19,7 +19,7 @@ CGAL_ARCHIVE = "/usr/share/doc/libcgal-dev/data.tar.gz"
 ASSIMP_MODELS = "/usr/share/assimp/models"
 
 FRICTION_ANGLE = "20"
-QUICK = ("--planner", "roadmap", "--contacts", "8")  # for tests of the reader only
+QUICK = ("--planner", "roadmap,points=8")  # for tests of the reader only
 LARGEST_LOOKED_AT = 300_000  # bytes, of files that are only read
 LARGEST_OF_ASSIMP = 60_000
 

@@ -33,17 +33,17 @@ class Regrasp(ProgramCase):
             for text in called, alone:
                 self.assertIn("\nGeneral:\n", text)
         self.program = "plan"
-        self.assert_refused(2, "(plan --help lists all)", "--objct", "x")
+        self.assert_refused(2, "(plan --help-all lists all)", "--objct", "x")
         done = self.run_program("plan", "--objct", "x", program="regrasp")
         self.assertEqual((done.returncode, done.stderr), (
-            2, "plan: error: unknown option --objct; did you mean --object? (regrasp plan --help lists all)\n"))
+            2, "plan: error: unknown option --objct; similar: --object (regrasp plan --help-all lists all)\n"))
 
     def test_help_of_a_command_is_the_commands_own(self):
         self.assertEqual(self.assert_done("help").stdout, self.assert_done("--help").stdout)
         for command in COMMANDS:
             self.assertEqual(self.assert_done("help", command).stdout,
                              self.assert_done(command, "--help").stdout)
-        self.assert_refused(2, "unknown command paln; did you mean plan? (", "help", "paln")
+        self.assert_refused(2, "unknown command paln; similar: plan (", "help", "paln")
         self.assert_refused(2, "unknown command help", "help", "help")
 
     def test_versions(self):
@@ -53,8 +53,8 @@ class Regrasp(ProgramCase):
                          version.replace("regrasp", "graph"))
 
     def test_a_wrong_command_is_refused_with_the_one_that_was_meant(self):
-        self.assert_refused(2, "unknown command paln; did you mean plan? (", "paln")
-        self.assert_refused(2, "unknown command val; did you mean validate? (", "val", "--help")
+        self.assert_refused(2, "unknown command paln; similar: plan (", "paln")
+        self.assert_refused(2, "unknown command val; similar: validate (", "val", "--help")
         self.assert_refused(2, "unknown command frobnicate (regrasp --help", "frobnicate")
         self.assert_refused(2, "unknown command ../apps/plan", "../apps/plan")
         self.assert_refused(2, "unknown command", "")
@@ -82,7 +82,7 @@ class Regrasp(ProgramCase):
         # The message ends with the run time.
         self.assertEqual(called.stderr.rsplit(";", 1)[0], alone.stderr.rsplit(";", 1)[0])
         self.write("plan.json", called.stdout)
-        check = ["validate", "--object", cube, "--plan", "plan.json", "--no-frames", "--quiet"]
+        check = ["validate", "--object", cube, "--plan", "plan.json", "--frames", "none", "--quiet"]
         self.assertEqual(self.run_program(*check).returncode, 0)
         weak = self.run_program(*check, "--friction-angle", "3")
         self.assertEqual(weak.returncode, 1, weak.stderr)
@@ -91,7 +91,7 @@ class Regrasp(ProgramCase):
     def test_a_signal_ends_the_program_itself(self):
         # The program waits for the plan on standard input.
         command = [os.path.join(program_case.ARGUMENTS.programs, "regrasp"), "validate", "--object",
-                   self.model("cube.obj"), "--plan", "-", "--no-frames"]
+                   self.model("cube.obj"), "--plan", "-", "--frames", "none"]
         with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL, cwd=self.folder) as process:
             while os.path.basename(os.readlink(f"/proc/{process.pid}/exe")) != "validate":
@@ -113,8 +113,8 @@ class Regrasp(ProgramCase):
     def test_bash_completes_commands_and_then_their_options_and_words(self):
         self.assertEqual(self.complete("pl"), ["plan"])
         self.assertEqual(self.complete("--he"), ["--help"])
-        self.assertEqual(self.complete("plan", "--spann"), ["--spanning"])
-        self.assertEqual(self.complete("plan", "--spanning", "u"), ["uniform"])
+        self.assertEqual(self.complete("plan", "--optim"), ["--optimize"])
+        self.assertEqual(self.complete("plan", "--optimize", "m"), ["margin"])
         self.assertEqual(self.complete("frobnicate", "--spann"), [])
 
     def test_every_text_names_every_command(self):

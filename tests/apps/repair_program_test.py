@@ -52,8 +52,8 @@ class Repair(ProgramCase):
 
     def test_a_sheet_is_refused_with_what_would_help(self):
         self.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
-        self.assert_refused(2, "--solidify", "--object", "sheet.obj", "--output", "s.obj")
-        self.assert_done("--object", "sheet.obj", "--output", "s.obj", "--solidify", "0.05")
+        self.assert_refused(2, "--repair wall", "--object", "sheet.obj", "--output", "s.obj")
+        self.assert_done("--object", "sheet.obj", "--output", "s.obj", "--repair", "wall=0.05")
 
     def test_a_refusal_writes_its_report_and_no_solid(self):
         self.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
@@ -62,7 +62,7 @@ class Repair(ProgramCase):
         self.assertEqual(done.returncode, 2)
         report = json.loads(self.read("sheet.json"))
         self.assertEqual(report["verdict"], "refused")
-        self.assertIn("--solidify", report["reason"])
+        self.assertIn("wall=", report["reason"])
         self.assertEqual(done.stderr, f"repair: error: {report['reason']}\n")
         self.assertEqual(report["stages"][0]["stage"], "read")
         self.assertIn("not closed", report["stages"][0]["outcome"])
@@ -82,7 +82,7 @@ class Repair(ProgramCase):
         for grasp in (plan["initial"], plan["goal"]):
             for contact in grasp["contacts"]:
                 self.assertGreater(contact["point"][2], 0, "a finger on the invented bottom")
-        validate = ["--plan", "plan.json", "--no-frames", "--out", "result"]
+        validate = ["--plan", "plan.json", "--frames", "none", "--output", "result"]
         self.assert_done("--object", "open.obj", *validate, program="validate")
         self.assert_done("--object", "open.obj", "--repair", *validate, program="validate")
         # The plan also passes on the solid itself.
@@ -100,7 +100,7 @@ class Repair(ProgramCase):
         for seed in ("1", "2", "3", "4"):
             self.plan("--repair", "--seed", seed)
             strict += self.contacts_below()
-            done = self.plan("--repair", "--seed", seed, "--allow-invented")
+            done = self.plan("--repair", "--seed", seed, "--allow", "filled")
             allowed += self.contacts_below()
             warned += self.contacts_below() > 0 and "invented" in done.stderr
         self.assertEqual(strict, 0)
@@ -125,8 +125,8 @@ class Repair(ProgramCase):
             # As large as the box: the patch contains all of its faces, with which few grasps pass.
             plan["patch_radius"] = 0.07
             self.write_json("plan.json", plan)
-            self.run_program("--object", "open.obj", "--plan", "plan.json", "--no-frames",
-                             "--out", "result", program="validate")
+            self.run_program("--object", "open.obj", "--plan", "plan.json", "--frames", "none",
+                             "--output", "result", program="validate")
             for step in json.loads(self.read("result/report.json"))["steps"]:
                 if step["reason"] is None:
                     continue
@@ -140,13 +140,13 @@ class Repair(ProgramCase):
         plan["object"]["repair"]["sha256"] = "0" * 64
         self.write_json("plan.json", plan)
         self.assert_refused(2, "/object/repair/sha256", "--object", "open.obj", "--plan",
-                            "plan.json", "--out", "result", program="validate")
+                            "plan.json", "--output", "result", program="validate")
 
     def test_a_plan_that_was_made_without_repair_is_not_validated_with_it(self):
         self.write_json("cube_plan.json", self.plan_of_cube())
         self.assert_refused(2, "which was made for an unrepaired object", "--object",
                             self.model("cube.obj"), "--plan", "cube_plan.json", "--repair",
-                            "--out", "result", program="validate")
+                            "--output", "result", program="validate")
 
     def test_a_refusal_says_what_a_repair_would_make_of_it(self):
         words = ["1 border", "--repair makes a solid of it", "fill-holes", "deviation 0 %"]
@@ -155,14 +155,9 @@ class Repair(ProgramCase):
 
     def test_a_refusal_says_what_else_would_help_where_no_repair_does(self):
         self.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
-        words = ["--repair does not make a solid of it", "open sheet", "--solidify THICKNESS"]
+        words = ["--repair does not make a solid of it", "open sheet", "--repair wall=T"]
         self.assert_refused(2, words, "--object", "sheet.obj", "--mu", "0.6", "--start", "random",
                             "--goal", "random", "--output", "p.json", program="plan")
-
-    def test_options_of_a_repair_need_it(self):
-        self.assert_refused(2, "--repair", "--object", "open.obj", "--mu", "0.6", "--start",
-                            "random", "--goal", "random", "--output", "p.json", "--part", "1",
-                            program="plan")
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ class ShellsTest(ProgramCase):
                 "--seed", seed, "--output", "plan.json", *more]
 
     def validated(self, name, *more):
-        return self.run_program("--object", name, "--plan", "plan.json", "--no-frames", "--out",
+        return self.run_program("--object", name, "--plan", "plan.json", "--frames", "none", "--output",
                                 "result", *more, program="validate")
 
     def contacts(self):
@@ -60,15 +60,15 @@ class ShellsTest(ProgramCase):
         self.assert_done(*self.asked("beside.obj", "--shells", "union"))
         plan = json.loads(self.read("plan.json"))
         self.assert_refused(2, "/object/shells", "--object", "beside.obj", "--plan", "plan.json",
-                            "--shells", "largest", "--out", "result", program="validate")
+                            "--shells", "largest", "--output", "result", program="validate")
         del plan["object"]["shells"]
         self.write_json("plan.json", plan)
         self.assert_refused(2, "several solids", "--object", "beside.obj", "--plan", "plan.json",
-                            "--out", "result", program="validate")
+                            "--output", "result", program="validate")
         plan["object"]["shells"] = "some"
         self.write_json("plan.json", plan)
         self.assert_refused(2, "/object/shells", "--object", "beside.obj", "--plan", "plan.json",
-                            "--out", "result", program="validate")
+                            "--output", "result", program="validate")
 
     def test_fingers_on_a_shell_that_is_left_out_are_off_the_surface(self):
         """Uses the plan for the union, some of whose fingers are on the smaller solid."""
@@ -100,7 +100,7 @@ class ShellsTest(ProgramCase):
         open_box = "\n".join(box(0.05, 0.02, 9).splitlines()[:-1]) + "\n"
         self.write("open.obj", box(0, 0.03, 1) + open_box)
         repair = ["--object", "open.obj", "--output", "solid.obj"]
-        self.assert_refused(2, ["--part", "--shells union"], *repair, program="repair")
+        self.assert_refused(2, ["--repair part", "--shells union"], *repair, program="repair")
         self.assert_done(*repair, "--shells", "union", program="repair")
         self.assert_done(*self.asked("solid.obj", "--shells", "union"))
         self.assert_done(*self.asked("open.obj", "--shells", "union", "--repair"))
@@ -113,7 +113,7 @@ class ShellsTest(ProgramCase):
 
     def test_graph_and_a_single_grasp_take_the_choice(self):
         self.assert_done("--object", "beside.obj", "--shells", "union", "--mu", "0.8", "--planner",
-                         "roadmap", "--contacts", "20", program="graph")
+                         "roadmap,points=20", program="graph")
         self.assert_done(*self.asked("beside.obj", "--shells", "union"))
         plan = json.loads(self.read("plan.json"))
         places = [{key: contact[key] for key in ("point", "normal")}
@@ -121,7 +121,7 @@ class ShellsTest(ProgramCase):
         grasp = {"format": "regrasp-grasp", "version": 1, "contacts": places}
         self.write_json("grasp.json", grasp)
         self.assert_done("--object", "beside.obj", "--shells", "union", "--mu", "0.8", "--grasp",
-                         "grasp.json", "--no-frames", "--out", "grasp", program="validate")
+                         "grasp.json", "--frames", "none", "--output", "grasp", program="validate")
 
     def test_a_polygon_has_no_shells(self):
         self.write("square.wkt", "POLYGON((0 0, 1 0, 1 1, 0 1))\n")

@@ -109,7 +109,7 @@ class SmoothModels(ProgramCase):
         for body, count in itertools.product(BODIES, TRIANGLES):
             with self.subTest(model=body + str(count)):
                 done = self.assert_done("--object", self.model(f"{body}{count}.obj"), "--planner",
-                                        "roadmap", "--clusters", "10", "--friction-angle", "20",
+                                        "roadmap,clusters=10", "--friction-angle", "20",
                                         "--json", "-")
                 self.assertEqual(json.loads(done.stdout)["faces"], count)
 

@@ -10,7 +10,7 @@ from program_case import ProgramCase
 
 class SoftFingers(ProgramCase):
     program = "validate"
-    soft = ("--contact", "soft", "--torsion", "0.01")
+    soft = ("--torsion", "0.01")
 
     def pair(self, name, axis, off=0.0):
         """Write a grasp file of two fingers on opposite faces of models/cube.obj."""
@@ -26,7 +26,7 @@ class SoftFingers(ProgramCase):
 
     def validate(self, *more, angle="25"):
         return ["--object", self.model("cube.obj"), "--grasp", self.pair("grasp.json", 0),
-                "--friction-angle", angle, "--no-frames", "--out", "result", *more]
+                "--friction-angle", angle, "--frames", "none", "--output", "result", *more]
 
     def plan(self, *more):
         return ["--object", self.model("cube.obj"), "--start", self.pair("start.json", 0),
@@ -42,7 +42,7 @@ class SoftFingers(ProgramCase):
         quality = math.tan(math.radians(25)) * 0.01 / (0.03 * math.sqrt(3))
         self.assertLessEqual(report["grasp"]["quality"], quality * (1 + 1e-6))
         self.assertGreaterEqual(report["grasp"]["quality_at_most"], quality * (1 - 1e-6))
-        for hard in ([], ["--contact", "hard"]):
+        for hard in ([], ["--torsion", "0"]):
             done = self.run_program(*self.validate(*hard))
             self.assertEqual(done.returncode, 1)
             report = self.report()
@@ -52,7 +52,7 @@ class SoftFingers(ProgramCase):
     def test_a_torsion_below_the_shake_loses_the_cube_in_the_replay(self):
         # The torque of the disturbance is 0.01 of the grasp force times half the diameter.
         torsion = 0.8 * 0.01 * 0.03 * math.sqrt(3) / math.tan(math.radians(25))
-        done = self.run_program(*self.validate("--contact", "soft", "--torsion", repr(torsion)))
+        done = self.run_program(*self.validate("--torsion", repr(torsion)))
         self.assertEqual(done.returncode, 1)
         step = self.report()["steps"][0]
         self.assertTrue(step["force_closure"]["holds"])
@@ -62,13 +62,13 @@ class SoftFingers(ProgramCase):
         self.assert_done(*self.plan(*self.soft), program="plan")
         plan = json.loads(self.read("plan.json"))
         self.assertEqual(plan["torsion"], 0.01)
-        plan_arguments = ["--object", self.model("cube.obj"), "--plan", "plan.json", "--no-frames",
-                          "--out", "result"]
+        plan_arguments = ["--object", self.model("cube.obj"), "--plan", "plan.json", "--frames", "none",
+                          "--output", "result"]
         self.assert_done(*plan_arguments)
         self.assertEqual(self.report()["settings"]["torsion"], 0.01)
         # As hard contacts, and with a different torsion than that of the plan.
-        self.assertEqual(self.run_program(*plan_arguments, "--contact", "hard").returncode, 1)
-        self.assert_done(*plan_arguments, "--contact", "soft", "--torsion", "0.02")
+        self.assertEqual(self.run_program(*plan_arguments, "--torsion", "0").returncode, 1)
+        self.assert_done(*plan_arguments, "--torsion", "0.02")
         self.assertEqual(self.report()["settings"]["torsion"], 0.02)
         # Two hard contacts are rejected as a start grasp.
         self.assert_refused(2, ["start.json", "found 2"], *self.plan(), program="plan")
@@ -76,13 +76,13 @@ class SoftFingers(ProgramCase):
     def test_proofs_have_torques_and_hold_exactly(self):
         self.assert_done(*self.plan(*self.soft), program="plan")
         plan = ["--object", self.model("cube.obj"), "--plan", "plan.json"]
-        self.assert_done(*plan, "--no-frames", "--out", "result", "--certificates")
+        self.assert_done(*plan, "--frames", "none", "--output", "result", "--certificates")
         report = self.report()
         self.assertEqual(len(report["steps"][0]["proof"]["rest"]["torques"]), 2)
         verify = [*plan, "--verify", "result/report.json"]
         self.assertIn("force closure at every instant", self.assert_done(*verify).stdout)
         # Of hard points they are none, and a torque beyond the torsion proves nothing.
-        self.assert_refused(2, ["report.json", "torsion"], *verify, "--contact", "hard")
+        self.assert_refused(2, ["report.json", "torsion"], *verify, "--torsion", "0")
         report["steps"][0]["proof"]["rest"]["torques"] = [1, 1]
         self.write_json("result/report.json", report)
         self.assertEqual(self.run_program(*verify).returncode, 1)
@@ -91,29 +91,28 @@ class SoftFingers(ProgramCase):
         plan = ["--object", self.model("cube.obj"), "--start", self.model("cube.start.json"),
                 "--goal", self.model("cube.goal.json"), "--friction-angle", "20", "--output"]
         self.assert_done(*plan, "plain.json", program="plan")
-        self.assert_done(*plan, "hard.json", "--contact", "hard", program="plan")
+        self.assert_done(*plan, "hard.json", "--torsion", "0", program="plan")
         self.assertEqual(self.read("plain.json"), self.read("hard.json"))
         self.assertNotIn(b"torsion", self.read("hard.json"))
 
     def test_what_is_not_known_of_soft_fingers_is_refused(self):
-        self.assert_refused(2, ["--contact soft", "polyhedron"],
+        self.assert_refused(2, ["--torsion", "polyhedron"],
                             *self.plan(*self.soft, "--planner", "polyhedron"), program="plan")
         self.assert_refused(
-            2, ["--contact soft", "planar"], "--object", self.model("polygon15.wkt"), "--grasp",
-            self.model("polygon15.start.json"), "--mu", "0.4", "--out", "result", *self.soft)
+            2, ["--torsion", "planar"], "--object", self.model("polygon15.wkt"), "--grasp",
+            self.model("polygon15.start.json"), "--mu", "0.4", "--output", "result", *self.soft)
         self.assert_refused(
-            2, ["--contact soft"], "--object", self.model("cube.obj"), "--hand",
-            self.model("hands/ring5.json"), "--turn", "z 90", "--mu", "0.8", "--output", "plan.json",
+            2, ["--torsion"], "--object", self.model("cube.obj"), "--hand",
+            self.model("hands/ring5.json"), "--turn", "z,90", "--mu", "0.8", "--output", "plan.json",
             *self.soft, program="plan")
 
     def test_bad_arguments_get_one_line(self):
         for arguments, words in (
-                (["--contact", "soft"], ["--contact soft", "--torsion"]),
-                (["--torsion", "0.01"], ["--torsion", "--contact soft"]),
-                (["--contact", "hard", "--torsion", "0.01"], ["--torsion", "--contact soft"]),
-                (["--contact", "soft", "--torsion", "0"], ["--torsion"]),
-                (["--contact", "soft", "--torsion", "-1"], ["--torsion"]),
-                (["--contact", "soft", "--torsion", "thick"], ["--torsion", "thick"]),
+                (["--torsion", "-1"], ["--torsion"]),
+                (["--torsion", "thick"], ["--torsion", "thick"]),
+                # The names of one version ago.
+                (["--contact", "soft"], ["--contact soft", "requires --torsion"]),
+                (["--contact", "hard", "--torsion", "0.01"], ["--torsion", "--contact hard"]),
                 (["--contact", "rubber"], ["--contact", "rubber"])):
             with self.subTest(arguments):
                 self.assert_refused(2, words, *self.validate(*arguments))

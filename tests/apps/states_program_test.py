@@ -21,7 +21,7 @@ class States(ProgramCase):
 
     def test_states_have_all_that_a_simulation_is_set_to(self):
         done = self.assert_done(*self.arguments(
-            "--export-states", "6", "--seed", "3", "--out", "states", "--export-mjcf", "scene"))
+            "--export-states", "6", "--seed", "3", "--output", "states", "--export-mjcf", "scene"))
         self.assertIn("held, and written  ", done.stdout)
         self.assertIn("confidence", done.stdout)
         states = read_npz(self.path("states/states.npz"))
@@ -69,8 +69,8 @@ class States(ProgramCase):
     def test_the_bytes_depend_on_the_seed_and_not_on_the_threads(self):
         for out, more in (("one", ("--jobs", "1")), ("two", ("--jobs", "2")),
                           ("other", ("--seed", "1"))):
-            self.assert_done(*self.arguments("--export-states", "3", "--out", out, *more))
-        self.assert_done(*self.arguments("--export-states", "2", "--out", "few"))
+            self.assert_done(*self.arguments("--export-states", "3", "--output", out, *more))
+        self.assert_done(*self.arguments("--export-states", "2", "--output", "few"))
         self.assertEqual(self.read("one/states.npz"), self.read("two/states.npz"))
         self.assertNotEqual(self.read("one/states.npz"), self.read("other/states.npz"))
         few, one = (read_npz(self.path(f"{out}/states.npz")) for out in ("few", "one"))
@@ -87,18 +87,18 @@ class States(ProgramCase):
         states = ("--export-states", "2")
         for more, words in ((("--export-states", "0"), "--export-states"),
                             (("--export-states", "x"), "--export-states"),
-                            ((*states, "--trials", "2"), "--trials does not go with"),
-                            ((*states, "--plan", "p.json"), "--plan does not go with"),
-                            ((*states, "--squeeze", "realistic"), "newtons"),
-                            (("--min-quality", "0.1"), "--export-states")):
+                            ((*states, "--trials", "2"), "--trials: cannot be used with"),
+                            ((*states, "--plan", "p.json"), "--plan: cannot be used with"),
+                            ((*states, "--grasp-force", "realistic"), "--grasp-force realistic: cannot be used"),
+                            (("--export-states", "min-quality=0.1"), "the number of states is required")):
             self.assert_refused(2, words, *self.arguments(*more))
         cube = ("--object", self.model("cube.obj"), "--mu", "0.8")
-        self.assert_refused(2, "needs a hand", *cube, *states)
+        self.assert_refused(2, "--export-states: requires --hand", *cube, *states)
         self.assert_refused(2, "planar object", "--object", self.model("square.wkt"), "--mu", "0.8",
                             "--hand", self.model("hands/ring5.json"), *states)
         self.assert_refused(2, "friction", *cube[:2], "--hand", self.model("hands/ring5.json"),
                             *states)
-        self.assert_refused(2, "--seed goes with --trials or --export-states", "--object",
+        self.assert_refused(2, "--seed: requires --trials or --export-states", "--object",
                             self.model("cube.obj"), "--plan", "p.json", "--seed", "1")
 
 

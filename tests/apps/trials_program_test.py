@@ -1,4 +1,4 @@
-"""validate --trials and --align from the shell: repetition, output, and invalid input."""
+"""validate --trials and --replay align from the shell: repetition, output, and invalid input."""
 
 import json
 import os
@@ -14,8 +14,8 @@ class Trials(ProgramCase):
     def arguments(self, *more):
         plan = os.path.join(program_case.ARGUMENTS.source, "tests/data/plans/plan_good",
                             "cube_switches_and_align.json")
-        return ["--object", self.model("cube.obj"), "--plan", plan, "--out", "result",
-                "--no-frames", *more]
+        return ["--object", self.model("cube.obj"), "--plan", plan, "--output", "result",
+                "--frames", "none", *more]
 
     def run_trials(self, *more, code=0):
         done = self.run_program(*self.arguments(*more))
@@ -24,7 +24,7 @@ class Trials(ProgramCase):
 
     def test_without_noise_all_trials_pass(self):
         done, report = self.run_trials(
-            "--trials", "3", "--position-noise", "0", "--friction-error", "0", "--mass-error", "0")
+            "--trials", "3", "--noise", "position=0,friction=0,mass=0")
         trials = report["trials"]
         self.assertEqual((trials["count"], trials["passed"], trials["share"]), (3, 3, 1))
         self.assertEqual((trials["reasons"], trials["steps"]), ({}, []))
@@ -34,7 +34,7 @@ class Trials(ProgramCase):
         self.assertIn("trials: 3 of 3 pass: 100 %", done.stdout)
         self.assertEqual(done.stdout.splitlines()[-1], "verdict: pass in 3 of 3 trials")
 
-    NOISE = ("--trials", "12", "--seed", "5", "--position-noise", "0.1", "--friction-error", "0.6")
+    NOISE = ("--trials", "12", "--seed", "5", "--noise", "position=0.1,friction=0.6")
 
     def test_with_much_noise_some_fail_and_with_them_the_plan(self):
         done, report = self.run_trials(*self.NOISE, code=1)
@@ -62,7 +62,7 @@ class Trials(ProgramCase):
         _, report = self.run_trials(*self.NOISE, code=1)
         passed = report["trials"]["passed"]
         for rate, code in ((passed / 12, 0), (passed / 12 + 1e-9, 1), (1e-6, 0), (1, 1)):
-            done, report = self.run_trials(*self.NOISE, "--min-pass-rate", repr(rate), code=code)
+            done, report = self.run_trials(*self.NOISE, "--trials", f"min-pass-rate={rate!r}", code=code)
             self.assertEqual(report["verdict"], "fail" if code else "pass")
             self.assertEqual(report["trials"]["min_pass_rate"], rate)
             last = done.stdout.splitlines()[-1]
@@ -73,7 +73,7 @@ class Trials(ProgramCase):
             else:
                 self.assertIn("verdict: fail, trials-failed", last)
                 self.assertNotIn("<strong>Pass", page)
-            quiet = self.run_program(*self.arguments(*self.NOISE, "--min-pass-rate", repr(rate),
+            quiet = self.run_program(*self.arguments(*self.NOISE, "--trials", f"min-pass-rate={rate!r}",
                                                      "--quiet"))
             self.assertEqual((quiet.returncode, "trials-failed" in quiet.stderr), (code, code == 1))
 
@@ -81,13 +81,13 @@ class Trials(ProgramCase):
         plan = self.arguments()[3]
         shutil.copy(plan, self.path("one.json"))
         shutil.copy(plan, self.path("two.json"))
-        files = ("--object", self.model("cube.obj"), "--plan", "one.json", "two.json", "--out",
-                 "batch", "--no-frames", *self.NOISE, "--junit", "junit.xml")
+        files = ("--object", self.model("cube.obj"), "--plan", "one.json", "two.json", "--output",
+                 "batch", "--frames", "none", *self.NOISE, "--junit", "junit.xml")
         with open(plan, encoding="utf-8") as file:
             self.write("plans.jsonl", json.dumps(json.load(file)) + "\n")
-        lines = ("--object", self.model("cube.obj"), "--plan", "plans.jsonl", "--out", "lines",
+        lines = ("--object", self.model("cube.obj"), "--plan", "plans.jsonl", "--output", "lines",
                  *self.NOISE)
-        for more, code in (((), 1), (("--min-pass-rate", "0.01"), 0)):
+        for more, code in (((), 1), (("--trials", "min-pass-rate=0.01"), 0)):
             said = []
             for _ in range(2):
                 done = self.run_program(*files, *more)
@@ -119,20 +119,20 @@ class Trials(ProgramCase):
         self.assertNotIn("trials", self.report())
 
     def test_refuses_trials_that_make_no_sense(self):
-        for option, value in [("--trials", "0"), ("--trials", "few"), ("--position-noise", "-1"),
-                              ("--friction-error", "1.5"), ("--mass-error", "nan"),
-                              ("--seed", "x"), ("--min-pass-rate", "0"),
-                              ("--min-pass-rate", "1.1"), ("--min-pass-rate", "nan")]:
+        for option, value in [("--trials", "0"), ("--trials", "few"), ("--noise", "position=-1"),
+                              ("--noise", "friction=1.5"), ("--noise", "mass=nan"),
+                              ("--seed", "x"), ("--trials", "min-pass-rate=0"),
+                              ("--trials", "min-pass-rate=1.1"), ("--trials", "min-pass-rate=nan")]:
             with self.subTest(option=option, value=value):
                 more = [] if option == "--trials" else ["--trials", "2"]
                 self.assert_refused(2, option, *self.arguments(*more, option, value))
-        self.assert_refused(2, "--trials", *self.arguments("--position-noise", "0.1"))
-        self.assert_refused(2, "--trials", *self.arguments("--min-pass-rate", "0.5"))
+        self.assert_refused(2, "--trials", *self.arguments("--noise", "position=0.1"))
+        self.assert_refused(2, "--trials", *self.arguments("--trials", "min-pass-rate=0.5"))
 
     def test_aligns_are_imitated_or_slid_as_asked(self):
         shares = {}
         for choice in ["imitate", "slide"]:
-            _, report = self.run_trials("--align", choice)
+            _, report = self.run_trials("--replay", "align=" + choice)
             self.assertEqual(report["settings"]["align"], choice)
             aligns = [step for step in report["steps"] if step["kind"] == "align"]
             self.assertTrue(aligns)
@@ -143,7 +143,7 @@ class Trials(ProgramCase):
         self.assertEqual(shares["imitate"]["imitated"], 1)
         _, usual = self.run_trials()
         self.assertEqual(usual["settings"]["align"], "imitate")
-        self.assert_refused(2, "--align", *self.arguments("--align", "fly"))
+        self.assert_refused(2, "--replay align", *self.arguments("--replay", "align=fly"))
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ class Validate(ProgramCase):
         self.write_plan()
 
     def test_a_terminal_is_told_what_is_done_from_the_first_moment(self):
-        arguments = self.arguments("--no-frames")
+        arguments = self.arguments("--frames", "none")
         done, shown = self.run_on_terminal(*arguments)
         self.assertEqual(done.returncode, 0, shown)
         self.assert_stages(shown, "reading ", "checking 6 facets", "preparing 6 faces",
@@ -50,7 +50,7 @@ class Validate(ProgramCase):
         self.write_json("plan.json", self.plan)
 
     def arguments(self, *more, **changes):
-        options = {"--object": self.model("cube.obj"), "--plan": "plan.json", "--out": "result"}
+        options = {"--object": self.model("cube.obj"), "--plan": "plan.json", "--output": "result"}
         options.update({"--" + key.replace("_", "-"): value for key, value in changes.items()})
         return [word for key, value in options.items() if value is not None
                 for word in (key, value)] + list(more)
@@ -90,7 +90,7 @@ class Validate(ProgramCase):
     def assert_fails(self, index, reason, *more, **changes):
         """Expect exit code 1 and this reason at this step; earlier steps pass and later steps are
         skipped."""
-        done = self.run_program(*self.arguments("--no-frames", *more, **changes))
+        done = self.run_program(*self.arguments("--frames", "none", *more, **changes))
         self.assertEqual(done.returncode, 1, done.stderr)
         report = self.report()
         verdicts = [step["verdict"] for step in report["steps"]]
@@ -125,13 +125,13 @@ class Validate(ProgramCase):
         self.assertEqual(done.stderr, "")
 
     def test_both_protocols_are_told_apart_and_the_adapted_one_decides(self):
-        done, report = self.assert_passes("--no-frames", protocol="both")
+        done, report = self.assert_passes("--frames", "none", protocol="both")
         self.assertIn("fixed_squeeze", done.stdout)
         for step in report["steps"]:
             self.assertEqual(set(step["protocols"]), {"adapted", "fixed"})
             self.assertEqual(step["simulation"]["motion_m"],
                              step["protocols"]["adapted"]["motion_m"])
-        done, report = self.assert_passes("--no-frames", protocol="both", shake="0.06")
+        done, report = self.assert_passes("--frames", "none", protocol="both", disturbance="0.06")
         disagreements = [step for step in report["steps"] if step["cause"]]
         self.assertTrue(disagreements)
         for step in disagreements:
@@ -141,20 +141,20 @@ class Validate(ProgramCase):
         self.assertIn("Likely cause", self.page_text())
         first = disagreements[0]["index"]
         failed = self.assert_fails(first, disagreements[0]["protocols"]["fixed"]["reason"],
-                                   protocol="fixed", shake="0.06")
+                                   protocol="fixed", disturbance="0.06")
         self.assertEqual(set(failed["steps"][first]["protocols"]), {"fixed"})
-        self.assertNotIn("fixed_squeeze", self.assert_passes("--no-frames")[0].stdout)
+        self.assertNotIn("fixed_squeeze", self.assert_passes("--frames", "none")[0].stdout)
         self.refuse('--protocol: expected one of adapted, fixed, both, found "loose"',
                     protocol="loose")
 
     def test_a_second_engine_judges_the_same_plan(self):
-        done, report = self.assert_passes("--no-frames", engine="ode")
+        done, report = self.assert_passes("--frames", "none", engine="ode")
         self.assertEqual(report["settings"]["engine"], "ode")
-        mujoco = self.assert_passes("--no-frames")[1]
+        mujoco = self.assert_passes("--frames", "none")[1]
         self.assertEqual(mujoco["settings"]["engine"], "mujoco")
         for one, other in zip(report["steps"], mujoco["steps"], strict=True):
             self.assertNotEqual(one["simulation"]["motion_m"], other["simulation"]["motion_m"])
-        done, both = self.assert_passes("--no-frames", engine="both")
+        done, both = self.assert_passes("--frames", "none", engine="both")
         self.assertIn(f"engines: MuJoCo and ODE agree on {len(both['steps'])} steps", done.stdout)
         for step, by_mujoco, by_ode in zip(both["steps"], mujoco["steps"], report["steps"],
                                            strict=True):
@@ -163,15 +163,15 @@ class Validate(ProgramCase):
             self.assertEqual(engines["mujoco"]["motion_m"], by_mujoco["simulation"]["motion_m"])
             self.assertEqual(engines["ode"]["motion_m"], by_ode["simulation"]["motion_m"])
         # A failure in one engine is a failure in the other, too.
-        failed = self.assert_fails(0, "contact-lost", engine="both", shake="0.6")
+        failed = self.assert_fails(0, "contact-lost", engine="both", disturbance="0.6")
         self.assertEqual(failed["steps"][0]["engines"]["ode"]["verdict"], "fail")
         self.assert_fails(0, failed["steps"][0]["engines"]["ode"]["reason"], engine="ode",
-                          shake="0.6")
+                          disturbance="0.6")
         self.refuse('--engine: expected one of mujoco, ode, both, found "bullet"', engine="bullet")
         self.refuse("--engine", "--engine")
 
     def test_stress_finds_the_largest_push_by_two_routes(self):
-        done, report = self.assert_passes("--no-frames", "--stress")
+        done, report = self.assert_passes("--frames", "none", "--disturbance", "limits")
         self.assertIn("largest resisted disturbance", done.stdout)
         self.assertIn("Largest disturbance", self.page_text())
         checked = 0
@@ -185,17 +185,17 @@ class Validate(ProgramCase):
         least = report["margins"]["stress"]
         self.assertEqual(least["replay"], min(push["replay"] for step in report["steps"]
                                               for push in step["stress"]))
-        self.assertNotIn("stress", self.assert_passes("--no-frames")[1]["steps"][0])
+        self.assertNotIn("stress", self.assert_passes("--frames", "none")[1]["steps"][0])
 
     def test_quiet_prints_nothing(self):
-        done, _ = self.assert_passes("--quiet", "--no-frames")
+        done, _ = self.assert_passes("--quiet", "--frames", "none")
         self.assertEqual(done.stdout + done.stderr, "")
 
     def test_a_failed_plan_prints_first_what_failed_why_and_help(self):
         contact = self.plan["initial"]["contacts"][0]
         contact["point"][0] += 0.004
         self.write_plan()
-        done = self.run_program(*self.arguments("--no-frames"))
+        done = self.run_program(*self.arguments("--frames", "none"))
         said = done.stdout.splitlines()
         self.assertRegex(said[0], r"^step 0 \(hold\) fails: off-surface: finger \d is 4 mm off the "
                                   r"surface$")
@@ -205,13 +205,13 @@ class Validate(ProgramCase):
         self.assertEqual(said[-1], "verdict: fail, " + said[0])
         self.assertEqual(said[-2], "files: result/report.html, report.json")
         self.assertNotIn("weakest", done.stdout)
-        quiet = self.run_program(*self.arguments("--no-frames", "--quiet"))
+        quiet = self.run_program(*self.arguments("--frames", "none", "--quiet"))
         self.assertEqual((quiet.returncode, quiet.stdout), (1, ""))
         self.assertTrue(quiet.stderr.startswith("validate: " + said[0]), quiet.stderr)
         self.assertEqual(quiet.stderr.count("\n"), 1)
 
     def test_terminal_quiet_page_report_and_junit_say_a_failure_in_the_same_words(self):
-        arguments = self.arguments("--no-frames", "--junit", "junit.xml", tolerance="1e-12")
+        arguments = self.arguments("--frames", "none", "--junit", "junit.xml", tolerance="1e-12")
         headline, why, mend = self.run_program(*arguments).stdout.splitlines()[:3]
         why, mend = why.removeprefix("  why: "), mend.removeprefix("  help: ")
         self.assertRegex(headline, r"slipped: finger \d slipped by [\d.]+ .m ")
@@ -227,41 +227,41 @@ class Validate(ProgramCase):
         self.assertEqual(quiet, f"validate: {headline}; why: {why}; help: {mend}\n")
 
     def test_the_friction_that_a_failed_plan_asks_for_passes_the_analytic_check(self):
-        done = self.run_program(*self.arguments("--no-frames", friction_angle="2"))
+        done = self.run_program(*self.arguments("--frames", "none", friction_angle="2"))
         self.assertEqual(done.returncode, 1)
         asked = re.search(r"--friction-angle (\S+) or --mu", done.stdout)[1]
-        self.run_program(*self.arguments("--no-frames", friction_angle=asked))
+        self.run_program(*self.arguments("--frames", "none", friction_angle=asked))
         step = self.report()["steps"][0]
         self.assertTrue(step["force_closure"]["holds"])
-        self.run_program(*self.arguments("--no-frames", friction_angle=str(float(asked) - 0.02)))
+        self.run_program(*self.arguments("--frames", "none", friction_angle=str(float(asked) - 0.02)))
         self.assertFalse(self.report()["steps"][0]["force_closure"]["holds"])
 
     def test_a_realistic_squeeze_is_what_a_hand_applies(self):
         weight = 0.216 * 9.81
-        done, report = self.assert_passes("--no-frames", squeeze="realistic")
+        done, report = self.assert_passes("--frames", "none", grasp_force="realistic")
         self.assertEqual(report["settings"]["squeeze_source"], "hand")
         self.assertLess(weight, report["settings"]["squeeze_N"])
         self.assertLess(report["settings"]["squeeze_N"], 50 * weight)
         self.assertIn("times the force that supports the weight", done.stdout)
-        report = self.assert_passes("--no-frames")[1]
+        report = self.assert_passes("--frames", "none")[1]
         self.assertEqual(report["settings"]["squeeze_source"], "shake")
         self.assertAlmostEqual(report["settings"]["squeeze_N"], 1000 * weight, places=6)
         # A hand drops an object of 50 kg, which the default grasp force of the disturbance test
         # holds.
-        self.assert_passes("--no-frames", mass="50")
-        heavy = ["--no-frames", "--mass", "50", "--squeeze", "realistic"]
+        self.assert_passes("--frames", "none", mass="50")
+        heavy = ["--frames", "none", "--mass", "50", "--grasp-force", "realistic"]
         done = self.run_program(*self.arguments(*heavy))
         self.assertEqual((done.returncode, self.report()["settings"]["squeeze_N"]), (1, 200))
         self.assertEqual(self.report()["steps"][0]["cause"]["cause"], "weight")
         self.assertIn("200 N, 0.4077 times the weight: largest grasp force of a hand", done.stdout)
 
     def test_says_how_large_and_heavy_the_object_is_and_warns_of_what_no_hand_holds(self):
-        done, _ = self.assert_passes("--no-frames")
+        done, _ = self.assert_passes("--frames", "none")
         self.assertIn("object: 10.4 cm across, 216 g\n", done.stdout)
         for scale, size in ((1000, "104 m across, 2.16e+08 kg"), (0.01, "1.04 mm across, 216 µg")):
             self.plan["object"]["scale"] = scale
             self.write_plan()
-            done = self.run_program(*self.arguments("--no-frames"))
+            done = self.run_program(*self.arguments("--frames", "none"))
             self.assertIn(f"object: {size}\n", done.stdout)
             self.assertRegex(done.stderr, f"validate: warning: the object is {re.escape(size)}.*"
                                           "--scale")
@@ -270,11 +270,11 @@ class Validate(ProgramCase):
         def replayed(scale, *options):
             self.plan["object"]["scale"] = scale
             self.write_plan()
-            done = self.run_program(*self.arguments("--no-frames", *options))
+            done = self.run_program(*self.arguments("--frames", "none", *options))
             self.assertIn(done.returncode, (0, 1), done.stderr)
             return done.returncode, self.report()["steps"]
 
-        for options, code in ((), 0), (("--shake", "0.6"), 1):
+        for options, code in ((), 0), (("--disturbance", "0.6"), 1):
             expected = replayed(1, *options)
             self.assertEqual(expected[0], code)
             for scale in (1e-6, 1e-4, 1e3, 1e6):
@@ -293,7 +293,7 @@ class Validate(ProgramCase):
                                         0.01 * moved + 1e-9)
 
     def test_a_plan_comes_by_standard_input_and_the_report_goes_to_standard_output(self):
-        arguments = self.arguments("--no-frames", "--json", "-", plan="-", out=None)
+        arguments = self.arguments("--frames", "none", "--json", "-", plan="-", output=None)
         done = subprocess.run(
             [os.path.join(program_case.ARGUMENTS.programs, "validate"), *arguments],
             input=json.dumps(self.plan), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -302,23 +302,23 @@ class Validate(ProgramCase):
         self.assertEqual(json.loads(done.stdout)["verdict"], "pass")
         self.assertEqual(done.stdout.encode(), self.read("out/plan/report.json"))
         # No plan there, and two plans.
-        self.refuse("validate: error: -: not valid JSON", plan="-", out="none")
-        self.refuse("--plan - goes with a single plan", "--plan", "plan.json", plan="-")
+        self.refuse("validate: error: -: not valid JSON", plan="-", output="none")
+        self.refuse("--plan -: requires a single plan", "--plan", "plan.json", plan="-")
 
     def test_a_failed_plan_is_on_standard_output_too_and_json_goes_to_files(self):
-        done = self.run_program(*self.arguments("--no-frames", "--json", "-", friction_angle="1"))
+        done = self.run_program(*self.arguments("--frames", "none", "--json", "-", friction_angle="1"))
         self.assertEqual((done.returncode, json.loads(done.stdout)["verdict"]), (1, "fail"))
-        self.assert_passes("--no-frames", json="copy.json")
+        self.assert_passes("--frames", "none", json="copy.json")
         self.assertEqual(self.read("copy.json"), self.read("result/report.json"))
 
     def test_the_folder_is_named_after_the_plan_where_none_is_given(self):
-        self.assert_done(*self.arguments("--no-frames", out=None))
+        self.assert_done(*self.arguments("--frames", "none", output=None))
         self.assertEqual(json.loads(self.read("out/plan/report.json"))["verdict"], "pass")
 
     def test_the_same_plan_gives_the_same_bytes(self):
         self.assert_passes(size="200x150")
         first = {name: self.read("result/" + name) for name in os.listdir(self.path("result"))}
-        self.assert_passes(size="200x150", out="again")
+        self.assert_passes(size="200x150", output="again")
         self.assertGreater(len(first), 3)
         for name, content in first.items():
             self.assertEqual(self.read("again/" + name), content, name)
@@ -328,7 +328,7 @@ class Validate(ProgramCase):
         self.write("result/017_align.png", b"of another")
         self.write("result/mine.png", b"kept")
         self.assertIn("000_hold.png", self.frames())
-        _, report = self.assert_passes("--no-frames")
+        _, report = self.assert_passes("--frames", "none")
         self.assertEqual(self.frames(), ["017_align.png", "mine.png"])
         self.assertTrue(all(step["frame"] is None for step in report["steps"]))
 
@@ -354,12 +354,12 @@ class Validate(ProgramCase):
         with open(path, "rb") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
             self.assert_refused(3, "result: process 7 on elsewhere is writing",
-                                *self.arguments("--no-frames"))
-        self.assert_passes("--no-frames")
+                                *self.arguments("--frames", "none"))
+        self.assert_passes("--frames", "none")
         self.assertFalse(os.path.exists(path))
 
     def test_start_and_goal_files_are_those_of_the_plan(self):
-        self.assert_passes("--no-frames", start=self.model("cube.start.json"),
+        self.assert_passes("--frames", "none", start=self.model("cube.start.json"),
                            goal=self.model("cube.goal.json"))
         self.assert_fails(0, "start-differs", start=self.model("cube.goal.json"))
         self.assert_fails(len(self.plan["steps"]), "goal-not-reached",
@@ -379,12 +379,12 @@ class Validate(ProgramCase):
                              daemon=True).start()
         pipes = {"object": "pipes/cube.obj", "plan": "pipes/plan.json",
                  "start": "pipes/start.json", "goal": "pipes/goal.json"}
-        _, report = self.assert_passes("--no-frames", **pipes)
+        _, report = self.assert_passes("--frames", "none", **pipes)
         plain = {name: path.replace("pipes", "files") for name, path in pipes.items()}
         os.mkdir(self.path("files"))
         for name, source in contents.items():
             shutil.copy(source, self.path("files/" + name))
-        _, again = self.assert_passes("--no-frames", **plain)
+        _, again = self.assert_passes("--frames", "none", **plain)
         self.assertEqual(report["object"], again["object"])
         self.assertEqual(report["plan"], again["plan"])
 
@@ -449,7 +449,7 @@ class Validate(ProgramCase):
 
     def test_measures_the_contact_region_of_a_switch_between_two_finger_grasps(self):
         square = self.write_planar_plan()
-        done, report = self.assert_passes("--no-frames", object=square)
+        done, report = self.assert_passes("--frames", "none", object=square)
         # The weaker grasp is 2 mm off the normal over 60 mm; contacts displaced by h each tilt the
         # line by 2 h more.
         expected = (0.06 * math.tan(math.radians(15)) - 0.002) / 2
@@ -468,7 +468,7 @@ class Validate(ProgramCase):
                 self.plan["steps"][0]["place"][0]["region"] = 0.02
                 self.plan["steps"][0]["place"][1]["region"] = claimed
                 self.write_plan()
-                done, report = self.assert_passes("--no-frames", object=square)
+                done, report = self.assert_passes("--frames", "none", object=square)
                 region = report["steps"][1]["region"]
                 self.assertEqual((region["claimed"], region["holds"]), (claimed, holds))
                 self.assertEqual(len(done.stderr.splitlines()), 0 if holds else 1)
@@ -489,7 +489,7 @@ class Validate(ProgramCase):
 
     def test_a_planar_plan_has_the_thickness_that_is_asked_for(self):
         square = self.write_planar_plan()
-        _, report = self.assert_passes("--no-frames", object=square, thickness="0.002",
+        _, report = self.assert_passes("--frames", "none", object=square, thickness="0.002",
                                        trajectory="fingers.csv", export_mjcf="scene.xml")
         self.assertEqual(report["settings"]["thickness_m"], 0.002)
         self.assertAlmostEqual(report["settings"]["mass_kg"], 0.0072)
@@ -522,14 +522,14 @@ class Validate(ProgramCase):
         suite = ElementTree.fromstring(self.read("junit.xml")).find("testsuite")
         self.assertEqual(suite.find("testcase/failure").get("message"), "not-proved")
         self.assertIn("not-proved", self.page_text())
-        self.run_program(*self.arguments("--no-frames", "--allow-undecided"))
+        self.run_program(*self.arguments("--frames", "none", "--allow", "undecided"))
         step = self.report()["steps"][1]
         self.assertTrue(step["force_closure"]["holds"])
         self.assertGreater(step["undecided"], 0)
         self.assertNotEqual(step["reason"], "not-proved")
 
     def test_junit_is_well_formed_and_has_a_case_for_each_step(self):
-        self.assert_passes("--no-frames", junit="junit.xml")
+        self.assert_passes("--frames", "none", junit="junit.xml")
         suite = ElementTree.fromstring(self.read("junit.xml")).find("testsuite")
         self.assertEqual(len(suite.findall("testcase")), len(self.plan["steps"]) + 1)
         self.assertEqual(suite.get("failures"), "0")
@@ -540,13 +540,13 @@ class Validate(ProgramCase):
         self.assertEqual(len(suite.findall("testcase/skipped")), len(self.plan["steps"]))
 
     def test_the_scene_is_exported_as_mjcf(self):
-        self.assert_passes("--no-frames", export_mjcf="scene.xml")
+        self.assert_passes("--frames", "none", export_mjcf="scene.xml")
         scene = ElementTree.fromstring(self.read("scene.xml"))
         self.assertEqual(scene.tag, "mujoco")
         self.assertIsNotNone(scene.find("worldbody/body"))
 
     def test_the_trajectory_has_a_row_for_each_finger_and_instant(self):
-        self.assert_passes("--no-frames", trajectory="fingers.csv")
+        self.assert_passes("--frames", "none", trajectory="fingers.csv")
         with open(self.path("fingers.csv"), encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertGreater(len(rows), 100)
@@ -604,13 +604,13 @@ class Validate(ProgramCase):
         name = "<b>&\"'</b><script>alert(1)</script>"  # a slash would be a folder
         name = name.replace("/", "")
         os.rename(self.path("plan.json"), self.path(name + ".json"))
-        self.assert_passes("--no-frames", plan=name + ".json")
+        self.assert_passes("--frames", "none", plan=name + ".json")
         page = self.page()
         self.assertEqual(page.find(f".//{XHTML}h1").text, name + ".json")
         self.assertEqual(page.findall(f".//{XHTML}script"), [])
         raw = os.fsencode(self.path("")) + b"\xff<.json"
         os.rename(self.path(name + ".json"), raw)
-        self.assert_passes("--no-frames", plan=os.fsdecode(raw))
+        self.assert_passes("--frames", "none", plan=os.fsdecode(raw))
         self.assertEqual(self.page().find(f".//{XHTML}h1").text, "\ufffd<.json")
 
     def test_a_browser_shows_the_report_page(self):
@@ -628,7 +628,7 @@ class Validate(ProgramCase):
         self.assertGreater(width, 2 * 320)
         self.assertGreater(height, 240)
         self.assertGreater(inked_rows(sheet), height // 2)
-        self.assert_passes("--no-frames")
+        self.assert_passes("--frames", "none")
         self.assertFalse(os.path.exists(self.path("result/overview.png")))
 
     # Single grasp.
@@ -662,7 +662,7 @@ class Validate(ProgramCase):
             {"point": [-0.03, 0.0], "normal": [1, 0]}]}
         self.write_json("grasp.json", grasp)
         angle = math.degrees(math.atan2(0.004, 0.06))
-        _, report = self.assert_passes("--no-frames", object=self.model("square.wkt"), plan=None,
+        _, report = self.assert_passes("--frames", "none", object=self.model("square.wkt"), plan=None,
                                        grasp="grasp.json", mu="0.3")
         fingers = report["grasp"]["fingers"]
         self.assertEqual(len(fingers), 2)
@@ -674,7 +674,7 @@ class Validate(ProgramCase):
         self.assertAlmostEqual(report["settings"]["mu"], 0.3)
 
     def test_fails_a_single_grasp_that_is_not_force_closure(self):
-        done = self.run_program(*self.arguments("--no-frames",
+        done = self.run_program(*self.arguments("--frames", "none",
                                                 **self.grasp_arguments(friction_angle="4")))
         self.assertEqual(done.returncode, 1, done.stderr)
         report = self.report()
@@ -709,7 +709,7 @@ class Validate(ProgramCase):
         self.refuse("--friction-angle", **self.grasp_arguments(friction_angle=None))
         self.refuse("--start", **self.grasp_arguments(start=self.model("cube.start.json")))
         self.refuse("--goal", **self.grasp_arguments(goal=self.model("cube.start.json")))
-        self.refuse("--allow-object-change", "--allow-object-change", **self.grasp_arguments())
+        self.refuse("--allow object-change", "--allow", "object-change", **self.grasp_arguments())
         self.refuse("--grasp", plan=None)
 
     # Proofs.
@@ -717,7 +717,7 @@ class Validate(ProgramCase):
     def test_a_hand_may_have_many_more_fingers_than_touch(self):
         self.plan["fingers"] = 64
         self.write_plan()
-        _, report = self.assert_passes("--no-frames")
+        _, report = self.assert_passes("--frames", "none")
         # Result is independent of the finger numbers.
         grasps = [self.plan["initial"]["contacts"]]
         for step in self.plan["steps"]:
@@ -726,23 +726,23 @@ class Validate(ProgramCase):
         for contact in sum(grasps, []):
             contact["finger"] = 63 - 9 * contact["finger"]
         self.write_plan()
-        _, renumbered = self.assert_passes("--no-frames")
+        _, renumbered = self.assert_passes("--frames", "none")
         for before, after in zip(report["steps"], renumbered["steps"]):
             self.assertAlmostEqual(before["simulation"]["displacement_m"],
                                    after["simulation"]["displacement_m"], delta=1e-6)
 
     def test_proofs_in_the_report_hold_exactly(self):
-        _, report = self.assert_passes("--certificates", "--no-frames")
+        _, report = self.assert_passes("--certificates", "--frames", "none")
         self.assertEqual(len(report["steps"]), len(self.plan["steps"]) + 1)
         self.assertTrue(all("forces" in step["proof"]["rest"] for step in report["steps"]))
-        done = self.assert_done(*self.arguments(verify="result/report.json", out=None))
+        done = self.assert_done(*self.arguments(verify="result/report.json", output=None))
         entries = len(report["steps"])
         self.assertIn(f"{entries} of {entries} entries proved", done.stdout)
         self.assertIn("\nproved: contacts on the surface", done.stdout)
 
     def test_proofs_at_another_friction_prove_nothing_about_the_plan(self):
-        _, report = self.assert_passes("--certificates", "--no-frames", friction_angle="40")
-        at_40 = self.arguments(verify="result/report.json", out=None)
+        _, report = self.assert_passes("--certificates", "--frames", "none", friction_angle="40")
+        at_40 = self.arguments(verify="result/report.json", output=None)
         self.refuse(["report.json: /settings/friction_half_angle_deg: expected 20° as of the plan", "found 40°"],
                     verify="result/report.json")
         self.refuse(["expected 30°", "found 40°"], verify="result/report.json",
@@ -755,7 +755,7 @@ class Validate(ProgramCase):
         self.refuse("found 40°", verify="forged.json")
         report["settings"]["friction_half_angle_deg"] = 1
         self.forge(report)
-        done = self.run_program(*self.arguments(verify="forged.json", out=None))
+        done = self.run_program(*self.arguments(verify="forged.json", output=None))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("\n0 of", done.stdout)
 
@@ -769,7 +769,7 @@ class Validate(ProgramCase):
     def assert_not_proved(self, report, entry, words):
         """Expect that the plan is not proved, although all proofs of the report are valid."""
         self.forge(report)
-        done = self.run_program(*self.arguments(verify="forged.json", out=None))
+        done = self.run_program(*self.arguments(verify="forged.json", output=None))
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         line = done.stdout.splitlines()[entry]
         self.assertTrue(line.startswith(f"{entry} "), done.stdout)
@@ -777,7 +777,7 @@ class Validate(ProgramCase):
         self.assertIn(f"\nnot proved: the plan fails the analytic check in entry {entry}\n", done.stdout)
 
     def test_proofs_do_not_make_up_for_a_plan_that_is_none(self):
-        _, report = self.assert_passes("--certificates", "--no-frames")
+        _, report = self.assert_passes("--certificates", "--frames", "none")
         good = copy.deepcopy(self.plan)
         last = len(good["steps"])
 
@@ -800,8 +800,8 @@ class Validate(ProgramCase):
         self.assert_not_proved(report, 1, "too-many-fingers")
         self.plan = good
         self.forge(report)
-        self.assert_done(*self.arguments(verify="forged.json", out=None))
-        done = self.run_program(*self.arguments(verify="forged.json", out=None,
+        self.assert_done(*self.arguments(verify="forged.json", output=None))
+        done = self.run_program(*self.arguments(verify="forged.json", output=None,
                                                 start=self.model("cube.goal.json")))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("0 hold  at fault: start-differs", done.stdout)
@@ -818,25 +818,25 @@ class Validate(ProgramCase):
         self.plan["steps"] = [{"kind": "align", "waypoints": [grasp(0.01), grasp(0)]}]
         self.plan["goal"] = grasp(0)
         self.write_plan()
-        _, report = self.assert_passes("--certificates", "--no-frames")
+        _, report = self.assert_passes("--certificates", "--frames", "none")
         # The same forces are a proof for the same grasp at another height.
         self.plan["initial"] = grasp(0.005)
         self.assert_not_proved(report, 1, "discontinuous")
 
     def test_proofs_that_were_tampered_with_prove_nothing(self):
-        _, report = self.assert_passes("--certificates", "--no-frames")
+        _, report = self.assert_passes("--certificates", "--frames", "none")
         # Change all forces, because the exact balance could compensate the error of one with the
         # others.
         forces = report["steps"][1]["proof"]["rest"]["forces"]
         forces[:] = [[-x for x in force] for force in forces]
         self.write_json("tampered.json", report)
-        done = self.run_program(*self.arguments(verify="tampered.json", out=None))
+        done = self.run_program(*self.arguments(verify="tampered.json", output=None))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("1 switch  not proved", done.stdout)
         self.assertIn("\nnot proved: not every entry", done.stdout)
         del report["steps"][1:]
         self.write_json("tampered.json", report)
-        done = self.run_program(*self.arguments(verify="tampered.json", out=None))
+        done = self.run_program(*self.arguments(verify="tampered.json", output=None))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("1 switch  not proved: the report has no proof", done.stdout)
 
@@ -844,7 +844,7 @@ class Validate(ProgramCase):
         report = self.assert_fails(0, "not-force-closure", "--certificates", friction_angle="2")
         self.assertTrue(set(report["steps"][0]["proof"]["rest"]) & {"twist", "line"})
         self.assertNotIn("proof", report["steps"][1])
-        done = self.run_program(*self.arguments(verify="result/report.json", out=None,
+        done = self.run_program(*self.arguments(verify="result/report.json", output=None,
                                                 friction_angle="2"))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("0 hold  refuted", done.stdout)
@@ -866,7 +866,7 @@ class Validate(ProgramCase):
         solid, aligns = self.write_plan_with_align()
         for index in aligns:
             self.assertIn("certificate", self.plan["steps"][index])
-        done, report = self.assert_passes("--certificates", "--no-frames", object=solid)
+        done, report = self.assert_passes("--certificates", "--frames", "none", object=solid)
         self.assertEqual(done.stderr, "")
         for index, step in enumerate(report["steps"]):
             expected = "holds" if index - 1 in aligns else None
@@ -874,7 +874,7 @@ class Validate(ProgramCase):
         for index in aligns:
             self.assertEqual(report["steps"][index + 1]["proof"]["ways"],
                              self.plan["steps"][index]["certificate"])
-        self.assert_done(*self.arguments(object=solid, verify="result/report.json", out=None))
+        self.assert_done(*self.arguments(object=solid, verify="result/report.json", output=None))
 
     def test_warns_of_a_certificate_that_does_not_hold_and_still_passes(self):
         solid, aligns = self.write_plan_with_align()
@@ -882,13 +882,13 @@ class Validate(ProgramCase):
         for force in self.plan["steps"][index]["certificate"][0][0]["start"]:
             force[:] = [-x for x in force]
         self.write_plan()
-        done, report = self.assert_passes("--certificates", "--no-frames", object=solid)
+        done, report = self.assert_passes("--certificates", "--frames", "none", object=solid)
         self.assertEqual(report["steps"][index + 1]["certificate"], "does-not-hold")
         self.assertEqual(len(done.stderr.splitlines()), 1)
         self.assertIn(f"warning: step {index + 1}: the plan's certificate is not valid: from "
                       "waypoint 0 on, the force at contact", done.stderr)
         # The report has its own proof.
-        self.assert_done(*self.arguments(object=solid, verify="result/report.json", out=None))
+        self.assert_done(*self.arguments(object=solid, verify="result/report.json", output=None))
 
     def test_refuses_a_certificate_that_is_none(self):
         solid, aligns = self.write_plan_with_align()
@@ -901,7 +901,7 @@ class Validate(ProgramCase):
         self.refuse(["plan.json", place, "expected a JSON array"], object=solid)
 
     def test_refuses_reports_that_cannot_be_verified(self):
-        _, report = self.assert_passes("--no-frames")
+        _, report = self.assert_passes("--frames", "none")
         self.refuse("proofs not found", verify="result/report.json")
         self.refuse("no such file", verify="nothing.json")
         report["plan"]["sha256"] = "0" * 64
@@ -956,7 +956,7 @@ class Validate(ProgramCase):
         self.assert_fails(len(self.plan["steps"]), "goal-not-reached")
 
     def test_fails_friction_below_what_the_plan_needs(self):
-        _, report = self.assert_passes("--no-frames")
+        _, report = self.assert_passes("--frames", "none")
         angles = [step["force_closure"]["required_half_angle_deg"] for step in report["steps"]]
         index = next(i for i, angle in enumerate(angles) if angle > 0.9 * max(angles))
         self.assert_fails(index, "not-force-closure", friction_angle=str(0.9 * max(angles)))
@@ -979,7 +979,7 @@ class Validate(ProgramCase):
         with open(other, "a", encoding="utf-8") as file:
             file.write("# another byte\n")
         self.refuse(["plan.json", "sha256", "other.obj"], object=other)
-        self.assert_passes("--no-frames", "--allow-object-change", object=other)
+        self.assert_passes("--frames", "none", "--allow", "object-change", object=other)
 
     def test_refuses_plans_that_cannot_be_read(self):
         text = json.dumps(self.plan)
@@ -1030,25 +1030,25 @@ class Validate(ProgramCase):
         self.refuse("--friction-angle", friction_angle="20", mu="0.3")
         self.refuse("--mu", mu="0")
         self.refuse("--mass", mass="1", density="1000")
-        self.refuse("--squeeze", squeeze="-1")
+        self.refuse("--grasp-force", grasp_force="-1")
         self.refuse("--tolerance", tolerance="nan")
         self.refuse("--plan", plan=None)
         self.refuse("--unknown", "--unknown")
 
     def test_accepts_the_scale_of_the_plan(self):
-        self.assert_passes("--no-frames", scale="1")
+        self.assert_passes("--frames", "none", scale="1")
 
     def test_says_when_the_folder_cannot_be_written(self):
         self.write("file", "in the way")
-        self.refuse("file", code=3, out="file/result")
-        self.refuse("file", code=3, out="file")
-        done = self.run_program(*self.arguments("--no-frames", junit="nowhere/junit.xml"))
+        self.refuse("file", code=3, output="file/result")
+        self.refuse("file", code=3, output="file")
+        done = self.run_program(*self.arguments("--frames", "none", junit="nowhere/junit.xml"))
         self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1), done.stderr)
         self.assertIn("nowhere", done.stderr)
 
     def test_help_names_units_and_version_names_the_program(self):
         text = self.assert_done("--help").stdout
-        for word in ["kg", "newtons", "degrees", "pixels", "diameters", "--squeeze"]:
+        for word in ["kg", "newtons", "degrees", "pixels", "diameters", "--grasp-force"]:
             self.assertIn(word, text)
         self.assertIn("validate", self.assert_done("--version").stdout)
 

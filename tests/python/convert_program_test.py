@@ -35,7 +35,8 @@ class ConvertProgramTest(RegraspCase):
                               ("fish", lambda name: f" -l {name[2:]} "), ("markdown", lambda n: f"- `{n}")]:
             text = run("--help-as", kind).stdout
             for name in OPTIONS:
-                self.assertIn(written(name), text, kind)
+                general = kind == "markdown" and name in ("--help", "--version")
+                self.assertEqual(written(name) in text, not general, (kind, name))
             self.assertNotIn("help-as", text)
         self.assertIn("regrasp-convert", run("--help").stdout)
 

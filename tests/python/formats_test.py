@@ -35,7 +35,7 @@ class FormatsTest(RegraspCase):
         cls.addClassCleanup(cls.shared.cleanup)
         cls.plan = os.path.join(cls.shared.name, "plan.json")
         subprocess.run([f"{PROGRAMS}/plan", "--hand", HAND, "--object", CUBE, "--mu", "0.8",
-                        "--turn", "z 30", "--output", cls.plan, "--quiet"], check=True)
+                        "--turn", "z,30", "--output", cls.plan, "--quiet"], check=True)
         cls.hand = regrasp.Hand.read(HAND)
         cls.cube = regrasp.Object.read(CUBE)
         cls.grasps = formats.of_plan(cls.plan, cls.hand)
@@ -417,7 +417,7 @@ class FormatsTest(RegraspCase):
                             fingers, "--output", self.path("a.npz"))
         self.assertEqual(said, "regrasp-convert: note: not converted: palm and joints\n")
         done = subprocess.run([f"{PROGRAMS}/validate", "--object", CUBE, "--grasps",
-                               self.path("a.npz"), "--mu", "0.8", "--out", self.path("out")],
+                               self.path("a.npz"), "--mu", "0.8", "--output", self.path("out")],
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         # All fingers in contact are used; the verdicts are the same.
@@ -428,7 +428,7 @@ class FormatsTest(RegraspCase):
         margins = []
         for name in ("a.npz", "b.npz"):
             subprocess.run([f"{PROGRAMS}/validate", "--object", CUBE, "--grasps", self.path(name),
-                            "--mu", "0.8", "--out", self.path("out"), "--quiet"], check=True)
+                            "--mu", "0.8", "--output", self.path("out"), "--quiet"], check=True)
             with np.load(self.path("out/verdicts.npz")) as verdicts:
                 margins.append(verdicts["margin"])
         np.testing.assert_array_equal(*margins)

@@ -35,7 +35,7 @@ class GraspFilesTest(RegraspCase):
         before = os.path.exists(self.path("out/verdicts.npz"))
         done = subprocess.run(
             [f"{PROGRAMS}/validate", "--object", object, "--grasps", self.path("grasps.npz"),
-             "--out", self.path("out"), *options], capture_output=True, text=True, check=False)
+             "--output", self.path("out"), *options], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, code, done.stderr)
         if code == 2:
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
@@ -46,7 +46,7 @@ class GraspFilesTest(RegraspCase):
             return {name: verdicts[name] for name in verdicts}
 
     def test_verdicts_are_those_of_the_module(self):
-        found = self.judge("--mu", "0.5", "--required-angle", code=1, points=self.points,
+        found = self.judge("--mu", "0.5", "--compute", "required-angle", code=1, points=self.points,
                            normals=self.normals)
         expected = regrasp.force_closure(self.points, self.normals, mu=0.5, required_angle=True)
         self.assertEqual(found["valid"].dtype, bool)
@@ -60,7 +60,7 @@ class GraspFilesTest(RegraspCase):
         self.assertEqual(set(words[~found["valid"]]), {"not-force-closure"})
 
     def test_verdicts_are_those_on_single_grasps(self):
-        found = self.judge("--mu", "0.5", "--quality", code=1, points=self.points[:12],
+        found = self.judge("--mu", "0.5", "--compute", "quality", code=1, points=self.points[:12],
                            normals=self.normals[:12])
         for i in range(12):
             report = self.report_of(self.points[i], self.normals[i], "--mu", "0.5")
@@ -74,7 +74,7 @@ class GraspFilesTest(RegraspCase):
         self.assertEqual(found["format_version"], 2)
         self.assertNotIn("holds", found)
         np.testing.assert_array_equal(found["valid"], found["is_force_closure"])
-        replayed = self.judge("--mu", "0.4", "--shake", "0.02", "--replay", "points", code=1, points=points,
+        replayed = self.judge("--mu", "0.4", "--disturbance", "0.02", "--replay", "points", code=1, points=points,
                               normals=normals)
         np.testing.assert_array_equal(replayed["is_force_closure"], found["is_force_closure"])
         lost = replayed["is_force_closure"] & ~replayed["valid"]
@@ -164,7 +164,7 @@ class GraspFilesTest(RegraspCase):
         chosen = np.flatnonzero(self.judge("--mu", "0.4", code=1, points=self.points)["valid"])[:12]
         points, normals = self.points[chosen], self.normals[chosen]
         points[3, 1] += 1
-        options = ["--mu", "0.4", "--shake", "0.02"]
+        options = ["--mu", "0.4", "--disturbance", "0.02"]
         found = self.judge(*options, "--replay", "points", code=1, points=points, normals=normals)
         words = found["reasons"][found["reason"].astype(int)]
         self.assertEqual(words[3], "off-surface")
@@ -182,7 +182,7 @@ class GraspFilesTest(RegraspCase):
         with open(self.path("grasp.json"), "w", encoding="utf-8") as file:
             json.dump({"format": "regrasp-grasp", "version": 1, "contacts": contacts}, file)
         subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--grasp",
-                        self.path("grasp.json"), "--no-frames", "--quiet", "--out",
+                        self.path("grasp.json"), "--frames", "none", "--quiet", "--output",
                         self.path("single"), *options], check=False, capture_output=True)
         with open(self.path("single/report.json"), encoding="utf-8") as file:
             return json.load(file)
@@ -240,7 +240,7 @@ class GraspFilesTest(RegraspCase):
                 (["active", "(400, 4)", "(400, 3)"], [],
                  {"points": self.points, "active": np.ones((400, 3), bool)}),
                 (["--replay hand", "plan"], ["--replay", "hand"], {"points": self.points}),
-                (["--shake", "--replay points"], ["--shake", "0.1"], {"points": self.points}),
+                (["--disturbance", "--replay points"], ["--disturbance", "0.1"], {"points": self.points}),
                 (["--trajectory", "--grasps"], ["--trajectory", self.path("t.csv")],
                  {"points": self.points})]:
             said = self.judge("--mu", "0.5", *options, code=2, **arrays)

@@ -25,7 +25,7 @@ class HandsTest(RegraspCase):
     def test_a_plan_for_a_hand_and_its_validation_are_those_of_the_programs(self):
         plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 30))
         command = [f"{PROGRAMS}/plan", "--object", "models/cube.obj", "--hand",
-                   "models/hands/ring4.json", "--mu", "0.8", "--turn", "z 30", "--quiet",
+                   "models/hands/ring4.json", "--mu", "0.8", "--turn", "z,30", "--quiet",
                    "--output", self.path("plan.json")]
         subprocess.run(command, check=True)
         with open(self.path("plan.json"), encoding="utf-8") as file:
@@ -33,7 +33,7 @@ class HandsTest(RegraspCase):
         for replay in ("points", "hand"):
             subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--plan",
                             self.path("plan.json"), "--hand", "models/hands/ring4.json", "--replay",
-                            replay, "--size", "320x240", "--out", self.path(replay), "--quiet"],
+                            replay, "--size", "320x240", "--output", self.path(replay), "--quiet"],
                            check=False, capture_output=True)
             with open(self.path(f"{replay}/report.json"), encoding="utf-8") as file:
                 told = json.load(file)

@@ -151,12 +151,12 @@ class HidexTest(RegraspCase):
         said = self.convert(path, "--object", CUBE, "--mu", "0.9", "--output", self.path("plan.json"))
         self.assertEqual(said, "regrasp-convert: note: not converted: the object's poses\n")
         done = subprocess.run([f"{PROGRAMS}/validate", "--object", CUBE, "--plan",
-                               self.path("plan.json"), "--no-frames", "--out", self.path("out")],
+                               self.path("plan.json"), "--frames", "none", "--output", self.path("out")],
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.convert(path, "--object", CUBE, "--output", self.path("grasps.npz"))
         subprocess.run([f"{PROGRAMS}/validate", "--object", CUBE, "--grasps", self.path("grasps.npz"),
-                        "--mu", "0.9", "--out", self.path("out"), "--quiet"], check=True)
+                        "--mu", "0.9", "--output", self.path("out"), "--quiet"], check=True)
         with np.load(self.path("out/verdicts.npz")) as verdicts:
             self.assertEqual(list(verdicts["valid"]), [True] * 3)
         for words, arguments in [(["--mu"], [path, "--object", CUBE, "--output", "x.json"]),

@@ -303,9 +303,9 @@ class McapTest(RegraspCase):
     def test_the_program_goes_from_plan_and_trajectory_to_mcap(self):
         plan, trajectory = self.path("plan.json"), self.path("t.npz")
         subprocess.run([f"{PROGRAMS}/plan", "--hand", HAND, "--object", CUBE, "--mu", "0.8", "--turn",
-                        "z 30", "--output", plan, "--quiet"], check=True)
+                        "z,30", "--output", plan, "--quiet"], check=True)
         subprocess.run([f"{PROGRAMS}/validate", "--hand", HAND, "--object", CUBE, "--plan", plan,
-                        "--trajectory", trajectory, "--out", self.path("out"), "--no-frames",
+                        "--trajectory", trajectory, "--output", self.path("out"), "--frames", "none",
                         "--quiet"], check=True)
         self.assertIn("no times", self.convert(plan, "--hand", HAND, "--output", self.path("p.mcap")))
         self.assertEqual("", self.convert(trajectory, "--output", self.path("t.mcap")))

@@ -47,7 +47,7 @@ class PlansTest(RegraspCase):
     def test_the_report_says_what_the_program_says(self):
         self.plan.write(self.path("plan.json"))
         subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--plan",
-                        self.path("plan.json"), "--out", self.path("out"), "--no-frames",
+                        self.path("plan.json"), "--output", self.path("out"), "--frames", "none",
                         "--quiet"], check=True)
         with open(self.path("out/report.json"), encoding="utf-8") as file:
             told = json.load(file)
@@ -125,8 +125,8 @@ class PlansTest(RegraspCase):
         body.write(self.path("octahedron.obj"))
         plan.write(self.path("plan.json"))
         done = subprocess.run([f"{PROGRAMS}/validate", "--object", self.path("octahedron.obj"),
-                               "--plan", self.path("plan.json"), "--out", self.path("out"),
-                               "--no-frames", "--quiet"], check=False)
+                               "--plan", self.path("plan.json"), "--output", self.path("out"),
+                               "--frames", "none", "--quiet"], check=False)
         self.assertEqual(done.returncode == 0, regrasp.validate(body, plan).passed)
 
     def test_a_plan_that_is_broken_fails_with_the_reason(self):
@@ -140,7 +140,7 @@ class PlansTest(RegraspCase):
     def test_frames_are_the_pictures_of_the_program(self):
         self.plan.write(self.path("plan.json"))
         subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--plan",
-                        self.path("plan.json"), "--out", self.path("out"), "--size", "320x240",
+                        self.path("plan.json"), "--output", self.path("out"), "--size", "320x240",
                         "--quiet"], check=True)
         report = regrasp.validate(self.cube, self.plan)
         frames = report.frames((320, 240))
@@ -172,7 +172,7 @@ class PlansTest(RegraspCase):
         regrasp.validate(self.cube, self.plan).frames((320, 240))
         self.plan.write(self.path("plan.json"))
         subprocess.run([f"{PROGRAMS}/figure", "--object", "models/cube.obj", "--plan",
-                        self.path("plan.json"), "--out", self.path("figures"), "--quiet"], check=True)
+                        self.path("plan.json"), "--output", self.path("figures"), "--quiet"], check=True)
         with open(self.path("figures/sheet.svg"), encoding="utf-8") as file:
             self.assertEqual(self.plan.figure(), file.read())
         self.assertIn("data:image/svg+xml", self.plan._repr_html_())

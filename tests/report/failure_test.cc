@@ -69,8 +69,8 @@ TEST(Failure, OfAPlanWhoseStepsPassAreTheTrialsThatFail) {
   EXPECT_FALSE(failure->entry.valid());
   EXPECT_EQ(failure->headline(),
             "trials-failed: 6 of 20 trials with noise fail: 6 slipped; first in step 1: 6");
-  EXPECT_EQ(failure->why, "14 of 20 trials pass (70 %), --min-pass-rate requires 100 %");
-  EXPECT_THAT(failure->mend, Not(HasSubstr("--min-pass-rate"))) << "loosens the test";
+  EXPECT_EQ(failure->why, "14 of 20 trials pass (70 %), --trials min-pass-rate requires 100 %");
+  EXPECT_THAT(failure->mend, Not(HasSubstr("min-pass-rate"))) << "loosens the test";
   EXPECT_EQ(VerdictHeadline(report), failure->headline());
   EXPECT_EQ(HeadingText(report),
             "FAIL: 6 of 20 trials with noise fail: 6 slipped; first in step 1: 6");
@@ -127,7 +127,7 @@ TEST(Failure, OfAReplayGoesByTheLikelyCause) {
   const auto failure = DescribeFailure(report);
   EXPECT_EQ(failure->what, "finger 2 slipped");
   EXPECT_THAT(failure->why, EndsWith("; likely cause: too heavy"));
-  EXPECT_THAT(failure->mend, HasSubstr("--squeeze"));
+  EXPECT_THAT(failure->mend, HasSubstr("--grasp-force"));
   EXPECT_NE(failure->mend, unknown);
 }
 
@@ -148,7 +148,7 @@ TEST(Failure, DoesNotSuggestALooserTest) {
   EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("more friction"));
   EXPECT_THAT(SqueezeText(*report.settings), Not(HasSubstr("the disturbance")));
   report.settings->shake = 0.01;
-  for (const char* looser : {"--shake", "--tolerance"}) {
+  for (const char* looser : {"--disturbance", "--tolerance"}) {
     EXPECT_THAT(DescribeFailure(report)->mend, Not(HasSubstr(looser)));
   }
   EXPECT_THAT(SqueezeText(*report.settings), HasSubstr("the weight is 10 % of the disturbance"));

@@ -167,9 +167,9 @@ TEST(ReportTest, TheTableSaysHowLargeAndHeavyTheObjectIsAndWhyTheSqueezeIsWhatIt
   const std::string usual = FormatReportTable(report);
   EXPECT_THAT(usual, HasSubstr("object: 10.4 cm across, 216 g\n"));
   EXPECT_THAT(usual, HasSubstr("grasp force: 2119 N, 1000 times the weight: default"));
-  EXPECT_THAT(usual, HasSubstr("--squeeze realistic"));
+  EXPECT_THAT(usual, HasSubstr("--grasp-force realistic"));
   report.settings->squeeze_source = sim::SqueezeSource::kHand;
-  EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("--squeeze realistic")));
+  EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("--grasp-force realistic")));
 }
 
 Report Validated(const sim::CubeCase& cube, const plan::Plan& plan,

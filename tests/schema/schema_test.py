@@ -209,7 +209,7 @@ class SchemaTest(unittest.TestCase):
             in_hand = pathlib.Path(folder) / "in_hand.json"
             self.run_program(
                 "plan", "--object", cube, "--scale", 0.8, "--mu", 0.8, "--output", in_hand, "--hand",
-                source("models/hands/ring4.json"), "--turn", "z 100",
+                source("models/hands/ring4.json"), "--turn", "z,100",
             )
             self.expect_valid("plan", [in_hand])
             self.assertIn("move", [step["kind"] for step in validate_schema.load(in_hand)["steps"]])
@@ -232,7 +232,7 @@ class SchemaTest(unittest.TestCase):
                 out = pathlib.Path(folder) / verdict
                 self.run_program(
                     "validate", "--object", source("models/cube.obj"), "--plan", plan_file,
-                    "--out", out, "--no-frames", "--allow-object-change", code=code,
+                    "--output", out, "--frames", "none", "--allow", "object-change", code=code,
                 )
                 self.expect_valid("report", [out / "report.json"])
                 report = validate_schema.load(out / "report.json")
@@ -252,8 +252,8 @@ class SchemaTest(unittest.TestCase):
             )
             # A shake that adapted forces resist and a fixed squeeze does not.
             self.run_program(
-                "validate", "--object", cube, "--plan", plan, "--out", out, "--no-frames",
-                "--protocol", "both", "--stress", "--shake", "0.08",
+                "validate", "--object", cube, "--plan", plan, "--output", out, "--frames", "none",
+                "--protocol", "both", "--disturbance", "limits,0.08",
             )
             report = validate_schema.load(out / "report.json")
         causes = [index for index, step in enumerate(report["steps"]) if step["cause"]]

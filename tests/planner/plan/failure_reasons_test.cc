@@ -76,7 +76,7 @@ TEST(FailureReasons, BecomeSectionsWithTheirNameAsHeading) {
   EXPECT_THAT(text, StartsWith("### `torque-limit`\n\nWith"));
   EXPECT_THAT(text, HasSubstr("\n\nUsual causes:\n\n- The grasp force"));
   EXPECT_THAT(text,
-              HasSubstr("\n\nRemedies:\n\n- Use a smaller grasp force (--squeeze).\n- Use a"));
+              HasSubstr("\n\nRemedies:\n\n- Use a smaller grasp force (--grasp-force).\n- Use a"));
   EXPECT_THAT(text, Not(HasSubstr("See [")));
   EXPECT_THAT(linked, HasSubstr("\nSee [fingertip geometry](fingertip_geometry.md).\n"));
 }

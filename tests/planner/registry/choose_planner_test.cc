@@ -135,8 +135,10 @@ TEST(PlannerFor, RefusesWhatThePlannerDoesNotServeAndNamesOneThatDoes) {
   request.effort = 5;
   EXPECT_EQ(PlannerFor("general", request).name(), "general");
   EXPECT_THAT([&] { (void)PlannerFor("polygon", request); },
-              ThrowsMessage<InputError>(AllOf(
-                  StartsWith("--effort: not supported by planner polygon"), HasSubstr("general"))));
+              ThrowsMessage<InputError>(
+                  AllOf(
+                  StartsWith("--planner budget: not supported by planner polygon"),
+                        HasSubstr("general"))));
   EXPECT_THAT([&] { (void)PlannerFor("roadmap", On(Planar())); },
               ThrowsMessage<InputError>(StartsWith(
                   "file.obj: planner roadmap supports solids only, found a planar object")));

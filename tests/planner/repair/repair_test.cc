@@ -194,7 +194,7 @@ TEST(Repair, WhereCollapsesMakeFacetsMeetOthersAreFound) {
   }
   options.facets = 200;
   EXPECT_THAT(Refusal(hollow, options),
-              AllOf(HasSubstr("self-intersecting"), HasSubstr("larger --faces")));
+              AllOf(HasSubstr("self-intersecting"), HasSubstr("larger --repair max-triangles")));
 }
 
 TEST(Repair, ACoarserSolidIsNotInventedWhereItIsMerelyFarOff) {
@@ -265,7 +265,7 @@ TEST(Repair, FacetsThatAreTurnedTheWrongWayAreTurned) {
 TEST(Repair, SolidsBesideEachOtherAreRefusedUnlessOneIsChosen) {
   const PolygonSoup two = Join(BoxSoup({0, 0, 0}, {2, 1, 1}), BoxSoup({5, 0, 0}, {6, 1, 1}));
   EXPECT_THAT(Refusal(two), AllOf(HasSubstr("2 separate solids"), HasSubstr("66.7 %"),
-                                  HasSubstr("33.3 %"), HasSubstr("--part")));
+                                  HasSubstr("33.3 %"), HasSubstr("--repair part=K")));
   RepairOptions options;
   options.part = 1;
   const Repaired first = Repair(two, "two", options);
@@ -284,7 +284,7 @@ TEST(Repair, ARefusalTellsEachStageAndNamesTheOneThatHelps) {
   two.facets.pop_back();
   const auto refusal = FindRefusal(two, {});
   ASSERT_TRUE(refusal);
-  EXPECT_THAT(refusal->what(), AllOf(HasSubstr("take-part"), HasSubstr("--part K")));
+  EXPECT_THAT(refusal->what(), AllOf(HasSubstr("take-part"), HasSubstr("--repair part=K")));
   const Attempt& attempt = refusal->attempt();
   EXPECT_EQ(attempt.facets_before, two.facets.size());
   EXPECT_GT(attempt.stages.size(), 3u);
@@ -324,7 +324,7 @@ TEST(Repair, ASpeckBesideASolidIsDropped) {
 TEST(Repair, AnOpenSheetIsRefusedAndGetsAWallWhereOneIsAsked) {
   PolygonSoup sheet = BoxSoup({0, 0, 0}, {2, 2, 1});
   sheet.facets.resize(1);
-  EXPECT_THAT(Refusal(sheet), HasSubstr("--solidify"));
+  EXPECT_THAT(Refusal(sheet), HasSubstr("--repair wall=T"));
   RepairOptions options;
   options.thickness = 0.1;
   const Repaired repaired = Repair(sheet, "sheet", options);
@@ -400,7 +400,7 @@ TEST(Repair, AWrapThatEntersAHollowBodyIsRefused) {
   EXPECT_EQ(last.stage, "wrap-unfilled");
   const auto& volumes = last.facts["volumes"];
   EXPECT_LT(volumes[1]["volume"].get<double>(), 0.2 * volumes[0]["volume"].get<double>());
-  EXPECT_THAT(refusal->what(), AllOf(HasSubstr("open sheet"), HasSubstr("--solidify")));
+  EXPECT_THAT(refusal->what(), AllOf(HasSubstr("open sheet"), HasSubstr("--repair wall=T")));
 }
 
 TEST(Repair, ACloudOfPointsOfAllSidesBecomesABodyAndOneOfOneSideIsRefused) {
@@ -472,7 +472,7 @@ TEST(Repair, ACoarserSolidHasNoMoreFacetsThanAskedAndKeepsToTheDeviation) {
   EXPECT_LE(repaired.solid.facets.size(), 500u);
   EXPECT_LT(repaired.comparison.seen_most, 0.01 * repaired.diameter);
   options.facets = 20;
-  EXPECT_THAT(Refusal(SphereSoup(30), options), HasSubstr("--max-deviation"));
+  EXPECT_THAT(Refusal(SphereSoup(30), options), HasSubstr("--repair max-deviation"));
 }
 
 TEST(Repair, LengthsScaleWithTheObjectAndSharesStay) {

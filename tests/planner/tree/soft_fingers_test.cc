@@ -109,9 +109,9 @@ TEST(SoftFingersPlan, HardPointsPlannersAndThePlaneRefuse) {
   };
   EXPECT_THAT(complaint(*file.object, "general", RequestAt(25)), HasSubstr("found 2"));
   EXPECT_THAT(complaint(*file.object, "polyhedron", SoftAt(25)),
-              HasSubstr("--contact soft: not supported by planner polyhedron"));
+              HasSubstr("--torsion: not supported by planner polyhedron"));
   EXPECT_THAT(complaint(*ReadModel("polygon15.wkt").object, "auto", SoftAt(25)),
-              HasSubstr("--contact soft"));
+              HasSubstr("--torsion"));
   // The offset from the line is too large for 10°.
   const grasp::Grasp off = {pair[0], PairAcross(*file.object, 0, 0.02)[1]};
   planning::PlanRequest request = SoftAt(10);

@@ -1,0 +1,196 @@
+#include "apps/renamed_options.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+
+#include "planner/base/error.h"
+
+namespace regrasp::apps {
+
+namespace {
+
+/// A renamed option.
+struct Renaming {
+  std::string_view programs;  ///< their names, separated by spaces
+  std::string_view old_name;
+  std::string_view new_name;
+  /// The new value; `*` is replaced by the old one. Empty: the option keeps its value, if it has one.
+  std::string_view value;
+};
+
+constexpr char kWithPlanner[] = "plan graph";
+constexpr char kWithObject[] = "plan graph validate repair";
+constexpr char kReplay[] = "validate";
+
+constexpr std::array kRenamings = std::to_array<Renaming>({
+    {kWithObject, "--max-deviation", "--repair", "max-deviation=*"},
+    {kWithObject, "--faces", "--repair", "max-triangles=*"},
+    {kWithObject, "--part", "--repair", "part=*"},
+    {kWithObject, "--solidify", "--repair", "wall=*"},
+    {kWithPlanner, "--roughness", "--patch", "roughness=*"},
+    {kWithPlanner, "--spanning", "--planner", "spanning=*"},
+    {kWithPlanner, "--contacts", "--planner", "points=*"},
+    {kWithPlanner, "--clusters", "--planner", "clusters=*"},
+    {kWithPlanner, "--no-lazy", "--planner", "fallback=no"},
+    {kWithPlanner, "--force", "--allow", "large-graph"},
+    {kWithPlanner, "--allow-invented", "--allow", "filled"},
+    {"plan", "--effort", "--planner", "budget=*"},
+    {"plan", "--reserve", "--robustness", ""},
+    {"graph", "--queries", "--planner", "queries=*"},
+    {"graph", "--compare", "--sampling", "compare"},
+    {"plan validate merge", "--fresh", "--restart", ""},
+    {"validate figure", "--out", "--output", ""},
+    {"validate figure", "--allow-object-change", "--allow", "object-change"},
+    {kReplay, "--allow-undecided", "--allow", "undecided"},
+    {kReplay, "--required-angle", "--compute", "required-angle"},
+    {kReplay, "--quality", "--compute", "quality"},
+    {kReplay, "--squeeze", "--grasp-force", ""},
+    {kReplay, "--shake", "--disturbance", "*"},
+    {kReplay, "--stress", "--disturbance", "limits"},
+    {kReplay, "--align", "--replay", "align=*"},
+    {kReplay, "--feedback", "--replay", "feedback=*"},
+    {kReplay, "--tip", "--replay", "tip=*"},
+    {kReplay, "--tolerance-mm", "--tolerance", "*mm"},
+    {kReplay, "--tolerance-deg", "--tolerance", "*deg"},
+    {kReplay, "--min-pass-rate", "--trials", "min-pass-rate=*"},
+    {kReplay, "--position-noise", "--noise", "position=*"},
+    {kReplay, "--friction-error", "--noise", "friction=*"},
+    {kReplay, "--mass-error", "--noise", "mass=*"},
+    {kReplay, "--joint-noise", "--noise", "joints=*"},
+    {kReplay, "--min-quality", "--export-states", "min-quality=*"},
+    {kReplay, "--no-frames", "--frames", "none"},
+    {kReplay, "--show-focus", "--show", "focus"},
+    {kReplay, "--show-clusters", "--show", "clusters"},
+    {kReplay, "--sheet-width", "--size", "overview=*"},
+    {kReplay, "--animate-size", "--size", "animation=*"},
+    {kReplay, "--zoom", "--view", "zoom=*"},
+    {kReplay, "--orthographic", "--view", "orthographic"},
+    {"validate figure", "--crease-angle", "--edges", "angle=*"},
+    {"figure", "--width", "--size", "width=*"},
+    {"figure", "--sheet-width", "--size", "sheet=*"},
+    {"figure", "--font-size", "--size", "font=*"},
+    {"figure", "--export-gltf", "--format", "gltf"},
+});
+
+constexpr char kContact[] = "--contact";
+constexpr char kTorsion[] = "--torsion";
+
+bool IsOf(const Renaming& renaming, std::string_view program) {
+  const std::string names = " " + std::string(renaming.programs) + " ";
+  return names.find(" " + std::string(program) + " ") != std::string::npos;
+}
+
+const Renaming* FindRenaming(std::string_view program, std::string_view name) {
+  const auto* found = std::ranges::find_if(kRenamings, [&](const Renaming& renaming) {
+    return renaming.old_name == name && IsOf(renaming, program);
+  });
+  return found == kRenamings.end() ? nullptr : found;
+}
+
+std::string WithValue(std::string_view form, const std::string& value) {
+  std::string text(form);
+  const std::size_t star = text.find('*');
+  return star == std::string::npos ? text : text.replace(star, 1, value);
+}
+
+bool HasWord(const std::vector<std::string>& words, std::string_view name) {
+  return std::ranges::any_of(words, [&](const std::string& word) {
+    return word == name || word.starts_with(std::string(name) + "=");
+  });
+}
+
+/// Rewrites a command line from its first word to its last.
+class Renamer {
+ public:
+  Renamer(std::string_view program, const std::vector<std::string>& words)
+      : program_(program), words_(words) {}
+
+  RenamedWords Run() {
+    while (next_ < words_.size()) {
+      if (words_[next_] == "--") break;
+      RenameNext();
+    }
+    result_.words.insert(result_.words.end(), words_.begin() + next_, words_.end());
+    return result_;
+  }
+
+ private:
+  void RenameNext() {
+    const std::string word = words_[next_++];
+    const std::size_t sign = word.find('=');
+    const std::string name = word.substr(0, sign);
+    std::optional<std::string> value;
+    if (sign != std::string::npos) value = word.substr(sign + 1);
+    if (name == kContact && program_ != "figure") return RenameContact(value);
+    const Renaming* renaming = FindRenaming(program_, name);
+    if (renaming == nullptr) {
+      result_.words.push_back(word);
+    } else if (renaming->value.empty()) {
+      result_.words.push_back(std::string(renaming->new_name) + word.substr(name.size()));
+      Note(name, std::string(renaming->new_name));
+    } else {
+      RenameToItem(*renaming, value);
+    }
+  }
+
+  void RenameToItem(const Renaming& renaming, std::optional<std::string> value) {
+    const bool takes_value = renaming.value.find('*') != std::string_view::npos;
+    const std::string new_name(renaming.new_name);
+    if (takes_value && !value) value = TakeValue();
+    if (takes_value && !value) return result_.words.push_back(new_name);  // refused by the parser
+    const std::string item = WithValue(renaming.value, value.value_or(""));
+    result_.words.push_back(new_name + "=" + item);
+    Note(std::string(renaming.old_name) + (takes_value ? " " + *value : ""), new_name + " " + item);
+  }
+
+  /// `--contact hard|soft` is implied by the torsional friction length.
+  void RenameContact(std::optional<std::string> value) {
+    if (!value) value = TakeValue();
+    if (!value || (*value != "hard" && *value != "soft")) {
+      throw InputError("--contact: expected one of hard, soft, found \"" + value.value_or("") +
+                       "\"; help: use --torsion E instead");
+    }
+    const std::string old = std::string(kContact) + " " + *value;
+    if (program_ == "graph") {
+      if (*value == "soft") throw InputError(old + ": no planner with a graph supports it");
+      return Note(old, "the only contact model of graph");
+    }
+    if (*value == "soft") {
+      if (!HasWord(words_, kTorsion)) throw InputError(old + ": requires --torsion E");
+      return Note(old, std::string(kTorsion) + " E alone");
+    }
+    if (HasWord(words_, kTorsion)) throw InputError(old + ": cannot be used with --torsion");
+    result_.words.push_back(std::string(kTorsion) + "=0");
+    Note(old, std::string(kTorsion) + " 0");
+  }
+
+  /// The value of an option, if it is not missing.
+  std::optional<std::string> TakeValue() {
+    if (next_ == words_.size() || IsOption(words_[next_])) return std::nullopt;
+    return words_[next_++];
+  }
+
+  void Note(const std::string& old_form, const std::string& new_form) {
+    result_.notes.push_back(old_form + " is now " + new_form);
+  }
+
+  std::string_view program_;
+  const std::vector<std::string>& words_;
+  std::size_t next_ = 0;
+  RenamedWords result_;
+};
+
+}  // namespace
+
+bool IsOption(std::string_view word) {
+  return word.starts_with("-") && word.size() > 1 &&
+         (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
+}
+
+RenamedWords RenameOptions(std::string_view program, const std::vector<std::string>& words) {
+  return Renamer(program, words).Run();
+}
+
+}  // namespace regrasp::apps
