@@ -14,6 +14,9 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/roadmap/roadmap_parameters.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "planner/sets/set_parameters.h"
 
 namespace {
 
@@ -31,7 +34,8 @@ constexpr int kMostSamples = 10'000'000;
 struct GraphProgram {
   PlannerOptions common;
   std::string json;
-  planning::GraphTasks tasks;
+  int focus_points = 0;
+  int queries = 0;
   bool compare = false;
   bool no_lazy = false;
 
@@ -55,12 +59,12 @@ void GraphProgram::AddTo(CLI::App& app) {
                  "of the table")
       ->type_name("FILE");
   AddInteger(
-      app, "--sampling", tasks.focus_points, 1, kMostSamples,
+      app, "--sampling", focus_points, 1, kMostSamples,
       "Look for cells of the planner polyhedron by so many random focus points: in a box that "
       "contains all cells, instead of directly");
   app.add_flag("--compare", compare,
                "Also say how much of the direct graph the points of --sampling found");
-  AddInteger(app, "--queries", tasks.queries, 1, kMostQueries,
+  AddInteger(app, "--queries", queries, 1, kMostQueries,
              "Also answer so many random queries on a roadmap of clusters: between force-closure "
              "grasps of its contact points");
   app.add_flag("--no-lazy", no_lazy,
@@ -72,8 +76,8 @@ void GraphProgram::AddTo(CLI::App& app) {
 }
 
 void GraphProgram::CheckUsage() const {
-  if (compare && tasks.focus_points == 0) throw InputError("--compare: needs --sampling");
-  if (no_lazy && tasks.queries == 0) throw InputError("--no-lazy: needs --queries");
+  if (compare && focus_points == 0) throw InputError("--compare: needs --sampling");
+  if (no_lazy && queries == 0) throw InputError("--no-lazy: needs --queries");
   if (json == "-") return;
   OutputFiles outputs;
   outputs.Add("--json", json);
@@ -100,12 +104,12 @@ std::string GraphProgram::Title(const planning::Planner& planner,
                       " " + summary.face_name + ", " +
                       FormatShort(Degrees(common.friction.required_half_angle())) + "°";
   const auto& options = planner.traits().options;
-  if (std::ranges::find(options, planning::PlanOption::kUniformSpanning) != options.end()) {
+  if (std::ranges::find(options, sets::kUniformSpanningOption) != options.end()) {
     title += common.spanning == planning::Spanning::kUniform ? ", uniform" : ", adaptive";
   }
   if (summary.clusters > 0) title += ", " + std::to_string(summary.clusters) + " clusters";
   if (summary.sampling_share) {
-    title += ", " + std::to_string(tasks.focus_points) + " focus points";
+    title += ", " + std::to_string(focus_points) + " focus points";
   }
   return title;
 }
@@ -116,8 +120,11 @@ int GraphProgram::Run() const {
   planning::PlanRequest request = common.RequestFor(*object.object);
   const auto given_points = common.ReadGivenPoints();
   if (given_points) request.given_points = &*given_points;
-  request.last_resort = !no_lazy;
-  request.graph = tasks;
+  request.for_graph = true;
+  auto& roadmap = request.parameters.Edit<roadmap::RoadmapParameters>();
+  roadmap.last_resort = !no_lazy;
+  roadmap.queries = queries;
+  request.parameters.Edit<polyhedron::PolyhedronParameters>().focus_points = focus_points;
   const planning::Planner& planner = common.PlannerFor(request);
   const planning::GraphSummary summary = Summarize(planner, request);
   const std::string text = FormatJson(GraphJson(summary, request.criteria.half_angle));

@@ -94,11 +94,11 @@ void HandOptions::AddTo(CLI::App& app) {
             "What links keep from each other, from the palm and from the object; in metres "
             "(default 0.001)",
             "M");
-  AddChoice<planning::Reserve>(
-      app, "--reserve", reserve,
-      {{"preferred", planning::Reserve::kPreferred},
-       {"required", planning::Reserve::kRequired},
-       {"none", planning::Reserve::kNone}},
+  AddChoice<planning::RobustnessLevel>(
+      app, "--reserve", robustness,
+      {{"preferred", planning::RobustnessLevel::kPreferred},
+       {"required", planning::RobustnessLevel::kRequired},
+       {"none", planning::RobustnessLevel::kNone}},
       "Something to spare, for the hand's own motors: forces well inside their cones, better "
       "grasps that also hold where contacts roll to, more clearance, no slides. Plans are tried on "
       "the hand's model, and one is taken that its motors carry out. required, or there is no "
@@ -127,7 +127,7 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
 }
 
 void HandOptions::AskFor(planning::InHandTask& task) const {
-  task.reserve = reserve;
+  task.robustness = robustness;
   task.margin = clearance_m;
   if (!turn.empty()) task.turn = ParseTurn(turn);
   if (!start_pose.empty()) task.start_pose = ParsePose("--start-pose", start_pose);

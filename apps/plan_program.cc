@@ -15,6 +15,7 @@
 #include "planner/plan/grasp_io.h"
 #include "planner/planning/in_hand_task.h"
 #include "planner/planning/solve.h"
+#include "planner/roadmap/roadmap_parameters.h"
 #include "planner/tree/tree_planner.h"
 #include "sim/actuation/simulate_execution.h"
 
@@ -107,7 +108,7 @@ void PlanProgram::AddSearch(CLI::App& app) {
       app, "--effort", effort, std::int64_t{1}, kMostEffort,
       "When to give up; the planner general after so many force-closure tests, each of some "
       "microseconds (default " +
-          std::to_string(tree::TreePlanner::kDefaultEffort) +
+          std::to_string(tree::TreePlanner::kDefaultTests) +
           "), with --hand after so many grasps searched, each of some milliseconds (default " +
           std::to_string(gait::kDefaultExpanded) + ")");
   app.add_flag(
@@ -155,9 +156,8 @@ planning::PlanRequest PlanProgram::RequestFor(const object::Object& object) cons
   request.hand.fingertip_radius = finger_radius;
   request.criteria.min_quality = min_quality;
   request.objective = objective;
-  request.last_resort = !no_lazy;
-  request.effort = effort;
-  request.explain = explain;
+  request.parameters.Edit<roadmap::RoadmapParameters>().last_resort = !no_lazy;
+  request.parameters.Edit<planning::SearchParameters>() = {.budget = effort, .explain = explain};
   if (batch.empty()) request.jobs = jobs;  // else there are as many processes
   return request;
 }

@@ -14,6 +14,8 @@
 #include "planner/object/reading.h"
 #include "planner/registry/registry.h"
 #include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/roadmap_parameters.h"
+#include "planner/sets/set_parameters.h"
 
 namespace regrasp::apps {
 
@@ -132,9 +134,10 @@ planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const
   request.hand.torsion = contact.torsion().value_or(0);
   request.seed = seed;
   request.deadline = deadline();
-  request.spanning = spanning;
-  request.contact_points = contacts;
-  request.clusters = clusters;
+  request.parameters.Edit<sets::SetParameters>().spanning = spanning;
+  auto& roadmap = request.parameters.Edit<roadmap::RoadmapParameters>();
+  roadmap.contact_points = contacts;
+  roadmap.clusters = clusters;
   return request;
 }
 

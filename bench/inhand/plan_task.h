@@ -28,8 +28,9 @@ struct PlannedTask {
   std::optional<plan::Reason> trial = {};
 };
 
-/// Plans a task as the program `plan` does by its usual options: with reserve, plans tried on the
-/// hand's own motors and none that these do not carry out, and grasps of a quality of 0.01.
+/// Plans a task as the program `plan` does by its usual options: with robustness margins, plans
+/// tried on the hand's own motors and none that these do not carry out, and grasps of a quality of
+/// 0.01.
 /// @param start    where it begins; none: wherever the planner likes. A task that moves the
 ///                 centroid begins where the hand's reach is good, or is there half-way.
 /// @param limit_s  of processor time.

@@ -92,8 +92,8 @@ std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCou
                       std::int64_t{0},
                       [](std::int64_t sum, const auto& one) { return sum + one.second; }),
       "whose simulated execution fails (" + FailuresText(best.execution_failures) + ")");
-  if (request.reserve == Reserve::kRequired) {
-    text += "; without reserve there may be a plan";
+  if (request.robustness == RobustnessLevel::kRequired) {
+    text += "; without robustness margins there may be a plan";
   }
   return text;
 }
@@ -226,7 +226,7 @@ std::string NonRobustEnd(const GaitEnds& ends, criteria::GraspMemory& memory, do
   const bool start_is_admitted = ends.start.empty() || IsAdmitted(ends.start, memory);
   if (start_is_admitted && (ends.goal.empty() || IsAdmitted(ends.goal, memory))) return "";
   return std::string("the ") + (start_is_admitted ? "goal" : "start") +
-         " grasp has no reserve: its quality is below " + FormatShort(quality);
+         " grasp has no robustness margin: its quality is below " + FormatShort(quality);
 }
 
 }  // namespace
@@ -279,13 +279,13 @@ GaitResult FindGait(const GaitRequest& request) {
     return {std::nullopt, FailureSummary(asked, search.counts())};
   };
   SimulatedGait simulated;
-  if (request.reserve == Reserve::kNone) {
+  if (request.robustness == RobustnessLevel::kNone) {
     simulated.found = find(request, {});
   } else if (request.simulate) {
     simulated = FindExecutableGait(request, result.contacts, find);
   } else {
-    if (request.reserve == Reserve::kPreferred) simulated.found = find(request, {});
-    if (request.reserve == Reserve::kRequired || simulated.found.gait) {
+    if (request.robustness == RobustnessLevel::kPreferred) simulated.found = find(request, {});
+    if (request.robustness == RobustnessLevel::kRequired || simulated.found.gait) {
       simulated.found = FindRobustGait(request, find, simulated.found);
     }
   }

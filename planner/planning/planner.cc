@@ -15,60 +15,14 @@ GraphSummary Planner::SummarizeGraph(const PlanRequest& /*request*/) const {
   throw std::logic_error("the planner " + name() + " has no graph");
 }
 
-std::string OptionName(PlanOption option) {
-  switch (option) {
-    case PlanOption::kMargin:
-      return "--optimize margin";
-    case PlanOption::kTravel:
-      return "--optimize travel";
-    case PlanOption::kRegions:
-      return "--optimize regions";
-    case PlanOption::kUniformSpanning:
-      return "--spanning uniform";
-    case PlanOption::kContactPoints:
-      return "--contacts";
-    case PlanOption::kGivenPoints:
-      return "--contacts given";
-    case PlanOption::kClusters:
-      return "--clusters";
-    case PlanOption::kNoLastResort:
-      return "--no-lazy";
-    case PlanOption::kEffort:
-      return "--effort";
-    case PlanOption::kExplain:
-      return "--explain";
-    case PlanOption::kHand:
-      return "--hand";
-    case PlanOption::kSoftFingers:
-      return "--contact soft";
-    case PlanOption::kFocusPoints:
-      return "--sampling";
-    case PlanOption::kQueries:
-      return "--queries";
-  }
-  return {};
-}
-
-std::vector<PlanOption> OptionsOf(const PlanRequest& request) {
-  std::vector<PlanOption> options;
-  const auto add = [&](bool asked, PlanOption option) {
-    if (asked) options.push_back(option);
-  };
-  add(request.objective == Objective::kMargin, PlanOption::kMargin);
-  add(request.objective == Objective::kTravel, PlanOption::kTravel);
-  add(request.objective == Objective::kRegions, PlanOption::kRegions);
-  add(request.spanning == Spanning::kUniform, PlanOption::kUniformSpanning);
-  add(request.contact_points.has_value(), PlanOption::kContactPoints);
-  add(request.given_points != nullptr, PlanOption::kGivenPoints);
-  add(request.clusters.has_value(), PlanOption::kClusters);
-  add(!request.last_resort, PlanOption::kNoLastResort);
-  add(request.effort.has_value(), PlanOption::kEffort);
-  add(request.explain, PlanOption::kExplain);
-  add(request.in_hand != nullptr, PlanOption::kHand);
-  add(request.hand.torsion > 0, PlanOption::kSoftFingers);
-  const GraphTasks tasks = request.graph.value_or(GraphTasks());
-  add(tasks.focus_points > 0, PlanOption::kFocusPoints);
-  add(tasks.queries > 0, PlanOption::kQueries);
+std::vector<std::string> OptionsOf(const PlanRequest& request) {
+  std::vector<std::string> options;
+  if (request.objective == Objective::kMargin) options.emplace_back(kMarginOption);
+  if (request.objective == Objective::kTravel) options.emplace_back(kTravelOption);
+  if (request.objective == Objective::kRegions) options.emplace_back(kRegionsOption);
+  for (std::string& option : request.parameters.OptionNames()) options.push_back(std::move(option));
+  if (request.given_points != nullptr) options.emplace_back(kGivenPointsOption);
+  if (request.hand.torsion > 0) options.emplace_back(kSoftFingersOption);
   return options;
 }
 
@@ -80,19 +34,20 @@ std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
     return name + (planar ? "a planar object" : "a solid") + ", and the planner " + planner.name() +
            " works on " + (planar ? "solids" : "planar objects") + " only";
   }
-  if (planner.traits().needs_hand && !request.in_hand) {
+  const std::vector<std::string> requested = OptionsOf(request);
+  if (planner.traits().needs_hand && std::ranges::find(requested, kHandOption) == requested.end()) {
     return "the planner " + planner.name() + " plans for a hand, and none is given (--hand)";
   }
-  if (request.graph && !planner.traits().has_graph) {
+  if (request.for_graph && !planner.traits().has_graph) {
     return "the planner " + planner.name() + " has no graph";
   }
   if (planar && request.hand.torsion > 0) {
     return "--contact soft: contacts of a planar object have no torque about their normals";
   }
-  const std::vector<PlanOption>& has = planner.traits().options;
-  for (const PlanOption option : OptionsOf(request)) {
+  const std::vector<std::string>& has = planner.traits().options;
+  for (const std::string& option : requested) {
     if (std::ranges::find(has, option) != has.end()) continue;
-    return OptionName(option) + ": the planner " + planner.name() + " has no such option";
+    return option + ": the planner " + planner.name() + " has no such option";
   }
   if (request.hand.fingers != 0 && request.hand.fingers < scope->fingers) {
     return "the planner " + planner.name() + " needs a hand of " + std::to_string(scope->fingers) +

@@ -65,7 +65,7 @@ const planning::Planner* FirstThatServes(const planning::PlanRequest& request) {
 }
 
 /// Which planners have an option of a request, for objects of its dimension.
-std::string ThoseThatHave(planning::PlanOption option, const planning::PlanRequest& request) {
+std::string ThoseThatHave(const std::string& option, const planning::PlanRequest& request) {
   std::string names;
   for (const planning::Planner* planner : AllPlanners()) {
     if (!planner->ScopeIn(request.object->dimension())) continue;
@@ -82,8 +82,8 @@ const planning::Planner& ChoosePlanner(const planning::PlanRequest& request) {
   if (const planning::Planner* planner = FirstThatServes(request)) return *planner;
   std::string why = "no planner has all of";
   const std::string object = request.object->dimension() == 2 ? "a planar object" : "a solid";
-  for (const planning::PlanOption option : planning::OptionsOf(request)) {
-    why += " " + planning::OptionName(option) + " (" + ThoseThatHave(option, request) + ")";
+  for (const std::string& option : planning::OptionsOf(request)) {
+    why += " " + option + " (" + ThoseThatHave(option, request) + ")";
   }
   throw InputError(why + " for " + object);
 }

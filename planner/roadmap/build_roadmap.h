@@ -8,6 +8,7 @@
 #include "planner/planning/plan_request.h"
 #include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap.h"
+#include "planner/roadmap/roadmap_parameters.h"
 
 namespace regrasp::roadmap {
 
@@ -24,9 +25,11 @@ inline constexpr int kMaxRoadmapContacts = 200;
 /// Contact points of a clustered one: their affinities take 8 N² bytes three times over.
 inline constexpr int kMaxClusteredContacts = 4000;
 
-/// How many contact points and clusters a roadmap has. Where a request leaves them open: 60 points
-/// and no clusters on a body of at most kMaxRoadmapContacts faces; 1000 points in 50 clusters on
-/// one of more, a mesh. Contact points that are asked for decide in place of the faces.
+/// Number of contact points and of clusters of a roadmap.
+///
+/// Without parameters: 60 contact points and no clusters on an object of at most
+/// kMaxRoadmapContacts faces; 1000 contact points in 50 clusters on an object with more faces, a
+/// mesh. A given number of contact points replaces the number of faces in this rule.
 struct RoadmapSize {
   int contacts = 0;
   int clusters = 0;  ///< 0: none, all subsets of four contact points are looked at

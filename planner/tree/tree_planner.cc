@@ -45,11 +45,11 @@ void AddAlign(const std::vector<plan::FingerGrasp>& waypoints,
   const grasp::Grasp after = plan::ContactsOf(waypoints.back());
   if (last != nullptr) {
     last->waypoints.insert(last->waypoints.end(), waypoints.begin() + 1, waypoints.end());
-    candidate.rests.back().grasp = after;
+    candidate.grasps.back().grasp = after;
     return;
   }
   candidate.steps.emplace_back(plan::Align{waypoints});
-  candidate.rests.push_back({after, std::nullopt});
+  candidate.grasps.push_back({after, std::nullopt});
 }
 
 /// Of each contact of `from` that is not in `to`: from there to the nearest one that is new.
@@ -86,7 +86,7 @@ planning::CandidateSequence MakeCandidate(const GraspPath& path, const grasp::Gr
         planning::MakeSwitch(holding, space.GraspOf(step.to), space.fingers());
     holding = plan::GraspAfter(holding, change);
     candidate.steps.emplace_back(change);
-    candidate.rests.push_back({plan::ContactsOf(holding), std::nullopt});
+    candidate.grasps.push_back({plan::ContactsOf(holding), std::nullopt});
   }
   return candidate;
 }
@@ -124,7 +124,8 @@ class TreeSearch {
       : request_(request),
         object_(*request.object),
         half_angle_(request.criteria.half_angle),
-        effort_(request.effort.value_or(TreePlanner::kDefaultEffort)),
+        parameters_(request.parameters.Get<planning::SearchParameters>()),
+        most_tests_(parameters_.budget.value_or(TreePlanner::kDefaultTests)),
         evaluator_(object_, request.criteria, request.hand),
         source_(object_, request.hand.fingertip_radius),
         random_(request.seed, RandomUse::kCandidates) {}
@@ -133,11 +134,12 @@ class TreeSearch {
     const grasp::Grasp& from = request_.start.grasp;
     const grasp::Grasp& to = request_.goal.grasp;
     SearchSpace wide =
-        MakeSpace(half_angle_, 0, effort_, "growing trees of grasps from start and goal");
+        MakeSpace(half_angle_, 0, most_tests_, "growing trees of grasps from start and goal");
     const auto found = Search(from, to, wide);
     if (!found) return NoSequence(from, to);
     // The contacts of the path alone: the search may have come across thousands.
-    SearchSpace space = MakeSpace(half_angle_, 1, effort_, "shortening and widening the sequence");
+    SearchSpace space =
+        MakeSpace(half_angle_, 1, most_tests_, "shortening and widening the sequence");
     GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
     std::vector<std::string> notes = Improve(path, from, space);
     planning::PlanResult result =
@@ -157,14 +159,14 @@ class TreeSearch {
 
   /// @param share  of the criteria that is asked for.
   /// @param what   is done in it, for people.
-  SearchSpace MakeSpace(double half_angle, double share, std::int64_t effort,
+  SearchSpace MakeSpace(double half_angle, double share, std::int64_t most_tests,
                         const std::string& what) const {
     criteria::GraspCriteria criteria = request_.criteria;
     criteria.half_angle = half_angle;
     SearchSpace space(object_, criteria, request_.hand);
     space.SetShare(share);
-    CountedProgress progress(request_.progress, what + ", tests", effort);
-    space.SetLimits({effort, request_.deadline,
+    CountedProgress progress(request_.progress, what + ", tests", most_tests);
+    space.SetLimits({most_tests, request_.deadline,
                      [progress](std::int64_t tests) mutable { progress.Reach(tests); }});
     return space;
   }
@@ -200,8 +202,8 @@ class TreeSearch {
     double best = Repair(path, space);
     for (const double share : kShares) {
       if (best == 1) return path;
-      SearchSpace wide =
-          MakeSpace(half_angle_, share, effort_ / kShareEffortShare, "looking for grasps" + asked);
+      SearchSpace wide = MakeSpace(half_angle_, share, most_tests_ / kShareEffortShare,
+                                   "looking for grasps" + asked);
       const auto found = Search(from, to, wide);
       // What is not found with less asked for is not going to be found with more.
       if (!found) break;
@@ -271,7 +273,7 @@ class TreeSearch {
     plan.half_angle = half_angle_;
     plan.fingers = request_.hand.fingers;
     plan.torsion = request_.hand.torsion;
-    plan.goal = candidate.rests.back().grasp;
+    plan.goal = candidate.grasps.back().grasp;
     plan.initial = std::move(candidate.initial);
     plan.steps = std::move(candidate.steps);
     const plan::PlanCheck check = plan::CheckPlan(object_, plan);
@@ -290,7 +292,7 @@ class TreeSearch {
                      "a proof of infeasibility): " + reached(0) + " were reached from the start, " +
                      reached(1) + " from the goal, in " + std::to_string(reach_.tests) + " tests" +
                      (reach_.out_of_time ? ", when the time was up" : "");
-    if (request_.explain) result.message += Explain(from, to);
+    if (parameters_.explain) result.message += Explain(from, to);
     return result;
   }
 
@@ -300,7 +302,7 @@ class TreeSearch {
     double some = kLargestExplained;
     const auto finds = [&](double half_angle) {
       SearchSpace space =
-          MakeSpace(half_angle, 0, effort_ / kExplainEffortShare,
+          MakeSpace(half_angle, 0, most_tests_ / kExplainEffortShare,
                     "looking for a sequence at " + FormatShort(Degrees(half_angle)) + "°");
       return Search(from, to, space).has_value();
     };
@@ -316,7 +318,8 @@ class TreeSearch {
   const planning::PlanRequest& request_;
   const object::Object& object_;
   double half_angle_;  ///< of the request's criteria
-  std::int64_t effort_;
+  planning::SearchParameters parameters_;
+  std::int64_t most_tests_;
   criteria::GraspEvaluator evaluator_;
   sampling::SurfaceSampler source_;
   RandomStream random_;
@@ -333,9 +336,8 @@ TreePlanner::TreePlanner()
                planning::PlannerScope{hand::kFingersInPlane, {2, hand::kFingersInPlane}, {2, 3}},
            .in_space =
                planning::PlannerScope{hand::kFingersInSpace, {3, hand::kFingersInSpace}, {4, 4}},
-           .options = {planning::PlanOption::kMargin, planning::PlanOption::kTravel,
-                       planning::PlanOption::kEffort, planning::PlanOption::kExplain,
-                       planning::PlanOption::kSoftFingers},
+           .options = {planning::kMarginOption, planning::kTravelOption, planning::kBudgetOption,
+                       planning::kExplainOption, planning::kSoftFingersOption},
            .has_graph = false}) {}
 
 planning::PlanResult TreePlanner::Plan(const planning::PlanRequest& request) const {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "planner/base/memory.h"
 #include "planner/object/polyhedron.h"
 #include "planner/planning/plan_request.h"
@@ -7,6 +10,21 @@
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
 namespace regrasp::polyhedron {
+
+/// Option of the planner `polyhedron`, as users write it.
+inline constexpr char kFocusPointsOption[] = "--sampling";
+
+/// Parameters of the planner `polyhedron` in PlanRequest::parameters, in addition to those in
+/// sets/set_parameters.h.
+struct PolyhedronParameters {
+  /// Number of random focus points with which SummarizeGraph samples cells; 0: the direct graph.
+  int focus_points = 0;
+
+  [[nodiscard]] std::vector<std::string> Options() const {
+    if (focus_points == 0) return {};
+    return {kFocusPointsOption};
+  }
+};
 
 /// What a PolyhedronGraph takes at most while it is built, within a factor of two.
 ///

@@ -103,9 +103,9 @@ TEST(Solve, AsksThePlannerForNothingThatDoesNotFit) {
 
 TEST(Solve, RefusesAnOptionThatThePlannerDoesNotHave) {
   PlanRequest request = RequestAt(20);
-  request.explain = true;
+  request.objective = Objective::kTravel;
   EXPECT_THAT([&] { (void)SolveOnCube(StubPlanner(), Random(), request); },
-              ThrowsMessage<InputError>("--explain: the planner stub has no such option"));
+              ThrowsMessage<InputError>("--optimize travel: the planner stub has no such option"));
 }
 
 TEST(Solve, RefusesFrictionAndQualityOutOfRange) {
