@@ -15,6 +15,9 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/roadmap/roadmap_parameters.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "planner/sets/set_parameters.h"
 
 namespace {
 
@@ -29,7 +32,7 @@ constexpr int kMostSamples = 10'000'000;
 struct GraphProgram {
   PlannerOptions common;
   std::string json;
-  planning::GraphTasks tasks;
+  int focus_points = 0;
   bool compare = false;
 
   void AddTo(CLI::App& app);
@@ -47,7 +50,7 @@ struct GraphProgram {
 void GraphProgram::AddTo(CLI::App& app) {
   common.AddTo(app, PlannerOptions::Purpose::kGraph);
   ListOption("--sampling")
-      .Values("the number of focus points", {IntegerParser(tasks.focus_points, 1, kMostSamples)})
+      .Values("the number of focus points", {IntegerParser(focus_points, 1, kMostSamples)})
       .Word("compare", [this] { compare = true; })
       .AddTo(app, "N[,compare]",
              "Find focus cells with N random focus points. They are drawn in a box that contains "
@@ -64,7 +67,7 @@ void GraphProgram::AddTo(CLI::App& app) {
 }
 
 void GraphProgram::CheckUsage() const {
-  if (compare && tasks.focus_points == 0) {
+  if (compare && focus_points == 0) {
     throw InputError(
         "--sampling compare: requires the number of focus points, as in --sampling "
         "1000,compare");
@@ -98,12 +101,12 @@ std::string GraphProgram::Title(const planning::Planner& planner,
                       " " + summary.face_name + ", " +
                       FormatShort(Degrees(common.friction.required_half_angle())) + "°";
   const auto& options = planner.traits().options;
-  if (std::ranges::find(options, planning::PlanOption::kUniformSpanning) != options.end()) {
+  if (std::ranges::find(options, sets::kUniformSpanningOption) != options.end()) {
     title += common.spanning == planning::Spanning::kUniform ? ", uniform" : ", adaptive";
   }
   if (summary.clusters > 0) title += ", " + std::to_string(summary.clusters) + " clusters";
   if (summary.sampling_share) {
-    title += ", " + std::to_string(tasks.focus_points) + " focus points";
+    title += ", " + std::to_string(focus_points) + " focus points";
   }
   return title;
 }
@@ -114,8 +117,9 @@ int GraphProgram::Run() const {
   planning::PlanRequest request = common.RequestFor(*object.object);
   const auto given_points = common.ReadGivenPoints();
   if (given_points) request.given_points = &*given_points;
-  request.graph = tasks;
-  request.graph->queries = common.queries;
+  request.for_graph = true;
+  request.parameters.Edit<roadmap::RoadmapParameters>().queries = common.queries;
+  request.parameters.Edit<polyhedron::PolyhedronParameters>().focus_points = focus_points;
   const planning::Planner& planner = common.PlannerFor(request);
   const planning::GraphSummary summary = Summarize(planner, request);
   const std::string text = FormatJson(GraphJson(summary, request.criteria.half_angle));

@@ -99,11 +99,11 @@ void HandOptions::AddTo(CLI::App& app) {
             "Minimum distance of links from each other, palm and object, metres "
             "[default: 0.001]",
             "M");
-  AddChoice<planning::Reserve>(
-      app, "--robustness", reserve,
-      {{"preferred", planning::Reserve::kPreferred},
-       {"required", planning::Reserve::kRequired},
-       {"none", planning::Reserve::kNone}},
+  AddChoice<planning::RobustnessLevel>(
+      app, "--robustness", robustness,
+      {{"preferred", planning::RobustnessLevel::kPreferred},
+       {"required", planning::RobustnessLevel::kRequired},
+       {"none", planning::RobustnessLevel::kNone}},
       "Required robustness of a hand plan [default: required]\n"
       "required: return only plans that execute in simulation on the hand's actuators\n"
       "preferred: otherwise write the best plan with a warning\n"
@@ -131,7 +131,7 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
 }
 
 void HandOptions::AskFor(planning::InHandTask& task) const {
-  task.reserve = reserve;
+  task.robustness = robustness;
   task.margin = clearance_m;
   if (!turn.empty()) task.turn = ParseTurn(turn);
   if (!start_pose.empty()) task.start_pose = ParsePose("--start-pose", start_pose);

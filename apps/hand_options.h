@@ -15,7 +15,7 @@ struct HandOptions {
   std::string start_pose;
   std::string goal_pose;
   double clearance_m = 1e-3;
-  planning::Reserve reserve = planning::Reserve::kRequired;
+  planning::RobustnessLevel robustness = planning::RobustnessLevel::kRequired;
 
   void AddTo(CLI::App& app);
 

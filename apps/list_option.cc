@@ -77,8 +77,8 @@ void ListOption::Parse(const std::vector<std::string>& results, bool optional) c
     for (const std::string& item : SplitItems(result)) ParseItem(item, seen, values);
   }
   if (values > 0 && values < values_.size()) {
-    throw CLI::ValidationError(name_, "expected " + example_ + ", found \"" + JoinItems(results) +
-                                          "\"");
+    throw CLI::ValidationError(name_,
+                               "expected " + example_ + ", found \"" + JoinItems(results) + "\"");
   }
 }
 

@@ -15,6 +15,7 @@
 #include "planner/plan/grasp_io.h"
 #include "planner/planning/in_hand_task.h"
 #include "planner/planning/solve.h"
+#include "planner/roadmap/roadmap_parameters.h"
 #include "planner/tree/tree_planner.h"
 #include "sim/actuation/simulate_execution.h"
 
@@ -141,7 +142,7 @@ planning::PlanRequest PlanProgram::RequestFor(const object::Object& object) cons
   request.hand.fingertip_radius = finger_radius;
   request.criteria.min_quality = min_quality;
   request.objective = objective;
-  request.explain = explain;
+  request.parameters.Edit<planning::SearchParameters>().explain = explain;
   if (batch.empty()) request.jobs = jobs;  // a batch has as many processes
   return request;
 }

@@ -16,6 +16,8 @@
 #include "planner/object/reading.h"
 #include "planner/registry/registry.h"
 #include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/roadmap_parameters.h"
+#include "planner/sets/set_parameters.h"
 #include "planner/tree/tree_planner.h"
 
 namespace regrasp::apps {
@@ -159,11 +161,12 @@ planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const
   request.hand.torsion = contact.torsion().value_or(0);
   request.seed = seed;
   request.deadline = deadline();
-  request.spanning = spanning;
-  if (!contacts_given) request.contact_points = contacts;
-  request.clusters = clusters;
-  request.last_resort = fallback;
-  request.effort = budget;
+  request.parameters.Edit<sets::SetParameters>().spanning = spanning;
+  auto& roadmap = request.parameters.Edit<roadmap::RoadmapParameters>();
+  if (!contacts_given) roadmap.contact_points = contacts;
+  roadmap.clusters = clusters;
+  roadmap.last_resort = fallback;
+  request.parameters.Edit<planning::SearchParameters>().budget = budget;
   return request;
 }
 

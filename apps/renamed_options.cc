@@ -16,7 +16,8 @@ struct Renaming {
   std::string_view programs;  ///< their names, separated by spaces
   std::string_view old_name;
   std::string_view new_name;
-  /// The new value; `*` is replaced by the old one. Empty: the option keeps its value, if it has one.
+  /// The new value; `*` is replaced by the old one. Empty: the option keeps its value, if it has
+  /// one.
   std::string_view value;
 };
 

@@ -296,8 +296,8 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
   const ListOption::Parser size = SizeParser(options.frame.width, options.frame.height);
   ListOption("--size", &options.settings)
       .Values("WxH", {[&options, size](const std::string& name, const std::string& text) {
-                size(name, text);
-                options.frame.crop = false;
+    size(name, text);
+    options.frame.crop = false;
               }})
       .Key("animation", SizeParser(options.animation_width, options.animation_height))
       .Key("overview",

@@ -14,6 +14,7 @@
 #include "planner/registry/registry.h"
 #include "planner/sampling/surface_sampler.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "planner/sets/set_parameters.h"
 #include "planner/tree/bidirectional_tree.h"
 #include "planner/tree/subset_search.h"
 #include "planner/tree/tree_planner.h"
@@ -72,7 +73,7 @@ Contender GeneralSearch(const object::Object& object, const ContestSetting& sett
     const double begin = ProcessorSeconds();
     RandomStream random(seed, RandomUse::kCandidates);
     tree::SearchSpace space(object, {setting.half_angle, setting.min_quality});
-    space.SetLimits({.most_tests = tree::TreePlanner::kDefaultEffort});
+    space.SetLimits({.most_tests = tree::TreePlanner::kDefaultTests});
     const criteria::ContactSet from = space.Add(pair.start);
     const criteria::ContactSet to = space.Add(pair.goal);
     space.Accept(from);
@@ -109,8 +110,9 @@ Contender OnPolyhedron(const object::Polyhedron& solid, const ContestSetting& se
   }
   const auto ask = [&solid, setting, graph](const GraspPair& pair, std::uint64_t seed) {
     planning::PlanRequest request = RequestFor(solid, setting, pair, seed);
-    request.spanning = setting.half_angle <= kMostUniform ? planning::Spanning::kUniform
-                                                          : planning::Spanning::kAdaptive;
+    request.parameters.Edit<sets::SetParameters>().spanning = setting.half_angle <= kMostUniform
+                                                                  ? planning::Spanning::kUniform
+                                                                  : planning::Spanning::kAdaptive;
     return Timed(
         [&] { return planning::Solve(polyhedron::PolyhedronPlanner(graph.get()), request); });
   };

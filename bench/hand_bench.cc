@@ -81,7 +81,7 @@ struct Contest {
   gait::Turn turn;
   bool pairs = false;
   bool replay = false;
-  gait::Reserve reserve = gait::Reserve::kPreferred;
+  gait::RobustnessLevel robustness = gait::RobustnessLevel::kPreferred;
   double plan_mu = kFriction;
   double min_quality = criteria::GraspCriteria().min_quality;
   std::optional<double> of_critical;
@@ -143,7 +143,7 @@ Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Hand
     if (contest.replay) request.simulate = sim::ExecutionSimulator(file, body.solid());
     request.criteria.min_quality = contest.min_quality;
     request.turn = contest.turn;
-    request.reserve = contest.reserve;
+    request.robustness = contest.robustness;
     request.seed = seed;
     if (contest.pairs) {
       const auto pair = DrawPair(request);
@@ -302,7 +302,7 @@ int main(int argc, char** argv) {
   app.add_option("--axis", axis, "x, y or z of the object")->check(CLI::IsMember({"x", "y", "z"}));
   app.add_option("--degrees", degrees, "Of the turn");
   app.add_flag("--pairs", contest.pairs, "Two grasps at one pose instead of a turn");
-  app.add_option("--reserve", contest.reserve, "Of plans: 0 none, 1 preferred, 2 required");
+  app.add_option("--reserve", contest.robustness, "Of plans: 0 none, 1 preferred, 2 required");
   app.add_flag("--replay", contest.replay, "Also carry plans out by the hand's own actuators");
   app.add_option("--plan-mu", contest.plan_mu,
                  "Friction that is planned with, of 0.8 that there is");

@@ -13,6 +13,7 @@
 #include "planner/planning/solve.h"
 #include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "planner/sets/set_parameters.h"
 #include "planner/sets/set_sampling.h"
 
 namespace regrasp {
@@ -60,8 +61,9 @@ class QueryMaker {
 
 QueryTimes TimeQueries(const object::Polyhedron& solid, double degrees, planning::Spanning spanning,
                        int queries) {
-  planning::PlanRequest request = {
-      .object = &solid, .criteria = {.half_angle = Radians(degrees)}, .spanning = spanning};
+  planning::PlanRequest request = {.object = &solid,
+                                   .criteria = {.half_angle = Radians(degrees)},
+                                   .parameters = sets::SetParameters{.spanning = spanning}};
   polyhedron::PolyhedronGraph graph(solid, request.criteria.half_angle, spanning);
   const polyhedron::PolyhedronPlanner planner(&graph);
   polyhedron::PolyhedronModel model(solid, graph, request);

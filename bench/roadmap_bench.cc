@@ -38,7 +38,7 @@ const object::Polyhedron& Model(std::int64_t index) {
 planning::PlanRequest RequestFor(const object::Polyhedron& solid, std::int64_t contacts) {
   return {.object = &solid,
           .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
-          .contact_points = static_cast<int>(contacts)};
+          .parameters = roadmap::RoadmapParameters{.contact_points = static_cast<int>(contacts)}};
 }
 
 void Describe(benchmark::State& state, std::int64_t subsets, std::int64_t vertices) {
@@ -52,7 +52,7 @@ void BM_TestEverySubset(benchmark::State& state) {
   const object::Polyhedron& solid = Model(state.range(0));
   const planning::PlanRequest request = RequestFor(solid, state.range(1));
   const std::vector<grasp::Contact> p =
-      sampling::SpreadContactPoints(solid, *request.contact_points, request.seed);
+      sampling::SpreadContactPoints(solid, static_cast<int>(state.range(1)), request.seed);
   const object::WrenchFrame frame = solid.wrench_frame();
   const int count = static_cast<int>(p.size());
   std::int64_t subsets = 0;

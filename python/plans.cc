@@ -19,6 +19,7 @@
 #include "planner/planning/solve.h"
 #include "planner/registry/registry.h"
 #include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/roadmap_parameters.h"
 #include "python/binding.h"
 #include "python/interrupt.h"
 #include "sim/actuation/simulate_execution.h"
@@ -53,7 +54,7 @@ struct HandArguments {
   double turn_angle = 0;  ///< radians
   std::optional<std::array<double, 7>> start_pose, goal_pose;
   double clearance = 1e-3;
-  planning::Reserve reserve = planning::Reserve::kRequired;
+  planning::RobustnessLevel robustness = planning::RobustnessLevel::kRequired;
 };
 
 std::optional<Eigen::Isometry3d> PoseOf(const std::optional<std::array<double, 7>>& numbers) {
@@ -69,7 +70,7 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
                             const HandArguments& given) {
   return {.hand = &hand.file.hand,
           .scale = object.scale,
-          .reserve = given.reserve,
+          .robustness = given.robustness,
           .margin = given.clearance,
           .turn = {given.turn_axis, given.turn_angle},
           .start_pose = PoseOf(given.start_pose),
@@ -102,8 +103,9 @@ planning::PlanResult Find(const PythonObject& object, const PlanArguments& given
   request.hand.torsion = given.torsion;
   request.objective = given.objective;
   request.seed = given.seed;
-  request.contact_points = given.contacts;
-  request.clusters = given.clusters;
+  auto& roadmap = request.parameters.Edit<roadmap::RoadmapParameters>();
+  roadmap.contact_points = given.contacts;
+  roadmap.clusters = given.clusters;
   request.jobs = given.jobs;
   request.deadline = interrupt.deadline();
   request.progress = interrupt.progress();
@@ -174,10 +176,10 @@ void BindPlans(py::module_& module) {
              [](const PythonObject& object, const PlanArguments& given, py::object progress) {
                return FindPlan(object, given, std::move(progress), std::nullopt);
              });
-  py::enum_<planning::Reserve>(module, "Reserve")
-      .value("preferred", planning::Reserve::kPreferred)
-      .value("required", planning::Reserve::kRequired)
-      .value("none", planning::Reserve::kNone);
+  py::enum_<planning::RobustnessLevel>(module, "RobustnessLevel")
+      .value("preferred", planning::RobustnessLevel::kPreferred)
+      .value("required", planning::RobustnessLevel::kRequired)
+      .value("none", planning::RobustnessLevel::kNone);
   py::class_<HandArguments>(module, "HandArguments")
       .def(py::init<>())
       .def_readwrite("turn_axis", &HandArguments::turn_axis)
@@ -185,7 +187,7 @@ void BindPlans(py::module_& module) {
       .def_readwrite("start_pose", &HandArguments::start_pose)
       .def_readwrite("goal_pose", &HandArguments::goal_pose)
       .def_readwrite("clearance", &HandArguments::clearance)
-      .def_readwrite("reserve", &HandArguments::reserve);
+      .def_readwrite("robustness", &HandArguments::robustness);
   module.def("find_plan_in_hand",
              [](const PythonObject& object, const PlanArguments& given, const PythonHand& hand,
                 const HandArguments& asked, py::object progress) {

@@ -58,7 +58,8 @@ std::string MendReplay(const ReportStep& step, const Report& report) {
       return "use a larger --grasp-force, a lighter object (--mass, --density), or more friction "
              "(--friction-angle)";
     case Cause::kQuality:
-      return "plan better grasps (plan --min-quality above the --disturbance), or use more friction "
+      return "plan better grasps (plan --min-quality above the --disturbance), or use more "
+             "friction "
              "(--friction-angle)";
     case Cause::kEdge:
       return "use contacts farther from the borders of their faces";
@@ -67,7 +68,8 @@ std::string MendReplay(const ReportStep& step, const Report& report) {
              "--optimize margin)";
     default:
       return "use more friction (--friction-angle), or plan with more friction margin (plan "
-             "--optimize margin); note: --disturbance limits reports in which direction the grasp is weak";
+             "--optimize margin); note: --disturbance limits reports in which direction the grasp "
+             "is weak";
   }
 }
 
@@ -137,7 +139,8 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kHandCollides:
       return MendCollision(step.fault());
     case Reason::kTorqueLimit:
-      return "use a smaller --grasp-force, a lighter object (--mass), or joint configurations in which "
+      return "use a smaller --grasp-force, a lighter object (--mass), or joint configurations in "
+             "which "
              "the finger is stronger";
     case Reason::kCouplingViolated:
       return step.fault().hand

@@ -50,7 +50,7 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
                                                 const std::optional<TaskStart>& start,
                                                 const criteria::GraspCriteria& criteria) {
   planning::InHandTask in_hand{
-      .hand = &hand.hand, .scale = body.scale, .reserve = planning::Reserve::kRequired};
+      .hand = &hand.hand, .scale = body.scale, .robustness = planning::RobustnessLevel::kRequired};
   in_hand.simulate = sim::ExecutionSimulator(hand, body.solid());
   if (start) {
     in_hand.start_pose = start->pose;

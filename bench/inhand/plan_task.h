@@ -29,8 +29,10 @@ struct PlannedTask {
 };
 
 /// Plan a task as the program `plan` does with its usual options.
-/// These are the robustness margins, only plans that execute in simulation on the hand's own
-/// actuators, and grasps with a quality of at least 0.01.
+/// These are the robustness margins, only plans
+/// that execute in simulation on the hand's own
+/// actuators, and grasps with a quality of
+/// at least 0.01.
 /// @param start    initial state; none: chosen by the planner. A task that moves the centroid
 ///     begins in a pose with good reach, or passes such a pose half-way.
 /// @param limit_s  processor time limit, s.

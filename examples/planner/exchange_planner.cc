@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "planner/base/error.h"
@@ -16,26 +17,37 @@
 
 using namespace regrasp;
 
-/// Try all orders of exchanging contact k of the start for contact k of the goal. Placing a finger
-/// preserves force closure; the grasp after each release is tested.
+/// Parameters of this planner alone, in PlanRequest::parameters. Other planners refuse "--orders".
+struct ExchangeParameters {
+  int most_orders = 120;  ///< number of orders that are tested
+  [[nodiscard]] std::vector<std::string> Options() const {
+    if (most_orders == ExchangeParameters().most_orders) return {};
+    return {"--orders"};
+  }
+};
+
+/// Tries all orders of exchanging contact k of the start for contact k of the goal. A placed finger
+/// keeps force closure; the grasp after the release of another one is tested.
 class ExchangePlanner final : public planning::Planner {
  public:
   ExchangePlanner()
       : Planner({.name = "exchange",
                  .what = "exchanges contacts one by one",
                  .in_space = planning::PlannerScope{5, {4, 4}, {4, 4}},
+                 .options = {"--orders"},
                  .has_graph = false}) {}
 
   [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override {
     std::vector<int> order(request.start.grasp.size());
     std::iota(order.begin(), order.end(), 0);
     planning::PlanResult result;
+    int left = request.parameters.Get<ExchangeParameters>().most_orders;
     do {
       if (auto plan = Exchange(request, order)) {
         result.plan = std::move(plan);
         return result;
       }
-    } while (std::ranges::next_permutation(order).found);
+    } while (--left > 0 && std::ranges::next_permutation(order).found);
     result.status = planning::PlanResult::Status::kNoSequence;
     result.message = "no order of exchanges keeps force closure";
     return result;
@@ -80,6 +92,7 @@ int main(int argc, char** argv) {
     request.criteria.half_angle = Radians(25);
     request.start.kind = request.goal.kind = planning::GraspChoice::Kind::kRandomAny;
     request.seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+    request.parameters = ExchangeParameters{.most_orders = 24};
     const planning::PlanResult result =
         planning::Solve(registry::PlannerFor("exchange", request), request);
     std::cout << (result.plan ? std::to_string(result.plan->steps.size()) + " steps"

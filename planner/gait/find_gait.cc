@@ -92,7 +92,7 @@ std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCou
                       std::int64_t{0},
                       [](std::int64_t sum, const auto& one) { return sum + one.second; }),
       "whose simulated execution fails (" + FailuresText(best.execution_failures) + ")");
-  if (request.reserve == Reserve::kRequired) {
+  if (request.robustness == RobustnessLevel::kRequired) {
     text += "; help: --robustness none omits the robustness margins";
   }
   return text;
@@ -279,13 +279,13 @@ GaitResult FindGait(const GaitRequest& request) {
     return {std::nullopt, FailureSummary(asked, search.counts())};
   };
   SimulatedGait simulated;
-  if (request.reserve == Reserve::kNone) {
+  if (request.robustness == RobustnessLevel::kNone) {
     simulated.found = find(request, {});
   } else if (request.simulate) {
     simulated = FindExecutableGait(request, result.contacts, find);
   } else {
-    if (request.reserve == Reserve::kPreferred) simulated.found = find(request, {});
-    if (request.reserve == Reserve::kRequired || simulated.found.gait) {
+    if (request.robustness == RobustnessLevel::kPreferred) simulated.found = find(request, {});
+    if (request.robustness == RobustnessLevel::kRequired || simulated.found.gait) {
       simulated.found = FindRobustGait(request, find, simulated.found);
     }
   }

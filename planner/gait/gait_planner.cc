@@ -76,20 +76,19 @@ Relaxation TiltedPalm(kinematics::HandModel& hand) {
 /// Return a probe with a smaller budget. Actuators are ignored unless they limit the request.
 GaitRequest ProbeOf(const GaitRequest& request, bool with_actuators) {
   GaitRequest probe = request;
-  if (!with_actuators) probe.reserve = Reserve::kNone;
+  if (!with_actuators) probe.robustness = RobustnessLevel::kNone;
   probe.most_expanded = std::min(request.most_expanded,
                                  std::max(kFewestExpanded, request.most_expanded / kProbeFraction));
   return probe;
 }
 
 bool IsLimitedByActuators(const GaitRequest& request) {
-  if (request.reserve != Reserve::kRequired) return false;
+  if (request.robustness != RobustnessLevel::kRequired) return false;
   request.progress("searching without simulation");
   return FindGait(ProbeOf(request, false)).gait.has_value();
 }
 
 using planning::GraspChoice;
-using planning::PlanOption;
 using planning::PlanRequest;
 using planning::PlanResult;
 
@@ -99,7 +98,7 @@ constexpr int kFewestFingers = 3;
 
 GaitRequest RequestFor(const PlanRequest& asked) {
   GaitRequest request;
-  static_cast<planning::InHandTask&>(request) = *asked.in_hand;
+  static_cast<planning::InHandTask&>(request) = asked.parameters.Get<GaitParameters>().task.value();
   // Spatial objects are always polyhedra (WhyNotServed).
   request.solid = &dynamic_cast<const object::Polyhedron&>(*asked.object);
   request.criteria = asked.criteria;
@@ -107,7 +106,8 @@ GaitRequest RequestFor(const PlanRequest& asked) {
   request.start_grasp = asked.start.grasp;
   request.goal_grasp = asked.goal.grasp;
   request.seed = asked.seed;
-  request.most_expanded = asked.effort.value_or(kDefaultExpanded);
+  request.most_expanded =
+      asked.parameters.Get<planning::SearchParameters>().budget.value_or(kDefaultExpanded);
   request.seeks_most_margin = asked.objective == planning::Objective::kMargin;
   request.deadline = asked.deadline;
   request.jobs = asked.jobs;
@@ -115,9 +115,9 @@ GaitRequest RequestFor(const PlanRequest& asked) {
   return request;
 }
 
-std::vector<planning::Rest> StaticGraspsOf(const plan::Plan& plan) {
+std::vector<planning::StaticGrasp> StaticGraspsOf(const plan::Plan& plan) {
   plan::FingerGrasp grasp = plan.initial;
-  std::vector<planning::Rest> grasps = {{plan::ContactsOf(grasp), {}}};
+  std::vector<planning::StaticGrasp> grasps = {{plan::ContactsOf(grasp), {}}};
   for (const plan::Step& step : plan.steps) {
     grasp = plan::GraspAfter(grasp, step);
     grasps.push_back({plan::ContactsOf(grasp), {}});
@@ -168,15 +168,16 @@ GaitPlanner::GaitPlanner()
                .in_space = planning::PlannerScope{kFewestFingers,
                                                   {kFewestFingers, kMostFingers},
                                                   {kFewestFingers, kFewestFingers}},
-               .options = {PlanOption::kMargin, PlanOption::kHand, PlanOption::kEffort,
-                           PlanOption::kExplain},
+               .options = {planning::kMarginOption, planning::kHandOption, planning::kBudgetOption,
+                           planning::kExplainOption},
                .has_graph = false,
                .needs_hand = true}) {}
 
 PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   GaitRequest request = RequestFor(asked);
-  if (request.seeks_most_margin && (!request.simulate || request.reserve == Reserve::kNone)) {
-    throw InputError(OptionName(PlanOption::kMargin) +
+  if (request.seeks_most_margin &&
+      (!request.simulate || request.robustness == RobustnessLevel::kNone)) {
+    throw InputError(std::string(planning::kMarginOption) +
                      ": requires simulated plans, cannot be used with --robustness none");
   }
   const auto time = request.deadline.left();
@@ -190,7 +191,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
       result.message += "; help: --robustness preferred writes the best plan anyway";
     }
     if (request.deadline.IsOver()) result.message += "; time limit reached";
-    if (asked.explain) {
+    if (asked.parameters.Get<planning::SearchParameters>().explain) {
       if (time) request.deadline = request.deadline.In(*time);
       result.message += "; " + ExplainGait(request);
     } else {
@@ -213,19 +214,19 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
         FailureText(*found.execution, result.plan->steps.size()) + "; help: validate --hand " +
         (is_failure ? "shows the failure" : "completes the simulation"));
   }
-  const std::vector<planning::Rest> grasps = StaticGraspsOf(*result.plan);
+  const std::vector<planning::StaticGrasp> grasps = StaticGraspsOf(*result.plan);
   const criteria::GraspEvaluator evaluator(*asked.object, asked.criteria, FingersOf(request));
   result.margin = planning::SmallestMargin(grasps, evaluator);
-  for (std::string& warning : planning::RestWarnings(grasps, evaluator)) {
+  for (std::string& warning : planning::GraspWarnings(grasps, evaluator)) {
     result.warnings.push_back(std::move(warning));
   }
   return result;
 }
 
 void AskInHand(const planning::InHandTask& task, PlanRequest& request) {
-  request.in_hand = std::make_shared<planning::InHandTask>(task);
+  planning::InHandTask& own = request.parameters.Edit<GaitParameters>().task.emplace(task);
   // For a change of grasp without a given goal pose, the object keeps its pose.
-  if (task.turn.angle == 0 && !task.goal_pose) request.in_hand->goal_pose = task.start_pose;
+  if (task.turn.angle == 0 && !task.goal_pose) own.goal_pose = task.start_pose;
   // The hand file does not define the contact model; a request for soft fingers must still be
   // rejected.
   const double torsion = request.hand.torsion;

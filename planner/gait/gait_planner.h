@@ -1,17 +1,26 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "planner/planning/in_hand_task.h"
 #include "planner/planning/planner.h"
-
-namespace regrasp::planning {
-struct InHandTask;
-}
 
 namespace regrasp::gait {
 
 struct GaitRequest;
+
+/// Parameters of the planner `gait` in PlanRequest::parameters, in addition to SearchParameters.
+struct GaitParameters {
+  std::optional<planning::InHandTask> task = {};  ///< required; set by AskInHand
+
+  [[nodiscard]] std::vector<std::string> Options() const {
+    if (!task) return {};
+    return {planning::kHandOption};
+  }
+};
 
 /// Find single changes of an infeasible request that make a gait possible.
 /// For each of friction, object size and palm tilt (the last only if no pose is given), the

@@ -14,7 +14,7 @@
 
 namespace regrasp::gait {
 
-using planning::Reserve;
+using planning::RobustnessLevel;
 
 /// Default budget of a search: number of expanded stances over all initial poses.
 inline constexpr std::int64_t kDefaultExpanded = 8'000;

@@ -123,7 +123,7 @@ std::vector<Schedule> SchedulesFor(const GaitRequest& request) {
 
 SimulatedGait FindWithoutSimulation(GaitRequest request, const FindOne& find) {
   request.simulate = nullptr;
-  if (request.reserve == Reserve::kRequired) return {FindRobustGait(request, find, {})};
+  if (request.robustness == RobustnessLevel::kRequired) return {FindRobustGait(request, find, {})};
   FoundGait without = find(request, {});
   return {without.gait ? FindRobustGait(request, find, without) : std::move(without)};
 }
@@ -423,7 +423,7 @@ FoundGait FindRobustGait(const GaitRequest& request, const FindOne& find,
 
 SimulatedGait FindExecutableGait(const GaitRequest& request,
                                  const std::vector<grasp::Contact>& contacts, const FindOne& find) {
-  const bool is_required = request.reserve == Reserve::kRequired;
+  const bool is_required = request.robustness == RobustnessLevel::kRequired;
   AttemptRunner runner(request, contacts, find);
   runner.Run(is_required ? request.deadline : request.deadline.After(kTimeBeforeWithout));
   if (runner.is_unknown()) return FindWithoutSimulation(request, find);

@@ -186,7 +186,8 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                 "any other fault. The step was not evaluated.",
      .causes = "The unit of length is wrong, so that the object is very large or very small.\n"
                "Grasp force and mass are out of proportion.",
-     .remedies = "Check the grasp force (--grasp-force), the mass (--mass, --density) and --scale."},
+     .remedies =
+         "Check the grasp force (--grasp-force), the mass (--mass, --density) and --scale."},
     {.name = "contact-lost",
      .check = kReplay,
      .meaning = "A holding finger left the surface. In a hand replay: it had no force for 20 ms. "
@@ -218,8 +219,8 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                  "Plan with a larger friction margin (plan --optimize margin)."},
     {.name = "trials-failed",
      .check = kTrials,
-     .meaning =
-         "The plan passes without noise, and fewer trials pass than --trials min-pass-rate requires.",
+     .meaning = "The plan passes without noise, and fewer trials pass than --trials min-pass-rate "
+                "requires.",
      .causes = "The plan has too little margin for the given errors of friction, pose or joints.",
      .remedies = "Plan with a larger friction margin (plan --optimize margin).\n"
                  "Reduce the errors of the real hand and object, and pass the smaller values.",
@@ -291,13 +292,14 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .check = kCause,
      .meaning = "One of two engines did not converge.",
      .causes = "See [`simulation-unstable`](failure_reasons.md#simulation-unstable).",
-     .remedies = "Check the grasp force (--grasp-force), the mass (--mass, --density) and --scale."},
+     .remedies =
+         "Check the grasp force (--grasp-force), the mass (--mass, --density) and --scale."},
     {.name = "unknown",
      .check = kCause,
      .meaning = "No other likely cause applies.",
      .causes = "The values that the report contains were examined.",
-     .remedies =
-         "Run `validate --disturbance limits`, which reports the direction in which the grasp is weak."},
+     .remedies = "Run `validate --disturbance limits`, which reports the direction in which the "
+                 "grasp is weak."},
 });
 
 /// Return the items of a text with one per line as a Markdown list.

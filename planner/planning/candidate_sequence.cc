@@ -19,7 +19,7 @@ namespace regrasp::planning {
 CandidateSequence StartOf(const grasp::Grasp& grasp) {
   CandidateSequence candidate;
   candidate.initial = plan::FingersInOrder(grasp);
-  candidate.rests = {{grasp, std::nullopt}};
+  candidate.grasps = {{grasp, std::nullopt}};
   return candidate;
 }
 
@@ -62,14 +62,14 @@ CandidateSequence MakeSwitchSequence(std::span<const grasp::Grasp> grasps, int f
   if (grasps.empty()) throw std::invalid_argument("a sequence needs a grasp");
   CandidateSequence sequence;
   sequence.initial = MakeSwitch({}, grasps.front(), fingers).place;
-  sequence.rests = {{grasps.front(), std::nullopt}};
+  sequence.grasps = {{grasps.front(), std::nullopt}};
   plan::FingerGrasp holding = sequence.initial;
   for (const grasp::Grasp& grasp : grasps.subspan(1)) {
     plan::Switch step = MakeSwitch(holding, grasp, fingers);
     if (step.place.empty() && step.release.empty()) continue;
     holding = plan::GraspAfter(holding, step);
     sequence.steps.emplace_back(std::move(step));
-    sequence.rests.push_back({grasp, std::nullopt});
+    sequence.grasps.push_back({grasp, std::nullopt});
   }
   return sequence;
 }
@@ -80,33 +80,34 @@ std::optional<plan::PlanObstacle> FindObstacle(const CandidateSequence& candidat
                                 evaluator.finger_radius());
 }
 
-double SmallestMargin(const std::vector<Rest>& rests, const criteria::GraspEvaluator& evaluator) {
+double SmallestMargin(const std::vector<StaticGrasp>& grasps,
+                      const criteria::GraspEvaluator& evaluator) {
   // These are lower bounds, so that only the few smallest ones must be computed exactly.
-  std::vector<std::pair<double, const Rest*>> by_margin;
-  for (const Rest& rest : rests)
-    by_margin.emplace_back(evaluator.Margin(rest.grasp).value_or(-1), &rest);
+  std::vector<std::pair<double, const StaticGrasp*>> by_margin;
+  for (const StaticGrasp& candidate : grasps)
+    by_margin.emplace_back(evaluator.Margin(candidate.grasp).value_or(-1), &candidate);
   std::ranges::sort(by_margin);
   double smallest = evaluator.half_angle();
-  for (const auto& [margin, rest] : by_margin) {
+  for (const auto& [margin, candidate] : by_margin) {
     if (margin >= std::max(smallest, 0.0)) break;
-    const grasp::SoftContacts felt(rest->grasp, evaluator.torsion());
+    const grasp::SoftContacts felt(candidate->grasp, evaluator.torsion());
     const auto required = grasp::ComputeRequiredHalfAngle(felt.view(), evaluator.frame());
     smallest = std::min(smallest, required ? evaluator.half_angle() - required->upper : 0);
   }
   return smallest;
 }
 
-std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
-                                      const criteria::GraspEvaluator& evaluator) {
+std::vector<std::string> GraspWarnings(const std::vector<StaticGrasp>& grasps,
+                                       const criteria::GraspEvaluator& evaluator) {
   const auto name = [&](std::size_t step) {
     if (step == 0) return std::string("the start grasp (step 0)");
     return "the grasp after step " + std::to_string(step) + " of " +
-           std::to_string(rests.size() - 1);
+           std::to_string(grasps.size() - 1);
   };
   std::vector<std::string> warnings;
   std::vector<std::pair<criteria::UnmetCriterion, std::size_t>> weakest;
-  for (std::size_t i = 0; i < rests.size(); ++i) {
-    const grasp::Grasp& grasp = rests[i].grasp;
+  for (std::size_t i = 0; i < grasps.size(); ++i) {
+    const grasp::Grasp& grasp = grasps[i].grasp;
     if (evaluator.Margin(grasp)) continue;
     if (warnings.empty() && !evaluator.IsReachable(grasp)) {
       warnings.push_back("no fingertip fits in " + name(i) + ": a contact is in a concave corner");
@@ -151,8 +152,8 @@ PlanResult ResultOf(const CandidateSequence& candidate, const criteria::GraspEva
   plan.initial = candidate.initial;
   plan.steps = candidate.steps;
   plan.goal = goal;
-  result.margin = SmallestMargin(candidate.rests, evaluator);
-  result.warnings = RestWarnings(candidate.rests, evaluator);
+  result.margin = SmallestMargin(candidate.grasps, evaluator);
+  result.warnings = GraspWarnings(candidate.grasps, evaluator);
   return result;
 }
 

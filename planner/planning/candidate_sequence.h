@@ -15,36 +15,36 @@
 
 namespace regrasp::planning {
 
-/// A grasp that a sequence rests in.
-struct Rest {
+/// A static grasp of a sequence: a grasp before or after a step.
+struct StaticGrasp {
   grasp::Grasp grasp;
-  /// The switch of the graph that it was chosen for; none for what start and goal give.
+  /// Switch of the graph that the grasp was chosen for; nullopt for start and goal.
   std::optional<search::VertexPair> chosen_for;
 };
 
-/// A sequence and what is known of it.
+/// A sequence of steps with its static grasps.
 struct CandidateSequence {
   plan::FingerGrasp initial;
   std::vector<plan::Step> steps;
-  std::vector<Rest> rests;  ///< before all steps and after each
+  std::vector<StaticGrasp> grasps;  ///< before all steps and after each step
 };
 
-/// No steps: the fingers take the contacts of a grasp in their order.
+/// Return a sequence without steps: fingers 0, 1, … take the contacts of a grasp in their order.
 [[nodiscard]] CandidateSequence StartOf(const grasp::Grasp& grasp);
 
-/// The finger switch from the fingers that hold to the contacts that are to hold after it: places
-/// the contacts that are new with the lowest free fingers and releases those that are gone. A
-/// contact is the same where its point and normal are, bit for bit.
-/// @throws std::invalid_argument  the hand has too few fingers.
+/// Make the finger switch from one grasp to the next one.
+///
+/// It places new contacts with the free fingers of the lowest numbers and releases contacts that
+/// are not in `after`. Contacts are equal if their points and normals are, bit for bit.
+/// @throws std::invalid_argument  if the hand has too few fingers.
 [[nodiscard]] plan::Switch MakeSwitch(const plan::FingerGrasp& before, const grasp::Grasp& after,
                                       int fingers);
 
-/// Turns grasps that follow each other into finger switches of a hand of `fingers` fingers.
+/// Make the sequence of finger switches through given grasps with a hand of `fingers` fingers.
 ///
-/// The first grasp's contacts get fingers 0, 1, … in their order. Each step places the contacts
-/// that are new with the lowest free fingers and releases those that are gone; a contact is the
-/// same where its point and normal are, bit for bit. Grasps equal to the one before give no step.
-/// @throws std::invalid_argument  no grasp, or a step for which the hand has too few fingers.
+/// The contacts of the first grasp get fingers 0, 1, … in their order. Each step is a MakeSwitch; a
+/// grasp that equals the previous one adds no step.
+/// @throws std::invalid_argument  if there is no grasp, or the hand has too few fingers for a step.
 [[nodiscard]] CandidateSequence MakeSwitchSequence(std::span<const grasp::Grasp> grasps,
                                                    int fingers);
 
@@ -53,14 +53,14 @@ struct CandidateSequence {
     const CandidateSequence& candidate, const criteria::GraspEvaluator& evaluator);
 
 /// Compute the smallest friction margin of the grasps of a sequence, radians.
-[[nodiscard]] double SmallestMargin(const std::vector<Rest>& rests,
+[[nodiscard]] double SmallestMargin(const std::vector<StaticGrasp>& grasps,
                                     const criteria::GraspEvaluator& evaluator);
 
 /// Name the weakest grasps of a sequence: the first one in which a fingertip has no clearance, and
 /// for each criterion that is not met everywhere the grasp that violates it most.
-/// @param rests  grasps before all steps and after each step.
-[[nodiscard]] std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
-                                                    const criteria::GraspEvaluator& evaluator);
+/// @param grasps  before all steps and after each step.
+[[nodiscard]] std::vector<std::string> GraspWarnings(const std::vector<StaticGrasp>& grasps,
+                                                     const criteria::GraspEvaluator& evaluator);
 
 /// Make the result of a sequence: its plan and margin, and a warning if a grasp violates a
 /// criterion.

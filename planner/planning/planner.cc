@@ -15,60 +15,14 @@ GraphSummary Planner::SummarizeGraph(const PlanRequest& /*request*/) const {
   throw std::logic_error("the planner " + name() + " has no graph");
 }
 
-std::string OptionName(PlanOption option) {
-  switch (option) {
-    case PlanOption::kMargin:
-      return "--optimize margin";
-    case PlanOption::kTravel:
-      return "--optimize travel";
-    case PlanOption::kRegions:
-      return "--optimize regions";
-    case PlanOption::kUniformSpanning:
-      return "--planner spanning=uniform";
-    case PlanOption::kContactPoints:
-      return "--planner points";
-    case PlanOption::kGivenPoints:
-      return "--planner points=given";
-    case PlanOption::kClusters:
-      return "--planner clusters";
-    case PlanOption::kNoLastResort:
-      return "--planner fallback=no";
-    case PlanOption::kEffort:
-      return "--planner budget";
-    case PlanOption::kExplain:
-      return "--explain";
-    case PlanOption::kHand:
-      return "--hand";
-    case PlanOption::kSoftFingers:
-      return "--torsion";
-    case PlanOption::kFocusPoints:
-      return "--sampling";
-    case PlanOption::kQueries:
-      return "--planner queries";
-  }
-  return {};
-}
-
-std::vector<PlanOption> OptionsOf(const PlanRequest& request) {
-  std::vector<PlanOption> options;
-  const auto add = [&](bool asked, PlanOption option) {
-    if (asked) options.push_back(option);
-  };
-  add(request.objective == Objective::kMargin, PlanOption::kMargin);
-  add(request.objective == Objective::kTravel, PlanOption::kTravel);
-  add(request.objective == Objective::kRegions, PlanOption::kRegions);
-  add(request.spanning == Spanning::kUniform, PlanOption::kUniformSpanning);
-  add(request.contact_points.has_value(), PlanOption::kContactPoints);
-  add(request.given_points != nullptr, PlanOption::kGivenPoints);
-  add(request.clusters.has_value(), PlanOption::kClusters);
-  add(!request.last_resort, PlanOption::kNoLastResort);
-  add(request.effort.has_value(), PlanOption::kEffort);
-  add(request.explain, PlanOption::kExplain);
-  add(request.in_hand != nullptr, PlanOption::kHand);
-  add(request.hand.torsion > 0, PlanOption::kSoftFingers);
-  const GraphTasks tasks = request.graph.value_or(GraphTasks());
-  add(tasks.focus_points > 0, PlanOption::kFocusPoints);
-  add(tasks.queries > 0, PlanOption::kQueries);
+std::vector<std::string> OptionsOf(const PlanRequest& request) {
+  std::vector<std::string> options;
+  if (request.objective == Objective::kMargin) options.emplace_back(kMarginOption);
+  if (request.objective == Objective::kTravel) options.emplace_back(kTravelOption);
+  if (request.objective == Objective::kRegions) options.emplace_back(kRegionsOption);
+  for (std::string& option : request.parameters.OptionNames()) options.push_back(std::move(option));
+  if (request.given_points != nullptr) options.emplace_back(kGivenPointsOption);
+  if (request.hand.torsion > 0) options.emplace_back(kSoftFingersOption);
   return options;
 }
 
@@ -81,19 +35,20 @@ std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
            (planar ? "solids" : "planar objects") + " only, found " +
            (planar ? "a planar object" : "a solid");
   }
-  if (planner.traits().needs_hand && !request.in_hand) {
+  const std::vector<std::string> requested = OptionsOf(request);
+  if (planner.traits().needs_hand && std::ranges::find(requested, kHandOption) == requested.end()) {
     return "planner " + planner.name() + " requires a hand (--hand)";
   }
-  if (request.graph && !planner.traits().has_graph) {
+  if (request.for_graph && !planner.traits().has_graph) {
     return "planner " + planner.name() + ": graph not supported";
   }
   if (planar && request.hand.torsion > 0) {
     return "--torsion cannot be used with a planar object";
   }
-  const std::vector<PlanOption>& has = planner.traits().options;
-  for (const PlanOption option : OptionsOf(request)) {
+  const std::vector<std::string>& has = planner.traits().options;
+  for (const std::string& option : requested) {
     if (std::ranges::find(has, option) != has.end()) continue;
-    return OptionName(option) + ": not supported by planner " + planner.name();
+    return option + ": not supported by planner " + planner.name();
   }
   if (request.hand.fingers != 0 && request.hand.fingers < scope->fingers) {
     return "planner " + planner.name() + " requires a hand with " + std::to_string(scope->fingers) +

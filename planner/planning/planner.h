@@ -79,31 +79,17 @@ struct PlanResult {
   double margin = 0;  ///< smallest of half_angle − required half-angle over all grasps at rest
 };
 
-struct GraphSummary;
+// Options that only some planners have, as users write them. Further options are declared with the
+// parameters of their planner.
+inline constexpr char kMarginOption[] = "--optimize margin";
+inline constexpr char kTravelOption[] = "--optimize travel";
+inline constexpr char kRegionsOption[] = "--optimize regions";
+inline constexpr char kGivenPointsOption[] = "--planner points=given";
+inline constexpr char kSoftFingersOption[] = "--torsion";
+inline constexpr char kHandOption[] = "--hand";
 
-/// Options of a PlanRequest that only some planners have.
-enum class PlanOption {
-  kMargin,  ///< Objective::kMargin
-  kTravel,
-  kRegions,
-  kUniformSpanning,
-  kContactPoints,
-  kGivenPoints,
-  kClusters,
-  kNoLastResort,
-  kEffort,
-  kExplain,
-  kHand,
-  kSoftFingers,  ///< Hand::torsion above 0
-  kFocusPoints,  ///< of GraphTasks
-  kQueries,
-};
-
-/// As users write it: "--optimize margin".
-[[nodiscard]] std::string OptionName(PlanOption option);
-
-/// Those that a request asks for.
-[[nodiscard]] std::vector<PlanOption> OptionsOf(const PlanRequest& request);
+/// Return the options of a request that only some planners have, as users write them.
+[[nodiscard]] std::vector<std::string> OptionsOf(const PlanRequest& request);
 
 /// What a planner can do with objects of one dimension.
 struct PlannerScope {
@@ -118,11 +104,12 @@ struct PlannerTraits {
   std::string what = {};  ///< what it plans, in a few words for `--help`
   std::optional<PlannerScope> in_plane = std::nullopt;  ///< nullopt: no planar objects
   std::optional<PlannerScope> in_space = std::nullopt;  ///< nullopt: no solids
-  std::vector<PlanOption> options = {};
+  /// Options of some planners that this planner has, as users write them: "--optimize margin".
+  std::vector<std::string> options = {};
   /// Whether it plans on a graph of its own: SummarizeGraph builds it, and
   /// GraspChoice::Kind::kRandom means grasps of it. Otherwise kRandom means the same as kRandomAny.
   bool has_graph = true;
-  /// Whether it plans for hands only (PlanRequest::in_hand).
+  /// Whether it plans for hands only: it requires kHandOption and chooses grasps itself (kAny).
   bool needs_hand = false;
 };
 

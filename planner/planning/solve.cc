@@ -53,7 +53,7 @@ class GraspResolver {
   /// A given grasp checked, one that is drawn evenly over the surface drawn.
   [[nodiscard]] GraspChoice Resolve(GraspChoice choice, RandomUse use) const {
     if (choice.kind == Kind::kAny) {
-      if (request_.in_hand) return choice;
+      if (planner_.traits().needs_hand) return choice;
       throw std::invalid_argument("only a plan for a hand begins or ends with any grasp");
     }
     if (choice.kind == Kind::kGiven) {

@@ -65,7 +65,7 @@ const planning::Planner* FirstThatServes(const planning::PlanRequest& request) {
 }
 
 /// List the planners that support an option of a request, for objects of its dimension.
-std::string ThoseThatHave(planning::PlanOption option, const planning::PlanRequest& request) {
+std::string ThoseThatHave(const std::string& option, const planning::PlanRequest& request) {
   std::string names;
   for (const planning::Planner* planner : AllPlanners()) {
     if (!planner->ScopeIn(request.object->dimension())) continue;
@@ -84,9 +84,8 @@ const planning::Planner& ChoosePlanner(const planning::PlanRequest& request) {
                     std::string(request.object->dimension() == 2 ? "a planar object" : "a solid") +
                     ":";
   bool first = true;
-  for (const planning::PlanOption option : planning::OptionsOf(request)) {
-    why += (first ? " " : ", ") + planning::OptionName(option) + " (" +
-           ThoseThatHave(option, request) + ")";
+  for (const std::string& option : planning::OptionsOf(request)) {
+    why += (first ? " " : ", ") + option + " (" + ThoseThatHave(option, request) + ")";
     first = false;
   }
   throw InputError(why);

@@ -38,12 +38,11 @@ Judgement JudgeSurface(const object::PolygonSoup& soup, const object::Reading& a
 Judgement JudgeParts(const std::vector<double>& volume_shares,
                      const object::RepairOptions& options) {
   if (options.part || volume_shares.size() < 2 || volume_shares[1] <= kSmallPart) return {};
-  return {
-      Shortfall::kNotChosen,
-      std::to_string(volume_shares.size()) + " separate solids, with " +
-          object::SharesText(volume_shares) +
-          " of the volume; help: --repair part=K selects one (1: the largest), --shells union unites "
-          "all"};
+  return {Shortfall::kNotChosen, std::to_string(volume_shares.size()) + " separate solids, with " +
+                                     object::SharesText(volume_shares) +
+                                     " of the volume; help: --repair part=K selects one (1: the "
+                                     "largest), --shells union unites "
+                                     "all"};
 }
 
 Judgement JudgeShape(const Comparison& comparison, const Original& original,

@@ -133,9 +133,8 @@ class Ladder {
         volumes.back()["volume"].get<double>() / volumes.front()["volume"].get<double>();
     if (HasOpenEdges(surface) && left < kLeastLeft) {
       last().shortfall = Shortfall::kSheet;
-      last().outcome =
-          "open sheet: a wrap enters it and keeps " + FormatShort(100 * left, 3) +
-          " % of the volume of a coarser one; help: --repair wall=T gives it a wall";
+      last().outcome = "open sheet: a wrap enters it and keeps " + FormatShort(100 * left, 3) +
+                       " % of the volume of a coarser one; help: --repair wall=T gives it a wall";
       return false;
     }
     return IsCloseEnough(*std::move(made));

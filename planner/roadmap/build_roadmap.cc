@@ -48,9 +48,10 @@ void JoinContacts(std::vector<grasp::Contact>& points, const std::vector<grasp::
 }  // namespace
 
 RoadmapSize SizeOf(const planning::PlanRequest& request) {
-  const std::optional<int>& contacts = request.contact_points;
+  const auto parameters = request.parameters.Get<RoadmapParameters>();
+  const std::optional<int>& contacts = parameters.contact_points;
   const bool many = contacts.value_or(request.object->face_count()) > kMaxRoadmapContacts;
-  const int clusters = request.clusters.value_or(many ? kClusters : 0);
+  const int clusters = parameters.clusters.value_or(many ? kClusters : 0);
   return {contacts.value_or(clusters > 0 ? kClusteredContacts : kPlainContacts), clusters};
 }
 

@@ -8,6 +8,7 @@
 #include "planner/planning/plan_request.h"
 #include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap.h"
+#include "planner/roadmap/roadmap_parameters.h"
 
 namespace regrasp::roadmap {
 
@@ -26,10 +27,11 @@ inline constexpr int kMaxRoadmapContacts = 200;
 /// three times.
 inline constexpr int kMaxClusteredContacts = 4000;
 
-/// Numbers of contact points and clusters of a roadmap.
-/// Defaults: 60 points without clusters for a solid with at most kMaxRoadmapContacts faces,
-/// otherwise (a mesh) 1000 points in 50 clusters. If a request states the number of contact points,
-/// that number replaces the number of faces.
+/// Number of contact points and of clusters of a roadmap.
+///
+/// Without parameters: 60 contact points and no clusters on an object of at most
+/// kMaxRoadmapContacts faces; 1000 contact points in 50 clusters on an object with more faces, a
+/// mesh. A given number of contact points replaces the number of faces in this rule.
 struct RoadmapSize {
   int contacts = 0;
   int clusters = 0;  ///< 0: no clusters, all subsets of four contact points are tested

@@ -28,6 +28,7 @@ class ClusterSearch {
  public:
   explicit ClusterSearch(const planning::PlanRequest& request)
       : request_(request),
+        last_resort_(request.parameters.Get<RoadmapParameters>().last_resort),
         evaluator_(*request.object, request.criteria, request.hand),
         roadmap_(BuildClusteredRoadmap(request)) {}
 
@@ -75,7 +76,7 @@ class ClusterSearch {
     GraspOracle oracle(*request_.object, clusters.contacts(), request_.criteria, request_.hand,
                        request_.deadline);
     const auto find = [&] {
-      return FindContactChain(roadmap_, clusters, oracle, from, to, request_.last_resort);
+      return FindContactChain(roadmap_, clusters, oracle, from, to, last_resort_);
     };
     ContactChain chain = find();
     if (chain.grasps.empty()) {
@@ -137,7 +138,7 @@ class ClusterSearch {
                      " force-closure grasps of their representatives in " +
                      std::to_string(roadmap_.components.count()) + " components, " +
                      end("start", chain.start_link) + ", " + end("goal", chain.goal_link);
-    if (!request_.last_resort) return result;
+    if (!last_resort_) return result;
     const std::string sizes = std::to_string(chain.start_size) +
                               " grasps of all contact points from start and " +
                               std::to_string(chain.goal_size) + " from goal";
@@ -150,6 +151,7 @@ class ClusterSearch {
   }
 
   const planning::PlanRequest& request_;
+  bool last_resort_;
   criteria::GraspEvaluator evaluator_;
   ClusteredRoadmap roadmap_;
 };

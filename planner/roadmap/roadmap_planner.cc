@@ -141,7 +141,8 @@ planning::QuerySummary RunQueries(const ClusteredRoadmap& roadmap, int count,
   summary.shortest_seconds = std::numeric_limits<double>::infinity();
   for (const RandomQuery& query :
        RunRandomQueries(roadmap, dynamic_cast<const object::Polyhedron&>(*request.object), count,
-                        request.seed, request.last_resort, request.deadline, request.progress)) {
+                        request.seed, request.parameters.Get<RoadmapParameters>().last_resort,
+                        request.deadline, request.progress)) {
     ++summary.count;
     summary.connected += query.chain.grasps.empty() ? 0 : 1;
     summary.shortest_seconds = std::min(summary.shortest_seconds, query.seconds);
@@ -156,15 +157,13 @@ planning::QuerySummary RunQueries(const ClusteredRoadmap& roadmap, int count,
 }  // namespace
 
 RoadmapPlanner::RoadmapPlanner()
-    : planning::Planner(
-          {.name = "roadmap",
-           .what = "grasps of contact points or clusters of them",
-           .in_space = planning::PlannerScope{kRoadmapFingers,
-                                              {kRoadmapContacts, kRoadmapContacts},
-                                              {kRoadmapContacts, kRoadmapContacts}},
-           .options = {planning::PlanOption::kContactPoints, planning::PlanOption::kGivenPoints,
-                       planning::PlanOption::kClusters, planning::PlanOption::kNoLastResort,
-                       planning::PlanOption::kQueries}}) {}
+    : planning::Planner({.name = "roadmap",
+                         .what = "grasps of contact points or clusters of them",
+                         .in_space = planning::PlannerScope{kRoadmapFingers,
+                                                            {kRoadmapContacts, kRoadmapContacts},
+                                                            {kRoadmapContacts, kRoadmapContacts}},
+                         .options = {kContactsOption, planning::kGivenPointsOption, kClustersOption,
+                                     kNoLastResortOption, kQueriesOption}}) {}
 
 std::optional<MemoryNeed> RoadmapPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {
@@ -177,7 +176,7 @@ planning::PlanResult RoadmapPlanner::Plan(const planning::PlanRequest& request) 
 }
 
 planning::GraphSummary RoadmapPlanner::SummarizeGraph(const planning::PlanRequest& request) const {
-  const int queries = request.graph ? request.graph->queries : 0;
+  const int queries = request.parameters.Get<RoadmapParameters>().queries;
   Stopwatch stopwatch;
   if (SizeOf(request).clusters == 0) {
     if (queries > 0) throw InputError("--planner queries requires clusters");

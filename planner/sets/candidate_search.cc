@@ -46,9 +46,9 @@ constexpr double kScoreOfObstacle = -2;
 /// first one after it.
 std::optional<search::VertexPair> EdgeNear(const planning::CandidateSequence& candidate, int step) {
   for (int i = step; i >= 0; --i) {
-    if (candidate.rests[i].chosen_for) return candidate.rests[i].chosen_for;
+    if (candidate.grasps[i].chosen_for) return candidate.grasps[i].chosen_for;
   }
-  for (const planning::Rest& rest : candidate.rests) {
+  for (const planning::StaticGrasp& rest : candidate.grasps) {
     if (rest.chosen_for) return rest.chosen_for;
   }
   return std::nullopt;
@@ -59,7 +59,7 @@ std::optional<search::VertexPair> EdgeNear(const planning::CandidateSequence& ca
 bool BanPoor(const planning::CandidateSequence& candidate,
              const criteria::GraspEvaluator& evaluator, std::set<search::VertexPair>& banned) {
   bool any = false;
-  for (const planning::Rest& rest : candidate.rests) {
+  for (const planning::StaticGrasp& rest : candidate.grasps) {
     if (!rest.chosen_for || evaluator.Margin(rest.grasp)) continue;
     banned.insert(*rest.chosen_for);
     any = true;
@@ -77,7 +77,7 @@ struct PoorCandidate {
 double ScoreOf(const PoorCandidate& candidate, const criteria::GraspEvaluator& evaluator) {
   double worst =
       candidate.has_obstacle ? kScoreOfObstacle : std::numeric_limits<double>::infinity();
-  for (const planning::Rest& rest : candidate.sequence.rests) {
+  for (const planning::StaticGrasp& rest : candidate.sequence.grasps) {
     if (rest.chosen_for) worst = std::min(worst, evaluator.Score(rest.grasp));
   }
   return worst;

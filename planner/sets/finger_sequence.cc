@@ -55,7 +55,7 @@ void FingerSequence::SwitchTo(const grasp::Grasp& after,
     step = planning::MakeSwitch(held_before_, after, fingers_);
     holding_ = held_before_;
     candidate_.steps.pop_back();
-    candidate_.rests.pop_back();
+    candidate_.grasps.pop_back();
   }
   AddStep(std::move(step), chosen_for);
 }
@@ -82,7 +82,7 @@ bool FingerSequence::CanJoinLastSwitch(const grasp::Grasp& after) const {
 void FingerSequence::AddStep(plan::Step step, std::optional<search::VertexPair> chosen_for) {
   held_before_ = holding_;
   holding_ = plan::GraspAfter(holding_, step);
-  candidate_.rests.push_back({plan::ContactsOf(holding_), chosen_for});
+  candidate_.grasps.push_back({plan::ContactsOf(holding_), chosen_for});
   candidate_.steps.push_back(std::move(step));
 }
 

@@ -45,11 +45,11 @@ void AddAlign(const std::vector<plan::FingerGrasp>& waypoints,
   const grasp::Grasp after = plan::ContactsOf(waypoints.back());
   if (last != nullptr) {
     last->waypoints.insert(last->waypoints.end(), waypoints.begin() + 1, waypoints.end());
-    candidate.rests.back().grasp = after;
+    candidate.grasps.back().grasp = after;
     return;
   }
   candidate.steps.emplace_back(plan::Align{waypoints});
-  candidate.rests.push_back({after, std::nullopt});
+  candidate.grasps.push_back({after, std::nullopt});
 }
 
 /// Return the travel of a finger switch.
@@ -88,7 +88,7 @@ planning::CandidateSequence MakeCandidate(const GraspPath& path, const grasp::Gr
         planning::MakeSwitch(holding, space.GraspOf(step.to), space.fingers());
     holding = plan::GraspAfter(holding, change);
     candidate.steps.emplace_back(change);
-    candidate.rests.push_back({plan::ContactsOf(holding), std::nullopt});
+    candidate.grasps.push_back({plan::ContactsOf(holding), std::nullopt});
   }
   return candidate;
 }
@@ -128,7 +128,8 @@ class TreeSearch {
       : request_(request),
         object_(*request.object),
         half_angle_(request.criteria.half_angle),
-        effort_(request.effort.value_or(TreePlanner::kDefaultEffort)),
+        parameters_(request.parameters.Get<planning::SearchParameters>()),
+        most_tests_(parameters_.budget.value_or(TreePlanner::kDefaultTests)),
         evaluator_(object_, request.criteria, request.hand),
         source_(object_, request.hand.fingertip_radius),
         random_(request.seed, RandomUse::kCandidates) {}
@@ -137,11 +138,12 @@ class TreeSearch {
     const grasp::Grasp& from = request_.start.grasp;
     const grasp::Grasp& to = request_.goal.grasp;
     SearchSpace wide =
-        MakeSpace(half_angle_, 0, effort_, "growing trees of grasps from start and goal");
+        MakeSpace(half_angle_, 0, most_tests_, "growing trees of grasps from start and goal");
     const auto found = Search(from, to, wide);
     if (!found) return NoSequence(from, to);
     // Only the contacts of the path, because the search may have added thousands.
-    SearchSpace space = MakeSpace(half_angle_, 1, effort_, "shortening and widening the sequence");
+    SearchSpace space =
+        MakeSpace(half_angle_, 1, most_tests_, "shortening and widening the sequence");
     GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
     std::vector<std::string> notes = Improve(path, from, space);
     planning::PlanResult result =
@@ -162,14 +164,14 @@ class TreeSearch {
   /// Make a search space.
   /// @param share  required share of the criteria.
   /// @param what   name of the activity for progress messages.
-  SearchSpace MakeSpace(double half_angle, double share, std::int64_t effort,
+  SearchSpace MakeSpace(double half_angle, double share, std::int64_t most_tests,
                         const std::string& what) const {
     criteria::GraspCriteria criteria = request_.criteria;
     criteria.half_angle = half_angle;
     SearchSpace space(object_, criteria, request_.hand);
     space.SetShare(share);
-    CountedProgress progress(request_.progress, what + ", tests", effort);
-    space.SetLimits({effort, request_.deadline,
+    CountedProgress progress(request_.progress, what + ", tests", most_tests);
+    space.SetLimits({most_tests, request_.deadline,
                      [progress](std::int64_t tests) mutable { progress.Reach(tests); }});
     return space;
   }
@@ -206,7 +208,7 @@ class TreeSearch {
     double best = Repair(path, space);
     for (const double share : kShares) {
       if (best == 1) return path;
-      SearchSpace wide = MakeSpace(half_angle_, share, effort_ / kShareEffortShare,
+      SearchSpace wide = MakeSpace(half_angle_, share, most_tests_ / kShareEffortShare,
                                    "searching for grasps" + asked);
       const auto found = Search(from, to, wide);
       // A search that fails with lower requirements also fails with higher ones.
@@ -281,7 +283,7 @@ class TreeSearch {
     plan.half_angle = half_angle_;
     plan.fingers = request_.hand.fingers;
     plan.torsion = request_.hand.torsion;
-    plan.goal = candidate.rests.back().grasp;
+    plan.goal = candidate.grasps.back().grasp;
     plan.initial = std::move(candidate.initial);
     plan.steps = std::move(candidate.steps);
     const plan::PlanCheck check = plan::CheckPlan(object_, plan);
@@ -303,7 +305,7 @@ class TreeSearch {
                      (request_.explain ? ""
                                        : "; help: --explain searches for the smallest friction "
                                          "that is sufficient");
-    if (request_.explain) result.message += Explain(from, to);
+    if (parameters_.explain) result.message += Explain(from, to);
     return result;
   }
 
@@ -313,7 +315,7 @@ class TreeSearch {
     double some = kLargestExplained;
     const auto finds = [&](double half_angle) {
       SearchSpace space =
-          MakeSpace(half_angle, 0, effort_ / kExplainEffortShare,
+          MakeSpace(half_angle, 0, most_tests_ / kExplainEffortShare,
                     "searching for a sequence at " + FormatShort(Degrees(half_angle)) + "°");
       return Search(from, to, space).has_value();
     };
@@ -330,7 +332,8 @@ class TreeSearch {
   const planning::PlanRequest& request_;
   const object::Object& object_;
   double half_angle_;  ///< friction angle of the request's criteria
-  std::int64_t effort_;
+  planning::SearchParameters parameters_;
+  std::int64_t most_tests_;
   criteria::GraspEvaluator evaluator_;
   sampling::SurfaceSampler source_;
   RandomStream random_;
@@ -347,9 +350,8 @@ TreePlanner::TreePlanner()
                planning::PlannerScope{hand::kFingersInPlane, {2, hand::kFingersInPlane}, {2, 3}},
            .in_space =
                planning::PlannerScope{hand::kFingersInSpace, {3, hand::kFingersInSpace}, {4, 4}},
-           .options = {planning::PlanOption::kMargin, planning::PlanOption::kTravel,
-                       planning::PlanOption::kEffort, planning::PlanOption::kExplain,
-                       planning::PlanOption::kSoftFingers},
+           .options = {planning::kMarginOption, planning::kTravelOption, planning::kBudgetOption,
+                       planning::kExplainOption, planning::kSoftFingersOption},
            .has_graph = false}) {}
 
 planning::PlanResult TreePlanner::Plan(const planning::PlanRequest& request) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "planner/planning/candidate_sequence.h"
 #include "planner/planning/planner.h"
 #include "planner/tree/grasp_path.h"
@@ -36,9 +38,8 @@ class TreePlanner final : public planning::Planner {
   TreePlanner();
   [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override;
 
-  /// Default of PlanRequest::effort: number of force-closure tests of a search, about two
-  /// microseconds each.
-  static constexpr std::int64_t kDefaultEffort = 1'000'000;
+  /// Default search budget: number of force-closure tests, about two microseconds each.
+  static constexpr std::int64_t kDefaultTests = 1'000'000;
 };
 
 }  // namespace regrasp::tree

@@ -271,7 +271,7 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     task.start_pose = None if start_pose is None else _pose("start_pose", start_pose)
     task.goal_pose = None if goal_pose is None else _pose("goal_pose", goal_pose)
     words = ["preferred", "required", "none"]
-    task.reserve = getattr(_regrasp.Reserve, _arguments.choice("reserve", reserve, words))
+    task.robustness = getattr(_regrasp.RobustnessLevel, _arguments.choice("reserve", reserve, words))
     task.clearance = _arguments.number("clearance", clearance, 0, 0.05, zero=True)
     return _plan_of(object, *_regrasp.find_plan_in_hand(
         object._core, given, hand._core, task, _arguments.callback("progress", progress)))

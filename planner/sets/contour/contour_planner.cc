@@ -197,12 +197,12 @@ ContourPlanner::ContourPlanner()
     : planning::Planner({.name = "contour",
                          .what = "2-finger grasps of the whole boundary",
                          .in_plane = planning::PlannerScope{3, {2, 2}, {2, 2}},
-                         .options = {planning::PlanOption::kRegions}}) {}
+                         .options = {planning::kRegionsOption}}) {}
 
 std::optional<MemoryNeed> ContourPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {
   // Building a graph takes less memory than planning on it.
-  const auto estimate = request.graph ? EstimateContourGraph : EstimateContourPlan;
+  const auto estimate = request.for_graph ? EstimateContourGraph : EstimateContourPlan;
   return estimate(PolygonOf(request), request.criteria.half_angle);
 }
 

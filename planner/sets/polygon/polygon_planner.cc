@@ -13,6 +13,7 @@
 #include "planner/sets/graph_estimate.h"
 #include "planner/sets/polygon/polygon_vertices.h"
 #include "planner/sets/sequence_builder.h"
+#include "planner/sets/set_parameters.h"
 #include "planner/sets/set_planner.h"
 
 namespace regrasp::polygon {
@@ -168,7 +169,7 @@ const object::Polygon& PolygonOf(const planning::PlanRequest& request) {
 }
 
 PolygonGraph BuildGraph(const planning::PlanRequest& request) {
-  return PolygonGraph(PolygonOf(request), request.criteria.half_angle, request.spanning,
+  return PolygonGraph(PolygonOf(request), request.criteria.half_angle, sets::SpanningOf(request),
                       request.deadline, request.progress);
 }
 
@@ -197,11 +198,12 @@ PolygonPlanner::PolygonPlanner()
            .what = "concurrent, 2-finger and parallel grasps",
            .in_plane =
                planning::PlannerScope{hand::kFingersInPlane, {2, hand::kFingersInPlane}, {2, 3}},
-           .options = {planning::PlanOption::kUniformSpanning}}) {}
+           .options = {sets::kUniformSpanningOption}}) {}
 
 std::optional<MemoryNeed> PolygonPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {
-  return EstimatePolygonGraph(PolygonOf(request), request.criteria.half_angle, request.spanning);
+  return EstimatePolygonGraph(PolygonOf(request), request.criteria.half_angle,
+                              sets::SpanningOf(request));
 }
 
 planning::PlanResult PolygonPlanner::Plan(const planning::PlanRequest& request) const {
@@ -218,7 +220,7 @@ planning::GraphSummary PolygonPlanner::SummarizeGraph(const planning::PlanReques
     summary.types.push_back(
         {NameOf(type), counts.candidates, counts.combinations, counts.vertices, counts.components});
   }
-  for (const auto& [a, b] : JoinedTypes(request.spanning)) {
+  for (const auto& [a, b] : JoinedTypes(sets::SpanningOf(request))) {
     summary.edges.emplace_back(NameOf(a) + "-" + NameOf(b), graph.edge_count(a, b));
   }
   return summary;

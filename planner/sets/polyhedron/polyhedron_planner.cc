@@ -11,6 +11,7 @@
 #include "planner/sets/polyhedron/normal_quadruples.h"
 #include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/polyhedron/sampled_graph.h"
+#include "planner/sets/set_parameters.h"
 #include "planner/sets/set_planner.h"
 
 namespace regrasp::polyhedron {
@@ -61,9 +62,10 @@ planning::GraphSummary SummarizeSampled(PolyhedronGraph& graph,
                                         planning::GraphSummary summary) {
   const auto region = FindSamplingRegion(SolidOf(request), graph, request.deadline);
   Stopwatch stopwatch;
-  const SampledGraph sampled = SamplePolyhedron(
-      SolidOf(request), request.criteria.half_angle, request.spanning, region,
-      request.graph->focus_points, request.seed, request.deadline, request.progress);
+  const SampledGraph sampled =
+      SamplePolyhedron(SolidOf(request), request.criteria.half_angle, sets::SpanningOf(request),
+                       region, request.parameters.Get<PolyhedronParameters>().focus_points,
+                       request.seed, request.deadline, request.progress);
   summary.vertex_seconds = stopwatch.Lap();
   summary.edge_seconds = 0;
   summary.vertices = std::ssize(sampled.quadruples);
@@ -82,20 +84,20 @@ PolyhedronPlanner::PolyhedronPlanner(PolyhedronGraph* graph)
     : planning::Planner({.name = "polyhedron",
                          .what = "concurrent grasps of four faces",
                          .in_space = planning::PlannerScope{hand::kFingersInSpace, {4, 4}, {4, 4}},
-                         .options = {planning::PlanOption::kUniformSpanning,
-                                     planning::PlanOption::kFocusPoints}}),
+                         .options = {sets::kUniformSpanningOption, kFocusPointsOption}}),
       graph_(graph) {}
 
 std::optional<MemoryNeed> PolyhedronPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {
-  return EstimatePolyhedronGraph(SolidOf(request), request.criteria.half_angle, request.spanning);
+  return EstimatePolyhedronGraph(SolidOf(request), request.criteria.half_angle,
+                                 sets::SpanningOf(request));
 }
 
 PolyhedronGraph& PolyhedronPlanner::GraphFor(const planning::PlanRequest& request,
                                              std::optional<PolyhedronGraph>& own) const {
   if (graph_ != nullptr) return *graph_;
   request.progress("looking for quadruples of faces");
-  return own.emplace(SolidOf(request), request.criteria.half_angle, request.spanning,
+  return own.emplace(SolidOf(request), request.criteria.half_angle, sets::SpanningOf(request),
                      request.deadline, request.progress);
 }
 
@@ -110,7 +112,7 @@ planning::GraphSummary PolyhedronPlanner::SummarizeGraph(
   std::optional<PolyhedronGraph> own;
   PolyhedronGraph& graph = GraphFor(request, own);
   planning::GraphSummary summary = sets::SummaryOf(graph, *request.object, name());
-  if (request.graph && request.graph->focus_points > 0) {
+  if (request.parameters.Get<PolyhedronParameters>().focus_points > 0) {
     return SummarizeSampled(graph, request, std::move(summary));
   }
   summary.edges = {{"concurrent-concurrent", std::ssize(graph.switches())}};

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "planner/base/memory.h"
 #include "planner/object/polyhedron.h"
 #include "planner/planning/plan_request.h"
@@ -8,7 +11,22 @@
 
 namespace regrasp::polyhedron {
 
-/// Estimate the peak memory for building a PolyhedronGraph, within a factor of two.
+/// Option of the planner `polyhedron`, as users write it.
+inline constexpr char kFocusPointsOption[] = "--sampling";
+
+/// Parameters of the planner `polyhedron` in PlanRequest::parameters, in addition to those in
+/// sets/set_parameters.h.
+struct PolyhedronParameters {
+  /// Number of random focus points with which SummarizeGraph samples cells; 0: the direct graph.
+  int focus_points = 0;
+
+  [[nodiscard]] std::vector<std::string> Options() const {
+    if (focus_points == 0) return {};
+    return {kFocusPointsOption};
+  }
+};
+
+/// What a PolyhedronGraph takes at most while it is built, within a factor of two.
 ///
 /// The candidates among at most sixty randomly drawn faces are counted. Their number grows with the
 /// fourth power of the number of faces. The fractions of candidates with cells and of connected

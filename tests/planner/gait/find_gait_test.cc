@@ -27,18 +27,19 @@ Eigen::Isometry3d LastPose(const Gait& gait) {
 }
 
 /// Without margins a rotation may begin at any angle: forward and backward paths are joined.
-class TurnTest : public testing::TestWithParam<Reserve> {};
+class TurnTest : public testing::TestWithParam<RobustnessLevel> {};
 
-INSTANTIATE_TEST_SUITE_P(Reserves, TurnTest, testing::Values(Reserve::kNone, Reserve::kPreferred),
+INSTANTIATE_TEST_SUITE_P(RobustnessLevels, TurnTest,
+                         testing::Values(RobustnessLevel::kNone, RobustnessLevel::kPreferred),
                          [](const auto& info) {
-                           return info.param == Reserve::kNone ? "None" : "Preferred";
+                           return info.param == RobustnessLevel::kNone ? "None" : "Preferred";
                          });
 
 TEST_P(TurnTest, TheObjectRotatesByTheRequiredAngleInPlace) {
-  const Reserve reserve = GetParam();
+  const RobustnessLevel robustness = GetParam();
   for (const double degrees : {60.0, -60.0, 270.0}) {
     GaitRequest request = RequestFor("cube", 0.8, degrees);
-    request.reserve = reserve;
+    request.robustness = robustness;
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << found.message;
     const Eigen::Isometry3d last = LastPose(*found.gait);
@@ -53,7 +54,7 @@ TEST_P(TurnTest, TheObjectRotatesByTheRequiredAngleInPlace) {
 
 TEST_P(TurnTest, SegmentsAreContinuousAndFingertipsStayOnTheirContacts) {
   GaitRequest request = RequestFor("prism", 0.5, 150);
-  request.reserve = GetParam();
+  request.robustness = GetParam();
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
   ContactAssignment assignment = found.gait->initial;
@@ -90,7 +91,7 @@ TEST_P(TurnTest, NoMotionFollowsAnother) {
   for (int seed = 1; seed <= 4; ++seed) {
     GaitRequest request = RequestFor("l_block", 0.7, 180);
     request.seed = seed;
-    request.reserve = GetParam();
+    request.robustness = GetParam();
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << found.message;
     bool was_move = false;
@@ -151,7 +152,7 @@ TEST(FindGaitTest, ANonRobustStartGraspIsReported) {
       grasp::ComputeRequiredHalfAngle(request.start_grasp, request.solid->wrench_frame());
   ASSERT_TRUE(needed);
   request.criteria.half_angle = 1.05 * needed->upper;
-  request.reserve = Reserve::kRequired;
+  request.robustness = RobustnessLevel::kRequired;
   const GaitResult found = FindGait(request);
   EXPECT_FALSE(found.gait);
   EXPECT_THAT(found.message, testing::HasSubstr("the start grasp has no robustness margin"));
@@ -159,7 +160,7 @@ TEST(FindGaitTest, ANonRobustStartGraspIsReported) {
 
 TEST_P(TurnTest, EqualRequestsGiveEqualGaits) {
   GaitRequest request = RequestFor("cube", 0.8, 120);
-  request.reserve = GetParam();
+  request.robustness = GetParam();
   const GaitResult first = FindGait(request);
   const GaitResult second = FindGait(request);
   ASSERT_TRUE(first.gait && second.gait);
@@ -279,9 +280,9 @@ TEST(FindGaitTest, HoldingFingersSlideAlongTheSurface) {
 }
 
 /// A start grasp and a goal grasp whose contacts are 1.2 mm apart (0.0015 cube units), at one pose.
-GaitRequest PairOneSlideApart(Reserve reserve) {
+GaitRequest PairOneSlideApart(RobustnessLevel robustness) {
   GaitRequest request = RequestFor("cube", 0.8, 0);
-  request.reserve = reserve;
+  request.robustness = robustness;
   const GaitResult first = FindGait(request);
   EXPECT_TRUE(first.gait) << first.message;
   request.start_pose = request.goal_pose = first.gait->start.pose;
@@ -294,7 +295,8 @@ GaitRequest PairOneSlideApart(Reserve reserve) {
 
 /// Fingers slide simultaneously to a nearby grasp.
 TEST(FindGaitTest, FingersSlideSimultaneously) {
-  const GaitRequest request = PairOneSlideApart(Reserve::kNone);  // with margins no finger slides
+  const GaitRequest request =
+      PairOneSlideApart(RobustnessLevel::kNone);  // with margins no finger slides
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
   ASSERT_EQ(found.gait->segments.size(), 1u);
@@ -306,11 +308,11 @@ TEST(FindGaitTest, FingersSlideSimultaneously) {
 
 /// A grasp one sliding step away does not justify ten finger switches.
 TEST(FindGaitTest, PreferredRobustnessDoesNotMakeAGaitMuchLonger) {
-  GaitRequest request = PairOneSlideApart(Reserve::kRequired);
+  GaitRequest request = PairOneSlideApart(RobustnessLevel::kRequired);
   const GaitResult with = FindGait(request);
   ASSERT_TRUE(with.gait) << with.message;
   EXPECT_GT(with.gait->segments.size(), 15u);
-  request.reserve = Reserve::kPreferred;
+  request.robustness = RobustnessLevel::kPreferred;
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
   EXPECT_EQ(found.gait->segments.size(), 1u);
@@ -456,7 +458,7 @@ TEST(FindGaitTest, ReportsTheReasonOfAFailure) {
 TEST(FindGaitTest, ObjectsWithSmallTrianglesHaveContacts) {
   for (const auto& [model, scale] : {std::pair("duck1000", 0.63), {"spanner1000", 0.59}}) {
     GaitRequest request = RequestFor(model, scale, 20);
-    request.reserve = Reserve::kNone;
+    request.robustness = RobustnessLevel::kNone;
     const GaitResult found = FindGait(request);
     EXPECT_TRUE(found.gait) << model << ": " << found.message;
     EXPECT_EQ(found.contacts.size(), 400U);

@@ -31,7 +31,7 @@ class GaitPlannerTest : public testing::Test {
   planning::InHandTask TaskOf(double degrees) const {
     return {.hand = &hand_,
             .scale = 0.8,
-            .reserve = planning::Reserve::kNone,
+            .robustness = planning::RobustnessLevel::kNone,
             .turn = {Eigen::Vector3d::UnitZ(), Radians(degrees)}};
   }
   PlanRequest Turning(double degrees) const {
@@ -106,26 +106,26 @@ TEST_F(GaitPlannerTest, GivenGraspsAreChecked) {
 TEST_F(GaitPlannerTest, RequiresAHand) {
   PlanRequest request = Turning(30);
   EXPECT_EQ(planning::WhyNotServed(planner_, request), "");
-  request.in_hand.reset();
+  request.parameters.Edit<GaitParameters>().task.reset();
   EXPECT_THAT(planning::WhyNotServed(planner_, request), HasSubstr("requires a hand (--hand)"));
 }
 
 /// A small budget makes the search fail early; a sufficient budget changes nothing.
 TEST_F(GaitPlannerTest, StopsAtItsSearchBudget) {
   PlanRequest request = Turning(300);
-  request.effort = 2;
+  request.parameters.Edit<planning::SearchParameters>().budget = 2;
   const PlanResult none = Solve(request);
   EXPECT_FALSE(none.plan);
   EXPECT_EQ(none.status, PlanResult::Status::kNoSequence);
   EXPECT_THAT(none.message, HasSubstr("of 300 degrees"));
-  request.effort.reset();
+  request.parameters.Edit<planning::SearchParameters>().budget.reset();
   EXPECT_TRUE(Solve(request).plan);
 }
 
 TEST_F(GaitPlannerTest, ExplainsAFailureAfterTheTimeLimitToo) {
   PlanRequest request = Turning(90);
-  request.in_hand->scale = 20;  // as large as a person
-  request.explain = true;
+  request.parameters.Edit<GaitParameters>().task->scale = 20;  // as large as a person
+  request.parameters.Edit<planning::SearchParameters>().explain = true;
   // A clock that advances by one second per call.
   auto now = Deadline::Clock::time_point();
   request.deadline = {now + std::chrono::seconds(3),

@@ -22,7 +22,7 @@ class MergeMovesTest : public testing::Test {
     request_.scale = 0.8;
     request_.criteria.half_angle = std::atan(0.8);
     request_.turn = {Eigen::Vector3d::UnitZ(), Radians(30)};
-    request_.reserve = Reserve::kNone;
+    request_.robustness = RobustnessLevel::kNone;
     found_ = FindGait(request_);
     for (const grasp::Contact& contact : found_.contacts) {
       points_.push_back({request_.scale * contact.p, contact.n});

@@ -71,7 +71,7 @@ TEST(ScheduleTest, RobustGraspsWithstandTheWeightAtRolledContacts) {
   for (int seed = 1; seed <= 4; ++seed) {
     GaitRequest request = RequestFor("cube", 0.8, 90);
     request.seed = seed;
-    request.reserve = Reserve::kRequired;
+    request.robustness = RobustnessLevel::kRequired;
     const GaitResult with = FindGait(request);
     ASSERT_TRUE(with.gait) << with.message;
     // The search checks grid poses only; in between the margin is slightly smaller.
@@ -79,7 +79,7 @@ TEST(ScheduleTest, RobustGraspsWithstandTheWeightAtRolledContacts) {
     for (const PlanSegment& segment : with.gait->segments) {
       EXPECT_NE(segment.kind, PlanSegment::Kind::kSlide);
     }
-    request.reserve = Reserve::kNone;
+    request.robustness = RobustnessLevel::kNone;
     const GaitResult without = FindGait(request);
     ASSERT_TRUE(without.gait);
     worst_without =
@@ -91,7 +91,7 @@ TEST(ScheduleTest, RobustGraspsWithstandTheWeightAtRolledContacts) {
 TEST(ScheduleTest, ReportsThatRequiredRobustnessMayPreventAPlan) {
   GaitRequest request = RequestFor("cube", 0.8, 90);
   request.criteria.half_angle = std::atan(0.15);
-  request.reserve = Reserve::kRequired;
+  request.robustness = RobustnessLevel::kRequired;
   request.most_expanded = 60;
   const GaitResult found = FindGait(request);
   EXPECT_FALSE(found.gait);
@@ -232,7 +232,7 @@ TEST(ScheduleTest, NoPlanIsSimulatedTwice) {
   GaitRequest request = RequestFor("cube", 0.8, 120);
   FakeHand hand{.executes = [](const plan::Plan&, std::size_t) { return false; }};
   hand.SimulateIn(request);
-  request.reserve = Reserve::kRequired;
+  request.robustness = RobustnessLevel::kRequired;
   request.most_expanded = 60;
   static_cast<void>(FindGait(request));
   ASSERT_GT(hand.plans.size(), 3U);
@@ -254,14 +254,14 @@ TEST(ScheduleTest, IfNoPlanExecutesAGaitIsFoundUnlessRobustnessIsRequired) {
     return std::ranges::count(plan.steps, std::string("align"), plan::StepKind) > 0;
   };
   EXPECT_EQ(std::ranges::count_if(hand.plans, slides), 0);
-  request.reserve = Reserve::kRequired;
+  request.robustness = RobustnessLevel::kRequired;
   const GaitResult none = FindGait(request);
   EXPECT_FALSE(none.gait);
   EXPECT_FALSE(ExecutesInSimulation(none));
   EXPECT_THAT(none.message, testing::HasSubstr("none executes in simulation"));
   EXPECT_THAT(none.message,
               testing::HasSubstr("fails at the initial grasp (slipped): finger 7 slipped"));
-  request.reserve = Reserve::kNone;
+  request.robustness = RobustnessLevel::kNone;
   hand.plans.clear();
   EXPECT_TRUE(FindGait(request).gait);
   EXPECT_TRUE(hand.plans.empty());
@@ -269,7 +269,7 @@ TEST(ScheduleTest, IfNoPlanExecutesAGaitIsFoundUnlessRobustnessIsRequired) {
 
 TEST(ScheduleTest, ReportsTheFailureOfThePlanThatExecutesFarthest) {
   GaitRequest request = RequestFor("cube", 0.8, 180);
-  request.reserve = Reserve::kRequired;
+  request.robustness = RobustnessLevel::kRequired;
   request.most_expanded = 40;
   // Every second plan executes halfway, the others not at all.
   FakeHand hand;
@@ -294,7 +294,7 @@ TEST(ScheduleTest, ReportsTheFailureOfThePlanThatExecutesFarthest) {
 
 TEST(ScheduleTest, FailedEdgesAreCountedByReason) {
   GaitRequest request = RequestFor("cube", 0.8, 180);
-  request.reserve = Reserve::kRequired;
+  request.robustness = RobustnessLevel::kRequired;
   request.most_expanded = 10;
   FakeHand hand{.executes = [](const plan::Plan&, std::size_t) { return false; }};
   hand.SimulateIn(request);

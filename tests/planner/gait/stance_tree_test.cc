@@ -23,7 +23,7 @@ GaitRequest RequestAtRest(const kinematics::HandModel& hand, const object::Polyh
   request.solid = &solid;
   request.scale = scale;
   request.criteria.half_angle = std::atan(0.8);
-  request.reserve = Reserve::kNone;
+  request.robustness = RobustnessLevel::kNone;
   request.seed = 2;
   return request;
 }

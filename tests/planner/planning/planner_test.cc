@@ -3,19 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "planner/base/number.h"
-#include "planner/planning/in_hand_task.h"
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::planning {
 namespace planner_test {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::UnorderedElementsAre;
 
 class Idle final : public Planner {
  public:
@@ -23,52 +24,82 @@ class Idle final : public Planner {
   [[nodiscard]] PlanResult Plan(const PlanRequest&) const override { return {}; }
 };
 
-/// Return requests that require one option each.
-std::vector<std::pair<PlanOption, PlanRequest>> OneOptionEach() {
-  std::vector<std::pair<PlanOption, PlanRequest>> requests;
-  const auto add = [&](PlanOption option, const auto& ask) {
-    requests.emplace_back(option, PlanRequest());
-    ask(requests.back().second);
-  };
-  add(PlanOption::kMargin, [](PlanRequest& r) { r.objective = Objective::kMargin; });
-  add(PlanOption::kTravel, [](PlanRequest& r) { r.objective = Objective::kTravel; });
-  add(PlanOption::kRegions, [](PlanRequest& r) { r.objective = Objective::kRegions; });
-  add(PlanOption::kUniformSpanning, [](PlanRequest& r) { r.spanning = Spanning::kUniform; });
-  add(PlanOption::kContactPoints, [](PlanRequest& r) { r.contact_points = 0; });
+/// Parameters of two planners outside this project; one option is common.
+struct OrderParameters {
+  int most_orders = 24;
+  bool explain = false;
+  [[nodiscard]] std::vector<std::string> Options() const {
+    std::vector<std::string> options;
+    if (most_orders != 24) options.emplace_back("--orders");
+    if (explain) options.emplace_back(kExplainOption);
+    return options;
+  }
+};
+struct ColourParameters {
+  std::string colour;
+  bool explain = false;
+  [[nodiscard]] std::vector<std::string> Options() const {
+    std::vector<std::string> options;
+    if (explain) options.emplace_back(kExplainOption);
+    if (!colour.empty()) options.emplace_back("--colour");
+    return options;
+  }
+};
+
+/// Requests with one option each.
+std::vector<std::pair<std::string, PlanRequest>> OneOptionEach() {
   static const std::vector<Eigen::Vector3d> kPoints;
-  add(PlanOption::kGivenPoints, [](PlanRequest& r) { r.given_points = &kPoints; });
-  add(PlanOption::kClusters, [](PlanRequest& r) { r.clusters = 0; });
-  add(PlanOption::kNoLastResort, [](PlanRequest& r) { r.last_resort = false; });
-  add(PlanOption::kEffort, [](PlanRequest& r) { r.effort = 0; });
-  add(PlanOption::kExplain, [](PlanRequest& r) { r.explain = true; });
-  add(PlanOption::kSoftFingers, [](PlanRequest& r) { r.hand.torsion = 0.1; });
-  add(PlanOption::kHand, [](PlanRequest& r) { r.in_hand = std::make_shared<InHandTask>(); });
+  std::vector<std::pair<std::string, PlanRequest>> requests;
+  requests.push_back({"--optimize margin", {.objective = Objective::kMargin}});
+  requests.push_back({"--optimize travel", {.objective = Objective::kTravel}});
+  requests.push_back({"--optimize regions", {.objective = Objective::kRegions}});
+  requests.push_back({"--planner points=given", {.given_points = &kPoints}});
+  requests.push_back({"--torsion", {.hand = {.torsion = 0.1}}});
+  requests.push_back({"--orders", {.parameters = OrderParameters{.most_orders = 6}}});
+  requests.push_back({"--explain", {.parameters = OrderParameters{.explain = true}}});
+  requests.push_back({"--colour", {.parameters = ColourParameters{.colour = "red"}}});
   return requests;
 }
 
-TEST(OptionsOf, AreTheOnesThatAreAskedForAndNoOthers) {
+TEST(PlannerParameters, HaveTheDefaultsUntilTheyAreEdited) {
+  PlannerParameters parameters;
+  EXPECT_EQ(parameters.Get<OrderParameters>().most_orders, 24);
+  parameters.Edit<OrderParameters>().most_orders = 6;
+  EXPECT_EQ(parameters.Get<OrderParameters>().most_orders, 6);
+  EXPECT_EQ(parameters.Edit<OrderParameters>().most_orders, 6);
+  EXPECT_EQ(parameters.Get<ColourParameters>().colour, "");
+}
+
+TEST(PlannerParameters, ACopyIsIndependent) {
+  PlannerParameters parameters = OrderParameters{.most_orders = 6};
+  PlannerParameters copy = parameters;
+  copy.Edit<OrderParameters>().most_orders = 2;
+  copy.Edit<ColourParameters>().colour = "red";
+  EXPECT_EQ(parameters.Get<OrderParameters>().most_orders, 6);
+  EXPECT_EQ(parameters.Get<ColourParameters>().colour, "");
+  EXPECT_EQ(copy.Get<OrderParameters>().most_orders, 2);
+}
+
+TEST(PlannerParameters, ListTheOptionsThatDifferFromTheDefaultsOnceInTheOrderOfTheEdits) {
+  PlannerParameters parameters;
+  static_cast<void>(parameters.Edit<ColourParameters>());
+  parameters.Edit<OrderParameters>() = {.most_orders = 6, .explain = true};
+  EXPECT_THAT(parameters.OptionNames(), ElementsAre("--orders", "--explain"));
+  parameters.Edit<ColourParameters>() = {.colour = "red", .explain = true};
+  EXPECT_THAT(parameters.OptionNames(), ElementsAre("--explain", "--colour", "--orders"));
+}
+
+TEST(OptionsOf, AreTheRequestedOptionsAndNoOthers) {
   EXPECT_THAT(OptionsOf(PlanRequest()), IsEmpty());
   for (const auto& [option, request] : OneOptionEach()) {
-    EXPECT_THAT(OptionsOf(request), UnorderedElementsAre(option)) << OptionName(option);
+    EXPECT_THAT(OptionsOf(request), ElementsAre(option));
   }
-  PlanRequest several;
-  several.objective = Objective::kMargin;
-  several.effort = 5;
-  several.explain = true;
-  EXPECT_THAT(OptionsOf(several),
-              UnorderedElementsAre(PlanOption::kMargin, PlanOption::kEffort, PlanOption::kExplain));
+  const PlanRequest several = {.objective = Objective::kMargin,
+                               .parameters = OrderParameters{.most_orders = 6, .explain = true}};
+  EXPECT_THAT(OptionsOf(several), ElementsAre("--optimize margin", "--orders", "--explain"));
 }
 
-TEST(OptionName, IsAnOptionOfTheProgramAndEachHasItsOwn) {
-  std::set<std::string> names;
-  for (const auto& [option, request] : OneOptionEach()) {
-    EXPECT_TRUE(OptionName(option).starts_with("--")) << OptionName(option);
-    names.insert(OptionName(option));
-  }
-  EXPECT_EQ(names.size(), OneOptionEach().size());
-}
-
-TEST(WhyNotServed, AsksForOneOptionAndHasItOrNot) {
+TEST(WhyNotServed, NamesAnOptionThatThePlannerDoesNotHave) {
   const object::Polyhedron cube = MakeCube();
   const PlannerScope scope = {5, {4, 4}, {4, 4}};
   for (auto& [option, request] : OneOptionEach()) {
@@ -76,7 +107,7 @@ TEST(WhyNotServed, AsksForOneOptionAndHasItOrNot) {
     EXPECT_EQ(WhyNotServed(Idle({.name = "idle", .in_space = scope, .options = {option}}), request),
               "");
     EXPECT_EQ(WhyNotServed(Idle({.name = "idle", .in_space = scope}), request),
-              OptionName(option) + ": not supported by planner idle");
+              option + ": not supported by planner idle");
   }
 }
 

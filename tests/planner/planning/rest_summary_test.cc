@@ -23,7 +23,7 @@ using testing::IsEmpty;
 class RestSummary : public testing::Test {
  protected:
   /// Return fingers on the bottom and top of the unit square.
-  [[nodiscard]] Rest At(double bottom, double top) const {
+  [[nodiscard]] StaticGrasp At(double bottom, double top) const {
     return {{{{bottom, 0, 0}, square_.inward_normal(FaceIndex(0)), FaceIndex(0)},
              {{top, 1, 0}, square_.inward_normal(FaceIndex(2)), FaceIndex(2)}},
             std::nullopt};
@@ -31,23 +31,23 @@ class RestSummary : public testing::Test {
 
   const object::Polygon square_ = Square(1);
   const criteria::GraspEvaluator evaluator_{square_, {Radians(30), 0.04}};
-  const Rest good_ = At(0.5, 0.5);
+  const StaticGrasp good_ = At(0.5, 0.5);
   // tan 30° = 0.577.
-  const Rest weak_ = At(0.22, 0.78);
-  const Rest weaker_ = At(0.22, 0.79);
+  const StaticGrasp weak_ = At(0.22, 0.78);
+  const StaticGrasp weaker_ = At(0.22, 0.79);
 };
 
 TEST_F(RestSummary, GoodGraspsGiveNoWarning) {
-  EXPECT_THAT(RestWarnings({good_, good_}, evaluator_), IsEmpty());
+  EXPECT_THAT(GraspWarnings({good_, good_}, evaluator_), IsEmpty());
 }
 
 TEST_F(RestSummary, OfTheGraspsBelowACriterionTheWeakestIsNamed) {
   const double quality =
       grasp::ComputeQuality(weaker_.grasp, square_.wrench_frame(), Radians(30)).lower;
-  EXPECT_THAT(RestWarnings({good_, weak_, weaker_, weak_}, evaluator_),
+  EXPECT_THAT(GraspWarnings({good_, weak_, weaker_, weak_}, evaluator_),
               ElementsAre(AllOf(HasSubstr("quality falls below the required 0.04"),
                                 HasSubstr("after step 2 of 3 with " + FormatShort(quality)))));
-  EXPECT_THAT(RestWarnings({weak_, good_}, evaluator_),
+  EXPECT_THAT(GraspWarnings({weak_, good_}, evaluator_),
               ElementsAre(HasSubstr("the start grasp (step 0)")));
 }
 
@@ -55,10 +55,10 @@ TEST_F(RestSummary, AFingertipInACornerIsNamed) {
   const object::Polygon notch =
       object::Polygon::FromRings({{{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 1}, {0, 1}}}, "notch");
   const criteria::GraspEvaluator evaluator(notch, {Radians(30), 0});
-  const Rest corner = {
+  const StaticGrasp corner = {
       {{{1.9999, 0, 0}, {0, 1, 0}, FaceIndex(0)}, {{1.9999, 1, 0}, {0, -1, 0}, FaceIndex(4)}},
       std::nullopt};
-  EXPECT_THAT(RestWarnings({corner}, evaluator),
+  EXPECT_THAT(GraspWarnings({corner}, evaluator),
               ElementsAre(HasSubstr("no fingertip fits in the start grasp")));
 }
 
@@ -71,7 +71,7 @@ TEST_F(RestSummary, TheSmallestMarginIsThatOfAllWhateverTheirOrder) {
   std::mt19937_64 engine(7);
   std::uniform_real_distribution<double> lean(-0.57, 0.57);
   for (int trial = 0; trial < 20; ++trial) {
-    std::vector<Rest> rests;
+    std::vector<StaticGrasp> rests;
     double smallest = Radians(30);
     for (int i = 0; i < 6; ++i) {
       const double off = lean(engine) / 2;

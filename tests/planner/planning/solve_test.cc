@@ -103,9 +103,9 @@ TEST(Solve, AsksThePlannerForNothingThatDoesNotFit) {
 
 TEST(Solve, RefusesAnOptionThatThePlannerDoesNotHave) {
   PlanRequest request = RequestAt(20);
-  request.explain = true;
+  request.objective = Objective::kTravel;
   EXPECT_THAT([&] { (void)SolveOnCube(StubPlanner(), Random(), request); },
-              ThrowsMessage<InputError>("--explain: not supported by planner stub"));
+              ThrowsMessage<InputError>("--optimize travel: not supported by planner stub"));
 }
 
 TEST(Solve, RefusesFrictionAndQualityOutOfRange) {

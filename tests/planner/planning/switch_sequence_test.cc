@@ -32,7 +32,7 @@ TEST(MakeSwitchSequence, GivesTheFreeFingerTheNewContactAndReleasesTheOldOne) {
   EXPECT_THAT(Fingers(sequence.initial), ElementsAre(0, 1, 2, 3));
   EXPECT_THAT(Places(sequence.initial), ElementsAre(1, 2, 3, 4));
   ASSERT_EQ(sequence.steps.size(), 2u);
-  EXPECT_THAT(sequence.rests, testing::SizeIs(3));
+  EXPECT_THAT(sequence.grasps, testing::SizeIs(3));
   const auto& first = std::get<plan::Switch>(sequence.steps[0]);
   EXPECT_THAT(Fingers(first.place), ElementsAre(4));
   EXPECT_THAT(Places(first.place), ElementsAre(5));
@@ -63,7 +63,7 @@ TEST(MakeSwitchSequence, TellsContactsAtOnePointByTheirNormals) {
 TEST(MakeSwitchSequence, HasNoStepForTheSameGraspInAnotherOrder) {
   const std::vector<grasp::Grasp> grasps = {{At(1), At(2), At(3)}, {At(3), At(1), At(2)}};
   EXPECT_TRUE(MakeSwitchSequence(grasps, 3).steps.empty());
-  EXPECT_THAT(MakeSwitchSequence(grasps, 3).rests, testing::SizeIs(1));
+  EXPECT_THAT(MakeSwitchSequence(grasps, 3).grasps, testing::SizeIs(1));
 }
 
 TEST(MakeSwitchSequence, RefusesNothingAndHandsThatAreTooSmall) {

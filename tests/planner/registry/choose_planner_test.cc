@@ -3,11 +3,17 @@
 
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "planner/base/error.h"
-#include "planner/planning/in_hand_task.h"
+#include "planner/gait/gait_planner.h"
 #include "planner/planning/planner.h"
 #include "planner/registry/registry.h"
+#include "planner/roadmap/roadmap_parameters.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "planner/sets/set_parameters.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
 
@@ -74,11 +80,11 @@ TEST(ChoosePlanner, TakesTheOneThatHasTheOption) {
   EXPECT_EQ(ChoosePlanner(regions).name(), "contour");
   for (const object::Object* object : {&Planar(), &Solid()}) {
     planning::PlanRequest uniform = On(*object);
-    uniform.spanning = planning::Spanning::kUniform;
+    uniform.parameters = sets::SetParameters{planning::Spanning::kUniform};
     EXPECT_EQ(ChoosePlanner(uniform).name(), object == &Planar() ? "polygon" : "polyhedron");
   }
   planning::PlanRequest points = On(Solid());
-  points.contact_points = 30;
+  points.parameters = roadmap::RoadmapParameters{.contact_points = 30};
   EXPECT_EQ(ChoosePlanner(points).name(), "roadmap");
   planning::PlanRequest travel = On(Solid());
   travel.objective = planning::Objective::kTravel;
@@ -87,10 +93,11 @@ TEST(ChoosePlanner, TakesTheOneThatHasTheOption) {
 
 TEST(ChoosePlanner, TakesGaitForAHandAndSaysWhatNoPlannerJoinsWithIt) {
   planning::PlanRequest request = On(Solid());
-  EXPECT_THAT([&] { (void)PlannerFor("gait", request); },
-              ThrowsMessage<InputError>(StrEq("planner gait requires a hand "
-                                              "(--hand); use --planner general")));
-  request.in_hand = std::make_shared<planning::InHandTask>();
+  EXPECT_THAT(
+      [&] { (void)PlannerFor("gait", request); },
+      ThrowsMessage<InputError>(StrEq("the planner gait plans for a hand, and none is given "
+                                      "(--hand); use --planner general")));
+  request.parameters.Edit<gait::GaitParameters>().task.emplace();
   EXPECT_EQ(ChoosePlanner(request).name(), "gait");
   EXPECT_THAT([&] { (void)PlannerFor("general", request); },
               ThrowsMessage<InputError>(
@@ -104,13 +111,14 @@ TEST(ChoosePlanner, TakesGaitForAHandAndSaysWhatNoPlannerJoinsWithIt) {
 TEST(ChoosePlanner, TakesForAGraphTheFirstThatHasOneWithTheOption) {
   for (const object::Object* object : {&Planar(), &Solid()}) {
     planning::PlanRequest request = On(*object);
-    request.graph = planning::GraphTasks();
+    request.for_graph = true;
     EXPECT_EQ(ChoosePlanner(request).name(), object == &Planar() ? "polygon" : "roadmap");
   }
   planning::PlanRequest request = On(Solid());
-  request.graph = planning::GraphTasks{.focus_points = 5};
+  request.for_graph = true;
+  request.parameters = polyhedron::PolyhedronParameters{.focus_points = 5};
   EXPECT_EQ(ChoosePlanner(request).name(), "polyhedron");
-  request.graph = planning::GraphTasks{.queries = 5};
+  request.parameters = roadmap::RoadmapParameters{.queries = 5};
   EXPECT_EQ(ChoosePlanner(request).name(), "roadmap");
   EXPECT_THAT([&] { (void)PlannerFor("general", request); },
               ThrowsMessage<InputError>(
@@ -120,7 +128,7 @@ TEST(ChoosePlanner, TakesForAGraphTheFirstThatHasOneWithTheOption) {
 TEST(ChoosePlanner, SaysWhichOptionsNoPlannerJoins) {
   planning::PlanRequest request = On(Planar());
   request.objective = planning::Objective::kRegions;
-  request.explain = true;
+  request.parameters = planning::SearchParameters{.explain = true};
   EXPECT_THAT([&] { (void)ChoosePlanner(request); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("--optimize regions (contour)"),
                                               HasSubstr("--explain (general)"))));
@@ -130,15 +138,64 @@ TEST(ChoosePlanner, SaysWhichOptionsNoPlannerJoins) {
               ThrowsMessage<InputError>(HasSubstr("--optimize regions (no planner) for a solid")));
 }
 
+/// Requests with one parameter each, and the planners that have it.
+std::vector<std::tuple<std::string, planning::PlannerParameters, std::set<std::string>>>
+OneParameterEach() {
+  using planning::SearchParameters;
+  using roadmap::RoadmapParameters;
+  return {{"--planner spanning=uniform",
+           sets::SetParameters{planning::Spanning::kUniform},
+           {"polygon", "polyhedron"}},
+          {"--sampling", polyhedron::PolyhedronParameters{.focus_points = 1}, {"polyhedron"}},
+          {"--planner points", RoadmapParameters{.contact_points = 0}, {"roadmap"}},
+          {"--planner clusters", RoadmapParameters{.clusters = 0}, {"roadmap"}},
+          {"--planner fallback=no", RoadmapParameters{.last_resort = false}, {"roadmap"}},
+          {"--planner queries", RoadmapParameters{.queries = 1}, {"roadmap"}},
+          {"--planner budget", SearchParameters{.budget = 0}, {"general", "gait"}},
+          {"--explain", SearchParameters{.explain = true}, {"general", "gait"}},
+          {"--hand", gait::GaitParameters{.task = planning::InHandTask()}, {"gait"}}};
+}
+
+TEST(PlannerFor, EveryParameterIsRefusedByOptionNameExceptByItsPlanners) {
+  for (const auto& [option, parameters, planners] : OneParameterEach()) {
+    for (const planning::Planner* planner : AllPlanners()) {
+      planning::PlanRequest request = On(planner->traits().in_plane ? Planar() : Solid());
+      request.parameters = parameters;
+      if (planner->traits().needs_hand) {
+        request.parameters.Edit<gait::GaitParameters>().task.emplace();
+      }
+      const std::string why = planning::WhyNotServed(*planner, request);
+      if (planners.contains(planner->name())) {
+        EXPECT_EQ(why, "") << option;
+      } else {
+        EXPECT_EQ(why, option + ": not supported by planner " + planner->name());
+      }
+    }
+  }
+}
+
+TEST(PlannerFor, DefaultParametersAreNotRefused) {
+  for (const object::Object* object : {&Planar(), &Solid()}) {
+    planning::PlanRequest request = On(*object);
+    static_cast<void>(request.parameters.Edit<sets::SetParameters>());
+    static_cast<void>(request.parameters.Edit<roadmap::RoadmapParameters>());
+    static_cast<void>(request.parameters.Edit<planning::SearchParameters>());
+    static_cast<void>(request.parameters.Edit<gait::GaitParameters>());
+    for (const planning::Planner* planner : AllPlanners()) {
+      if (planner->traits().needs_hand || !planner->ScopeIn(object->dimension())) continue;
+      EXPECT_EQ(planning::WhyNotServed(*planner, request), "");
+    }
+  }
+}
+
 TEST(PlannerFor, RefusesWhatThePlannerDoesNotServeAndNamesOneThatDoes) {
   planning::PlanRequest request = On(Planar());
-  request.effort = 5;
+  request.parameters = planning::SearchParameters{.budget = 5};
   EXPECT_EQ(PlannerFor("general", request).name(), "general");
-  EXPECT_THAT([&] { (void)PlannerFor("polygon", request); },
-              ThrowsMessage<InputError>(
-                  AllOf(
-                  StartsWith("--planner budget: not supported by planner polygon"),
-                        HasSubstr("general"))));
+  EXPECT_THAT(
+      [&] { (void)PlannerFor("polygon", request); },
+      ThrowsMessage<InputError>(AllOf(
+          StartsWith("--planner budget: not supported by planner polygon"), HasSubstr("general"))));
   EXPECT_THAT([&] { (void)PlannerFor("roadmap", On(Planar())); },
               ThrowsMessage<InputError>(StartsWith(
                   "file.obj: planner roadmap supports solids only, found a planar object")));
@@ -160,7 +217,7 @@ TEST(Registry, EveryPlannerCountsTheGraphThatItSaysItHas) {
   for (const planning::Planner* planner : AllPlanners()) {
     const object::Object& object = planner->ScopeIn(2) ? Planar() : Solid();
     planning::PlanRequest request = On(object);
-    request.graph = planning::GraphTasks();
+    request.for_graph = true;
     if (!planner->traits().has_graph) {
       EXPECT_THROW((void)planner->SummarizeGraph(request), std::logic_error) << planner->name();
       EXPECT_NE(planning::WhyNotServed(*planner, request), "") << planner->name();

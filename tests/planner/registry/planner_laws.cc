@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 
 #include "planner/base/number.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
+#include "planner/roadmap/roadmap_parameters.h"
+#include "planner/sets/set_parameters.h"
 #include "tests/fixtures/counted_deadline.h"
 #include "tests/fixtures/good_plan.h"
 #include "tests/fixtures/moved.h"
@@ -19,7 +23,6 @@ namespace {
 
 using planning::GraspChoice;
 using planning::Planner;
-using planning::PlanOption;
 using planning::PlanRequest;
 using planning::PlanResult;
 using Status = PlanResult::Status;
@@ -36,8 +39,8 @@ constexpr double kMarginTolerance = 1e-6;
 /// Return a request for a planner, with a small roadmap.
 PlanRequest Ask(const Planner& planner, std::uint64_t seed = 0, double degrees = kDegrees) {
   PlanRequest request = RequestAt(degrees, seed);
-  if (std::ranges::count(planner.traits().options, PlanOption::kContactPoints) > 0) {
-    request.contact_points = 24;
+  if (std::ranges::count(planner.traits().options, roadmap::kContactsOption) > 0) {
+    request.parameters = roadmap::RoadmapParameters{.contact_points = 24};
   }
   return request;
 }
@@ -288,54 +291,41 @@ std::string EndsAtItsDeadline(const Planner& planner, const object::Object& obje
   return "";
 }
 
-/// @param object  object of the request.
-PlanRequest Asking(PlanOption option, const object::Object& object, PlanRequest request) {
-  switch (option) {
-    case PlanOption::kMargin:
-      request.objective = planning::Objective::kMargin;
-      break;
-    case PlanOption::kTravel:
-      request.objective = planning::Objective::kTravel;
-      break;
-    case PlanOption::kRegions:
-      request.objective = planning::Objective::kRegions;
-      break;
-    case PlanOption::kUniformSpanning:
-      request.spanning = planning::Spanning::kUniform;
-      break;
-    case PlanOption::kContactPoints:
-      request.contact_points = 30;
-      break;
-    case PlanOption::kClusters:
-      request.contact_points = 200;
-      request.clusters = 20;
-      break;
-    case PlanOption::kNoLastResort:
-      request.contact_points = 200;
-      request.clusters = 20;
-      request.last_resort = false;
-      break;
-    case PlanOption::kEffort:
-      request.effort = 100'000;
-      break;
-    case PlanOption::kExplain:
-      request.explain = true;
-      break;
-    case PlanOption::kSoftFingers:
-      // Contacts in the plane have no torsion.
-      if (object.dimension() == 3) request.hand.torsion = 0.05 * object.diameter();
-      break;
-    case PlanOption::kHand:         // see gait/gait_planner_test.cc
-    case PlanOption::kGivenPoints:  // depends on the object
-    case PlanOption::kFocusPoints:
-    case PlanOption::kQueries:
-      break;  // only for graphs; plans do not depend on them
-  }
+/// @param object  that is planned for.
+PlanRequest Asking(const std::string& option, const object::Object& object, PlanRequest request) {
+  using roadmap::RoadmapParameters;
+  // A request for each option. Others do not change plans: --hand (gait/gait_planner_test.cc),
+  // --contacts given, and options of graphs.
+  const std::map<std::string, std::function<void()>> changes = {
+      {planning::kMarginOption, [&] { request.objective = planning::Objective::kMargin; }},
+      {planning::kTravelOption, [&] { request.objective = planning::Objective::kTravel; }},
+      {planning::kRegionsOption, [&] { request.objective = planning::Objective::kRegions; }},
+      {sets::kUniformSpanningOption,
+       [&] { request.parameters = sets::SetParameters{planning::Spanning::kUniform}; }},
+      {roadmap::kContactsOption,
+       [&] { request.parameters = RoadmapParameters{.contact_points = 30}; }},
+      {roadmap::kClustersOption,
+       [&] { request.parameters = RoadmapParameters{.contact_points = 200, .clusters = 20}; }},
+      {roadmap::kNoLastResortOption,
+       [&] {
+         request.parameters =
+             RoadmapParameters{.contact_points = 200, .clusters = 20, .last_resort = false};
+       }},
+      {planning::kBudgetOption,
+       [&] { request.parameters.Edit<planning::SearchParameters>().budget = 100'000; }},
+      {planning::kExplainOption,
+       [&] { request.parameters.Edit<planning::SearchParameters>().explain = true; }},
+      {planning::kSoftFingersOption, [&] {
+         // Contacts in the plane have none.
+         if (object.dimension() == 3) request.hand.torsion = 0.05 * object.diameter();
+       }}};
+  const auto change = changes.find(option);
+  if (change != changes.end()) change->second();
   return request;
 }
 
 std::string PlansOfEveryOptionPassTheChecker(const Planner& planner, const object::Object& object) {
-  for (const PlanOption option : planner.traits().options) {
+  for (const std::string& option : planner.traits().options) {
     int plans = 0;
     const std::string breach = ForSeeds([&](std::uint64_t seed) -> std::string {
       const PlanResult result =
@@ -344,8 +334,8 @@ std::string PlansOfEveryOptionPassTheChecker(const Planner& planner, const objec
       ++plans;
       return CheckersReason(object, *result.plan);
     });
-    if (!breach.empty()) return planning::OptionName(option) + ", " + breach;
-    if (plans == 0) return planning::OptionName(option) + ": no plan";
+    if (!breach.empty()) return option + ", " + breach;
+    if (plans == 0) return option + ": no plan";
   }
   return "";
 }

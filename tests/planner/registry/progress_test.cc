@@ -8,6 +8,8 @@
 #include "planner/base/in_blocks.h"
 #include "planner/planning/planner.h"
 #include "planner/registry/registry.h"
+#include "planner/roadmap/roadmap_parameters.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
 
@@ -70,7 +72,8 @@ Listener SummarizeWith(const std::string& planner, const std::string& model,
 
 TEST(Progress, TheGraphOfASolidCountsItsQuadruplesCellsAndFocusPoints) {
   planning::PlanRequest request;
-  request.graph = planning::GraphTasks{.focus_points = 500};
+  request.for_graph = true;
+  request.parameters = polyhedron::PolyhedronParameters{.focus_points = 500};
   ExpectCounted(SummarizeWith("polyhedron", "stone.obj", request),
                 {"testing quadruples of faces", "joining focus cells on triples of faces",
                  "sampling focus points"});
@@ -92,13 +95,13 @@ TEST(Progress, TheGraphOfAContourCountsItsPairsGraspsAndSets) {
 
 TEST(Progress, ARoadmapCountsItsPairsOfContactPointsAndItsQueries) {
   planning::PlanRequest request;
-  request.contact_points = 40;
+  request.parameters = roadmap::RoadmapParameters{.contact_points = 40};
   ExpectCounted(SummarizeWith("roadmap", "stone.obj", request),
                 {"testing the grasps of three on pairs of 40 contact points",
                  "testing the grasps of four on pairs of 40 contact points"});
-  request.contact_points = 200;
-  request.clusters = 10;
-  request.graph = planning::GraphTasks{.queries = 20};
+  request.for_graph = true;
+  request.parameters =
+      roadmap::RoadmapParameters{.contact_points = 200, .clusters = 10, .queries = 20};
   ExpectCounted(SummarizeWith("roadmap", "stone.obj", request),
                 {"testing the clearance of contact points", "comparing pairs of contact points",
                  "sorting contact points into clusters, runs",
@@ -112,7 +115,7 @@ TEST(Progress, ASearchThatFindsNothingCountsItsTestsUpToItsEffort) {
     Listener listener;
     planning::PlanRequest request = RequestAt(5, seed);
     request.criteria.min_quality = 0;
-    request.effort = 600;
+    request.parameters = planning::SearchParameters{.budget = 600};
     request.progress = listener.tell();
     const auto result =
         PlanWith(*FindPlanner("general"), *file.object, Random(), Random(), request);

@@ -33,8 +33,8 @@ planning::PlanRequest RequestOn(const object::Polyhedron& solid, double half_ang
   request.object = &solid;
   request.criteria.half_angle = half_angle;
   request.seed = 3;
-  request.contact_points = 200;
-  request.clusters = 10;
+  request.parameters.Edit<RoadmapParameters>().contact_points = 200;
+  request.parameters.Edit<RoadmapParameters>().clusters = 10;
   return request;
 }
 

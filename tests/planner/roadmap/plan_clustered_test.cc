@@ -28,8 +28,8 @@ using Status = planning::PlanResult::Status;
 
 planning::PlanRequest Options(std::uint64_t seed = 0, double degrees = 10, int clusters = 30) {
   planning::PlanRequest options = RequestAt(degrees, seed);
-  options.contact_points = 1000;
-  options.clusters = clusters;
+  options.parameters.Edit<RoadmapParameters>().contact_points = 1000;
+  options.parameters.Edit<RoadmapParameters>().clusters = clusters;
   return options;
 }
 
@@ -167,7 +167,7 @@ struct Isolated {
 TEST(PlanOnClusters, SaysThatAllWasSearchedWhereAGraspIsIsolated) {
   const Isolated isolated;
   planning::PlanRequest options = Options(0, 0.5, 10);
-  options.contact_points = 100;
+  options.parameters.Edit<RoadmapParameters>().contact_points = 100;
   const planning::PlanResult result =
       PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),
                Given(isolated.Pinwheel(1)), options);
@@ -177,7 +177,7 @@ TEST(PlanOnClusters, SaysThatAllWasSearchedWhereAGraspIsIsolated) {
       result.message,
       HasSubstr(
           "no sequence exists over these points: the fallback search reached all of 1 grasps"));
-  options.last_resort = false;
+  options.parameters.Edit<RoadmapParameters>().last_resort = false;
   const planning::PlanResult without =
       PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),
                Given(isolated.Pinwheel(1)), options);
@@ -196,11 +196,11 @@ TEST(PlanOnClusters, WithoutTheLastResortCanFailWhereItFinds) {
   int found = 0;
   for (std::uint64_t seed = 0; seed < 30 && (found == 0 || failed == 0); ++seed) {
     planning::PlanRequest options = Options(seed);
-    options.last_resort = false;
+    options.parameters.Edit<RoadmapParameters>().last_resort = false;
     const planning::PlanResult without =
         PlanWith(RoadmapPlanner(), spanner, Random(), RandomAny(), options);
     ++(without.status == Status::kFound ? found : failed);
-    options.last_resort = true;
+    options.parameters.Edit<RoadmapParameters>().last_resort = true;
     EXPECT_EQ(PlanWith(RoadmapPlanner(), spanner, Random(), RandomAny(), options).status,
               Status::kFound);
   }
@@ -225,7 +225,7 @@ TEST(PlanOnClusters, MovesNoFingerToItsOwnPointOnABorder) {
   goal[0].face = face_of(1);
   goal[0].n = isolated.cube.inward_normal(goal[0].face);
   planning::PlanRequest options = Options(0, 40, 10);
-  options.contact_points = 100;
+  options.parameters.Edit<RoadmapParameters>().contact_points = 100;
   const planning::PlanResult result =
       PlanWith(RoadmapPlanner(), isolated.cube, Given(start), Given(goal), options);
   ASSERT_EQ(result.status, Status::kFound) << result.message;
@@ -246,7 +246,7 @@ TEST(PlanOnClusters, RefusesOptionsOutOfRange) {
   const object::Polyhedron body = MakeConvexBody(22, 1);
   const auto plan = [&](int contacts, int clusters) {
     planning::PlanRequest options = Options(0, 20, clusters);
-    options.contact_points = contacts;
+    options.parameters.Edit<RoadmapParameters>().contact_points = contacts;
     return PlanWith(RoadmapPlanner(), body, Random(), Random(), options);
   };
   EXPECT_THROW((void)plan(3, 10), std::invalid_argument);
@@ -260,7 +260,8 @@ TEST(RoadmapSizeOf, ClustersMeshesAndManyContacts) {
   const auto sizes = [](const object::Polyhedron& solid, std::optional<int> contacts,
                         std::optional<int> clusters) {
     const RoadmapSize size =
-        SizeOf({.object = &solid, .contact_points = contacts, .clusters = clusters});
+        SizeOf({.object = &solid,
+                .parameters = RoadmapParameters{.contact_points = contacts, .clusters = clusters}});
     return std::pair(size.contacts, size.clusters);
   };
   const object::Polyhedron few = MakeConvexBody(22, 1);
@@ -277,7 +278,7 @@ TEST(PlanOnClusters, HasNoMoreClustersThanContacts) {
   const object::Polyhedron body = MakeConvexBody(22, 1);
   for (const int contacts : {4, 5, 8}) {
     planning::PlanRequest options = Options(0, 20, 50);
-    options.contact_points = contacts;
+    options.parameters.Edit<RoadmapParameters>().contact_points = contacts;
     options.object = &body;
     const ClusteredRoadmap roadmap = BuildClusteredRoadmap(options);
     EXPECT_LT(roadmap.clusters.cluster_count(), roadmap.clusters.clustered_count());
@@ -289,7 +290,7 @@ TEST(PlanOnClusters, HasNoMoreClustersThanContacts) {
 TEST(PlanOnClusters, RefusesAStartThatIsNotForceClosure) {
   const Isolated isolated;
   planning::PlanRequest options = Options(0, 0.5, 10);
-  options.contact_points = 100;
+  options.parameters.Edit<RoadmapParameters>().contact_points = 100;
   grasp::Grasp start = isolated.Pinwheel(0);
   start[2] = isolated.On(0, 1, -0.01, 0.01);
   EXPECT_THROW((void)PlanWith(RoadmapPlanner(), isolated.cube, Given(start),

@@ -47,8 +47,8 @@ grasp::Grasp AcrossAxis(const object::Polyhedron& cube, int axis, double offset 
 
 planning::PlanRequest Options(int contacts, std::uint64_t seed = 0, double degrees = 20) {
   planning::PlanRequest options = RequestAt(degrees, seed);
-  options.contact_points = contacts;
-  options.clusters = 0;
+  options.parameters.Edit<RoadmapParameters>().contact_points = contacts;
+  options.parameters.Edit<RoadmapParameters>().clusters = 0;
   return options;
 }
 

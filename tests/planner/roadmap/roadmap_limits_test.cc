@@ -17,8 +17,8 @@ using ::testing::HasSubstr;
 
 planning::PlanRequest Options(int contacts, int clusters, double degrees) {
   planning::PlanRequest options = RequestAt(degrees);
-  options.contact_points = contacts;
-  options.clusters = clusters;
+  options.parameters.Edit<RoadmapParameters>().contact_points = contacts;
+  options.parameters.Edit<RoadmapParameters>().clusters = clusters;
   return options;
 }
 
@@ -43,10 +43,12 @@ TEST(RoadmapMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
       static_cast<void>(PlanWith(RoadmapPlanner(), body, Random(), Random(), options));
     });
     const double estimate = NeedOf(body, options).bytes();
-    ASSERT_GT(used, 1e7) << *options.contact_points << " contacts, " << *options.clusters
-                         << " clusters";
-    EXPECT_GT(estimate, used / 2) << *options.contact_points << " contacts, " << *options.clusters;
-    EXPECT_LT(estimate, used * 2) << *options.contact_points << " contacts, " << *options.clusters;
+    const auto parameters = options.parameters.Get<RoadmapParameters>();
+    SCOPED_TRACE(std::to_string(*parameters.contact_points) + " contacts, " +
+                 std::to_string(*parameters.clusters) + " clusters");
+    ASSERT_GT(used, 1e7);
+    EXPECT_GT(estimate, used / 2);
+    EXPECT_LT(estimate, used * 2);
   }
 }
 #endif

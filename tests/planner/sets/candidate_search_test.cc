@@ -61,7 +61,7 @@ class Offers {
         [&](const std::vector<int>& path, auto& /*banned*/) {
           tried_.push_back(path.front());
           planning::CandidateSequence made = planning::StartOf(kStart);
-          made.rests.push_back({grasps_[path.front()], EdgeOf(path.front())});
+          made.grasps.push_back({grasps_[path.front()], EdgeOf(path.front())});
           made.steps.emplace_back(
               plan::Align{{made.initial, plan::FingersInOrder(grasps_[path.front()])}});
           return std::optional(made);
@@ -77,7 +77,7 @@ class Offers {
   std::vector<int> tried_;
 };
 
-double TopOf(const planning::CandidateSequence& found) { return found.rests[1].grasp[1].p.x(); }
+double TopOf(const planning::CandidateSequence& found) { return found.grasps[1].grasp[1].p.x(); }
 
 TEST(FindCandidate, TheFirstThatIsGoodEndsTheSearch) {
   Offers offers({kWeak, kGood, kWeaker});

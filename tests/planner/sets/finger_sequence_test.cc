@@ -28,7 +28,7 @@ TEST(FingerSequence, ASwitchToTheGraspAtHandIsNoStep) {
   FingerSequence sequence(kUpright, 4);
   sequence.SwitchTo(kUpright, std::nullopt);
   EXPECT_TRUE(sequence.candidate().steps.empty());
-  EXPECT_EQ(sequence.candidate().rests.size(), 1U);
+  EXPECT_EQ(sequence.candidate().grasps.size(), 1U);
 }
 
 TEST(FingerSequence, TwoSwitchesInARowAreOneWhereTheHandHasTheFingers) {
@@ -37,8 +37,8 @@ TEST(FingerSequence, TwoSwitchesInARowAreOneWhereTheHandHasTheFingers) {
     sequence.SwitchTo(MakeGrasp(kSquare, {{2, 0.5}, {1, 0.5}}), search::VertexPair(0, 1));
     sequence.SwitchTo(kLevel, search::VertexPair(1, 2));
     EXPECT_EQ(sequence.candidate().steps.size(), fingers == 3 ? 2U : 1U);
-    EXPECT_EQ(sequence.candidate().rests.size(), sequence.candidate().steps.size() + 1);
-    EXPECT_EQ(sequence.candidate().rests.back().chosen_for, search::VertexPair(1, 2));
+    EXPECT_EQ(sequence.candidate().grasps.size(), sequence.candidate().steps.size() + 1);
+    EXPECT_EQ(sequence.candidate().grasps.back().chosen_for, search::VertexPair(1, 2));
   }
 }
 
@@ -61,7 +61,7 @@ TEST(FingerSequence, AnAlignMovesTheFingersAndIsNotJoinedWithASwitch) {
   const auto& align = std::get<plan::Align>(sequence.candidate().steps.front());
   ASSERT_EQ(align.waypoints.size(), 2U);
   EXPECT_EQ(align.waypoints[1][0].contact.p, moved[1].p);
-  EXPECT_EQ(sequence.candidate().rests[1].grasp[1].p, moved[0].p);
+  EXPECT_EQ(sequence.candidate().grasps[1].grasp[1].p, moved[0].p);
 }
 
 }  // namespace finger_sequence_test

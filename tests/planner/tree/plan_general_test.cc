@@ -132,8 +132,8 @@ TEST(PlanGeneralTest, AnEffortTooSmallSaysWhatWasReachedAndExplainFindsTheFricti
   options.criteria.min_quality = 0;
   int none = 0;
   for (options.seed = 0; options.seed < 40 && none == 0; ++options.seed) {
-    options.effort = 1;
-    options.explain = false;
+    options.parameters.Edit<planning::SearchParameters>().budget = 1;
+    options.parameters.Edit<planning::SearchParameters>().explain = false;
     const planning::PlanResult result =
         PlanWith(TreePlanner(), *file.object, Random(), Random(), options);
     if (result.status == Status::kFound) continue;
@@ -141,8 +141,8 @@ TEST(PlanGeneralTest, AnEffortTooSmallSaysWhatWasReachedAndExplainFindsTheFricti
     EXPECT_EQ(result.status, Status::kNoSequence);
     EXPECT_THAT(result.message, HasSubstr(" from the start and "));
     EXPECT_THAT(result.message, HasSubstr("this does not prove that there is no sequence"));
-    options.effort = 40'000;
-    options.explain = true;
+    options.parameters.Edit<planning::SearchParameters>().budget = 40'000;
+    options.parameters.Edit<planning::SearchParameters>().explain = true;
     const planning::PlanResult more =
         PlanWith(TreePlanner(), *file.object, Random(), Random(), options);
     if (more.status != Status::kFound) {

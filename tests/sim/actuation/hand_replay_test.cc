@@ -218,7 +218,7 @@ plan::Plan SlidingPlan(double way) {
   request.scale = kScale;
   request.criteria.half_angle = std::atan(kMu);
   request.seed = 1;
-  request.reserve = gait::Reserve::kNone;  // required for plans without slides
+  request.robustness = gait::RobustnessLevel::kNone;  // required for plans without slides
   request.start_pose = gait::FindGait(request).gait->start.pose;
   request.goal_pose = request.start_pose;
   grasp::Grasp grasp;

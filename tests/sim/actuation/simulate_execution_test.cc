@@ -112,8 +112,9 @@ TEST_F(ExecutionSimulatorTest, SeveralThreadsGetWhatOneGets) {
 
 TEST_F(ExecutionSimulatorTest, OfAPlanWhoseTrialWasCutShortItIsSaidThatTheTimeWasUp) {
   planning::PlanRequest request = Turning(90);
-  request.effort = 4;
-  request.in_hand->simulate = [](const plan::Plan&, const Deadline&) {
+  request.parameters.Edit<planning::SearchParameters>().budget = 4;
+  request.parameters.Edit<gait::GaitParameters>().task->simulate = [](const plan::Plan&,
+                                                                      const Deadline&) {
     return std::optional(planning::ExecutionResult{.is_cut_short = true});
   };
   const planning::PlanResult found = planning::Solve(planner_, request);
@@ -121,18 +122,21 @@ TEST_F(ExecutionSimulatorTest, OfAPlanWhoseTrialWasCutShortItIsSaidThatTheTimeWa
   ASSERT_FALSE(found.warnings.empty());
   EXPECT_NE(found.warnings.front().find("reaches the time limit at the initial grasp"),
             std::string::npos);
-  request.in_hand->reserve = planning::Reserve::kRequired;
+  request.parameters.Edit<gait::GaitParameters>().task->robustness =
+      planning::RobustnessLevel::kRequired;
   const planning::PlanResult none = planning::Solve(planner_, request);
   EXPECT_FALSE(none.plan);
   EXPECT_NE(none.message.find("reaches the time limit at the initial grasp"), std::string::npos);
   EXPECT_FALSE(none.trial);  // a timeout gives no failure reason
 }
 
-TEST_F(ExecutionSimulatorTest, WhatTheMotorsDoNotCarryOutIsNoPlanWhereReserveIsRequired) {
+TEST_F(ExecutionSimulatorTest, APlanThatDoesNotExecuteIsNoPlanIfRobustnessIsRequired) {
   planning::PlanRequest request = Turning(90);
-  request.effort = 4;
-  request.in_hand->reserve = planning::Reserve::kRequired;
-  request.in_hand->simulate = [](const plan::Plan&, const Deadline&) {
+  request.parameters.Edit<planning::SearchParameters>().budget = 4;
+  request.parameters.Edit<gait::GaitParameters>().task->robustness =
+      planning::RobustnessLevel::kRequired;
+  request.parameters.Edit<gait::GaitParameters>().task->simulate = [](const plan::Plan&,
+                                                                      const Deadline&) {
     return std::optional(planning::ExecutionResult{.reason = plan::Reason::kTorqueLimit,
                                                    .detail = "finger 1 is at its limit"});
   };
@@ -141,7 +145,8 @@ TEST_F(ExecutionSimulatorTest, WhatTheMotorsDoNotCarryOutIsNoPlanWhereReserveIsR
   EXPECT_EQ(none.trial, plan::Reason::kTorqueLimit);
   EXPECT_NE(none.message.find("(torque-limit): finger 1 is at its limit"), std::string::npos)
       << none.message;
-  request.in_hand->reserve = planning::Reserve::kPreferred;
+  request.parameters.Edit<gait::GaitParameters>().task->robustness =
+      planning::RobustnessLevel::kPreferred;
   EXPECT_TRUE(planning::Solve(planner_, request).plan);
 }
 
@@ -173,7 +178,8 @@ TEST_F(ExecutionSimulatorTest, OfAHandWithoutActuatorsItCanNotTell) {
   const std::string path =
       Write("ring5.json", ReadFile(ProjectPath("models/hands/ring5.json"))).string();
   planning::PlanRequest request = Turning(20);
-  request.in_hand->reserve = planning::Reserve::kNone;
+  request.parameters.Edit<gait::GaitParameters>().task->robustness =
+      planning::RobustnessLevel::kNone;
   const planning::PlanResult found = planning::Solve(planner_, request);
   ASSERT_TRUE(found.plan) << found.message;
   EXPECT_FALSE(ExecutionSimulator(kinematics::ReadHandFile(path), cube_)(*found.plan, {}));

@@ -62,7 +62,7 @@ const plan::Plan& GoodPlan() {
 /// Return a plan from one grasp to another at one pose, each the first of a seed.
 plan::Plan Regrasp(std::uint64_t seed) {
   gait::GaitRequest request = RequestForTheCube();
-  request.reserve = gait::Reserve::kNone;
+  request.robustness = gait::RobustnessLevel::kNone;
   const auto first_grasp = [&](std::uint64_t of_seed) {
     request.seed = of_seed;
     const gait::GaitResult found = gait::FindGait(request);
@@ -163,7 +163,7 @@ class CoupledHandTest : public FolderTest {
 TEST_F(CoupledHandTest, APlanOfTheSearchKeepsTheCouplings) {
   gait::GaitRequest request = RequestForTheCube();
   request.hand = &file_.hand;
-  request.reserve = gait::Reserve::kNone;
+  request.robustness = gait::RobustnessLevel::kNone;
   request.turn = {Vector3d::UnitZ(), Radians(10)};
   const gait::GaitResult found = gait::FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;

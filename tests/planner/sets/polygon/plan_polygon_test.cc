@@ -7,6 +7,7 @@
 #include "planner/grasp/quality.h"
 #include "planner/sets/polygon/graph_cells.h"
 #include "planner/sets/polygon/polygon_planner.h"
+#include "planner/sets/set_parameters.h"
 #include "tests/fixtures/edge_grasp.h"
 #include "tests/fixtures/good_plan.h"
 #include "tests/fixtures/models.h"
@@ -291,7 +292,7 @@ TEST(PlanOnPolygon, AGraspInNoSetComesToOneByASwitchOfItsOwn) {
   ExpectGood(triangle, adaptive, start, goal);
   ASSERT_THAT(adaptive.plan->steps, SizeIs(1));
   EXPECT_TRUE(std::holds_alternative<plan::Align>(adaptive.plan->steps.front()));
-  options.spanning = planning::Spanning::kUniform;
+  options.parameters.Edit<sets::SetParameters>().spanning = planning::Spanning::kUniform;
   const planning::PlanResult uniform =
       PlanWith(PolygonPlanner(), triangle, Given(start), Given(goal), options);
   ExpectGood(triangle, uniform, start, goal);
@@ -319,7 +320,7 @@ TEST(PlanOnPolygon, UniformSpanningNeverJoinsConcurrentAndParallelSets) {
     EXPECT_EQ(joined(planning::Spanning::kUniform), 0) << name;
     joined_under_adaptive += joined(planning::Spanning::kAdaptive) > 0 ? 1 : 0;
     planning::PlanRequest options = RequestAt(20, 1);
-    options.spanning = planning::Spanning::kUniform;
+    options.parameters.Edit<sets::SetParameters>().spanning = planning::Spanning::kUniform;
     const planning::PlanResult result =
         PlanWith(PolygonPlanner(), polygon, Random(), Random(), options);
     if (result.status != Status::kFound) continue;

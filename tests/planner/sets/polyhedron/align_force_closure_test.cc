@@ -10,6 +10,7 @@
 #include "planner/motion/contact_motion.h"
 #include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "planner/sets/set_parameters.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
@@ -53,7 +54,7 @@ std::vector<PlanningCase> Cases(const std::vector<NamedBody>& bodies) {
                         {},
                         {}};
       made.options.criteria.half_angle = Radians(degrees);
-      made.options.spanning = spanning;
+      made.options.parameters.Edit<sets::SetParameters>().spanning = spanning;
       made.graph = std::make_unique<PolyhedronGraph>(named.body, Radians(degrees), spanning);
       if (made.graph->vertex_count() > 0) cases.push_back(std::move(made));
     }
@@ -155,7 +156,7 @@ template <typename Visit>
 int ForEachUniformAlign(Visit visit) {
   int aligns = 0;
   ForEachPlan(kPlansOfControls, [&](const PlanningCase& one, const plan::Plan& plan) {
-    if (one.options.spanning != planning::Spanning::kUniform) return;
+    if (sets::SpanningOf(one.options) != planning::Spanning::kUniform) return;
     for (const plan::Step& step : plan.steps) {
       if (const auto* align = std::get_if<plan::Align>(&step)) {
         visit(one, *align);

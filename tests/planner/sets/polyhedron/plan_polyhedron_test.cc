@@ -7,6 +7,7 @@
 #include "planner/sets/polyhedron/focus_contacts.h"
 #include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "planner/sets/set_parameters.h"
 #include "tests/fixtures/good_plan.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
@@ -19,7 +20,7 @@ using Status = planning::PlanResult::Status;
 
 planning::PlanRequest Spanned(double degrees, std::uint64_t seed, planning::Spanning spanning) {
   planning::PlanRequest request = RequestAt(degrees, seed);
-  request.spanning = spanning;
+  request.parameters.Edit<sets::SetParameters>().spanning = spanning;
   return request;
 }
 
