@@ -131,9 +131,10 @@ void ExpectFree(const HeldFolder& folder, const std::set<std::string>& own,
     const fs::file_type there = fs::symlink_status(path, error).type();
     if (there == fs::file_type::not_found) continue;
     if (there != fs::file_type::directory && own.contains(name)) continue;
-    throw InputError(path.string() +
-                     ": is in the way of a result, and no earlier run wrote it: move it away, or "
-                     "give another --out");
+    throw InputError(
+        path.string() +
+        ": cannot overwrite a file that no earlier run wrote; help: move it or pass another "
+        "--out");
   }
 }
 

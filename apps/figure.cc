@@ -27,7 +27,7 @@
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "render/figures/contact_space_figure.h"
-#include "render/figures/figure_mark.h"
+#include "render/figures/figure_format.h"
 #include "render/figures/plan_figure.h"
 #include "render/figures/solid_figure.h"
 #include "render/frames/step_scene.h"
@@ -213,7 +213,7 @@ void FigureFolder::RemoveOthers(const std::string& format) const {
 }
 
 void FigureProgram::CheckHasContactSpace(const plan::Plan& plan) const {
-  const auto rest = render::FindOtherThanTwoFingers(plan);
+  const auto rest = render::FindOtherThanTwoContacts(plan);
   if (!rest) return;
   const std::string entry = rest->entry == 0
                                 ? "its initial grasp"

@@ -7,7 +7,7 @@
 
 #include "apps/entry_names.h"
 #include "planner/base/file.h"
-#include "render/picture/moving_picture.h"
+#include "render/picture/animation.h"
 
 namespace regrasp::apps {
 
@@ -63,7 +63,7 @@ report::PagePicture WriteAnimation(const object::Object& object, const plan::Pla
                                    const std::vector<plan::Snapshot>& samples,
                                    const std::vector<MovingFile>& files,
                                    const report::Report& report) {
-  std::vector<render::MovingFormat> formats;
+  std::vector<render::AnimationFormat> formats;
   for (const MovingFile& file : files) formats.push_back(file.format);
   report::MovingPictures moving =
       report::DrawAnimation(object, plan, options, samples, formats, report);

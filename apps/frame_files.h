@@ -6,7 +6,7 @@
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
-#include "render/picture/moving_picture.h"
+#include "render/picture/animation.h"
 #include "report/page/report_page.h"
 #include "report/pictures/report_pictures.h"
 #include "report/report.h"
@@ -30,7 +30,7 @@ inline constexpr char kAnimationName[] = "replay.webp";
 
 struct MovingFile {
   std::filesystem::path path;
-  render::MovingFormat format;
+  render::AnimationFormat format;
 };
 
 /// Draws a frame of every step up to the one that failed into `folder` and names it in the report,

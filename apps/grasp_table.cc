@@ -7,6 +7,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/npz.h"
+#include "planner/base/number.h"
 
 namespace regrasp::apps {
 
@@ -14,7 +15,9 @@ namespace {
 
 constexpr char kPoints[] = "points";
 constexpr char kNormals[] = "normals";
-constexpr char kHolds[] = "holds";
+constexpr char kActive[] = "active";
+constexpr char kActiveInVersion1[] = "holds";
+constexpr char kFormatVersion[] = "format_version";
 
 const NpzArray* Find(const std::vector<NpzArray>& arrays, const std::string& name) {
   const auto found = std::ranges::find(arrays, name, &NpzArray::name);
@@ -56,66 +59,91 @@ void CheckShape(const Shape& shape, const std::string& file, int dimension) {
   constexpr std::size_t kMostContacts = 1000;
   if (shape.size() != 3 || shape[2] != static_cast<std::size_t>(dimension) || shape[1] < 1 ||
       shape[1] > kMostContacts) {
-    throw InputError(file + ": points: the shape is (N, k, " + std::to_string(dimension) +
-                     ") for N grasps of k contacts, 1 to " + std::to_string(kMostContacts) +
-                     ", found " + ShapeText(shape));
+    throw InputError(file + ": points: expected shape (N, k, " + std::to_string(dimension) +
+                     ") with k from 1 to " + std::to_string(kMostContacts) + ", found " +
+                     ShapeText(shape));
   }
   if (shape[0] == 0)
-    throw InputError(file + ": points: no grasp, the shape is " + ShapeText(shape));
+    throw InputError(file + ": points: expected at least one grasp, found shape " +
+                     ShapeText(shape));
 }
 
-/// Appends the values of the contacts that hold in grasp g of k.
-void AppendHeld(const std::vector<double>& values, const std::vector<double>& holds, std::size_t g,
-                std::size_t k, std::vector<double>& to) {
+/// Append the values of the active contacts of grasp g, with k contacts.
+void AppendActive(const std::vector<double>& values, const std::vector<double>& active,
+                  std::size_t g, std::size_t k, std::vector<double>& to) {
   for (std::size_t c = g * k; c < (g + 1) * k; ++c) {
-    if (holds[c] == 0) continue;
+    if (active[c] == 0) continue;
     to.insert(to.end(), &values[3 * c], &values[3 * c] + 3);
   }
 }
 
-/// @param all    grasps of k contacts.
-/// @param holds  which of them do, of each.
-std::vector<GraspGroup> SplitByVerdict(const GraspGroup& all, const std::vector<double>& holds) {
+/// Group grasps by their number of active contacts; drop those without any.
+/// @param all     N grasps of k contacts
+/// @param active  (N, k) mask of active contacts
+std::vector<GraspGroup> SplitByCount(const GraspGroup& all, const std::vector<double>& active) {
   const auto k = static_cast<std::size_t>(all.contacts);
   std::vector<GraspGroup> groups(k);
   for (std::size_t g = 0; g < all.places.size(); ++g) {
-    const auto begin = holds.begin() + static_cast<std::ptrdiff_t>(g * k);
+    const auto begin = active.begin() + static_cast<std::ptrdiff_t>(g * k);
     const auto held = static_cast<std::size_t>(
-        std::count_if(begin, begin + all.contacts, [](double h) { return h != 0; }));
+        std::count_if(begin, begin + all.contacts, [](double a) { return a != 0; }));
     if (held == 0) continue;
     GraspGroup& group = groups[held - 1];
     group.contacts = static_cast<int>(held);
     group.places.push_back(g);
     for (std::size_t c = 0; c < k; ++c) {
-      if (holds[g * k + c] != 0) group.fingers.push_back(static_cast<int>(c));
+      if (active[g * k + c] != 0) group.fingers.push_back(static_cast<int>(c));
     }
-    AppendHeld(all.points, holds, g, k, group.points);
-    if (!all.normals.empty()) AppendHeld(all.normals, holds, g, k, group.normals);
+    AppendActive(all.points, active, g, k, group.points);
+    if (!all.normals.empty()) AppendActive(all.normals, active, g, k, group.normals);
   }
   std::erase_if(groups, [](const GraspGroup& group) { return group.places.empty(); });
   return groups;
 }
 
+/// Return the mask of active contacts, or nullptr if the file has none. Version 1 calls it `holds`.
+/// @throws InputError  if the version is not supported, or if the file has the mask twice
+const NpzArray* FindActive(const std::vector<NpzArray>& arrays, const std::string& file) {
+  const NpzArray* active = Find(arrays, kActive);
+  const NpzArray* old = Find(arrays, kActiveInVersion1);
+  const NpzArray* version = Find(arrays, kFormatVersion);
+  if (version != nullptr) {
+    if (version->values.size() != 1 || (version->values[0] != 1 && version->values[0] != 2)) {
+      throw InputError(file + ": format_version: not supported, expected 1 or 2" +
+                       (version->values.size() == 1
+                            ? ", found " + FormatShort(version->values[0])
+                            : ", found an array of shape " + ShapeText(version->shape)));
+    }
+    if (version->values[0] == 2) return active;
+  }
+  if (active != nullptr && old != nullptr) {
+    throw InputError(file + ": active: cannot be used with holds, its name in version 1");
+  }
+  return active != nullptr ? active : old;
+}
+
 }  // namespace
 
 GraspTable ReadGrasps(const std::string& file, int dimension) {
-  const std::vector<NpzArray> arrays = ReadNpz(ReadFile(file), file, {kPoints, kNormals, kHolds});
+  const std::vector<NpzArray> arrays = ReadNpz(
+      ReadFile(file), file, {kPoints, kNormals, kActive, kActiveInVersion1, kFormatVersion});
   const NpzArray* points = Find(arrays, kPoints);
   const NpzArray* normals = Find(arrays, kNormals);
-  const NpzArray* holds = Find(arrays, kHolds);
+  const NpzArray* active = FindActive(arrays, file);
   if (points == nullptr) {
-    throw InputError(file + ": no array \"points\", of shape (N, k, " + std::to_string(dimension) +
-                     ") for N grasps of k contacts");
+    throw InputError(file + ": points: array not found, expected shape (N, k, " +
+                     std::to_string(dimension) + ")");
   }
   const Shape& shape = points->shape;
   CheckShape(shape, file, dimension);
   if (normals != nullptr && normals->shape != shape) {
-    throw InputError(file + ": normals: the shape is that of points, " + ShapeText(shape) +
+    throw InputError(file + ": normals: expected the shape of points, " + ShapeText(shape) +
                      ", found " + ShapeText(normals->shape));
   }
-  if (holds != nullptr && holds->shape != Shape{shape[0], shape[1]}) {
-    throw InputError(file + ": holds: the shape is " + ShapeText({shape[0], shape[1]}) +
-                     " for points of " + ShapeText(shape) + ", found " + ShapeText(holds->shape));
+  if (active != nullptr && active->shape != Shape{shape[0], shape[1]}) {
+    throw InputError(file + ": " + active->name + ": expected shape " +
+                     ShapeText({shape[0], shape[1]}) + " for points of shape " + ShapeText(shape) +
+                     ", found " + ShapeText(active->shape));
   }
   CheckFinite(*points, file);
   GraspGroup all;
@@ -131,8 +159,8 @@ GraspTable ReadGrasps(const std::string& file, int dimension) {
     all.normals = InSpace(*normals);
   }
   GraspTable table{shape[0], all.contacts, {}};
-  if (holds != nullptr) {
-    table.groups = SplitByVerdict(all, holds->values);
+  if (active != nullptr) {
+    table.groups = SplitByCount(all, active->values);
   } else {
     table.groups.push_back(std::move(all));
   }

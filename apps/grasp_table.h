@@ -18,11 +18,13 @@ struct GraspGroup {
 /// The grasps of a file.
 struct GraspTable {
   std::size_t count = 0;
-  int contacts = 0;                ///< of each; some may not hold
-  std::vector<GraspGroup> groups;  ///< by how many contacts hold; those of none are in no group
+  int contacts = 0;  ///< per grasp, active or not
+  std::vector<GraspGroup>
+      groups;  ///< by number of active contacts; grasps without any are in no group
 };
 
-/// Reads the arrays points, normals and holds (docs/formats.md) of an NPZ file.
+/// Read the arrays points, normals and active (docs/format_grasp.md) of an NPZ file. In files of
+/// version 1 the array active is called holds.
 /// @param dimension  of the object: 2 or 3.
 /// @throws InputError  names the file, the array, the place in it and what is wrong.
 [[nodiscard]] GraspTable ReadGrasps(const std::string& file, int dimension);

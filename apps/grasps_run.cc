@@ -1,5 +1,3 @@
-#include "apps/grasps_run.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,6 +13,7 @@
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "apps/validate_run.h"
 #include "apps/validate_task.h"
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"
@@ -26,11 +25,14 @@
 #include "planner/grasp/judge_grasps.h"
 #include "planner/plan/locate.h"
 #include "planner/plan/surface_tolerance.h"
-#include "report/report.h"
+#include "sim/validation/validation.h"
 
 namespace regrasp::apps {
 
 namespace {
+
+/// Version of the file format: 2 has `valid` and `is_force_closure` instead of `holds`.
+constexpr double kVerdictsVersion = 2;
 
 /// The last that a grasp can fail for.
 constexpr auto kLastReason = plan::Reason::kObjectMoved;
@@ -44,11 +46,13 @@ struct OffSurface {
 
 /// The verdicts on those grasps that are on the object, at their places among all.
 struct Verdicts {
-  std::vector<double> holds, too_close, margin, required_deg, quality, reason, replayed;
+  std::vector<double> is_force_closure, valid, too_close, margin, required_deg, quality, reason,
+      replayed;
   std::optional<OffSurface> off_surface;  ///< of the first grasp of the file that has one
 
   explicit Verdicts(std::size_t count)
-      : holds(count, 0),
+      : is_force_closure(count, 0),
+        valid(count, 0),
         too_close(count, 0),
         margin(count, std::numeric_limits<double>::quiet_NaN()),
         required_deg(margin),
@@ -106,7 +110,8 @@ void Judge(const object::Object& object, const PlacedGrasps& placed, int contact
   for (std::size_t i = 0; i < placed.places.size(); ++i) {
     const std::size_t g = placed.places[i];
     const grasp::Decision decision = found.force_closure[i].decision;
-    verdicts.holds[g] = decision == grasp::Decision::kYes ? 1 : 0;
+    verdicts.is_force_closure[g] = decision == grasp::Decision::kYes ? 1 : 0;
+    verdicts.valid[g] = verdicts.is_force_closure[g];
     verdicts.too_close[g] = decision == grasp::Decision::kTooClose ? 1 : 0;
     verdicts.margin[g] = found.force_closure[i].margin_lower;
     if (options.required_angle) verdicts.required_deg[g] = Degrees(found.required_half_angle[i]);
@@ -131,23 +136,23 @@ grasp::Grasp GraspAt(const PlacedGrasps& placed, int contacts, std::size_t i) {
 /// Holds and shakes, in MuJoCo, those that are force closure: each on its own, on all cores.
 void Replay(const object::Object& object, const PlacedGrasps& placed, int contacts,
             const ValidateOptions& options, ProgressLine& progress, Verdicts& verdicts) {
+  const validation::ValidationOptions given = ValidationOptionsOf(options);
   std::vector<std::size_t> held;
   for (std::size_t i = 0; i < placed.places.size(); ++i) {
-    if (verdicts.holds[placed.places[i]] == 1) held.push_back(i);
+    if (verdicts.is_force_closure[placed.places[i]] == 1) held.push_back(i);
   }
   std::size_t done = 0;
   std::mutex telling;
   InBlocks(held.size(), 1, 0, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t g = placed.places[held[k]];
-      plan::Plan hold =
-          report::MakeHoldPlan(object, GraspAt(placed, contacts, held[k]),
-                               options.friction.required_half_angle(), options.scale.value_or(1));
-      hold.finger_radius = options.replay.finger_radius;
-      hold.torsion = options.contact.torsion().value_or(0);
-      const report::Report report = report::Validate(object, hold, {}, options.replay);
+      const plan::Plan hold = validation::MakeHoldPlan(object, GraspAt(placed, contacts, held[k]),
+                                                       options.friction.required_half_angle(),
+                                                       options.scale.value_or(1));
+      const validation::Report report =
+          validation::Validate({.object = object, .plan = hold, .options = given}).report;
       verdicts.reason[g] = static_cast<double>(report.steps.front().reason());
-      verdicts.holds[g] = report.passed() ? 1 : 0;
+      verdicts.valid[g] = report.passed() ? 1 : 0;
       verdicts.replayed[g] = 1;
       const std::lock_guard lock(telling);
       progress.Report("replayed " + std::to_string(++done) + " of " + std::to_string(held.size()) +
@@ -181,11 +186,14 @@ std::vector<std::string> ReasonWords() {
 }
 
 std::string FormatVerdicts(Verdicts verdicts, const ValidateOptions& options) {
-  const std::size_t count = verdicts.holds.size();
-  std::vector<NpzArray> arrays = {{"holds", {count}, std::move(verdicts.holds), {}, true},
-                                  {"too_close", {count}, std::move(verdicts.too_close), {}, true},
-                                  {"margin", {count}, std::move(verdicts.margin)},
-                                  {"reason", {count}, std::move(verdicts.reason)}};
+  const std::size_t count = verdicts.valid.size();
+  std::vector<NpzArray> arrays = {
+      {"format_version", {}, {kVerdictsVersion}},
+      {"is_force_closure", {count}, std::move(verdicts.is_force_closure), {}, true},
+      {"valid", {count}, std::move(verdicts.valid), {}, true},
+      {"too_close", {count}, std::move(verdicts.too_close), {}, true},
+      {"margin", {count}, std::move(verdicts.margin)},
+      {"reason", {count}, std::move(verdicts.reason)}};
   if (options.required_angle) {
     arrays.push_back({"required_angle_deg", {count}, std::move(verdicts.required_deg)});
   }
@@ -209,7 +217,7 @@ std::string CountsText(const Verdicts& verdicts) {
     if (n > 0) rows.push_back({what, std::to_string(n)});
   };
   const std::size_t too_close = Count(verdicts.too_close, 1);
-  add("pass", Count(verdicts.holds, 1));
+  add("pass", Count(verdicts.valid, 1));
   for (int i = 1; i <= static_cast<int>(kLastReason); ++i) {
     const auto reason = static_cast<plan::Reason>(i);
     const bool closure = reason == plan::Reason::kNotForceClosure;
@@ -244,7 +252,7 @@ int RunGrasps(const ValidateOptions& options) {
   Verdicts verdicts = JudgeAll(*object.object, table, options, progress);
   progress.Clear();
   const std::string counts = CountsText(verdicts) + OffSurfaceLine(*object.object, verdicts);
-  const bool passed = Count(verdicts.holds, 1) == table.count;
+  const bool passed = Count(verdicts.valid, 1) == table.count;
   std::error_code error;
   std::filesystem::create_directories(options.Folder(), error);
   if (error) throw EnvironmentError(options.Folder().string() + ": " + error.message());

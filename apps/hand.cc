@@ -11,7 +11,7 @@
 #include "apps/program.h"
 #include "planner/base/file.h"
 #include "planner/kinematics/inspect_hand.h"
-#include "render/frames/hand_picture.h"
+#include "render/frames/hand_image.h"
 #include "render/picture/image.h"
 
 namespace {

@@ -137,7 +137,8 @@ HeldFolder::HeldFolder(fs::path path, std::chrono::milliseconds patience)
   fstat(descriptor_.get(), &status);
   const std::string text = ReadAll(descriptor_);
   if (!S_ISREG(status.st_mode) || (!text.empty() && !text.starts_with(kOurs))) {
-    throw InputError(file_.string() + ": is in the way of a file of this program: move it away");
+    throw InputError(file_.string() +
+                     ": cannot overwrite a file that regrasp did not write; help: move it");
   }
   for (const std::string& name : LinesWith(kWrites, text)) left_behind_.insert(name);
   Append(std::string(kHolder) + std::to_string(getpid()) + " on " + HostName() + "\n");

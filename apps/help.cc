@@ -179,6 +179,10 @@ int HelpWidth() {
   return std::clamp(width, kNarrowest, kWidest);
 }
 
+std::string WrapText(const std::string& text, int indent, int width) {
+  return Wrap(text, indent, width);
+}
+
 std::string FormatHelpAs(std::string_view format, const CLI::App& app) {
   if (format == "man") return ManPage(app);
   if (format == "bash") return BashCompletion(app);

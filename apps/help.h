@@ -45,6 +45,10 @@ void BeginGroup(CLI::App& app, const std::string& name);
 /// How wide text on standard output may be: COLUMNS, or what the terminal says, otherwise 80.
 [[nodiscard]] int HelpWidth();
 
+/// Break text into lines of at most `width` characters, each indented by `indent` spaces; ends with
+/// a newline.
+[[nodiscard]] std::string WrapText(const std::string& text, int indent, int width);
+
 /// What makes the manual page and the completions of the shells from the same options; `format` is
 /// "man", "bash", "zsh", "fish" or "markdown".
 /// @throws InputError  another format.

@@ -56,8 +56,8 @@ class Messages {
   }
   void PrintRest() const {
     if (count_ <= kMostMessages) return;
-    PrintMessage(run_.program, run_.output.string() + ": says the same of " +
-                                   std::to_string(count_ - kMostMessages) + " more");
+    PrintMessage(run_.program, run_.output.string() + ": " +
+                                   std::to_string(count_ - kMostMessages) + " more messages");
   }
 
  private:

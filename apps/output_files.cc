@@ -54,8 +54,8 @@ class KnownFiles {
     const auto id = IdOf(path);
     const auto input = id ? inputs_.find(*id) : inputs_.end();
     if (input == inputs_.end()) return;
-    throw InputError(path.string() + ": is the file of " + input->second + ", and " + option +
-                     " would overwrite it; write elsewhere");
+    throw InputError(path.string() + ": " + option + " must not overwrite the file of " +
+                     input->second);
   }
 
   /// @throws InputError  another output is written there.
@@ -93,8 +93,7 @@ class KnownFiles {
   static void RefuseTwice(const fs::path& path, const std::string& option,
                           const std::string& other) {
     if (option == other) return;
-    throw InputError(path.string() + ": " + other + " and " + option +
-                     " would both be written there; write elsewhere");
+    throw InputError(path.string() + ": " + option + " must not be the file of " + other);
   }
 
   std::map<FileId, std::string> inputs_;

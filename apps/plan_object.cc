@@ -18,11 +18,8 @@ bool IsFor(const plan::Plan& plan, const object::ObjectFile& object) {
 std::string WrongObject(const plan::Plan& plan, const object::ObjectFile& object,
                         const PlanAndObject& given) {
   if (plan.object_sha256 == object.sha256 && plan.repair && object.repair) {
-    return given.plan_path +
-           ": /object/repair/sha256: the plan was made for a repaired solid with "
-           "digest " +
-           plan.repair->sha256 + ", but this version makes one with " + object.repair->sha256 +
-           " of " + given.object_path;
+    return given.plan_path + ": /object/repair/sha256: expected " + object.repair->sha256 +
+           ", the repaired solid of " + given.object_path + ", found " + plan.repair->sha256;
   }
   return given.plan_path + ": /object/sha256: the plan is for another object file, expected " +
          DescribeFile(plan.object_file, plan.object_sha256) + ", found " +
@@ -50,15 +47,15 @@ object::ObjectFile ReadObjectOf(const plan::Plan& plan, const std::string& path,
 void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object,
                    const PlanAndObject& given) {
   if (plan.dimension != object.object->dimension()) {
-    throw InputError(given.plan_path + ": /object/dimension: " + std::to_string(plan.dimension) +
-                     ", but " + given.object_path + " has dimension " +
-                     std::to_string(object.object->dimension()));
+    throw InputError(given.plan_path + ": /object/dimension: expected " +
+                     std::to_string(object.object->dimension()) + " as of " + given.object_path +
+                     ", found " + std::to_string(plan.dimension));
   }
   if (!IsFor(plan, object) && !given.allow_object_change) {
-    throw InputError(WrongObject(plan, object, given) + " (--allow-object-change accepts it)");
+    throw InputError(WrongObject(plan, object, given) + "; help: --allow-object-change accepts it");
   }
   if (given.scale && *given.scale != plan.scale) {
-    throw InputError("--scale " + FormatDouble(*given.scale) + ": the plan's scale is " +
+    throw InputError("--scale " + FormatDouble(*given.scale) + " must be the scale of the plan, " +
                      FormatDouble(plan.scale));
   }
 }

@@ -116,8 +116,9 @@ int Run(CLI::App& app, int argc, const char* const* argv, const std::function<in
   } catch (const CLI::CallForHelp&) {
     std::cout << HelpText(app, HelpWidth());
     return kExitDone;
-  } catch (const CLI::CallForVersion& version) {
-    std::cout << version.what() << '\n';
+  } catch (const CLI::Success& text) {
+    // --version, --explain
+    std::cout << text.what() << '\n';
     return kExitDone;
   } catch (const CLI::ParseError& error) {
     throw InputError(std::string(error.what()) + " (" + app.get_name() + " --help lists all)");

@@ -26,8 +26,8 @@ std::time_t Seconds() {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
   if (error != std::errc() || end != text.data() + text.size() || seconds < 0 ||
       seconds > kLatest) {
-    throw InputError(std::string(kVariable) + ": \"" + value +
-                     "\" is no number of seconds since 1970; unset it, or use `date +%s`");
+    throw InputError(std::string(kVariable) +
+                     ": must be seconds since 1970-01-01 (date +%s), found \"" + value + "\"");
   }
   return seconds;
 }

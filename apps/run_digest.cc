@@ -22,8 +22,8 @@ std::string ObjectPathOf(const ValidateOptions& options, const std::string& name
   const fs::path name = fs::path(named_by_plan).filename();
   const fs::path path = options.object_path / name;
   if (!name.empty() && fs::is_regular_file(path, error)) return path.string();
-  throw InputError(options.plan_path + ": /object/file: there is no file \"" + name.string() +
-                   "\" in " + options.object_path);
+  throw InputError(options.plan_path + ": /object/file: \"" + name.string() + "\" not found in " +
+                   options.object_path);
 }
 
 std::string CommandText(const ValidateOptions& options, const RunInputs& inputs) {

@@ -1,5 +1,3 @@
-#include "apps/states_run.h"
-
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -10,7 +8,7 @@
 
 #include "apps/program.h"
 #include "apps/progress.h"
-#include "apps/scene_folder.h"
+#include "apps/validate_run.h"
 #include "apps/validate_task.h"
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"
@@ -46,13 +44,14 @@ StatesTask ReadStatesTask(const ValidateOptions& options, ProgressLine& progress
   task.object = ReadGraspObject(options, progress);
   task.solid = dynamic_cast<const object::Polyhedron*>(task.object.object.get());
   if (task.solid == nullptr) {
-    throw InputError("--export-states: " + options.object_path +
-                     " is a planar object, and hands hold solids");
+    throw InputError("--export-states requires a solid, found the planar object " +
+                     options.object_path);
   }
   task.hand = kinematics::ReadHandFile(options.hand);
   if (std::ssize(task.hand.hand.fingers) < kFewestFingers) {
-    throw InputError(options.hand + ": a hand of " + std::to_string(task.hand.hand.fingers.size()) +
-                     " fingers holds nothing: three is the least");
+    throw InputError(options.hand +
+                     ": --export-states requires a hand with at least 3 fingers, found " +
+                     std::to_string(task.hand.hand.fingers.size()));
   }
   task.states.half_angle = options.friction.required_half_angle();
   task.request.scale = options.scale.value_or(1);
@@ -108,7 +107,7 @@ std::string SummaryOf(const sim::DrawnStates& drawn) {
     rows.push_back({"fallen: " + std::string(plan::ReasonName(reason)), std::to_string(count)});
   }
   if (drawn.unbalanced > 0) {
-    rows.push_back({"too weak for the weight, not tried", std::to_string(drawn.unbalanced)});
+    rows.push_back({"too weak for the weight, not simulated", std::to_string(drawn.unbalanced)});
   }
   const ShareInterval interval = drawn.interval();
   return FormatRows(rows) + "fallen: " + Percent(drawn.fallen_share()) + " (" +

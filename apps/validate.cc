@@ -3,11 +3,8 @@
 // object.
 
 #include "apps/commands.h"
-#include "apps/grasps_run.h"
+#include "apps/explain.h"
 #include "apps/program.h"
-#include "apps/states_run.h"
-#include "apps/validate_batch.h"
-#include "apps/validate_lines.h"
 #include "apps/validate_options.h"
 #include "apps/validate_run.h"
 
@@ -17,6 +14,7 @@ int main(int argc, char** argv) {
   CLI::App app(CommandText(kValidateName), kValidateName);
   ValidateOptions options;
   options.AddTo(app);
+  AddExplain(app);
   return RunProgram(app, argc, argv, [&] {
     options.Finish(app);
     if (options.for_states()) return RunStates(options);

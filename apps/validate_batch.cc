@@ -1,5 +1,3 @@
-#include "apps/validate_batch.h"
-
 #include <algorithm>
 #include <csignal>
 #include <cstring>
@@ -85,7 +83,7 @@ std::string WhyStopped(const ChildExit& exit, const ValidateOptions& options) {
     case ChildExit::Kind::kSignalled:
       return "crashed: " + std::string(strsignal(exit.code));
     case ChildExit::Kind::kTimedOut:
-      return "took longer than --time-limit " + FormatDouble(*options.time_limit_s);
+      return "exceeded --time-limit " + FormatDouble(*options.time_limit_s);
   }
   return "";
 }
@@ -160,8 +158,7 @@ class Batch {
     }
     if (!options_.quiet) {
       PrintTable(FormatSummaryTable(summary_), (folder_.path() / kIndexName).string() + ", " +
-                                                   kSummaryName +
-                                                   ", and a folder for each plan beside them");
+                                                   kSummaryName + ", and a folder for each plan");
     }
     return static_cast<int>(summary_.verdict());
   }
@@ -229,7 +226,7 @@ class Batch {
       outcome.report.reset();
       outcome.kept = false;
       outcome.verdict = PlanVerdict::kError;
-      outcome.message = "its " + *gone + " was removed while the batch ran";
+      outcome.message = *gone + " was removed during the run";
       PrintMessage(kValidateName, outcome.name + ": " + outcome.message);
     }
   }

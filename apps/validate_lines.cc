@@ -1,5 +1,3 @@
-#include "apps/validate_lines.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
@@ -17,7 +15,6 @@
 #include "apps/lines_run.h"
 #include "apps/output_files.h"
 #include "apps/run_digest.h"
-#include "apps/validate_judge.h"
 #include "apps/validate_run.h"
 #include "apps/validate_task.h"
 #include "planner/base/error.h"
@@ -34,11 +31,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the folder of a plan with frames: as many digits as a million has.
+/// Digits in the name of the folder of a plan with frames.
 constexpr std::size_t kDigits = 7;
 
-/// What stands before the initial grasp, without parsing: lines with the same text have the same
-/// object, read in the same way.
+/// Return the text before the initial grasp, without parsing. Lines with equal texts have the same
+/// object.
 std::string ValidateObjectText(const Line& line) {
   const std::string_view text = line.text;
   const std::size_t begin = text.find(R"("object":)");
@@ -62,9 +59,7 @@ class ValidateLines {
     run.input = options_.plan_path;
     run.output = folder_ / kReportsName;
     CheckOutput(run.output.string());
-    if (!options_.start.empty()) shared_.start_text = ReadFile(options_.start);
-    if (!options_.goal.empty()) shared_.goal_text = ReadFile(options_.goal);
-    if (!options_.hand.empty()) shared_.hand = kinematics::ReadHandFile(options_.hand);
+    shared_ = ReadSharedInputs(options_);
     common_ = DigestOf(options_, "", "");
     run.shard = options_.shard;
     run.digest = [this](const std::string& source) { return Digest(source); };
@@ -126,7 +121,7 @@ class ValidateLines {
                                shared_.hand ? shared_.hand->hand.sha256 : ""});
   }
 
-  /// What a line says of its object; none if it is not a plan.
+  /// Return the object of a line; nullopt if it is not a plan.
   [[nodiscard]] std::optional<ObjectOfLine> ObjectOf(const Line& line) const {
     try {
       const Json json = ParseJson(line.text, line.name);
@@ -138,7 +133,7 @@ class ValidateLines {
     }
   }
 
-  /// What the child that made a record printed.
+  /// Return the messages of the process that made a record.
   static std::vector<std::string> MessagesOf(const Line& line, std::string_view record) {
     const auto outcome = OutcomeOf(record, line.entry);
     const bool trials = record.find(R"("trials":{)") != std::string_view::npos;
@@ -173,9 +168,9 @@ class ValidateLines {
 
   void Prepare(const Line& line) {
     try {
-      static_cast<void>(MakePlanTask(OptionsFor(line), line.text, objects_));
+      static_cast<void>(MakePlanTask(OptionsFor(line), line.text, shared_, objects_));
     } catch (const InputError&) {
-      // The child says so of each line.
+      // The process of each line reports it.
     }
   }
 
@@ -184,12 +179,8 @@ class ValidateLines {
       return FormatNoResult(line.entry, Outcome::kNoPlan, *why);
     }
     const ValidateOptions options = OptionsFor(line);
-    ValidateTask task = MakePlanTask(options, line.text, objects_);
-    task.start_text = shared_.start_text;
-    task.goal_text = shared_.goal_text;
-    task.hand = shared_.hand;
-    Samples samples;
-    report::Report report = JudgeTask(options, task, samples);
+    const ValidateTask task = MakePlanTask(options, line.text, shared_, objects_);
+    report::Report report = ValidateFiles(options, task).report;
     report.plan_file = "query " + std::to_string(line.entry);
     report.plan_sha256 = Sha256(line.text);
     const std::string said = report::VerdictHeadline(report);
@@ -199,11 +190,11 @@ class ValidateLines {
     for (const std::string& warning : HandWarnings(options, task)) {
       json["warnings"].push_back(warning);
     }
-    for (const std::string& warning : report.warnings()) json["warnings"].push_back(warning);
+    for (const std::string& warning : report::Warnings(report)) json["warnings"].push_back(warning);
     return FormatRecord(line.entry, json);
   }
 
-  /// What a planner says of a query instead of a plan.
+  /// Return the message of a planner that found no plan.
   static std::optional<std::string> WhyNoPlan(const Line& line) {
     for (const Outcome outcome : {Outcome::kNoPlan, Outcome::kBadInput, Outcome::kError}) {
       if (OutcomeOf(line.text, line.entry) != outcome) continue;
@@ -240,8 +231,8 @@ class ValidateLines {
   ValidateOptions options_;
   PlanObjects objects_;
   fs::path folder_;
-  ValidateTask shared_;  ///< what all plans have in common
-  std::string common_;   ///< digest of all that the results of all lines depend on
+  SharedInputs shared_;
+  std::string common_;  ///< digest of the inputs of all lines
 };
 
 }  // namespace

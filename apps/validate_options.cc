@@ -12,7 +12,7 @@
 #include "apps/view_options.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "render/picture/moving_picture.h"
+#include "render/picture/animation.h"
 
 namespace regrasp::apps {
 
@@ -263,7 +263,7 @@ void AddTrialOptions(CLI::App& app, ValidateOptions& options) {
 
 void AddVideo(CLI::App& app, std::string& video) {
   const auto parse = [&video](const std::string& file) {
-    if (!render::MovingFormatOf(file)) {
+    if (!render::FindAnimationFormat(file)) {
       throw CLI::ValidationError("--video",
                                  "\"" + file + "\" is no name that ends in .mp4, .gif or .webp");
     }
@@ -302,7 +302,8 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
           std::to_string(options.frame.width) + "x" + std::to_string(options.frame.height))
       ->each([&options](const std::string& /*size*/) { options.frame.crop = false; });
   AddInteger(
-      app, "--sheet-width", options.sheet_width, render::kMinSheetWidth, render::kMaxSheetWidth,
+      app, "--sheet-width", options.sheet_width, render::kMinOverviewWidth,
+      render::kMaxOverviewWidth,
       "Width of the contact sheet overview.png, pixels; frames are not enlarged for it (default "
       "1600)");
   AddFrameView(app, options.frame);

@@ -10,8 +10,8 @@
 #include "apps/options.h"
 #include "apps/repair_options.h"
 #include "planner/criteria/grasp_criteria.h"
-#include "render/frames/contact_sheet.h"
 #include "render/frames/frame.h"
+#include "render/frames/overview_image.h"
 #include "sim/hand/check_hand.h"
 #include "sim/replay/trials.h"
 #include "sim/scene/settings.h"
@@ -69,7 +69,7 @@ struct ValidateOptions {
   bool animation_crop = false;
   std::string video;
   int workers;  ///< threads that draw pictures
-  int sheet_width = render::kSheetWidth;
+  int sheet_width = render::kOverviewWidth;
   Frames frames = Frames::kAll;
   bool animate = false;
   bool show_clusters = false;

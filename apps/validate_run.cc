@@ -6,6 +6,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,6 @@
 #include "apps/progress.h"
 #include "apps/run_date.h"
 #include "apps/run_digest.h"
-#include "apps/scene_folder.h"
-#include "apps/validate_judge.h"
 #include "apps/validate_task.h"
 #include "apps/verify_report.h"
 #include "planner/base/deadline.h"
@@ -26,24 +25,67 @@
 #include "planner/base/file.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/body_measures.h"
-#include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "report/failure.h"
 #include "report/junit.h"
 #include "report/page/report_page.h"
 #include "report/report.h"
-#include "sim/actuation/hand_replay.h"
 #include "sim/actuation/hand_scene_export.h"
 #include "sim/actuation/hand_trajectory.h"
 #include "sim/actuation/hand_world.h"
-#include "sim/actuation/tip_geometry.h"
-#include "sim/hand/check_hand.h"
 #include "sim/replay/trajectory.h"
 #include "sim/scene/scaling.h"
+#include "sim/validation/validation.h"
 
 namespace regrasp::apps {
 
 namespace {
+
+/// Time between two rows of a finger in the trajectory, about a hundredth of a switch.
+constexpr double kSampleInterval_s = 5e-4;
+
+/// Data that is recorded while the replay runs, as far as the options need it.
+struct ReplayRecord {
+  Stopwatch run;   ///< since the program began
+  Stopwatch step;  ///< since the last step was done
+  std::vector<double> step_seconds;
+  std::vector<plan::Snapshot> trajectory;  ///< of a replay by point fingers
+  std::vector<plan::Snapshot> animation;   ///< the same
+  sim::HandTrajectory hand_trajectory;     ///< of a replay by a hand
+  std::vector<sim::SceneKey> rests;        ///< the same
+};
+
+/// Return the observer that records what the options need.
+sim::ReplayObserver Recorder(const ValidateOptions& options, const plan::Plan& plan,
+                             ReplayRecord& record) {
+  sim::ReplayObserver observer;
+  observer.on_progress = [&record](int, int) { record.step_seconds.push_back(record.step.Lap()); };
+  const bool trajectory = !options.trajectory.empty();
+  const bool animate = options.animates();
+  // How long a replay takes depends on the object: an animation is cut from all of its states.
+  observer.sample_interval_s = animate ? 0 : kSampleInterval_s;
+  if (trajectory || animate) {
+    observer.on_sample = [trajectory, animate, &record](const plan::Snapshot& snapshot) {
+      std::vector<plan::Snapshot>& rows = record.trajectory;
+      const bool due = rows.empty() || snapshot.time_s >= rows.back().time_s + kSampleInterval_s;
+      if (trajectory && due) rows.push_back(snapshot);
+      if (animate) record.animation.push_back(snapshot);
+    };
+  }
+  if (trajectory) {
+    observer.on_time_step = [&record](const sim::HandWorld& world) {
+      record.hand_trajectory.Add(world);
+    };
+  }
+  if (!options.mjcf.empty()) {
+    observer.on_rest = [&record, &plan](const sim::HandWorld& world, plan::EntryIndex entry) {
+      const std::string kind = entry == 0 ? "hold" : plan::StepKind(plan::StepOf(plan, entry));
+      record.rests.push_back({std::to_string(entry) + " " + kind, world.time(),
+                              world.Save().engine.qpos, world.controls()});
+    };
+  }
+  return observer;
+}
 
 std::string UncheckedHandWarning(const ValidateOptions& options, const plan::Plan& plan) {
   if (!plan.hand || !options.hand.empty()) return "";
@@ -64,11 +106,21 @@ render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const Valid
   return frame;
 }
 
+validation::ValidationResult ValidateAndRecord(const ValidateOptions& options,
+                                               const ValidateTask& task, ReplayRecord& record) {
+  ProgressLine progress(options.quiet);
+  return ValidateFiles(options, task,
+                       {.on_stage = [&progress](const std::string& text) { progress.Report(text); },
+                        .replay = Recorder(options, task.plan, record)});
+}
+
 int Verify(const ValidateOptions& options, const ValidateTask& task) {
-  const CheckTask given(options, task);
-  const ReportVerification found = VerifyReport(
-      ReadFile(options.verify), options.verify,
-      {*task.object->object, task.object->sha256, task.plan, Sha256(task.file_text), given.check});
+  const validation::ValidationSettings settings =
+      validation::ResolveSettings(RequestOf(options, task));
+  const ReportVerification found =
+      VerifyReport(ReadFile(options.verify), options.verify,
+                   {*task.object->object, task.object->sha256, settings.plan,
+                    Sha256(task.file_text), settings.check});
   if (!options.quiet) std::cout << found.text;
   return found.proved ? kExitDone : kExitNegative;
 }
@@ -77,7 +129,7 @@ std::vector<std::string> NamesOfResults(const ValidateOptions& options, const Va
   return ResultNames(task.plan, options.frames != Frames::kNone, options.animate);
 }
 
-/// Says how many pictures are drawn: on a terminal always, in a log now and then.
+/// Reports how many images are drawn: on a terminal always, in a log at intervals.
 class DrawingCount {
  public:
   DrawingCount(std::string what, bool quiet)
@@ -99,36 +151,36 @@ class DrawingCount {
   ProgressLog log_;
 };
 
-/// @returns what the page shows of it: replay.webp, or the video where only that is made.
+/// @returns animation for the HTML report: replay.webp, or the video if only that is made.
 report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions frame,
                             const ValidateTask& task, const report::HandPicture* hand,
-                            const Samples& samples, const std::filesystem::path& folder,
+                            const ReplayRecord& record, const std::filesystem::path& folder,
                             report::Report& report) {
   frame.width = options.animation_width;
   frame.height = options.animation_height;
   frame.crop = options.animation_crop;
   std::vector<MovingFile> files;
-  if (options.animate) files.push_back({folder / kAnimationName, render::MovingFormat::kWebp});
+  if (options.animate) files.push_back({folder / kAnimationName, render::AnimationFormat::kWebp});
   if (!options.video.empty()) {
-    files.push_back({options.video, *render::MovingFormatOf(options.video)});
+    files.push_back({options.video, *render::FindAnimationFormat(options.video)});
   }
   DrawingCount count("drawing the moving picture", options.quiet);
   return WriteAnimation(
       *task.object->object, task.plan,
       {.frame = frame, .hand = hand, .workers = options.workers, .on_picture = count.reporter()},
-      samples.animation, files, report);
+      record.animation, files, report);
 }
 
 void WritePictures(const ValidateOptions& options, const render::FrameOptions& frame,
-                   const ValidateTask& task, const Samples& samples,
+                   const ValidateTask& task, const ReplayRecord& record,
                    const std::filesystem::path& folder, report::Report& report) {
   const object::Object& object = *task.object->object;
   std::vector<report::PagePicture> pictures;
   std::optional<report::HandPicture> seen;
   const bool frames = options.draws_frames(report.passed());
   const bool draws = frames || options.animates();
-  if (task.hand && draws) {
-    seen.emplace(*task.hand, task.plan, task.plan.scale * object.mass_properties().centroid);
+  if (task.shared.hand && draws) {
+    seen.emplace(*task.shared.hand, task.plan, task.plan.scale * object.mass_properties().centroid);
   }
   const report::HandPicture* hand = seen ? &*seen : nullptr;
   if (frames) {
@@ -138,11 +190,11 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
                            folder, report);
   }
   report::PagePicture moving;
-  if (options.animates()) moving = Animate(options, frame, task, hand, samples, folder, report);
+  if (options.animates()) moving = Animate(options, frame, task, hand, record, folder, report);
   WriteFile(folder / kPageName, report::FormatReportHtml(report, task.plan, pictures, moving));
 }
 
-/// What is written last says that all of it is there.
+/// Check that no file of the run was removed: the report that is written next lists them.
 void CheckPictures(const std::filesystem::path& folder, const report::Report& report) {
   std::vector<std::string> names = {kPageName};
   for (const report::ReportStep& step : report.steps) {
@@ -155,7 +207,7 @@ void CheckPictures(const std::filesystem::path& folder, const report::Report& re
   }
 }
 
-/// Those of the files that were written.
+/// Return the digests of the files that were written.
 std::vector<report::FileDigest> DigestFiles(const std::filesystem::path& folder,
                                             const std::vector<std::string>& names) {
   std::vector<report::FileDigest> files;
@@ -168,49 +220,51 @@ std::vector<report::FileDigest> DigestFiles(const std::filesystem::path& folder,
 }
 
 void WriteJunit(const ValidateOptions& options, const std::filesystem::path& folder,
-                const report::Report& report, Samples& samples) {
+                const report::Report& report, ReplayRecord& record) {
   if (options.junit.empty()) return;
   report::JunitSuite suite = report::MakeJunitSuite(report, PathForCi(folder));
-  suite.seconds = samples.run.Lap();
-  report::SetCaseTimes(samples.entry_seconds, suite);
+  suite.seconds = record.run.Lap();
+  report::SetCaseTimes(record.step_seconds, suite);
   WriteFile(options.junit, report::FormatJunit({suite}));
 }
 
-void WriteScene(const ValidateOptions& options, const ValidateTask& task, const Samples& samples,
-                const report::Report& report) {
+void WriteScene(const ValidateOptions& options, const ValidateTask& task,
+                const ReplayRecord& record, const validation::ValidationSettings& settings) {
   const object::Object& object = *task.object->object;
-  if (!options.replay_by_hand) {
-    sim::ReplayOptions replay = options.replay;
-    replay.half_angle = options.friction.half_angle();
-    WriteFile(options.mjcf, sim::SceneMjcf(object, plan::LocatePlan(object, task.plan), replay));
+  const plan::Plan& plan = settings.plan;
+  if (!settings.hand) {
+    WriteFile(options.mjcf, sim::SceneMjcf(object, plan, settings.replay));
     return;
   }
   sim::HandWorldOptions world;
-  world.mu = std::tan(report.half_angle);
-  world.tip = options.tip;
-  world.mass_kg = sim::BodyOf(object, task.plan.scale, options.replay).mass_kg;
-  WriteSceneFolder(options.mjcf,
-                   sim::ExportHandScene(*task.hand, dynamic_cast<const object::Polyhedron&>(object),
-                                        task.plan.scale, world, samples.rests));
+  world.mu = std::tan(plan.half_angle);
+  world.tip = settings.hand->tip;
+  world.mass_kg = sim::BodyOf(object, plan.scale, *settings.hand).mass_kg;
+  WriteSceneFolder(
+      options.mjcf,
+      sim::ExportHandScene(*task.shared.hand, dynamic_cast<const object::Polyhedron&>(object),
+                           plan.scale, world, record.rests));
 }
 
-std::string TrajectoryText(const ValidateOptions& options, const Samples& samples) {
-  if (!options.replay_by_hand) return sim::FormatTrajectory(samples.trajectory);
-  return options.trajectory_is_npz() ? samples.by_hand.FormatNpz() : samples.by_hand.FormatCsv();
+std::string TrajectoryText(const ValidateOptions& options, const ReplayRecord& record) {
+  if (!options.replay_by_hand) return sim::FormatTrajectory(record.trajectory);
+  const sim::HandTrajectory& trajectory = record.hand_trajectory;
+  return options.trajectory_is_npz() ? trajectory.FormatNpz() : trajectory.FormatCsv();
 }
 
 void WriteResults(const ValidateOptions& options, const render::FrameOptions& frame,
-                  const ValidateTask& task, Samples& samples, HeldFolder& folder,
-                  report::Report& report) {
+                  const ValidateTask& task, ReplayRecord& record, HeldFolder& folder,
+                  validation::ValidationResult& result) {
+  report::Report& report = result.report;
   const std::vector<std::string> names = NamesOfResults(options, task);
   RemoveEarlierRun(folder, OwnResults(folder));
   folder.Announce(names);
-  WritePictures(options, frame, task, samples, folder.path(), report);
-  WriteJunit(options, folder.path(), report, samples);
+  WritePictures(options, frame, task, record, folder.path(), report);
+  WriteJunit(options, folder.path(), report, record);
   if (!options.trajectory.empty()) {
-    WriteFile(options.trajectory, TrajectoryText(options, samples));
+    WriteFile(options.trajectory, TrajectoryText(options, record));
   }
-  if (!options.mjcf.empty()) WriteScene(options, task, samples, report);
+  if (!options.mjcf.empty()) WriteScene(options, task, record, result.settings);
   CheckPictures(folder.path(), report);
   report.run->files = DigestFiles(folder.path(), names);
   const std::string text = report::FormatReportJson(report);
@@ -230,7 +284,7 @@ std::string FilesText(const std::filesystem::path& folder, const report::Report&
          (others > 0 ? " and " + std::to_string(others) + " more" : "");
 }
 
-/// What the report says to people, and how the plan fails where it does.
+/// Print warnings, and the table or the failure.
 void Print(const ValidateOptions& options, const ValidateTask& task,
            const std::filesystem::path& folder, const report::Report& report) {
   const object::Object& object = *task.object->object;
@@ -244,11 +298,11 @@ void Print(const ValidateOptions& options, const ValidateTask& task,
   for (const std::string& warning : HandWarnings(options, task)) {
     PrintMessage(kValidateName, "warning: " + warning);
   }
-  for (const std::string& warning : report.warnings()) {
+  for (const std::string& warning : report::Warnings(report)) {
     PrintMessage(kValidateName, "warning: " + warning);
   }
   if (!options.quiet && options.trials.count > 0 && !report.trials) {
-    PrintMessage(kValidateName, "no trials: the replay without noise does not pass");
+    PrintMessage(kValidateName, "note: no trials, because the replay without noise fails");
   }
   if (!options.quiet && options.json != kStandardStream) {
     PrintTable(report::FormatReportTable(report), FilesText(folder, report));
@@ -259,8 +313,17 @@ void Print(const ValidateOptions& options, const ValidateTask& task,
 
 }  // namespace
 
+void WriteSceneFolder(const std::string& folder, const std::vector<sim::SceneFile>& files) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw EnvironmentError(folder + ": cannot be made: " + error.message());
+  for (const sim::SceneFile& file : files) {
+    WriteFile(std::filesystem::path(folder) / file.name, file.bytes);
+  }
+}
+
 ValidationRun RunValidation(const ValidateOptions& options) {
-  Samples samples;
+  ReplayRecord record;
   CheckOutputs(options);
   const std::string date = RunDate();
   const ValidateTask task = ReadTask(options);
@@ -268,23 +331,24 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   const render::FrameOptions frame = FrameOptionsFor(options, task);
   HeldFolder folder(options.Folder());
   ExpectFree(folder, OwnResults(folder), NamesOfResults(options, task));
-  report::Report report = JudgeTask(options, task, samples);
+  validation::ValidationResult result = ValidateAndRecord(options, task, record);
+  report::Report& report = result.report;
   report.plan_file = std::filesystem::path(options.InputPath()).filename().string();
   report.plan_sha256 = Sha256(task.file_text);
   const RunInputs inputs = {{report.plan_file, report.plan_sha256},
                             {report.object_file, report.object_sha256},
-                            options.start.empty() ? "" : Sha256(task.start_text),
-                            options.goal.empty() ? "" : Sha256(task.goal_text),
-                            task.hand ? task.hand->hand.sha256 : "",
+                            options.start.empty() ? "" : Sha256(task.shared.start_text),
+                            options.goal.empty() ? "" : Sha256(task.shared.goal_text),
+                            task.shared.hand ? task.shared.hand->hand.sha256 : "",
                             RepairInput(options, task.file_text)};
   report.run = report::RunRecord{RunDigest(options, inputs),
                                  {},
                                  std::string(kValidateName) + " " + ProgramVersion(),
                                  CommandText(options, inputs),
                                  date};
-  WriteResults(options, frame, task, samples, folder, report);
+  WriteResults(options, frame, task, record, folder, result);
   if (!options.silent) Print(options, task, folder.path(), report);
-  return {report.passed() ? kExitDone : kExitNegative, samples.entry_seconds};
+  return {report.passed() ? kExitDone : kExitNegative, record.step_seconds};
 }
 
 }  // namespace regrasp::apps

@@ -5,22 +5,21 @@
 #include <system_error>
 
 #include "apps/frame_files.h"
-#include "apps/grasps_run.h"
 #include "apps/output_files.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/repair_module.h"
 #include "apps/run_digest.h"
-#include "apps/states_run.h"
+#include "apps/validate_run.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/criteria/reach.h"
+#include "planner/object/body_measures.h"
 #include "planner/object/given_points.h"
 #include "planner/object/reading.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
-#include "report/report.h"
 #include "report/report_json.h"
 #include "sim/actuation/hand_scene_export.h"
 
@@ -56,21 +55,20 @@ OutputFiles OutputsOf(const ValidateOptions& options) {
   return outputs;
 }
 
-/// A plan says itself how its object was repaired, and which of its shells it is.
+/// Check that the options do not contradict the plan on how its object is repaired.
 void CheckRepair(const ValidateOptions& options, const plan::Plan& plan) {
   if (options.repair.shells() && options.repair.shells() != plan.shells) {
-    throw InputError("--shells: " + options.plan_path + ": /object/shells says " +
-                     (plan.shells ? "otherwise" : "nothing: the plan's object is one solid"));
+    throw InputError("--shells must match " + options.plan_path + ": /object/shells" +
+                     (plan.shells ? "" : ", which the plan does not have"));
   }
   if (!options.repair.wanted()) return;
   if (!plan.repair) {
-    throw InputError("--repair: " + options.plan_path +
-                     " was made for an object as its file has it");
+    throw InputError("--repair cannot be used with " + options.plan_path +
+                     ", which was made for an unrepaired object");
   }
   const object::RepairOptions given = options.repair.Get();
   if (given != object::RepairOptions() && given != plan.repair->options) {
-    throw InputError("--repair: " + options.plan_path +
-                     ": /object/repair says how its object was repaired, and it was otherwise");
+    throw InputError("--repair must match " + options.plan_path + ": /object/repair");
   }
 }
 
@@ -86,16 +84,16 @@ void ReadGivenPoints(const std::string& object_path, const object::Reading& read
   task.given_points = object::ReadGivenPoints(object_path, reading);
 }
 
-/// The plan that a text is, as options and task go together.
+/// Parse a plan, and check that the options fit it.
 plan::Plan ParsePlanOf(const ValidateOptions& options, const std::string& text) {
   plan::Plan plan = plan::ParsePlan(text, options.plan_path);
   CheckRepair(options, plan);
   return plan;
 }
 
-/// How the object of a plan is read.
+/// Return how to read the object of a plan.
 object::Reading ReadingOf(const plan::Plan& plan, object::Reading reading) {
-  // Nothing is judged by these, but the clusters that are shown are made on places without them.
+  // No verdict depends on these, but --show-clusters computes clusters without rough places.
   if (plan.roadmap && plan.roadmap->roughness) {
     reading.patch = {plan.patch_radius, *plan.roadmap->roughness};
   }
@@ -103,7 +101,7 @@ object::Reading ReadingOf(const plan::Plan& plan, object::Reading reading) {
   return reading;
 }
 
-/// The same in a text: plans with the same text have the same object, if they have the same file.
+/// Return a text for how to read the object: plans with equal texts and files have equal objects.
 std::string ReadingKey(const plan::Plan& plan) {
   Json key = Json::array();
   if (plan.repair) {
@@ -120,7 +118,8 @@ std::string ReadingKey(const plan::Plan& plan) {
   return key.dump();
 }
 
-/// @param path  of the object that the task has.
+/// Check that the plan fits the object, and read the points that its file gives.
+/// @param path  path of the object's file.
 void FinishPlanTask(const ValidateOptions& options, const std::string& path,
                     const object::Reading& reading, ValidateTask& task) {
   CheckPlanFits(task.plan, *task.object,
@@ -143,14 +142,15 @@ void ReadPlanTask(const ValidateOptions& options, const object::Reading& plain,
   FinishPlanTask(options, object_path, reading, task);
 }
 
-/// What is known of hard points alone is refused before any work is done.
+/// Refuse a replay by a hand with soft contacts before the long part of the work.
 void CheckSoftFingers(const ValidateOptions& options, const plan::Plan& plan) {
   if (options.contact.torsion().value_or(plan.torsion) == 0 || !options.replay_by_hand) return;
   throw InputError(
       "--replay hand: a hand's fingertips are hard points, and these contacts are soft fingers");
 }
 
-void CheckBody(const ValidateOptions& options, const ValidateTask& task) {
+/// Check that options and hand fit the object and the plan.
+void CheckFits(const ValidateOptions& options, const ValidateTask& task) {
   CheckTorsionFits(options, *task.object->object);
   CheckSoftFingers(options, task.plan);
   if (options.replay.thickness && task.plan.dimension == 3) {
@@ -163,6 +163,17 @@ void CheckBody(const ValidateOptions& options, const ValidateTask& task) {
     criteria::CheckFingerRadius(object, *task.plan.finger_radius,
                                 options.plan_path + ": /finger_radius");
   }
+}
+
+/// Check the options against plan and object, and parse the required grasps.
+void FinishTask(const ValidateOptions& options, ValidateTask& task) {
+  CheckFits(options, task);
+  const object::Object& object = *task.object->object;
+  const auto parse = [&](const std::string& text, const std::string& path, grasp::Grasp& grasp) {
+    if (!path.empty()) grasp = plan::ParseGrasp(text, path, object);
+  };
+  parse(task.shared.start_text, options.start, task.start);
+  parse(task.shared.goal_text, options.goal, task.goal);
 }
 
 }  // namespace
@@ -201,11 +212,61 @@ object::ObjectFile ReadGraspObject(const ValidateOptions& options, ProgressLine&
 
 std::vector<std::string> HandWarnings(const ValidateOptions& options, const ValidateTask& task) {
   std::vector<std::string> warnings;
-  if (!task.hand) return warnings;
-  for (const std::string& warning : task.hand->warnings) {
+  if (!task.shared.hand) return warnings;
+  for (const std::string& warning : task.shared.hand->warnings) {
     warnings.push_back(options.hand + ": " + warning);
   }
   return warnings;
+}
+
+validation::ValidationOptions ValidationOptionsOf(const ValidateOptions& options) {
+  validation::ValidationOptions given;
+  given.half_angle = options.friction.half_angle();
+  given.torsion = options.contact.torsion();
+  given.allow_undecided = options.allow_undecided;
+  given.certificates = options.certificates;
+  given.replay = options.replay;
+  given.replay_by_hand = options.replay_by_hand;
+  given.hand.tolerance = options.tolerance;
+  given.hand.feedback = options.feedback;
+  given.hand.tip = options.tip;
+  given.hand_check.clearance_m = options.clearance_m;
+  given.trials = options.trials;
+  return given;
+}
+
+validation::ValidationRequest RequestOf(const ValidateOptions& options, const ValidateTask& task) {
+  const object::Object& object = *task.object->object;
+  const bool with_hand = !options.hand.empty();
+  if (with_hand && (object.dimension() != 3 || options.for_grasp())) {
+    throw InputError("--hand: checks plans for solids that were made for a hand");
+  }
+  return {.object = object,
+          .plan = task.plan,
+          .is_grasp = options.for_grasp(),
+          .hand = with_hand ? &*task.shared.hand : nullptr,
+          .start = options.start.empty() ? nullptr : &task.start,
+          .goal = options.goal.empty() ? nullptr : &task.goal,
+          .given_points = task.plan.at_given_points ? &task.given_points : nullptr,
+          .options = ValidationOptionsOf(options)};
+}
+
+validation::ValidationResult ValidateFiles(const ValidateOptions& options, const ValidateTask& task,
+                                           const validation::ValidationObserver& observer) {
+  validation::ValidationResult result = validation::Validate(RequestOf(options, task), observer);
+  const object::ObjectFile& object = *task.object;
+  result.report.measures += object::UnitText(object.unit);
+  result.report.object_file = object.file;
+  result.report.object_sha256 = object.sha256;
+  return result;
+}
+
+SharedInputs ReadSharedInputs(const ValidateOptions& options) {
+  SharedInputs shared;
+  if (!options.start.empty()) shared.start_text = ReadFile(options.start);
+  if (!options.goal.empty()) shared.goal_text = ReadFile(options.goal);
+  if (!options.hand.empty()) shared.hand = kinematics::ReadHandFile(options.hand);
+  return shared;
 }
 
 ValidateTask ReadTask(const ValidateOptions& options) {
@@ -215,26 +276,25 @@ ValidateTask ReadTask(const ValidateOptions& options) {
   if (options.for_grasp()) {
     task.object = std::make_shared<const object::ObjectFile>(ReadGraspObject(options, progress));
     task.file_text = ReadFile(options.grasp_path);
-    task.grasp = plan::ParseGrasp(task.file_text, options.grasp_path, *task.object->object);
-    const double torsion = options.contact.torsion().value_or(0);
-    for (grasp::Contact& contact : task.grasp) contact.torsion = torsion;
+    const grasp::Grasp grasp =
+        plan::ParseGrasp(task.file_text, options.grasp_path, *task.object->object);
     task.plan =
-        report::MakeHoldPlan(*task.object->object, task.grasp,
-                             options.friction.required_half_angle(), options.scale.value_or(1));
+        validation::MakeHoldPlan(*task.object->object, grasp,
+                                 options.friction.required_half_angle(), options.scale.value_or(1));
+    plan::SetTorsion(options.contact.torsion().value_or(0), task.plan);
   } else {
     ReadPlanTask(options, reading, task);
   }
-  if (!options.start.empty()) task.start_text = ReadFile(options.start);
-  if (!options.goal.empty()) task.goal_text = ReadFile(options.goal);
-  if (!options.hand.empty()) task.hand = kinematics::ReadHandFile(options.hand);
-  CheckBody(options, task);
+  task.shared = ReadSharedInputs(options);
+  FinishTask(options, task);
   return task;
 }
 
 ValidateTask MakePlanTask(const ValidateOptions& options, const std::string& text,
-                          PlanObjects& objects) {
+                          const SharedInputs& shared, PlanObjects& objects) {
   ValidateTask task;
   task.file_text = text;
+  task.shared = shared;
   task.plan = ParsePlanOf(options, text);
   const plan::Plan& plan = task.plan;
   const object::Reading reading = ReadingOf(plan, {});
@@ -243,7 +303,7 @@ ValidateTask MakePlanTask(const ValidateOptions& options, const std::string& tex
   task.object = objects.shelf.Get(path + " " + ReadingKey(plan),
                                   [&] { return ReadObjectOf(plan, path, reading); });
   FinishPlanTask(options, path, reading, task);
-  CheckBody(options, task);
+  FinishTask(options, task);
   return task;
 }
 

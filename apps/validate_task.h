@@ -12,51 +12,74 @@
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
+#include "sim/validation/validation.h"
 
 namespace regrasp::apps {
 
-/// What the files on the command line ask for.
+/// Inputs that all plans of a command line share.
+struct SharedInputs {
+  std::string start_text, goal_text;         ///< texts of --start and --goal; empty: not given
+  std::optional<kinematics::HandFile> hand;  ///< hand of --hand
+};
+
+/// A plan or a grasp with the files that it is validated against.
 struct ValidateTask {
   SharedObject object;
-  std::string file_text;  ///< of the plan or of the grasp
-  plan::Plan plan;        ///< of a grasp: without steps
-  grasp::Grasp grasp;     ///< empty for a plan
-  /// That the object's file gives, where the plan's contacts are at them.
+  std::string file_text;  ///< text of the plan or of the grasp
+  plan::Plan plan;        ///< for a grasp, the plan that holds it
+  /// Points that the object's file gives, if the plan's contacts are at them.
   std::vector<Eigen::Vector3d> given_points;
-  std::string start_text, goal_text;  ///< of --start and --goal; empty where they are not given
-  std::optional<kinematics::HandFile> hand;  ///< of --hand
+  SharedInputs shared;
+  grasp::Grasp start, goal;  ///< grasps of --start and --goal
 };
 
 /// Return the warnings of the hand's file; empty without --hand.
 [[nodiscard]] std::vector<std::string> HandWarnings(const ValidateOptions& options,
                                                     const ValidateTask& task);
 
-/// @throws InputError  an output is another file of the command line, or can't be written.
+/// Return the options of a validation that the command line gives.
+[[nodiscard]] validation::ValidationOptions ValidationOptionsOf(const ValidateOptions& options);
+
+/// Return the request to validate a task, which must outlive it.
+[[nodiscard]] validation::ValidationRequest RequestOf(const ValidateOptions& options,
+                                                      const ValidateTask& task);
+
+/// Validate a task. The report has the name and the digest of the object's file.
+/// @throws InputError  plan, object and options do not fit together.
+[[nodiscard]] validation::ValidationResult ValidateFiles(
+    const ValidateOptions& options, const ValidateTask& task,
+    const validation::ValidationObserver& observer = {});
+
+/// Check that outputs can be written and are not inputs.
+/// @throws InputError  an output is another file of the command line, or cannot be written.
 void CheckOutputs(const ValidateOptions& options);
 
-/// @throws InputError  --contact soft, and the object is planar.
+/// Check that a planar object has no torsional friction.
+/// @throws InputError  --contact soft is given for a planar object.
 void CheckTorsionFits(const ValidateOptions& options, const object::Object& object);
 
-/// The object of --grasp, --grasps or --export-states, repaired where that is asked.
-/// @throws InputError  it is none.
+/// Read the object of --grasp, --grasps or --export-states, and repair it if requested.
+/// @throws InputError  the file is not an object.
 [[nodiscard]] object::ObjectFile ReadGraspObject(const ValidateOptions& options,
                                                  ProgressLine& progress);
 
-/// Reads the object, the plan or the grasp, and what else is named.
-/// @throws InputError  a file is no good, or does not go with another one or with an option.
+/// Read --start, --goal and --hand.
+[[nodiscard]] SharedInputs ReadSharedInputs(const ValidateOptions& options);
+
+/// Read all files of the command line: the object, the plan or the grasp, and SharedInputs.
+/// @throws InputError  a file is invalid, or does not fit another file or an option.
 [[nodiscard]] ValidateTask ReadTask(const ValidateOptions& options);
 
-/// Where the objects of many plans come from.
+/// Sources of the objects of many plans.
 struct PlanObjects {
   ObjectFinder finder;
   ObjectShelf shelf;
 };
 
-/// The task of one of many plans, which has no file of its own. Start, goal and hand are left to
-/// the caller.
-/// @param options  `plan_path` is how messages call the plan.
+/// Make the task of one of many plans, which has no file of its own.
+/// @param options  `plan_path` is the name of the plan in messages.
 /// @throws InputError  as ReadTask.
 [[nodiscard]] ValidateTask MakePlanTask(const ValidateOptions& options, const std::string& text,
-                                        PlanObjects& objects);
+                                        const SharedInputs& shared, PlanObjects& objects);
 
 }  // namespace regrasp::apps

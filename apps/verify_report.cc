@@ -16,26 +16,27 @@ namespace {
 
 using Kind = motion::ProofVerdict::Kind;
 
-/// Half-angles this near each other, radians, are one that was written in degrees and read again.
+/// Largest difference of equal friction angles after a conversion to degrees and back, radians.
 constexpr double kSameFriction = 1e-12;
 
 void ExpectDigest(const plan::JsonReader& json, const std::string& sha256, const char* what) {
   const plan::JsonReader digest = json.Member("sha256");
   if (digest.String() == sha256) return;
   const std::string file = json.Has("file") ? json.Member("file").String() : "";
-  digest.Fail(std::string("the report is about another ") + what + ", expected " +
+  digest.Fail(std::string("the report is for another ") + what + ", expected " +
               DescribeFile(file, digest.String()) + ", found SHA-256 " + sha256.substr(0, 12) +
               "…");
 }
 
-/// The proofs of the first entries; what follows a failed one has none.
+/// Read the proofs of the first steps. Those after a failed step have none.
 std::vector<certificate::EntryProof> ReadProofs(const plan::JsonReader& steps, int dimension) {
   std::vector<certificate::EntryProof> proofs;
   for (const plan::JsonReader& step : steps.Elements()) {
     if (!step.Has("proof")) break;
     proofs.push_back(certificate::ReadEntryProof(step.Member("proof"), dimension));
   }
-  if (proofs.empty()) steps.Fail("holds no proofs; validate --certificates writes them");
+  if (proofs.empty())
+    steps.Fail("proofs not found; help: write the report with validate --certificates");
   return proofs;
 }
 
@@ -45,7 +46,7 @@ std::string DescribeProof(const motion::ProofVerdict& verdict) {
   return "not proved: " + verdict.why;
 }
 
-/// What is not as docs/formats.md asks for, apart from force closure; empty where nothing is.
+/// Return the fault of a step apart from force closure; empty if it has none.
 std::string FaultOf(const plan::StepCheck& check) {
   if (check.skipped) return "not checked: an entry before it is at fault";
   if (check.reason == plan::Reason::kNone) return "";
@@ -60,41 +61,40 @@ std::string DescribeProofs(const certificate::EntryVerdict& entry) {
   return text;
 }
 
-/// Proofs say nothing of another friction: with more of it they hold too often.
+/// Refuse a report with another friction angle: its proofs do not apply.
 void ExpectFriction(const plan::JsonReader& json, double half_angle) {
   const double degrees = json.Number();
   if (std::abs(Radians(degrees) - half_angle) <= kSameFriction) return;
-  json.Fail("the report is about the friction half-angle " + FormatShort(degrees) +
-            "°, which is not that of the plan or of --friction-angle, " +
-            FormatShort(Degrees(half_angle)) +
-            "°; give --friction-angle where the report was made with it");
+  json.Fail("expected " + FormatShort(Degrees(half_angle)) +
+            "° as of the plan or --friction-angle, found " + FormatShort(degrees) +
+            "°; help: pass the --friction-angle of the report");
 }
 
-/// The same of another torsion.
+/// Refuse a report with another torsional friction length.
 void ExpectTorsion(const plan::JsonReader& settings, double torsion) {
   const double found = settings.Has("torsion") ? settings.Member("torsion").Number() : 0;
   if (found == torsion) return;
-  settings.Fail("the report is about a torsion of " + FormatShort(found) +
-                ", which is not that of the plan or of --torsion, " + FormatShort(torsion) +
-                "; give --contact and --torsion where the report was made with them");
+  settings.Fail("torsion: expected " + FormatShort(torsion) +
+                " as of the plan or --torsion, found " + FormatShort(found) +
+                "; help: pass the --torsion of the report");
 }
 
 std::string Summary(const std::vector<plan::StepCheck>& checks, std::size_t proved,
                     double half_angle) {
   const std::string entries = std::to_string(checks.size());
   std::string text = std::to_string(proved) + " of " + entries +
-                     " entries proved force closure in exact arithmetic, friction half-angle " +
+                     " entries proved force closure in exact arithmetic, friction angle " +
                      FormatShort(Degrees(half_angle)) + "°\n";
   const auto fault = std::ranges::find_if(
       checks, [](const plan::StepCheck& check) { return check.reason != plan::Reason::kNone; });
   if (fault != checks.end()) {
-    return text + "not proved: the plan is at fault in entry " + std::to_string(fault->index) +
-           "\n";
+    return text + "not proved: the plan fails the analytic check in entry " +
+           std::to_string(fault->index) + "\n";
   }
-  if (proved < checks.size()) return text + "not proved: not every entry has a proof that holds\n";
+  if (proved < checks.size()) return text + "not proved: not every entry has a valid proof\n";
   return text +
-         "proved: contacts on the surface, fingers free and holding where they must be, steps "
-         "without jumps, aligns on their faces, the goal, and force closure all the way\n";
+         "proved: contacts on the surface, fingers free and in contact as required, steps without "
+         "jumps, aligns on their faces, the goal, and force closure at every instant\n";
 }
 
 }  // namespace
@@ -107,9 +107,8 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
   root.ExpectFormat("regrasp-report");
   ExpectDigest(root.Member("object"), subject.object_sha256, "object");
   ExpectDigest(root.Member("plan"), subject.plan_sha256, "plan");
-  const double half_angle = subject.check.half_angle.value_or(plan.half_angle);
-  ExpectFriction(root.Member("settings").Member("friction_half_angle_deg"), half_angle);
-  ExpectTorsion(root.Member("settings"), subject.check.torsion.value_or(plan.torsion));
+  ExpectFriction(root.Member("settings").Member("friction_half_angle_deg"), plan.half_angle);
+  ExpectTorsion(root.Member("settings"), plan.torsion);
   const plan::JsonReader steps = root.Member("steps");
   const std::vector<certificate::EntryProof> proofs = ReadProofs(steps, plan.dimension);
   const std::size_t entries = plan.steps.size() + 1;
@@ -121,7 +120,7 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
   ReportVerification verification;
   std::size_t proved = 0;
   for (const certificate::EntryVerdict& entry :
-       certificate::CheckPlanProofs(check.located, std::tan(half_angle), proofs)) {
+       certificate::CheckPlanProofs(check.located, std::tan(plan.half_angle), proofs)) {
     const std::string fault = FaultOf(check.steps[entry.index]);
     verification.text += std::to_string(entry.index) + " " + entry.kind + "  " +
                          (fault.empty() ? DescribeProofs(entry) : fault) + "\n";
@@ -131,10 +130,10 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
     const plan::StepCheck& entry = check.steps[i];
     const std::string fault = FaultOf(entry);
     verification.text += std::to_string(i) + " " + entry.kind + "  " +
-                         (fault.empty() ? "not proved: the report holds no proof of it" : fault) +
+                         (fault.empty() ? "not proved: the report has no proof of it" : fault) +
                          "\n";
   }
-  verification.text += Summary(check.steps, proved, half_angle);
+  verification.text += Summary(check.steps, proved, plan.half_angle);
   verification.proved = proved == entries;
   return verification;
 }

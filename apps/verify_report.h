@@ -16,14 +16,13 @@ struct ReportVerification {
   bool proved = false;  ///< every entry of the plan
 };
 
-/// What a report must be about.
+/// The subject that a report must have.
 struct ReportSubject {
   const object::Object& object;
-  std::string object_sha256;  ///< of the object file's bytes
-  const plan::Plan& plan;
-  std::string plan_sha256;  ///< of the plan file's bytes
-  plan::CheckOptions check =
-      {};  ///< friction, fingers, start and goal where they are not the plan's
+  std::string object_sha256;      ///< of the object file's bytes
+  const plan::Plan& plan;         ///< with friction, torsion and fingers of the validation
+  std::string plan_sha256;        ///< of the plan file's bytes
+  plan::CheckOptions check = {};  ///< required start and goal
 };
 
 /// @param text  of the report.

@@ -86,13 +86,13 @@ def main():
     for name, judge in (("linprog", by_linprog), ("Qhull", by_qhull)):
         taken, holds = seconds(lambda judge=judge: np.array(
             [judge(points[i], normals[i], options.edges) for i in range(few)]))
-        missed = int((verdicts.holds[:few] & ~holds).sum())
-        invented = int((~verdicts.holds[:few] & holds).sum())
+        missed = int((verdicts.is_force_closure[:few] & ~holds).sum())
+        invented = int((~verdicts.is_force_closure[:few] & holds).sum())
         rows.append((f"{name}, {options.edges} edges", taken / few,
                      f"of {few}: {missed} missed, {invented} that are none"))
     ours = rows[1][1]
     print(f"{options.grasps} grasps of {options.contacts} contacts, μ = {MU}, "
-          f"{verdicts.holds.mean():.0%} force closure")
+          f"{verdicts.is_force_closure.mean():.0%} force closure")
     print(f"{'':22} {'μs a grasp':>12} {'times ours':>11}")
     for name, taken, note in rows:
         print(f"{name:22} {1e6 * taken:12.3f} {taken / ours:11.1f}  {note}")

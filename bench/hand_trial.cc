@@ -48,18 +48,17 @@ std::optional<TrialFault> CheckInHand(const kinematics::HandFile& hand, const Ha
 HandTrial TryInHand(const kinematics::HandFile& hand, const HandBody& body, const plan::Plan& plan,
                     double friction_factor) {
   sim::HandReplayOptions options;
-  options.half_angle = std::atan(kFriction);
   options.friction_factor = friction_factor;
-  options.mass_kg = object::MeasureBody(body.solid(), body.scale).mass_kg;
+  plan::Plan located = plan::LocatePlan(body.solid(), plan);
+  located.half_angle = std::atan(kFriction);
   const plan::EntryIndex end(static_cast<int>(plan.steps.size()));
   HandTrial trial;
-  sim::HandReplayObserver observer;
+  sim::ReplayObserver observer;
   observer.on_rest = [&](const sim::HandWorld& world, plan::EntryIndex entry) {
     if (entry == end) trial.end = world.object_pose();
     trial.rests.push_back({ContactsNow(world, plan.scale), world.object_pose().linear()});
   };
-  const sim::ReplayResult replay =
-      sim::ReplayHand(hand, body.solid(), plan::LocatePlan(body.solid(), plan), options, observer);
+  const sim::ReplayResult replay = sim::ReplayHand(hand, body.solid(), located, options, observer);
   for (const sim::StepReplay& step : replay.steps) trial.simulated_s += step.hand->simulated_s;
   trial.squeeze_N = replay.settings.squeeze_N;
   const sim::StepReplay& last = replay.steps.back();

@@ -49,15 +49,18 @@ set(regrasp_public_headers
   planner/kinematics/hand_model.h
   planner/planning/in_hand_task.h
   planner/gait/gait_planner.h
+  sim/hand/check_hand.h
   sim/actuation/hand_replay.h
   sim/actuation/simulate_execution.h
-  # Replay and report.
+  # Validation, its replays and its report.
   sim/scene/measured.h
   sim/scene/settings.h
   sim/world/replay_observer.h
   sim/replay/disagreement.h
   sim/replay/replay.h
   sim/replay/trials.h
+  sim/validation/validation.h
+  sim/validation/validation_report.h
   report/report.h
 )
 

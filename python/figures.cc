@@ -10,7 +10,7 @@
 #include "planner/plan/reason.h"
 #include "python/binding.h"
 #include "render/figures/plan_figure.h"
-#include "report/report.h"
+#include "sim/validation/validation.h"
 
 namespace regrasp::python {
 
@@ -60,7 +60,7 @@ std::string DrawGrasp(const PythonObject& object, const Values& points, const Va
         {Eigen::Vector3d::Map(&located.points[i]), Eigen::Vector3d::Map(&located.normals[i])});
   }
   const plan::Plan hold =
-      plan::LocatePlan(body, report::MakeHoldPlan(body, grasp, half_angle, object.scale));
+      plan::LocatePlan(body, validation::MakeHoldPlan(body, grasp, half_angle, object.scale));
   return render::DrawStepFigure(*render::MakePanels(body, hold), 0, StyleOf(width_mm));
 }
 

@@ -8,14 +8,13 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/object/polyhedron.h"
-#include "planner/plan/locate.h"
 #include "planner/plan/plan_io.h"
 #include "python/binding.h"
 #include "python/interrupt.h"
@@ -24,10 +23,7 @@
 #include "report/pictures/report_pictures.h"
 #include "report/report.h"
 #include "report/report_json.h"
-#include "sim/actuation/hand_replay.h"
-#include "sim/actuation/tip_geometry.h"
-#include "sim/hand/check_hand.h"
-#include "sim/scene/scaling.h"
+#include "sim/validation/validation.h"
 
 namespace regrasp::python {
 
@@ -35,85 +31,34 @@ namespace py = pybind11;
 
 namespace {
 
-/// Report held by Python, with the data for its images.
+/// Report held by Python, with the inputs of its images.
 struct PythonReport {
   report::Report report;
   plan::Plan plan;
-  std::shared_ptr<const kinematics::HandFile> hand;  ///< null if no hand was checked
+  std::shared_ptr<const kinematics::HandFile> hand;  ///< null: no hand was checked
 };
 
 constexpr std::array kEngines = {sim::EngineChoice::kMujoco, sim::EngineChoice::kOde,
                                  sim::EngineChoice::kBoth};
 
-struct ValidateArguments {
-  std::optional<double> half_angle, torsion, mass_kg, squeeze_N;
-  double shake = sim::ReplayOptions().shake;
-  double tolerance = sim::ReplayOptions().tolerance;
-  sim::EngineChoice engine = sim::ReplayOptions().engine;
-  bool stress = false;
-  bool replay_by_hand = false;
-  bool feedback = true;
-  bool own_tips = false;
-  sim::HandTolerance hand_tolerance;
-  double clearance = sim::HandCheckOptions().clearance_m;
-};
-
-/// Return a replayer on the hand's own model.
-report::Replayer HandReplayer(const kinematics::HandFile& hand, const object::Polyhedron& solid,
-                              const plan::Plan& plan, const sim::ReplayOptions& replay,
-                              const ValidateArguments& given, const sim::ReplayObserver& observer) {
-  sim::HandReplayOptions by_hand;
-  by_hand.tolerance = given.hand_tolerance;
-  by_hand.feedback = given.feedback;
-  by_hand.tip = given.own_tips ? sim::TipShape::kGeometry : sim::TipShape::kBall;
-  static_cast<void>(sim::TipShapesOf(hand, by_hand.tip));  // fails before any other work
-  by_hand.mass_kg = sim::BodyOf(solid, plan.scale, replay).mass_kg;
-  by_hand.shake = replay.shake;
-  by_hand.squeeze_N = replay.squeeze_N;
-  sim::HandReplayObserver watch;
-  watch.on_progress = observer.on_progress;
-  return [=, &hand, &solid](const plan::Plan& located, double half_angle, int entries) {
-    sim::HandReplayOptions now = by_hand;
-    now.half_angle = half_angle;
-    return sim::ReplayHand(hand, solid, located, now, watch, entries);
-  };
-}
-
 PythonReport Validate(const PythonObject& object, const std::string& text, const std::string& name,
-                      const ValidateArguments& given, const PythonHand* hand,
+                      const validation::ValidationOptions& options, const PythonHand* hand,
                       Interrupt& interrupt) {
   plan::Plan plan = plan::ParsePlan(text, name);
   CheckFits(plan, object, name);
-  plan::CheckOptions check;
-  check.half_angle = given.half_angle;
-  check.torsion = given.torsion;
-  sim::ReplayOptions replay;
-  replay.half_angle = given.half_angle;
-  replay.mass_kg = given.mass_kg;
-  replay.squeeze_N = given.squeeze_N;
-  replay.shake = given.shake;
-  replay.tolerance = given.tolerance;
-  replay.engine = given.engine;
-  replay.stress = given.stress;
-  sim::ReplayObserver observer;
+  std::shared_ptr<const kinematics::HandFile> kept;
+  if (hand != nullptr) kept = std::make_shared<const kinematics::HandFile>(hand->file);
+  validation::ValidationObserver observer;
   const auto progress = interrupt.progress();
-  observer.on_progress = [&](int done, int total) {
+  observer.replay.on_progress = [&](int done, int total) {
     progress("replay: " + std::to_string(done) + " of " + std::to_string(total) + " steps");
     if (interrupt.raised()) throw TimeUp();
   };
-  report::Replayer replayer;
-  std::shared_ptr<const kinematics::HandFile> kept;
-  if (hand != nullptr) {
-    const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.file.object);
-    kept = std::make_shared<const kinematics::HandFile>(hand->file);
-    check.hand_faults =
-        sim::CheckHand(*kept, solid, plan::LocatePlan(solid, plan), {given.clearance});
-    if (given.replay_by_hand) {
-      replayer = HandReplayer(*kept, solid, plan, replay, given, observer);
-    }
-  }
   report::Report report =
-      report::Validate(*object.file.object, plan, check, replay, observer, replayer);
+      validation::Validate(
+          {.object = *object.file.object, .plan = plan, .hand = kept.get(), .options = options},
+          observer)
+          .report;
   report.object_file = object.file.file;
   report.object_sha256 = object.file.sha256;
   report.plan_file = name;
@@ -122,14 +67,14 @@ PythonReport Validate(const PythonObject& object, const std::string& text, const
 }
 
 PythonReport ValidatePlan(const PythonObject& object, const std::string& text,
-                          const std::string& name, const ValidateArguments& given,
+                          const std::string& name, const validation::ValidationOptions& options,
                           const PythonHand* hand, py::object progress) {
   Interrupt interrupt({}, std::move(progress));
   PythonReport result;
   {
     const py::gil_scoped_release unlocked;
     try {
-      result = Validate(object, text, name, given, hand, interrupt);
+      result = Validate(object, text, name, options, hand, interrupt);
     } catch (const TimeUp&) {
       if (!interrupt.raised()) throw;
     }
@@ -138,8 +83,7 @@ PythonReport ValidatePlan(const PythonObject& object, const std::string& text,
   return result;
 }
 
-/// Return the failure as text: "hold: not force closure; why: …; what would mend it: …"; nullopt if
-/// the plan passes.
+/// Return "hold: not force closure; why: …; what would mend it: …"; nullopt if the plan passes.
 std::optional<std::string> FailureOf(const PythonReport& of) {
   const auto failed = report::DescribeFailure(of.report);
   if (!failed) return std::nullopt;
@@ -150,7 +94,7 @@ py::array_t<std::uint8_t> ArrayOf(const render::Image& image) {
   return py::array_t<std::uint8_t>({image.height, image.width, 3}, image.rgb.data());
 }
 
-/// Return the images of the steps, and the overview image.
+/// Return the frames and the overview image.
 py::tuple Draw(const PythonReport& of, const PythonObject& object, int width, int height) {
   report::DrawingOptions options;
   options.frame.width = width;
@@ -209,30 +153,37 @@ void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::st
 }
 
 void BindReports(py::module_& module) {
-  py::class_<ValidateArguments>(module, "ValidateArguments")
-      .def(py::init<>())
-      .def_readwrite("half_angle", &ValidateArguments::half_angle)
-      .def_readwrite("torsion", &ValidateArguments::torsion)
-      .def_readwrite("mass_kg", &ValidateArguments::mass_kg)
-      .def_readwrite("squeeze_N", &ValidateArguments::squeeze_N)
-      .def_readwrite("shake", &ValidateArguments::shake)
-      .def_readwrite("tolerance", &ValidateArguments::tolerance)
+  using validation::ValidationOptions;
+  py::class_<ValidationOptions> options(module, "ValidationOptions");
+  // Add a property for a member of one of the structs that the options consist of.
+  const auto add = [&options](const char* name, auto part, auto member) {
+    using Value = std::remove_cvref_t<decltype(std::declval<ValidationOptions&>().*part.*member)>;
+    options.def_property(
+        name, [=](const ValidationOptions& of) { return of.*part.*member; },
+        [=](ValidationOptions& of, const Value& value) { of.*part.*member = value; });
+  };
+  options.def(py::init<>())
+      .def_readwrite("half_angle", &ValidationOptions::half_angle)
+      .def_readwrite("torsion", &ValidationOptions::torsion)
+      .def_readwrite("replay_by_hand", &ValidationOptions::replay_by_hand)
       .def("set_engine",
-           [](ValidateArguments& of, const std::string& name) {
+           [](ValidationOptions& of, const std::string& name) {
              for (const sim::EngineChoice engine : kEngines) {
-               if (name == report::EngineName(engine)) of.engine = engine;
+               if (name == report::EngineName(engine)) of.replay.engine = engine;
              }
            })
-      .def_readwrite("stress", &ValidateArguments::stress)
-      .def_readwrite("replay_by_hand", &ValidateArguments::replay_by_hand)
-      .def_readwrite("feedback", &ValidateArguments::feedback)
-      .def_readwrite("own_tips", &ValidateArguments::own_tips)
-      .def("set_hand_tolerance",
-           [](ValidateArguments& of, double length_mm, double angle_deg) {
-             of.hand_tolerance.length_m = 1e-3 * length_mm;
-             of.hand_tolerance.angle_rad = Radians(angle_deg);
-           })
-      .def_readwrite("clearance", &ValidateArguments::clearance);
+      .def("use_tip_geometry",
+           [](ValidationOptions& of) { of.hand.tip = sim::TipShape::kGeometry; })
+      .def("set_hand_tolerance", [](ValidationOptions& of, double length_mm, double angle_deg) {
+        of.hand.tolerance.length_m = 1e-3 * length_mm;
+        of.hand.tolerance.angle_rad = Radians(angle_deg);
+      });
+  add("mass_kg", &ValidationOptions::replay, &sim::ReplayOptions::mass_kg);
+  add("squeeze_N", &ValidationOptions::replay, &sim::ReplayOptions::squeeze_N);
+  add("shake", &ValidationOptions::replay, &sim::ReplayOptions::shake);
+  add("tolerance", &ValidationOptions::replay, &sim::ReplayOptions::tolerance);
+  add("stress", &ValidationOptions::replay, &sim::ReplayOptions::stress);
+  add("feedback", &ValidationOptions::hand, &sim::HandReplayOptions::feedback);
   py::class_<PythonReport>(module, "Report")
       .def_property_readonly(
           "json", [](const PythonReport& of) { return report::FormatReportJson(of.report); })

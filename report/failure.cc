@@ -33,61 +33,62 @@ std::string DegreesAsked(const ReportStep& step, const Report& report) {
 
 std::string MendFriction(const ReportStep& step, const Report& report) {
   const std::string other =
-      "plan for more to spare (plan --optimize margin, or plan at less "
-      "friction than is checked)";
-  if (!step.check.required) return "other contacts, as no friction is sure to be enough: " + other;
+      "plan with more friction margin (plan --optimize margin, or plan at less "
+      "friction than you check)";
+  if (!step.check.required)
+    return "use other contacts, because no friction is certainly sufficient: " + other;
   const std::string degrees = RequiredText(step, report);
   const double mu = std::ceil(std::tan(Radians(*ParseDouble(degrees))) * kMuSteps) / kMuSteps;
-  return "fingertips with more friction (--friction-angle " + degrees + " or --mu " +
-         FormatShort(mu) + "; to stand the shake may take a little more), or " + other;
+  return "use fingertips with more friction (--friction-angle " + degrees + " or --mu " +
+         FormatShort(mu) + "; the disturbance test can require slightly more), or " + other;
 }
 
 /// By the likely cause of a replay that fails what the analysis passes.
 std::string MendReplay(const ReportStep& step, const Report& report) {
   if (report.settings && report.settings->hand) {
-    return "a plan with more to spare (plan at less friction than is checked, --min-quality 0.05 "
-           "or more), moves in which tips roll less, or a larger --tolerance-mm, --tolerance-deg";
+    return "plan with more margin (plan at less friction than you check, --min-quality 0.05 or "
+           "more), "
+           "or with smaller in-hand motions, in which fingertips roll less";
   }
-  const bool shaken = report.settings && report.settings->shake > 0;
   switch (step.disagreement ? step.disagreement->cause : Cause::kUnknown) {
     case Cause::kConcaveCorner:
     case Cause::kNoClearance:
-      return "contacts farther from concave corners, or thinner fingers (--finger-radius)";
+      return "use contacts farther from concave corners, or thinner fingers (--finger-radius)";
     case Cause::kWeight:
-      return "a larger --squeeze, a lighter object (--mass, --density), or more friction "
+      return "use a larger --squeeze, a lighter object (--mass, --density), or more friction "
              "(--friction-angle)";
     case Cause::kQuality:
-      return "a plan of better grasps (plan --min-quality above the --shake), more friction "
-             "(--friction-angle), or a smaller --shake";
+      return "plan better grasps (plan --min-quality above the --shake), or use more friction "
+             "(--friction-angle)";
     case Cause::kEdge:
-      return "contacts farther from the borders of their faces";
+      return "use contacts farther from the borders of their faces";
     case Cause::kConeReached:
-      return "more friction (--friction-angle), or a plan with more to spare (plan --optimize "
-             "margin)";
+      return "use more friction (--friction-angle), or plan with more friction margin (plan "
+             "--optimize margin)";
     default:
-      return std::string("more friction (--friction-angle)") +
-             (shaken ? ", a smaller --shake" : "") +
-             " or a larger --tolerance; --stress shows in which direction the grasp is weak";
+      return "use more friction (--friction-angle), or plan with more friction margin (plan "
+             "--optimize margin); note: --stress reports in which direction the grasp is weak";
   }
 }
 
 /// A clearance helps only where there is one.
 std::string MendCollision(const plan::Fault& fault) {
   if (fault.hand && !fault.hand->gap_m) {
-    return "a plan whose links keep a larger --clearance, or in which tips roll less";
+    return "plan with a larger --clearance, or with motions in which fingertips roll less";
   }
   const bool apart = fault.hand && fault.hand->gap_m && *fault.hand->gap_m > 0;
-  if (!apart) return "a way around, or other contacts: no --clearance allows links in each other";
-  return "a way around, other contacts, or a --clearance below the " +
-         FormatLength(*fault.hand->gap_m) + " that there are";
+  if (!apart)
+    return "use another path or other contacts: no --clearance allows links inside each other";
+  return "use another path or other contacts; note: the check passes with a --clearance below " +
+         FormatLength(*fault.hand->gap_m);
 }
 
 std::string MendReach(const plan::Fault& fault) {
   if (fault.finger_radius > 0) {
-    return "thinner fingers (--finger-radius), or a plan for fingers of that radius (plan "
+    return "use thinner fingers (--finger-radius), or plan for fingers of that radius (plan "
            "--finger-radius)";
   }
-  return "contacts that a finger reaches from outside, farther from concave corners";
+  return "use contacts that a finger reaches from outside, farther from concave corners";
 }
 
 /// ": (0, 0.6, -0.8)"
@@ -99,68 +100,68 @@ std::string NormalText(const ReportStep& step, const Report& report) {
 std::string MendOf(const ReportStep& step, const Report& report) {
   switch (step.reason()) {
     case Reason::kOffSurface:
-      return "a point on the surface; where many are off, this is not the object that the plan was "
-             "made for, or not in its unit of length: plan again for this file";
+      return "use a point on the surface; if many are off, the plan was made for another object or "
+             "unit of length: plan again for this file";
     case Reason::kWrongNormal:
-      return "the inward normal of the face there, of length 1" + NormalText(step, report);
+      return "use the inward unit normal of the face there" + NormalText(step, report);
     case Reason::kFingerNotFree:
-      return "another finger, or a step before that releases this one";
+      return "use another finger, or release this one in an earlier step";
     case Reason::kFingerNotHolding:
-      return "releasing a finger that holds, once";
+      return "release a finger that is in contact, once";
     case Reason::kTooManyFingers:
-      return "a finger that the hand has, or a hand of more (fingers in the plan)";
+      return "use a finger of the hand, or a hand with more fingers (fingers in the plan)";
     case Reason::kCoincidentFingers:
-      return "different points for the two fingers";
+      return "use different points for the two fingers";
     case Reason::kDiscontinuous:
-      return "a first waypoint that is the grasp before the step, and the same fingers in all";
+      return "begin with the grasp before the step, and use the same fingers in all waypoints";
     case Reason::kLeavesFace:
-      return "a waypoint at each border that a finger crosses";
+      return "add a waypoint at each border that a finger crosses";
     case Reason::kNotForceClosure:
       return MendFriction(step, report);
     case Reason::kNotProved:
-      return "a little more friction (--friction-angle" + DegreesAsked(step, report) +
-             "), waypoints in between, or --allow-undecided where the pieces without a proof are "
-             "few";
+      return "use slightly more friction (--friction-angle" + DegreesAsked(step, report) +
+             "), add waypoints, or pass --allow-undecided if few pieces have no proof";
     case Reason::kUnreachable:
       return MendReach(step.fault());
     case Reason::kOffPoint:
-      return "contacts at points that the object's file gives, joined by switches (plan --contacts "
+      return "use contacts at points of the object's file, connected by switches (plan --contacts "
              "given)";
     case Reason::kHandJumps:
-      return "a path in every step whose first state is the last one before it, with all joints of "
-             "the hand";
+      return "begin the path of every step with the last state before it, with all joints of the "
+             "hand";
     case Reason::kTipOffContact:
-      return "joints that put the tips where the contacts are, and more states on the path where "
-             "they leave them between two";
+      return "use joint angles that place the fingertips at their contacts, and more states on the "
+             "path";
     case Reason::kJointLimit:
-      return "a posture within the limits, or a contact that the finger reaches within them";
+      return "use a joint configuration within the limits, or a contact that it reaches";
     case Reason::kHandCollides:
       return MendCollision(step.fault());
     case Reason::kTorqueLimit:
-      return "a smaller --squeeze, a lighter object (--mass), or postures in which the finger has "
-             "more strength";
+      return "use a smaller --squeeze, a lighter object (--mass), or joint configurations in which "
+             "the finger is stronger";
     case Reason::kCouplingViolated:
       return step.fault().hand
-                 ? "joint angles that keep the couplings of the hand's model; plan again with a "
-                   "hand file that hand --model writes"
-                 : "a model whose coupling is as hard as that of the real hand (solref and solimp "
-                   "of its equality), a smaller --squeeze, or a plan whose states keep the "
-                   "coupling";
+                 ? "plan again with a hand file that hand --model writes, whose couplings the "
+                   "joint "
+                   "angles keep"
+                 : "use a model whose coupling is as hard as that of the real hand (solref and "
+                   "solimp of its equality), a smaller --squeeze, or a plan whose states keep "
+                   "the coupling";
     case Reason::kTipPenetrates:
-      return "a fingertip sphere that the model's geometry is inside (hand --model fits one), or a "
-             "plan with a larger margin";
+      return "use a fingertip sphere inside the model's geometry (hand --model fits one), or plan "
+             "with a larger margin";
     case Reason::kSimulationUnstable:
-      return "another --squeeze or --mass, a smaller --shake, or the right --scale where the "
-             "object is of no usual size";
+      return "check --squeeze, --mass and --scale";
     case Reason::kContactLost:
     case Reason::kSlipped:
     case Reason::kObjectMoved:
       return MendReplay(step, report);
     case Reason::kStartDiffers:
-      return "planning from the grasp of --start, or leaving --start out";
+      return "plan from the grasp of --start, or omit --start";
     case Reason::kGoalNotReached:
-      if (step.fault().hand) return "a last move that ends in the hand's goal, or another goal";
-      return "steps that end in the goal grasp, or another goal";
+      if (step.fault().hand)
+        return "end the last motion in the goal of the hand, or use another goal";
+      return "add steps that end in the goal grasp, or use another goal";
     case Reason::kNone:
       return "";
   }
@@ -169,10 +170,11 @@ std::string MendOf(const ReportStep& step, const Report& report) {
 
 /// Of a replay by a hand.
 std::string HandToleranceText(const sim::HandTolerance& tolerance) {
-  return "the object may be " + FormatLength(tolerance.length_m) + " and " +
+  return "limit: the object is " + FormatLength(tolerance.length_m) + " and " +
          FormatDegrees(Degrees(tolerance.angle_rad)) +
-         " from where the plan has it (--tolerance-mm, --tolerance-deg), at rest half of that; a "
-         "tip that holds may slip by " +
+         " from its planned pose (--tolerance-mm, --tolerance-deg), in a static grasp half of "
+         "that; a "
+         "finger in contact slips " +
          FormatLength(tolerance.slip_m);
 }
 
@@ -184,11 +186,10 @@ std::string ToleranceText(const Report& report) {
   if (report.settings && report.settings->hand) {
     return HandToleranceText(report.settings->hand->tolerance);
   }
-  if (!report.settings) return "more than the --tolerance of the object's diameter";
-  return "up to " +
+  if (!report.settings) return "limit: --tolerance times the object's diameter";
+  return "limit: " +
          FormatLength(report.settings->tolerance * report.settings->diameter_m, kLimitDigits) +
-         ", --tolerance " + FormatShort(report.settings->tolerance) +
-         " of the object's diameter, counts as standing still";
+         ", --tolerance " + FormatShort(report.settings->tolerance) + " of the object's diameter";
 }
 
 sim::HandTolerance HandToleranceOf(const Report& report) {
@@ -208,73 +209,71 @@ std::string DepthToleranceText(const Report& report) {
 std::string RuleOf(Reason reason, bool hand, const Report& report) {
   switch (reason) {
     case Reason::kOffSurface:
-      return "a contact lies on the surface to within " + FormatShort(object::kPointTolerance) +
+      return "a contact must be on the surface to within " + FormatShort(object::kPointTolerance) +
              " of the object's diameter, or the precision of float32 coordinates if that is "
              "coarser";
     case Reason::kWrongNormal:
-      return "the normal of a contact is the inward one of its face, which the replay pushes along";
+      return "the normal of a contact must be the inward normal of its face";
     case Reason::kFingerNotFree:
-      return "a finger makes one contact at a time";
+      return "a finger has at most one contact";
     case Reason::kFingerNotHolding:
-      return "only a finger that holds before the step can be released, and only once";
+      return "only a finger in contact can be released, and only once";
     case Reason::kTooManyFingers:
-      return "no more fingers touch the object than the hand has";
+      return "at most the fingers of the hand can be in contact";
     case Reason::kCoincidentFingers:
-      return "at rest no two fingers stand at one point";
+      return "in a static grasp no two fingers can be at one point";
     case Reason::kDiscontinuous:
-      return "an align begins with the grasp before it, and its fingers stay the same";
+      return "an align must begin with the grasp before it and keep its fingers";
     case Reason::kLeavesFace:
-      return "between two waypoints a finger moves straight inside one face, or keeps its point "
-             "and turns from one face to the next";
+      return "between two waypoints a finger must move straight inside one face, or keep its point "
+             "and rotate from one face to the next";
     case Reason::kNotForceClosure:
-      return "with this friction forces of the fingers cannot resist every push and twist";
+      return "with this friction the contact forces cannot resist every wrench";
     case Reason::kNotProved:
-      return "what is neither proved nor refuted does not pass";
+      return "a step that is neither proved nor refuted does not pass";
     case Reason::kUnreachable:
-      return "a finger comes straight along the normal, and keeps clear of the object and the "
-             "others";
+      return "a finger approaches along the normal, and must not overlap the object or another "
+             "finger";
     case Reason::kOffPoint:
-      return "the plan says that its contacts are at points that the object's file gives: no "
-             "farther than " +
+      return "in a plan with given contacts, each contact must be at a point of the object's file: "
+             "at most " +
              FormatShort(object::kAtGivenPoint) +
-             " of the object's diameter from one, and none moves along the surface";
+             " of the object's diameter from it, and without moving along the surface";
     case Reason::kHandJumps:
-      return "hand and object go on from where they are, to 1e-9 m and, of the object, 1e-8 rad, "
-             "of "
-             "a joint, 1e-9 rad";
+      return "a step must begin with the last state of hand and object: to 1e-9 m and 1e-8 rad for "
+             "the object, to 1e-9 rad for a joint";
     case Reason::kTipOffContact:
-      return "the ball of a finger that holds touches its contact, to 1 µm at rest and to 100 µm "
-             "all "
-             "along a move";
+      return "the fingertip sphere of a finger in contact must be at its contact, to 1 µm in a "
+             "static grasp and to 100 µm along a motion";
     case Reason::kJointLimit:
-      return "joints stay within the limits of the hand's model";
+      return "joints must stay within the limits of the hand's model";
     case Reason::kHandCollides:
-      return "the links of the hand keep the clearance from each other, the palm and the object, "
-             "on all of the path; a tip that touches may be 0.3 mm in the surface";
+      return "the links of the hand must keep the clearance from each other, the palm and the "
+             "object on the whole path; a fingertip in contact may penetrate by 0.3 mm";
     case Reason::kTorqueLimit:
-      return "no actuator of the hand stands at the limit of its force for longer than 50 ms";
+      return "no actuator of the hand may be at its force limit for longer than 50 ms";
     case Reason::kCouplingViolated:
-      return hand ? "coupled joints keep the relation that the hand's model gives them, in every "
-                    "state of the plan to 1e-6 rad"
-                  : "joints that the hand couples stay within " + JointToleranceText(report) +
+      return hand ? "coupled joints must keep the relation of the hand's model in every state of "
+                    "the "
+                    "plan, to 1e-6 rad"
+                  : "coupled joints must stay within " + JointToleranceText(report) +
                         " of their coupling";
     case Reason::kTipPenetrates:
-      return "a fingertip is no deeper in the object than " + DepthToleranceText(report) +
-             ", and its collision geometry, if its sphere stands for it, no deeper than half the "
+      return "a fingertip may penetrate the object by at most " + DepthToleranceText(report) +
+             ", and its collision geometry, if a sphere represents it, by at most half the "
              "sphere's radius";
     case Reason::kSimulationUnstable:
-      return "the simulation came to no end, so nothing is known of the step";
+      return "the simulation diverged, so this step was not evaluated";
     case Reason::kContactLost:
-      return "a finger that holds stays on the surface";
+      return "a finger in contact must stay on the surface";
     case Reason::kSlipped:
     case Reason::kObjectMoved:
       return ToleranceText(report);
     case Reason::kStartDiffers:
-      return "the plan is to begin with the grasp of --start";
+      return "the plan must begin with the grasp of --start";
     case Reason::kGoalNotReached:
-      if (hand)
-        return "the object is to end where the plan's hand has its goal, to 1 µm and 1e-6 rad";
-      return "the contacts after the last step are to be those of the goal";
+      if (hand) return "the object must end at the goal of the plan's hand, to 1 µm and 1e-6 rad";
+      return "the contacts after the last step must be those of the goal";
     case Reason::kNone:
       return "";
   }
@@ -295,21 +294,20 @@ std::string Failure::headline() const {
          (what.empty() ? "" : ": " + what);
 }
 
-std::string Failure::line() const {
-  return headline() + "; why: " + why + "; what would mend it: " + mend;
-}
+std::string Failure::line() const { return headline() + "; why: " + why + "; help: " + mend; }
 
 std::optional<Failure> DescribeFailure(const Report& report) {
   const auto failed = std::ranges::find(report.steps, Verdict::kFail, &ReportStep::verdict);
   if (failed == report.steps.end()) {
     if (report.passed()) return std::nullopt;
-    return Failure{plan::EntryIndex(),
-                   "trials",
-                   kTrialsFailed,
-                   TrialsFailureText(*report.trials),
-                   TrialsRequiredText(*report.trials),
-                   "a plan with larger friction margins (plan --optimize margin, or plan at less "
-                   "friction than is checked), or smaller errors of the real hand and object"};
+    return Failure{
+        plan::EntryIndex(),
+        "trials",
+        kTrialsFailed,
+        TrialsFailureText(*report.trials),
+        TrialsRequiredText(*report.trials),
+        "plan with larger friction margins (plan --optimize margin, or plan at less friction "
+        "than you check), or reduce the errors of the real hand and object"};
   }
   return Failure{
       failed->check.index, failed->check.kind,     std::string(plan::ReasonName(failed->reason())),
@@ -332,16 +330,16 @@ std::string HeadingText(const Report& report) {
   }
   const std::size_t steps = report.steps.size() - 1;
   const std::string pass = report.trials ? "PASS " + TrialsPassText(*report.trials) : "PASS";
-  if (steps == 0) return pass + ": the hold stands";
+  if (steps == 0) return pass + ": the hold passes";
   return pass + ": the hold and " +
-         (steps == 1 ? "the step" : "all " + std::to_string(steps) + " steps") + " stand";
+         (steps == 1 ? "the step" : "all " + std::to_string(steps) + " steps") + " pass";
 }
 
 std::string FormatFailure(const Report& report) {
   const auto failure = DescribeFailure(report);
   if (!failure) return "";
-  return failure->headline() + "\n  why: " + failure->why +
-         "\n  what would mend it: " + failure->mend + "\n";
+  return failure->headline() + "\n  why: " + failure->why + "\n  help: " + failure->mend +
+         "\n  more: regrasp validate --explain " + failure->reason + "\n";
 }
 
 }  // namespace regrasp::report

@@ -63,7 +63,7 @@ Element MakeSuite(const JunitSuite& suite) {
 
 std::string JunitText(const std::string& detail, const std::string& why, const std::string& mend) {
   std::string text = detail;
-  for (const auto& [name, said] : {std::pair{"why", &why}, {"what would mend it", &mend}}) {
+  for (const auto& [name, said] : {std::pair{"why", &why}, {"help", &mend}}) {
     if (!said->empty()) text += std::string("\n") + name + ": " + *said;
   }
   return text;

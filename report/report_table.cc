@@ -11,7 +11,6 @@
 #include "planner/base/text_table.h"
 #include "planner/grasp/quality.h"
 #include "report/failure.h"
-#include "report/hand_limits.h"
 #include "report/report.h"
 #include "sim/measure/shake.h"
 #include "sim/measure/weakest_finger.h"
@@ -25,23 +24,24 @@ std::string SqueezeText(const sim::ReplaySettings& settings) {
                               FormatShort(settings.squeeze_N / weight) + " times the weight";
   switch (settings.squeeze_source) {
     case sim::SqueezeSource::kShake:
-      return squeeze + ": so much that the weight " +
-             (settings.shake >= sim::kLeastShakeForSqueeze ? "is only a tenth of the shake"
-                                                           : "hardly counts") +
-             ", as verdicts depend on forces over the squeeze alone; no hand presses like that "
-             "(--squeeze realistic does as hands do)";
+      return squeeze +
+             (settings.shake >= sim::kLeastShakeForSqueeze
+                  ? ": default, the weight is 10 % of the disturbance"
+                  : ": default, the weight is negligible") +
+             "; not realistic for a hand, use --squeeze realistic";
     case sim::SqueezeSource::kHand:
       if (settings.squeeze_N >= sim::kStrongestGrip_N) {
-        return squeeze + ": the most that a hand applies, less than it would take here";
+        return squeeze + ": largest grasp force of a hand, less than required here";
       }
-      return squeeze + ": as a hand grips, " + FormatShort(sim::kGripSafety) +
-             " times what the weight needs in the grasp that carries it worst";
+      return squeeze + ": " + FormatShort(sim::kGripSafety) +
+             " times the force that supports the weight in the weakest grasp";
     case sim::SqueezeSource::kTorques:
       return squeeze +
-             ": what the torques of the hand's actuators allow, at most twelve weights, six if a "
-             "force limit is unknown, or 4 N";
+             ": allowed by the actuator torques, at most 12 weights (6 if a force limit is "
+             "unknown), "
+             "or 4 N";
     case sim::SqueezeSource::kGiven:
-      return squeeze + ": as --squeeze says";
+      return squeeze + ": given by --squeeze";
   }
   return squeeze;
 }
@@ -83,10 +83,10 @@ std::string FormatStressTable(const Report& report) {
       row.push_back(Percent(stress.replay));
     rows.push_back(row);
   }
-  return "largest push (t: turn) in percent of the squeeze:\n" + FormatRows(rows) + "least: step " +
-         std::to_string(weakest->step) + ", " + sim::PushName(weakest->stress.push) + ", " +
-         Percent(weakest->stress.replay) + " % in the replay, " +
-         Percent(weakest->stress.analysis) + " % by analysis\n";
+  return "largest resisted disturbance (t: torque) in percent of the grasp force:\n" +
+         FormatRows(rows) + "least: step " + std::to_string(weakest->step) + ", " +
+         sim::PushName(weakest->stress.push) + ", " + Percent(weakest->stress.replay) +
+         " % in the replay, " + Percent(weakest->stress.analysis) + " % by analysis\n";
 }
 
 namespace {
@@ -133,7 +133,7 @@ std::string TrialsRequiredText(const sim::TrialSummary& summary) {
   const auto [share, required] =
       FormatWithLimit(100 * summary.share(), 100 * summary.options.min_pass_rate, kPercentDigits);
   return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
-         " trials pass (" + share + " %), and --min-pass-rate requires " + required + " %";
+         " trials pass (" + share + " %), --min-pass-rate requires " + required + " %";
 }
 
 std::string TrialsShareText(const sim::TrialSummary& summary) {
@@ -167,7 +167,7 @@ std::string TrialsNoiseText(const sim::TrialSummary& summary) {
   const sim::TrialOptions& options = summary.options;
   const std::string joints =
       options.joint_noise ? "joints by " + FormatShort(Degrees(*options.joint_noise)) + "°, " : "";
-  return (options.joint_noise ? "object at first off by " : "contacts off by ") +
+  return (options.joint_noise ? "initial object pose by " : "contacts off by ") +
          FormatShort(options.position_noise) + " diameters, " + joints + "friction by " +
          TrialPercent(options.friction_error) + " %, mass by " + TrialPercent(options.mass_error) +
          " % (standard deviations); seed " + std::to_string(options.seed);
@@ -229,8 +229,8 @@ std::string NeedText(const grasp::FingerFriction& finger, double half_angle,
                      const std::string& what) {
   const auto [needed, available] = FormatRequiredDegrees(
       Degrees(finger.needed ? finger.required : *finger.without), Degrees(half_angle));
-  return (finger.needed ? ", which alone needs " : ", without which the others need ") + what +
-         needed + " of " + available + " degrees\n";
+  return (finger.needed ? ", which alone requires " : ", without which the others require ") +
+         what + needed + " of " + available + " degrees\n";
 }
 
 /// Quality and weakest finger of a single grasp.
@@ -239,7 +239,7 @@ std::string FormatGraspLines(const Report& report) {
   if (weakest < 0) return "";
   return "quality: " + grasp::QualityText(report.grasp->quality) + "\nweakest: finger " +
          std::to_string(weakest) +
-         NeedText(report.grasp->fingers[weakest], report.half_angle, "a friction half-angle of ");
+         NeedText(report.grasp->fingers[weakest], report.half_angle, "a friction angle of ");
 }
 
 /// Of steps that pass: why one fails is told with its failure.
@@ -247,7 +247,7 @@ std::string FormatCauses(const Report& report) {
   std::string text;
   for (const ReportStep& step : report.steps) {
     if (!step.disagreement || step.disagreement->between != sim::Between::kFixedFails) continue;
-    text += "step " + std::to_string(step.check.index) + ": a fixed squeeze fails, " +
+    text += "step " + std::to_string(step.check.index) + ": a fixed grasp force fails, " +
             sim::LikelyCauseText(*step.disagreement) + "\n";
   }
   return text;
@@ -304,7 +304,7 @@ std::string FormatBody(const Report& report) {
               ? "contacts: at given points, at most " +
                     FormatLength(*report.farthest_from_points * report.scale) + " off\n"
               : "") +
-         (report.settings ? "squeeze: " + SqueezeText(*report.settings) + "\n" : "") +
+         (report.settings ? "grasp force: " + SqueezeText(*report.settings) + "\n" : "") +
          (report.settings && report.settings->hand
               ? "limits: " + LimitsText(report.settings->hand->limits) + "\n"
               : "");

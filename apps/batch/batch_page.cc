@@ -35,7 +35,7 @@ std::string Statement(const PlanOutcome& plan) {
   const auto failure = plan.report->failure();
   if (!failure) {
     const std::size_t steps = plan.report->entries.size() - 1;
-    return steps == 0 ? "The hold stands." : "The hold and " + StepCount(*plan.report) + " stand.";
+    return steps == 0 ? "The hold passes." : "The hold and " + StepCount(*plan.report) + " pass.";
   }
   const std::string where =
       !failure->entry.valid() ? "Trials"
@@ -69,7 +69,7 @@ std::string MarginText(const PlanOutcome& plan) {
   if (!report.weakest_step || !report.required_half_angle_deg || !report.half_angle_deg) return "";
   const double margin = *report.half_angle_deg - *report.required_half_angle_deg;
   if (!Passed(plan) && margin >= 0) return "";
-  return FormatDegrees(std::abs(margin)) + (margin < 0 ? " missing in " : " to spare in ") +
+  return FormatDegrees(std::abs(margin)) + (margin < 0 ? " missing in " : " margin in ") +
          report::StepName(plan::EntryIndex(*report.weakest_step));
 }
 

@@ -145,7 +145,7 @@ std::string CountsText(const BatchSummary& summary) {
   // Plans with failed trials are counted separately, so that the number of passes does not hide
   // them.
   const long partly = std::ranges::count_if(summary.plans, PassesInPart);
-  if (partly > 0) text += "; " + std::to_string(partly) + " pass in a part of their trials only";
+  if (partly > 0) text += "; " + std::to_string(partly) + " pass in only a part of their trials";
   return text;
 }
 

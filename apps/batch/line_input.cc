@@ -20,24 +20,24 @@ LinesInput::LinesInput(fs::path path, const Shard& shard) : path_(std::move(path
   const fs::file_status status = fs::status(path_, error);
   if (!fs::exists(status)) throw InputError(path_.string() + ": no such file");
   if (!fs::is_regular_file(status)) {
-    throw InputError(path_.string() + ": is no regular file, and lines are gone through twice");
+    throw InputError(path_.string() + ": expected a regular file, because it is read twice");
   }
   stream_.open(path_, std::ios::binary);
   if (!stream_) throw InputError(path_.string() + ": cannot be read: " + std::strerror(errno));
   Survey();
   if (header_) {
     if (shard != Shard() && header_->shard != Shard()) {
-      throw InputError(path_.string() + ": is itself shard " +
+      throw InputError(path_.string() + ": --shard cannot be used with a file that is shard " +
                        std::to_string(header_->shard.number) + " of " +
-                       std::to_string(header_->shard.count) + ", and is not cut again");
+                       std::to_string(header_->shard.count));
     }
     if (shard == Shard()) shard_ = header_->shard;
     const std::int64_t found = lines_ - 1;
     const EntryRange expected = header_->range();
     if (found != expected.count() || !ends_) {
-      throw InputError(path_.string() + ": line " + std::to_string(lines_) + ": the file ends " +
-                       (ends_ ? "behind it" : "in the middle of it") + "; its header says that " +
-                       std::to_string(expected.count()) + " entries follow");
+      throw InputError(path_.string() + ": line " + std::to_string(lines_) + ": truncated " +
+                       (ends_ ? "after" : "inside") + " this line, expected " +
+                       std::to_string(expected.count()) + " entries as in the header");
     }
     next_ = expected.first;
   }
@@ -91,7 +91,7 @@ std::string LinesInput::Get() {
   const bool may_lack_end = !ends_ && next_line_ == lines_;
   if (!got || (stream_.eof() && !may_lack_end) || text.size() > kMostLineBytes) {
     throw InputError(path_.string() + ": line " + std::to_string(next_line_) +
-                     ": the file was changed while it was read");
+                     ": the file changed while it was read");
   }
   ++next_line_;
   if (text.ends_with('\r')) text.pop_back();

@@ -79,7 +79,7 @@ bool LinesOutput::HoldPart() {
   struct stat held, there;
   // Reading a pipe would block.
   if (fstat(file_.get(), &held) == 0 && !S_ISREG(held.st_mode)) {
-    throw InputError(part_.string() + ": is in the way, expected a regular file or none");
+    throw InputError(part_.string() + ": cannot be replaced, expected a regular file or none");
   }
   return fstat(file_.get(), &held) == 0 && lstat(part_.c_str(), &there) == 0 &&
          held.st_dev == there.st_dev && held.st_ino == there.st_ino;
@@ -114,10 +114,11 @@ void LinesOutput::TakePart(bool fresh) {
       ParseHeader(found.substr(0, found.find('\n')), part_.string() + ": line 1").has_value();
   if (!ours || (!fresh && !begins)) {
     throw InputError(part_.string() + ": line 1: " +
-                     (ours ? "is the part of a run with other input, other options or another "
-                             "build, which was stopped; --fresh throws it away"
-                           : "is in the way, and no run of this program has left it") +
-                     "; or give another output");
+                     (ours
+                          ? "belongs to an interrupted run with different input, options or build; "
+                            "help: pass --fresh to discard it"
+                          : "cannot overwrite a file that regrasp did not write; help: move it") +
+                     ", or pass another output");
   }
   if (fresh) {
     unlink(rest_.c_str());

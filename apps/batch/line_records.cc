@@ -96,7 +96,7 @@ std::optional<LinesHeader> ParseHeader(std::string_view line, const std::string&
   header.shard.number = root.Member("shard").Integer(1, header.shard.count);
   header.run = root.Member("run").String();
   if (FormatHeader(header) != std::string(line) + "\n") {
-    throw InputError(name + ": is no header as it is written");
+    throw InputError(name + ": not a header of JSON Lines");
   }
   return header;
 }

@@ -28,7 +28,7 @@ LinesHeader ReadHeader(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file");
   if (fs::is_directory(path, error)) {
-    throw InputError(path.string() + ": is a folder, not a file");
+    throw InputError(path.string() + ": expected a file, found a folder");
   }
   std::ifstream stream(path, std::ios::binary);
   std::string line;
@@ -36,8 +36,8 @@ LinesHeader ReadHeader(const fs::path& path) {
   const auto header = ParseHeader(line, path.string() + ": line 1");
   if (header) return *header;
   throw InputError(path.string() +
-                   ": line 1: is no header of lines; merge takes what plan --batch and validate of "
-                   "such plans write");
+                   ": line 1: expected a header of JSON Lines, as plan --batch and validate write "
+                   "them");
 }
 
 /// Check that two headers differ only in the shard's number.
@@ -47,14 +47,15 @@ void CheckSameRun(const ShardFile& first, const ShardFile& other) {
     throw InputError(other.path.string() + ": line 1: " + what + first.path.string());
   };
   if (other.header.content != expected.content) {
-    refuse("holds " + other.header.content + ", not " + expected.content + " as ");
+    refuse("expected " + expected.content + ", found " + other.header.content +
+           "; the first shard is ");
   }
   if (other.header.shard.count != expected.shard.count) {
     refuse("is " + ShardText(other.header.shard) + ", and of " +
            std::to_string(expected.shard.count) + " is ");
   }
   if (other.header.run != expected.run || other.header.entries != expected.entries) {
-    refuse("is of a run with other input, other options or another build than ");
+    refuse("belongs to a run with different input, options or build than ");
   }
 }
 
@@ -71,9 +72,8 @@ void CheckComplete(const std::vector<ShardFile>& shards) {
     }
   }
   if (missing == 0) return;
-  throw InputError("of " + std::to_string(count) + " shards " + std::to_string(missing) +
-                   (missing == 1 ? " is" : " are") + " missing: " + names +
-                   (missing > kMostNamed ? ", …" : ""));
+  throw InputError("--shards: " + std::to_string(missing) + " of " + std::to_string(count) +
+                   " not found: " + names + (missing > kMostNamed ? ", …" : ""));
 }
 
 /// Reader of a shard, entry by entry.
@@ -90,10 +90,10 @@ class ShardReader {
     std::string line;
     ++line_;
     if (!std::getline(stream_, line)) {
-      Fail("is missing, of entry " + std::to_string(entry) + "; the shard ends with entry " +
+      Fail("entry " + std::to_string(entry) + " not found; the shard ends with entry " +
            std::to_string(shard_.header.range().last));
     }
-    if (stream_.eof()) Fail("ends in the middle, without a line break");
+    if (stream_.eof()) Fail("truncated, expected a line break");
     if (!OutcomeOf(line, entry)) Fail("is not the result of entry " + std::to_string(entry));
     return line + "\n";
   }

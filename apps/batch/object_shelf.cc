@@ -50,8 +50,8 @@ std::string ObjectFinder::Find(const std::string& name, const std::string& sha25
   const std::string other = sha256.empty() ? "" : FindByDigest(sha256);
   if (!other.empty()) return other;
   if (there) return path;
-  throw InputError(where + ": /object/file: there is no file \"" + file.string() + "\" in " +
-                   path_ + (sha256.empty() ? "" : ", and none with the digest " + sha256));
+  throw InputError(where + ": /object/file: \"" + file.string() + "\" not found in " + path_ +
+                   (sha256.empty() ? "" : ", nor a file with the digest " + sha256));
 }
 
 const std::string& ObjectFinder::DigestOf(const std::string& file) {

@@ -30,7 +30,7 @@ std::string WhyNoPlan(const fs::path& path) {
     const Json json = ParseJson(ReadFile(path), path.string());
     const auto format = json.find("format");
     if (!json.is_object() || format == json.end() || !format->is_string()) {
-      return "says no format";
+      return "format not found";
     }
     if (*format == kPlanFormat) return "";
     return "is a " + format->get<std::string>().substr(0, sizeof "regrasp-12345678") + " file";
@@ -137,12 +137,12 @@ void CheckNames(const PlanLibrary& library) {
     const bool taken =
         plan.name == kSummaryName || plan.name == kIndexName || plan.name == ".regrasp-run";
     if (plan.name.empty() || plan.name == "." || plan.name == ".." || taken) {
-      throw InputError(plan.path.string() + ": the name of a plan names the folder of its results");
+      throw InputError(plan.path.string() + ": the name of a plan must be usable as a folder name");
     }
     const auto [other, fresh] = seen.emplace(plan.name, plan.path);
     if (fresh) continue;
     throw InputError("--plan: " + other->second.string() + " and " + plan.path.string() +
-                     " have the same name, \"" + plan.name + "\", and so the same folder");
+                     " must have different names, found \"" + plan.name + "\" twice");
   }
 }
 

@@ -9,6 +9,7 @@
 #include "planner/planning/solve.h"
 #include "planner/registry/registry.h"
 #include "report/report.h"
+#include "sim/validation/validation.h"
 
 using namespace regrasp;
 
@@ -40,7 +41,8 @@ int main(int argc, char** argv) {
     plan.object_sha256 = file.sha256;
     std::cout << planner.name() << ": " << plan.steps.size() << " steps\n";
 
-    const report::Report report = report::Validate(*file.object, plan, {}, {});
+    const report::Report report =
+        validation::Validate({.object = *file.object, .plan = plan}).report;
     std::cout << report::FormatReportTable(report);
     return report.passed() ? 0 : 1;
   } catch (const InputError& error) {

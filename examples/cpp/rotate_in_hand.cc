@@ -14,8 +14,8 @@
 #include "planner/planning/solve.h"
 #include "planner/registry/registry.h"
 #include "report/report.h"
-#include "sim/actuation/hand_replay.h"
 #include "sim/actuation/simulate_execution.h"
+#include "sim/validation/validation.h"
 
 using namespace regrasp;
 
@@ -51,16 +51,9 @@ int main(int argc, char** argv) {
     plan.object_sha256 = file.sha256;
     plan.scale = task.scale;
 
-    const report::Replayer replayer = [&](const plan::Plan& located, double half_angle,
-                                          int entries) {
-      sim::HandReplayOptions options;
-      options.half_angle = half_angle;
-      // Density of water.
-      options.mass_kg =
-          1000 * solid->mass_properties().volume * task.scale * task.scale * task.scale;
-      return sim::ReplayHand(hand, *solid, located, options, {}, entries);
-    };
-    const report::Report report = report::Validate(*solid, plan, {}, {}, {}, replayer);
+    // The hand's actuators execute the plan, for an object with the density of water.
+    const report::Report report =
+        validation::Validate({.object = *solid, .plan = plan, .hand = &hand}).report;
     std::cout << report::FormatReportTable(report);
     return report.passed() ? 0 : 1;
   } catch (const InputError& error) {

@@ -39,9 +39,11 @@ std::string ReadFile(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw InputError(path.string() + ": no such file");
-  if (fs::is_directory(status)) throw InputError(path.string() + ": is a folder, not a file");
+  if (fs::is_directory(status))
+    throw InputError(path.string() + ": expected a file, found a folder");
   const auto fail_large = [&] {
-    throw InputError(path.string() + ": larger than " + std::to_string(kMaxInputBytes) + " bytes");
+    throw InputError(path.string() + ": too large, limit " + std::to_string(kMaxInputBytes) +
+                     " bytes");
   };
   if (fs::is_regular_file(status) && fs::file_size(path, error) > kMaxInputBytes && !error) {
     fail_large();

@@ -12,7 +12,8 @@ namespace regrasp {
 Json ParseJson(std::string_view text, const std::string& name) {
   text = TextOf(text, name);
   // nlohmann::json stops at a NUL byte.
-  if (text.find('\0') != std::string_view::npos) throw InputError(name + ": not JSON: a NUL byte");
+  if (text.find('\0') != std::string_view::npos)
+    throw InputError(name + ": not valid JSON: contains a NUL byte");
   // nlohmann::json silently keeps the last of two equal keys, destroys values recursively at any
   // depth, and compares each key with all previous ones. The callback rejects such input before.
   std::vector<std::set<std::string>> keys;
@@ -28,10 +29,10 @@ Json ParseJson(std::string_view text, const std::string& name) {
     if (event == Event::object_end) keys.pop_back();
     if (event == Event::key && !keys.back().insert(value.get<std::string>()).second) {
       const std::string key = value.dump(-1, ' ', /*ensure_ascii=*/true);
-      throw InputError(name + ": the key " + key + " is repeated");
+      throw InputError(name + ": key " + key + ": repeated");
     }
     if (event == Event::key && keys.back().size() > kMaxJsonMembers) {
-      throw InputError(name + ": an object of more than " + std::to_string(kMaxJsonMembers) +
+      throw InputError(name + ": object with more than " + std::to_string(kMaxJsonMembers) +
                        " members");
     }
     return true;
@@ -48,7 +49,7 @@ Json ParseJson(std::string_view text, const std::string& name) {
     // The message quotes the last token, including invalid UTF-8 and the delete character.
     std::ranges::replace_if(
         what, [](char c) { return static_cast<unsigned char>(c) >= 0x7f; }, '?');
-    throw InputError(name + ": not JSON: " + what);
+    throw InputError(name + ": not valid JSON: " + what);
   }
 }
 

@@ -54,10 +54,9 @@ std::string MemoryComplaint(const MemoryNeed& need, double limit) {
   for (int step = need.count; step > 0; step /= 2) {
     while (need.bytes_for(fitting + step) <= limit) fitting += step;
   }
-  return need.what + " takes about " + FormatBytes(need.bytes()) + " for " +
-         std::to_string(need.count) + " " + need.units + ", and no more than " +
-         FormatBytes(limit) + " may be used, half of the memory: some " + std::to_string(fitting) +
-         " " + need.units + " would fit";
+  return need.what + ": " + std::to_string(need.count) + " " + need.units + " require about " +
+         FormatBytes(need.bytes()) + ", limit " + FormatBytes(limit) +
+         " (half of the memory); about " + std::to_string(fitting) + " " + need.units + " fit";
 }
 
 }  // namespace regrasp

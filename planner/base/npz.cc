@@ -175,7 +175,7 @@ Header ParseDictionary(const std::string& text) {
   std::smatch description, order, shape;
   if (!std::regex_search(text, description, kDescription) ||
       !std::regex_search(text, order, kOrder) || !std::regex_search(text, shape, kShape)) {
-    throw InputError("its header says no type, order and shape of numbers");
+    throw InputError("header: expected type, order and shape of numbers");
   }
   Header header;
   header.type = description[2];
@@ -187,12 +187,12 @@ Header ParseDictionary(const std::string& text) {
 
 Header ParseHeader(std::string_view bytes) {
   constexpr std::size_t kMostHeader = 4096;  // numpy writes about 100 bytes
-  if (bytes.size() < 12 || !bytes.starts_with(kMagic)) throw InputError("no NPY array");
+  if (bytes.size() < 12 || !bytes.starts_with(kMagic)) throw InputError("not an NPY array");
   const bool is_short = bytes[6] == 1;
   const std::size_t width = is_short ? 2 : 4;
   const std::size_t begin = 8 + width;
   const std::uint64_t size = UnsignedAt(bytes.substr(8), width, false);
-  if (size > std::min(bytes.size() - begin, kMostHeader)) throw InputError("its header is cut off");
+  if (size > std::min(bytes.size() - begin, kMostHeader)) throw InputError("header: truncated");
   Header header = ParseDictionary(std::string(bytes.substr(begin, size)));
   header.begin = begin + size;
   return header;
@@ -236,9 +236,9 @@ Number NumberOf(const std::string& type) {
     return FromInteger<std::uint64_t>;
   }
   if (type.starts_with("O")) {
-    throw InputError("Python objects, which are not read as reading them may run anything");
+    throw InputError("Python objects are not supported, because reading them can run code");
   }
-  throw InputError("numbers are needed, found the type " + type);
+  throw InputError("expected an array of numbers, found type " + type);
 }
 
 /// Convert column-major to row-major order.
@@ -266,13 +266,13 @@ NpzArray ParseNpy(std::string_view bytes, const std::string& name) {
   std::size_t count = 1;
   for (const std::size_t length : header.shape) {
     if (length > 0 && count > data.size() / length) {
-      throw InputError("its shape needs more bytes than there are");
+      throw InputError("data: truncated, the shape requires more bytes than the array has");
     }
     count *= length;
   }
   if (data.size() != count * width) {
-    throw InputError("its shape needs " + std::to_string(count * width) + " bytes, found " +
-                     std::to_string(data.size()));
+    throw InputError("data: expected " + std::to_string(count * width) +
+                     " bytes for the shape, found " + std::to_string(data.size()));
   }
   NpzArray array{name, header.shape};
   array.values.resize(count);

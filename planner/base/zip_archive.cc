@@ -73,7 +73,7 @@ std::vector<std::string> ZipArchive::names() {
     names.emplace_back(name.data());
   }
   if (state != UNZ_END_OF_LIST_OF_FILE && !(names.empty() && state == UNZ_PARAMERROR)) {
-    throw InputError("the archive's list of files is spoilt");
+    throw InputError("archive: list of files: corrupt");
   }
   return names;
 }
@@ -82,7 +82,8 @@ std::optional<std::string> ZipArchive::Read(const std::string& name, std::size_t
   constexpr int kAnyCase = 2;
   if (unzLocateFile(impl_->zip(), name.c_str(), kAnyCase) != UNZ_OK) return std::nullopt;
   if (unzOpenCurrentFile(impl_->zip()) != UNZ_OK) {
-    throw InputError(name + ": its header in the archive is spoilt, or it is packed otherwise");
+    throw InputError(name +
+                     ": header in the archive: corrupt, or its compression is not supported");
   }
   std::string text;
   std::array<char, 1 << 16> piece;
@@ -92,7 +93,7 @@ std::optional<std::string> ZipArchive::Read(const std::string& name, std::size_t
     if (text.size() > most) throw InputError(name + ": too large");
   }
   if (count < 0 || unzCloseCurrentFile(impl_->zip()) != UNZ_OK) {
-    throw InputError(name + ": its compressed data is spoilt");
+    throw InputError(name + ": compressed data: corrupt");
   }
   return text;
 }

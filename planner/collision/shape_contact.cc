@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "planner/collision/nearest_points.h"
+#include "planner/collision/hull_distance.h"
 
 namespace regrasp::collision {
 namespace {

@@ -107,15 +107,16 @@ bool KeepApart(std::span<const grasp::Contact> contacts, double radius) {
 
 void CheckFingerRadius(const object::Object& object, double radius, const std::string& name) {
   if (radius <= object.diameter()) return;
-  throw InputError(name + ": " + FormatShort(radius) + " is more than the object's diameter of " +
-                   FormatShort(object.diameter()) + " (it is in the unit of the object's file)");
+  throw InputError(name + ": " + FormatShort(radius) +
+                   " must be at most the object's diameter of " + FormatShort(object.diameter()) +
+                   " (in the unit of the object's file)");
 }
 
 std::optional<std::string> FindObstacle(const object::Object& object, const grasp::Contact& contact,
                                         double radius) {
   if (CanReach(object, contact, radius)) return std::nullopt;
   if (IsShutIn(object, contact)) {
-    return "its contact lies in a sealed cavity, where no finger comes from outside";
+    return "its contact is in a sealed cavity, which no finger reaches from outside";
   }
   const double clearance = ComputeClearance(object, contact, radius);
   if (clearance < kTouchesInside * radius) {

@@ -324,7 +324,7 @@ std::optional<PlanSegment> ChangePaths::Place(FingerIndex finger, int point, int
   return segment;
 }
 
-/// The finger moves to its idle posture or, if there is no path, stops above its contact.
+/// The finger moves to its idle configuration or, if there is no path, stops above its contact.
 std::optional<PlanSegment> ChangePaths::Release(FingerIndex finger, int point, Stance& to, int node,
                                                 const Keyframe& before, const RolledTips& rolled) {
   Surroundings around = AllExcept(setup_.scene, finger, before);

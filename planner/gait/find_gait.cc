@@ -93,7 +93,7 @@ std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCou
                       [](std::int64_t sum, const auto& one) { return sum + one.second; }),
       "whose simulated execution fails (" + FailuresText(best.execution_failures) + ")");
   if (request.reserve == Reserve::kRequired) {
-    text += "; without reserve there may be a plan";
+    text += "; help: --reserve none omits the robustness margins";
   }
   return text;
 }
@@ -226,7 +226,7 @@ std::string NonRobustEnd(const GaitEnds& ends, criteria::GraspMemory& memory, do
   const bool start_is_admitted = ends.start.empty() || IsAdmitted(ends.start, memory);
   if (start_is_admitted && (ends.goal.empty() || IsAdmitted(ends.goal, memory))) return "";
   return std::string("the ") + (start_is_admitted ? "goal" : "start") +
-         " grasp has no reserve: its quality is below " + FormatShort(quality);
+         " grasp has no robustness margin: its quality is below " + FormatShort(quality);
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 #include "planner/gait/gait.h"
 #include "planner/gait/request.h"
 
-// Package overview. The state diagram, the modules and the constants are in docs/gait.md.
+// Package overview. The state diagram and the modules are in docs/gait.md, the constants in
+// docs/gait_constants.md.
 //
 // FindGait(request):                                   // find_gait.cc
 //   contacts := 400 random surface points + given grasps
@@ -51,8 +52,8 @@ struct GaitResult {
 /// Find a gait of a hand that rotates or translates the object.
 /// Chooses the initial object pose and the initial grasp unless they are given. The robustness
 /// level `preferred` is dropped if it makes the gait much longer.
-/// Laws: without a deadline, equal requests give bit-identical gaits for any number of jobs; every
-/// stance is force closure and meets the criteria if possible; every path is certified (IsClear in
+/// Laws: without a deadline, equal requests give bit-identical gaits for any number of jobs. Every
+/// stance is force closure and meets the criteria if possible. Every path is certified (IsClear in
 /// finger_path.h).
 /// @throws std::invalid_argument  if start_fingers does not name one finger of the hand per contact
 ///     of the start grasp.

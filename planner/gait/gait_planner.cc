@@ -13,8 +13,8 @@
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/request.h"
 #include "planner/gait/schedule.h"
+#include "planner/planning/candidate_sequence.h"
 #include "planner/planning/in_hand_task.h"
-#include "planner/planning/rest_summary.h"
 
 namespace regrasp::gait {
 
@@ -153,10 +153,10 @@ std::string ExplainGait(const GaitRequest& request) {
     if (relaxation.helps.empty()) no_help += (no_help.empty() ? "" : ", ") + relaxation.no_help;
   }
   std::string text;
-  if (!helps.empty()) text = "each change alone helps: " + helps;
+  if (!helps.empty()) text = "any one of these changes yields a plan: " + helps;
   if (!no_help.empty()) {
     if (!text.empty()) text += "; ";
-    text += "not found to help: " + no_help;
+    text += "no effect: " + no_help;
   }
   if (request.deadline.IsOver()) text += " (stopped by the time limit)";
   return text;
@@ -164,7 +164,7 @@ std::string ExplainGait(const GaitRequest& request) {
 
 GaitPlanner::GaitPlanner()
     : Planner({.name = "gait",
-               .what = "a hand turns or carries the object",
+               .what = "a hand rotates or translates the object",
                .in_space = planning::PlannerScope{kFewestFingers,
                                                   {kFewestFingers, kMostFingers},
                                                   {kFewestFingers, kFewestFingers}},
@@ -189,7 +189,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
       if (!found.execution->is_cut_short) result.trial = found.execution->reason;
       result.message += "; help: --reserve preferred writes the best plan anyway";
     }
-    if (request.deadline.IsOver()) result.message += "; the time limit was reached";
+    if (request.deadline.IsOver()) result.message += "; time limit reached";
     if (asked.explain) {
       if (time) request.deadline = request.deadline.In(*time);
       result.message += "; " + ExplainGait(request);

@@ -417,7 +417,7 @@ bool GaitSearch::WasExpandedAt(const StanceNode& stance_node) const {
 int GaitSearch::ConnectToParent(int index) {
   if (tree_.PlanPathFromParent(tree_[index])) return index;
   const int other = tree_.AfterIdlingAbove(index);
-  // Another parent may lead to a path.
+  // There may be a path from another parent.
   StanceNode& failed = tree_[index];
   if (other < 0 && ++failed_[failed.stance.assignment] < kMaxFailures) failed.is_pruned = true;
   return other;

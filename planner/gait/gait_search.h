@@ -121,9 +121,9 @@ struct GaitCounts {
 /// these grid nodes a successor is generated: an idle finger is placed, a holding finger is
 /// released, or holding fingers slide.
 /// The priority is the track step that the stance reaches, plus a fraction of the steps that each
-/// finger alone could follow, minus penalties for offsets from the track, distance from the goal
-/// grasp, sliding steps, repeated expansion and similarity to expanded stances (NoveltyPenalty). It
-/// is an estimate of progress, not a path cost.
+/// finger alone could follow, minus penalties. There are penalties for offsets from the track,
+/// distance from the goal grasp, sliding steps, repeated expansion and similarity to expanded
+/// stances (NoveltyPenalty). The priority is an estimate of progress, not a path cost.
 /// Evaluation is lazy: finger paths and detours on the grid are planned when a node is popped from
 /// the queue, certificates of in-hand motions when a gait is complete.
 class GaitSearch {

@@ -26,7 +26,7 @@ enum class TipContact {
 };
 
 /// Permitted penetration of a touching fingertip, metres.
-/// Contacts are exact, but the postures certified between two samples are not.
+/// Contacts are exact, but joint configurations certified between two samples are not.
 inline constexpr double kTipDepth = 2e-4;
 
 /// Collision shapes of a finger in one joint configuration, in the palm's frame.

@@ -252,7 +252,7 @@ std::optional<IdlePostures> FindIdlePostures(const HandSetup& setup, const PoseT
         clearance = std::min(clearance, scene.DistanceFromObject(placed, pose, clearance));
       }
       if (clearance <= scene.margin() + kPostureMargin) continue;
-      // Beyond the maximum clearance, postures near the middle of the joint ranges are preferred.
+      // Beyond the maximum clearance, prefer configurations near the middle of the joint ranges.
       const double bend = (posture - middle).norm();
       candidates.push_back({clearance - kBendPenalty * bend, std::move(posture)});
     }

@@ -123,7 +123,7 @@ std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
       return gait;
     }
     if (!stuck.valid()) return std::nullopt;
-    // Give the finger the same idle posture in both trees.
+    // Give the finger the same idle configuration in both trees.
     const Posture& forward_posture = EndOf(*gait).postures[stuck];
     const Posture& backward_posture = EndOf(*back).postures[stuck];
     if (const int backward_copy = backward_->WithIdlePosture(backward, stuck, forward_posture);

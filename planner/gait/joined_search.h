@@ -23,7 +23,7 @@ class StartSearch {
   /// Same as GaitSearch::Run; expansions of both directions count.
   [[nodiscard]] virtual std::optional<Gait> Run(std::int64_t most_expanded,
                                                 const Deadline& deadline) = 0;
-  /// Return whether nothing is left to expand.
+  /// Return whether there is no stance to expand.
   [[nodiscard]] virtual bool IsExhausted() const = 0;
   [[nodiscard]] virtual GaitCounts counts() const = 0;
 };
@@ -45,7 +45,7 @@ class BidirectionalSearch : public StartSearch {
   [[nodiscard]] bool GoalIsHeld() const override { return forward_.GoalIsHeld(); }
   [[nodiscard]] std::optional<Gait> Run(std::int64_t most_expanded,
                                         const Deadline& deadline) override;
-  /// Return whether nothing is left to expand in one of the directions.
+  /// Return whether there is no stance to expand in one of the directions.
   [[nodiscard]] bool IsExhausted() const override;
   /// Counts of both directions; `farthest` of the forward search.
   [[nodiscard]] GaitCounts counts() const override;

@@ -58,7 +58,7 @@ constexpr std::int64_t kExpandedInRound = 300;
 /// Number of rounds; the maximum applies if there is a time limit.
 constexpr int kRounds = 2;
 constexpr int kMaxRounds = 6;
-constexpr int kStreamShift = 32;  ///< of seeds
+constexpr int kStreamShift = 32;  ///< bits by which the random stream is shifted into the seed
 /// Complete gaits are simulated first.
 /// For short rotations their rolling is not modelled, so that they may begin at any angle; for
 /// other tasks it is, because ring hands execute most of these.
@@ -80,7 +80,7 @@ void Bound(GaitRequest& request, const Budget& budget) {
 
 constexpr std::string_view kSimulating = "simulating a plan";
 
-/// What an attempt simulates.
+/// Part of an attempt that is simulated.
 enum class Simulate {
   kEdges,  ///< edges during the search, and the gait
   kGait,   ///< only the gait that the search finds
@@ -208,8 +208,8 @@ class AttemptRunner {
  private:
   struct Outcome {
     FoundGait found;
-    Simulate simulate;                                        ///< of the attempt
-    std::optional<planning::ExecutionResult> execution = {};  ///< of the gait, if any
+    Simulate simulate;                                        ///< simulated part of the attempt
+    std::optional<planning::ExecutionResult> execution = {};  ///< execution of the gait, if any
     std::size_t steps = 0;                                    ///< number of plan steps
 
     [[nodiscard]] double ExecutedFraction() const {

@@ -37,7 +37,7 @@ class MultiStartSearch {
 
   /// Run the search.
   /// @returns the first gait, with merged in-hand motions; nullopt if the budget or the deadline is
-  ///     exhausted or nothing is left to search.
+  ///     exhausted or all searches have ended.
   [[nodiscard]] std::optional<Gait> Search();
 
   /// Return the counts of each initial pose.

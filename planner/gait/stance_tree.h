@@ -109,9 +109,11 @@ class StanceTree {
   /// @returns the gait; nullopt if a motion fails.
   [[nodiscard]] std::optional<Gait> PathTo(int index, int node);
 
-  /// Copy the path to a node with another idle posture of one finger.
-  /// The posture applies since the finger's last contact or, with a given start, since the root.
-  /// @returns index of the copied node; −1 if a collision occurs or the root fixes the posture.
+  /// Copy the path to a node with another idle configuration of one finger.
+  /// The configuration applies since the finger's last contact or, with a given start, since the
+  /// root.
+  /// @returns index of the copied node; −1 if a collision occurs or the root fixes the
+  ///     configuration.
   [[nodiscard]] int WithIdlePosture(int index, FingerIndex finger, const Posture& posture);
   /// Connect a node whose placed finger has no path.
   /// Lets the finger idle above its future contact beforehand (WithIdlePosture).
@@ -125,8 +127,9 @@ class StanceTree {
   /// Plans detours around infeasible edges; nullopt if there is none.
   [[nodiscard]] std::optional<std::vector<Keyframe>> MoveFrom(StanceNode& stance_node, int node);
   void Prune(int index);
-  /// Reset the postures of fingers that idle before and after the change to those of the parent.
-  /// They may differ if a released finger found no path to its idle posture.
+  /// Reset the idle configurations before and after the change to those of the parent.
+  /// Applies to fingers that idle both before and after. They may differ if a released finger found
+  /// no path to its idle configuration.
   void IdleAsBefore(StanceNode& stance_node) const;
 
   const HandSetup& setup_;

@@ -22,7 +22,7 @@ constexpr double kSameStep = 0.1;
 /// Penalty per expanded stance with the same clusters, in steps.
 constexpr double kSameClusters = 0.5;
 /// Penalty per expanded stance with the same holding fingers, in steps.
-/// Three fingers can slide to many contacts, most of which lead nowhere.
+/// Three fingers can slide to many contacts, most of which have no useful successors.
 constexpr double kSameFingers = 0.3;
 
 std::vector<bool> HoldingFingers(const ContactAssignment& assignment) {

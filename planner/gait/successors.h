@@ -113,7 +113,7 @@ class SuccessorGenerator {
   /// The subsets rotate with the node.
   [[nodiscard]] const std::vector<int>& ReachedAt(FingerIndex finger, int node, int subset);
   /// Add the assignments after a finger switch.
-  /// A finger is placed, if valid, and one or none of the others is released.
+  /// A finger is placed, if valid, and at most one other finger is released.
   void AddSwitches(const ContactAssignment& from, FingerIndex placed, int point,
                    std::vector<ContactAssignment>& assignments) const;
   /// Add the assignments in which one holding finger slides.

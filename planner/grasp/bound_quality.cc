@@ -14,18 +14,18 @@
 namespace regrasp::grasp {
 namespace {
 
-/// Radius of the simplex that the hull starts from, over the largest force: rounding leaves the
-/// fewest traces of a simplex that is not much smaller than the wrench set. It must be smaller than
-/// ε, and is then inside the final hull.
+/// Radius of the hull's initial simplex, over the largest force. Rounding errors are smallest for a
+/// simplex that is not much smaller than the wrench set. The radius must be smaller than ε; the
+/// simplex is then inside the final hull.
 constexpr double kCore = 1e-3;
 
-/// The radius where ε turns out to be smaller: below every gap that is refined.
+/// Radius if ε proves to be smaller than kCore: below every gap that is refined.
 constexpr double kLeastCore = kQualityGap / 2;
 
-/// Facets may miss their corners by this part of the gap, over their distance.
+/// Largest Residual of the hull (growing_hull.h), over the relative gap.
 constexpr double kLargestResidual = 1e-3;
 
-/// Beyond this friction coefficient Qhull takes minutes for a set that is so flat.
+/// Friction coefficient above which the set is so flat that Qhull takes minutes.
 constexpr double kMostFriction = 1e3;
 
 template <int kDim>
@@ -34,7 +34,7 @@ struct SupportPoint {
   Eigen::Matrix<double, kDim, 1> point = Eigen::Matrix<double, kDim, 1>::Zero();
 };
 
-/// The farthest wrench of all contacts along a unit twist.
+/// Return the farthest wrench of all contacts along a unit twist.
 template <int kDim>
 SupportPoint<kDim> FarthestWrench(const UnitContacts& contacts,
                                   const Eigen::Matrix<double, kDim, 1>& twist) {
@@ -53,20 +53,21 @@ SupportPoint<kDim> FarthestWrench(const UnitContacts& contacts,
   return farthest;
 }
 
-/// The distance at which a facet need not be refined any more. A hundredth of the gap is left for
-/// what rounding takes from the lower bound.
+/// Return the distance at which a facet needs no more refinement.
+/// A hundredth of the gap covers the rounding of the lower bound.
 double GoalOf(double upper, double relative_gap) {
   const double goal = upper - 0.99 * std::max(relative_gap * upper, kQualityGap);
-  // Up to the radius of the core a distance proves nothing.
+  // Distances up to the radius of the core prove nothing.
   return upper <= kQualityGap ? goal : std::max(goal, 1.001 * kLeastCore);
 }
 
-/// Grows a hull from a simplex of a radius until its ball is within the gap.
-/// @returns none if rounding broke the hull, or if ε may be less than the simplex's radius.
+/// Grow a hull from a simplex until its ball is within the gap.
+/// @returns bounds; nullopt if rounding broke the hull, or if ε may be less than the simplex's
+///     radius.
 template <int kDim>
 std::optional<QualityBounds> GrowBall(const UnitContacts& contacts, double relative_gap,
                                       double core, std::int64_t& facets) {
-  thread_local GrowingHull<kDim> hull;  // its memory serves the next grasp
+  thread_local GrowingHull<kDim> hull;  // static, to reuse its memory for the next grasp
   hull.Start(core);
   double upper = std::numeric_limits<double>::infinity();
   double lower = 0;
@@ -87,7 +88,7 @@ std::optional<QualityBounds> GrowBall(const UnitContacts& contacts, double relat
   if (core > kLeastCore && upper <= 2 * core) return std::nullopt;
   const double residual = hull.Residual();
   if (!(residual <= kLargestResidual * relative_gap)) return std::nullopt;
-  // A facet that has a corner of the simplex is no farther away than that.
+  // A facet with a corner of the simplex is at most that far away.
   if (lower <= core) lower = 0;
   return QualityBounds{std::clamp((1 - residual) * lower, 0.0, upper), upper, facets};
 }

@@ -7,18 +7,18 @@
 
 namespace regrasp::grasp {
 
-// Wrenches and twists of contacts in kDim numbers: (force, torque) and (v, omega) in space, kDim 6;
-// (force x, force y, torque z) and (v x, v y, omega z) in the plane, kDim 3. The power of a force g
-// and a torque τ about the normal at a contact is twist · wrench = u · g + s τ, u the velocity of
-// the contact's point and s = n · omega the spin about its normal.
+// Wrenches and twists of contacts as kDim numbers. In space, kDim is 6: (force, torque) and (v,
+// omega). In the plane, kDim is 3: (force x, force y, torque z) and (v x, v y, omega z). The power
+// of a force g and a torque τ about the normal at a contact is twist · wrench = u · g + s τ. Here u
+// is the velocity of the contact point and s = n · omega the spin about its normal.
 
-/// What a contact applies: a force, and of a soft finger a torque about the normal.
+/// Load that a contact applies: a force and, for a soft finger, a torque about the normal.
 struct ContactWrench {
   Eigen::Vector3d force;
   double torque = 0;
 };
 
-/// Writes the wrench (g, q × g + τ n) of what a contact applies.
+/// Write the wrench (g, q × g + τ n) of the load that a contact applies.
 template <int kDim>
 inline void WriteWrench(const UnitContact& contact, const ContactWrench& applied, double* out) {
   const Eigen::Vector3d& force = applied.force;
@@ -34,7 +34,7 @@ inline void WriteWrench(const UnitContact& contact, const ContactWrench& applied
   }
 }
 
-/// The velocity u = v + omega × q of a contact's point under a twist.
+/// Return the velocity u = v + omega × q of a contact point under a twist.
 template <int kDim>
 [[nodiscard]] inline Eigen::Vector3d Velocity(const UnitContact& contact, const double* twist) {
   if constexpr (kDim == 6) {
@@ -46,15 +46,15 @@ template <int kDim>
   }
 }
 
-/// The spin n · omega of the object about a contact's normal under a twist; 0 in the plane, where
-/// no contact resists it.
+/// Return the spin n · omega of the object about a contact's normal under a twist.
+/// 0 in the plane, because no contact resists it.
 template <int kDim>
 [[nodiscard]] inline double Spin(const UnitContact& contact, const double* twist) {
   if constexpr (kDim == 6) return contact.n.dot(Eigen::Map<const Eigen::Vector3d>(twist + 3));
   return 0;
 }
 
-/// The cone's support, the largest u · g + s τ over its rim,
+/// Return the support of the cone, the largest u · g + s τ over its rim.
 ///
 ///     axial n·u + tangential √(|u − (n·u) n|² + (torsion s)²).
 [[nodiscard]] inline double ConeSupport(const UnitContact& contact, const Eigen::Vector3d& u,
@@ -66,19 +66,19 @@ template <int kDim>
              std::sqrt((u - approach * contact.n).squaredNorm() + turning * turning);
 }
 
-/// The same for a twist.
+/// Return the support of the cone for a twist.
 template <int kDim>
 [[nodiscard]] inline double ConeSupportOf(const UnitContact& contact, const double* twist) {
   return ConeSupport(contact, Velocity<kDim>(contact, twist), Spin<kDim>(contact, twist));
 }
 
-/// So far below the half-angle up to which a twist separates, radians, it does so by far more than
-/// rounding.
+/// Distance below the friction angle up to which a twist separates, radians, at which it separates
+/// by much more than rounding.
 inline constexpr double kClearlyRefuted = 1e-10;
 
-/// The largest friction half-angle up to which a contact's whole cone works against a twist, where
-/// its support is 0: tan θ = −n·u / √(|u − (n·u) n|² + (torsion s)²). Not positive where not even
-/// the normal force does.
+/// Return the largest friction angle at which a contact's whole cone works against a twist.
+/// There its support is 0: tan θ = −n·u / √(|u − (n·u) n|² + (torsion s)²). Not positive if not
+/// even the normal force works against the twist.
 template <int kDim>
 [[nodiscard]] inline double HeldOffHalfAngle(const UnitContact& contact, const double* twist) {
   const Eigen::Vector3d u = Velocity<kDim>(contact, twist);
@@ -88,19 +88,20 @@ template <int kDim>
                     std::sqrt((u - approach * contact.n).squaredNorm() + turning * turning));
 }
 
-/// A unit vector perpendicular to n, in the plane where kDim is 3.
+/// Return a unit vector perpendicular to n, in the plane if kDim is 3.
 template <int kDim>
 [[nodiscard]] inline Eigen::Vector3d AnyTangent(const Eigen::Vector3d& n) {
   if constexpr (kDim == 3) return {-n.y(), n.x(), 0};
-  // The axis farther from n: the cross product is then at least √3/2 long.
+  // The axis farther from n makes the cross product at least √3/2 long.
   return n.cross(std::abs(n.x()) < 0.5 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY())
       .normalized();
 }
 
-/// Sliding slower than this part of the velocity has lost digits that keep it perpendicular.
+/// Ratio of sliding to approach velocity below which cancellation makes the computed sliding
+/// direction imprecise.
 inline constexpr double kSlowSliding = 1e-4;
 
-/// The direction in which a contact with velocity u slides, exactly perpendicular to n.
+/// Return the direction in which a contact with velocity u slides, exactly perpendicular to n.
 template <int kDim>
 [[nodiscard]] inline Eigen::Vector3d SlidingDirection(const Eigen::Vector3d& n,
                                                       const Eigen::Vector3d& u) {
@@ -117,15 +118,16 @@ template <int kDim>
   return (tangent - n.dot(tangent) * n).normalized();
 }
 
-/// The rim force of a hard point that attains ConeSupport.
+/// Return the rim force of a hard-finger contact that attains ConeSupport.
 template <int kDim>
 [[nodiscard]] inline Eigen::Vector3d SupportForce(const UnitContact& contact,
                                                   const Eigen::Vector3d& u) {
   return contact.axial * contact.n + contact.tangential * SlidingDirection<kDim>(contact.n, u);
 }
 
-/// What of the rim attains ConeSupport, of any contact: friction works against sliding and turning
-/// as both are large, as the ellipsoid's normal has it.
+/// Return the load on the rim that attains ConeSupport, for any contact.
+/// Friction force and torque are those of the ellipsoid's point whose normal is along sliding and
+/// spin.
 template <int kDim>
 [[nodiscard]] inline ContactWrench SupportWrench(const UnitContact& contact,
                                                  const Eigen::Vector3d& u, double spin) {

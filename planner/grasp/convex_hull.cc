@@ -11,7 +11,7 @@ extern "C" {
 namespace regrasp::grasp {
 namespace {
 
-/// Qhull's state, freed at the end, and where its messages go: nowhere.
+/// State of Qhull: freed by the destructor, with messages discarded.
 class QhullRun {
  public:
   QhullRun() : messages_(std::fopen("/dev/null", "w"), &std::fclose) { qh_zero(&qh_, stderr); }
@@ -49,7 +49,7 @@ ConvexHull ComputeConvexHull(const Eigen::MatrixXd& points) {
   run.Compute(joggled);
   ConvexHull hull;
   qhT* qh = &run.qh();
-  // A joggle moves each coordinate by up to JOGGLEmax, a point by its root-dimension multiple.
+  // The joggle moves each coordinate by up to JOGGLEmax, and a point by √dimension times that.
   hull.joggle = 2 * qh->JOGGLEmax * std::sqrt(static_cast<double>(points.rows()));
   facetT* facet = nullptr;
   FORALLfacets {

@@ -12,16 +12,17 @@ namespace regrasp::grasp {
 
 namespace {
 
-/// Half-angles are found to this, radians: far below a hundredth of a degree, far above rounding.
+/// Tolerance of friction angles, radians: much less than a hundredth of a degree, much more than
+/// rounding.
 constexpr double kTolerance = 1e-9;
 
-/// Fingers whose half-angles differ by less count as equally weak.
+/// Difference of friction angles below which fingers count as equally weak, radians.
 constexpr double kEqual = 1e-7;
 
-/// Bounds on required half-angles are closer together than this (required_half_angle.h).
+/// Upper bound on the distance between bounds on required friction angles (required_half_angle.h).
 constexpr double kBoundsApart = 1e-6;
 
-/// In place of a half-angle where none is enough.
+/// Substitute for the friction angle if no angle is enough.
 constexpr double kNone = std::numbers::pi / 2;
 
 Grasp Without(std::span<const Contact> contacts, std::size_t finger) {
@@ -36,15 +37,15 @@ std::optional<double> RequiredWithout(std::span<const Contact> contacts, std::si
   return required ? std::optional<double>(required->upper) : std::nullopt;
 }
 
-/// Whether `a` is weaker than `b`.
+/// Return whether `a` is weaker than `b`.
 bool IsWeaker(const FingerFriction& a, const FingerFriction& b) {
   const double more = a.required - b.required;
   if (std::abs(more) > kEqual) return more > 0;
   return a.without.value_or(kNone) - b.without.value_or(kNone) > kEqual;
 }
 
-/// The half-angle that a finger of a force-closure grasp needs itself, all others keeping theirs,
-/// which is the finger's own at most: by halving the interval between no friction and all of it.
+/// Find the friction angle that a finger of a force-closure grasp requires itself.
+/// All others keep theirs. Bisects between 0 and the finger's own friction angle.
 template <int kDim>
 double FindRequired(FrictionSearch<kDim>& own, double half_angle) {
   double lower = 0, upper = half_angle;
@@ -68,7 +69,7 @@ std::vector<FingerFriction> MeasureAll(std::span<const Contact> contacts, const 
   return fingers;
 }
 
-/// Goes through the fingers with the weakest one so far.
+/// Search for the weakest finger, one finger after the other.
 template <int kDim>
 class WeakestSearch {
  public:
@@ -101,7 +102,7 @@ class WeakestSearch {
     without_known_ = false;
   }
 
-  /// Whether the others need more without this finger than without the weakest so far.
+  /// Return whether the others need more without this finger than without the weakest so far.
   bool NeedMoreWithout(std::size_t i) {
     const std::optional<double> known = WithoutWeakest();
     if (!known) return false;

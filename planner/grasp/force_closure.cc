@@ -9,14 +9,14 @@
 namespace regrasp::grasp {
 namespace {
 
-/// Nothing is known of the margin.
+/// Result with an unknown margin.
 constexpr ForceClosure kUnknown{Decision::kTooClose, -1.0, std::numeric_limits<double>::infinity()};
 
-/// Contacts closer to each other than this, over the radius of the grasp, are so few of the
-/// frame's digits apart that nearly all directions between them look like one.
+/// Distance between contacts, over the radius of the grasp, below which too few digits remain to
+/// distinguish directions between them.
 constexpr double kResolved = 1e-7;
 
-/// Whether some contacts are apart, and yet too close to each other beside the grasp's radius.
+/// Return whether two distinct contacts are too close to each other for the grasp's radius.
 bool IsUnresolved(std::span<const Contact> contacts, double radius) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     for (std::size_t j = i + 1; j < contacts.size(); ++j) {
@@ -40,8 +40,8 @@ ForceClosure TestForceClosure(std::span<const Contact> contacts, const object::W
   CheckHalfAngle(half_angle);
   const object::WrenchFrame own = ContactFrame(contacts, frame.dimension);
   if (!(own.radius > 0)) {
-    // Soft fingers at one point may resist every torque: no frame is left to decide it in. Points
-    // may also be so close that the squares of their distances are 0.
+    // Soft fingers at one point may resist every torque, but there is no frame to decide it in. The
+    // squares of the distances of very close points may also be 0.
     const bool soft = std::ranges::any_of(contacts, [](const Contact& c) { return c.torsion > 0; });
     if (soft || !Coincide(contacts)) return kUnknown;
     return {Decision::kNo, -1.0, -std::numeric_limits<double>::min()};

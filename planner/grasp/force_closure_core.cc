@@ -11,17 +11,18 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Up to so many contacts the lines through pairs are looked at first, as that settles most grasps;
-/// with more they seldom do, and are left for grasps that the simplex cannot settle.
+/// Number of contacts up to which the lines through pairs are tested first, because that decides
+/// most grasps. With more contacts they seldom decide, and are tested only if the simplex cannot
+/// decide.
 constexpr std::size_t kPairLinesFirst = 4;
 
-/// Looking farther than this beyond the origin would not make an answer more certain.
+/// Reach beyond the origin that suffices: a larger one would not make a decision more certain.
 constexpr double kClearReach = 1e-6;
 
-/// Contacts with this arm about any line span space by far more than rounding.
+/// Moment arm about every line at which contacts span space by much more than rounding.
 constexpr double kClearSpread = 1e-6;
 
-/// Σ w(n_i), the wrench of unit normal forces.
+/// Return Σ w(n_i), the wrench of unit normal forces.
 template <int kDim>
 typename WrenchSimplex<kDim>::Vector NormalWrench(const UnitContacts& contacts) {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
@@ -45,13 +46,13 @@ double Dot(const typename WrenchSimplex<kDim>::Vector& a,
   return sum;
 }
 
-/// ε* is at least −1/k: forces along the normals reach that.
+/// Forces along the normals attain −1/k, so ε* is at least that.
 ForceClosure No(std::size_t count, double upper) {
   const double lower = -1 / static_cast<double>(count);
   return {Decision::kNo, lower, std::max(lower, upper)};
 }
 
-/// The bound of a twist y: ε* ≤ max y·w / (−y·W), the columns w of unit normal force.
+/// Return the bound of a twist y: ε* ≤ max y·w / (−y·W), the columns w of unit normal force.
 template <int kDim>
 double UpperBound(const UnitContacts& contacts, const typename WrenchSimplex<kDim>::Vector& twist) {
   const double descent = -Dot<kDim>(twist, NormalWrench<kDim>(contacts));
@@ -76,8 +77,8 @@ void StoreForces(const WrenchSimplex<kDim>& simplex, std::size_t count,
   }
 }
 
-/// The bound of the basic columns where the origin lies inside their simplex: how far they reach
-/// against W.
+/// Return the bound of the basic columns if the origin is inside their simplex.
+/// It follows from how far they reach against W.
 template <int kDim>
 double LowerBound(const UnitContacts& contacts, const WrenchSimplex<kDim>& simplex) {
   auto direction = NormalWrench<kDim>(contacts);
@@ -85,9 +86,10 @@ double LowerBound(const UnitContacts& contacts, const WrenchSimplex<kDim>& simpl
   return std::min(simplex.Reach(direction) / contacts[0].axial, std::numeric_limits<double>::max());
 }
 
-/// The largest arm at which a contact resists a turn about the line through the centre and the
-/// contact farthest from it, its distance from that or its torsion as the normal has it: 0 where
-/// all are on one line, and nothing resists a turn about that.
+/// Return the largest arm at which a contact resists a turn about the line of the contacts.
+/// The line passes through the centre and the contact farthest from it. The arm is the contact's
+/// distance from the line, or its torsion weighted by the normal's direction. 0 if all contacts are
+/// collinear and nothing resists a turn about their line.
 double ArmAboutLine(const UnitContacts& contacts) {
   const auto farthest = std::max_element(
       contacts.begin(), contacts.end(),
@@ -100,16 +102,18 @@ double ArmAboutLine(const UnitContacts& contacts) {
   return arm;
 }
 
-/// Where the origin lies on the border of the basic columns' simplex, as it does when two contacts
-/// alone balance: it is inside the hull iff the ray from a point inside, the simplex's start c,
-/// reaches beyond it, to −s c with s > 0. With a the least weight of c = Σ a_i w(n_i),
+/// Bound the margin if the origin is on the border of the basic columns' simplex.
+/// This occurs, for example, if two contacts alone balance. The origin is inside the hull iff the
+/// ray from a point inside, the simplex's start c, reaches beyond it, to −s c with s > 0. With a
+/// the smallest weight of c = Σ a_i w(n_i),
 ///
 ///     −s a W = −s c + s Σ (a_i − a) w(n_i)  ∈  (1 + s (1 − k a)) hull,
 ///
 /// which bounds the margin.
 ///
-/// The start is inside the hull, and not in a flat one, only if something resists a turn about
-/// every line: the contacts are not collinear, or a soft finger turns with it (ArmAboutLine).
+/// The start is inside the hull, and the hull is not flat, only if a turn about every line is
+/// resisted. This requires contacts that are not collinear, or a soft finger that turns about their
+/// line (ArmAboutLine).
 template <int kDim>
 double LowerBoundBeyondStart(const UnitContacts& contacts, WrenchSimplex<kDim>& simplex) {
   const double reach =
@@ -175,13 +179,13 @@ ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<
   if (twist != nullptr) *twist = {};
   const bool space = kDim == 6;
   const bool few = contacts.size() <= kPairLinesFirst;
-  // What a pair line refutes the torque of a soft finger may still hold.
+  // The torque of a soft finger may resist turns that a pair line refutes.
   const bool soft = space && HasTorsion(contacts);
   if (contacts.size() < (space && !soft ? 3 : 2)) return No(contacts.size(), 0);
   if (space && few) {
     const PairLineVerdict verdict = TestPairLines(contacts);
     if (verdict == PairLineVerdict::kNo && !soft) return No(contacts.size(), 0);
-    // This Yes has no forces to show.
+    // This kYes has no forces for the proof.
     if (verdict == PairLineVerdict::kYes && proof == nullptr) {
       return Yes<kDim>(contacts, std::numeric_limits<double>::min());
     }

@@ -8,26 +8,26 @@
 
 namespace regrasp::grasp {
 
-/// Decides force closure of one grasp at one friction half-angle after another, which all of its
-/// contacts have, or one of them while the others keep theirs. Decisions are proved as those of
-/// TestForceClosure are, of which one may call too close what the other one decides. They cost less
-/// the more there were before: a twist that separated often does so at larger half-angles, too, and
-/// columns of the simplex that balance at one half-angle nearly balance at another one
+/// Decide force closure of one grasp at a sequence of friction angles.
+/// The angle applies to all contacts, or to one contact while the others keep theirs. Decisions are
+/// proved as in TestForceClosure, but near the threshold one of the two may return kTooClose and
+/// the other a decision. Later decisions cost less: a twist that separated often does so at larger
+/// angles, and columns of the simplex that balance at one angle nearly balance at another
 /// (WrenchSimplex::Resume).
 template <int kDim>
 class FrictionSearch {
  public:
-  /// Of all contacts.
+  /// Search the friction angle of all contacts.
   explicit FrictionSearch(UnitContacts contacts);
-  /// Of one; rims of the others are set.
+  /// Search the friction angle of one contact; all other rims must be set.
   FrictionSearch(UnitContacts contacts, std::size_t finger);
-  // The simplex refers to the contacts.
+  // Not copyable, because the simplex refers to the contacts.
   FrictionSearch(const FrictionSearch&) = delete;
   FrictionSearch& operator=(const FrictionSearch&) = delete;
 
   [[nodiscard]] Decision Decide(double half_angle);
 
-  /// The same without help of earlier ones: what TestForceClosure says.
+  /// Decide without reuse of earlier decisions, as TestForceClosure does.
   [[nodiscard]] Decision DecideAlone(double half_angle);
 
  private:
@@ -42,7 +42,7 @@ class FrictionSearch {
   std::size_t first_;
   std::size_t count_;
   std::optional<WrenchSimplex<kDim>> simplex_;
-  double refuted_ = 0;  ///< up to this half-angle some twist separates
+  double refuted_ = 0;  ///< largest friction angle at which a known twist separates
 };
 
 extern template class FrictionSearch<3>;

@@ -13,11 +13,12 @@ namespace regrasp::grasp {
 
 namespace {
 
-/// A wrench within this of zero, relative to the total normal force, is balanced: rounding of the
-/// simplex, a thousandth of what a force sensor could tell.
+/// Wrench, relative to the total normal force, below which forces count as balanced: rounding of
+/// the simplex, a thousandth of the resolution of a force sensor.
 constexpr double kBalanced = 1e-10;
 
-/// The margin is found to this, as a fraction of the mean normal force; forces vary as its root.
+/// Gap of the margin, as a fraction of the mean normal force; the error of forces is proportional
+/// to its square root.
 constexpr double kMarginGap = 1e-9;
 
 template <int kDim>
@@ -30,7 +31,7 @@ typename WrenchSimplex<kDim>::Vector ToVector(const Eigen::Vector3d& force,
   }
 }
 
-/// All forces in units of the total normal force.
+/// Compute forces in units of the total normal force.
 template <int kDim>
 GraspForces Solve(const UnitContacts& contacts, const Wrench& load) {
   using Simplex = WrenchSimplex<kDim>;
@@ -84,9 +85,10 @@ GraspForces ComputeGraspForces(std::span<const Contact> contacts, const object::
 
 namespace {
 
-/// Between normal forces that are tried.
+/// Factor between consecutive normal forces of the search.
 constexpr double kForceFactor = 1.5;
-/// Of the interval about the best of these, each to 0.62 of it.
+/// Number of golden-section steps about the best force; each reduces the interval to 0.62 of its
+/// length.
 constexpr int kNarrowings = 16;
 
 }  // namespace
@@ -122,7 +124,7 @@ GraspForces ComputeSlidingForces(const Grasp& grasp, std::span<const SlidingCont
     if (!slides[i]) pushed[i] = *next++;
   }
   result.forces = std::move(pushed);
-  // Friction that drags has nothing left to twist with.
+  // A sliding contact uses all its friction and cannot apply a torque.
   std::vector<double> torques(grasp.size(), 0.0);
   auto next_torque = result.torques.begin();
   for (std::size_t i = 0; i < grasp.size(); ++i) {
@@ -141,7 +143,7 @@ SlidingNormal ChooseSlidingNormal(double least, double most,
     if (tried.margin > best.margin) best = tried;
   }
   if (best.margin >= kGoodSlidingMargin) return best;
-  // Golden section about the best.
+  // Golden-section search about the best force.
   double low = std::max(least, best.normal / kForceFactor);
   double high = std::min(most, best.normal * kForceFactor);
   for (int i = 0; i < kNarrowings; ++i) {

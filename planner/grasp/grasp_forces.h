@@ -9,60 +9,63 @@
 
 namespace regrasp::grasp {
 
-/// A wrench in a WrenchFrame: force in newtons, torque about the frame's origin divided by its
-/// radius, so newtons as well.
+/// Wrench in a WrenchFrame.
+/// Both parts are in newtons: the torque about the frame's origin is divided by its radius.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_over_radius = Eigen::Vector3d::Zero();
 };
 
-/// Contact forces that hold a load.
+/// Contact forces that balance a load.
 struct GraspForces {
-  std::vector<Eigen::Vector3d> forces;  ///< newtons, one per contact, on the object
-  /// About the normals, newtons times the unit of length, on the object; 0 of hard points.
+  std::vector<Eigen::Vector3d> forces;  ///< forces on the object, newtons, one per contact
+  /// Torques on the object about the normals, newtons times the unit of length; 0 for hard-finger
+  /// contacts.
   std::vector<double> torques;
-  bool balanced = false;  ///< Σ G_i f_i + load = 0 and every f_i inside its cone
-  /// Largest m such that every f_i lies in its cone with m · total_normal / k of normal force to
-  /// spare: f_i − m (total_normal / k) n_i ∈ C(n_i). For a best effort minus the unbalanced wrench
-  /// (the sum of the absolute values of its numbers in the frame) over total_normal.
+  bool balanced = false;  ///< whether Σ G_i f_i + load = 0 and every f_i is inside its cone
+  /// Force margin: largest m for which every f_i is inside its cone by m · total_normal / k of
+  /// normal force, f_i − m (total_normal / k) n_i ∈ C(n_i). If not balanced, minus the unbalanced
+  /// wrench (sum of the absolute values of its numbers in the frame) over total_normal.
   double margin = 0;
 };
 
-/// Contact forces, of soft fingers with torques, with Σ n_i·f_i = total_normal that balance `load`
-/// with the largest margin inside the cones, to 1e-9. Where no forces inside the cones balance it,
-/// the best effort, so that a bad grasp gets a fair try: cones and total respected, the unbalanced
-/// wrench least in the sum of absolute values (L1, so it can depend on the frame's axes).
+/// Compute the contact forces that balance `load` with the largest margin inside the cones.
+/// For soft fingers they include torques. Σ n_i·f_i = total_normal, and the margin is optimal to
+/// 1e-9. If no forces inside the cones balance the load, the result minimizes the unbalanced wrench
+/// within cones and total, so that a replay also tests bad grasps. The minimized norm is the sum of
+/// absolute values (L1), so the result can depend on the frame's axes.
 ///
 /// @param total_normal  sum of the normal forces, newtons, > 0.
-/// @throws std::invalid_argument  as TestForceClosure; the load is not finite, total_normal not >
-/// 0.
+/// @throws std::invalid_argument  as TestForceClosure, if the load is not finite, or if
+///     total_normal is not > 0.
 [[nodiscard]] GraspForces ComputeGraspForces(std::span<const Contact> contacts,
                                              const object::WrenchFrame& frame, double half_angle,
                                              const Wrench& load, double total_normal);
 
-/// A contact of a grasp whose fingertip slides along the surface.
+/// Contact of a grasp whose fingertip slides along the surface.
 struct SlidingContact {
-  int contact = 0;  ///< its place in the grasp
-  /// Where the tip goes over the surface: of unit length, at right angles to the contact's normal;
-  /// zero where it goes nowhere, and then friction does nothing.
+  int contact = 0;  ///< index of the contact in the grasp
+  /// Unit vector of the fingertip's motion along the surface, perpendicular to the contact's
+  /// normal. Zero for a fingertip that does not move and then has no friction force.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
 
-/// What balances fingertips that slide.
+/// Friction of a grasp with sliding fingertips.
 struct SlidingFriction {
-  double mu = 0;          ///< of what slides
-  double half_angle = 0;  ///< of the cones of the others, radians
+  double mu = 0;          ///< friction coefficient of the sliding contacts
+  double half_angle = 0;  ///< friction angle of the cones of the other contacts, radians
 };
 
-/// Contact forces while some fingertips slide. Each of these presses with `sliding_normal` and
-/// drags the object its way, f = sliding_normal · (n + μ direction), on the edge of its cone; the
-/// others balance that and the load with the largest margin inside theirs (ComputeGraspForces).
+/// Compute contact forces while some fingertips slide.
+/// Each sliding fingertip applies f = sliding_normal · (n + μ direction), which is on the edge of
+/// its cone. The other contacts balance these forces and the load with the largest margin inside
+/// their cones (ComputeGraspForces).
 ///
 /// Laws: without sliding contacts the same as ComputeGraspForces; independent of rigid motion.
 ///
-/// @param total_normal    sum of all normal forces, more than what the sliding ones press with.
-/// @returns forces in the order of the grasp; `margin` is that of the others, and where all slide
-///     minus what is not balanced.
+/// @param total_normal    sum of all normal forces, larger than the sum over the sliding contacts.
+/// @returns forces in the order of the grasp. `margin` is that of the non-sliding contacts; if all
+///     contacts slide, it is minus the unbalanced wrench.
 /// @throws std::invalid_argument  as ComputeGraspForces.
 [[nodiscard]] GraspForces ComputeSlidingForces(const Grasp& grasp,
                                                std::span<const SlidingContact> sliding,
@@ -70,22 +73,24 @@ struct SlidingFriction {
                                                const SlidingFriction& friction, const Wrench& load,
                                                double total_normal, double sliding_normal);
 
-/// What a sliding fingertip presses with, and how well the others balance it.
+/// Normal force of a sliding fingertip, and the force margin of the other contacts.
 struct SlidingNormal {
   double normal = 0;
   double margin = 0;
 };
 
-/// Of the normal forces `least`, `least` · 1.5, … up to `most` the first that leaves the others a
-/// good margin (kGoodSlidingMargin), otherwise the one with the largest, searched for between these
-/// too: two others balance a sliding fingertip at one normal force only, if at all.
-/// @param margin  of the others at a normal force, quasi-concave as that of ComputeSlidingForces;
-///     called at least once.
+/// Choose the normal force of a sliding fingertip.
+/// Returns the first of `least`, `least` · 1.5, … up to `most` at which the other contacts have a
+/// good margin (kGoodSlidingMargin). Otherwise it returns the force with the largest margin, and
+/// also searches between these forces: two contacts balance a sliding fingertip at one normal force
+/// only, if at all.
+/// @param margin  margin of the other contacts as a function of the normal force, quasi-concave as
+///     that of ComputeSlidingForces; called at least once.
 [[nodiscard]] SlidingNormal ChooseSlidingNormal(double least, double most,
                                                 const std::function<double(double)>& margin);
 
-/// With this share of the mean normal force to spare inside the cones of the others a larger force
-/// of what slides is not worth it.
+/// Force margin, as a share of the mean normal force, above which a larger force of the sliding
+/// contacts is not worthwhile.
 inline constexpr double kGoodSlidingMargin = 0.05;
 
 }  // namespace regrasp::grasp

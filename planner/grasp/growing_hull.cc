@@ -8,17 +8,18 @@ namespace regrasp::grasp {
 
 namespace {
 
-/// Points are shrunk by between a half and one and a half of this part. Far above the rounding of a
-/// height, far below any gap that a search asks for.
+/// Mean relative shrinkage of points; each is shrunk by between a half and one and a half of it.
+/// Much larger than the rounding of a height, much smaller than the gap of any search.
 constexpr double kShrink = 1e-7;
 
-/// The golden ratio's fraction: its multiples spread evenly and repeat no pattern.
+/// Fractional part of the golden ratio: its multiples spread evenly without a repeated pattern.
 constexpr double kSpread = 0.6180339887498949;
 
-/// Heights below this may be rounding.
+/// Height below which a value may be rounding.
 constexpr double kLeastHeight = 1e-10;
 
-/// The place of a value that occurs once; without a branch, which would be mispredicted.
+/// Return the index of a value that occurs once.
+/// Without a branch, which would be mispredicted.
 template <typename Array>
 int PlaceIn(const Array& values, int value) {
   int place = 0;
@@ -26,7 +27,7 @@ int PlaceIn(const Array& values, int value) {
   return place;
 }
 
-/// Corner i of kDim + 1 of the regular simplex with unit corners about the origin.
+/// Return corner i of kDim + 1 of the regular simplex with unit corners about the origin.
 template <int kDim>
 Eigen::Matrix<double, kDim, 1> SimplexCorner(int i) {
   using Vector = Eigen::Matrix<double, kDim, 1>;
@@ -58,7 +59,7 @@ void GrowingHull<kDim>::Start(double radius) {
     for (int i = 0; i <= kDim; ++i) {
       if (i == opposite) continue;
       links_[facet].corners[place] = static_cast<std::int16_t>(i);
-      // Facet i is the one opposite to corner i, and has all corners but that in order.
+      // Facet i is opposite to corner i, and has all other corners in order.
       links_[facet].back[place] = static_cast<std::int8_t>(opposite - (opposite > i ? 1 : 0));
       links_[facet].neighbours[place++] = i;
     }
@@ -102,7 +103,7 @@ double GrowingHull<kDim>::Residual() const {
   for (std::size_t i = 0; i < facets_.size(); ++i) {
     if (facets_[i].serial == kFree) continue;
     for (const int corner : links_[i].corners) {
-      // Also a value that is not a number is larger than any limit.
+      // A value that is not a number also counts as larger than any limit.
       const double residual = std::abs(facets_[i].pole.dot(points_[corner]) - 1);
       if (!(residual <= largest)) largest = residual;
     }
@@ -120,13 +121,13 @@ double GrowingHull<kDim>::HeightOf(int facet) {
   return of.height;
 }
 
-/// Visible facets are connected: those that the point is beyond are found from neighbour to
-/// neighbour.
+/// Find the visible facets: those that the point is beyond.
+/// They are connected, so the search visits neighbours only.
 template <int kDim>
 void GrowingHull<kDim>::FindVisible(int start) {
   visible_.assign(1, start);
   horizon_.clear();
-  // The start is marked as seen by its height; another visible facet is when it is found.
+  // The start is already marked by its height; all others are marked when they are found.
   for (std::size_t i = 0; i < visible_.size(); ++i) {
     const int facet = visible_[i];
     for (int place = 0; place < kDim; ++place) {
@@ -141,8 +142,8 @@ void GrowingHull<kDim>::FindVisible(int start) {
   }
 }
 
-/// A facet for every ridge on the horizon, with the point in the place of the ridge's missing
-/// corner.
+/// Add a facet for every ridge on the horizon.
+/// The new facet has the inserted point instead of the ridge's missing corner.
 template <int kDim>
 void GrowingHull<kDim>::AddFacets() {
   added_.clear();
@@ -185,9 +186,9 @@ void GrowingHull<kDim>::Link(Ridge a, Ridge b) {
   links_[b.facet].back[b.place] = static_cast<std::int8_t>(a.place);
 }
 
-/// Visible facets that share all corners of the ridge but the dropped one follow each other like
-/// the pages of a book. Each has two corners besides: one is dropped to reach the next facet, the
-/// other is dropped there.
+/// Follow the visible facets about a ridge to the new facet on the far side.
+/// Visible facets that share all corners of the ridge except the dropped one form a sequence. Each
+/// has two further corners. Dropping one yields the next, in which the other corner is dropped.
 template <int kDim>
 std::optional<typename GrowingHull<kDim>::Ridge> GrowingHull<kDim>::FollowRidge(Ridge from,
                                                                                 int dropped) const {

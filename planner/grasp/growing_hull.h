@@ -8,72 +8,74 @@
 
 namespace regrasp::grasp {
 
-/// A convex hull around the origin that grows point by point (beneath-beyond method).
+/// Convex hull around the origin that grows point by point (beneath-beyond method).
 ///
-/// The hull starts as a small simplex about the origin, so that the origin is inside at all times
-/// and every facet has a pole: the y with y · x = 1 on the facet, of length 1 / distance. The pole
-/// of a new facet lies on the segment between the poles of the two old facets that meet in its
-/// ridge on the horizon. A facet therefore costs some kDim multiplications, not a linear system.
+/// The hull starts as a small simplex about the origin. The origin is therefore always inside, and
+/// every facet has a pole: the y with y · x = 1 on the facet, of length 1 / distance. The pole of a
+/// new facet is on the segment between the poles of the two old facets that meet in its ridge on
+/// the horizon. A facet therefore costs about kDim multiplications instead of a linear system.
 ///
-/// Every point is shrunk towards the origin by a different part, about 1e-7, of its length. Planes
-/// through more than kDim points, as symmetric grasps have, thus do not occur, and the hull still
-/// lies inside every convex set that contains the origin and the points.
+/// Each point is shrunk towards the origin by a different part of its length, about 1e-7. Planes
+/// through more than kDim points, which symmetric grasps have, therefore do not occur. The hull
+/// still lies inside every convex set that contains the origin and the points.
 template <int kDim>
 class GrowingHull {
  public:
   using Vector = Eigen::Matrix<double, kDim, 1>;
 
-  /// A facet with its unit normal and its distance from the origin.
+  /// Facet with its unit normal and its distance from the origin.
   struct Plane {
     int facet = 0;
     double distance = 0;
     Vector normal = Vector::Zero();
   };
 
-  /// Starts from a regular simplex about the origin whose corners are `radius` away from it. Memory
-  /// of an earlier hull is used again.
+  /// Start from a regular simplex about the origin.
+  /// Reuses the memory of an earlier hull.
+  /// @param radius  distance of the corners from the origin.
   void Start(double radius);
 
-  /// Facets that are created at this distance or beyond need not be found by Nearest. A limit may
-  /// become smaller, never larger, until the next Start.
+  /// Let Nearest ignore facets that are created at this distance or beyond.
+  /// Until the next Start the limit may only decrease.
   void SetLimit(double distance) { least_pole_squared_ = 1 / (distance * distance); }
 
-  /// The facet nearest to the origin; none if all are at the limit or beyond it.
+  /// Return the facet nearest to the origin; nullopt if all are at the limit or beyond it.
   [[nodiscard]] std::optional<Plane> Nearest();
 
-  /// Inserts a point beyond a facet.
+  /// Insert a point beyond a facet.
   /// @returns false if the point is not beyond the facet, or if rounding leaves facets without
-  ///          neighbours; the hull is then unusable until the next Start.
+  ///     neighbours; the hull is then unusable until the next Start.
   [[nodiscard]] bool Insert(int facet, const Vector& point);
 
-  /// The largest |pole · corner − 1| over all facets and their corners: how far rounding has moved
-  /// a facet from its corners, over its distance from the origin.
+  /// Return the largest |pole · corner − 1| over all facets and their corners.
+  /// This is the distance by which rounding has moved a facet from its corners, relative to its
+  /// distance from the origin.
   [[nodiscard]] double Residual() const;
 
-  /// Number of facets that were created since Start.
+  /// Number of facets created since Start.
   [[nodiscard]] std::int64_t created() const { return created_; }
 
  private:
-  /// What a facet is: kept apart from its neighbours, of which far more is read.
+  /// Geometry of a facet, stored separately from its links because most reads need only the links.
   struct Facet {
     Vector pole;
     double height;  ///< pole · point − 1 for the point of `visit`
-    int visit;      ///< the last inserted point that the height was taken of
+    int visit;      ///< last inserted point for which the height was computed
     int serial;     ///< unique over all facets; kFree for a free place
   };
-  /// Neighbour [i] shares all corners but corners[i], and has this facet as its neighbour
-  /// [back[i]].
+  /// Neighbours of a facet. Neighbour [i] shares all corners except corners[i], and has this facet
+  /// as its neighbour [back[i]].
   struct Links {
     std::array<int, kDim> neighbours;
     std::array<std::int16_t, kDim> corners;  ///< indices of points
     std::array<std::int8_t, kDim> back;
   };
-  /// The ridge of a facet without its corner at `place`.
+  /// Ridge of a facet: all its corners except the one at `place`.
   struct Ridge {
     int facet;
     int place;
   };
-  /// An entry of the heap, stale if the facet has another serial by now.
+  /// Entry of the heap; stale if the facet has another serial.
   struct Entry {
     double pole_squared;
     int facet;
@@ -81,10 +83,10 @@ class GrowingHull {
   };
 
   static constexpr int kFree = -1;
-  /// Neighbour of a new facet that is not linked yet. Lower values stand, in a visible facet, for
-  /// the new facet at that ridge.
+  /// Neighbour of a new facet that is not linked yet. In a visible facet, lower values are the code
+  /// of the new facet at that ridge.
   static constexpr int kUnlinked = -1;
-  /// The code of a new facet, and the facet of a code.
+  /// Convert between a new facet and its code.
   [[nodiscard]] static int Code(int facet) { return kUnlinked - 1 - facet; }
 
   [[nodiscard]] double HeightOf(int facet);
@@ -92,21 +94,22 @@ class GrowingHull {
   void AddFacets();
   [[nodiscard]] bool LinkFacets();
   void Link(Ridge a, Ridge b);
-  /// The ridge of another new facet that is the same as the one of the new facet at `from` without
-  /// the corner at place `dropped`; none if rounding broke the hull.
+  /// Return the equal ridge of another new facet; nullopt if rounding broke the hull.
+  /// @param from  new facet with the ridge.
+  /// @param dropped  place of the corner that the ridge lacks.
   [[nodiscard]] std::optional<Ridge> FollowRidge(Ridge from, int dropped) const;
   [[nodiscard]] int NewPlace();
   void Push(int facet);
 
   std::vector<Vector> points_;
   std::vector<Facet> facets_;
-  std::vector<Links> links_;  ///< of the facets
+  std::vector<Links> links_;  ///< links [facet]
   std::vector<int> free_;
   std::vector<Entry> heap_;
   std::vector<int> visible_, added_;
-  std::vector<Ridge> horizon_;  ///< [i] is the ridge of added_[i] in a visible facet
+  std::vector<Ridge> horizon_;  ///< ridge of added_[i] in a visible facet [i]
   double least_pole_squared_ = 0;
-  int point_ = 0;  ///< the one that is being inserted
+  int point_ = 0;  ///< index of the point that is being inserted
   int serials_ = 0;
   std::int64_t created_ = 0;
 };

@@ -12,11 +12,11 @@
 namespace regrasp::grasp {
 namespace {
 
-/// Grasps that a thread takes at a time: enough that taking them costs nothing, few enough that the
-/// threads end together.
+/// Number of grasps per block of work: large enough that the cost of taking a block is negligible,
+/// small enough that the threads end together.
 constexpr std::size_t kBlock = 256;
 
-/// The same where each grasp takes a tenth of a millisecond or more.
+/// Number of grasps per block if each grasp takes 0.1 ms or more.
 constexpr std::size_t kBlockOfSlow = 4;
 
 std::size_t CountGrasps(const GraspArrays& grasps) {

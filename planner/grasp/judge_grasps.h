@@ -8,41 +8,42 @@
 
 namespace regrasp::grasp {
 
-/// Many grasps of equally many contacts, as plain numbers that somebody else owns: N x k x 3 values
-/// in row-major order, so that contact c of grasp g begins at (g · k + c) · 3.
+/// Non-owning arrays of N grasps with k contacts each.
+/// Both arrays are N x k x 3 in row-major order: contact c of grasp g begins at (g · k + c) · 3.
 struct GraspArrays {
   std::span<const double> points;
-  std::span<const double> normals;  ///< unit, into the object
-  int contacts = 0;                 ///< k, of each grasp
+  std::span<const double> normals;  ///< unit vectors into the object
+  int contacts = 0;                 ///< k, number of contacts per grasp
 };
 
-/// What is asked of each grasp besides force closure, and by how many threads.
+/// Optional computations of JudgeGrasps, and the number of threads.
 struct JudgeOptions {
-  double half_angle = 0;  ///< of the friction cones, atan μ, radians in (0, π/2)
+  double half_angle = 0;  ///< friction angle, atan μ, radians in (0, π/2)
   object::WrenchFrame frame;
-  double torsion = 0;  ///< of all contacts (Contact::torsion), the points' unit of length
+  /// Torsional friction length of all contacts (Contact::torsion), in the unit of the points.
+  double torsion = 0;
   bool required_half_angle = false;
   bool quality = false;
-  int threads = 0;  ///< 0: as many as the machine has cores
+  int threads = 0;  ///< number of threads; 0: one per core of the machine
 };
 
-/// One entry a grasp, in the order given; what was not asked for is empty.
+/// Results with one element per grasp, in input order; empty if not requested.
 struct GraspVerdicts {
   std::vector<ForceClosure> force_closure;
-  /// The smallest half-angle proved to be enough, radians; NaN where none below π/2 is.
+  /// Smallest friction angle proved to be enough, radians; NaN if no angle below π/2 is enough.
   std::vector<double> required_half_angle;
   std::vector<double> quality;        ///< lower bound of BoundQuality, dimensionless
   std::vector<double> quality_upper;  ///< upper bound of BoundQuality
 };
 
-/// Judges every grasp by TestForceClosure, ComputeRequiredHalfAngle and BoundQuality.
+/// Evaluate every grasp with TestForceClosure, ComputeRequiredHalfAngle and BoundQuality.
 ///
-/// Laws: each verdict has the bits that the function for a single grasp gives; they do not depend
-/// on the number of threads.
+/// Laws: each result is bit-identical to that of the function for a single grasp, for any number of
+/// threads.
 ///
-/// @throws std::invalid_argument  the arrays do not hold N x k x 3 values each, fewer than 0
-///                                threads, a bad half-angle, or a grasp that TestForceClosure
-///                                refuses: the message names the first such grasp, counted from 0.
+/// @throws std::invalid_argument  if an array does not have N x k x 3 values, the number of threads
+///     is negative, the friction angle is invalid, or TestForceClosure rejects a grasp. The message
+///     names the first such grasp, counted from 0.
 [[nodiscard]] GraspVerdicts JudgeGrasps(const GraspArrays& grasps, const JudgeOptions& options);
 
 }  // namespace regrasp::grasp

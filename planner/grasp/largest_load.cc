@@ -9,10 +9,10 @@
 namespace regrasp::grasp {
 namespace {
 
-/// The largest load is found to this, over the total normal force.
+/// Gap of the largest load, over the total normal force.
 constexpr double kLoadGap = 1e-9;
 
-/// As in ComputeGraspForces: what is unbalanced by less is rounding of the simplex.
+/// Unbalanced wrench that counts as rounding of the simplex, as in ComputeGraspForces.
 constexpr double kLoadBalanced = 1e-10;
 
 template <int kDim>
@@ -26,7 +26,7 @@ typename WrenchSimplex<kDim>::Vector ToVector(const Wrench& wrench) {
   }
 }
 
-/// All in units of the total normal force.
+/// Compute the largest load in units of the total normal force.
 template <int kDim>
 std::optional<QualityBounds> SolveLargestLoad(const UnitContacts& contacts, const Wrench& load,
                                               const Wrench& direction) {

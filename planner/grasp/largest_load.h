@@ -10,22 +10,22 @@
 
 namespace regrasp::grasp {
 
-/// The largest s such that forces inside the friction cones with Σ n_i·f_i = total_normal balance
-/// `load` + s · total_normal · `direction`:
+/// Compute the largest s at which forces inside the friction cones balance a load.
+/// The forces with Σ n_i·f_i = total_normal balance `load` + s · total_normal · `direction`:
 ///
 ///     max s   subject to   Σ G_i f_i + load + s · total_normal · direction = 0,   f_i ∈ C(n_i).
 ///
-/// A linear program over the true cones (planner/grasp/wrench_simplex.h); `upper` is certified by
-/// its dual. With a direction of unit length and no load it is the distance from the origin to the
-/// boundary of Ferrari and Canny's wrench set along −direction, so never less than the quality ε
-/// of a force-closure grasp.
+/// This is a linear program over the circular cones (planner/grasp/wrench_simplex.h); its dual
+/// certifies `upper`. With a direction of unit length and no load, s is the distance from the
+/// origin to the boundary of Ferrari and Canny's wrench set along −direction. It is then at least
+/// the quality ε of a force-closure grasp.
 ///
-/// Laws: concave in the load; the loads that a grasp balances are convex, so it balances every
-/// smaller s ≥ 0 too; it never falls where the half-angle grows.
+/// Laws: concave in the load. Every smaller s ≥ 0 is balanced too, because the set of balanced
+/// loads is convex. Never decreases when the friction angle increases.
 ///
-/// @param direction  not zero.
-/// @returns nullopt where not even `load` is balanced.
-/// @throws std::invalid_argument  as ComputeGraspForces; direction zero or not finite.
+/// @param direction  direction of the load, not zero.
+/// @returns bounds on s; nullopt if not even `load` is balanced.
+/// @throws std::invalid_argument  as ComputeGraspForces, or if the direction is zero or not finite.
 [[nodiscard]] std::optional<QualityBounds> ComputeLargestLoad(std::span<const Contact> contacts,
                                                               const object::WrenchFrame& frame,
                                                               double half_angle, const Wrench& load,

@@ -5,8 +5,8 @@
 namespace regrasp::grasp {
 namespace {
 
-/// Torques within this of zero (lengths and forces of the order of 1) may be rounding: a hundred
-/// times what the cross product, the dot products and the coordinates themselves can lose.
+/// Torque that may be rounding, for lengths and forces of the order of 1. A hundred times the
+/// rounding of the cross product, the dot products and the coordinates.
 constexpr double kTorqueRounding = 1e-13;
 
 }  // namespace
@@ -20,7 +20,7 @@ Turn TurnAboutLine(const UnitContact& a, const UnitContact& b, const UnitContact
   const double along = c.n.dot(u);
   const double normal = std::abs(c.axial * along);
   const double sliding_squared = c.tangential * c.tangential * (u - along * c.n).squaredNorm();
-  // |normal − sliding| > rounding, without a root: x² − y² = (x − y)(x + y).
+  // |normal − sliding| > rounding without a square root: x² − y² = (x − y)(x + y).
   const double difference = normal * normal - sliding_squared;
   if (difference > 2 * kTorqueRounding * normal) {
     return along > 0 ? Turn::kPositive : Turn::kNegative;

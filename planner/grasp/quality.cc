@@ -16,15 +16,16 @@
 namespace regrasp::grasp {
 namespace {
 
-/// Rim forces per contact that the hull starts from.
+/// Number of rim forces per contact in the initial hull.
 constexpr int kRimSamples = 6;
 
-/// Facets refined in one round: enough to spread over the neighbourhood of the nearest point, few
-/// enough that Qhull, whose time grows steeply with the points, stays cheap.
+/// Number of facets refined per round: enough to cover the neighbourhood of the nearest point, few
+/// enough that Qhull stays cheap. Its time grows steeply with the number of points.
 constexpr int kFacetsPerRound = 24;
 
-/// A certified ball about the origin inside the wrench set, found with Qhull: the hull of some of
-/// the set's points bounds it from below, the set's support in the facets' normals from above.
+/// Search for a certified ball about the origin inside the wrench set, with Qhull.
+/// The hull of some of the set's points is a lower bound. The set's support in the facets' normals
+/// is an upper bound.
 template <int kDim>
 class BallSearch {
  public:
@@ -32,7 +33,7 @@ class BallSearch {
     AddPoint(set.Origin());
     for (int contact = 0; contact < set.contact_count(); ++contact) {
       for (int s = 0; s < kRimSamples; ++s) {
-        // Turned from contact to contact, so that parallel cones give no parallel facets.
+        // The angle differs between contacts, so that parallel cones cause no parallel facets.
         const double angle = 2 * std::numbers::pi * (s + 0.1 * contact) / kRimSamples;
         AddPoint(set.RimWrench(contact, angle));
       }
@@ -45,7 +46,8 @@ class BallSearch {
   [[nodiscard]] const QualityBounds& bounds() const { return bounds_; }
   [[nodiscard]] bool has_budget() const { return bounds_.facets < kMostQualityFacets; }
 
-  /// Refines once. @returns false where nothing can be refined any more.
+  /// Refine once.
+  /// @returns false if no facet can be refined.
   bool Refine(double goal) {
     const ConvexHull hull = ComputeConvexHull(points_);
     bounds_.facets += static_cast<std::int64_t>(hull.facets.size());
@@ -60,7 +62,7 @@ class BallSearch {
       if (refined == kFacetsPerRound || facet->offset - hull.joggle >= goal * bounds_.upper) break;
       const auto support = set_.Support(facet->normal);
       bounds_.upper = std::min(bounds_.upper, support.value);
-      // A point that is on the facet already, but for the joggle, would only force a larger joggle.
+      // A point that is on the facet up to the joggle would only require a larger joggle.
       if (support.value - facet->offset <= hull.joggle) continue;
       AddPoint(support.point);
       ++refined;

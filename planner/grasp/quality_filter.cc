@@ -10,8 +10,8 @@ namespace regrasp::grasp {
 
 namespace {
 
-/// Twists that are remembered. To ask them all takes a microsecond, a twentieth of what the fastest
-/// answer by rays takes.
+/// Number of stored twists. Testing all of them takes a microsecond, a twentieth of the time of the
+/// fastest decision by rays.
 constexpr std::size_t kMostTwists = 64;
 
 }  // namespace

@@ -11,28 +11,29 @@
 
 namespace regrasp::grasp {
 
-/// Decides for many grasps of one object, cheaply, whether their quality at a half-angle reaches a
-/// threshold.
+/// Decide for many grasps of one object, cheaply, whether their quality reaches a threshold.
 ///
-/// In the direction of a unit twist a grasp's wrenches (quality.h) reach as far as those of the
-/// contact that reaches farthest; where that is less than the threshold, so is the quality. Twists
-/// that refuted a grasp are remembered and refute most others that are not good enough, a hundred
-/// times faster than rays are shot.
+/// In the direction of a unit twist, a grasp's wrenches (quality.h) reach as far as those of the
+/// contact that reaches farthest. If that is less than the threshold, so is the quality. The filter
+/// stores twists that refuted a grasp. They refute most other insufficient grasps, a hundred times
+/// faster than ray shooting.
 class QualityFilter {
  public:
-  /// @param half_angle  friction, radians.
+  /// @param half_angle  friction angle in radians.
   QualityFilter(const object::WrenchFrame& frame, double half_angle);
 
-  /// True only if ε ≥ threshold is certain; false where it is not so, and for a few grasps just
-  /// above the threshold too. Takes a fifth of a millisecond at most.
-  /// @param grasp  force closure at the half-angle. @param threshold  above 0.
+  /// Return true only if ε ≥ threshold is certain.
+  /// False if ε is smaller, and also for some grasps just above the threshold. Takes at most 0.2
+  /// ms.
+  /// @param grasp  contacts that are force closure at the friction angle.
+  /// @param threshold  threshold above 0.
   [[nodiscard]] bool IsClearlyAtLeast(std::span<const Contact> grasp, double threshold);
 
-  /// Grasps for which rays were shot.
+  /// Number of grasps that required ray shooting.
   [[nodiscard]] std::int64_t shot_count() const { return shot_count_; }
 
  private:
-  /// Of a plane's twists the first three numbers.
+  /// Twist; planar twists use the first three numbers.
   using Twist = Eigen::Matrix<double, 6, 1>;
 
   template <int kDim>
@@ -42,7 +43,8 @@ class QualityFilter {
 
   object::WrenchFrame frame_;
   double half_angle_;
-  std::vector<Twist> twists_;  ///< those that refuted something lately nearer to the front
+  /// Stored twists; those that refuted a grasp recently are nearer to the front.
+  std::vector<Twist> twists_;
   std::int64_t shot_count_ = 0;
 };
 

@@ -10,21 +10,21 @@
 
 namespace regrasp::grasp {
 
-/// Ray shooting ends at this part of the threshold, and where the set reaches this many times it:
-/// beyond, nothing that would change the decision is learned.
+/// Relative gap, and multiple of the threshold, at which ray shooting stops: more precision cannot
+/// change the decision.
 inline constexpr double kShootGap = 0.02;
 inline constexpr double kShootEnough = 8;
 
-/// Frames of directions tried before Qhull is asked: one takes some 20 µs, Qhull a thousand times
-/// that.
+/// Number of direction frames before Qhull is used: a frame takes about 20 µs, Qhull a thousand
+/// times that.
 inline constexpr int kFrames = 8;
 
-/// Descents from the nearest boundary point found so far to a nearer one.
+/// Number of descents from the nearest known boundary point to a nearer one.
 inline constexpr int kDescents = 6;
 
-/// Decides by shooting rays whether a quality reaches a threshold. What they tell: the boundary
-/// points on ± the columns of an orthogonal frame span a cross-polytope inside the set, and each
-/// hit's normal bounds the ball from above.
+/// Decide by ray shooting whether a quality reaches a threshold.
+/// The boundary points on ± the columns of an orthogonal frame span a cross-polytope inside the
+/// set, which is a lower bound. The normal of each hit is an upper bound on the ball.
 template <int kDim>
 class RaySearch {
  public:
@@ -34,13 +34,13 @@ class RaySearch {
   RaySearch(const WrenchSet<kDim>& set, double threshold) : set_(set), threshold_(threshold) {}
 
   [[nodiscard]] const QualityBounds& bounds() const { return bounds_; }
-  /// The unit twist that the upper bound was found with.
+  /// Unit twist of the upper bound.
   [[nodiscard]] const Vector& nearest() const { return nearest_; }
   [[nodiscard]] bool decided() const {
     return bounds_.lower >= threshold_ || bounds_.upper < threshold_;
   }
 
-  /// Shoots rays until the question is decided, or has cost a fifth of a millisecond.
+  /// Shoot rays until the decision, or for at most 0.2 ms.
   void Run() {
     ShootFrame(Frame::Identity());
     for (int frame = 1; frame < kFrames && !decided(); ++frame) {
@@ -50,8 +50,8 @@ class RaySearch {
   }
 
  private:
-  /// The ball inside the cross-polytope of the frame: its facets, one of each ± pair, are
-  /// 1 / √Σ 1/s² from the origin.
+  /// Bound the quality by the ball inside the frame's cross-polytope.
+  /// The facets of the cross-polytope, one per choice of signs, are 1 / √Σ 1/s² from the origin.
   void ShootFrame(const Frame& frame) {
     double sum = 0;
     for (int axis = 0; axis < kDim && !decided(); ++axis) {
@@ -61,8 +61,8 @@ class RaySearch {
     if (!decided()) bounds_.lower = std::max(bounds_.lower, 1 / std::sqrt(sum));
   }
 
-  /// The normal of the boundary at the nearest known supporting plane is where a nearer boundary
-  /// point is: shooting along it never gives a larger bound (the support function's descent).
+  /// Shoot along the normal of the nearest known supporting plane, towards a nearer boundary point.
+  /// This never increases the bound (descent on the support function).
   void Descend() {
     for (int step = 0; step < kDescents && !decided(); ++step) {
       const double before = bounds_.upper;
@@ -71,7 +71,7 @@ class RaySearch {
     }
   }
 
-  /// An orthogonal frame whose first axis is the nearest normal.
+  /// Return an orthogonal frame whose first axis is the nearest normal.
   [[nodiscard]] Frame NearestFrame() const {
     return Eigen::HouseholderQR<Vector>(nearest_).householderQ();
   }

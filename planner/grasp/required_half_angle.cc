@@ -13,17 +13,17 @@ namespace regrasp::grasp {
 
 namespace {
 
-/// Friction beyond this is not looked for: the header's 1e-6 rad below π/2.
+/// Largest friction angle of the search: 1e-6 rad below π/2, as in the header.
 constexpr double kLargestHalfAngle = std::numbers::pi / 2 - 1e-6;
 
-/// The bracket halves at every step, so that 64 steps are more than any tolerance needs.
+/// Limit on bisection steps. The bracket halves at every step, so any tolerance needs fewer.
 constexpr int kMaxSteps = 64;
 
-/// Around an angle that is too close to call, certain ones are looked for this many times farther
-/// at every step.
+/// Growth factor per step of the distance from an undecidable angle at which the search evaluates
+/// the next angles.
 constexpr double kWiden = 4;
 
-/// Halves the interval between an angle that is too small and one that is enough.
+/// Bracket between an angle that is too small and one that is enough.
 template <int kDim>
 class Bracket {
  public:
@@ -57,8 +57,8 @@ class Bracket {
   }
 
  private:
-  /// What was decided from columns of other angles is to be so by itself: next to the angle that is
-  /// needed one of the two may be too close to call.
+  /// Confirm without reuse a decision that used columns of other angles.
+  /// Near the required angle one of the two decisions may be too close to call.
   void Confirm(const RequiredHalfAngle& known) {
     double d = tolerance_ / kWiden;
     while (bounds_.upper < known.upper && search_.DecideAlone(bounds_.upper) != Decision::kYes) {
@@ -86,7 +86,7 @@ class Bracket {
   RequiredHalfAngle bounds_;
 };
 
-/// What `find` returns of the bracket of a grasp; nullopt where all contacts coincide.
+/// Return the result of `find` for the bracket of a grasp; nullopt if all contacts coincide.
 template <class Find>
 std::optional<RequiredHalfAngle> WithBracket(std::span<const Contact> contacts,
                                              const object::WrenchFrame& frame, double tolerance,

@@ -10,14 +10,15 @@ namespace regrasp::grasp {
 
 namespace {
 
-/// A twist is certain to hold a contact off where the point recedes from the object by this much of
-/// |twist| · |wrench|, and so far from the cone's border. Velocities are then known to 1e-9 of
-/// themselves.
+/// Speed at which a point recedes from the object, relative to |twist| · |wrench|, above which a
+/// twist is certain to hold a contact off. Together with the distance from the cone's border
+/// (kInsideCone) it ensures a relative error of velocities of 1e-9.
 constexpr double kRecedes = 1e-6;
 constexpr double kInsideCone = 1 - 1e-8;
 
-/// Whether all forces in the contact's cone work against a velocity u: axial n·u + tangential |u⊥|
-/// < 0, squared, as a root for each contact would cost more than all the rest.
+/// Return whether all forces in the contact's cone work against a velocity u.
+/// The condition axial n·u + tangential |u⊥| < 0 is squared, because a square root per contact
+/// would dominate the cost.
 bool HoldsOff(const UnitContact& contact, const Eigen::Vector3d& u, double least) {
   const double approach = contact.n.dot(u);
   const double tangential = contact.tangential * contact.tangential;

@@ -10,29 +10,30 @@
 
 namespace regrasp::grasp {
 
-/// Twists that have separated some subset of contacts, for use on the others: a twist against which
-/// every wrench of some contacts works refutes force closure of all subsets of these.
+/// Twists that separated some subset of contacts, to refute other subsets.
+/// If every wrench of some contacts works against a twist, the twist refutes force closure of all
+/// subsets of these contacts. It *holds off* these contacts.
 ///
-/// Of every twist a row of bits says which contacts it holds off; of every contact another row says
-/// which twists hold it off. The pool is a ring: new twists take the place of the oldest.
+/// For each twist, a row of bits marks the contacts that it holds off. For each contact, a row of
+/// bits marks the twists that hold it off. The pool is a ring: new twists replace the oldest.
 class SeparatorPool {
  public:
   using Word = std::uint64_t;
   using Twist = WrenchSimplex<6>::Vector;
 
-  /// @param contacts  with their rims set, in the frame of the twists; must outlive this object.
+  /// @param contacts  contacts with rims set, in the frame of the twists; must outlive this object.
   explicit SeparatorPool(std::span<const UnitContact> contacts);
 
   void Add(const Twist& twist);
 
-  /// Restricts what follows to subsets with these contacts.
+  /// Restrict later queries to subsets with these contacts.
   void FixPair(int a, int b);
 
-  /// Those of some contacts that are left when some twist of the pool holds off any of them
-  /// together with `third` and the pair.
-  /// @param contacts  bits of the contacts' word of that number.
+  /// Return the contacts that no twist of the pool holds off together with `third` and the pair.
+  /// @param word  index of the word of contacts.
+  /// @param contacts  bits of candidate contacts in that word.
   [[nodiscard]] Word LeftOpen(int third, int word, Word contacts) const;
-  /// The same for the twist alone that was added last.
+  /// Return the same for the most recently added twist only.
   [[nodiscard]] Word LeftOpenByLast(int third, int word, Word contacts) const;
 
  private:
@@ -49,9 +50,9 @@ class SeparatorPool {
   std::span<const UnitContact> contacts_;
   int words_;
   double column_size_ = 0;
-  int last_ = -1;              ///< twist
-  std::vector<Word> held_;     ///< by twist, words_ each: bit c
-  std::vector<Word> holding_;  ///< by contact, kPoolWords each: bit t
+  int last_ = -1;              ///< index of the most recent twist
+  std::vector<Word> held_;     ///< bit c [twist], words_ words each
+  std::vector<Word> holding_;  ///< bit t [contact], kPoolWords words each
   std::array<int, 2> pair_ = {-1, -1};
   std::array<Word, kPoolWords> holding_pair_{};  ///< twists that hold off the pair
 };

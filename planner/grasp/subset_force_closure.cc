@@ -1,15 +1,104 @@
 #include "planner/grasp/subset_force_closure.h"
 
 #include <bit>
+#include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "planner/grasp/force_closure_core.h"
+#include "planner/grasp/pair_line.h"
 #include "planner/grasp/separator_pool.h"
-#include "planner/grasp/turn_table.h"
+#include "planner/grasp/unit_contacts.h"
 
 namespace regrasp::grasp {
 namespace {
+
+/// Turning directions of all contacts about the lines through all pairs, as rows of bits.
+///
+/// Lines run from the smaller to the larger index. For each kind of turn (kPositive, kNegative,
+/// kBoth) there are two rows of words per ordered pair. `ByContact(a, b)` has bit c if c turns in
+/// that direction about line ab. `ByLine(a, b)` has bit c if b turns in that direction about line
+/// ac.
+class TurnTable {
+ public:
+  using Word = std::uint64_t;
+  static constexpr int kWordBits = 64;
+
+  explicit TurnTable(std::span<const UnitContact> contacts);
+
+  [[nodiscard]] int words() const { return words_; }
+
+  struct Rows {
+    const Word* positive;
+    const Word* negative;
+    const Word* both;
+  };
+  [[nodiscard]] Rows ByContact(int a, int b) const { return RowsOf(by_contact_, a, b); }
+  [[nodiscard]] Rows ByLine(int a, int b) const { return RowsOf(by_line_, a, b); }
+
+  /// Row of bits; bit b is set if a and b are an antipodal pair.
+  [[nodiscard]] const Word* Antipodal(int a) const { return &antipodal_[Row(a)]; }
+
+  [[nodiscard]] static bool Has(const Word* row, int bit) {
+    return (row[bit / kWordBits] >> (bit % kWordBits)) & 1U;
+  }
+  static void Set(Word* row, int bit) { row[bit / kWordBits] |= Word{1} << (bit % kWordBits); }
+
+ private:
+  static constexpr int kKinds = 3;
+
+  [[nodiscard]] std::size_t Row(std::size_t row) const { return row * words_; }
+  [[nodiscard]] std::size_t Pair(int a, int b) const {
+    return static_cast<std::size_t>(kKinds) * (static_cast<std::size_t>(a) * count_ + b);
+  }
+  [[nodiscard]] Rows RowsOf(const std::vector<Word>& bits, int a, int b) const {
+    const std::size_t row = Pair(a, b);
+    return {&bits[Row(row)], &bits[Row(row + 1)], &bits[Row(row + 2)]};
+  }
+  void Store(int a, int b, int c, Turn turn);
+
+  int count_;
+  int words_;
+  std::vector<Word> by_contact_;
+  std::vector<Word> by_line_;
+  std::vector<Word> antipodal_;
+};
+
+TurnTable::TurnTable(std::span<const UnitContact> contacts)
+    : count_(static_cast<int>(contacts.size())),
+      words_((count_ + kWordBits - 1) / kWordBits),
+      by_contact_(Row(Pair(count_, 0))),
+      by_line_(Row(Pair(count_, 0))),
+      antipodal_(Row(count_)) {
+  for (int a = 0; a < count_; ++a) {
+    for (int b = a + 1; b < count_; ++b) {
+      for (int c = 0; c < count_; ++c) {
+        if (c == a || c == b) continue;
+        Store(a, b, c, TurnAboutLine(contacts[a], contacts[b], contacts[c]));
+      }
+      if (IsAntipodal(contacts[a], contacts[b])) {
+        Set(&antipodal_[Row(a)], b);
+        Set(&antipodal_[Row(b)], a);
+      }
+    }
+  }
+}
+
+void TurnTable::Store(int a, int b, int c, Turn turn) {
+  if (turn == Turn::kUnclear) return;
+  if (turn == Turn::kNone) {
+    Store(a, b, c, Turn::kPositive);
+    Store(a, b, c, Turn::kNegative);
+    return;
+  }
+  const int kind = turn == Turn::kPositive ? 0 : turn == Turn::kNegative ? 1 : 2;
+  Set(&by_contact_[Row(Pair(a, b) + kind)], c);
+  Set(&by_contact_[Row(Pair(b, a) + kind)], c);
+  Set(&by_line_[Row(Pair(a, c) + kind)], b);
+  Set(&by_line_[Row(Pair(b, c) + kind)], a);
+}
 
 using Word = TurnTable::Word;
 
@@ -23,7 +112,7 @@ UnitContacts MakeRimmedContacts(std::span<const Contact> points, const object::W
   return units;
 }
 
-/// The twist of moved contacts, as one of the contacts before they were: u = v + ω × (q − c) s.
+/// Convert the twist of transformed contacts to the original contacts: u = v + ω × (q − c) s.
 SeparatorPool::Twist MovedBack(const SeparatorPool::Twist& twist, const Recentring& moved) {
   const Eigen::Map<const Eigen::Vector3d> omega(twist.data() + 3);
   const Eigen::Vector3d v =
@@ -32,10 +121,10 @@ SeparatorPool::Twist MovedBack(const SeparatorPool::Twist& twist, const Recentri
   return {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
 }
 
-/// Enumerates with three contacts fixed and the fourth as the bit of a word.
+/// Enumerate subsets with three contacts fixed and the fourth as the bit of a word.
 class SubsetSearch {
  public:
-  /// @param deadline, tell  outlive this object.
+  /// @param deadline, tell  arguments that must outlive this object.
   SubsetSearch(std::span<const Contact> points, const object::WrenchFrame& frame, double half_angle,
                const Deadline& deadline, const Tell& tell)
       : count_(static_cast<int>(points.size())),
@@ -71,7 +160,7 @@ class SubsetSearch {
     }
   }
 
-  /// Remembers the twist that a no comes with.
+  /// Decide with the simplex, and store the twist that proves kNo.
   [[nodiscard]] Decision Simplex(std::initializer_list<int> subset) {
     UnitContacts contacts;
     for (int index : subset) contacts.push_back(units_[index]);
@@ -86,8 +175,9 @@ class SubsetSearch {
     return &triples_[(static_cast<std::size_t>(a) * count_ + b) * turns_.words()];
   }
 
-  /// Three contacts can be force closure only if each turns the object both ways about the line of
-  /// the other two.
+  /// Store whether three contacts are force closure.
+  /// This requires that each contact turns the object in both directions about the line of the
+  /// other two.
   void StoreTriple(int i, int j, int k) {
     if (!TurnTable::Has(turns_.ByContact(i, j).both, k) ||
         !TurnTable::Has(turns_.ByContact(i, k).both, j) ||
@@ -118,7 +208,7 @@ class SubsetSearch {
     }
   }
 
-  /// The bits of a word that are indices above k.
+  /// Return the bits of a word that are indices above k.
   [[nodiscard]] Word Range(int k, int word) const {
     const int first = std::max(k + 1 - word * TurnTable::kWordBits, 0);
     const int last = std::min(count_ - word * TurnTable::kWordBits, TurnTable::kWordBits);
@@ -127,8 +217,8 @@ class SubsetSearch {
     return last == TurnTable::kWordBits ? above : above & ((Word{1} << last) - 1);
   }
 
-  /// Fourth contacts l for which, about the line of some pair of i, j, k, l, the other two turn the
-  /// object the same way.
+  /// Return the fourth contacts l that a line refutes.
+  /// About the line of some pair of i, j, k, l the other two turn the object in the same direction.
   [[nodiscard]] Word SamePath(int i, int j, int k, int word) const {
     Word result = 0;
     for (const auto& [a, b, c] : {std::array{i, j, k}, {i, k, j}, {j, k, i}}) {
@@ -143,8 +233,9 @@ class SubsetSearch {
     return result;
   }
 
-  /// Fourth contacts l for which some pair of i, j, k, l is antipodal and about its line the other
-  /// two turn the object both ways.
+  /// Return the fourth contacts l that an antipodal pair accepts.
+  /// Some pair of i, j, k, l is antipodal, and the other two turn the object in both directions
+  /// about its line.
   [[nodiscard]] Word BalancedPair(int i, int j, int k, int word) const {
     Word result = 0;
     for (const auto& [a, b, c] : {std::array{i, j, k}, {i, k, j}, {j, k, i}}) {
@@ -164,7 +255,7 @@ class SubsetSearch {
     return result;
   }
 
-  /// Fourth contacts l with which three of i, j, k, l are force closure.
+  /// Return the fourth contacts l with which three of i, j, k, l are force closure.
   [[nodiscard]] Word FromTriples(int i, int j, int k, int word) {
     if (TurnTable::Has(Triple(i, j), k)) return ~Word{0};
     return Triple(i, j)[word] | Triple(i, k)[word] | Triple(j, k)[word];
@@ -179,7 +270,7 @@ class SubsetSearch {
       const Decision decision = Simplex({i, j, k, word * TurnTable::kWordBits + bit});
       if (decision == Decision::kTooClose) ++counts_.too_close;
       if (decision == Decision::kYes) accepted |= Word{1} << bit;
-      // Its twist may hold off more of them.
+      // The twist may hold off further contacts.
       if (decision == Decision::kNo) unsettled = separators_.LeftOpenByLast(k, word, unsettled);
     }
     for (; accepted != 0; accepted &= accepted - 1) {
@@ -193,7 +284,7 @@ class SubsetSearch {
   UnitContacts units_;
   TurnTable turns_;
   SeparatorPool separators_;
-  std::vector<Word> triples_;  // row (a, b), bit c: a, b, c are force closure
+  std::vector<Word> triples_;  // bit c [row (a, b)]: a, b, c are force closure
   std::vector<std::array<int, 4>> found_;
   SubsetCounts counts_;
 };

@@ -10,76 +10,80 @@
 
 namespace regrasp::grasp {
 
-/// The contact at a parameter of an edge, 0 at its first end and 1 at its last, and back.
+/// Convert between a contact and its parameter on an edge, 0 at the first end and 1 at the last.
 [[nodiscard]] Contact ContactAt(const object::Polygon& polygon, FaceIndex edge, double parameter);
 [[nodiscard]] double ParameterOf(const object::Polygon& polygon, const Contact& contact);
 
-/// A contact as the mathematics of one grasp uses it: moved to a frame's origin, divided by its
-/// radius, with the rim of its friction cone as numbers.
+/// Contact in normalized coordinates: relative to a frame's origin and divided by its radius.
+/// The rim of its friction cone is stored as numbers.
 ///
-/// The forces of the rim are axial · n + tangential · t for unit t ⟂ n, so the cone's half-angle is
+/// The forces of the rim are axial · n + tangential · t for unit t ⟂ n, so the friction angle is
 /// atan(tangential / axial). (cos θ, sin θ) makes them unit forces, (1, tan θ) unit normal forces.
-/// Of a soft finger (Contact::torsion) the rim has a torque about n too: for all φ the force
-/// axial · n + tangential cos φ · t goes with the torque tangential sin φ · torsion.
+/// The rim of a soft finger (Contact::torsion) also has a torque about n: for all φ, the force
+/// axial · n + tangential cos φ · t with the torque tangential sin φ · torsion.
 struct UnitContact {
   Eigen::Vector3d q;
   Eigen::Vector3d n;
   double axial;
   double tangential;
-  double torsion = 0;  ///< over the frame's radius, as q
+  double torsion = 0;  ///< torsional friction length over the frame's radius, as q
 };
 
-/// So many contacts are kept without asking for memory.
+/// Number of contacts stored without memory allocation.
 inline constexpr int kInlineContacts = 12;
 struct UnitContacts : boost::container::small_vector<UnitContact, kInlineContacts> {
-  // Boost's iterators are not contiguous ones, so std::span does not take the container itself.
+  // Boost's iterators are not contiguous iterators, so std::span does not accept the container
+  // itself.
   operator std::span<const UnitContact>() const { return {data(), size()}; }  // NOLINT
 };
 
-/// Normals whose length differs from 1 by more than this are not unit: far above the rounding of a
-/// normalised vector, far below any real mistake. What is within it is normalised again.
+/// Largest deviation from 1 of the length of a unit normal. Much larger than the rounding of a
+/// normalized vector, much smaller than real mistakes. Normals within it are normalized again.
 inline constexpr double kUnitTolerance = 1e-6;
 
-/// Checks a grasp and its friction.
+/// Check a grasp.
 ///
-/// @throws std::invalid_argument  no contact, a value not finite, a normal not unit, a negative
-///                                torsion, z or torsion ≠ 0 in the plane, a dimension other than 2
-///                                and 3, or a radius not positive.
+/// @throws std::invalid_argument  if there is no contact, a value is not finite, a normal is not a
+///     unit vector, or a torsion is negative; if z or torsion is not 0 in the plane; if the
+///     dimension is neither 2 nor 3, or the radius is not positive.
 void CheckGrasp(std::span<const Contact> contacts, const object::WrenchFrame& frame);
 
-/// @throws std::invalid_argument  θ is outside (0, π/2).
+/// Check a friction angle.
+/// @throws std::invalid_argument  if θ is outside (0, π/2).
 void CheckHalfAngle(double half_angle);
 
-/// Moves contacts to a frame of positive radius; the rims are still to be set.
+/// Transform contacts to a frame of positive radius; their rims are not set.
 [[nodiscard]] UnitContacts MakeUnitContacts(std::span<const Contact> contacts,
                                             const object::WrenchFrame& frame);
 
-/// The frame in which the contacts themselves are centred and of radius 1; radius 0 where they all
-/// coincide. Force closure does not depend on the frame, and is decided most precisely in this one.
+/// Return the frame in which the contacts themselves are centred and have radius 1.
+/// The radius is 0 if all contacts coincide. Force closure does not depend on the frame, and its
+/// decision is most precise in this one.
 [[nodiscard]] object::WrenchFrame ContactFrame(std::span<const Contact> contacts, int dimension);
 
-/// How contacts were moved: q became (q − centre) · scale.
+/// Transformation of contacts: q became (q − centre) · scale.
 struct Recentring {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double scale = 1;
 };
 
-/// Moves contacts to their own centre and radius (ContactFrame); only to the centre where that is
-/// 0.
+/// Transform contacts to their own centre and radius (ContactFrame).
+/// If the radius is 0, only to the centre.
 Recentring Recentre(UnitContacts& contacts);
 
-/// Whether some contact is a soft finger.
+/// Return whether any contact is a soft finger.
 [[nodiscard]] bool HasTorsion(std::span<const UnitContact> contacts);
 
-/// Sets the rims of all contacts to half-angle θ with forces of unit length; of a soft finger,
-/// those without a torque.
+/// Set the rims of all contacts to friction angle θ with forces of unit length.
+/// For a soft finger, the forces without a torque have unit length.
 void SetUnitForces(UnitContacts& contacts, double half_angle);
 
-/// Sets the rims of all contacts to half-angle θ with normal forces of 1.
+/// Set the rims of all contacts to friction angle θ with normal forces of 1.
 void SetUnitNormalForces(UnitContacts& contacts, double half_angle);
 
-/// Contacts as fingertips of one torsion make them (Contact::torsion): a view of copies, and of the
-/// contacts themselves where the torsion is 0. The contacts must stay alive.
+/// View of contacts with one torsional friction length of all fingertips (Contact::torsion).
+/// Refers to copies, or to the contacts themselves if the torsion is 0. The contacts must outlive
+/// it.
 class SoftContacts {
  public:
   SoftContacts(std::span<const Contact> contacts, double torsion) : view_(contacts) {

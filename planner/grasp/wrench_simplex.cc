@@ -12,29 +12,30 @@ namespace {
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
-/// A twist separates only if it does so by this much of |twist| · |wrench|: some thousand roundings
-/// of a double, where evaluating the support function makes about twenty.
+/// Least separation by a twist, relative to |twist| · |wrench|. Several thousand roundings of a
+/// double; evaluating the support function has about twenty.
 constexpr double kSeparation = 1e-12;
 
-/// A column improves only if its reduced cost exceeds this, relative to |twist| · |wrench|.
+/// Least reduced cost of a column that improves, relative to |twist| · |wrench|.
 constexpr double kImprovement = 1e-14;
 
-/// The distance to the hull is found to this part of itself: closer, neighbouring rim forces of one
-/// contact become nearly the same column, and the inverse loses its digits.
+/// Relative gap of the distance to the hull. For smaller gaps, neighbouring rim forces of one
+/// contact become nearly the same column, and the inverse loses its accuracy.
 constexpr double kNearestGap = 1e-6;
 
-/// Grasps take 5 to 20 pivots, forces of full precision 30 to 60: what takes more is stalling.
+/// Limits of the simplex method. Grasps take 5 to 20 pivots, forces of full precision 30 to 60;
+/// programs that take more are stalling.
 constexpr lp::Limits kLimits = {.pivots = 200, .refactor_after = 24};
 
-/// For rims that are a little different a pivot or two are enough. A search from the beginning
-/// takes as long as some twenty.
+/// Limit on pivots of Resume. Slightly different rims need one or two pivots; a search from the
+/// start costs about twenty.
 constexpr int kMostResumed = 12;
 
-/// Rims are not turned where their tangential part grows by more than this: so many times does the
-/// rounding of what was tangential in the column before.
+/// Largest growth of the tangential part of rims in Resume: the rounding of the column's previous
+/// tangential part grows by the same factor.
 constexpr double kMostTurned = 1e3;
 
-/// A wrench with its part of the sum Σ λ = 1.
+/// Return a wrench extended by its part of the sum Σ λ = 1.
 template <std::size_t kDim>
 std::array<double, kDim + 1> WithShare(const std::array<double, kDim>& wrench, double share) {
   std::array<double, kDim + 1> entries;
@@ -43,7 +44,7 @@ std::array<double, kDim + 1> WithShare(const std::array<double, kDim>& wrench, d
   return entries;
 }
 
-/// Σ |y_r| over the balance.
+/// Return Σ |y_r| over the rows of the balance.
 template <int kDim, class Dual>
 double TwistSize(const Dual& dual) {
   double size = 0;
@@ -123,7 +124,7 @@ double WrenchSimplex<kDim>::Support(std::span<const UnitContact> contacts, const
 
 template <int kDim>
 bool WrenchSimplex<kDim>::Separates(const Dual& dual, double reduced_cost) const {
-  // y·w ≤ reduced_cost − y_last for all columns w; the target must lie beyond that.
+  // y·w ≤ reduced_cost − y_last for all columns w; the target must be beyond that.
   double beyond = dual[kDim] - reduced_cost;
   for (int r = 0; r < kDim; ++r) beyond += dual[r] * target_[r];
   return beyond > kSeparation * TwistSize<kDim>(dual) * (column_size_ + target_size_);
@@ -157,7 +158,7 @@ std::optional<typename WrenchSimplex<kDim>::Column> WrenchSimplex<kDim>::Turned(
   const Rim& rim = before[column.contact];
   const UnitContact& contact = contacts_[column.contact];
   if (!(rim.tangential * kMostTurned >= contact.tangential)) return std::nullopt;
-  // It is axial w(n) + tangential w(t), of which w(t) stays.
+  // The column is axial w(n) + tangential w(t), and w(t) does not change.
   const double scale = contact.tangential / rim.tangential;
   Vector wrench;
   WriteWrench<kDim>(contact, {(contact.axial - scale * rim.axial) * contact.n}, wrench.data());
@@ -190,7 +191,7 @@ typename WrenchSimplex<kDim>::Status WrenchSimplex<kDim>::Resume(Vector& twist) 
     const Column* column = program_.column(r);
     const auto turned = column == nullptr ? std::nullopt : Turned(*column, before);
     if (!turned) {
-      rims_ = before;  // the columns are still for these
+      rims_ = before;  // the columns still belong to the previous rims
       return Status::kStalled;
     }
     columns[r] = *turned;
@@ -202,7 +203,7 @@ typename WrenchSimplex<kDim>::Status WrenchSimplex<kDim>::Resume(Vector& twist) 
     if (!program_.weights().allFinite()) return Status::kStalled;
     const int row = FarthestFacet();
     if (row < 0) return Status::kFeasible;
-    // On the other side of the facet: every column but this one is on it.
+    // Outward normal of the facet: the other columns are all on the facet.
     const Dual outward = -program_.inverse().row(row);
     if (Separates(outward, FindBest(outward, column))) {
       std::copy_n(outward.data(), kDim, twist.begin());
@@ -264,7 +265,7 @@ typename WrenchSimplex<kDim>::Maximum WrenchSimplex<kDim>::Maximise(const Vector
 template <int kDim>
 double WrenchSimplex<kDim>::BallRadius() const {
   if (program_.artificial_count() > 0) return 0;
-  // The gradient of the weight vanishes only where the column alone fills its facet's side.
+  // A weight is 1 at its column and 0 on the opposite facet, so its gradient does not vanish.
   Dual squared = Dual::Zero();
   for (int c = 0; c < kDim; ++c) squared += program_.inverse().col(c).cwiseAbs2();
   return (program_.weights().array() / squared.array().sqrt()).minCoeff();

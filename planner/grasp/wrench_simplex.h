@@ -11,24 +11,25 @@
 
 namespace regrasp::grasp {
 
-/// The simplex method (lp::Simplex) over the wrenches of friction cones, with the true circular
-/// cone as its pricing step: one linear program with infinitely many columns decides force closure,
-/// quality and grasp forces.
+/// Simplex method (lp::Simplex) over the wrenches of friction cones.
+/// The pricing step uses the circular cone. One linear program with infinitely many columns decides
+/// force closure, quality and grasp forces.
 ///
 /// The columns are the wrenches w(g) = (g, q × g) of the rim forces g = axial n + tangential t of
-/// every contact, t ⟂ n any unit vector (the two cone edges in the plane). With weights λ ≥ 0,
-/// Σ λ = 1, the program asks for Σ λ_j w_j = target: first whether there is a solution, then for
-/// the solution that maximises the weight of one further column. The best column for a twist
-/// y = (v, ω) is closed form: contact q moves with u = v + ω × q, and
+/// every contact, t ⟂ n any unit vector (the two cone edges in the plane). With weights λ ≥ 0, Σ λ
+/// = 1, the program requires Σ λ_j w_j = target. It first decides whether there is a solution, then
+/// finds the solution that maximizes the weight of one further column. The best column for a twist
+/// y = (v, ω) has a closed form: contact q moves with u = v + ω × q, and
 ///
 ///     max over t of y · w = axial n·u + tangential |u − (n·u) n|        (the cone's support).
 ///
-/// So it is for soft fingers, whose rim has torques about n too (planner/grasp/cone_support.h): the
-/// rest of the method knows nothing of the kind of contact.
+/// Soft fingers differ only in the support, because their rim has torques about n too
+/// (planner/grasp/cone_support.h). The remainder of the method does not depend on the kind of
+/// contact.
 ///
-/// Column generation: Dantzig and Wolfe 1960; that extreme wrenches are all a method needs: Zheng
-/// and Chew 2009. The program starts from a point inside the hull with uneven weights, so that
-/// symmetric grasps cause no degenerate pivots; a limit on pivots ends what would still stall.
+/// Column generation: Dantzig and Wolfe 1960. Extreme wrenches suffice: Zheng and Chew 2009. The
+/// program starts from a point inside the hull with uneven weights, so that symmetric grasps cause
+/// no degenerate pivots. A limit on pivots stops programs that stall anyway.
 ///
 /// @tparam kDim  6 in space, 3 in the plane (force x, y and torque z).
 template <int kDim>
@@ -39,80 +40,83 @@ class WrenchSimplex {
   enum class Status {
     kFeasible,    ///< weights found
     kInfeasible,  ///< certain: `twist` separates the target from all columns
-    kStalled,     ///< neither could be made certain
+    kStalled,     ///< neither is certain
   };
 
-  /// @param contacts  must stay alive; their rims are set.
+  /// @param contacts  contacts with rims set; must outlive this object.
   WrenchSimplex(std::span<const UnitContact> contacts, const Vector& target);
 
-  /// Looks for weights: minimises the L1 distance from the target to the hull of the columns.
-  /// @param stop_early  end with the first twist that separates, not with the nearest point.
+  /// Search for weights: minimize the L1 distance from the target to the hull of the columns.
+  /// @param stop_early  whether to stop at the first twist that separates instead of the nearest
+  ///     point.
   Status FindWeights(bool stop_early);
 
-  /// Looks for weights again after the rims of contacts have been changed, from the columns that
-  /// the last search ended with, turned to where their rims are now: by the dual simplex method,
-  /// which replaces a column whose weight is negative, that with the farthest facet first, by the
-  /// one that reaches farthest over this facet. For rims that are nearly the same it takes a pivot
-  /// or two.
-  /// @param twist  set after kInfeasible: it separates.
-  /// @returns kStalled also where there is no full basis to begin from: FindWeights ended without
-  ///          weights, or Maximise came after it.
+  /// Search for weights again after the rims of contacts have changed.
+  /// The search starts from the columns of the last search, transformed to the new rims. It uses
+  /// the dual simplex method. A column with a negative weight, the one with the farthest facet
+  /// first, is replaced by the column that reaches farthest over this facet. For rims that are
+  /// nearly the same this takes one or two pivots.
+  /// @param twist  output after kInfeasible: the twist that separates.
+  /// @returns kStalled also if there is no full basis to begin from: FindWeights ended without
+  ///     weights, or Maximise was called after it.
   Status Resume(Vector& twist);
 
-  /// Where no weights are: those whose sum is nearest to the target, by the sum of the absolute
-  /// values of what is unbalanced, to a millionth of it. FindWeights does not find them: an entry
-  /// of the wrench that it has balanced stays so.
+  /// Find the weights whose sum is nearest to the target, if no weights reach it.
+  /// Minimizes the sum of the absolute values of the unbalanced wrench, to a millionth of it.
+  /// FindWeights does not find this point, because an entry of the wrench that it has balanced
+  /// stays balanced.
   void FindNearest();
 
   struct Maximum {
-    double lower;  ///< reached
-    double upper;  ///< cannot be exceeded; infinite where there is no bound
+    double lower;  ///< attained value
+    double upper;  ///< certified bound; infinite if there is none
   };
 
-  /// Where Maximise may end.
+  /// Stopping conditions of Maximise.
   struct Goal {
-    double gap = 0;                                           ///< upper − lower ≤ gap
-    double enough = std::numeric_limits<double>::infinity();  ///< lower > enough
+    double gap = 0;                                           ///< stop if upper − lower ≤ gap
+    double enough = std::numeric_limits<double>::infinity();  ///< stop if lower > enough
   };
 
-  /// Once weights are found: maximises the weight of `column`, a wrench, whose part of the sum
-  /// Σ λ = 1 is `share`.
+  /// Maximize the weight of a wrench.
+  /// @pre FindWeights found weights.
+  /// @param share  part of `column` in the sum Σ λ = 1.
   Maximum Maximise(const Vector& column, double share, const Goal& goal);
 
-  /// Σ a_i axial w(n_i), a point inside the hull; a_i are the uneven StartWeights.
+  /// Point Σ a_i axial w(n_i) inside the hull; the a_i are the uneven StartWeights.
   [[nodiscard]] Vector start() const { return start_; }
 
-  /// The weights of start(), which sum to 1.
+  /// Return a weight of start(); the weights sum to 1.
   [[nodiscard]] double StartWeight(int contact) const;
 
-  /// Radius about the target of a ball inside the simplex of the basic columns; ≤ 0 where none, or
-  /// where an artificial column is left in it.
+  /// Return the radius about the target of a ball inside the simplex of the basic columns.
+  /// ≤ 0 if there is none, or if the basis contains an artificial column.
   [[nodiscard]] double BallRadius() const;
 
-  /// Largest s such that target + s · direction lies in the simplex of the basic columns.
+  /// Return the largest s for which target + s · direction is in the simplex of the basic columns.
   [[nodiscard]] double Reach(const Vector& direction) const;
 
-  /// The force of contact i in the solution, without that of Maximise's column.
+  /// Return the force of contact i in the solution, without that of Maximise's column.
   [[nodiscard]] Eigen::Vector3d ForceOf(int contact) const;
 
-  /// Its torque about the normal of contact i; 0 of a hard point.
+  /// Return the torque about the normal of contact i; 0 for a hard-finger contact.
   [[nodiscard]] double TorqueOf(int contact) const;
 
-  /// The dual solution: the twist that the last column was chosen for. After kInfeasible it
-  /// separates: twist · w < twist · target for all columns.
+  /// Return the dual solution: the twist for which the last column was chosen.
+  /// After kInfeasible it separates: twist · w < twist · target for all columns.
   [[nodiscard]] Vector twist() const;
 
   /// Σ |target − Σ λ w|.
   [[nodiscard]] double unbalanced() const;
 
-  /// The largest y · w of all columns, y a twist.
+  /// Return the largest y · w over all columns for a twist y.
   [[nodiscard]] static double Support(std::span<const UnitContact> contacts, const Vector& twist);
 
  private:
   static constexpr int kRows = kDim + 1;  // balance, and Σ λ = 1
 
   struct Column {
-    int contact;  ///< or what else it is, negative
+    int contact;  ///< contact number; negative for other kinds of columns
     std::array<double, kRows> entries;
 
     template <class Visit>
@@ -136,20 +140,23 @@ class WrenchSimplex {
   };
   using Rims = boost::container::small_vector<Rim, kInlineContacts>;
 
-  /// What goes by the rims, but for the columns: the start, and how large columns are.
+  /// Set everything except the columns that depends on the rims: the start and the size of columns.
   void SetRims();
-  /// A column that was made for other rims, where they are now; nullopt of one that has none.
+  /// Return a column for the current rims; nullopt if there is none.
+  /// @param before  rims for which the column was made.
   [[nodiscard]] std::optional<Column> Turned(const Column& column, const Rims& before) const;
-  /// The row whose weight is the most negative one over the rate at which it grows, the distance of
-  /// the target from the facet of the other columns; −1 where none is negative.
+  /// Return the row of the farthest facet; −1 if no weight is negative.
+  /// The distance of the target from the facet of the other columns is the negative weight over the
+  /// rate at which it grows.
   [[nodiscard]] int FarthestFacet() const;
+  /// Find the best column for a dual solution.
   /// @returns its reduced cost.
   double FindBest(const Dual& dual, Column& column) const;
   [[nodiscard]] static Column Unbalanced(int row, double sign);
   [[nodiscard]] bool Separates(const Dual& dual, double reduced_cost) const;
 
   std::span<const UnitContact> contacts_;
-  Rims rims_;  ///< that the columns were made for
+  Rims rims_;  ///< rims for which the columns were made
   Vector target_;
   Vector start_{};
   double start_weight_sum_ = 0;

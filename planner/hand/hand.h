@@ -2,23 +2,23 @@
 
 namespace regrasp::hand {
 
-/// Fingers of the hand that plans are made for where nothing else is said: four contacts hold
-/// nearly every solid and three nearly every planar object, and one finger switches. Sets of held
-/// contacts hold no more; a hand with more fingers leaves the others free.
+/// Default number of fingers in space.
+/// Four contacts hold nearly every solid and three nearly every planar object, and one finger
+/// switches. Grasps have at most this many contacts; a hand with more fingers leaves the others
+/// free.
 inline constexpr int kFingersInSpace = 5;
 inline constexpr int kFingersInPlane = 4;
 
-/// The hand that holds the object, as far as planners know it: fingers without joints.
+/// The hand that holds the object, for planners without hand models: fingers without joints.
 struct Hand {
-  /// Fingers, numbered from 0. 0: as many as the planner uses.
+  /// Number of fingers, which are numbered from 0. 0: the default of the planner.
   int fingers = 0;
-  /// Of the balls that the fingers end in, the object's unit of length (criteria/reach.h). 0: the
-  /// fingers are points.
+  /// Radius of the fingertip spheres, in the object's unit (criteria/reach.h). 0: points.
   double fingertip_radius = 0;
-  /// Of its contacts (grasp::Contact::torsion), the object's unit of length. 0: hard points.
+  /// Torsional friction length (grasp::Contact::torsion), in the object's unit. 0: hard points.
   double torsion = 0;
 
-  /// Fingers for objects of a dimension, 2 or 3: the default where the number is 0.
+  /// Return the default number of fingers for objects of a dimension, 2 or 3.
   [[nodiscard]] constexpr int FingersIn(int dimension) const {
     if (fingers > 0) return fingers;
     return dimension == 3 ? kFingersInSpace : kFingersInPlane;

@@ -374,15 +374,16 @@ void MjcfConverter::Clean(XmlElement& element, const SchemaElement& schema) {
     // Older versions know only the name of constraints between sites.
     const bool of_sites = element.name == "equality" && child.Find("site1") != nullptr;
     if (known == nullptr && is_body && child.name != "plugin") {
-      throw InputError(child.file + ": line " + std::to_string(child.line) + ": <" + child.name +
-                       "> is not known to MuJoCo " + mj_versionString() +
-                       " and is part of the hand; write out what it stands for (newer versions "
-                       "save it so: mj_saveLastXML)");
+      throw InputError(
+          child.file + ": line " + std::to_string(child.line) + ": <" + child.name +
+          "> is not known to MuJoCo " + mj_versionString() +
+          " and is part of the hand; help: expand it (mj_saveLastXML of a newer version "
+          "writes the expanded model)");
     }
     if (element.name == "equality" && (known == nullptr || of_sites)) {
       throw InputError(child.file + ": line " + std::to_string(child.line) + ": <" + child.name +
                        (of_sites ? "> between sites" : ">") + " is not known to MuJoCo " +
-                       mj_versionString() + ", and joints would move without it");
+                       mj_versionString() + ", and joints would be unconstrained without it");
     }
     if (known == nullptr) {
       Record(child, "", "left out: unknown here");

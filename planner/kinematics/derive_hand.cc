@@ -148,7 +148,7 @@ void HandDeriver::FindTips() {
   std::erase_if(tips_, [&](const TipBody& tip) {
     for (const int joint : tip.joints) {
       if (!taken.contains(joint)) continue;
-      Note("body " + BodyName(model_, tip.body) + " is no fingertip here: it shares joint " +
+      Note("body " + BodyName(model_, tip.body) + " is not a fingertip here: it shares joint " +
            JointName(model_, joint) + " with a finger");
       return true;
     }
@@ -158,8 +158,8 @@ void HandDeriver::FindTips() {
   std::ranges::sort(tips_, {}, &TipBody::body);
   if (tips_.size() < kFewestDerived) {
     Fail("found " + std::to_string(tips_.size()) +
-         " fingers below a common body; a hand needs three chains of joints from one palm, which "
-         "is a body, to links that collide");
+         " fingers below a common body, expected at least 3 chains of joints from one body, the "
+         "palm, to links that collide");
   }
 }
 
@@ -236,7 +236,7 @@ FittedBall HandDeriver::Fit(const std::string& name, const ConvexShape& shape,
   try {
     fitted = FitTip(shape, directions);
   } catch (const std::runtime_error&) {
-    Fail("no ball fits into the end of body " + name + ", which is flat");
+    Fail("no sphere fits into the end of body " + name + ", which is flat");
   }
   const double gap = std::max(fitted.short_of_far, fitted.short_of_pad);
   if (gap > kDoubtfulGap) {
@@ -338,12 +338,12 @@ Vector3d HandDeriver::Up() {
     sum.setZero();
     for (const Vector3d& point : points_) sum += point;
     if (sum.norm() < 0.5 * fingers) {
-      Note("up is doubtful: the fingers neither flex nor point one way");
+      Note("up is uncertain: the fingers neither flex nor point in one direction");
     }
   }
   if (!(sum.norm() > 1e-6)) return Vector3d::UnitZ();
   const Vector3d up = Snapped(sum.normalized());
-  if ((up.array() != 0).count() > 1) Note("up is no axis of the palm's frame: doubtful");
+  if ((up.array() != 0).count() > 1) Note("up is uncertain: it is not an axis of the palm frame");
   return up;
 }
 
@@ -362,7 +362,7 @@ void HandDeriver::NoteUnchecked() {
   for (const auto& [link, any] : collides) {
     if (!any) names += (names.empty() ? "" : ", ") + BodyName(model_, link);
   }
-  if (!names.empty()) Note("links without a geom that collides, which nothing checks: " + names);
+  if (!names.empty()) Note("links without a geom that collides, which no check includes: " + names);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ class HandBuilder {
     for (int i = 1; i < std::min(model_.nbody, 40); ++i) {
       bodies += (bodies.empty() ? "" : ", ") + BodyName(model_, i);
     }
-    Fail(where, "the model has no body \"" + name + "\"; it has " + bodies);
+    Fail(where, "body \"" + name + "\" not found, expected one of " + bodies);
   }
   void AddFinger(int index);
   static void SetTipAxis(Finger& finger);
@@ -121,15 +121,15 @@ void HandBuilder::AddFinger(int index) {
   for (const int body : bodies) {
     if (model_.body_jntnum[body] > 0 && places_.contains(body)) {
       Fail(where, "shares joint " + JointName(model_, model_.body_jntadr[body]) + " with finger " +
-                      hand_.fingers[places_[body].finger].name + "; each finger needs its own");
+                      hand_.fingers[places_[body].finger].name + ", expected joints of its own");
     }
     AddJoints(body, where, last, finger);
     places_.try_emplace(body, Place{index, static_cast<int>(finger.joints.size())});
   }
   if (finger.joints.empty()) Fail(where, "no joint between the palm and body " + tip.body);
   if (finger.joints.size() > kMostJoints) {
-    Fail(where, "has " + std::to_string(finger.joints.size()) + " joints; at most " +
-                    std::to_string(kMostJoints) + " are taken");
+    Fail(where, "has " + std::to_string(finger.joints.size()) + " joints, limit " +
+                    std::to_string(kMostJoints));
   }
   Couple(where, finger);
   SetLimits(where, finger);
@@ -154,7 +154,7 @@ void HandBuilder::AddJoints(int body, const std::string& where, Vector3d& last, 
   for (int i = 0; i < model_.body_jntnum[body]; ++i) {
     const int id = model_.body_jntadr[body] + i;
     if (model_.jnt_type[id] != mjJNT_HINGE) {
-      Fail(where, "joint " + JointName(model_, id) + " is no hinge; fingers are chains of hinges");
+      Fail(where, "joint " + JointName(model_, id) + " must be a revolute joint");
     }
     if (model_.jnt_limited[id] == 0)
       Fail(where, "joint " + JointName(model_, id) + " has no limits");
@@ -188,7 +188,7 @@ void HandBuilder::Couple(const std::string& where, Finger& finger) const {
     const auto leader = find(coupling->follows);
     if (leader == finger.joints.end() || coupling_of(*leader) != description_.couplings.end()) {
       Fail(where, "joint " + joint.name + " follows \"" + coupling->follows +
-                      "\", which is no joint of the same finger that moves by itself");
+                      "\", expected an independent joint of the same finger");
     }
     joint.drive = leader->drive;
     joint.ratio = coupling->ratio;
@@ -224,7 +224,7 @@ void HandBuilder::SetLimits(const std::string& where, Finger& finger) const {
     double& upper = finger.upper[joint.drive];
     lower = std::max(lower, std::min(a, b));
     upper = std::min(upper, std::max(a, b));
-    if (!(lower < upper)) Fail(where, "the limits of joint " + joint.name + " leave no angle");
+    if (!(lower < upper)) Fail(where, "the limits of joint " + joint.name + " are empty");
   }
 }
 
@@ -326,8 +326,8 @@ HandModel BuildHand(const HandDescription& description, const CompiledModel& com
 HandFile ReadHandFile(const fs::path& path) {
   const std::string ending = path.extension().string();
   if (ending == ".xml" || ending == ".urdf" || ending == ".mjcf" || ending == ".xacro") {
-    throw InputError(path.string() + ": is a model, and no hand file; `hand --model " +
-                     path.string() + " --output hand.json` makes one of it");
+    throw InputError(path.string() + ": expected a hand file, found a model; help: hand --model " +
+                     path.string() + " --output hand.json");
   }
   const std::string text = ReadFile(path);
   HandFile file;

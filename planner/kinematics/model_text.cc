@@ -178,7 +178,7 @@ class Includer {
       return other.lexically_normal() == path.lexically_normal();
     };
     if (std::ranges::any_of(files_, is_same)) {
-      throw InputError(path.string() + ": is included twice, or by itself");
+      throw InputError(path.string() + ": included twice, or recursively");
     }
     files_.push_back(path);
     return ParseXml(ReadFile(path), path.string());

@@ -16,7 +16,7 @@
 #include "planner/base/text_table.h"
 #include "planner/kinematics/convert_mjcf.h"
 #include "planner/kinematics/convert_urdf.h"
-#include "planner/mujoco/memory_files.h"
+#include "planner/mujoco/handles.h"
 #include "planner/object/limited_child.h"
 
 namespace regrasp::kinematics {
@@ -162,7 +162,7 @@ ModelPtr Compile(const fs::path& path, const ModelText& text) {
 }
 
 InputError Refused(const fs::path& path, const std::runtime_error& error) {
-  return InputError(path.string() + ": MuJoCo does not take the model: " + error.what());
+  return InputError(path.string() + ": rejected by MuJoCo: " + error.what());
 }
 
 /// Compute dampings as newer MuJoCo versions do: the ratio times the critical damping of the

@@ -15,14 +15,14 @@ namespace regrasp::motion {
 
 namespace {
 
-/// Surely contains the exact value. Where it cannot tell a comparison CGAL throws.
+/// Interval that contains the exact value. CGAL throws if it cannot decide a comparison.
 using Interval = CGAL::Interval_nt<false>;
 
 }  // namespace
 
 template <>
 struct exact::NumberTraits<Interval> {
-  /// Contains what the exact type takes, which rounds to nearest four times.
+  /// Contains the result of the exact type, which rounds to nearest four times.
   static Interval RootAbove(const Interval& x) {
     constexpr double kRoundings = 1e-15;
     return CGAL::sqrt(x) * Interval(kRootAbove - kRoundings, kRootAbove + kRoundings);
@@ -39,20 +39,20 @@ using Kind = ProofVerdict::Kind;
 
 ProofVerdict Nothing(std::string why) { return {Kind::kNothing, std::move(why)}; }
 
-/// A point or a difference of points that goes linearly from one end of a piece to the other.
+/// Point, or difference of points, that is linear between both ends of a piece.
 template <class Number>
 struct Linear {
   VectorOf<Number> start;
   VectorOf<Number> end;
 };
 
-/// A contact on a piece.
+/// Contact on a piece.
 template <class Number>
 struct CheckedContact {
   Linear<Number> p;
-  Linear<Number> n;  ///< the normals at both ends, which turns between do not go linearly
+  Linear<Number> n;  ///< normals at both ends; between them, a normal that turns is not linear
   bool turns = false;
-  Number torsion = 0;  ///< 0 of hard points, and of soft fingers whose normal turns
+  Number torsion = 0;  ///< 0 for hard-finger contacts, and for soft fingers whose normal turns
 };
 
 template <class Number>
@@ -63,7 +63,7 @@ Linear<Number> Difference(const CheckedContacts<Number>& moving, std::size_t to,
   return {moving[to].p.start - moving[from].p.start, moving[to].p.end - moving[from].p.end};
 }
 
-/// The Bernstein coefficients of a(t) × b(t).
+/// Return the Bernstein coefficients of a(t) × b(t).
 template <class Number>
 std::array<VectorOf<Number>, 3> CrossCoefficients(const Linear<Number>& a,
                                                   const Linear<Number>& b) {
@@ -71,8 +71,8 @@ std::array<VectorOf<Number>, 3> CrossCoefficients(const Linear<Number>& a,
   return {Cross(a.start, b.start), Number(0.5) * middle, Cross(a.end, b.end)};
 }
 
-/// A lower bound on |v(t)|², v with these Bernstein coefficients: its part along their sum. 0 where
-/// that does not keep to one side.
+/// Return a lower bound on |v(t)|² for v with these Bernstein coefficients.
+/// It uses the component along their sum. 0 if that component changes its sign.
 template <class Number, std::size_t kCount>
 Number LeastSquaredLength(const std::array<VectorOf<Number>, kCount>& coefficients) {
   VectorOf<Number> side = coefficients[0];
@@ -83,21 +83,23 @@ Number LeastSquaredLength(const std::array<VectorOf<Number>, kCount>& coefficien
   return least * least / SquaredNorm(side);
 }
 
-/// Contacts that can apply any wrench all along a piece, three or in the plane two of them: to
-/// apply a force r and a torque τ about their middle takes forces no larger than per_force · |r| +
-/// per_torque · |τ|.
+/// Contacts that can apply any wrench throughout a piece: three, or two in the plane.
+/// To apply a force r and a torque τ about their middle requires forces of at most per_force · |r|
+/// + per_torque · |τ|.
 ///
-/// Two soft fingers can too: one of them twists, by a torque of per_twist · |τ| about its normal.
+/// Two soft fingers can apply any wrench too: one of them applies a torque of per_twist · |τ| about
+/// its normal.
 template <class Number>
 struct Support {
   std::vector<std::size_t> contacts;
   Number per_force;
   Number per_torque_squared;
-  std::size_t twisting = 0;  ///< contact
-  Number per_twist = 0;      ///< times its normal, of any length
+  std::size_t twisting = 0;  ///< contact number
+  Number per_twist = 0;      ///< factor of its normal, which has any length
 };
 
-/// Two opposite forces at a distance d apply the torque d · force.
+/// Return the force per torque of a pair. Two opposite forces at a distance d apply the torque d ·
+/// force.
 template <class Number>
 std::optional<Number> PairTorqueFactor(const CheckedContacts<Number>& moving, std::size_t i,
                                        std::size_t j) {
@@ -107,10 +109,11 @@ std::optional<Number> PairTorqueFactor(const CheckedContacts<Number>& moving, st
   return Number(1) / length;
 }
 
-/// Forces ω × d_i at arms d_i from the middle of three contacts apply the torque J ω, and the sum
-/// of their squares is ω·J ω ≤ |τ|² / λ, λ the least eigenvalue of J = Σ (|d|² 1 − d dᵀ). With c
-/// the cross product of two sides λ ≥ Σ_{i<j} |d_i × d_j|² / Σ |d|² = |c|² / (3 Σ |d|²), and 3 Σ
-/// |d|² is the sum over the sides, convex in t.
+/// Return the force per torque of three contacts.
+/// Forces ω × d_i at arms d_i from the middle of three contacts apply the torque J ω. The sum of
+/// their squares is ω·J ω ≤ |τ|² / λ, λ the least eigenvalue of J = Σ (|d|² 1 − d dᵀ). With c the
+/// cross product of two sides, λ ≥ Σ_{i<j} |d_i × d_j|² / Σ |d|² = |c|² / (3 Σ |d|²), and 3 Σ |d|²
+/// is the sum over the sides, convex in t.
 template <class Number>
 std::optional<Number> TripleTorqueFactor(const CheckedContacts<Number>& moving, std::size_t i,
                                          std::size_t j, std::size_t k) {
@@ -127,9 +130,10 @@ std::optional<Number> TripleTorqueFactor(const CheckedContacts<Number>& moving, 
   return Greater(start, end) / area;
 }
 
-/// A torque s n about the normal of `twisting` takes up the part of τ along the arm d to the other
-/// contact, s = τ·d / n·d, and two opposite forces at the distance |d| the rest, at most |τ| + |s
-/// n|.
+/// Return the support of two contacts of which one is a soft finger.
+/// A torque s n about the normal of `twisting` balances the part of τ along the arm d to the other
+/// contact, s = τ·d / n·d. Two opposite forces at the distance |d| balance the remainder, at most
+/// |τ| + |s n|.
 template <class Number>
 std::optional<Support<Number>> TwistSupport(const CheckedContacts<Number>& moving,
                                             std::size_t twisting, std::size_t other) {
@@ -150,7 +154,7 @@ std::optional<Support<Number>> TwistSupport(const CheckedContacts<Number>& movin
       {twisting, other}, 0.5, rest * rest / least, twisting, Root(longest) / along};
 }
 
-/// A point at both ends of a piece, in floating point.
+/// Point at both ends of a piece, in floating point.
 struct RoundedEnds {
   Eigen::Vector3d start;
   Eigen::Vector3d end;
@@ -162,14 +166,14 @@ Eigen::Vector3d Rounded(const VectorOf<Number>& v) {
   return {Traits::Rounded(v[0]), Traits::Rounded(v[1]), Traits::Rounded(v[2])};
 }
 
-/// The inverse of the pair's torque factor, roughly: the shorter of both distances.
+/// Return the approximate inverse of the pair's torque factor: the shorter of both distances.
 double PairMerit(const RoundedEnds& a, const RoundedEnds& b) {
   const Eigen::Vector3d start = b.start - a.start;
   const Eigen::Vector3d end = b.end - a.end;
   return start.dot(end) > 0 ? std::min(start.norm(), end.norm()) : 0;
 }
 
-/// The inverse of the triple's torque factor, roughly.
+/// Return the approximate inverse of the triple's torque factor.
 double TripleMerit(const RoundedEnds& a, const RoundedEnds& b, const RoundedEnds& c) {
   const Eigen::Vector3d ab[] = {b.start - a.start, b.end - a.end};
   const Eigen::Vector3d ac[] = {c.start - a.start, c.end - a.end};
@@ -183,7 +187,7 @@ double TripleMerit(const RoundedEnds& a, const RoundedEnds& b, const RoundedEnds
   return least > 0 && sides > 0 ? least / side.norm() / std::sqrt(sides) : 0;
 }
 
-/// The pair or triple that supports best, found in floating point.
+/// Return the pair or triple with the best support, found in floating point.
 template <class Number>
 std::vector<std::size_t> BestSupport(const CheckedContacts<Number>& moving, int dimension) {
   std::vector<RoundedEnds> points;
@@ -209,7 +213,7 @@ std::vector<std::size_t> BestSupport(const CheckedContacts<Number>& moving, int 
   return best;
 }
 
-/// The two contacts of which one twists best; nullopt where none surely does.
+/// Return the best support of two contacts with a soft finger; nullopt if none is certain.
 template <class Number>
 std::optional<Support<Number>> FindTwistSupport(const CheckedContacts<Number>& moving) {
   std::optional<Support<Number>> best;
@@ -223,8 +227,9 @@ std::optional<Support<Number>> FindTwistSupport(const CheckedContacts<Number>& m
   return best;
 }
 
-/// @returns nullopt where the contacts are on one line somewhere, or not surely off it, and no soft
-///          finger twists.
+/// Return the support of a piece.
+/// @returns nullopt if the contacts may be collinear at an instant, and no soft finger resists a
+///     turn about their line.
 template <class Number>
 std::optional<Support<Number>> FindSupport(const CheckedContacts<Number>& moving, int dimension) {
   const std::vector<std::size_t> best = BestSupport(moving, dimension);
@@ -235,7 +240,7 @@ std::optional<Support<Number>> FindSupport(const CheckedContacts<Number>& moving
   return Support<Number>{best, Number(1) / Number(static_cast<int>(best.size())), *factor};
 }
 
-/// What a contact does on a piece.
+/// Forces and torques of a contact on a piece.
 template <class Number>
 struct Applied {
   Linear<Number> force;
@@ -262,7 +267,7 @@ std::vector<Applied<Number>> AppliedOn(const MotionSegment& piece, int dimension
   return applied;
 }
 
-/// The middle of the supporting contacts.
+/// Return the middle of the supporting contacts.
 template <class Number>
 Linear<Number> MiddleOf(const CheckedContacts<Number>& moving, const Support<Number>& support) {
   Linear<Number> sum = moving[support.contacts.front()].p;
@@ -274,14 +279,14 @@ Linear<Number> MiddleOf(const CheckedContacts<Number>& moving, const Support<Num
   return {share * sum.start, share * sum.end};
 }
 
-/// What supporting contacts need at most to take up what forces and torques leave unbalanced.
+/// Upper bounds on the loads of supporting contacts that balance the remaining forces and torques.
 template <class Number>
 struct Correction {
-  Number force;  ///< of each of them
-  Number twist;  ///< of the one that twists, about its normal, times that
+  Number force;  ///< force of each of them
+  Number twist;  ///< torque of the soft finger about its normal, as a factor of the normal
 };
 
-/// Anywhere on a piece, from above.
+/// Return an upper bound on the correction at any instant of a piece.
 template <class Number>
 Correction<Number> LargestCorrection(const CheckedContacts<Number>& moving,
                                      const std::vector<Applied<Number>>& applied,
@@ -299,7 +304,7 @@ Correction<Number> LargestCorrection(const CheckedContacts<Number>& moving,
     force.start = force.start + of_contact.start;
     force.end = force.end + of_contact.end;
     if (!(moving[i].torsion > 0)) continue;
-    const VectorOf<Number>& n = moving[i].n.start;  // those that twist do not turn
+    const VectorOf<Number>& n = moving[i].n.start;  // normals with a torque do not turn
     torque[0] = torque[0] + first * n;
     torque[1] = torque[1] + Number((first + last) / 2) * n;
     torque[2] = torque[2] + last * n;
@@ -312,9 +317,9 @@ Correction<Number> LargestCorrection(const CheckedContacts<Number>& moving,
           support.per_twist * Root(torque_squared)};
 }
 
-/// A force at one end of a piece, and all within `margin` of it, are inside the cones of the
-/// normals at both ends.
-/// @param twist  of a contact that does not turn: its torque over its torsion, times the normal.
+/// Return whether all forces within `margin` of a force at one end of a piece are inside the cones
+/// of the normals at both ends.
+/// @param twist  torque over torsion, times the normal, for a contact that does not turn.
 template <class Number>
 bool StaysInsideCone(const VectorOf<Number>& force, const Number& twist, const Number& margin,
                      const CheckedContact<Number>& contact, const Number& mu) {
@@ -322,23 +327,23 @@ bool StaysInsideCone(const VectorOf<Number>& force, const Number& twist, const N
   if (!contact.turns) {
     return IsInsideCone<Number>(force, n.start, mu, margin, twist * twist * SquaredNorm(n.start));
   }
-  // tan(θ − δ) ≥ tan θ − δ (1 + tan² θ), as the tangent is convex.
+  // tan(θ − δ) ≥ tan θ − δ (1 + tan² θ), because the tangent is convex.
   const Number narrower = mu - Number(kTurnedNormalBound) * (1 + mu * mu);
   return narrower > 0 && IsInsideCone<Number>(force, n.start, narrower, margin, 0) &&
          IsInsideCone<Number>(force, n.end, narrower, margin, 0);
 }
 
-/// A contact on a piece: the doubles that number types take.
+/// Contact on a piece, as doubles for conversion to number types.
 struct GivenContact {
-  Eigen::Vector3d from;  ///< of the whole motion
+  Eigen::Vector3d from;  ///< point at the start of the whole motion
   Eigen::Vector3d to;
-  Eigen::Vector3d start_n;  ///< of the piece
+  Eigen::Vector3d start_n;  ///< normal at the start of the piece
   Eigen::Vector3d end_n;
   bool turns;
   double torsion;
 };
 
-/// Why the torques of a piece are none.
+/// Return the reason why the torques of a piece are invalid.
 std::string TorqueFault(const std::vector<GivenContact>& contacts, const MotionSegment& piece) {
   const std::vector<double>& start = piece.start_torques;
   const std::vector<double>& end = piece.end_torques;
@@ -354,7 +359,7 @@ std::string TorqueFault(const std::vector<GivenContact>& contacts, const MotionS
   return "";
 }
 
-/// What makes a piece no proof before any number is looked at.
+/// Return the reason why a piece is invalid without evaluation of its numbers.
 std::string PieceFault(const std::vector<GivenContact>& contacts, const MotionSegment& piece) {
   if (piece.start.size() != contacts.size() || piece.end.size() != contacts.size()) {
     return "not one force a contact";
@@ -379,7 +384,7 @@ CheckedContacts<Number> ContactsOn(const std::vector<GivenContact>& given,
   return contacts;
 }
 
-/// Of a piece without PieceFault.
+/// Check a piece without PieceFault.
 template <class Number>
 ProofVerdict CheckPiece(const std::vector<GivenContact>& given, int dimension, const Number& mu,
                         const MotionSegment& piece) {
@@ -408,9 +413,9 @@ ProofVerdict CheckPiece(const std::vector<GivenContact>& given, int dimension, c
   return {Kind::kForceClosure, ""};
 }
 
-/// By intervals where they can tell, otherwise by rational numbers, which take far longer. Both
-/// take the same steps, and each proves only what is so; where two supports are as good they may
-/// take different ones.
+/// Check a piece by intervals if they can decide, otherwise by rational numbers.
+/// Rational numbers are far slower. Both use the same steps, and each proves only true statements.
+/// If two supports are equally good, they may use different ones.
 ProofVerdict CheckFiltered(const std::vector<GivenContact>& given, int dimension, double mu,
                            const MotionSegment& piece) {
   try {
@@ -421,7 +426,7 @@ ProofVerdict CheckFiltered(const std::vector<GivenContact>& given, int dimension
   return CheckPiece<Rational>(given, dimension, Rational(mu), piece);
 }
 
-/// The normal at t on the path from n to `to`, up to its length.
+/// Return the normal at t between n and `to`, up to its length.
 Eigen::Vector3d TurnedNormal(const Eigen::Vector3d& n, const Eigen::Vector3d& to, double t) {
   const Eigen::Vector3d a = n.normalized();
   const Eigen::Vector3d b = to.normalized();
@@ -429,13 +434,13 @@ Eigen::Vector3d TurnedNormal(const Eigen::Vector3d& n, const Eigen::Vector3d& to
   return std::sin((1 - t) * angle) * a + std::sin(t * angle) * b;
 }
 
-/// Whether a normal turns by more than kMostTurn, or is none.
+/// Return whether a normal turns by more than kMostTurn, or is not a normal.
 bool TurnsTooFar(const grasp::Contact& from, const grasp::Contact& to) {
   const double cosine = from.n.normalized().dot(to.n.normalized());
   return !(cosine > std::cos(kMostTurn));
 }
 
-/// The contacts at both ends of a piece, their normals in floating point.
+/// Return the contacts at both ends of a piece, with their normals in floating point.
 std::vector<GivenContact> GivenOn(std::span<const grasp::Contact> from,
                                   std::span<const grasp::Contact> to, const MotionSegment& piece) {
   std::vector<GivenContact> given;

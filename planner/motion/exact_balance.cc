@@ -10,19 +10,19 @@ namespace {
 
 using Integer = mpz_class;
 
-/// The least common denominator.
+/// Return the least common denominator.
 Integer CommonDenominator(std::span<const Rational> numbers) {
   Integer common = 1;
   for (const Rational& number : numbers) common = lcm(common, number.get_den());
   return common;
 }
 
-/// number · multiple, which is an integer.
+/// Return number · multiple, which is an integer.
 Integer Multiple(const Rational& number, const Integer& multiple) {
   return number.get_num() * (multiple / number.get_den());
 }
 
-/// x · 2^exponent.
+/// Return x · 2^exponent.
 Rational Shifted(const Rational& x, long exponent) {
   Rational shifted;
   if (exponent >= 0) {
@@ -41,14 +41,14 @@ class Elimination {
   Integer& At(int row, int column) { return m_[row * (columns_ + 1) + column]; }
   Integer& Right(int row) { return At(row, columns_); }
 
-  /// numerators / denominator, the denominator positive.
+  /// Solution numerators / denominator; the denominator is positive.
   struct Solution {
     std::vector<Integer> numerators;
     Integer denominator = 1;
   };
 
-  /// A solution with as many unknowns as pivots on the diagonal are not 0, the others being 0.
-  /// @returns nullopt where it leaves a row unsolved.
+  /// Return a solution with one unknown per nonzero pivot on the diagonal; the others are 0.
+  /// @returns nullopt if it leaves a row unsolved.
   std::optional<Solution> Solve() {
     int rank = 0;
     Integer before = 1;
@@ -73,7 +73,7 @@ class Elimination {
   }
 
  private:
-  /// All entries stay minors of the equations, so that the division is exact.
+  /// All entries stay minors of the equations, so the division is exact.
   void EliminateRow(int row, int pivot, const Integer& before) {
     const Integer factor = At(row, pivot);
     for (int c = pivot + 1; c <= columns_; ++c) {
@@ -87,10 +87,11 @@ class Elimination {
 
   int rows_;
   int columns_;
-  std::vector<Integer> m_;  ///< each row with its right side at its end
+  std::vector<Integer> m_;  ///< rows, each with its right-hand side at its end
 };
 
-/// Rows and columns of A by the pivots that floating point would take, the largest first.
+/// Order of the rows and columns of A by the pivots of floating-point elimination, the largest
+/// first.
 struct Order {
   std::vector<int> rows;
   std::vector<int> columns;
@@ -118,7 +119,8 @@ bool IsZero(const Vector& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
 
 Rational RootAbove(const Rational& x) {
   if (x == 0) return 0;
-  // Scaled to about 1, where doubles neither overflow nor vanish; roots halve an even exponent.
+  // Scaled to about 1, at which doubles neither overflow nor underflow; roots halve an even
+  // exponent.
   long exponent = static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) -
                   static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
   exponent -= exponent % 2;

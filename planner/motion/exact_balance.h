@@ -10,7 +10,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/motion/vectors_of.h"
 
-/// Vectors, cones and the balance of forces in rational arithmetic, without rounding.
+/// Vectors, cones and the balance of forces in rational arithmetic without rounding.
 namespace regrasp::motion::exact {
 
 using Rational = mpq_class;
@@ -18,13 +18,14 @@ using Vector = VectorOf<Rational>;
 
 inline constexpr double kRootAbove = 1 + 5e-7;
 
-/// The values of doubles, which must be finite.
+/// Return the exact values of doubles, which must be finite.
 [[nodiscard]] Vector Exact(const Eigen::Vector3d& v);
 
 [[nodiscard]] bool IsZero(const Vector& a);
 
-/// √x from above, larger by a millionth of it at most: a root in doubles times kRootAbove.
-/// @param x  not negative.
+/// Return an upper bound on √x, larger by at most a millionth of it.
+/// It is the root of a double times kRootAbove.
+/// @param x  number ≥ 0.
 [[nodiscard]] Rational RootAbove(const Rational& x);
 
 template <>
@@ -51,11 +52,11 @@ class Balance {
 
   [[nodiscard]] Rational& At(int row, int column) { return a_[row * columns_ + column]; }
 
-  /// A positive multiple of x, of integers, with some numbers changed so that A x = 0 holds
-  /// exactly: those of columns that elimination in floating point picks as pivots. What they take
-  /// up is found by elimination of integers without fractions (Bareiss 1968), which needs no
+  /// Return a positive integer multiple of x, corrected so that A x = 0 is exact.
+  /// Only the unknowns of columns that elimination in floating point picks as pivots are changed.
+  /// Their values are found by fraction-free integer elimination (Bareiss 1968), which needs no
   /// greatest common divisors.
-  /// @returns nullopt where the columns picked cannot take up what is left.
+  /// @returns the solution; nullopt if these columns cannot balance the remainder.
   [[nodiscard]] std::optional<std::vector<Rational>> Corrected(
       const std::vector<Rational>& x) const;
 
@@ -65,14 +66,14 @@ class Balance {
   std::vector<Rational> a_;
 };
 
-/// The rows and columns that forces have in space or in the plane.
+/// Rows and columns of forces in space or in the plane.
 struct Layout {
   explicit Layout(int space) : dimension(space), torques(space == 3 ? 3 : 1) {}
 
   int dimension;
   int torques;
 
-  /// Adds the torques of unit forces at p, as columns from `column` on and rows from `row` on.
+  /// Add the torques of unit forces at p as columns from `column` and rows from `row`.
   void AddTorques(const Vector& p, int row, int column, Balance& balance) const;
   void AddForces(int row, int column, Balance& balance) const;
   [[nodiscard]] Vector Force(const std::vector<Rational>& x, int column) const;

@@ -16,33 +16,34 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How close to the limit forces are looked for.
+/// Limits on how close to the limit of force closure the search goes.
 struct Nearness {
-  double largest_weight;  ///< of FindMovingForces
-  /// Forces stay this much of the largest one away from the cone's border, so that the exact
-  /// correction of their rounding, and that of decimals in files, does not bring them out.
+  double largest_weight;  ///< parameter of FindMovingForces
+  /// Distance of forces from the cone's border, over the largest force. It covers the exact
+  /// correction of their rounding, and the rounding of decimals in files.
   double slack;
-  /// Where nothing is found, redundant equations are left out: that takes as long again.
+  /// Whether to retry without redundant equations if nothing is found, which doubles the time.
   bool without_redundancy;
 };
 constexpr Nearness kForPlans = {kLargestWeight, 1e-9, false};
-/// For the analytic check: a piece counts only where exact arithmetic accepts it as it is.
+/// Limits for the analytic check, in which a piece counts only if exact arithmetic accepts it
+/// unchanged.
 constexpr Nearness kForChecks = {kLargestWeightNearLimit, 1e-13, true};
 
-/// So much narrower, in radians, are the cones of normals that turn: more than the exact check
-/// takes off them.
+/// Angle by which the cones of turning normals are narrower, radians: more than the exact check
+/// subtracts.
 constexpr double kTurnRoom = 4 * kTurnedNormalBound;
 
-/// Instants that are looked at where the whole motion has no proof in one piece, the most telling
-/// ones first: where one is not force closure there is nothing to look for.
+/// Instants that are tested if the whole motion has no proof in one piece, the most informative
+/// first. If one is not force closure, there is no proof.
 constexpr std::array kProbes = {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875, 0.0, 1.0};
 constexpr double kBetweenProbes = 0.125;
 
-/// Three contacts span a plane if the cross product of two sides keeps at least this far on one
-/// side, in the frame of the piece.
+/// Least one-sided component of the cross product of two sides with which three contacts span a
+/// plane, in the frame of the piece.
 constexpr double kSpread = 1e-9;
 
-/// The part of a motion from t = from to t = to.
+/// Part of a motion from t = from to t = to.
 struct Piece {
   double from;
   double to;
@@ -56,7 +57,8 @@ class MotionProofSearch {
   MotionProofSearch(const GraspMotion& motion, double half_angle, const Nearness& nearness)
       : motion_(motion), half_angle_(half_angle), nearness_(nearness) {}
 
-  /// @param shortest  of the pieces that are looked at.
+  /// Find proofs of consecutive pieces.
+  /// @param shortest  length of the shortest pieces.
   std::optional<std::vector<MotionSegment>> Find(double shortest) {
     std::vector<MotionSegment> pieces;
     if (!Cover({0, 1}, shortest, pieces)) return std::nullopt;
@@ -85,7 +87,7 @@ class MotionProofSearch {
  private:
   static constexpr int kDim = kSpace == 3 ? 6 : 3;
 
-  /// From the unit of length of the piece's frame to that of the motion.
+  /// Convert torques from the unit of length of the piece's frame to that of the motion.
   void AddTorques(const MovingContacts& contacts, const MovingTorques<1>& torques,
                   MotionSegment& proved) const {
     for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -132,7 +134,7 @@ class MotionProofSearch {
     return grasp::DecideForceClosure<kDim>(contacts).decision == grasp::Decision::kYes;
   }
 
-  /// The contacts on a piece; empty where a normal turns too far on it for its cones to meet.
+  /// Return the contacts on a piece; empty if a normal turns too far for its cones to intersect.
   [[nodiscard]] MovingContacts ContactsOn(const Piece& piece) const {
     Vector3d start_centre = Vector3d::Zero();
     Vector3d end_centre = Vector3d::Zero();
@@ -149,7 +151,7 @@ class MotionProofSearch {
       end_centre += contacts.back().end;
       velocity += contacts.back().velocity;
     }
-    // Torques of balanced forces are the same about every point, so about one that moves along.
+    // Torques of balanced forces are the same about every point, including a moving one.
     const double share = 1 / static_cast<double>(motion_.size());
     double radius = 0;
     for (MovingContact& contact : contacts) {
@@ -197,8 +199,7 @@ class MotionProofSearch {
     return normal * contact.tangential - tangential * contact.axial > nearness_.slack;
   }
 
-  /// Whether the torque of a soft finger resists a turn about the line of some two contacts all
-  /// along.
+  /// Return whether a soft finger resists a turn about the line of some two contacts throughout.
   [[nodiscard]] static bool TwistSpans(const MovingContacts& contacts) {
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (contacts[i].torsion == 0) continue;
@@ -211,8 +212,8 @@ class MotionProofSearch {
     return false;
   }
 
-  /// Whether some three contacts (two in the plane) keep apart all along, or a soft finger takes
-  /// the place of the third.
+  /// Return whether some three contacts (two in the plane) never become collinear (coincide).
+  /// A soft finger may replace the third contact.
   [[nodiscard]] static bool Span(const MovingContacts& contacts) {
     if (TwistSpans(contacts)) return true;
     const std::size_t count = contacts.size();
@@ -242,7 +243,7 @@ class MotionProofSearch {
   Nearness nearness_;
 };
 
-/// Whether there is something to prove at all.
+/// Return whether a proof is possible at all.
 bool CanBeProved(const GraspMotion& motion) {
   const auto flips = [](const ContactMotion& contact) { return contact.turn() > kMostTurn; };
   return !motion.empty() && std::none_of(motion.begin(), motion.end(), flips);

@@ -10,14 +10,15 @@
 
 namespace regrasp::motion {
 
-/// Work that searches for proofs along motions may still do: pieces looked at, times their
-/// contacts. Counted, not timed, so that the same input has the same answer on every machine; a
-/// unit takes some ten microseconds.
+/// Remaining work of searches for proofs along motions.
+/// The unit is one contact of an evaluated piece, about 10 µs. Work is counted instead of timed, so
+/// that the same input has the same result on every machine.
 class ProofBudget {
  public:
   explicit ProofBudget(std::int64_t units) : left_(units) {}
 
-  /// @returns false where nothing is left.
+  /// Consume the work of a piece.
+  /// @returns false if the budget is exhausted.
   bool SpendPiece(std::size_t contacts) {
     if (left_ <= 0) return false;
     left_ -= static_cast<std::int64_t>(contacts);
@@ -29,36 +30,38 @@ class ProofBudget {
   std::int64_t left_;
 };
 
-/// Of a motion of length 1: pieces are not halved below this.
+/// Length below which pieces are not halved, for a motion of length 1.
 inline constexpr double kShortestProofPiece = 1.0 / 4096;
 
-/// Looks for a proof of force closure on the piece of a motion between two instants: forces of
-/// degree 1 that balance at every instant and keep strictly inside the cones (FindMovingForces).
+/// Search for a proof of force closure on a piece of a motion between two instants.
+/// The proof consists of forces of degree 1 that balance at every instant and stay strictly inside
+/// the cones (FindMovingForces).
 ///
-/// While a normal turns, forces must be inside the cones of all its directions. They are looked for
-/// in the largest circular cone inside those of both ends of the piece: about the direction between
-/// them, narrower by half of the turn. (A force inside both is inside all cones between, as the
-/// directions within θ of a force are a convex part of the sphere.) A soft finger is taken to be a
-/// hard point while its normal turns.
+/// While a normal turns, forces must be inside the cones of all its directions. The search uses the
+/// largest circular cone inside those of both ends of the piece: about the direction halfway
+/// between them, narrower by half of the turn. (A force inside both cones is inside all cones in
+/// between. The reason is that the directions within θ of a force are a convex part of the sphere.)
+/// A soft finger counts as a hard-finger contact while its normal turns. The search goes closer to
+/// the limit than FindMotionProof (kLargestWeightNearLimit).
 ///
-/// @param dimension   3, or 2 for planar contacts. @param half_angle  radians, in (0, π/2).
-/// Looks closer to the limit than FindMotionProof does (kLargestWeightNearLimit).
-/// @returns nullopt where none was found; that is no proof of the opposite.
-/// @throws std::invalid_argument  half_angle out of range.
+/// @param dimension   3, or 2 for planar contacts.
+/// @param half_angle  friction angle in radians, in (0, π/2).
+/// @returns the proof; nullopt if none was found, which does not prove the opposite.
+/// @throws std::invalid_argument  if half_angle is out of range.
 [[nodiscard]] std::optional<MotionSegment> FindSegmentProof(const GraspMotion& motion,
                                                             int dimension, double half_angle,
                                                             double from, double to);
 
-/// Looks for proofs all along a motion: pieces from 0 to 1 that follow each other
-/// (FindSegmentProof). A piece without a proof is halved; an instant that is not force closure ends
-/// the search. Such instants are looked for only where the whole motion is not proved in one piece,
-/// as most are.
+/// Search for proofs throughout a motion: consecutive pieces from 0 to 1 (FindSegmentProof).
+/// A piece without a proof is halved; an instant without force closure ends the search. Such
+/// instants are tested only if the whole motion is not proved in one piece, as most are.
 ///
-/// Takes about 10 µs for four contacts in space where one piece is enough.
-/// @param dimension   3, or 2 for planar contacts. @param half_angle  radians, in (0, π/2).
-/// @param shortest    pieces shorter than this are not looked at.
-/// @returns nullopt where none was found; that is no proof of the opposite.
-/// @throws std::invalid_argument  half_angle out of range.
+/// Takes about 10 µs for four contacts in space if one piece is enough.
+/// @param dimension   3, or 2 for planar contacts.
+/// @param half_angle  friction angle in radians, in (0, π/2).
+/// @param shortest    length of the shortest pieces.
+/// @returns the proofs; nullopt if none were found, which does not prove the opposite.
+/// @throws std::invalid_argument  if half_angle is out of range.
 [[nodiscard]] std::optional<std::vector<MotionSegment>> FindMotionProof(
     const GraspMotion& motion, int dimension, double half_angle,
     double shortest = kShortestProofPiece);

@@ -15,21 +15,22 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A column improves only if its reduced cost exceeds this, relative to the dual's size.
+/// Least reduced cost of a column that improves, relative to the dual's size.
 constexpr double kImprovement = 1e-13;
 
-/// Proofs take 15 to 40 pivots in space; what takes more is close to the limit, and is halved.
+/// Limits of the simplex method. Proofs take 15 to 40 pivots in space; a piece that takes more is
+/// close to the limit, and is halved.
 constexpr lp::Limits kLimits = {.pivots = 100};
 
-/// What the balance may leave of forces of size 1: some roundings of each of their sums.
+/// Unbalanced remainder of forces of size 1 that counts as rounding of their sums.
 constexpr double kUnbalanced = 1e-12;
 
-/// Equations that the others imply up to this, relative to the largest, are taken to be implied:
-/// rounding makes some 1e-15 of them, geometry hardly ever as little as this.
+/// Relative size below which an equation counts as implied by the others. Rounding causes about
+/// 1e-15; geometry rarely causes values this small.
 constexpr double kRedundant = 1e-11;
 
-/// Where the torque of a coefficient enters: `factor` times its cross product with an arm in the
-/// block of rows.
+/// Contribution of a coefficient's torque: `factor` times its cross product with an arm, in a block
+/// of rows.
 struct Arm {
   int block;
   enum class Kind { kStart, kMiddle, kEnd, kVelocity } kind;
@@ -80,7 +81,8 @@ class ForceProgram {
     }
   }
 
-  /// Leaves out equations that the others imply. @returns false where there are none.
+  /// Omit equations that the others imply.
+  /// @returns false if there are none.
   bool LeaveOutRedundant() {
     const int unit_forces = static_cast<int>(sources_.size()) * kSpace;
     Eigen::MatrixXd columns(unit_forces + static_cast<int>(sources_.size()), kRows);
@@ -120,7 +122,7 @@ class ForceProgram {
 
   using Row = Eigen::Matrix<double, kRows, 1>;
 
-  /// A contact's coefficient as a family of columns.
+  /// Contact's coefficient as a family of columns.
   struct Source {
     grasp::UnitContact contact;
     int coefficient;
@@ -166,8 +168,8 @@ class ForceProgram {
     return per_speed * contact.velocity;
   }
 
-  /// What a torque about the normal adds to a block: to values as the force's arm is weighted, to
-  /// the leading coefficient nothing.
+  /// Return what a torque about the normal adds to a block.
+  /// Values have the weight of the force's arm; the leading coefficient has none.
   static double TwistShare(int coefficient, int arm) {
     const Arm& of = Arms<kDegree>::kOf[coefficient][arm];
     return of.kind == Arm::Kind::kVelocity ? 0 : of.factor;
@@ -200,7 +202,7 @@ class ForceProgram {
     return spin;
   }
 
-  /// The column with the largest reduced cost; false where balance is reached or cannot be.
+  /// Find the column with the largest reduced cost; false if balance is reached or impossible.
   bool FindBest(const Row& dual, Column& column) const {
     if (program_.unbalanced() <= kUnbalanced) return false;
     boost::container::small_vector<double, grasp::kInlineContacts*(kDegree + 1)> supports;
@@ -210,7 +212,7 @@ class ForceProgram {
     }
     const auto best = std::max_element(supports.begin(), supports.end());
     if (!(*best > kImprovement * dual.template lpNorm<1>())) return false;
-    // Weights λ ≥ 0 with Σ λ w = b give y·b = Σ λ (y·w) ≤ best Σ λ for the dual y at hand.
+    // Weights λ ≥ 0 with Σ λ w = b give y·b = Σ λ (y·w) ≤ best Σ λ for the current dual y.
     if (*best * largest_weight_ < program_.objective()) return false;
     constexpr int kDim = kSpace == 3 ? 6 : 3;
     column.source = &sources_[best - supports.begin()];
@@ -219,7 +221,7 @@ class ForceProgram {
     return true;
   }
 
-  /// The forces a n + g of the basic solution, refined by the inverse basis.
+  /// Return the forces a n + g of the basic solution, refined by the inverse basis.
   void ReadForces(const Row& right, MovingForces<kDegree>& forces,
                   MovingTorques<kDegree>* torques) const {
     Row weights = program_.weights();
@@ -260,7 +262,7 @@ class ForceProgram {
   std::span<const MovingContact> contacts_;
   double largest_weight_;
   boost::container::small_vector<Source, grasp::kInlineContacts*(kDegree + 1)> sources_;
-  Row kept_ = Row::Ones();  ///< 0 for equations that are left out
+  Row kept_ = Row::Ones();  ///< 0 for omitted equations
   lp::Simplex<kRows, Column> program_;
 };
 

@@ -9,23 +9,24 @@
 
 namespace regrasp::motion {
 
-/// A contact on a straight segment of its path, in a frame in which the grasp is centred and of
-/// about radius 1 at both ends, with the friction cone that its forces keep to all along.
+/// Contact on a straight segment of its path, with the cone of its forces throughout the segment.
+/// The frame is centred on the grasp, which has about radius 1 in it at both ends.
 struct MovingContact {
   Eigen::Vector3d start;
   Eigen::Vector3d end;
-  /// end − start, times any factor that is the same for all contacts. On short pieces the
-  /// difference of rounded points would lose the digits that say which torques are redundant.
+  /// Difference end − start, times any factor common to all contacts. On short pieces the
+  /// difference of rounded points would lose the digits that determine which torques are redundant.
   Eigen::Vector3d velocity;
   Eigen::Vector3d n;
-  /// The rim of the cone, axial · n + tangential · t, of unit length.
+  /// Rim of the cone: axial · n + tangential · t, of unit length.
   double axial;
   double tangential;
   double torsion = 0;  ///< grasp::Contact::torsion in the frame's unit
 };
 
 struct MovingContacts : boost::container::small_vector<MovingContact, grasp::kInlineContacts> {
-  // Boost's iterators are not contiguous ones, so std::span does not take the container itself.
+  // Boost's iterators are not contiguous iterators, so std::span does not accept the container
+  // itself.
   operator std::span<const MovingContact>() const { return {data(), size()}; }  // NOLINT
 };
 
@@ -37,51 +38,55 @@ template <int kDegree>
 using MovingForces =
     boost::container::small_vector<ForceCoefficients<kDegree>, grasp::kInlineContacts>;
 
-/// Those of the torques of soft fingers about their normals, in the frame's unit of length.
+/// Bernstein coefficients of the torques of soft fingers about their normals, in the frame's unit
+/// of length.
 template <int kDegree>
 using MovingTorques =
     boost::container::small_vector<std::array<double, kDegree + 1>, grasp::kInlineContacts>;
 
-/// Forces with more weight in all than this beside the fixed part of 1 to 1.5 along each normal are
-/// not looked for: hardly any motion needs them that is not close to the limit, and to rule them
-/// out takes twice the pivots.
+/// Largest total weight of forces, in addition to the fixed part of 1 to 1.5 along each normal. Few
+/// motions that are not close to the limit need more, and excluding larger weights takes twice the
+/// pivots.
 inline constexpr double kLargestWeight = 1e4;
 
-/// Enough for motions that are force closure with 1e-8 rad to spare: their forces are about the
-/// inverse of that times larger than what they keep off their cones.
+/// Largest total weight for motions near the limit. It is enough for motions that are force closure
+/// with a friction margin of 1e-8 rad: their forces are about the inverse of that times larger than
+/// their distance to the cones.
 inline constexpr double kLargestWeightNearLimit = 1e10;
 
-/// Looks for forces of degree d in t that balance at every instant of a piece, all coefficients
-/// strictly inside their contacts' cones.
+/// Search for forces of degree d in t that balance at every instant of a piece.
+/// All coefficients are strictly inside their contacts' cones.
 ///
 /// With p_i(t) = (1 − t) p_i + t p'_i, forces and torques of Σ f_i(t) are polynomials of degree d
 /// and d + 1: 6 d + 9 linear equations in space, 3 d + 4 in the plane. The forces are f = a n + g
 /// with fixed weights a > 0 and g inside the cone, so that Σ W(g) = −Σ a W(n) over all contacts and
-/// coefficients: a cone program without bounds, solved by the simplex method with the rim forces g
-/// as columns. The best column for a dual solution is closed form, as in WrenchSimplex; here each
-/// coefficient has a velocity of its own, u_ik, the sum of the blocks' twists at its arms.
+/// coefficients. This is a cone program without bounds, solved by the simplex method with the rim
+/// forces g as columns. The best column for a dual solution has a closed form, as in WrenchSimplex.
+/// Here each coefficient has its own velocity u_ik, the sum of the blocks' twists at its arms.
 ///
-/// The torques are written as values at the ends (and in the middle for degree 2) and as their
-/// leading coefficient, Σ v × Δ^d f over the largest |v| of the velocities, so that short pieces
-/// are as well conditioned as long ones. A soft finger has a torque of degree d about its normal
-/// with each force, which is a part of the values alone.
+/// The torques are represented by their values at the ends (and in the middle for degree 2) and by
+/// their leading coefficient, Σ v × Δ^d f over the largest |v| of the velocities. Short pieces are
+/// thus as well conditioned as long ones. A soft finger has a torque of degree d about its normal
+/// with each force, which contributes to the values only.
 ///
-/// Source of the idea: force closure by balanced forces inside the cones, Murray, Li and Sastry
-/// 1994, Prop. 5.3; column generation, Dantzig and Wolfe 1960.
-/// @tparam kSpace  3, or 2 for planar contacts. @tparam kDegree  1 or 2.
-/// @param forces  set where true is returned: of largest length 1.
-/// @param torques  the same; may be null where all contacts are hard points.
-/// @returns false where there are none, or none was found within the limit on pivots.
+/// Sources: force closure by balanced forces inside the cones, Murray, Li and Sastry 1994, Prop.
+/// 5.3; column generation, Dantzig and Wolfe 1960.
+/// @tparam kSpace  3, or 2 for planar contacts.
+/// @tparam kDegree  1 or 2.
+/// @param forces  output if true is returned, with largest length 1.
+/// @param torques  output if true is returned; may be null if all contacts are hard-finger
+///     contacts.
+/// @returns false if there are no such forces, or none were found within the limit on pivots.
 template <int kSpace, int kDegree>
 [[nodiscard]] bool FindMovingForces(std::span<const MovingContact> contacts,
                                     MovingForces<kDegree>& forces,
                                     double largest_weight = kLargestWeight,
                                     MovingTorques<kDegree>* torques = nullptr);
 
-/// The same of degree 1 for contacts whose equations are not independent, as where all of them are
-/// in one plane: rounding makes equations of what the others imply that nothing can satisfy. Those
-/// are left out.
-/// @returns false also where the equations are independent.
+/// Search for forces of degree 1 for contacts with dependent equations.
+/// Equations are dependent, for example, if all contacts are in one plane. Rounding then makes
+/// implied equations infeasible, so they are omitted.
+/// @returns false also if the equations are independent.
 template <int kSpace>
 [[nodiscard]] bool FindMovingForcesWithoutRedundancy(std::span<const MovingContact> contacts,
                                                      MovingForces<1>& forces,

@@ -14,19 +14,19 @@ namespace regrasp::motion {
 
 namespace {
 
-/// Intervals shorter than this are given more slack than kPathAngleAccuracy, twice as much with
-/// every halving; and all are once more with every kPatience intervals looked at. So the search
+/// Length of intervals below which the slack exceeds kPathAngleAccuracy. It doubles with every
+/// halving, and for all intervals with every kPatience evaluated intervals, so that the search
 /// ends.
 constexpr double kWidenBelow = 1e-4;
 constexpr int kPatience = 200;
 
-/// Required half-angles of single instants are found to this, radians.
+/// Tolerance of required friction angles of single instants, radians.
 constexpr double kInstantAccuracy = kPathAngleAccuracy / 100;
 
-/// ComputeRequiredHalfAngle looks no farther.
+/// Largest friction angle of ComputeRequiredHalfAngle.
 constexpr double kLargestHalfAngle = std::numbers::pi / 2 - 1e-6;
 
-/// Proofs of pieces of a motion that are found in floating point, and checked in exact arithmetic.
+/// Proofs of pieces of a motion, found in floating point and checked in exact arithmetic.
 class SegmentProofs {
  public:
   SegmentProofs(const GraspMotion& motion, int dimension) : motion_(motion), dimension_(dimension) {
@@ -124,9 +124,10 @@ class PathDecision {
   PathForceClosure result_;
 };
 
-/// The search for a bound on the whole path: intervals with a proof are done with, others are
-/// halved, those with the largest required half-angle in their middle first. So the largest of all
-/// is known before what it covers easily is looked at.
+/// Search for a bound on the whole path.
+/// Intervals with a proof are finished, others are halved, those with the largest required friction
+/// angle at their middle first. The largest angle is thus known before intervals that it easily
+/// covers are evaluated.
 class PathAngle {
  public:
   PathAngle(const GraspMotion& motion, const object::WrenchFrame& frame,
@@ -137,9 +138,10 @@ class PathAngle {
         proven_(proven),
         budget_(budget) {}
 
-  /// @returns false where an instant is force closure at no angle.
+  /// Search for the bound.
+  /// @returns false if an instant is force closure at no angle.
   bool Search() {
-    // The ends first: the largest angle of all is often one of theirs.
+    // The ends first, because one of them often has the largest angle.
     if (!Include(0) || !IncludeEnd(1) || !IncludeEnd(0.5)) return false;
     open_.push({0, 1, 0});
     while (!open_.empty() && complete_) {
@@ -158,7 +160,7 @@ class PathAngle {
   struct Interval {
     double from;
     double to;
-    double required;  ///< in the middle; 0 where it is no larger than what was known
+    double required;  ///< at the middle; 0 if it does not exceed the known bound
 
     [[nodiscard]] double length() const { return to - from; }
     bool operator<(const Interval& other) const {
@@ -166,14 +168,15 @@ class PathAngle {
     }
   };
 
-  /// Whether an instant needs no larger angle than what is known; false at first.
+  /// Return whether an instant requires no larger angle than the known bound; initially false.
   bool IsCovered(double t) const {
     return bounds_.lower > 0 && grasp::IsForceClosure(GraspAt(motion_, t), frame_, bounds_.lower);
   }
 
   bool IncludeEnd(double t) { return IsCovered(t) || Include(t).has_value(); }
 
-  /// The required half-angle of an instant; nullopt where it is force closure at none.
+  /// Include an instant in the bound.
+  /// @returns its required friction angle; nullopt if it is force closure at no angle.
   std::optional<double> Include(double t) {
     const auto required = RequiredAt(t);
     if (!required) return std::nullopt;
@@ -182,7 +185,8 @@ class PathAngle {
     return required->upper;
   }
 
-  /// No smaller than what another instant needs, which is all that is asked.
+  /// Return the required friction angle, but at least that of earlier instants.
+  /// This suffices for the bound.
   [[nodiscard]] std::optional<grasp::RequiredHalfAngle> RequiredAt(double t) const {
     const grasp::Grasp grasp = GraspAt(motion_, t);
     if (!proven_ || *proven_ > kLargestHalfAngle) {
@@ -194,7 +198,8 @@ class PathAngle {
 
   bool Add(double from, double to) {
     const double middle = from + (to - from) / 2;
-    // Its angle is found only where it raises the bound: it costs as much as twenty decisions.
+    // Its angle is computed only if it raises the bound, because that costs as much as twenty
+    // decisions.
     if (IsCovered(middle)) {
       open_.push({from, to, 0});
       return true;
@@ -223,14 +228,14 @@ class PathAngle {
   const object::WrenchFrame& frame_;
   std::optional<double> proven_;
   ProofBudget& budget_;
-  grasp::RequiredHalfAngle bounds_;  ///< of the instants seen so far
+  grasp::RequiredHalfAngle bounds_;  ///< bounds over the instants evaluated so far
   std::priority_queue<Interval> open_;
   double proved_ = 0;
   bool complete_ = true;
   int intervals_ = 0;
 };
 
-/// Of a motion by itself.
+/// Return the default budget of a single motion.
 ProofBudget BudgetOf(const GraspMotion& motion) {
   return ProofBudget(kMostIntervals * static_cast<std::int64_t>(motion.size()));
 }

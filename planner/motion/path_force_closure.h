@@ -11,68 +11,69 @@
 
 namespace regrasp::motion {
 
-/// Force closure is decided down to intervals of this length, the motion being 1 long.
+/// Length of the shortest intervals of the decision, for a motion of length 1.
 inline constexpr double kShortestInterval = 1e-6;
 
-/// So many intervals of one motion are looked at: one that needs more keeps within about 1e-5 of
-/// the limit.
+/// Largest number of intervals of one motion. A motion that needs more is within about 1e-5 of the
+/// limit.
 inline constexpr int kMostIntervals = 20'000;
 
-/// Where more than this many of the shortest intervals, a thousandth of the path, stay undecided
-/// the search ends: the motion keeps too close to the limit.
+/// Largest number of shortest intervals that may stay undecided, a thousandth of the path. With
+/// more the search ends, because the motion is too close to the limit.
 inline constexpr int kMostUndecided = 1000;
 
-/// What is known of force closure along a motion.
+/// Result of the decision of force closure along a motion.
 struct PathForceClosure {
-  /// kYes: proved everywhere. kNo: an instant is not force closure. kTooClose: neither.
+  /// kYes: proved throughout. kNo: an instant is not force closure. kTooClose: neither.
   grasp::Decision decision = grasp::Decision::kTooClose;
-  /// After kNo the instant t that decided; after kTooClose the first one that nothing is known of.
+  /// After kNo the instant t that decided; after kTooClose the first undecided instant.
   double at = 0;
-  /// Intervals no longer than kShortestInterval without a proof, whose ends and centre are force
-  /// closure.
+  /// Number of intervals no longer than kShortestInterval without a proof; their ends and centre
+  /// are force closure.
   int undecided = 0;
-  /// Of kTooClose: the search ended before it came to the end of the motion.
+  /// Whether, after kTooClose, the search stopped before the end of the motion.
   bool ended_early = false;
-  /// The proofs that were found, in order; after kYes they cover the whole motion.
+  /// Proofs found, in order; after kYes they cover the whole motion.
   MotionSegments pieces;
 
-  /// Proved everywhere.
+  /// Whether force closure is proved throughout.
   [[nodiscard]] bool holds() const { return decision == grasp::Decision::kYes; }
 };
 
-/// Decides force closure of a motion everywhere on the path, by bisection: an interval is halved
-/// until it has a proof (FindSegmentProof) that exact arithmetic accepts (CheckSegmentProof), an
-/// instant fails IsForceClosure, or it is shorter than kShortestInterval.
+/// Decide force closure of a motion throughout the path, by bisection.
+/// An interval is halved until one of three conditions is met:
+/// - it has a proof (FindSegmentProof) that exact arithmetic accepts (CheckSegmentProof)
+/// - an instant fails IsForceClosure
+/// - it is shorter than kShortestInterval
 ///
-/// Ends early after kMostIntervals intervals, or where nothing is left of the budget.
+/// The decision stops early after kMostIntervals intervals, or if the budget is exhausted.
 ///
-/// Laws: monotone in half_angle; a motion that is not force closure at some instant, however short
-/// the interval, is never said to hold.
+/// Laws: monotone in half_angle. A motion that is not force closure at some instant, however short
+/// the interval, is never decided kYes.
 [[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
                                                       const object::WrenchFrame& frame,
                                                       double half_angle, ProofBudget& budget);
-/// The same with a budget of its own.
+/// Decide force closure of a motion with a default budget.
 [[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
                                                       const object::WrenchFrame& frame,
                                                       double half_angle);
 
-/// The accuracy of ComputePathRequiredHalfAngle, radians (0.006°), where proofs reach far enough at
-/// it.
+/// Accuracy of ComputePathRequiredHalfAngle, radians (0.006°), if proofs succeed at it.
 inline constexpr double kPathAngleAccuracy = 1e-4;
 
-/// Bounds on the largest required half-angle along a motion: `lower` is attained at an instant,
-/// `upper` is proved for the whole path, piece by piece, by proofs that exact arithmetic accepts.
-/// `upper` is within kPathAngleAccuracy of `lower`, unless a narrow place of the path needs proofs
-/// with more slack, or the path needs hundreds of pieces at that slack; then as far off as they
-/// need. Where the budget ends it is `proven`.
-/// @param proven  a half-angle at which the whole motion is known to be force closure, if any:
-///                `upper` is never above it.
-/// @returns nullopt where an instant is force closure at no angle, or no angle below π/2 could be
-///          proved for the whole path.
+/// Compute bounds on the largest required friction angle along a motion.
+/// `lower` is attained at an instant. `upper` is proved for the whole path, piece by piece, by
+/// proofs that exact arithmetic accepts. `upper` is within kPathAngleAccuracy of `lower`, with two
+/// exceptions. A narrow place of the path may require proofs with more slack, or the path may
+/// require hundreds of pieces at that slack. If the budget is exhausted, `upper` is `proven`.
+/// @param proven  friction angle at which the whole motion is known to be force closure, if any;
+///     upper limit of `upper`.
+/// @returns bounds; nullopt if an instant is force closure at no angle, or no angle below π/2 could
+///     be proved for the whole path.
 [[nodiscard]] std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
     const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven,
     ProofBudget& budget);
-/// The same with a budget of its own.
+/// Compute the same bounds with a default budget.
 [[nodiscard]] std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
     const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven);
 

@@ -3,17 +3,17 @@
 #include <array>
 
 /// Vectors and cones over a number type without rounding errors: exact numbers, or intervals that
-/// surely contain the exact ones.
+/// contain the exact ones.
 namespace regrasp::motion::exact {
 
 template <class Number>
 using VectorOf = std::array<Number, 3>;
 
-/// What is not the same for all number types. Each has
-/// - `Number RootAbove(const Number& x)`: √x from above, larger by a millionth of it at most, x not
-///   negative;
-/// - `Number Min(const Number&, const Number&)` and `Max`;
-/// - `double Rounded(const Number&)`.
+/// Operations that differ between number types:
+/// - `Number RootAbove(const Number& x)`: upper bound on √x, larger by at most a millionth of it, x
+///   not negative;
+/// - `Number Min(const Number&, const Number&)` and `Max`
+/// - `double Rounded(const Number&)`
 template <class Number>
 struct NumberTraits;
 
@@ -55,17 +55,18 @@ Number SquaredNorm(const VectorOf<Number>& a) {
   return Dot(a, a);
 }
 
-/// A force, and all that differ from it by no more than `margin`, are strictly inside the cone of
-/// friction μ about n, which need not be unit. Where `margin` is 0 the answer is exact; otherwise
-/// it may be no where less than a millionth of `margin` is missing.
-/// @param twist_squared  of a soft finger (torque / torsion)², which takes of the friction as the
-///     square of a tangential force does; `margin` is then of both together.
+/// Return whether all forces within `margin` of a force are strictly inside a cone.
+/// The cone has friction μ about n, which need not be a unit vector. If `margin` is 0 the result is
+/// exact. Otherwise it may be false although the force is inside, if less than a millionth of
+/// `margin` is missing.
+/// @param twist_squared  (torque / torsion)² of a soft finger. It uses friction in the same manner
+///     as the square of a tangential force; `margin` then applies to both together.
 template <class Number>
 bool IsInsideCone(const VectorOf<Number>& force, const VectorOf<Number>& n, const Number& mu,
                   const Number& margin, const Number& twist_squared) {
   const Number normal = Dot(force, n);
   const Number length_squared = Dot(n, n);
-  // Of unit n the distance from the border is (μ f·n − |f × n|) / √(1 + μ²).
+  // For unit n the distance from the border is (μ f·n − |f × n|) / √(1 + μ²).
   const Number root = Root<Number>((1 + mu * mu) * length_squared);
   const Number reach = mu * normal - margin * root;
   if (!(reach > 0)) return false;

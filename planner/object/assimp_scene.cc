@@ -14,32 +14,74 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/base/text_encoding.h"
-#include "planner/object/collada_check.h"
 #include "planner/object/limited_child.h"
 #include "planner/object/read_3mf.h"
 #include "planner/object/read_gltf.h"
 #include "planner/object/soup_bytes.h"
 #include "planner/object/surface_format.h"
 #include "planner/object/text_scanner.h"
+#include "planner/object/xml_scan.h"
 
 namespace regrasp::object {
 
 namespace {
 
-/// Endings of files that assimp's readers look for beside the object's and that hold nothing of its
-/// surface: pictures, palettes, materials, skeletons and (lists of) animations.
+/// Extensions of secondary files that assimp's readers search for and that do not affect the
+/// surface: images, palettes, materials, skeletons and animations.
+constexpr auto kMisread = std::to_array<std::string_view>(
+    {"brep", "convex_mesh", "instance_controller", "lookat", "ph", "skew", "spline"});
+
+/// Elements that refer to a surface by `url`.
+constexpr auto kInstances = std::to_array<std::string_view>(
+    {"instance_geometry", "instance_node", "instance_visual_scene"});
+
+double UnitOfTag(const XmlTag& tag) {
+  if (!tag.Find("meter")) return 1;  // the default
+  const double metres = tag.Number("meter");
+  if (metres > 0) return metres;
+  throw InputError("unit: meter: expected a positive number, found " + FormatDouble(metres));
+}
+
+/// Check that a COLLADA document holds nothing that assimp would misread, before assimp reads it.
+std::optional<double> CheckCollada(std::string_view bytes) {
+  std::optional<double> unit;
+  ScanXml(TextOf(bytes, "document"), "", [&](const XmlTag& tag) {
+    if (std::ranges::find(kMisread, tag.name()) != kMisread.end()) {
+      throw InputError("element " + Quoted(tag.name()) + ": not supported");
+    }
+    if (std::ranges::find(kInstances, tag.name()) != kInstances.end()) {
+      const std::string url = tag.Text("url");
+      if (!url.starts_with('#')) {
+        throw InputError("surface in another file, " + Quoted(url) +
+                         ": not supported; help: convert the object to .glb or .ply");
+      }
+    }
+    if (tag.name() != "unit") return;
+    const double metres = UnitOfTag(tag);
+    if (unit && *unit != metres) {
+      throw InputError("unit: several, expected one, found " + FormatDouble(*unit) + " and " +
+                       FormatDouble(metres) + " m");
+    }
+    unit = metres;
+  });
+  return unit;
+}
+
+/// Extensions of secondary files that assimp's readers search for and that do not affect the
+/// surface: images, palettes, materials, skeletons and animations.
 constexpr auto kNothingOfSurface = std::to_array<std::string_view>(
     {".bmp",     ".dds",       ".exr",      ".gif",  ".hdr", ".jpeg", ".jpg",  ".ktx", ".ktx2",
      ".lmp",     ".mat",       ".material", ".mtl",  ".pal", ".pcx",  ".png",  ".psd", ".shader",
      ".md5anim", ".md5camera", ".skeleton", ".skin", ".tga", ".tif",  ".tiff", ".txt", ".webp"});
 
-/// The files that assimp sees: one, in memory. Notes the first other that it asks for and that the
-/// surface may come from.
+/// File system for assimp with one file in memory. Stores the first other requested file on which
+/// the surface may depend.
 class OneFile : public Assimp::IOSystem {
  public:
   OneFile(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -74,11 +116,12 @@ class OneFile : public Assimp::IOSystem {
 
   std::string_view bytes_;
   std::string name_;
-  mutable std::string missed_;  // Exists is const
+  mutable std::string missed_;  // mutable because Exists is const
 };
 
-/// Adds a mesh as one node places it. A node that mirrors turns facets inside out: turned back.
-/// @throws InputError  bones or morph targets would move its vertices, or its indices are wrong.
+/// Add a mesh as placed by one node. If the node mirrors it, its polygons are reversed.
+/// @throws InputError  if bones or morph targets would move its vertices, or an index is out of
+///     range.
 void AddMesh(const aiMesh& mesh, const aiMatrix4x4& placement, PolygonSoup& soup) {
   if (mesh.mNumBones > 0) throw InputError("mesh with bones (skin): not supported");
   if (mesh.mNumAnimMeshes > 0) throw InputError("mesh with morph targets: not supported");
@@ -109,21 +152,21 @@ struct FileUnit {
   double metres = 1;
 };
 
-/// One that has a name, or "units of 0.3 m".
+/// Return the unit with its name, or "units of 0.3 m" if it has none.
 FileUnit UnitOf(double metres) {
   static const std::vector<FileUnit> kNamed = {{"metres", 1},
                                                {"centimetres", 0.01},
                                                {"millimetres", 0.001},
                                                {"inches", 0.0254},
                                                {"feet", 0.3048}};
-  constexpr double kSame = 1e-6;  // files have it rounded
+  constexpr double kSame = 1e-6;  // because files contain rounded values
   for (const FileUnit& named : kNamed) {
     if (std::abs(metres - named.metres) <= kSame * named.metres) return named;
   }
   return {"units of " + FormatShort(metres) + " m", metres};
 }
 
-/// Of an FBX file, which has it in centimetres.
+/// Return the unit of an FBX file, which states it in centimetres.
 std::optional<FileUnit> FbxUnit(const aiScene& scene) {
   float centimetres = 0;
   if (scene.mMetaData == nullptr || !scene.mMetaData->Get("UnitScaleFactor", centimetres) ||
@@ -133,7 +176,7 @@ std::optional<FileUnit> FbxUnit(const aiScene& scene) {
   return UnitOf(double{centimetres} / 100);
 }
 
-/// Brings a surface into metres. assimp has done so with COLLADA.
+/// Convert a surface to metres. For COLLADA, assimp does this itself.
 void ApplyFbxUnit(const aiScene& scene, PolygonSoup& soup) {
   const std::optional<FileUnit> unit = FbxUnit(scene);
   if (!unit) return;
@@ -141,7 +184,7 @@ void ApplyFbxUnit(const aiScene& scene, PolygonSoup& soup) {
   for (Eigen::Vector3d& vertex : soup.vertices) vertex *= unit->metres;
 }
 
-/// The surface of a scene, in the units of assimp.
+/// Return the surface of a scene, in the units of assimp.
 PolygonSoup SoupOf(const aiScene& scene) {
   PolygonSoup soup;
   struct Visit {
@@ -165,7 +208,7 @@ PolygonSoup SoupOf(const aiScene& scene) {
   return soup;
 }
 
-/// assimp ignores this kind of geometry.
+/// Reject NURBS, because assimp ignores them.
 void CheckFbx(std::string_view bytes) {
   if (bytes.find("NurbsSurface") == std::string_view::npos) return;
   throw InputError("geometry \"NurbsSurface\": not supported");
@@ -179,19 +222,19 @@ PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
   if (!is_collada) CheckFbx(bytes);
   Assimp::Importer importer;
   auto* files = new OneFile(bytes, file);
-  importer.SetIOHandler(files);  // which owns it from here on
+  importer.SetIOHandler(files);  // takes ownership
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   constexpr unsigned int kNoPostProcessing = 0;
   const aiScene* scene = importer.ReadFile(file, kNoPostProcessing);
   if (const std::string& other = files->missed(); !other.empty()) {
-    throw InputError("its surface comes from another file, " + Quoted(other) +
-                     "; an object is one file: convert it (to .glb or .ply)");
+    throw InputError("surface in another file, " + Quoted(other) +
+                     ": not supported; help: convert the object to .glb or .ply");
   }
   if (scene == nullptr) throw InputError(importer.GetErrorString());
   PolygonSoup soup = SoupOf(*scene);
-  // The vertices of lines are not a cloud of points.
-  if (soup.facets.empty()) throw InputError("its scene has no polygon");
+  // Vertices of lines are not a point cloud.
+  if (soup.facets.empty()) throw InputError("scene: expected at least one polygon");
   if (!is_collada) ApplyFbxUnit(*scene, soup);
   if (collada_unit) soup.unit = UnitOf(*collada_unit).name;
   return soup;
@@ -199,7 +242,7 @@ PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
 
 namespace {
 
-/// assimp's words in one printable line.
+/// Convert a message of assimp to one printable line.
 std::string Cleaned(std::string message) {
   if (message.empty()) return "assimp cannot read it";
   for (char& c : message) {
@@ -208,7 +251,7 @@ std::string Cleaned(std::string message) {
   return message;
 }
 
-/// assimp chooses its reader by the ending of a name.
+/// Read in the child process. assimp selects its reader by the extension of the file name.
 PolygonSoup ReadInChild(std::string_view bytes, SurfaceFormat format) {
   switch (format) {
     case SurfaceFormat::k3mf:

@@ -19,7 +19,7 @@ namespace {
 using DiameterKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Search = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<DiameterKernel>>;
 
-/// Below this the plain double loop is faster than building a tree.
+/// Largest number of points for which testing all pairs is faster than building a tree.
 constexpr std::size_t kFewPoints = 256;
 
 double LargestSquaredByPairs(std::span<const Eigen::Vector3d> points) {
@@ -32,7 +32,7 @@ double LargestSquaredByPairs(std::span<const Eigen::Vector3d> points) {
   return largest;
 }
 
-/// Roundings of distances, relative to them.
+/// Relative bound on the rounding of distances.
 constexpr double kSlack = 1e-9;
 
 const Eigen::Vector3d& FarthestFrom(const Eigen::Vector3d& point,
@@ -41,7 +41,7 @@ const Eigen::Vector3d& FarthestFrom(const Eigen::Vector3d& point,
       points, {}, [&](const Eigen::Vector3d& p) { return (p - point).squaredNorm(); });
 }
 
-/// A point at an end of the box of all, in the direction in which it is longest.
+/// Return a point at an end of the bounding box along its longest direction.
 const Eigen::Vector3d& EndOfBox(std::span<const Eigen::Vector3d> points) {
   Eigen::AlignedBox3d box;
   for (const auto& p : points) box.extend(p);
@@ -51,8 +51,10 @@ const Eigen::Vector3d& EndOfBox(std::span<const Eigen::Vector3d> points) {
                                    [&](const Eigen::Vector3d& p) { return p[longest]; });
 }
 
-/// The points that may be ends of the diameter. With all points within r of a centre and two of
-/// them L apart, an end is no nearer to the centre than L − r: on long bodies few are left.
+/// Return the points that can be ends of the diameter.
+///
+/// If all points are within r of a centre and two of them are L apart, then an end is at least L −
+/// r from the centre. Elongated objects have few such points.
 std::vector<DiameterKernel::Point_3> FindOuter(std::span<const Eigen::Vector3d> points) {
   const Eigen::Vector3d& one = FarthestFrom(EndOfBox(points), points);
   const Eigen::Vector3d& other = FarthestFrom(one, points);
@@ -69,11 +71,11 @@ std::vector<DiameterKernel::Point_3> FindOuter(std::span<const Eigen::Vector3d> 
 double LargestSquaredByTree(std::span<const Eigen::Vector3d> points) {
   const std::vector<DiameterKernel::Point_3> copies = FindOuter(points);
   Search::Tree tree(copies.begin(), copies.end());
-  constexpr bool kNearest = false;  // farthest
+  constexpr bool kNearest = false;  // search the farthest point instead
   double largest = 0;
   for (const auto& p : copies) {
     const Search farthest(tree, p, 1, 0.0, kNearest);
-    // Measured again rather than taken from the search, which adds up its distance in pieces.
+    // Recomputed, because the search accumulates its distance incrementally, which rounds.
     const DiameterKernel::Vector_3 difference = farthest.begin()->first - p;
     largest = std::max(largest, difference.squared_length());
   }
@@ -94,11 +96,11 @@ struct LengthUnit {
   double metres;
 };
 
-/// What files are usually in, the likeliest first.
+/// Usual units of files, most likely first.
 constexpr std::array<LengthUnit, 4> kUnits = {
     {{"millimetres", 0.001}, {"centimetres", 0.01}, {"inches", 0.0254}, {"metres", 1}}};
 
-/// What hands grasp is mostly this wide, metres.
+/// Range of the size of most objects that a hand grasps, m.
 constexpr double kSmallestGuess = 0.02, kLargestGuess = 0.4;
 
 }  // namespace
@@ -121,7 +123,7 @@ std::string MeasuresText(const BodyMeasures& body) {
 
 std::string UnitText(const std::string& unit) {
   if (unit.empty()) return "";
-  return "; its file is in " + unit + (unit == "metres" ? "" : ", read as metres");
+  return "; the file is in " + unit + (unit == "metres" ? "" : ", read as metres");
 }
 
 std::string SizeWarning(const BodyMeasures& body, double scale) {
@@ -130,14 +132,14 @@ std::string SizeWarning(const BodyMeasures& body, double scale) {
   const auto unit = std::ranges::find_if(kUnits, [&](const LengthUnit& guess) {
     return units * guess.metres >= kSmallestGuess && units * guess.metres <= kLargestGuess;
   });
-  const std::string size = "the object is " + MeasuresText(body) + ": ";
+  const std::string size = "the object is " + MeasuresText(body) + "; help: ";
   if (unit == kUnits.end()) {
     return size +
-           "is that meant? --scale says how many metres a unit of length of its file is, 0.001 for "
+           "pass the length of a file unit in metres with --scale, for example 0.001 for "
            "millimetres";
   }
-  return size + unit->name + "? use --scale " + FormatShort(unit->metres) + " (" +
-         FormatLength(units * unit->metres) + " across)";
+  return size + "if the file is in " + unit->name + ", pass --scale " + FormatShort(unit->metres) +
+         " (" + FormatLength(units * unit->metres) + " across)";
 }
 
 }  // namespace regrasp::object

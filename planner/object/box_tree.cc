@@ -8,7 +8,7 @@ namespace regrasp::object {
 
 namespace {
 
-/// Things in a leaf: fewer cost memory, more cost looks at things that are not near.
+/// Maximum number of items per leaf. Fewer need more memory; more cause unnecessary visits.
 constexpr std::ptrdiff_t kLeaf = 6;
 
 }  // namespace
@@ -21,7 +21,7 @@ class BoxTree::Builder {
     tree.nodes_.reserve(NodesOver(tree.order_.size()));
   }
 
-  /// @returns its place.
+  /// Build the subtree of some items. @returns index of its root.
   int Build(std::span<std::int32_t> things) {
     const int at = static_cast<int>(tree_.nodes_.size());
     tree_.nodes_.emplace_back();
@@ -42,13 +42,13 @@ class BoxTree::Builder {
   }
 
  private:
-  /// How many nodes there will be over so many things.
+  /// Return the number of nodes of a tree with this many items.
   static std::size_t NodesOver(std::size_t things) {
     if (things <= std::size_t{kLeaf}) return 1;
     return 1 + NodesOver(things / 2) + NodesOver(things - things / 2);
   }
 
-  /// In the direction in which their centres lie farthest apart.
+  /// Split items at the median along the direction in which their centres differ most.
   void SortHalves(std::span<std::int32_t> things, std::size_t half) const {
     Box centres;
     for (const int i : things) centres.extend(centres_[i]);

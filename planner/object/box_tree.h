@@ -7,33 +7,36 @@
 
 namespace regrasp::object {
 
-/// Finds which of many boxes meet one: a tree of boxes whose leaves hold several things each, by
-/// their numbers only, 20 bytes a thing.
+/// Tree of boxes that finds the boxes intersecting a query box.
 ///
-/// The boxes themselves are not kept: what lies in a leaf that meets the query is told, and its
-/// owner knows whether it does. Queries are const and safe from several threads.
+/// A leaf holds the numbers of several items and one box around them; this takes 20 bytes per item.
+/// The boxes of single items are not stored. A query therefore returns all items of each leaf that
+/// it intersects, and the caller tests them. Queries are const and thread-safe.
 class BoxTree {
  public:
   using Box = Eigen::AlignedBox3d;
 
   BoxTree() = default;
-  /// @param box_of  of each thing, 0 to count − 1; called while the tree is built.
+  /// @param count  number of items.
+  /// @param box_of  function that returns the box of an item, 0 to count − 1; called during
+  ///     construction only.
   BoxTree(int count, const std::function<Box(int)>& box_of);
 
-  /// Calls `visit` with the number of everything whose box may meet `box`, borders included: all
-  /// that do, and some of their neighbours.
+  /// Call `visit` with the number of each item whose box may intersect `box`, borders included.
+  ///
+  /// All intersecting items are visited, and some of their neighbours.
   template <class Visit>
   void VisitNear(const Box& box, const Visit& visit) const {
     if (!nodes_.empty()) VisitNear(0, box, visit);
   }
 
  private:
-  /// A node's first child stands behind it.
+  /// A node; its first child is the next node in `nodes_`.
   struct Node {
     Box box;
-    std::int32_t first = 0;   ///< leaf: of its things in order_
-    std::int32_t count = 0;   ///< leaf: how many; 0 elsewhere
-    std::int32_t second = 0;  ///< its second child
+    std::int32_t first = 0;   ///< leaf: index of its first item in order_
+    std::int32_t count = 0;   ///< number of items of a leaf; 0 for other nodes
+    std::int32_t second = 0;  ///< index of the second child
   };
 
   template <class Visit>

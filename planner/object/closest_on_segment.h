@@ -4,7 +4,7 @@
 
 namespace regrasp::object {
 
-/// The point of the segment ab nearest to `point`; a where the segment has no length.
+/// Return the point of the segment ab nearest to `point`; a if the segment has no length.
 [[nodiscard]] inline Eigen::Vector3d ClosestOnSegment(const Eigen::Vector3d& a,
                                                       const Eigen::Vector3d& b,
                                                       const Eigen::Vector3d& point) {

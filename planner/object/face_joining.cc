@@ -14,11 +14,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// What is flat in the file, as its triangles make it up.
+/// Flat element of the file: a polygon, or a triangle of a bent polygon.
 struct Facet {
   Vector3d area_vector = Vector3d::Zero();
-  Vector3d normal = Vector3d::Zero();  ///< unit, outward
-  std::vector<int> neighbors;          ///< facets across its edges
+  Vector3d normal = Vector3d::Zero();  ///< outward unit normal
+  std::vector<int> neighbors;          ///< elements across its edges
   double longest_edge = 0;
   int across_longest = -1;
   bool sliver = false;
@@ -52,7 +52,7 @@ std::vector<Facet> CollectFacets(const TriangleMesh& mesh, const SurfaceTopology
   return facets;
 }
 
-/// By the cross product: near 0 the cosine has lost the angle.
+/// Return whether the angle is at most kCoplanarAngle. The cosine is too inaccurate near 0.
 bool SameDirection(const Vector3d& a, const Vector3d& b) {
   return a.dot(b) > 0 && a.cross(b).norm() <= std::sin(kCoplanarAngle);
 }
@@ -77,11 +77,11 @@ void Grow(const std::vector<Facet>& facets, int seed, FaceIndex face,
   }
 }
 
-/// Chains of slivers are followed no further than this.
+/// Maximum length of a chain of slivers that is followed.
 constexpr int kLongestSliverChain = 64;
 
-/// Follows slivers across their longest edges until a facet with a face; none where they run in
-/// a circle.
+/// Follow slivers across their longest edges to an element with a face; invalid if they form a
+/// cycle.
 FaceIndex FaceBehindSlivers(const std::vector<Facet>& facets, const std::vector<FaceIndex>& face_of,
                             int f) {
   for (int steps = 0; steps < kLongestSliverChain; ++steps) {
@@ -113,7 +113,7 @@ std::vector<FaceIndex> JoinFacets(const std::vector<Facet>& facets) {
   return face_of;
 }
 
-/// Counts faces in the order in which the file first meets them.
+/// Number faces in the order of their first elements in the file.
 void Renumber(std::vector<FaceIndex>& face_of) {
   std::vector<FaceIndex> renumbered(face_of.size());
   int next = 0;

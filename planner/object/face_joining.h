@@ -6,18 +6,19 @@
 
 namespace regrasp::object {
 
-/// A facet thinner than this times the diameter belongs to the face across its longest edge: it
-/// lies within a tenth of the tolerance of points on that face, and the rounding of 32-bit files
-/// leaves nothing of its normal.
+/// Thickness of a sliver divided by the diameter.
+///
+/// A thinner polygon joins the face across its longest edge. It lies on that face to a tenth of the
+/// point tolerance, and the rounding of 32-bit files corrupts its normal.
 inline constexpr double kSliverThickness = 1e-7;
 
-/// Joins coplanar neighbouring facets, but none that was invented with one that was not.
+/// Join adjacent coplanar polygons to planar faces.
 ///
-/// Grown from the largest facet that has no face yet: a facet joins where it shares an edge with
-/// the face, and its normal is within kCoplanarAngle both of its neighbour's and of the facet that
-/// the face was grown from. The second keeps a finely curved surface from becoming one face.
-/// @param invented  of each of the file's facets (PolygonSoup); empty where none is.
-/// @returns for each triangle its face, faces counted from 0 in the order of their first facet.
+/// Each face grows from the largest polygon without a face. A polygon joins across an edge of the
+/// face if its normal is within kCoplanarAngle of two normals: that of its neighbour and that of
+/// the first polygon. The second condition keeps a finely meshed curved surface from becoming one
+/// face. Polygons of a filled surface join each other only; see PolygonSoup for the last parameter.
+/// @returns face of each triangle, numbered from 0 in the order of the faces' first polygons.
 [[nodiscard]] std::vector<FaceIndex> JoinCoplanarFacets(const TriangleMesh& mesh,
                                                         const SurfaceTopology& topology,
                                                         double diameter,

@@ -31,18 +31,20 @@ using Point = Kernel::Point_3;
 using Triangle = Kernel::Triangle_3;
 using Segment = Kernel::Segment_3;
 
-/// Faces with fewer triangles or border segments are searched one by one, which is then faster.
+/// Smallest number of triangles or border segments of a face for which a tree is faster than a
+/// loop.
 constexpr std::ptrdiff_t kFew = 16;
 
-/// Distances are rounded: within this times the diameter two triangles that share an edge leave no
-/// gap, however a segment crosses it.
+/// Bound on the rounding of distances, divided by the diameter. Within it, two triangles with a
+/// common edge leave no gap on a segment that crosses the edge.
 constexpr double kRounding = 1e-12;
 
-/// What the rounding of coordinates adds to that, over the largest of them: some units in the last
-/// place.
+/// Additional bound due to the rounding of coordinates, divided by the largest coordinate: a few
+/// units in the last place.
 constexpr double kCoordinateRounding = 1e-15;
 
-/// A segment is sought in so many pieces: the box around an oblique one is mostly far from it.
+/// Number of pieces of a segment query, because most of the box of an oblique segment is far from
+/// it.
 constexpr int kSegmentPieces = 16;
 
 Point ToPoint(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -53,28 +55,30 @@ Triangle TriangleOf(const Polyhedron& solid, TriangleIndex t) {
   return {ToPoint(solid.vertices()[a]), ToPoint(solid.vertices()[b]), ToPoint(solid.vertices()[c])};
 }
 
-/// Whether a point can be projected on it. The normal of a sliver is lost where its square
-/// underflows; all of such a triangle is then at its neighbours, to far below rounding.
+/// Return whether a point can be projected onto a triangle.
+///
+/// The normal of a sliver is undefined if its square underflows. Its neighbours then contain all of
+/// its points up to an error far below rounding.
 bool HasPlane(const Triangle& triangle) {
   const auto normal = CGAL::normal(triangle[0], triangle[1], triangle[2]);
   return normal.squared_length() >= std::numeric_limits<double>::min();
 }
-bool HasPlane(const Segment&) { return true; }  // a line is enough, and corners are apart
+bool HasPlane(const Segment&) { return true; }  // a segment needs no plane, and its ends differ
 
-/// The triangles of a face, made one by one.
+/// Return the triangles of a face as a lazy range.
 auto TrianglesOf(const Polyhedron& solid, FaceIndex face) {
   return solid.TrianglesOf(face) |
          std::views::transform([&](TriangleIndex t) { return TriangleOf(solid, t); });
 }
 
-/// The borders of a face as segments, made one by one.
+/// Return the borders of a face as a lazy range of segments.
 auto SegmentsOf(const Polyhedron& solid, FaceIndex face) {
   return solid.BordersOf(face) | std::views::transform([](const FaceBorder& border) {
            return Segment(ToPoint(border.a), ToPoint(border.b));
          });
 }
 
-/// The nearest point of some triangles or segments.
+/// Return the nearest point of some triangles or segments.
 Point ClosestOf(const auto& primitives, const Point& point) {
   const auto project = Kernel().construct_projected_point_3_object();
   Point closest = (*primitives.begin())[0];
@@ -82,14 +86,14 @@ Point ClosestOf(const auto& primitives, const Point& point) {
   for (const auto& primitive : primitives) {
     const Point candidate = project(primitive, point);
     const double distance = CGAL::squared_distance(candidate, point);
-    if (!(distance < least)) continue;  // nor where it is no number, for want of a plane
+    if (!(distance < least)) continue;  // also true for NaN
     least = distance;
     closest = candidate;
   }
   return closest;
 }
 
-/// Many triangles or segments of one face, in a tree.
+/// Tree of the triangles or segments of one face.
 template <class Shape, class Primitive>
 class Patch {
  public:
@@ -99,16 +103,16 @@ class Patch {
     for (Iterator i = shapes_.cbegin(); i != shapes_.cend(); ++i) {
       if (HasPlane(*i)) tree_.insert(Primitive(i));
     }
-    tree_.build();  // now, as queries from several threads would build it twice
+    tree_.build();  // not lazily, because queries from several threads would race
     tree_.do_not_accelerate_distance_queries();
   }
 
   [[nodiscard]] Point Closest(const Point& point) const {
-    // The tree starts from a guess and prunes by it: any point of the patch will do.
+    // The tree prunes by the distance to an initial guess: any point of the patch.
     return tree_.closest_point(point, shapes_[0][0]);
   }
 
-  /// Calls `visit` with every one whose box may meet `box`.
+  /// Call `visit` with each element whose box may intersect `box`.
   void VisitNear(const CGAL::Bbox_3& box, const auto& visit) const {
     std::vector<Iterator> found;
     tree_.all_intersected_primitives(box, std::back_inserter(found));
@@ -125,7 +129,7 @@ using TrianglePatch =
 using SegmentPatch =
     Patch<Segment, CGAL::AABB_segment_primitive<Kernel, std::vector<Segment>::const_iterator>>;
 
-/// Those of the faces that have a tree.
+/// Trees of the faces that have one.
 template <class AnyPatch>
 using Patches = std::unordered_map<FaceIndex, std::unique_ptr<const AnyPatch>>;
 
@@ -156,7 +160,7 @@ using PlaneTriangle = std::array<PlanePoint, 3>;
 
 Vector3d InSpace(const PlanePoint& p) { return {p.x(), p.y(), 0}; }
 
-/// What one sees along a normal, from a point.
+/// Projection along a normal onto a plane through a point.
 class PlaneView {
  public:
   PlaneView(const Vector3d& origin, const Vector3d& normal)
@@ -173,7 +177,8 @@ class PlaneView {
   Vector3d origin_, u_, v_;
 };
 
-/// Of triangles that may be flat too: those that stand upright in a face.
+/// Compute the distance of a point from a triangle. The triangle may be degenerate: a triangle
+/// perpendicular to the plane projects to a segment.
 double DistanceTo(const PlaneTriangle& triangle, const PlanePoint& point) {
   const auto& [a, b, c] = triangle;
   const auto side = CGAL::orientation(a, b, point);
@@ -202,9 +207,9 @@ CGAL::Bbox_3 ToBbox(const BoxTree::Box& box) {
 }  // namespace
 
 struct FaceTree::Impl {
-  double rounding = 0;             ///< of distances between points of the surface
-  Patches<TrianglePatch> surface;  ///< of faces of kFew triangles or more
-  Patches<SegmentPatch> border;    ///< of faces of kFew borders or more
+  double rounding = 0;             ///< bound on the error of distances between surface points
+  Patches<TrianglePatch> surface;  ///< trees of faces with at least kFew triangles
+  Patches<SegmentPatch> border;    ///< trees of faces with at least kFew borders
   BoxTree triangles;
 
   [[nodiscard]] Vector3d ClosestPoint(const Polyhedron& solid, FaceIndex face,
@@ -214,7 +219,7 @@ struct FaceTree::Impl {
                                      : ClosestOf(TrianglesOf(solid, face), ToPoint(point)));
   }
 
-  /// Calls `visit` with every triangle of a face whose box meets one.
+  /// Call `visit` with each triangle of a face whose box intersects `box`.
   void VisitNear(const Polyhedron& solid, FaceIndex face, const CGAL::Bbox_3& box,
                  const auto& visit) const {
     if (const TrianglePatch* patch = Find(surface, face)) return patch->VisitNear(box, visit);
@@ -223,7 +228,7 @@ struct FaceTree::Impl {
     }
   }
 
-  /// Calls `visit` with every triangle that meets a box, and its number.
+  /// Call `visit` with the index of each triangle that intersects a box, and the triangle.
   void VisitNear(const Polyhedron& solid, const BoxTree::Box& box, const auto& visit) const {
     const CGAL::Bbox_3 bounds = ToBbox(box);
     triangles.VisitNear(box, [&](int i) {
@@ -239,14 +244,14 @@ struct FaceTree::Impl {
                             const Vector3d& b, double within) const;
 };
 
-/// True iff the segment ab is within a distance of the face, and over it up to rounding where one
-/// looks along its normal.
+/// Return whether the segment ab is within a distance of the face, and its projection along the
+/// face's normal is on the face up to rounding.
 bool FaceTree::Impl::Covers(const Polyhedron& solid, FaceIndex face, const Vector3d& a,
                             const Vector3d& b, double within) const {
   const PlaneView view(a, solid.inward_normal(face));
   const double strictness = within / rounding;
-  // The points near one triangle form an interval, as the distance to a convex set is convex along
-  // a line: the segment is on the face iff the intervals of all triangles cover it.
+  // The distance to a convex set is convex along a line, so the points near one triangle form an
+  // interval. The segment is on the face iff the intervals of all triangles cover it.
   std::vector<ParameterInterval> near;
   VisitNear(solid, face, ToBbox(Around(a, b, within)), [&](const Triangle& triangle) {
     const PlaneTriangle seen = view.Of(triangle);
@@ -290,7 +295,7 @@ Vector3d FaceTree::ClosestPoint(const Polyhedron& solid, FaceIndex face,
 
 std::vector<FaceIndex> FaceTree::FacesNear(const Polyhedron& solid, const Vector3d& point,
                                            double tolerance) const {
-  // Wider than asked by more than rounding; the distances below decide.
+  // Enlarged by more than rounding; the distances below decide.
   const BoxTree::Box box = Around(point, point, tolerance + kRounding * solid.diameter());
   std::map<FaceIndex, double> distance_to;
   impl_->VisitNear(solid, box, [&](TriangleIndex t, const Triangle& triangle) {
@@ -340,8 +345,8 @@ bool FaceTree::ContainsSegment(const Polyhedron& solid, FaceIndex face, const Ve
   const Vector3d from = closest(a), to = closest(b);
   if ((from - a).norm() > within || (to - b).norm() > within) return false;
   if (covers(from, to)) return true;
-  // The ends are known to within the tolerance: a path beside this one, to which both ends can go
-  // without leaving the face, will do.
+  // The ends are known only up to the tolerance. A parallel path suffices if both ends can move to
+  // it without leaving the face.
   const Vector3d aside = within * solid.inward_normal(face).cross(to - from).stableNormalized();
   const auto ends = [&](const Vector3d& end) {
     std::vector<Vector3d> found = {end};

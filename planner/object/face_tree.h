@@ -8,11 +8,11 @@
 
 namespace regrasp::object {
 
-/// Answers where points and segments lie on the faces of a polyhedron, by trees of boxes.
+/// Spatial index of the faces of a polyhedron, for queries with points and segments.
 ///
-/// A query costs microseconds on meshes of 50 000 triangles. It keeps the geometry of faces with
-/// many triangles or borders only: every query is given the polyhedron that the tree was made of,
-/// or a copy. Queries are const and safe from several threads.
+/// A query takes microseconds for 50,000 triangles. The index stores only the geometry of faces
+/// with many triangles or borders. Every query therefore takes the polyhedron from which the index
+/// was built, or a copy. Queries are const and thread-safe.
 class FaceTree {
  public:
   explicit FaceTree(const Polyhedron& solid);
@@ -20,7 +20,7 @@ class FaceTree {
   FaceTree(const FaceTree&) = delete;
   FaceTree& operator=(const FaceTree&) = delete;
 
-  /// As the functions of Object with these names.
+  /// Same as the functions of Object with these names.
   [[nodiscard]] Eigen::Vector3d ClosestPoint(const Polyhedron& solid, FaceIndex face,
                                              const Eigen::Vector3d& point) const;
   [[nodiscard]] std::vector<FaceIndex> FacesNear(const Polyhedron& solid,

@@ -32,7 +32,7 @@ using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
 
 Point3 ToPoint3(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
-/// Newell's normal: the area vector of the polygon, from its first corner.
+/// Compute Newell's normal: the area vector of the polygon, from its first corner.
 Vector3d AreaVector(const std::vector<Vector3d>& corners) {
   Vector3d sum = Vector3d::Zero();
   for (std::size_t i = 2; i < corners.size(); ++i) {
@@ -51,8 +51,8 @@ double DistanceFromPlane(const std::vector<Vector3d>& corners, const Vector3d& n
   return largest;
 }
 
-/// The corners without the coordinate that the normal is largest in: exact, and counter-clockwise
-/// as seen from outside.
+/// Drop the coordinate in which the normal is largest: exact, and counter-clockwise as seen from
+/// outside.
 std::vector<Point2> Project(const std::vector<Vector3d>& corners, const Vector3d& normal) {
   int dropped = 0;
   normal.cwiseAbs().maxCoeff(&dropped);
@@ -63,13 +63,13 @@ std::vector<Point2> Project(const std::vector<Vector3d>& corners, const Vector3d
   return projected;
 }
 
-/// Simple and counter-clockwise.
+/// Return whether the polygon is simple and counter-clockwise.
 bool IsOutline(const std::vector<Point2>& corners) {
   return CGAL::is_simple_2(corners.begin(), corners.end()) &&
          CGAL::orientation_2(corners.begin(), corners.end()) == CGAL::COUNTERCLOCKWISE;
 }
 
-/// Marks the faces that can be reached from outside without crossing the outline.
+/// Mark the faces that are connected with the outside without crossing the outline.
 void MarkOutside(Cdt& cdt) {
   for (const auto face : cdt.all_face_handles()) face->info() = false;
   std::vector<Cdt::Face_handle> stack{cdt.infinite_face()};
@@ -86,7 +86,7 @@ void MarkOutside(Cdt& cdt) {
   }
 }
 
-/// Triangles as indices into `outline`, which is simple and counter-clockwise.
+/// Triangulate `outline`, which is simple and counter-clockwise; returns indices of its points.
 std::vector<std::array<int, 3>> TriangulateSimple(const std::vector<Point2>& outline) {
   Cdt cdt;
   std::vector<Cdt::Vertex_handle> handles;
@@ -107,8 +107,8 @@ std::vector<std::array<int, 3>> TriangulateSimple(const std::vector<Point2>& out
   return triangles;
 }
 
-/// A polygon of four or more corners whose area is lost in the rounding of its extent squared has
-/// no plane: its parts cancel, as in a bow tie.
+/// Smallest area of a polygon with four or more corners, divided by its squared extent. A smaller
+/// one is lost in rounding: its parts cancel, as in a bow tie, so that it has no plane.
 constexpr double kAreaRounding = 1e-13;
 
 double ExtentSquared(const std::vector<Vector3d>& corners) {
@@ -147,7 +147,8 @@ PolygonCut CutPolygon(const std::vector<Vector3d>& corners) {
 
 namespace {
 
-/// @throws MeshError  the polygon is not one of a solid's surface.
+/// Check that a polygon can be part of a solid's surface.
+/// @throws MeshError  if it cannot.
 void CheckCut(const PolygonCut& cut, double diameter, const std::string& facet) {
   if (cut.off_plane > kBentTolerance * diameter) {
     const auto [off, most] = FormatWithLimit(cut.off_plane / diameter, kBentTolerance, 4);

@@ -20,7 +20,7 @@ constexpr std::size_t kGlbHeader = 12, kChunkHeader = 8;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr long long kMostElements = 3 * static_cast<long long>(kMaxFacets);
 
-/// Numbers of glTF's component types.
+/// Codes of component types in glTF.
 enum ComponentType : long long {
   kByte = 5120,
   kUnsignedByte = 5121,
@@ -37,7 +37,7 @@ T TakeNumber(const char* at) {
   return value;
 }
 
-/// 0 for a number that is not a component type.
+/// Return the size in bytes of a component type; 0 for an unknown code.
 std::size_t SizeOf(long long type) {
   if (type == kByte || type == kUnsignedByte) return 1;
   if (type == kShort || type == kUnsignedShort) return 2;
@@ -101,7 +101,7 @@ std::optional<GltfValue> GltfValue::Find(const std::string& key) const {
 
 GltfValue GltfValue::Member(const std::string& key) const {
   if (auto value = Find(key)) return *value;
-  Fail("lacks \"" + key + "\"");
+  Fail("member \"" + key + "\" not found");
 }
 
 std::vector<GltfValue> GltfValue::Items(const std::string& key) const {
@@ -210,7 +210,7 @@ void GltfDocument::ReadContainer(std::string_view bytes) {
     if (type == kBinaryChunk && binary_.empty()) binary_ = chunk;
     at += kChunkHeader + size;
   }
-  if (!document) throw InputError("header: there is no JSON chunk");
+  if (!document) throw InputError("header: JSON chunk not found");
   json_ = ParseJson(*document, "JSON chunk");
 }
 
@@ -227,8 +227,8 @@ std::string_view GltfDocument::Buffer(long long index) {
   constexpr std::string_view kEncoding = ";base64,";
   const std::size_t comma = text.find(kEncoding);
   if (!text.starts_with("data:") || comma == std::string::npos) {
-    throw InputError("its surface comes from another file, " + Quoted(text) +
-                     "; an object is one file: convert it (to .glb or .ply)");
+    throw InputError("surface in another file, " + Quoted(text) +
+                     ": not supported; help: convert the object to .glb or .ply");
   }
   auto bytes = DecodeBase64(std::string_view(text).substr(comma + kEncoding.size()));
   if (!bytes) uri->Fail("is not base64");

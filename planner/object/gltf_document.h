@@ -17,30 +17,32 @@ class GltfValue {
   GltfValue(const Json& json, std::string pointer) : json_(&json), pointer_(std::move(pointer)) {}
 
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
-  /// A member; nullopt if it is missing.
+  /// Return a member; nullopt if it is missing.
   /// @throws InputError  if this value is not an object.
   [[nodiscard]] std::optional<GltfValue> Find(const std::string& key) const;
+  /// Return a member.
   /// @throws InputError  if the member is missing.
   [[nodiscard]] GltfValue Member(const std::string& key) const;
-  /// The elements of the array `key`; empty if it is missing.
+  /// Return the elements of the array `key`; empty if it is missing.
   [[nodiscard]] std::vector<GltfValue> Items(const std::string& key) const;
-  /// The element of the array `key` that an index names.
+  /// Return the element with the given index of the array `key`.
   [[nodiscard]] GltfValue Item(const std::string& key, long long index) const;
-  /// The numbers of the array `key`; nullopt if it is missing.
+  /// Return the numbers of the array `key`; nullopt if it is missing.
   /// @throws InputError  if there are not `size` finite numbers.
   [[nodiscard]] std::optional<std::vector<double>> Numbers(const std::string& key,
                                                            std::size_t size) const;
 
+  /// Return the value as a non-negative integer.
   /// @throws InputError  if the value is not of that type, or is a negative or huge integer.
   [[nodiscard]] long long Count() const;
   [[nodiscard]] long long CountOr(const std::string& key, long long otherwise) const;
   [[nodiscard]] double Number() const;
   [[nodiscard]] std::string Text() const;
   [[nodiscard]] bool IsTrue() const { return json_->is_boolean() && json_->get<bool>(); }
-  /// The names of the members of an object.
+  /// Return the names of the members of an object.
   [[nodiscard]] std::vector<std::string> Keys() const;
 
-  /// @throws InputError  "/nodes/3: …"
+  /// Throw an InputError with the value's JSON pointer: "/nodes/3: …".
   [[noreturn]] void Fail(const std::string& problem) const;
 
  private:
@@ -48,10 +50,10 @@ class GltfValue {
   std::string pointer_;
 };
 
-/// The document of a glTF 2.0 file and the numbers in its buffers.
+/// Document of a glTF 2.0 file with the numbers in its buffers.
 ///
-/// No other file is opened: buffers are the binary chunk of a `.glb` file or base64 text.
-/// Source: glTF 2.0 Specification (Khronos, 2021), sections 3.6 and 4.
+/// No other file is opened: buffers are the binary chunk of a `.glb` file or base64 text. Source:
+/// glTF 2.0 Specification (Khronos, 2021), sections 3.6 and 4.
 class GltfDocument {
  public:
   /// @param bytes  bytes of a `.gltf` or `.glb` file; must outlive this object.
@@ -65,7 +67,7 @@ class GltfDocument {
   [[nodiscard]] std::vector<Eigen::Vector3d> Positions(long long accessor);
 
   /// Read an accessor of vertex indices.
-  /// @throws InputError  as Positions.
+  /// @throws InputError  same as Positions.
   [[nodiscard]] std::vector<long long> Indices(long long accessor);
 
  private:
@@ -83,8 +85,8 @@ class GltfDocument {
   void ApplySparse(const GltfValue& sparse, const Layout& layout, std::vector<double>& values);
 
   Json json_;
-  std::string_view binary_;  ///< chunk of a .glb file
-  bool quantized_ = false;   ///< KHR_mesh_quantization is used
+  std::string_view binary_;  ///< binary chunk of a .glb file
+  bool quantized_ = false;   ///< the file uses KHR_mesh_quantization
   std::map<long long, std::string> decoded_;
 };
 

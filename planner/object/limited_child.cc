@@ -45,10 +45,10 @@ bool WriteAll(int file, std::string_view bytes) {
 
 [[noreturn]] void RunChild(const std::function<std::string()>& task, const ChildLimits& limits,
                            int out) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would read what it finds
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // without a parent, the result is useless
   const int nowhere = open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
-  if (!kSanitizer && !limits.opens_files) Limit(RLIMIT_NOFILE, 0);  // what is open stays open
+  if (!kSanitizer && !limits.opens_files) Limit(RLIMIT_NOFILE, 0);  // open descriptors stay usable
   Limit(RLIMIT_CORE, 0);
   Limit(RLIMIT_CPU, static_cast<rlim_t>(limits.processor.count()));
   if (!kSanitizer) Limit(RLIMIT_AS, limits.memory_bytes);
@@ -65,7 +65,7 @@ bool WriteAll(int file, std::string_view bytes) {
   }
 }
 
-/// Reads until the child closes its end. @returns false where the time or the size ran out.
+/// Read until the child closes its end. @returns false if the time or size limit is reached.
 bool ReadAll(int in, std::chrono::steady_clock::time_point deadline, std::string& bytes) {
   using std::chrono::milliseconds;
   std::array<char, 1 << 16> piece;

@@ -7,9 +7,9 @@
 
 namespace regrasp::object {
 
-/// How a child process ended.
+/// Result of a child process.
 enum class ChildEnd {
-  kDone,         ///< it sent everything
+  kDone,         ///< it returned all bytes
   kThrew,        ///< `task` threw; `bytes` is the message
   kTookTooLong,  ///< killed at the limit of wall or processor time
   kCrashed,      ///< killed by a signal, or out of memory
@@ -24,16 +24,16 @@ struct ChildLimits {
   std::size_t memory_bytes;
   std::chrono::seconds processor;
   std::chrono::milliseconds wall;
-  bool opens_files = false;  ///< otherwise it may use what is open already, and no more
+  bool opens_files = false;  ///< if false, it can use only files that are already open
 };
 
-/// Runs `task` in a forked child with limits and returns the bytes that it returned there.
+/// Run `task` in a forked child process with limits and return its bytes.
 ///
-/// For code that may crash, hang or exhaust memory. The child prints nothing, leaves no core
-/// file and runs no destructor or exit handler of this process. Where the program is built
-/// with the address sanitizer, neither memory nor files are limited: it reserves more than any
-/// limit and opens pipes.
-/// @throws EnvironmentError  the process or the pipe cannot be made.
+/// Use it for code that may crash, hang or exhaust memory. The child prints nothing, writes no core
+/// file and runs no destructor or exit handler of this process. In a build with the address
+/// sanitizer, memory and files are not limited, because the sanitizer allocates more address space
+/// than any limit and opens pipes.
+/// @throws EnvironmentError  if the process or the pipe cannot be created.
 [[nodiscard]] ChildResult RunInLimitedChild(const std::function<std::string()>& task,
                                             const ChildLimits& limits);
 

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Zeroth, first and second moments about the point that the sums start from.
+/// Zeroth, first and second moments about the base point of the sums.
 struct Moments {
   double zeroth = 0;
   Vector3d first = Vector3d::Zero();
@@ -34,7 +34,7 @@ MassProperties AboutCentroid(const Moments& moments, const Vector3d& from) {
 
 MassProperties ComputeMassProperties(const std::vector<Vector3d>& vertices,
                                      const std::vector<std::array<int, 3>>& triangles) {
-  // From a vertex of the solid, not from the origin: a body far away would lose its digits.
+  // The base point is a vertex and not the origin, because a solid far away would lose precision.
   const Vector3d from = vertices[triangles.front()[0]];
   Moments moments;
   for (const auto& [i, j, k] : triangles) {

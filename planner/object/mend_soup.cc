@@ -23,7 +23,8 @@ namespace regrasp::object {
 
 namespace {
 
-/// A cycle of corners from its lowest one towards the lower of the two beside it.
+/// Cyclic sequence of corners in canonical order: from its lowest corner towards the lower of the
+/// two adjacent ones.
 class Cycle {
  public:
   Cycle() = default;
@@ -37,7 +38,7 @@ class Cycle {
   [[nodiscard]] int facet() const { return facet_; }
   [[nodiscard]] bool forward() const { return forward_; }
 
-  /// Any order that puts equal ones beside each other.
+  /// An arbitrary total order, in which equal cycles are adjacent.
   friend std::weak_ordering operator<=>(const Cycle& a, const Cycle& b) {
     const auto rough =
         std::pair(a.hash_, a.corners_->size()) <=> std::pair(b.hash_, b.corners_->size());
@@ -50,7 +51,7 @@ class Cycle {
   friend bool operator==(const Cycle& a, const Cycle& b) { return (a <=> b) == 0; }
 
  private:
-  static constexpr std::uint64_t kPrime = 0x100000001b3;  // of FNV-1a
+  static constexpr std::uint64_t kPrime = 0x100000001b3;  // prime of FNV-1a
 
   [[nodiscard]] int at(std::size_t k) const {
     const std::size_t size = corners_->size();
@@ -90,13 +91,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The first of the points so far within a distance of each, by cells of that width.
+/// Hash grid that finds the first earlier point within a distance of a point.
 class NearPoints {
  public:
   NearPoints(const std::vector<Vector3d>& points, double within)
       : points_(points), within_(within) {}
 
-  /// @returns the point itself, and knows it from here on, where there is none.
+  /// Return the first earlier point within the distance. If there is none, store the point and
+  /// return it.
   int FirstNear(int point) {
     const Vector3d& p = points_[point];
     const Cell cell = CellOf(p);
@@ -157,14 +159,14 @@ std::vector<bool> FindFlattened(const WeldedSoup& soup) {
   return flattened;
 }
 
-/// Along any line its points are in this order.
+/// Return a sort key that orders the points of any line.
 auto Place(const WeldedSoup& soup, int vertex) {
   const Vector3d& p = soup.vertices[vertex];
   return std::tuple(p.x(), p.y(), p.z());
 }
 
-/// For each facet without area the vertices of all that hang together with it on a line, in order;
-/// kept at one of them.
+/// Collinear vertices of each connected set of polygons without area, in order. They are stored
+/// once per set.
 class Lines {
  public:
   Lines(const WeldedSoup& soup, const std::vector<EdgeSide>& sides,
@@ -196,10 +198,10 @@ class Lines {
   std::map<std::size_t, std::vector<int>> lines_;
 };
 
-using VertexEdge = std::pair<int, int>;  ///< the lower vertex first
+using VertexEdge = std::pair<int, int>;  ///< lower vertex first
 
-/// What lies between the ends of edges of facets without area, in the order of Place.
-/// @returns nullopt where that is far more than there are edges.
+/// Find the vertices between the ends of each edge of polygons without area, in the order of Place.
+/// @returns nullopt if their number exceeds that of all edge sides.
 std::optional<std::map<VertexEdge, std::vector<int>>> FindSplits(
     const WeldedSoup& soup, const std::vector<bool>& flattened) {
   const std::vector<EdgeSide> sides = SortedEdgeSides(soup.facets, soup.vertices.size());
@@ -223,8 +225,10 @@ std::optional<std::map<VertexEdge, std::vector<int>>> FindSplits(
   return splits;
 }
 
-/// Drops facets without area. About such a facet its edges cancel piece by piece, so that the
-/// surface stays closed where the facets beside it get its corners on the edges that they share.
+/// Drop polygons without area.
+///
+/// The edges of such a polygon cancel piece by piece. The surface therefore stays closed if its
+/// corners are added to the adjacent polygons, on their common edges.
 bool DropFlattened(WeldedSoup& soup) {
   const std::vector<bool> flattened = FindFlattened(soup);
   if (std::ranges::find(flattened, true) == flattened.end()) return false;
@@ -249,8 +253,9 @@ bool DropFlattened(WeldedSoup& soup) {
   return true;
 }
 
-/// Of facets with the same corners keeps the first of those that are more, of one orientation or
-/// the other; none where they are equally many.
+/// Drop polygons with equal corners.
+///
+/// Keeps the first one of the more frequent orientation, and none if both are equally frequent.
 bool DropRepeatedFacets(WeldedSoup& soup) {
   const std::vector<RepeatedFacet> repeated = FindRepeatedFacets(soup.facets);
   for (auto first = repeated.begin(), last = first; first != repeated.end(); first = last) {

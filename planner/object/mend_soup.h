@@ -6,32 +6,35 @@
 
 namespace regrasp::object {
 
-/// A facet with the corners of an earlier one, in the same order or in the opposite.
+/// Polygon with the corners of an earlier one, in the same or the opposite order.
 struct RepeatedFacet {
   int facet;
-  int first;  ///< the first facet with these corners
+  int first;  ///< first polygon with these corners
   bool same_way;
 };
 
-/// Facets that lie on others: those that have the corners of an earlier one, by the earlier one.
-/// Facets without corners are none.
-/// @param facets  polygons as vertices, none of them twice.
+/// Find polygons that have the corners of an earlier one, sorted by the earlier one.
+///
+/// `facets` lists the vertex indices of each polygon, without repetition. Polygons without corners
+/// are ignored.
 [[nodiscard]] std::vector<RepeatedFacet> FindRepeatedFacets(
     const std::vector<std::vector<int>>& facets);
 
-/// Mends what can be mended in a soup without moving its surface, in this order:
+/// Fix those defects of a soup that do not require moving its surface.
 ///
-/// - open edges are closed by making their ends one where they lie within kPointTolerance · D of
-///   each other, at the first of them (other vertices stay where they are);
-/// - facets without area are dropped; where one reaches from edge to edge along a line, the edges
-///   beside it get its corners;
-/// - facets with the same corners: one and another of opposite orientation are both dropped (a wall
-///   without thickness), of what is left all but one.
+/// The steps, in this order:
 ///
-/// It is for soups that are no closed manifold: sound ones are not to be changed. What is left may
-/// still be none; facets keep their number, those that are dropped have no corners.
-/// @param diameter  the object's, D.
-/// @returns whether anything was changed.
+/// - Close open edges: merge their ends if they are within kPointTolerance · D of each other, at
+///   the position of the first. Other vertices do not move.
+/// - Drop polygons without area. If one connects several edges along a line, the polygons at these
+///   edges get its corners.
+/// - Drop repeated polygons. Two with the same corners and opposite orientation form a wall without
+///   thickness, and both are dropped. One of the remaining ones with the same corners is kept.
+///
+/// Call it only for soups that are not closed manifolds; it may change sound ones. The result may
+/// still not be a closed manifold. Polygons keep their numbers; dropped ones have no corners.
+/// @param diameter  diameter D of the object.
+/// @returns whether the soup was changed.
 bool MendSoup(WeldedSoup& soup, double diameter);
 
 }  // namespace regrasp::object

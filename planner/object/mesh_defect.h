@@ -6,24 +6,26 @@
 
 namespace regrasp::object {
 
-/// What makes a soup not the surface of one solid.
+/// Reason why a soup is not the surface of one solid.
 enum class MeshDefect {
-  kEmpty,             ///< no facet, or no volume
+  kEmpty,             ///< no polygon, or no volume
   kNotFinite,         ///< a coordinate is NaN, infinite or beyond kMaxCoordinate
   kBadSize,           ///< too small, too thin, or too far from the origin for its size
-  kIndexOutOfRange,   ///< a facet names a vertex that is not there
-  kDegenerateFacet,   ///< fewer than three corners, a corner named twice, or no area
-  kNotPlanar,         ///< a polygon's corners do not lie in one plane
-  kNotClosed,         ///< an edge has one facet
-  kNotManifold,       ///< an edge has more than two facets, or a vertex joins two fans
-  kNotOriented,       ///< neighbouring facets run along their edge the same way
-  kSelfIntersecting,  ///< two facets meet elsewhere than at a shared edge or vertex
-  kSeveralSolids,     ///< two shells beside each other, or a cavity oriented outward
-  kTooLarge,          ///< more facets or entangled pairs of them than can be checked
+  kIndexOutOfRange,   ///< a vertex index is out of range
+  kDegenerateFacet,   ///< fewer than three corners, a repeated corner, or no area
+  kNotPlanar,         ///< the corners of a polygon are not in one plane
+  kNotClosed,         ///< an edge has one polygon
+  kNotManifold,       ///< an edge has more than two polygons, or a vertex joins two fans
+  kNotOriented,       ///< two polygons have their common edge in the same direction
+  kSelfIntersecting,  ///< two polygons meet outside their common edge or vertices
+  kSeveralSolids,     ///< two shells next to each other, or a cavity oriented outward
+  kTooLarge,          ///< too many polygons, or too many pairs that may intersect
 };
 
-/// A mesh that is refused. `what()` is one line: the file, the facet or vertex as the file counts
-/// them (from 0), and what is wrong.
+/// Rejection of a mesh.
+///
+/// `what()` is one line: the file, the polygon or vertex (numbered from 0 in file order), and the
+/// problem.
 class MeshError : public InputError {
  public:
   MeshError(MeshDefect defect, const std::string& message) : InputError(message), defect_(defect) {}

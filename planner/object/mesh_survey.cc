@@ -43,10 +43,10 @@ WeldedSoup WeldSound(const PolygonSoup& soup, MeshSurvey& survey) {
   return WeldVertices(sound, "mesh");
 }
 
-/// Counts what is wrong with facets by themselves. @returns those that can be cut, as triangles.
+/// Count defects of single polygons. @returns triangles of those that can be triangulated.
 TriangleMesh SurveyFacets(const WeldedSoup& soup, MeshSurvey& survey) {
   TriangleMesh mesh{soup.vertices, soup.vertex_in_file, {}, {}, {}, 0};
-  survey.degenerate_facets = -survey.spoilt_facets;  // which have no corners either
+  survey.degenerate_facets = -survey.spoilt_facets;  // they have no corners either
   std::vector<Vector3d> corners;
   for (int f = 0; f < std::ssize(soup.facets); ++f) {
     const std::vector<int>& facet = soup.facets[f];
@@ -87,11 +87,11 @@ void SurveyBorders(const WeldedSoup& soup, const std::vector<EdgeSide>& sides, M
   survey.borders = static_cast<int>(length.size());
 }
 
-/// No more triangles are summed up to find which shells lie inside another: half a second.
+/// Maximum number of solid angles summed to find shells inside another: half a second.
 constexpr std::size_t kMostSolidAngles = 10'000'000;
 
-/// Finds the closed shells that lie inside another without meeting it.
-/// @param part  of each shell.
+/// Find closed shells inside another shell that they do not intersect.
+/// @param part  index of each shell in `parts`.
 void FindInside(const WeldedSoup& soup, const SurfaceParts& parts, const std::vector<int>& part,
                 MeshSurvey& survey) {
   std::vector<Eigen::AlignedBox3d> boxes;
@@ -113,14 +113,14 @@ void FindInside(const WeldedSoup& soup, const SurfaceParts& parts, const std::ve
         return;
       }
       if (!within) continue;
-      constexpr double kHalf = 0.5;  // between 0, outside, and ±1
+      constexpr double kHalf = 0.5;  // between 0 (outside) and ±1
       survey.shells[inner].inside =
           std::abs(WindingNumber(soup, parts.facets[part[outer]], point)) > kHalf;
     }
   }
 }
 
-/// The closed parts, the largest first, and which shell each part is.
+/// Store the closed parts, largest first. @returns index of each shell in `parts`.
 std::vector<int> CollectShells(const WeldedSoup& soup, const SurfaceParts& parts,
                                MeshSurvey& survey) {
   std::vector<std::pair<int, double>> found;
@@ -219,7 +219,7 @@ std::string SurveyText(const MeshSurvey& survey) {
                        const std::string& behind = "") {
     if (count > 0) texts.push_back(Count(count, one, more) + behind);
   };
-  add(survey.spoilt_facets, "facet of spoilt vertices", "facets of spoilt vertices");
+  add(survey.spoilt_facets, "facet with invalid vertices", "facets with invalid vertices");
   add(survey.degenerate_facets, "facet without area", "facets without area");
   add(survey.duplicate_facets, "duplicate facet", "duplicate facets");
   add(survey.opposite_facets, "facet on the back of another", "facets on the back of others");

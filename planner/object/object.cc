@@ -23,7 +23,7 @@ std::vector<Vector3d> Object::CommonPoints(FaceIndex face, FaceIndex other, cons
   std::vector<Vector3d> corners;
   for (const FaceBorder& border : BordersOf(face)) {
     if (border.beyond == other) add(ClosestOnSegment(border.a, border.b, point));
-    // Every corner of a border is where one of its segments begins.
+    // Every corner of a border is the start of one of its segments.
     if (is_near(border.a)) corners.push_back(border.a);
   }
   if (corners.empty()) return points;

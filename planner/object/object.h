@@ -14,36 +14,36 @@
 
 namespace regrasp::object {
 
-/// Where a face meets another one: a straight segment in space, a vertex of the polygon (a = b) in
-/// the plane.
+/// Border of a face with another one: a segment in space, a vertex of the polygon (a = b) in the
+/// plane.
 struct FaceBorder {
   Eigen::Vector3d a;
   Eigen::Vector3d b;
   FaceIndex beyond = {};  ///< the other face
-  /// No finger that touches both faces here is in a concave edge: less than 180° of material, up to
-  /// kCoplanarAngle.
+  /// Whether the material angle here is below 180°, up to kCoplanarAngle. A finger that touches
+  /// both faces is then not in a concave edge.
   bool convex = false;
 };
 
-/// A face: what is said of it alike in plane and space.
+/// Properties of a face that are the same in plane and space.
 struct Face {
-  Eigen::Vector3d inward_normal = Eigen::Vector3d::Zero();  ///< of length 1, into the material
+  Eigen::Vector3d inward_normal = Eigen::Vector3d::Zero();  ///< unit normal, into the material
   double measure = 0;                                       ///< area of a face, length of an edge
-  /// All that it has with others. In space the outline and holes, a to b with the material of the
-  /// face on the left seen from outside; in the plane where the edge begins, then where it ends.
+  /// All borders with other faces. In space: outline and holes, directed from a to b with the face
+  /// on the left as seen from outside. In the plane: the start of the edge, then its end.
   std::vector<FaceBorder> borders;
-  bool enclosed = false;  ///< as Object::IsEnclosed
-  bool invented = false;  ///< as Object::IsInvented
-  bool barred = false;    ///< not Object::TakesFingers
+  bool enclosed = false;  ///< same as Object::IsEnclosed
+  bool invented = false;  ///< same as Object::IsInvented
+  bool barred = false;    ///< negation of Object::TakesFingers
 };
 
-/// The object that is grasped: a solid bounded by flat faces, or a polygon bounded by edges.
+/// The object to grasp: a solid bounded by planar faces, or a polygon bounded by edges.
 ///
-/// A *face* is a maximal set of coplanar neighbouring facets in space, an edge in the plane. Planar
-/// objects live in the plane z = 0 of the same vectors, so that contacts, plans, the checker and
-/// the pictures are written once. All lengths are the object file's own units. An Object is valid
-/// by construction: closed, oriented, free of self-intersection, one solid, or several that are
-/// asked for as one rigid body (shells.h). It does not change.
+/// A *face* is a maximal set of adjacent coplanar triangles in space, an edge in the plane. Planar
+/// objects are in the plane z = 0 and use the same 3D vectors. Contacts, plans, the checker and
+/// images therefore need one implementation only. All lengths are in units of the object file. An
+/// Object is immutable and valid by construction: closed, oriented, free of self-intersection, and
+/// one solid. With Shells::kUnion, several solids form one rigid body.
 class Object {
  public:
   virtual ~Object() = default;
@@ -54,7 +54,7 @@ class Object {
   /// Faces of a solid, edges of a polygon (holes included).
   [[nodiscard]] int face_count() const { return static_cast<int>(faces_.size()); }
 
-  /// The unit normal of a face, pointing into the material.
+  /// Unit normal of a face, pointing into the material.
   [[nodiscard]] const Eigen::Vector3d& inward_normal(FaceIndex face) const {
     return faces_[face].inward_normal;
   }
@@ -62,61 +62,66 @@ class Object {
   /// Area of a face, length of an edge.
   [[nodiscard]] double face_measure(FaceIndex face) const { return faces_[face].measure; }
 
-  /// The point of the face nearest to `point`.
+  /// Return the point of the face nearest to `point`.
   [[nodiscard]] virtual Eigen::Vector3d ClosestPoint(FaceIndex face,
                                                      const Eigen::Vector3d& point) const = 0;
 
-  /// The faces within `tolerance` of `point`, nearest first, ties by index.
+  /// Return the faces within `tolerance` of `point`, nearest first, ties by index.
   [[nodiscard]] virtual std::vector<FaceIndex> FacesNear(const Eigen::Vector3d& point,
                                                          double tolerance) const = 0;
 
-  /// The faces within `tolerance` of some point of the segment ab, by index.
+  /// Return the faces within `tolerance` of some point of the segment ab, sorted by index.
   [[nodiscard]] virtual std::vector<FaceIndex> FacesNearSegment(const Eigen::Vector3d& a,
                                                                 const Eigen::Vector3d& b,
                                                                 double tolerance) const = 0;
 
-  /// Distance from `point` to the face's border (its outline and the outlines of its holes).
+  /// Return the distance from `point` to the face's border (outlines of the face and of its holes).
   [[nodiscard]] virtual double DistanceToBorder(FaceIndex face,
                                                 const Eigen::Vector3d& point) const = 0;
 
-  /// True iff a point that goes from a to b stays on the face: every point of the segment is within
-  /// `tolerance` of it, and, seen along the face's normal, none is beside it once the ends are
-  /// moved by no more than about the tolerance. Faces need not be convex and may have holes and
-  /// slits: both ends inside is not enough, and a slit that is narrower than the tolerance still
-  /// parts a face.
+  /// Return whether a point that moves straight from a to b stays on the face.
+  ///
+  /// Every point of the segment must be within `tolerance` of the face. Also, the segment's
+  /// projection along the face's normal must be inside the face, after moving the ends by at most
+  /// about the tolerance. Faces may be non-convex and have holes and slits, so it is not enough
+  /// that both ends are inside. A slit divides a face even if it is narrower than the tolerance.
   [[nodiscard]] virtual bool ContainsSegment(FaceIndex face, const Eigen::Vector3d& a,
                                              const Eigen::Vector3d& b, double tolerance) const = 0;
 
-  /// All the borders of a face with others.
+  /// All borders of a face with other faces.
   [[nodiscard]] const std::vector<FaceBorder>& BordersOf(FaceIndex face) const {
     return faces_[face].borders;
   }
 
-  /// True iff two different faces have a border in common. Takes some nanoseconds where they have
-  /// few borders.
+  /// Return whether two different faces have a common border. Takes nanoseconds for few borders.
   [[nodiscard]] bool AreNeighbours(FaceIndex face, FaceIndex other) const;
 
-  /// Points that two different faces have in common within `tolerance` of `point`: of each border
-  /// of the two the nearest one, and the vertices at which they merely touch. Faces that are near
-  /// each other, on the two sides of a thin wall, have none.
+  /// Return points of both faces within `tolerance` of `point`, for two different faces.
+  ///
+  /// These are the nearest point of each common border, and the vertices at which the faces merely
+  /// touch. Faces that are only close to each other, such as the two sides of a thin wall, have
+  /// none.
   [[nodiscard]] std::vector<Eigen::Vector3d> CommonPoints(FaceIndex face, FaceIndex other,
                                                           const Eigen::Vector3d& point,
                                                           double tolerance) const;
 
-  /// True iff the face is a wall of a sealed cavity: of a shell that the outside does not see. No
-  /// finger comes there, however thin. Never in the plane, where a finger comes from above.
+  /// Whether the face is a wall of a sealed cavity, that is, of a shell inside the outer one.
+  ///
+  /// No finger can reach it. Always false in the plane, because a finger approaches from above.
   [[nodiscard]] bool IsEnclosed(FaceIndex face) const { return faces_[face].enclosed; }
 
-  /// True iff a repair invented the face, where the original surface has a gap (repair/repair.h).
+  /// Whether a repair added the face to fill a gap of the original surface (repair/repair.h).
   [[nodiscard]] bool IsInvented(FaceIndex face) const { return faces_[face].invented; }
 
-  /// True iff planners place fingers on the face: it can be reached, and it is known to be there or
-  /// Reading::allow_invented says that this is no matter.
+  /// Whether planners may place fingers on the face: it is not enclosed, and not a filled surface
+  /// unless Reading::allow_invented is set.
   [[nodiscard]] bool TakesFingers(FaceIndex face) const { return !faces_[face].barred; }
 
-  /// True iff at a point of a face the face's normal is not what a fingertip would feel
-  /// (patch_normal.h), as it is on scans and beside edges: planners place no finger there. Never
-  /// unless Reading::patch asks for it, and never in the plane.
+  /// Return whether the normal of a contact patch deviates from the face's normal by more than
+  /// FeltPatch::most_angle.
+  ///
+  /// This happens on scans and near edges (patch_normal.h); planners place no finger there. Always
+  /// false in the plane and without Reading::patch.
   [[nodiscard]] virtual bool IsRough(FaceIndex /*face*/, const Eigen::Vector3d& /*point*/) const {
     return false;
   }
@@ -124,7 +129,7 @@ class Object {
   /// Largest distance between two vertices, D.
   [[nodiscard]] double diameter() const { return diameter_; }
 
-  /// Where torques are taken and over what length: the centroid, and R = D/2.
+  /// Frame of wrenches: the centroid and R = D/2.
   [[nodiscard]] WrenchFrame wrench_frame() const {
     return {mass_properties_.centroid, diameter_ / 2, dimension()};
   }
@@ -149,63 +154,70 @@ class Object {
   MassProperties mass_properties_;
 };
 
-/// Points this close to the surface, and to each other where they must agree, count as there:
-/// the tolerance for reading, relative to the object's diameter (docs/formats.md).
+/// Point tolerance divided by the object's diameter (docs/formats.md).
+///
+/// Points count as on the surface, and as equal if required, within this distance when files are
+/// read.
 inline constexpr double kPointTolerance = 1e-6;
 
-/// Facets whose normals differ by no more than this (radians) are one face.
+/// Largest angle between normals of adjacent polygons of one face, rad.
 inline constexpr double kCoplanarAngle = 1e-4;
 
-/// Whether the material turns by less than 180° where one goes from a face to the next across an
-/// edge along `along`, which has the first face on its left seen from outside. All of length 1.
+/// Return whether the material angle at an edge between two faces is below 180°.
+/// @param normal  inward unit normal of the first face.
+/// @param next  inward unit normal of the second face.
+/// @param along  unit vector along the edge, with the first face on its left as seen from outside.
 [[nodiscard]] inline bool IsConvexTurn(const Eigen::Vector3d& normal, const Eigen::Vector3d& next,
                                        const Eigen::Vector3d& along) {
   return normal.cross(next).dot(along) > -kCoplanarAngle;
 }
 
-/// What is asked of the repair of a surface that is no solid (repair/repair.h): with it the same
-/// file gives the same solid again.
+/// Options of the repair of a surface that is not a closed solid (repair/repair.h). The same file
+/// and options always result in the same solid.
 struct RepairOptions {
-  /// 95 % of the surface that is seen from outside lies within this of the solid; over the
-  /// diameter.
+  /// Largest distance from the solid of 95 % of the surface that is visible from outside, divided
+  /// by the diameter.
   double max_deviation = 0.01;
-  std::optional<int> facets;        ///< at most so many triangles
-  std::optional<int> part;          ///< of several solids the one so many-th by volume, from 1
-  std::optional<double> thickness;  ///< of the wall that an open sheet becomes, the object's unit
+  std::optional<int> facets;        ///< maximum number of triangles
+  std::optional<int> part;          ///< rank by volume of the solid to keep, from 1
+  std::optional<double> thickness;  ///< wall thickness for an open sheet, in object units
 
   bool operator==(const RepairOptions&) const = default;
 };
 
-/// What is made of several closed shells; without a choice they are refused, but for a solid and
-/// its cavities.
+/// Treatment of several closed shells. Without a choice they are rejected, unless they are a solid
+/// and its cavities.
 enum class Shells {
-  /// All solids that they bound are one rigid body, wherever they are: shells beside each other,
-  /// and those inside others. What lies in the material of another is left out. None meets another.
+  /// All solids bounded by the shells form one rigid body, next to or inside each other. Shells
+  /// inside the material of another are dropped. Shells must not intersect.
   kUnion,
-  /// The one of the largest volume, with its cavities; the others are left out, whatever they meet.
+  /// The solid of the largest volume, with its cavities. All other shells are dropped, whatever
+  /// they intersect.
   kLargest,
 };
 
-/// That an object was made of a file by a repair.
+/// Record of the repair by which an object was made from a file.
 struct RepairRecord {
   RepairOptions options;
-  std::string sha256;  ///< of the solid's bytes, as the program `repair` writes it
+  std::string sha256;  ///< hash of the solid's bytes, as written by `repair`
 
   bool operator==(const RepairRecord&) const = default;
 };
 
-/// An object together with the file that it was read from.
+/// An object with the file from which it was read.
 struct ObjectFile {
-  std::string file;    ///< name without folders, as plans name it
-  std::string sha256;  ///< of the file's bytes
+  std::string file;    ///< file name without folders, as in plans
+  std::string sha256;  ///< hash of the file's bytes
   std::unique_ptr<const Object> object;
-  std::optional<RepairRecord> repair = std::nullopt;  ///< where it is not the file's own surface
-  std::string unit = {};                              ///< as PolygonSoup::unit
+  std::optional<RepairRecord> repair = std::nullopt;  ///< set if the surface is not the file's own
+  std::string unit = {};                              ///< same as PolygonSoup::unit
 };
 
-/// Reads a solid (OBJ, OFF, PLY, STL in double precision; every other format through assimp in a
-/// limited child process) or a polygon (WKT; files that end in .wkt), by the file's ending.
-/// @throws InputError  names the file, the element and what is wrong with it.
+/// Read a solid or a polygon; the extension of the file name selects the format.
+///
+/// Solids: OBJ, OFF, PLY and STL in double precision, every other format in a limited child
+/// process. Polygons: WKT (`.wkt`).
+/// @throws InputError  if the file is invalid; names the file, the element and the problem.
 [[nodiscard]] ObjectFile ReadObject(const std::filesystem::path& path);
 
 }  // namespace regrasp::object

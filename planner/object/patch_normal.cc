@@ -19,12 +19,12 @@ namespace {
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The area, with its sign, of what the triangle (0, a, b) has in common with a disc about 0.
+/// Compute the signed area of the intersection of the triangle (0, a, b) with a disc about 0.
 double AreaInDisc(const Vector2d& a, const Vector2d& b, double radius_squared) {
   const auto sector = [&](const Vector2d& from, const Vector2d& to) {
     return radius_squared / 2 * std::atan2(Cross(from, to), from.dot(to));
   };
-  // Where the line a + t (b − a) meets the circle.
+  // Intersection of the line a + t (b − a) with the circle.
   const Vector2d along = b - a;
   const double length_squared = along.squaredNorm();
   const double half = a.dot(along);
@@ -39,7 +39,7 @@ double AreaInDisc(const Vector2d& a, const Vector2d& b, double radius_squared) {
          (leaves < 1 ? sector(to, b) : 0);
 }
 
-/// The triangles about a point, and which are neighbours.
+/// Triangles near a point, with their adjacency.
 class Neighbourhood {
  public:
   Neighbourhood(const Polyhedron& solid, const Vector3d& point, double radius)
@@ -52,7 +52,7 @@ class Neighbourhood {
     std::ranges::sort(sides_);
   }
 
-  /// The sum of the areas, each along its inward normal, of what is connected with the triangle.
+  /// Return the sum of area times inward normal over the triangles connected with the given one.
   [[nodiscard]] Vector3d SumFrom(TriangleIndex first) const {
     std::vector<TriangleIndex> reached = {first};
     Vector3d sum = Vector3d::Zero();
@@ -68,7 +68,7 @@ class Neighbourhood {
   }
 
  private:
-  /// A side of a triangle, the smaller vertex first.
+  /// Side of a triangle, smaller vertex first.
   using Side = std::tuple<int, int, TriangleIndex>;
 
   [[nodiscard]] const Vector3d& Corner(TriangleIndex t, int k) const {
@@ -94,7 +94,7 @@ class Neighbourhood {
     }
   }
 
-  /// The triangle across a side of another; not valid where the way there leaves the ball.
+  /// Return the triangle across a side; invalid if the side is outside the ball.
   [[nodiscard]] TriangleIndex Beyond(TriangleIndex t, int k) const {
     const Side own = SideOf(t, k);
     const auto [low, high, unused] = own;
@@ -105,7 +105,7 @@ class Neighbourhood {
     return {};
   }
 
-  /// Of a triangle inside the ball.
+  /// Compute the area of the part of a triangle inside the ball.
   [[nodiscard]] double AreaOf(TriangleIndex t) const {
     const Vector3d& n = solid_.inward_normal(solid_.face_of_triangle(t));
     const double height = n.dot(point_ - Corner(t, 0));
@@ -128,17 +128,17 @@ class Neighbourhood {
   const Polyhedron& solid_;
   Vector3d point_;
   double radius_;
-  std::vector<Side> sides_;  ///< that meet the ball, by their vertices
+  std::vector<Side> sides_;  ///< sides that intersect the ball, sorted by vertices
 };
 
-/// How far a point is from a triangle in its plane: 0 inside.
+/// Return the distance of a point from a triangle within the triangle's plane; 0 inside.
 double DistanceBeside(const Polyhedron& solid, TriangleIndex t, const Vector3d& point) {
   const Vector3d& n = solid.inward_normal(solid.face_of_triangle(t));
   double farthest = 0;
   for (int k = 0; k < 3; ++k) {
     const Vector3d& a = solid.vertices()[solid.triangles()[t][k]];
     const Vector3d& b = solid.vertices()[solid.triangles()[t][(k + 1) % 3]];
-    // n points inwards: seen from outside the triangle lies on the left of its sides.
+    // Because n points inward, the triangle is on the left of its sides as seen from outside.
     const Vector3d outwards = (b - a).cross(-n);
     const double length = outwards.norm();
     if (length > 0) farthest = std::max(farthest, outwards.dot(point - a) / length);
@@ -156,7 +156,8 @@ Vector3d PatchNormal(const Polyhedron& solid, FaceIndex face, const Vector3d& po
   const TriangleIndex under = *std::ranges::min_element(
       own, {}, [&](TriangleIndex t) { return DistanceBeside(solid, t, point); });
   const Vector3d sum = about.SumFrom(under);
-  // Only where the patch is a blade of two sides do they cancel: neither is its normal.
+  // The normals cancel only if the patch has two opposite sides, as a thin blade. Neither is its
+  // normal.
   return sum.norm() > 0 ? Vector3d(sum.normalized()) : solid.inward_normal(face);
 }
 

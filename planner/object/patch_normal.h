@@ -8,17 +8,20 @@ namespace regrasp::object {
 
 class Polyhedron;
 
-/// What a fingertip that touches a patch feels of the surface: the unit mean, by area, of the
-/// inward normals of the surface inside a ball about a point, as far as it is connected with the
-/// point there. The far side of a wall does not count.
+/// Compute the normal that a fingertip feels on its contact patch.
 ///
-/// A friction cone about a facet's normal that is narrower by its angle to this one lies in the
-/// cone about this one: a grasp that is force closure with the one is so with the other.
+/// It is the unit mean, weighted by area, of the surface's inward normals inside a ball about a
+/// point. Only surface that is connected with the point inside the ball counts, so the far side of
+/// a wall does not.
 ///
-/// Laws: independent of rigid motion, of the unit of length and of how facets are cut; the face's
-/// normal where the whole patch lies on the face.
-/// @param face    that the point lies on.
-/// @param radius  of the ball, the solid's unit of length, > 0.
+/// Let δ be the angle between the face's normal and this one. A friction cone about the face's
+/// normal, narrowed by δ, is inside the cone about this normal. A grasp that is force closure with
+/// the narrower cones is therefore force closure with the others.
+///
+/// Laws: independent of rigid motion, of the unit of length and of the triangulation; equal to the
+/// face's normal if the whole patch is on the face.
+/// @param face  face on which the point is.
+/// @param radius  radius of the ball in units of the solid, > 0.
 [[nodiscard]] Eigen::Vector3d PatchNormal(const Polyhedron& solid, FaceIndex face,
                                           const Eigen::Vector3d& point, double radius);
 

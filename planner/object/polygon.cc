@@ -50,8 +50,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Boxes of edges are this much larger, over the diameter, than what is looked for: far above
-/// roundings, so that distances decide alone.
+/// Enlargement of query boxes divided by the diameter. It is far above rounding, so that only
+/// distances decide.
 constexpr double kBoxSlack = 1e-9;
 
 using PlaneKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -98,7 +98,7 @@ std::vector<Face> MakeEdgeFaces(const PolygonRings& rings) {
            {{a, a, FaceIndex(first + (i + size - 1) % size)}, {b, b, FaceIndex(first + next)}}});
     }
   }
-  // Seen from above the material is on the left of the edges: a convex vertex turns left.
+  // As seen from above, the material is on the left of the edges, so a convex vertex turns left.
   const auto turns_left = [&](const Face& edge, const Face& next) {
     return IsConvexTurn(edge.inward_normal, next.inward_normal, Vector3d::UnitZ());
   };
@@ -149,7 +149,7 @@ std::vector<FaceIndex> Polygon::FacesNear(const Vector3d& point, double toleranc
   const Eigen::Array2d high = point.head<2>().array() + reach;
   std::vector<std::pair<double, FaceIndex>> near;
   for (FaceIndex face{0}; face < face_count(); ++face) {
-    // Of most edges their box tells that they are too far.
+    // The box test rejects most edges.
     const auto& [a, b] = edges_[face];
     if ((a.cwiseMax(b).array() < low).any() || (a.cwiseMin(b).array() > high).any()) continue;
     const double distance = (ClosestPoint(face, point) - point).norm();
@@ -181,7 +181,7 @@ double Polygon::DistanceToBorder(FaceIndex face, const Vector3d& point) const {
 
 bool Polygon::ContainsSegment(FaceIndex face, const Vector3d& a, const Vector3d& b,
                               double tolerance) const {
-  // An edge is convex: what lies between two points near it is near it too.
+  // An edge is convex, so a segment between two points near it is near it, too.
   return (ClosestPoint(face, a) - a).norm() <= tolerance &&
          (ClosestPoint(face, b) - b).norm() <= tolerance;
 }
@@ -251,11 +251,11 @@ bool Follows(const RingEdge& first, const RingEdge& second) {
   return first.ring == second.ring && (first.index + 1) % first.ring_size == second.index;
 }
 
-/// True iff two edges share more than the point where one follows the other.
+/// Return whether two edges share more than the vertex between consecutive edges.
 bool MeetWrongly(const RingEdge& a, const RingEdge& b) {
   if (Follows(b, a)) return MeetWrongly(b, a);
   if (!Follows(a, b)) return CGAL::do_intersect(a.segment, b.segment);
-  // Neighbours meet again only where the ring turns back onto itself.
+  // Consecutive edges overlap only if the ring reverses its direction.
   const RingPoint &p = a.segment.source(), &q = a.segment.target(), &r = b.segment.target();
   return CGAL::collinear(p, q, r) && !CGAL::collinear_are_ordered_along_line(p, q, r);
 }
@@ -276,7 +276,7 @@ void CheckCrossings(const PolygonRings& rings, const std::string& name) {
                            " pairs of edges lie so close that they would have to be checked");
         }
         if (!MeetWrongly(*one.info(), *other.info())) return;
-        const auto [a, b] = std::minmax({one.info(), other.info()});  // one vector's addresses
+        const auto [a, b] = std::minmax({one.info(), other.info()});  // pointers into one vector
         throw InputError(name + ": " + EdgeName(*a) + ": self-intersecting: meets " + EdgeName(*b));
       });
 }
@@ -291,7 +291,8 @@ bool IsInside(const Ring& inner, const Ring& outer) {
   return outer.bounded_side(inner[0]) == CGAL::ON_BOUNDED_SIDE;
 }
 
-/// Rings do not touch, so one point of a ring decides for all of it.
+/// Check that holes are inside the outer ring and not in each other. Rings do not touch, so one
+/// point of a ring decides for all of it.
 void CheckNesting(const std::vector<Ring>& rings, const std::string& name) {
   for (std::size_t r = 1; r < rings.size(); ++r) {
     if (!IsInside(rings[r], rings[0])) {

@@ -10,41 +10,50 @@
 
 namespace regrasp::object {
 
-/// Rings of a polygon, the outer one first; a ring's last point is not repeated.
+/// Rings of a polygon, outer ring first; a ring's last point is not repeated.
 using PolygonRings = std::vector<std::vector<Eigen::Vector2d>>;
 
-/// Checks that rings bound one connected sheet and turns the outer one counter-clockwise and holes
-/// clockwise (their first points stay first). As Polygon::FromRings says.
-/// @throws InputError
+/// Check that rings bound one connected sheet, and orient them.
+///
+/// The outer ring becomes counter-clockwise and holes clockwise; their first points stay first. The
+/// requirements are those of Polygon::FromRings.
+/// @throws InputError  if a requirement is not met.
 void CheckAndOrientRings(PolygonRings& rings, const std::string& name);
 
-/// The rings of a WKT POLYGON or a MULTIPOLYGON of one polygon, unchecked. As Polygon::FromWkt
-/// says.
-/// @throws InputError
+/// Read the rings of a WKT POLYGON, or of a MULTIPOLYGON with one polygon, without checking them.
+///
+/// The syntax is that of Polygon::FromWkt.
+/// @throws InputError  if the syntax is wrong.
 [[nodiscard]] PolygonRings ReadWktRings(std::string_view text, const std::string& name);
 
-/// A simple polygon, with or without holes, in the plane z = 0.
+/// A simple polygon in the plane z = 0, with or without holes.
 ///
-/// Faces are its edges: those of the outer ring (counter-clockwise), then of each hole (clockwise),
-/// so that the material is on the left of every edge.
+/// Its faces are its edges: those of the outer ring (counter-clockwise), then those of each hole
+/// (clockwise). The material is on the left of every edge.
 class Polygon final : public Object {
  public:
-  /// Checks and orients rings, the outer one first; a ring's last point is not repeated.
+  /// Make a polygon from rings, which are checked and oriented.
   ///
-  /// Rings must be simple, holes strictly inside the outer ring and not inside or touching each
-  /// other, all decided with exact predicates. Collinear neighbouring edges stay separate edges.
-  /// @throws InputError  names the ring, the vertex or edge (from 0) and what is wrong.
+  /// Rings must be simple. Holes must be strictly inside the outer ring, and must not touch or
+  /// contain each other. Exact predicates decide this. Collinear adjacent edges stay separate
+  /// edges.
+  /// @param rings  points of each ring, outer ring first; a ring's last point is not repeated.
+  /// @throws InputError  if a requirement is not met; names the ring, the vertex or edge (from 0)
+  ///     and the problem.
   static Polygon FromRings(std::vector<std::vector<Eigen::Vector2d>> rings,
                            const std::string& name);
 
-  /// Reads `POLYGON((x y, …),(hole …))` or a MULTIPOLYGON of one polygon (OGC 06-103r4): any case
-  /// and white space; each ring ends with its first point. The same under any locale.
-  /// @throws InputError  names the ring and vertex, or the place in the text.
+  /// Read `POLYGON((x y, …),(hole …))`, or a MULTIPOLYGON with one polygon (OGC 06-103r4).
+  ///
+  /// Case and white space are arbitrary; each ring ends with its first point. The result does not
+  /// depend on the locale.
+  /// @throws InputError  if the text is invalid; names the ring and vertex, or the position in the
+  ///     text.
   static Polygon FromWkt(std::string_view text, const std::string& name);
 
-  /// The outer ring first.
+  /// Rings, outer ring first.
   [[nodiscard]] const std::vector<std::vector<Eigen::Vector2d>>& rings() const { return rings_; }
-  /// The two ends of an edge, material on the left.
+  /// Ends of an edge, with the material on the left.
   [[nodiscard]] std::pair<Eigen::Vector3d, Eigen::Vector3d> edge(FaceIndex face) const {
     return {BordersOf(face)[0].a, BordersOf(face)[1].a};
   }
@@ -66,13 +75,14 @@ class Polygon final : public Object {
           MassProperties mass_properties);
 
   std::vector<std::vector<Eigen::Vector2d>> rings_;
-  /// By edge, its ends: side by side in memory, as searches look at them all.
+  /// Ends of each edge. They are adjacent in memory because searches read all of them.
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> edges_;
 };
 
-/// Cuts a polygon into counter-clockwise triangles without new vertices (a constrained Delaunay
-/// triangulation with exact predicates).
-/// @returns three vertices each, numbered over the rings in their order.
+/// Cut a polygon into counter-clockwise triangles without new vertices.
+///
+/// The method is a constrained Delaunay triangulation with exact predicates.
+/// @returns three vertex indices per triangle; vertices are numbered through all rings in order.
 [[nodiscard]] std::vector<std::array<int, 3>> TriangulatePolygon(const Polygon& polygon);
 
 }  // namespace regrasp::object

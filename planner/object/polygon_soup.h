@@ -6,15 +6,18 @@
 
 namespace regrasp::object {
 
-/// Vertices and facets as a file gives them, unchecked. A facet is a polygon of vertex indices,
-/// counter-clockwise from outside. It may be non-convex, but it has no holes.
+/// Unchecked vertices and polygons (`facets`) of a file.
+///
+/// A polygon lists vertex indices, counter-clockwise from outside. It may be non-convex, but has no
+/// holes.
 struct PolygonSoup {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::vector<int>> facets;
-  /// Of each facet whether it is no part of what was scanned or drawn: it fills a gap of a repaired
-  /// surface. Empty where none is.
+  /// For each polygon, whether it fills a gap and is not part of the scanned or drawn surface.
+  /// Empty if no polygon is.
   std::vector<bool> invented = {};
-  /// Where the file says what its unit of length is: its name, "inches"; vertices are in metres.
+  /// Name of the unit of length in the file, such as "inches"; empty if the file has none. If set,
+  /// vertices are in metres.
   std::string unit = {};
 };
 

@@ -25,8 +25,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The facets of a face point the same way, so their areas add up as vectors do. Only where all of
-/// a body is slivers, which join whatever lies beside them, do they cancel.
+/// Smallest length of the sum of a face's area vectors, divided by its area.
+///
+/// The triangles of a face have nearly equal normals, so the ratio is about 1. They cancel only if
+/// the whole object consists of slivers, which join any adjacent face.
 constexpr double kLeastFlatness = 0.5;
 
 void CheckEdges(const TriangleMesh& mesh, double diameter, const std::string& name) {
@@ -43,7 +45,7 @@ void CheckEdges(const TriangleMesh& mesh, double diameter, const std::string& na
   }
 }
 
-/// Faces as the sums of their facets: the normals are not of length 1 yet.
+/// Sum up the triangles of each face. The normals are not normalized yet.
 std::vector<Face> AddFacets(const TriangleMesh& mesh, const SurfaceTopology& topology,
                             const std::vector<FaceIndex>& face_of_triangle,
                             const std::vector<bool>& enclosed) {
@@ -51,7 +53,7 @@ std::vector<Face> AddFacets(const TriangleMesh& mesh, const SurfaceTopology& top
   const auto face_beyond = [&](TriangleIndex t, int k) {
     return face_of_triangle[topology.neighbor[t][k]];
   };
-  // Borders are most of a large body's memory: no more is taken than they need.
+  // Borders take most memory of a large object, so exactly the required memory is allocated.
   std::vector<std::size_t> borders(faces.size(), 0);
   for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     for (int k = 0; k < 3; ++k)
@@ -75,8 +77,9 @@ std::vector<Face> AddFacets(const TriangleMesh& mesh, const SurfaceTopology& top
   return faces;
 }
 
-/// @param enclosed  of each shell.
-/// @throws MeshError  kBadSize where a face has no normal.
+/// Make the faces of a mesh.
+/// @param enclosed  for each shell, whether it is invisible from outside.
+/// @throws MeshError  kBadSize if a face has no normal.
 std::vector<Face> MakeFaces(const TriangleMesh& mesh, const SurfaceTopology& topology,
                             const std::vector<FaceIndex>& face_of_triangle,
                             const std::vector<bool>& enclosed, const std::string& name) {
@@ -127,7 +130,7 @@ Surface MakeSurface(const WeldedSoup& soup, double diameter, const std::string& 
   return {std::move(mesh), std::move(topology), diameter};
 }
 
-/// Of all shells, or of the largest where that is chosen.
+/// Make the surface of all shells, or of the largest one if that is the choice.
 Surface MakeChosenSurface(const WeldedSoup& soup, const std::string& name, const Reading& reading) {
   std::optional<LargestShell> largest;
   if (reading.shells == Shells::kLargest) largest = FindLargestShell(soup);
@@ -137,7 +140,8 @@ Surface MakeChosenSurface(const WeldedSoup& soup, const std::string& name, const
   return surface;
 }
 
-/// Only a soup that is no such surface is mended: one that is stays as it is, to the bit.
+/// Make a surface; fix defects only if the soup is not a closed manifold. A sound soup stays
+/// bit-identical.
 Surface MakeMendedSurface(WeldedSoup soup, const std::string& name, const Reading& reading) {
   try {
     return MakeChosenSurface(soup, name, reading);
@@ -147,7 +151,7 @@ Surface MakeMendedSurface(WeldedSoup soup, const std::string& name, const Readin
   return MakeChosenSurface(soup, name, reading);
 }
 
-/// Whether a defect is one of those that SurveyMesh counts.
+/// Return whether SurveyMesh counts a defect.
 bool IsSurveyed(MeshDefect defect) {
   switch (defect) {
     case MeshDefect::kDegenerateFacet:
@@ -163,7 +167,7 @@ bool IsSurveyed(MeshDefect defect) {
   }
 }
 
-/// Which choice among several closed shells would help.
+/// Suggest a treatment of several closed shells that helps; empty if there is none.
 std::string ShellsHint(MeshDefect first, const MeshSurvey& survey, std::optional<Shells> choice) {
   if (survey.shells.size() < 2) return "";
   if (first == MeshDefect::kSeveralSolids) {
@@ -176,7 +180,7 @@ std::string ShellsHint(MeshDefect first, const MeshSurvey& survey, std::optional
                                   : "; --shells largest would take the largest shell alone";
 }
 
-/// What was found first, and then all that is wrong.
+/// Append the counts of all defects to the first one.
 MeshError WithSurvey(const MeshError& first, const PolygonSoup& soup, const Reading& reading) {
   try {
     if (!reading.counts_defects || !IsSurveyed(first.defect())) return first;
@@ -189,7 +193,7 @@ MeshError WithSurvey(const MeshError& first, const PolygonSoup& soup, const Read
   }
 }
 
-/// @param invented  of each of the file's facets; empty where none is.
+/// Mark the faces that a repair added. See PolygonSoup for the parameter `invented`.
 void MarkInvented(const TriangleMesh& mesh, const std::vector<FaceIndex>& face_of_triangle,
                   const std::vector<bool>& invented, std::vector<Face>& faces) {
   if (invented.empty()) return;
@@ -228,7 +232,7 @@ Polyhedron Polyhedron::Check(const PolygonSoup& soup, const std::string& name,
   for (Face& face : faces) {
     face.barred = face.enclosed || (face.invented && !reading.allow_invented);
   }
-  topology = {};  // a large body needs all the memory that there is for its faces
+  topology = {};  // frees memory, which the faces of a large object need
   reading.Begin("preparing " + std::to_string(faces.size()) + " faces");
   std::optional<FeltPatch> patch = reading.patch;
   if (patch) patch->radius = patch->radius.value_or(kUsualPatch * diameter);

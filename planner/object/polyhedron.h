@@ -16,32 +16,32 @@ namespace regrasp::object {
 
 class FaceTree;
 
-/// A solid bounded by a closed triangle mesh whose coplanar neighbours are joined into faces.
+/// A solid bounded by a closed triangle mesh with adjacent coplanar triangles joined to faces.
 class Polyhedron final : public Object {
  public:
-  /// Checks, orients (a wholly inward mesh is turned) and joins a soup. Vertices with exactly equal
-  /// coordinates are one; those that no facet uses are dropped.
+  /// Make a solid from a soup, which is checked, oriented and joined to faces.
   ///
-  /// Laws: faces, areas and mass do not depend on how facets are cut or on the order of a facet's
-  /// corners' start.
-  /// @param name  how messages call it, usually the file's path.
-  /// @throws MeshError  (an InputError) with the MeshDefect; names the facet or vertex, from 0, and
-  ///                    then counts all that is wrong (SurveyMesh).
-  /// @throws TimeUp  the deadline came.
+  /// A mesh that is oriented inward is reversed. Vertices with exactly equal coordinates are
+  /// merged; unused ones are dropped. Law: faces, areas and mass depend neither on the
+  /// triangulation nor on the first corner of each polygon.
+  /// @param name  name for messages, usually the file's path.
+  /// @throws MeshError  (an InputError) with the MeshDefect if the soup does not bound a solid;
+  ///     names the polygon or vertex, from 0, and then counts all defects (SurveyMesh).
+  /// @throws TimeUp  if the deadline is reached.
   static Polyhedron FromSoup(const PolygonSoup& soup, const std::string& name,
                              const Reading& reading = {});
 
   [[nodiscard]] const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
-  /// Counter-clockwise from outside; polygons of the file are triangulated.
+  /// Triangles, counter-clockwise from outside; polygons of the file are triangulated.
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   [[nodiscard]] FaceIndex face_of_triangle(TriangleIndex triangle) const {
     return face_of_triangle_[triangle];
   }
-  /// Those of a face, by index.
+  /// Triangles of a face, sorted by index.
   [[nodiscard]] const std::vector<TriangleIndex>& TrianglesOf(FaceIndex face) const {
     return triangles_of_face_[face];
   }
-  /// The area centroid of a face, a point of its plane.
+  /// Compute the area centroid of a face, a point of its plane.
   [[nodiscard]] Eigen::Vector3d CentroidOf(FaceIndex face) const;
 
   [[nodiscard]] Eigen::Vector3d ClosestPoint(FaceIndex face,
@@ -66,9 +66,9 @@ class Polyhedron final : public Object {
   std::vector<std::array<int, 3>> triangles_;
   std::vector<FaceIndex> face_of_triangle_;
   std::vector<std::vector<TriangleIndex>> triangles_of_face_;
-  /// Shared between copies: it does not change, and it is as large as the mesh.
+  /// Shared by copies, because it is immutable and as large as the mesh.
   std::shared_ptr<const FaceTree> face_tree_;
-  std::optional<FeltPatch> patch_;  ///< with its radius
+  std::optional<FeltPatch> patch_;  ///< radius is set
 };
 
 }  // namespace regrasp::object

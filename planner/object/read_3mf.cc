@@ -3,14 +3,18 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/base/error.h"
-#include "planner/object/package_3mf.h"
+#include "planner/base/file.h"
+#include "planner/base/zip_archive.h"
 #include "planner/object/text_scanner.h"
 #include "planner/object/weld.h"
 #include "planner/object/xml_scan.h"
@@ -18,6 +22,83 @@
 namespace regrasp::object {
 
 namespace {
+
+constexpr const char* kRelationships = "_rels/.rels";
+constexpr std::string_view kModelType =
+    "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
+
+/// Decode the percent-encoded characters of a URI, such as "%20".
+std::string PercentDecoded(std::string_view text) {
+  std::string decoded;
+  while (!text.empty()) {
+    unsigned char code = 0;
+    const char* digits = text.data() + 1;
+    const bool escaped = text.size() >= 3 && text[0] == '%' &&
+                         std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+    decoded += escaped ? static_cast<char>(code) : text[0];
+    text.remove_prefix(escaped ? 3 : 1);
+  }
+  return decoded;
+}
+
+/// Parts of a 3MF package, by their names in the Open Packaging Conventions.
+class Package3mf {
+ public:
+  /// @param bytes  bytes of the package; must outlive this object.
+  /// @throws InputError  if they are not a ZIP archive.
+  explicit Package3mf(std::string_view bytes) : archive_(bytes) {}
+
+  /// Find the root model part: the target of the one relationship of that type in `_rels/.rels`.
+  /// @returns its normalised name.
+  /// @throws InputError  if `_rels/.rels` is missing or has none or several such relationships.
+  [[nodiscard]] std::string RootModel();
+
+  /// Read a part.
+  /// @param part  name as PartName returns it.
+  /// @throws InputError  if there is no such part or several parts of this name.
+  [[nodiscard]] std::string Read(const std::string& part);
+
+  /// Normalise the name of a part: without the first slash, "." and "..".
+  [[nodiscard]] static std::string PartName(std::string_view target);
+
+ private:
+  ZipArchive archive_;
+};
+
+std::string Package3mf::PartName(std::string_view target) {
+  const std::string absolute = "/" + std::string(target);
+  return std::filesystem::path(absolute).lexically_normal().relative_path().string();
+}
+
+std::string Package3mf::RootModel() {
+  const std::string text = Read(kRelationships);
+  std::optional<std::string> root;
+  ScanXml(text, kRelationships, [&](const XmlTag& tag) {
+    if (tag.name() != "Relationship" || tag.Find("Type") != kModelType) return;
+    if (tag.Find("TargetMode") == "External") throw InputError("the model is outside the package");
+    if (root) throw InputError("several relationships to a model, expected one");
+    root = PartName(tag.Text("Target"));
+  });
+  if (!root) throw InputError(std::string(kRelationships) + ": no relationship to a model");
+  return *root;
+}
+
+std::string Package3mf::Read(const std::string& part) {
+  // Part names are not case-sensitive.
+  for (const std::string& name : {part, PercentDecoded(part)}) {
+    const auto is_it = [&](const std::string& entry) {
+      return LowerCase(PartName(entry)) == LowerCase(name);
+    };
+    const std::vector<std::string> entries = archive_.names();
+    const auto found = std::ranges::find_if(entries, is_it);
+    if (found == entries.end()) continue;
+    if (std::ranges::count_if(entries, is_it) > 1) {
+      throw InputError(part + ": the archive has several files of this name");
+    }
+    if (auto text = archive_.Read(*found, kMaxInputBytes)) return *std::move(text);
+  }
+  throw InputError("the archive has no " + part);
+}
 
 using Eigen::Affine3d;
 
@@ -27,7 +108,7 @@ constexpr std::string_view kProduction =
 constexpr std::string_view kMaterials =
     "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 
-/// An object of a part of the package.
+/// Name of an object in a part of the package.
 struct ObjectName {
   std::string part, id;
   auto operator<=>(const ObjectName&) const = default;
@@ -45,7 +126,7 @@ struct Object3mf {
   std::vector<Placed> components;
 };
 
-/// A model part.
+/// Contents of a model part.
 struct Model {
   std::string part;
   std::string unit = "millimeter";
@@ -63,7 +144,7 @@ int VertexOf(const XmlTag& tag, std::string_view attribute, const PolygonSoup& m
                    " is out of range (" + std::to_string(mesh.vertices.size()) + " vertices)");
 }
 
-/// Twelve numbers, the rows of a matrix that points are multiplied with from the left.
+/// Read twelve numbers: the rows of a matrix by which a point, as a row vector, is multiplied.
 Affine3d TransformOf(const XmlTag& tag) {
   Affine3d transform = Affine3d::Identity();
   const auto text = tag.Find("transform");
@@ -75,14 +156,15 @@ Affine3d TransformOf(const XmlTag& tag) {
   return transform;
 }
 
-/// The object of an item or a component: of this part, or of the one that `p:path` names.
+/// Return the object of an item or component, in this part or in the one given by `p:path`.
 Placed PlacedBy(const XmlTag& tag, const Model& model) {
   const auto path = tag.Find("path", kProduction);
   return {{path ? Package3mf::PartName(*path) : model.part, tag.Text("objectid")},
           TransformOf(tag)};
 }
 
-/// Other required extensions change what the core elements mean.
+/// Read the attributes of a model. All other required extensions are rejected, because they change
+/// the meaning of the core elements.
 void TakeModel(const XmlTag& tag, Model& model) {
   if (auto unit = tag.Find("unit")) model.unit = *std::move(unit);
   std::istringstream required(tag.Find("requiredextensions").value_or(""));
@@ -111,7 +193,7 @@ void TakeItem(const XmlTag& tag, Model& model) {
   model.items.push_back(PlacedBy(tag, model));
 }
 
-/// Extensions add these to an object; they replace its mesh or add to it.
+/// Elements by which extensions replace the mesh of an object or add to it.
 constexpr auto kOtherShapes = std::to_array<std::string_view>(
     {"beamlattice", "booleanshape", "displacementmesh", "levelset", "implicitfunction"});
 
@@ -170,26 +252,27 @@ const Unit3mf& UnitOf3mf(const std::string& unit) {
                                                         {"foot", {0.3048, "feet"}},
                                                         {"meter", {1, "metres"}}};
   const auto found = kUnits.find(unit);
-  if (found == kUnits.end()) throw InputError("its unit " + Quoted(unit) + " is not one of 3MF");
+  if (found == kUnits.end()) throw InputError("unit: not supported, found " + Quoted(unit));
   return found->second;
 }
 
-/// Components of components lie no deeper, and no more objects are placed.
+/// Maximum depth of nested components, and maximum number of placed objects.
 constexpr int kDeepest = 64, kMostPlaced = 100'000;
 
-/// The model parts of a package, each parsed once.
+/// Model parts of a package, each parsed once.
 class Models {
  public:
   explicit Models(std::string_view bytes) : package_(bytes), root_(package_.RootModel()) {}
 
   const Model& root() { return Part(root_); }
 
+  /// Return an object.
   /// @throws InputError  if there is no such object.
   const Object3mf& Find(const ObjectName& name) {
     const Model& model = Part(name.part);
     const auto found = model.objects.find(name.id);
     if (found != model.objects.end()) return found->second;
-    throw InputError(name.part + ": there is no object " + Quoted(name.id));
+    throw InputError(name.part + ": object " + Quoted(name.id) + " not found");
   }
 
  private:
@@ -224,7 +307,7 @@ class Placer {
     if (depth == kDeepest || ++placed_ > kMostPlaced ||
         soup_.facets.size() + mesh.facets.size() > kMaxFacets ||
         soup_.vertices.size() + mesh.vertices.size() > 3 * kMaxFacets) {
-      throw InputError("its components are too many, or contain each other");
+      throw InputError("components: too many, or recursive");
     }
     Add(mesh, placed.transform);
     for (const Placed& component : object.components) {

@@ -6,14 +6,15 @@
 
 namespace regrasp::object {
 
-/// Reads the bytes of a 3MF file, in metres: the model of the package, its objects where the build
-/// items and their components place them, in its unit (millimetres where it names none).
+/// Read the bytes of a 3MF file; coordinates are converted to metres.
 ///
-/// Written here because assimp 5.2 crashes on components and passes over the unit. Only for a
-/// process that may be lost: see ReadWithAssimp.
-/// Source: 3MF Core Specification 1.3, chapters 3 and 4.
-/// @throws InputError  without the file's name: no ZIP, no model in it, no XML, a number or a
-///                     reference that is none, more than kMaxFacets facets.
+/// Build items and their components place the objects. The unit is millimetre if the model names
+/// none. assimp 5.2 is not used because it crashes on components and ignores the unit. Call it only
+/// in a process that may crash: see ReadWithAssimp. Source: 3MF Core Specification 1.3, chapters 3
+/// and 4.
+/// @throws InputError  if the bytes are not a ZIP archive with a model in XML, a number or a
+///     reference is invalid, or there are more than kMaxFacets triangles; the text does not contain
+///     the file's name.
 [[nodiscard]] PolygonSoup Read3mf(std::string_view bytes);
 
 }  // namespace regrasp::object

@@ -18,8 +18,7 @@ namespace {
 
 using Eigen::Affine3d;
 
-/// Required extensions that leave the geometry alone, by the beginnings of their names, and those
-/// that are read.
+/// Prefixes of required extensions that do not affect the geometry, and the supported extensions.
 constexpr auto kHarmless = std::to_array<std::string_view>(
     {"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_",
      "KHR_technique", "EXT_lights_", "KHR_xmp", "KHR_mesh_quantization"});
@@ -46,7 +45,7 @@ void CheckExtensions(const GltfValue& value) {
   }
 }
 
-/// Morph targets do not matter while their weights are 0.
+/// Reject morph targets unless all their weights are 0.
 void CheckWeights(const GltfValue& value) {
   for (const GltfValue& weight : value.Items("weights")) {
     if (weight.Number() == 0) continue;
@@ -65,7 +64,7 @@ GltfValue SceneOf(const GltfValue& root) {
 Affine3d TransformOfNode(const GltfValue& node) {
   Affine3d transform = Affine3d::Identity();
   if (const auto matrix = node.Numbers("matrix", 16)) {
-    transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(matrix->data());  // by columns
+    transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(matrix->data());  // column-major
     const std::array<double, 4> last = {(*matrix)[3], (*matrix)[7], (*matrix)[11], (*matrix)[15]};
     if (last != std::array<double, 4>{0, 0, 0, 1}) {
       node.Member("matrix").Fail("expected 0, 0, 0, 1 in its last row");
@@ -89,7 +88,7 @@ Affine3d TransformOfNode(const GltfValue& node) {
 
 using Triangle = std::array<long long, 3>;
 
-/// The corners of a primitive's triangles; empty for points and lines.
+/// Return the triangles of a primitive; empty for points and lines.
 std::vector<Triangle> TrianglesOf(const GltfValue& primitive, const std::vector<long long>& v) {
   enum Mode : long long { kTriangles = 4, kStrip = 5, kFan = 6 };
   const long long mode = primitive.CountOr("mode", kTriangles);

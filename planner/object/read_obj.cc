@@ -14,19 +14,19 @@ namespace regrasp::object {
 
 namespace {
 
-/// Statements that neither make a surface nor belong to one that is read.
+/// Ignored statements: they neither define a surface nor belong to one that is read.
 constexpr auto kIgnored = std::to_array<std::string_view>(
     {"vt",    "vn",     "vp",     "cstype", "deg",    "bmat",       "step",     "p",
      "parm",  "trim",   "hole",   "scrv",   "sp",     "end",        "con",      "s",
      "mg",    "o",      "bevel",  "lod",    "usemap", "c_interp",   "d_interp", "ctech",
      "stech", "maplib", "usemtl", "mtllib", "res",    "shadow_obj", "trace_obj"});
 
-/// Statements that make lines or curves. They are ignored beside facets; without facets the file is
-/// refused, because its vertices are not a cloud of points.
+/// Statements that define lines or curves. They are ignored if the file has polygons. Otherwise the
+/// file is rejected, because its vertices are not a point cloud.
 constexpr auto kCurves = std::to_array<std::string_view>({"l", "curv", "curv2", "cdc"});
 
-/// Statements that make a surface and are not supported: free-form surfaces, patches of old
-/// versions, other files, and the output of other programs.
+/// Unsupported statements that define a surface: free-form surfaces, patches of old versions, other
+/// files, and the output of other programs.
 constexpr auto kOtherSurfaces =
     std::to_array<std::string_view>({"surf", "bsp", "bzp", "cdp", "call", "csh"});
 
@@ -34,10 +34,10 @@ bool IsOneOf(std::span<const std::string_view> statements, std::string_view stat
   return std::ranges::find(statements, statement) != statements.end();
 }
 
-/// The group of facets that a repair invented (repair/repair.h).
+/// Group of polygons that a repair added (repair/repair.h).
 constexpr std::string_view kInventedGroup = "invented";
 
-/// The first three numbers; a weight or a colour may follow.
+/// Read the first three numbers of a vertex; a weight or a colour may follow.
 Eigen::Vector3d ReadObjVertex(TextScanner& scanner, std::size_t index) {
   const std::string what = "vertex " + std::to_string(index);
   Eigen::Vector3d vertex;
@@ -51,7 +51,7 @@ Eigen::Vector3d ReadObjVertex(TextScanner& scanner, std::size_t index) {
   return vertex;
 }
 
-/// A corner as the file has it: "7", "7/1", "7//3" or "-1/2/3".
+/// Read a corner as in the file: "7", "7/1", "7//3" or "-1/2/3".
 long long ReadCorner(TextScanner& scanner, std::string_view word, std::size_t facet) {
   const auto index = ParseInteger(word.substr(0, word.find('/')));
   if (!index) {
@@ -60,8 +60,8 @@ long long ReadCorner(TextScanner& scanner, std::string_view word, std::size_t fa
   return *index;
 }
 
-/// Negative indices count back from the last vertex so far. The file may name vertices that are
-/// still to come, so the upper end is checked when all are known.
+/// Convert an index of the file; negative ones count back from the last vertex so far. The file may
+/// refer to later vertices, so the upper bound is checked at the end.
 int ResolveIndex(TextScanner& scanner, long long index, std::size_t vertices, std::size_t facet) {
   const auto count = static_cast<long long>(vertices);
   if (index != 0 && index >= -count && index <= std::numeric_limits<int>::max()) {
@@ -100,7 +100,7 @@ PolygonSoup ReadObj(std::string_view text, const std::string& name) {
   PolygonSoup soup;
   TextScanner scanner(TextOf(text, name), name);
   bool invented = false;
-  std::string curve;  // the first statement of its kind
+  std::string curve;  // first statement that defines a curve
   while (const auto statement = scanner.Next()) {
     if (*statement == "v") {
       soup.vertices.push_back(ReadObjVertex(scanner, soup.vertices.size()));

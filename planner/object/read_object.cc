@@ -18,7 +18,7 @@ namespace regrasp::object {
 
 namespace {
 
-/// Its process is ended when the time is up.
+/// Read with assimp; the child process is killed at the deadline.
 PolygonSoup ReadWithAssimp(const std::string& bytes, const std::filesystem::path& path,
                            const Deadline& deadline) {
   AssimpLimits limits;
@@ -61,13 +61,12 @@ ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
   ObjectFile file{path.filename().string(), Sha256(bytes), nullptr};
   if (ending == ".wkt") {
     if (reading.shells) {
-      throw InputError(path.string() +
-                       ": a polygon, which has no shells to choose from (--shells)");
+      throw InputError(path.string() + ": --shells cannot be used with a polygon");
     }
     file.object = std::make_unique<Polygon>(Polygon::FromWkt(bytes, path.string()));
   } else {
     const PolygonSoup soup = ParseSoup(path, bytes, reading.deadline);
-    std::string().swap(bytes);  // large files are read in little memory
+    std::string().swap(bytes);  // frees memory while a large file is processed
     file.unit = soup.unit;
     file.object = std::make_unique<Polyhedron>(Polyhedron::FromSoup(soup, path.string(), reading));
   }
@@ -81,15 +80,16 @@ SoupFile ReadSoup(const std::filesystem::path& path, const Reading& reading) {
   reading.Begin("reading " + path.string());
   const std::string bytes = ReadFile(path);
   const std::string ending = LowerCase(path.extension().string());
-  if (ending == ".wkt") throw InputError(path.string() + ": a polygon; only surfaces are repaired");
+  if (ending == ".wkt")
+    throw InputError(path.string() + ": --repair cannot be used with a polygon");
   return {path.filename().string(), Sha256(bytes), ParseSoup(path, bytes, reading.deadline)};
 }
 
 ObjectFile ReadObject(const std::filesystem::path& path, const Reading& reading) {
   try {
     return Read(path, reading);
-  } catch (const TimeUp& time_up) {
-    throw TimeUp(path.string() + ": " + time_up.what() + " while it was read");
+  } catch (const TimeUp&) {
+    throw TimeUp(path.string() + ": time limit reached while reading it");
   }
 }
 

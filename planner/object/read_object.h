@@ -9,46 +9,49 @@
 
 namespace regrasp::object {
 
-// Readers of the common surface formats, in double precision and the same under any locale.
+// Readers of common surface formats, in double precision and independent of the locale.
 //
-// They read what the surface needs (vertices and facets) and skip the rest (normals, colours,
-// textures, groups). What a header declares is never trusted with memory. They are written here
-// because CGAL's and assimp's say only that a file is bad, and a message must name the element.
-// All throw InputError, one line that names the line, facet or vertex; what the surface itself must
-// be like is not their business but Polyhedron's.
+// They read vertices and polygons and skip all other elements (normals, colours, textures).
+// They never allocate memory by an unverified header. The readers of CGAL and assimp are not used
+// because they report only that a file is bad; here, messages name the element. All throw
+// InputError with one line that names the line, polygon or vertex. Polyhedron checks the surface
+// itself.
 
-/// Wavefront OBJ: `v` and `f` (positive or negative indices, with or without texture and normal).
+/// Read Wavefront OBJ: `v` and `f` (positive or negative indices, with or without texture and
+/// normal).
 [[nodiscard]] PolygonSoup ReadObj(std::string_view text, const std::string& name);
 
-/// OFF, also COFF, NOFF and their like, as text.
+/// Read OFF as text, and its variants such as COFF and NOFF.
 [[nodiscard]] PolygonSoup ReadOff(std::string_view text, const std::string& name);
 
-/// PLY: ascii, binary_little_endian and binary_big_endian; elements and properties of any kind and
-/// order around `vertex` (x, y, z) and `face` (vertex_indices or vertex_index).
+/// Read PLY: ascii, binary_little_endian and binary_big_endian.
+///
+/// Elements and properties may have any kind and order around `vertex` (x, y, z) and `face`
+/// (vertex_indices or vertex_index).
 [[nodiscard]] PolygonSoup ReadPly(std::string_view bytes, const std::string& name);
 
-/// STL, ASCII or binary. Facets share no vertices here: equal coordinates are merged later.
+/// Read STL, ASCII or binary. Triangles share no vertices; equal coordinates are merged later.
 [[nodiscard]] PolygonSoup ReadStl(std::string_view bytes, const std::string& name);
 
-// Clouds of points: vertices without facets, of which only a repair makes a body. Normals, colours
-// and what else a file has of a point are skipped.
+// Readers of point clouds: vertices without polygons. Only a repair makes a solid from them.
+// Normals, colours and all other properties of points are skipped.
 
-/// XYZ (also PWN): a point a line, its first three numbers.
+/// Read XYZ or PWN: one point per line, its first three numbers.
 [[nodiscard]] PolygonSoup ReadXyz(std::string_view text, const std::string& name);
 
-/// PCD 0.7, ascii and binary; points that are not finite are left out.
+/// Read PCD 0.7, ascii or binary; points that are not finite are dropped.
 [[nodiscard]] PolygonSoup ReadPcd(std::string_view bytes, const std::string& name);
 
-/// What a file of a surface holds, unchecked.
+/// Unchecked contents of a surface file.
 struct SoupFile {
-  std::string file;    ///< name without folders
-  std::string sha256;  ///< of the file's bytes
+  std::string file;    ///< file name without folders
+  std::string sha256;  ///< hash of the file's bytes
   PolygonSoup soup;
 };
 
-/// Reads a surface as the file gives it.
-/// @throws InputError  it cannot be read, or holds a polygon.
-/// @throws TimeUp  the deadline came.
+/// Read a surface without checking it.
+/// @throws InputError  if the file cannot be read or is a WKT polygon.
+/// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] SoupFile ReadSoup(const std::filesystem::path& path, const Reading& reading);
 
 }  // namespace regrasp::object

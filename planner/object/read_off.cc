@@ -10,12 +10,12 @@ namespace regrasp::object {
 namespace {
 
 struct OffHeader {
-  bool plain = true;  ///< vertices have three numbers and nothing behind them
+  bool plain = true;  ///< vertices consist of three numbers only
   long long vertices = 0, facets = 0;
 };
 
-/// [ST][C][N]OFF: texture coordinates, colours and normals behind the three numbers of a vertex.
-/// "4OFF" and "nOFF" are other dimensions.
+/// Return whether the format is [ST][C][N]OFF: texture coordinates, colours and normals after the
+/// three numbers of a vertex. "4OFF" and "nOFF" have other dimensions.
 bool IsKnownKind(const std::string& kind) {
   std::string_view rest = kind;
   for (const std::string_view prefix : {"st", "c", "n"}) {
@@ -31,7 +31,7 @@ OffHeader ReadHeader(TextScanner& scanner) {
   header.plain = kind == "off";
   header.vertices = scanner.ReadInteger("the number of vertices");
   header.facets = scanner.ReadInteger("the number of facets");
-  scanner.SkipLine();  // the number of edges, which nobody counts
+  scanner.SkipLine();  // number of edges, which is ignored
   if (header.vertices < 0 || header.facets < 0) scanner.Fail("a negative number of elements");
   return header;
 }
@@ -49,7 +49,7 @@ std::vector<int> ReadOffFacet(TextScanner& scanner, const OffHeader& header, lon
     }
     indices.push_back(static_cast<int>(index));
   }
-  scanner.SkipLine();  // its colour
+  scanner.SkipLine();  // colour
   return indices;
 }
 
@@ -68,8 +68,7 @@ PolygonSoup ReadOff(std::string_view text, const std::string& name) {
     soup.facets.push_back(ReadOffFacet(scanner, header, f));
   }
   if (const auto word = scanner.Next()) {
-    scanner.Fail(Quoted(*word) + " behind the last of " + std::to_string(header.facets) +
-                 " facets");
+    scanner.Fail(Quoted(*word) + " after the last of " + std::to_string(header.facets) + " facets");
   }
   return soup;
 }

@@ -40,7 +40,7 @@ constexpr auto kTypes = std::to_array<TypeName>({{"char", "int8", Type::kInt8},
 struct Property {
   std::string name;
   Type type = Type::kFloat64;
-  std::optional<Type> count_type;  ///< of a list
+  std::optional<Type> count_type;  ///< type of a list's length; none if it is not a list
 };
 
 struct Element {
@@ -52,7 +52,7 @@ struct Element {
 struct Header {
   enum class Format { kAscii, kLittle, kBig } format = Format::kAscii;
   std::vector<Element> elements;
-  std::size_t body = 0;  ///< where the values start
+  std::size_t body = 0;  ///< offset of the values
 };
 
 bool IsFloat(Type type) { return type == Type::kFloat32 || type == Type::kFloat64; }
@@ -62,7 +62,7 @@ std::string Name(const Element& element, long long index) {
   return (element.name == "vertex" ? "vertex" : Quoted(element.name)) + " " + std::to_string(index);
 }
 
-/// Reads the header line by line: it ends with a line end, and binary values follow at once.
+/// Reader of header lines. The header ends with a line end, directly followed by binary values.
 class HeaderReader {
  public:
   HeaderReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -157,7 +157,7 @@ class HeaderReader {
   int line_ = 0;
 };
 
-/// The values behind the header, in whichever format they are written. All types fit into a double.
+/// Reader of the values after the header, in any of the formats. All types fit into a double.
 class ValueReader {
  public:
   ValueReader(std::string_view body, Header::Format format, const std::string& name)
@@ -244,7 +244,7 @@ bool IsVertexIndices(const Property& property) {
          (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-/// A list's length; negative ones of signed types are refused.
+/// Read the length of a list; negative lengths of signed types are rejected.
 long long ReadCount(ValueReader& values, const Property& property, const std::string& what,
                     const std::string& name) {
   const double count = values.Read(*property.count_type, what);
@@ -254,7 +254,7 @@ long long ReadCount(ValueReader& values, const Property& property, const std::st
   return static_cast<long long>(count);
 }
 
-/// The vertex indices of a facet or of strips. @param lowest  the smallest index allowed.
+/// Read the vertex indices of a polygon or of strips. @param lowest  smallest valid index.
 std::vector<int> ReadIndices(ValueReader& values, const Element& element, long long index,
                              int lowest, const std::string& name) {
   const std::string what = Name(element, index);
@@ -277,11 +277,12 @@ std::vector<int> ReadIndices(ValueReader& values, const Element& element, long l
 
 constexpr int kStripEnd = -1;
 
-/// Adds the triangles of strips: each vertex behind the second one makes a triangle with the two
-/// before it, and every second triangle is reversed. Triangles with a repeated vertex only lead
-/// from one part of a strip to another.
+/// Add the triangles of strips.
+///
+/// Each vertex after the second one makes a triangle with the two vertices before it, and every
+/// second triangle is reversed. Triangles with a repeated vertex only connect two parts of a strip.
 void AddStrips(std::span<const int> indices, PolygonSoup& soup) {
-  std::size_t first = 0;  // of this strip
+  std::size_t first = 0;  // start of the current strip
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const int c = indices[k];
     if (c == kStripEnd) first = k + 1;
@@ -313,9 +314,10 @@ bool IsSurface(const Element& element) {
 
 bool HasFacets(const Element& element) { return IsSurface(element) && element.count > 0; }
 
-/// An element of another name may hold the surface: in lists of integers, in three integers a row,
-/// or, if nothing else does, in any list or integers. The element "camera" describes the scanner of
-/// a cloud.
+/// Return whether an element of an unknown name may contain the surface.
+///
+/// Candidates are lists of integers and three integers per row. If no other element has polygons,
+/// any list or integer is a candidate. The element "camera" describes the scanner of a point cloud.
 bool MayBeSurface(const Element& element, bool has_facets) {
   if (element.count == 0 || element.name == "vertex" || IsSurface(element)) return false;
   constexpr std::ptrdiff_t kCorners = 3;
@@ -329,7 +331,8 @@ bool MayBeSurface(const Element& element, bool has_facets) {
   return element.name != "camera" && std::ranges::any_of(element.properties, may_be_index);
 }
 
-/// Also keeps a declared number of rows from being counted through without reading a byte.
+/// Check an element. Rejecting elements without properties also avoids a loop over a huge declared
+/// number of rows that reads no byte.
 void CheckElement(const Element& element, const std::string& name) {
   const std::string what = name + ": element " + Quoted(element.name);
   if (element.properties.empty() && element.count > 0)
@@ -389,9 +392,9 @@ PolygonSoup ReadPly(std::string_view bytes, const std::string& name) {
       }
     }
   }
-  if (!values.AtEnd()) throw InputError(name + ": the file goes on behind the last element");
+  if (!values.AtEnd()) throw InputError(name + ": unexpected data after the last element");
   if (soup.facets.empty() && std::ranges::any_of(header.elements, HasFacets)) {
-    throw InputError(name + ": element \"tristrips\": there is no triangle in it");
+    throw InputError(name + ": element \"tristrips\": expected at least one triangle");
   }
   return soup;
 }

@@ -20,13 +20,13 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
 
-/// What the header of a PCD file says.
+/// Header of a PCD file.
 struct PcdHeader {
-  std::map<std::string, std::vector<std::string>> lines;  ///< by their first words
-  std::size_t body = 0;                                   ///< where the points begin
+  std::map<std::string, std::vector<std::string>> lines;  ///< words of each line, by its first word
+  std::size_t body = 0;                                   ///< offset of the points
 };
 
-/// A field of a point: where it stands and what it is.
+/// Position and type of a field of a point.
 struct PcdField {
   std::string name;
   std::size_t size = 4;
@@ -46,7 +46,7 @@ PcdHeader ReadPcdHeader(std::string_view bytes, const std::string& name) {
     for (std::string word; line >> word;) words.push_back(word);
     if (key == "DATA") return header;
   }
-  throw InputError(name + ": its header has no line DATA");
+  throw InputError(name + ": header: line DATA not found");
 }
 
 const std::vector<std::string>& LineOf(const PcdHeader& header, const std::string& key,
@@ -66,7 +66,7 @@ std::size_t ReadSize(const std::string& word, const std::string& key, const std:
 
 std::vector<PcdField> ReadFields(const PcdHeader& header, const std::string& name) {
   const auto fields = header.lines.find("FIELDS");
-  if (fields == header.lines.end()) throw InputError(name + ": its header has no line FIELDS");
+  if (fields == header.lines.end()) throw InputError(name + ": header: line FIELDS not found");
   const std::size_t n = fields->second.size();
   const auto& sizes = LineOf(header, "SIZE", n, name);
   const auto& types = LineOf(header, "TYPE", n, name);
@@ -81,7 +81,7 @@ std::vector<PcdField> ReadFields(const PcdHeader& header, const std::string& nam
   return list;
 }
 
-/// For each axis the place of its field.
+/// Find the index of the field of each axis.
 std::array<std::size_t, 3> FindAxes(const std::vector<PcdField>& fields, const std::string& name) {
   std::array<std::size_t, 3> places;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -89,7 +89,7 @@ std::array<std::size_t, 3> FindAxes(const std::vector<PcdField>& fields, const s
     const bool fits = found != fields.end() && found->type == 'F' && found->count == 1 &&
                       (found->size == sizeof(float) || found->size == sizeof(double));
     if (!fits) {
-      throw InputError(name + ": its header has no field " + std::string(kAxes[axis]) +
+      throw InputError(name + ": header: expected a field " + std::string(kAxes[axis]) +
                        " of floating-point numbers");
     }
     places[axis] = static_cast<std::size_t>(found - fields.begin());
@@ -97,7 +97,7 @@ std::array<std::size_t, 3> FindAxes(const std::vector<PcdField>& fields, const s
   return places;
 }
 
-/// Points without coordinates are where an organized cloud saw nothing.
+/// Add a point unless it is not finite: organized clouds store missing measurements so.
 void AddPoint(const Eigen::Vector3d& point, PolygonSoup& cloud) {
   if (point.allFinite()) cloud.vertices.push_back(point);
 }
@@ -144,8 +144,7 @@ void ReadPcdBinary(std::string_view bytes, const std::vector<PcdField>& fields, 
   }
   if (bytes.size() / row < points) {
     throw InputError(name + ": " + std::to_string(points) + " points of " + std::to_string(row) +
-                     " bytes were announced, but " + std::to_string(bytes.size()) +
-                     " bytes follow");
+                     " bytes: truncated, found " + std::to_string(bytes.size()) + " bytes");
   }
   for (std::size_t i = 0; i < points; ++i) {
     Eigen::Vector3d point;
@@ -193,8 +192,9 @@ PolygonSoup ReadPcd(std::string_view bytes, const std::string& name) {
   } else if (data == "binary") {
     ReadPcdBinary(bytes.substr(header.body), fields, points, name, cloud);
   } else {
-    throw InputError(name + ": DATA " + Quoted(data) +
-                     " is not read; write it as ascii or binary (pcl_convert_pcd_ascii_binary)");
+    throw InputError(
+        name + ": DATA " + Quoted(data) +
+        ": not supported; help: write it as ascii or binary (pcl_convert_pcd_ascii_binary)");
   }
   return cloud;
 }

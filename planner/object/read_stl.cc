@@ -29,17 +29,17 @@ PolygonSoup ReadText(std::string_view text, const std::string& name) {
   PolygonSoup soup;
   TextScanner scanner(text, name);
   while (const auto word = scanner.Next()) {
-    // Several solids may follow each other. Their names may be missing, have several words, or
-    // follow the keyword without a blank.
+    // A file may contain several solids. Their names may be missing, have several words, or follow
+    // the keyword without a blank.
     const std::string keyword = LowerCase(*word);
     if (keyword.starts_with("solid") || keyword.starts_with("endsolid")) {
       scanner.SkipLine();
       continue;
     }
-    if (keyword != "facet") scanner.Fail(Quoted(*word) + " where a facet should be");
+    if (keyword != "facet") scanner.Fail(Quoted(*word) + ", expected a facet");
     const std::string facet = "facet " + std::to_string(soup.facets.size());
     scanner.Expect("normal");
-    scanner.SkipLine();  // nothing is built on it, and some exporters write NaN
+    scanner.SkipLine();  // the normal is not used, and some exporters write NaN
     scanner.Expect("outer");
     scanner.Expect("loop");
     for (int k = 0; k < 3; ++k) {
@@ -54,7 +54,7 @@ PolygonSoup ReadText(std::string_view text, const std::string& name) {
   return soup;
 }
 
-/// @pre  the header is there.
+/// Return the number of triangles in the header. @pre The header is complete.
 std::size_t DeclaredFacets(std::string_view bytes) {
   std::uint32_t count = 0;
   std::memcpy(&count, bytes.data() + kHeaderBytes - sizeof count, sizeof count);
@@ -82,8 +82,8 @@ PolygonSoup ReadBinary(std::string_view bytes, std::size_t count, const std::str
   return soup;
 }
 
-/// The number of facets of a binary file, if the file has the size that its header declares. Zero
-/// bytes behind the last facet are padding.
+/// Return the number of triangles of a binary file, if its size matches the header. Zero bytes
+/// after the last triangle are padding.
 std::optional<std::size_t> BinaryFacets(std::string_view bytes) {
   if (bytes.size() < kHeaderBytes) return std::nullopt;
   const std::size_t end = kHeaderBytes + DeclaredFacets(bytes) * kFacetBytes;
@@ -92,7 +92,8 @@ std::optional<std::size_t> BinaryFacets(std::string_view bytes) {
   return padded ? std::optional(DeclaredFacets(bytes)) : std::nullopt;
 }
 
-/// Binary headers may start with "solid" too, but only binary files have zero bytes.
+/// Return whether the file is text. Binary headers may start with "solid", too, but only binary
+/// files contain zero bytes.
 bool IsText(std::string_view text) {
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   return start != std::string_view::npos && LowerCase(text.substr(start, 5)) == "solid" &&

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
-/// Boost.Geometry reads WKT too, but follows the locale and says neither ring nor vertex.
+/// Reader of WKT. Boost.Geometry's reader depends on the locale and reports neither ring nor
+/// vertex.
 class WktReader {
  public:
   WktReader(std::string_view text, const std::string& name)
@@ -21,7 +22,7 @@ class WktReader {
   PolygonRings Read() {
     const std::string kind = LowerCase(Word());
     if (kind != "polygon" && kind != "multipolygon") {
-      Fail(Quoted(kind) + " where POLYGON or MULTIPOLYGON should be");
+      Fail(Quoted(kind) + ", expected POLYGON or MULTIPOLYGON");
     }
     RefuseWords();
     const bool several = kind == "multipolygon";
@@ -30,7 +31,7 @@ class WktReader {
     PolygonRings rings = ReadPolygon();
     if (several && Peek() == ',') Fail("a MULTIPOLYGON of more than one polygon");
     if (several) Expect(')');
-    if (Peek() != '\0' || !rest_.empty()) Fail(Quoted(rest_) + " behind the polygon");
+    if (Peek() != '\0' || !rest_.empty()) Fail(Quoted(rest_) + " after the polygon");
     return rings;
   }
 
@@ -74,14 +75,14 @@ class WktReader {
     return *value;
   }
 
-  /// "POLYGON EMPTY", "POLYGON Z", "POLYGON M".
+  /// Reject "POLYGON EMPTY", "POLYGON Z" and "POLYGON M".
   void RefuseWords() {
     const std::string word = LowerCase(PeekWord());
     if (word == "empty") Fail("empty");
-    if (!word.empty()) Fail(Quoted(word) + " where \"(\" should be");
+    if (!word.empty()) Fail(Quoted(word) + ", expected \"(\"");
   }
 
-  /// The next character that is not blank; '\0' at the end.
+  /// Return the next character that is not blank; '\0' at the end.
   char Peek() {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
     return rest_.empty() ? '\0' : rest_.front();
@@ -96,8 +97,8 @@ class WktReader {
   void Expect(char c) {
     if (Take(c)) return;
     const std::string expected = std::string("\"") + c + "\"";
-    if (rest_.empty()) Fail("the text ends where " + expected + " should be");
-    Fail(Quoted(rest_.substr(0, 1)) + " where " + expected + " should be");
+    if (rest_.empty()) Fail("truncated, expected " + expected);
+    Fail(Quoted(rest_.substr(0, 1)) + ", expected " + expected);
   }
 
   std::string_view PeekWord() {

@@ -11,38 +11,40 @@
 
 namespace regrasp::object {
 
-/// What a fingertip feels of a surface: not a facet, but what lies under it (patch_normal.h).
+/// Contact patch by which a fingertip feels the surface normal (patch_normal.h).
 struct FeltPatch {
-  std::optional<double> radius;  ///< the object's unit of length; kUsualPatch · D where left out
-  double most_angle = 0;         ///< between a contact's normal and the patch's, radians
+  std::optional<double> radius;  ///< radius in object units; default kUsualPatch · D
+  double most_angle = 0;  ///< largest angle between the contact's and the patch's normal, rad
 };
 
-/// Over the diameter: a finger's breadth on what one hand holds.
+/// Default radius of a contact patch divided by the diameter: about a finger's width on an object
+/// held in one hand.
 inline constexpr double kUsualPatch = 0.02;
 
-/// What is told while an object is read, and when that makes an end.
+/// Options, callbacks and deadline for reading an object.
 struct Reading {
-  /// Told what is being done.
+  /// Receives the name of each stage.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
   Deadline deadline;
-  std::optional<FeltPatch> patch = std::nullopt;  ///< places that are rough by it take no fingers
-  bool allow_invented = false;                    ///< faces that a repair invented take fingers
-  bool counts_defects = true;  ///< a refusal counts all that is wrong (mesh_survey.h)
-  std::optional<Shells> shells = std::nullopt;  ///< a surface that is accepted without: no matter
-  /// Told in words what became of several closed shells, where it is not what it is without a
-  /// choice.
+  /// If set, points with a rough patch take no fingers.
+  std::optional<FeltPatch> patch = std::nullopt;
+  bool allow_invented = false;  ///< whether filled surfaces of a repair take fingers
+  bool counts_defects = true;   ///< whether a rejection counts all defects (mesh_survey.h)
+  std::optional<Shells> shells = std::nullopt;  ///< no effect on a surface that is valid without it
+  /// Receives a text on the treatment of several closed shells, if `shells` had an effect.
   std::function<void(const std::string&)> on_shells = [](const std::string&) {};
 
-  /// Between two stages; they are not interrupted, but for assimp, whose process is ended.
-  /// @throws TimeUp  the deadline came.
+  /// Begin a stage. The deadline is checked only here: stages are not interrupted, except for
+  /// assimp, whose process is killed.
+  /// @throws TimeUp  if the deadline is reached.
   void Begin(const std::string& stage) const {
     deadline.Check();
     progress(stage);
   }
 };
 
-/// ReadObject, stage by stage.
-/// @throws TimeUp  the deadline came; names the file.
+/// Read an object with options; see ReadObject(path).
+/// @throws TimeUp  if the deadline is reached; names the file.
 [[nodiscard]] ObjectFile ReadObject(const std::filesystem::path& path, const Reading& reading);
 
 }  // namespace regrasp::object

@@ -7,12 +7,12 @@ namespace regrasp::object {
 
 namespace {
 
-/// Halvings of [0, 1] until it is as narrow as a double's last place.
+/// Number of bisections of [0, 1] to the precision of double.
 constexpr int kBisections = 54;
-/// Golden sections for the same.
+/// Number of golden sections to the same precision.
 constexpr int kGoldenSections = 78;
 
-/// A point within the threshold, or the lowest that golden section search finds.
+/// Return a point within the threshold, or the lowest point of a golden section search.
 double FindLow(const std::function<double(double)>& distance, double threshold) {
   const double ratio = std::numbers::phi - 1;
   double low = 0, high = 1;
@@ -38,7 +38,7 @@ double FindLow(const std::function<double(double)>& distance, double threshold) 
   return at_left < at_right ? left : right;
 }
 
-/// The last point within the threshold on the path from `inside` to `end`.
+/// Return the last point within the threshold on the path from `inside` to `end`.
 double FindEnd(const std::function<double(double)>& distance, double threshold, double inside,
                double end) {
   if (distance(end) <= threshold) return end;

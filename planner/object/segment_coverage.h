@@ -9,16 +9,17 @@
 
 namespace regrasp::object {
 
-/// A part of the unit interval.
+/// Part of the unit interval.
 using ParameterInterval = std::pair<double, double>;
 
-/// The t in [0, 1] with distance(t) ≤ threshold, for a convex function; an interval, or none.
+/// Find the interval of t in [0, 1] with distance(t) ≤ threshold; nullopt if it is empty.
 ///
-/// The ends are found from the inside, so that the function is within the threshold at both.
+/// The ends are approached from inside, so that the function is within the threshold at both.
+/// @param distance  convex function.
 [[nodiscard]] std::optional<ParameterInterval> SublevelInterval(
     const std::function<double(double)>& distance, double threshold);
 
-/// True iff the intervals cover [0, 1] without a gap.
+/// Return whether the intervals cover [0, 1] without a gap.
 [[nodiscard]] bool CoverUnitInterval(std::vector<ParameterInterval> intervals);
 
 }  // namespace regrasp::object

@@ -19,14 +19,14 @@ using IntersectionKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using CornerPoint = IntersectionKernel::Point_3;
 using Corners = std::array<int, 3>;
 
-/// The clock is looked at once in about a millisecond.
+/// Number of pairs between two checks of the deadline, about a millisecond.
 constexpr std::size_t kPairsBetweenLooks = 5000;
 
-/// Ends the walk over the boxes, which knows no other way.
+/// Exception that ends the traversal of boxes, which has no other exit.
 struct Stop {};
 
-/// Turned such that the corners of both that are in both come first, in the same order.
-/// @returns how many they are.
+/// Reorder two triangles so that their common corners are first, in the same order.
+/// @returns number of common corners.
 int SortShared(Corners& a, Corners& b) {
   int shared = 0;
   for (int i = shared; i < 3; ++i) {
@@ -47,14 +47,14 @@ bool Meet(const TriangleMesh& mesh, Corners a, Corners b) {
   const int shared = SortShared(a, b);
   if (shared == 3) return true;
   const CornerPoint p = point(a[0]), q = point(a[1]), r = point(a[2]);
-  if (shared == 2) {  // folded onto each other
+  if (shared == 2) {  // they meet only if folded onto each other
     const CornerPoint s = point(b[2]);
     return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
   }
   const CornerPoint u = point(b[0]), v = point(b[1]), w = point(b[2]);
   const IntersectionKernel::Triangle_3 first(p, q, r), second(u, v, w);
   if (shared == 0) return CGAL::do_intersect(first, second);
-  // Where they meet beyond the vertex, the far edge of one ends in the other.
+  // If they meet outside the common vertex, the opposite edge of one ends in the other.
   return CGAL::do_intersect(first, IntersectionKernel::Segment_3(v, w)) ||
          CGAL::do_intersect(second, IntersectionKernel::Segment_3(q, r));
 }

@@ -9,20 +9,20 @@
 
 namespace regrasp::object {
 
-/// Tells `visit` of pairs of triangles that meet elsewhere than at the vertices and the edge that
-/// they share, by exact predicates; of each the lower number first. It returns whether to go on.
-/// @param mesh  triangles in any number about an edge, none of them degenerate.
-/// @param most_pairs  of triangles with overlapping boxes, which are looked at.
-/// @returns false where there are more, and not all pairs were looked at.
-/// @throws TimeUp  the deadline came.
+/// Visit pairs of triangles that meet outside their common vertices and edge, by exact predicates.
+/// @param mesh  triangles without degenerate ones; any number of them may share an edge.
+/// @param most_pairs  maximum number of tested pairs, those with overlapping boxes.
+/// @param visit  receives a pair, the lower index first; returns whether to continue.
+/// @returns false if there are more pairs than `most_pairs`, so that not all were tested.
+/// @throws TimeUp  if the deadline is reached.
 bool VisitCrossings(const TriangleMesh& mesh, std::size_t most_pairs, const Deadline& deadline,
                     const std::function<bool(TriangleIndex, TriangleIndex)>& visit);
 
-/// Checks that no two triangles meet elsewhere than at the vertices and the edge that they share.
+/// Check that no two triangles meet outside their common vertices and edge.
 /// @param mesh  a closed, consistently oriented 2-manifold without degenerate triangles.
-/// @throws MeshError  kSelfIntersecting, with two facets named; kTooLarge, more than kMaxOverlaps
-///                    pairs would have to be looked at.
-/// @throws TimeUp  the deadline came.
+/// @throws MeshError  kSelfIntersecting, with the names of two polygons; kTooLarge if more than
+///     kMaxOverlaps pairs of boxes overlap.
+/// @throws TimeUp  if the deadline is reached.
 void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name,
                            const Deadline& deadline);
 

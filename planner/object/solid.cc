@@ -38,13 +38,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A volume below this times area times extent is lost in the rounding of its own sum: 64 units in
-/// the last place, as the sum's terms are triangle areas times distances.
+/// Bound on the rounding of a volume, divided by area times extent: 64 units in the last place,
+/// because the terms are triangle areas times distances.
 constexpr double kVolumeRounding = 64 * 2.3e-16;
 
 struct Shell {
   std::vector<std::array<int, 3>> triangles;
-  TriangleIndex first_triangle;  ///< by which messages call it
+  TriangleIndex first_triangle;  ///< names the shell in messages
   double volume = 0;
   double area = 0;
   CGAL::Bbox_3 box;
@@ -73,7 +73,8 @@ double Extent(const CGAL::Bbox_3& box) {
   return std::max({box.x_span(), box.y_span(), box.z_span()});
 }
 
-/// @param turned  of each shell whether it is turned.
+/// Reverse the orientation of shells.
+/// @param turned  for each shell, whether to reverse it.
 void Turn(TriangleMesh& mesh, SurfaceTopology& topology, const std::vector<bool>& turned) {
   for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     if (!turned[topology.shell[t]]) continue;
@@ -83,8 +84,8 @@ void Turn(TriangleMesh& mesh, SurfaceTopology& topology, const std::vector<bool>
   }
 }
 
-/// Says of points whether they are inside a shell. Shells do not touch, so one vertex of another
-/// shell decides for all of it.
+/// Test whether shells are inside one shell. Shells do not touch, so one vertex of another shell
+/// decides for all of it.
 class Inside {
  public:
   Inside(const TriangleMesh& mesh, const Shell& shell)
@@ -120,10 +121,10 @@ void CheckCavities(const TriangleMesh& mesh, const std::vector<Shell>& shells, s
   for (std::size_t s = 0; s < shells.size(); ++s) {
     if (s == outside) continue;
     if (!in_outside.Contains(shells[s])) {
-      RejectShell(mesh, shells[s], "lies beside another", name);
+      RejectShell(mesh, shells[s], "is beside another one", name);
     }
     if (orientation * shells[s].volume >= 0) {
-      RejectShell(mesh, shells[s], "lies inside another and is not oriented as a cavity", name);
+      RejectShell(mesh, shells[s], "is inside another one and not oriented as a cavity", name);
     }
   }
   for (std::size_t s = 0; s < shells.size(); ++s) {
@@ -131,22 +132,23 @@ void CheckCavities(const TriangleMesh& mesh, const std::vector<Shell>& shells, s
     const Inside in_cavity(mesh, shells[s]);
     for (std::size_t other = 0; other < shells.size(); ++other) {
       if (other == outside || other == s || !in_cavity.Contains(shells[other])) continue;
-      RejectShell(mesh, shells[other], "lies inside a cavity", name);
+      RejectShell(mesh, shells[other], "is inside a cavity", name);
     }
   }
 }
 
-/// What the shells are of the union of all solids.
+/// Relation of the shells to the union of all solids.
 struct Union {
-  std::vector<bool> turned;    ///< inside out, as the file has them
-  std::vector<bool> kept;      ///< they bound it
-  std::vector<bool> enclosed;  ///< they lie inside another
-  int solids = 0;              ///< of those that are kept the ones that are no cavities
+  std::vector<bool> turned;    ///< oriented inside out in the file
+  std::vector<bool> kept;      ///< part of the boundary of the union
+  std::vector<bool> enclosed;  ///< inside another shell
+  int solids = 0;              ///< number of kept shells that are not cavities
 };
 
-/// Shells do not touch, so that those about one are in each other in turn. Counted from outside,
-/// the surface winds about what lies between two of them once more or once less; where that is 0
-/// there is no material.
+/// Classify the shells of a union.
+///
+/// Shells do not touch, so the shells around one are nested. Crossing a shell inwards changes the
+/// winding number by ±1. There is no material at winding number 0.
 Union FindUnion(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
   std::vector<std::size_t> order(shells.size());
   std::iota(order.begin(), order.end(), 0);
@@ -162,11 +164,11 @@ Union FindUnion(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
     int winding = 0;
     for (auto about = order.begin(); about != here; ++about) {
       if (!inside[*about]->Contains(shells[s])) continue;
-      all.turned[s] = all.turned[*about];  // at last that of the innermost
+      all.turned[s] = all.turned[*about];  // finally that of the innermost shell
       all.enclosed[s] = true;
       winding += sign[*about];
     }
-    // What has nothing about it cannot be a cavity.
+    // A shell that is not inside material cannot be a cavity.
     if (winding == 0) all.turned[s] = shells[s].volume < 0;
     sign[s] = (shells[s].volume < 0) == all.turned[s] ? 1 : -1;
     all.kept[s] = (winding > 0) != (winding + sign[s] > 0);
@@ -175,7 +177,7 @@ Union FindUnion(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
   return all;
 }
 
-/// Drops the vertices that no triangle has; the others keep their order.
+/// Drop unused vertices; the others keep their order.
 void DropUnusedVertices(TriangleMesh& mesh) {
   std::vector<int> number(mesh.vertices.size(), -1);
   for (const auto& triangle : mesh.triangles) {
@@ -195,7 +197,7 @@ void DropUnusedVertices(TriangleMesh& mesh) {
   }
 }
 
-/// Drops the triangles of shells that are not kept.
+/// Drop the triangles of shells that are not kept.
 void Keep(TriangleMesh& mesh, const SurfaceTopology& topology, const std::vector<bool>& kept) {
   const auto keep = [&](auto& of_triangles) {
     std::size_t next = 0;
@@ -216,7 +218,7 @@ SolidShells Unite(TriangleMesh& mesh, SurfaceTopology& topology, const std::vect
   const auto left_out = std::ranges::count(all.kept, false);
   Turn(mesh, topology, all.turned);
   SolidShells result;
-  // Shells keep their order, and so their numbers, but for those that are left out.
+  // Kept shells stay in order, so numbers change only by dropped shells.
   for (std::size_t s = 0; s < shells.size(); ++s) {
     if (all.kept[s]) result.enclosed.push_back(all.enclosed[s]);
   }

@@ -12,34 +12,35 @@
 
 namespace regrasp::object {
 
-/// CGAL's half-edge mesh, for its algorithms; only for .cc files, as it brings CGAL along.
+/// CGAL's half-edge mesh, for CGAL's algorithms. Include this header only in .cc files, because it
+/// includes CGAL.
 using SurfaceKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<SurfaceKernel::Point_3>;
 
-/// Some triangles of a mesh, which must form a 2-manifold; face i is `triangles[i]`.
+/// Make a mesh from some triangles, which must form a 2-manifold; face i is `triangles[i]`.
 [[nodiscard]] SurfaceMesh MakeSurfaceMesh(const TriangleMesh& mesh,
                                           const std::vector<std::array<int, 3>>& triangles);
 
-/// What a surface's shells are of the solid.
+/// Relation of a surface's shells to the solid.
 struct SolidShells {
-  /// Of each shell of the topology whether it is the wall of a cavity or in one: the outside does
-  /// not see it.
+  /// For each shell of the topology, whether it is the wall of a cavity or inside one, and thus
+  /// invisible from outside.
   std::vector<bool> enclosed;
-  std::string text;  ///< what became of several shells by a choice; otherwise empty
+  std::string text;  ///< effect of the choice on several shells; otherwise empty
 };
 
-/// Checks that a surface bounds one solid, and orients it outward.
+/// Check that a surface bounds one solid, and orient it outward.
 ///
-/// The shell with the largest volume is the outside; where it is oriented inward, the whole mesh is
-/// turned. Every other shell must then be a cavity: oriented into the material, inside the outside
-/// and inside no other cavity.
+/// The shell with the largest volume is the outer one. If it is oriented inward, the whole mesh is
+/// reversed. Every other shell must then be a cavity: oriented into the material, inside the outer
+/// shell and not inside another cavity.
 ///
-/// With Shells::kUnion solids may lie beside each other, each turned by itself, and in each other:
-/// what is inside the union bounds nothing and is left out of mesh and topology.
+/// With Shells::kUnion, solids may be next to or inside each other, and each is oriented by itself.
+/// Shells inside the material of the union are removed from mesh and topology.
 ///
-/// Law: what is accepted without a choice is the same with it.
-/// @param mesh  without self-intersection; turned in place, as is `topology`.
-/// @throws MeshError  kEmpty where there is no volume, kSeveralSolids.
+/// Law: a surface that is accepted without a choice is the same with one.
+/// @param mesh  mesh without self-intersection; oriented in place, together with `topology`.
+/// @throws MeshError  kEmpty if there is no volume; kSeveralSolids if a shell is not a cavity.
 [[nodiscard]] SolidShells OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology,
                                       std::optional<Shells> choice, const std::string& name);
 

@@ -8,10 +8,10 @@
 
 namespace regrasp::object {
 
-/// A soup as bytes, to be sent between two processes of this machine.
+/// Serialize a soup for another process on the same machine.
 [[nodiscard]] std::string SoupToBytes(const PolygonSoup& soup);
 
-/// The inverse. @returns nullopt where the bytes are not those of a whole soup.
+/// Deserialize a soup. @returns nullopt if the bytes are not those of a complete soup.
 [[nodiscard]] std::optional<PolygonSoup> SoupFromBytes(std::string_view bytes);
 
 }  // namespace regrasp::object

@@ -24,14 +24,14 @@ Eigen::AlignedBox3d BoxOf(const WeldedSoup& soup, const std::vector<int>& facets
   return box;
 }
 
-/// Which parts lie inside one and are oriented the other way.
+/// Find the parts inside the outer shell that have the opposite orientation.
 std::vector<bool> FindCavities(const WeldedSoup& soup, const SurfaceParts& parts,
                                const std::vector<double>& volumes, std::size_t outside) {
   const Eigen::AlignedBox3d box = BoxOf(soup, parts.facets[outside]);
   std::vector<bool> is_cavity;
   for (std::size_t p = 0; p < volumes.size(); ++p) {
     const Eigen::Vector3d& point = soup.vertices[soup.facets[parts.facets[p][0]][0]];
-    constexpr double kHalf = 0.5;  // between 0, outside, and ±1
+    constexpr double kHalf = 0.5;  // between 0 (outside) and ±1
     is_cavity.push_back(volumes[p] * volumes[outside] < 0 &&
                         box.contains(BoxOf(soup, parts.facets[p])) &&
                         std::abs(WindingNumber(soup, parts.facets[outside], point)) > kHalf);
@@ -74,7 +74,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Calls `visit` with the corners of the triangles of a fan of each facet.
+/// Call `visit` with the corners of each triangle of a fan triangulation of the polygons.
 template <class Visit>
 void ForEachFanTriangle(const WeldedSoup& soup, const std::vector<int>& facets,
                         const Visit& visit) {
@@ -94,7 +94,7 @@ SurfaceParts FindParts(const WeldedSoup& soup, const std::vector<EdgeSide>& side
     if (edge.size() == 2) joined.union_set(edge[0].facet, edge[1].facet);
   });
   SurfaceParts parts{std::vector<int>(soup.facets.size(), -1), {}, {}};
-  std::vector<int> number(soup.facets.size(), -1);  // of the part that a set is
+  std::vector<int> number(soup.facets.size(), -1);  // part of each set
   for (int f = 0; f < std::ssize(soup.facets); ++f) {
     if (soup.facets[f].empty()) continue;
     int& part = number[joined.find_set(f)];
@@ -105,7 +105,7 @@ SurfaceParts FindParts(const WeldedSoup& soup, const std::vector<EdgeSide>& side
     parts.of_facet[f] = part;
     parts.facets[part].push_back(f);
   }
-  // A part is closed where its facets run along each edge as often one way as the other.
+  // A part is closed if its polygons have each edge equally often in both directions.
   parts.closed.assign(parts.facets.size(), true);
   std::map<int, int> balance;
   ForEachEdge(sides, [&](std::span<const EdgeSide> edge) {

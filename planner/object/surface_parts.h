@@ -10,34 +10,38 @@
 
 namespace regrasp::object {
 
-/// One closed shell of several, with its cavities.
+/// The largest of several closed shells, with its cavities.
 struct LargestShell {
-  WeldedSoup soup;   ///< the facets of the others have no corners
-  std::string text;  ///< how many were left out, and how large they are
+  WeldedSoup soup;   ///< polygons of other shells have no corners
+  std::string text;  ///< number and volume of the dropped shells, as text
 };
 
-/// Finds the closed shell of the largest volume. Shells that meet at an edge are told apart there,
-/// so that it does not matter what the others meet. Its cavities are the closed shells inside it
-/// that are oriented the other way.
-/// @returns nullopt where nothing is to be left out, or a part of the surface is open.
+/// Find the closed shell of the largest volume, with its cavities.
+///
+/// Shells that meet at an edge are separated there, so other shells may intersect each other.
+/// Cavities are closed shells inside the largest one with the opposite orientation.
+/// @returns nullopt if no shell must be dropped, or a part of the surface is open.
 [[nodiscard]] std::optional<LargestShell> FindLargestShell(const WeldedSoup& soup);
 
-/// The connected parts of a surface: at an edge with more than two facets nothing is joined.
+/// Connected parts of a surface. An edge with more than two polygons does not connect them.
 struct SurfaceParts {
-  std::vector<int> of_facet;  ///< −1: the facet is dropped
-  std::vector<bool> closed;   ///< the part has no border, by itself
+  std::vector<int> of_facet;  ///< part of each polygon; −1 if it was dropped
+  std::vector<bool> closed;   ///< whether each part, by itself, is closed
   std::vector<std::vector<int>> facets;
 };
 
-/// @param sides  of the soup's edges.
+/// Find the connected parts of a soup.
+/// @param sides  edge sides of the soup.
 [[nodiscard]] SurfaceParts FindParts(const WeldedSoup& soup, const std::vector<EdgeSide>& sides);
 
-/// What a closed part encloses; negative where it is oriented inward.
-/// @param facets  of the part.
+/// Compute the volume that a closed part encloses; negative if it is oriented inward.
+/// `facets` lists the polygons of the part.
 [[nodiscard]] double VolumeOf(const WeldedSoup& soup, const std::vector<int>& facets);
 
-/// How often a closed part winds about a point that is not on it: the sum of the solid angles
-/// (Van Oosterom, Strackee 1983) over 4π.
+/// Compute the winding number of a closed part about a point that is not on it.
+///
+/// It is the sum of the solid angles (Van Oosterom, Strackee 1983) divided by 4π.
+/// `facets` lists the polygons of the part.
 [[nodiscard]] double WindingNumber(const WeldedSoup& soup, const std::vector<int>& facets,
                                    const Eigen::Vector3d& point);
 

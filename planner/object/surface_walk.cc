@@ -9,18 +9,19 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A border is met this far beyond its ends too, over its length: no way slips through a vertex.
+/// Extension of borders beyond their ends, divided by their length, so that no path passes through
+/// a vertex.
 constexpr double kBeyondEnds = 1e-9;
 
-/// Where a straight way on a face comes to a border.
+/// Point at which a straight path on a face crosses a border.
 struct Crossing {
-  double share = 0;  ///< of the way, in [0, 1]
+  double share = 0;  ///< fraction of the path before it, in [0, 1]
   Vector3d point;
   FaceIndex beyond;
-  Vector3d onward;  ///< what is left of the way, on the face beyond
+  Vector3d onward;  ///< remaining displacement on the next face
 };
 
-/// Along an edge of a polygon, the material on the left.
+/// Return the direction of a polygon's edge, with the material on the left.
 Vector3d AlongEdge(const Vector3d& inward_normal) {
   return {inward_normal.y(), -inward_normal.x(), 0};
 }
@@ -64,8 +65,8 @@ std::optional<Crossing> FirstCrossing(const Object& object, FaceIndex face, cons
                                  : FirstSide(object, face, point, way);
 }
 
-/// The shortest way to a goal on a neighbouring face across their common border; nullopt where
-/// there is no straight one.
+/// Find the border point of the shortest path to a goal on a neighbouring face, across their common
+/// border; nullopt if no such path is straight on both faces.
 std::optional<Vector3d> CrossTo(const Object& object, FaceIndex face, const Vector3d& point,
                                 FaceIndex goal_face, const Vector3d& goal) {
   const double tolerance = kPointTolerance * object.diameter();
@@ -77,7 +78,7 @@ std::optional<Vector3d> CrossTo(const Object& object, FaceIndex face, const Vect
     const double length = side.norm();
     if (!(length > 0)) continue;
     const Vector3d along = side / length;
-    // Both faces unfolded: along the border, and how far from it.
+    // Coordinates in the unfolded plane of both faces: along the border, and distance from it.
     const double from = (point - border.a).dot(along), to = (goal - border.a).dot(along);
     const double before = (point - border.a).cross(along).norm();
     const double beyond = (goal - border.a).cross(along).norm();
@@ -93,7 +94,7 @@ std::optional<Vector3d> CrossTo(const Object& object, FaceIndex face, const Vect
   return best;
 }
 
-/// The shorter way along a polygon's boundary.
+/// Find the shorter path along a polygon's boundary.
 std::optional<std::vector<SurfaceLeg>> GoAround(const Object& object, FaceIndex face,
                                                 const Vector3d& point, FaceIndex goal_face,
                                                 const Vector3d& goal) {
@@ -168,7 +169,7 @@ std::optional<std::vector<SurfaceLeg>> HeadFor(const Object& object, FaceIndex f
     const Vector3d there = goal - leg.from;
     const Vector3d ahead = there - n * n.dot(there);
     if (!(ahead.norm() > 0)) return std::nullopt;
-    // On to the border, be the goal's place in this plane short of it.
+    // Continue to the border even if the goal's projection is inside this face.
     const Vector3d way = ahead * (2 * object.diameter() / ahead.norm());
     const auto crossing = FirstCrossing(object, leg.face, leg.from, way);
     if (!crossing || !IsOn(object, leg.face, crossing->point)) return std::nullopt;

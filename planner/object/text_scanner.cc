@@ -58,7 +58,7 @@ void TextScanner::SkipLine() {
 
 std::string_view TextScanner::ReadWord(const std::string& what) {
   const auto word = Next();
-  if (!word) Fail("the file ends where " + what + " should be");
+  if (!word) Fail("truncated, expected " + what);
   return *word;
 }
 
@@ -79,7 +79,7 @@ long long TextScanner::ReadInteger(const std::string& what) {
 void TextScanner::Expect(std::string_view expected) {
   const std::string what = "\"" + std::string(expected) + "\"";
   const std::string_view word = ReadWord(what);
-  if (LowerCase(word) != expected) Fail(Quoted(word) + " where " + what + " should be");
+  if (LowerCase(word) != expected) Fail(Quoted(word) + ", expected " + what);
 }
 
 void TextScanner::Fail(const std::string& message) const {

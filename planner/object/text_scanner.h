@@ -6,33 +6,35 @@
 
 namespace regrasp::object {
 
-/// Cuts text into words, the same under any locale, and knows where it is for messages.
+/// Scanner that splits text into words and knows its position for messages.
 ///
-/// Blanks, and line ends as LF, CR LF or CR, separate words; '#' starts a comment that ends with
-/// the line; a backslash at the end of a line joins it with the next, as in OBJ.
+/// The result does not depend on the locale. Words are separated by blanks and line ends (LF, CR LF
+/// or CR). '#' starts a comment until the end of the line. A backslash at the end of a line joins
+/// it with the next, as in OBJ.
 class TextScanner {
  public:
   /// @param text  must outlive the scanner.
   TextScanner(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
 
-  /// The next word; nullopt at the end of the text.
+  /// Return the next word; nullopt at the end of the text.
   std::optional<std::string_view> Next();
-  /// The next word on this line; nullopt at its end.
+  /// Return the next word on this line; nullopt at its end.
   std::optional<std::string_view> NextOnLine();
-  /// Goes on with the next line.
+  /// Skip to the next line.
   void SkipLine();
 
-  /// The next word as a number. `what` says which, for the message.
-  /// @throws InputError  the text ends, or the word is not a finite number or not an integer.
+  /// Read the next word as a number.
+  /// @param what  name of the number for messages.
+  /// @throws InputError  if the text ends, or the word is not a finite number or not an integer.
   double ReadDouble(const std::string& what);
   long long ReadInteger(const std::string& what);
-  /// Reads a word that must be `expected`, in whatever case.
+  /// Read a word that must be `expected`, in any case.
   void Expect(std::string_view expected);
 
-  /// Where the next word will be read.
+  /// Index of the first character that is not read yet.
   [[nodiscard]] std::size_t position() const { return position_; }
 
-  /// @throws InputError  "mesh.obj: line 12: …"
+  /// Throw an InputError with name and line: "mesh.obj: line 12: …".
   [[noreturn]] void Fail(const std::string& message) const;
 
  private:
@@ -45,13 +47,13 @@ class TextScanner {
   int line_ = 1;
 };
 
-/// A word of a file for a message: short, and without bytes that a terminal would act on.
+/// Quote a word of a file for a message: shortened, and without control characters of terminals.
 [[nodiscard]] std::string Quoted(std::string_view word);
 
-/// Lower case of ASCII letters, whatever the locale.
+/// Convert ASCII letters to lower case, in any locale.
 [[nodiscard]] std::string LowerCase(std::string_view word);
 
-/// A whole word as an integer.
+/// Parse a whole word as an integer; nullopt if it is not one.
 [[nodiscard]] std::optional<long long> ParseInteger(std::string_view word);
 
 }  // namespace regrasp::object

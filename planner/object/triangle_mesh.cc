@@ -33,7 +33,8 @@ namespace {
                               VertexName(mesh, side.high));
 }
 
-/// @param sides  all of one edge.
+/// Check the number and orientation of the triangles at an edge.
+/// @param sides  all sides of one edge.
 void CheckEdge(const TriangleMesh& mesh, const std::string& name, std::span<const EdgeSide> sides) {
   if (sides.size() == 1) {
     Reject(MeshDefect::kNotClosed, mesh, name, sides[0], "not closed: no other facet");
@@ -64,7 +65,8 @@ int CornerOf(const std::array<int, 3>& triangle, int vertex) {
   return static_cast<int>(std::ranges::find(triangle, vertex) - triangle.begin());
 }
 
-/// Walking about a vertex from edge to edge must meet every triangle that has it.
+/// Check that the triangles at each vertex form one fan: rotating about the vertex must visit all
+/// of them.
 void CheckFans(const TriangleMesh& mesh, const std::vector<std::array<TriangleIndex, 3>>& neighbor,
                const std::string& name) {
   std::vector<TriangleIndex> triangle_at(mesh.vertices.size());

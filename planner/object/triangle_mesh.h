@@ -14,36 +14,37 @@ namespace regrasp::object {
 
 using TriangleIndex = Index<struct TriangleTag>;
 
-/// Triangles with their places in the file, so that checks can name what they find.
+/// Triangles with their positions in the file, so that checks can name them.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<int> vertex_in_file;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
-  std::vector<int> facet_of_triangle;         ///< the file's facets, counted from 0
-  /// What is flat, counted from 0 in the file's order: a facet, or a triangle of a bent one.
+  std::vector<int> facet_of_triangle;         ///< polygon in the file, counted from 0
+  /// Flat element of each triangle, counted from 0 in file order: a polygon, or a triangle of a
+  /// bent polygon.
   std::vector<int> flat_of_triangle;
   int flat_count = 0;
 };
 
-/// Twice the area of a triangle times its unit outward normal.
+/// Compute twice the area of a triangle times its unit outward normal.
 [[nodiscard]] Eigen::Vector3d DoubleAreaVector(const TriangleMesh& mesh, TriangleIndex triangle);
 
-/// "vertex 3 (0.1, 0, 2.5)", as the file counts.
+/// Return the name of a vertex with its number in the file: "vertex 3 (0.1, 0, 2.5)".
 [[nodiscard]] std::string VertexName(const TriangleMesh& mesh, int vertex);
 
-/// "facet 12", as the file counts.
+/// Return the name of a triangle's polygon with its number in the file: `facet 12`.
 [[nodiscard]] std::string FacetName(const TriangleMesh& mesh, TriangleIndex triangle);
 
-/// One side of an edge: from the corner `corner` of a facet to the next.
+/// Side of an edge in one polygon: from its corner `corner` to the next.
 struct EdgeSide {
-  int low, high;  ///< the vertices, in order
+  int low, high;  ///< vertices in ascending order
   int facet;
   int corner;
-  bool forward;  ///< the facet runs from low to high
+  bool forward;  ///< whether the polygon has the edge from low to high
 };
 
-/// All sides of all edges, sorted by edge and facet.
-/// @param facets  polygons or triangles, as vertices below `vertex_count`.
+/// Return the sides of all edges, sorted by edge and polygon.
+/// `facets` lists polygons or triangles, as vertex indices below `vertex_count`.
 template <class Corners>
 [[nodiscard]] std::vector<EdgeSide> SortedEdgeSides(const std::vector<Corners>& facets,
                                                     std::size_t vertex_count) {
@@ -56,7 +57,7 @@ template <class Corners>
       }
     }
   };
-  // By the lower vertex they are counted into place: few are left to be sorted at each.
+  // A counting sort by the lower vertex leaves few sides to sort per vertex.
   std::vector<std::size_t> end(vertex_count + 1);
   visit([&](const EdgeSide& side) { ++end[side.low + 1]; });
   for (std::size_t v = 0; v < vertex_count; ++v) end[v + 1] += end[v];
@@ -72,7 +73,7 @@ template <class Corners>
   return sides;
 }
 
-/// Calls `visit` with the sides of each edge, as a span.
+/// Call `visit` with the sides of each edge, as a span.
 template <class Visit>
 void ForEachEdge(std::span<const EdgeSide> sides, const Visit& visit) {
   while (!sides.empty()) {
@@ -86,17 +87,20 @@ void ForEachEdge(std::span<const EdgeSide> sides, const Visit& visit) {
   }
 }
 
-/// Which triangles are neighbours on a closed, consistently oriented 2-manifold.
+/// Adjacency of the triangles of a closed, consistently oriented 2-manifold.
 struct SurfaceTopology {
-  /// neighbor[t][k]: the triangle across the edge from corner k to corner k + 1 of triangle t.
+  /// Triangle across the edge from corner k to corner k + 1 of triangle t: neighbor[t][k].
   std::vector<std::array<TriangleIndex, 3>> neighbor;
-  std::vector<int> shell;  ///< of each triangle: connected part of the surface, counted from 0
+  std::vector<int> shell;  ///< connected part of each triangle, counted from 0
   int shell_count = 0;
 };
 
-/// Joins triangles at their edges and checks that each edge has two, running along it in opposite
-/// directions, and that the triangles about each vertex are one fan.
-/// @throws MeshError  kNotClosed, kNotManifold or kNotOriented, with facets and vertices named.
+/// Compute the adjacency of triangles, and check that they form an oriented 2-manifold.
+///
+/// Each edge must have two triangles in opposite directions, and the triangles at each vertex must
+/// form one fan.
+/// @throws MeshError  kNotClosed, kNotManifold or kNotOriented, with the names of polygons and
+///     vertices.
 [[nodiscard]] SurfaceTopology ComputeTopology(const TriangleMesh& mesh, const std::string& name);
 
 }  // namespace regrasp::object

@@ -9,59 +9,66 @@
 
 namespace regrasp::object {
 
-/// Larger coordinates are refused: their products of up to five factors, which inertia needs, would
-/// come near the end of double's range, and no object is that wide.
+/// Largest absolute coordinate; larger ones are rejected.
+///
+/// Inertia requires products of up to five factors, which would approach the range of double. No
+/// object is that large.
 inline constexpr double kMaxCoordinate = 1e15;
 
-/// Smaller objects are refused, for the same reason at the other end.
+/// Smallest diameter; smaller objects are rejected, because products would underflow.
 inline constexpr double kMinDiameter = 1e-15;
 
-/// An object farther from the origin than this times its diameter is refused: coordinates there are
-/// rounded to 1e-9 of the diameter, a thousandth of the tolerance of points.
+/// Largest distance of an object from the origin, divided by its diameter.
+///
+/// Coordinates there are rounded to 1e-9 of the diameter, a thousandth of the point tolerance.
 inline constexpr double kMaxOffset = 1e7;
 
-/// Edges shorter than this times the diameter are refused: their products of up to five factors
-/// stay within double's range. Two corners that a program made the same but for rounding are 1e-17
-/// apart.
+/// Length of the shortest edge divided by the diameter; shorter ones are rejected.
+///
+/// Products of up to five lengths then stay within the range of double. Two corners that differ
+/// only by a program's rounding are 1e-17 apart.
 inline constexpr double kMinEdge = 1e-30;
 
-/// Meshes with more facets and polygons with more edges are refused: far above any that can be
+/// Maximum number of polygons of a mesh and of edges of a polygon, far above any that can be
 /// planned on.
 inline constexpr std::size_t kMaxFacets = 1'000'000;
 
-/// More pairs of facets or edges whose boxes overlap are refused, as they would take minutes to
-/// check for intersection; a finely meshed body has some ten pairs a facet.
+/// Maximum number of pairs of polygons or edges with overlapping boxes.
+///
+/// More would take minutes to check for intersection; a finely meshed object has about ten pairs
+/// per polygon.
 inline constexpr std::size_t kMaxOverlaps = 30'000'000;
 
-/// What is wrong with the size or place of these vertices; empty where nothing is.
+/// Return the problem of the size or position of vertices as text; empty if there is none.
 [[nodiscard]] std::string SizeComplaint(const std::vector<Eigen::Vector3d>& vertices,
                                         double diameter);
 
-/// What is wrong with the length of an edge; empty where nothing is.
+/// Return the problem of the length of an edge as text; empty if there is none.
 [[nodiscard]] std::string EdgeComplaint(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                         double diameter);
 
-/// A soup in which equal coordinates are one vertex and every vertex is used. Facets are the
-/// file's, in its order; what is dropped has no corners.
+/// Soup without equal or unused vertices.
+///
+/// Polygons are those of the file, in its order; dropped ones have no corners.
 struct WeldedSoup {
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<int> vertex_in_file;  ///< index of the first of the file's vertices there
+  std::vector<int> vertex_in_file;  ///< index of the first equal vertex in the file
   std::vector<std::vector<int>> facets;
 };
 
-/// Merges vertices whose coordinates are exactly equal (STL lists each several times, OBJ and PLY
-/// exporters split them along seams) and drops those that no facet uses.
+/// Merge vertices whose coordinates are exactly equal, and drop unused ones.
 ///
-/// A corner that repeats the one before it is dropped, and with it a facet of which fewer than
-/// three corners are left: it has no area.
-/// @throws MeshError  no facet, too many; an index out of range; a coordinate that is not finite or
-///                    beyond kMaxCoordinate.
+/// STL lists each vertex several times; exporters of OBJ and PLY split vertices along seams. A
+/// corner that repeats the one before it is dropped. A polygon with fewer than three remaining
+/// corners has no area and is dropped, too.
+/// @throws MeshError  if there is no polygon or too many, an index is out of range, or a coordinate
+///     is not finite or beyond kMaxCoordinate.
 [[nodiscard]] WeldedSoup WeldVertices(const PolygonSoup& soup, const std::string& name);
 
-/// Drops corners that repeat the one before them, and all where fewer than three are left.
+/// Drop corners that repeat the one before them; drop all if fewer than three remain.
 void DropRepeated(std::vector<int>& corners);
 
-/// Drops the vertices that no facet uses; the others keep their order.
+/// Drop unused vertices; the others keep their order.
 void DropUnused(WeldedSoup& soup);
 
 }  // namespace regrasp::object

@@ -12,7 +12,7 @@ namespace regrasp::object {
 
 namespace {
 
-/// Stands between namespace and local name; no name contains it.
+/// Separator of namespace and local name; no name contains it.
 constexpr char kSeparator = '\n';
 
 struct QualifiedName {
@@ -25,7 +25,7 @@ QualifiedName SplitName(std::string_view qualified) {
   return {qualified.substr(0, at), qualified.substr(at + 1)};
 }
 
-/// State shared with expat, a C library: exceptions must not pass through it.
+/// State shared with expat. Exceptions must not pass through it, because it is a C library.
 struct Scan {
   XML_Parser parser;
   const std::function<void(const XmlTag&)>& begin;

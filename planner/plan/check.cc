@@ -25,7 +25,7 @@ StepCheck CheckStep(const CheckContext& context, const FingerGrasp& before, cons
   return CheckAlign(context, before, std::get<Align>(step));
 }
 
-/// The fingers whose contacts are none of the expected ones, and those that no finger has.
+/// Return the fingers whose contacts match no expected contact.
 Fault CompareGrasps(const FingerGrasp& held, const grasp::Grasp& expected, double tolerance) {
   Fault fault;
   for (const FingerContact& finger : held) {
@@ -43,7 +43,7 @@ Fault CompareGrasps(const FingerGrasp& held, const grasp::Grasp& expected, doubl
   return fault;
 }
 
-/// ": finger 2 is elsewhere", ": fingers 0, 2 are elsewhere".
+/// Return ": finger 2 is elsewhere" or ": fingers 0, 2 are elsewhere".
 std::string ElsewhereText(const Fault& fault) {
   std::string list;
   for (const FingerIndex finger : fault.fingers) {
@@ -54,8 +54,8 @@ std::string ElsewhereText(const Fault& fault) {
                                    : ": fingers " + list + " are elsewhere";
 }
 
-/// start-differs and goal-not-reached are the last reasons of the order: they are looked for only
-/// where an entry has no other fault, so that grasps are no larger than a hand.
+/// Check the initial grasp. start-differs and goal-not-reached are the last reasons of the order.
+/// They are checked only if an entry has no other fault, so that grasps are no larger than a hand.
 void CheckStart(const CheckContext& context, const CheckOptions& options, StepCheck& hold) {
   if (!Passed(hold) || options.start == nullptr) return;
   if (AreSameGrasp(ContactsOf(context.plan.initial), *options.start, context.tolerance())) return;
@@ -79,7 +79,7 @@ void CheckGoal(const CheckContext& context, const CheckOptions& options, const F
   }
 }
 
-/// The contacts that an entry makes.
+/// Return the contacts that an entry makes.
 std::vector<FingerContact> ContactsMade(const Plan& plan, EntryIndex entry) {
   if (entry == EntryIndex(0)) return plan.initial;
   const Step& step = StepOf(plan, entry);
@@ -88,8 +88,8 @@ std::vector<FingerContact> ContactsMade(const Plan& plan, EntryIndex entry) {
   return {};
 }
 
-/// A plan at given points has every contact at one of them, and no finger moves along the surface,
-/// where there are others.
+/// Check that every contact of a plan at given points is at one of them.
+/// No finger may slide, because a sliding finger passes other points.
 void CheckPoints(const CheckContext& context, const CheckOptions& options,
                  const FingerGrasp& before, StepCheck& check) {
   if (!Passed(check) || !context.plan.at_given_points || options.given_points == nullptr) return;
@@ -112,7 +112,7 @@ void CheckPoints(const CheckContext& context, const CheckOptions& options,
   }
 }
 
-/// What the hand's check found of an entry that has no other fault.
+/// Copy the hand check's fault of an entry that has no other fault.
 void TakeHandFault(const CheckOptions& options, StepCheck& check) {
   if (!Passed(check)) return;
   const auto found = std::ranges::find(options.hand_faults, check.index, &HandFault::entry);
@@ -130,8 +130,8 @@ StepCheck Skipped(EntryIndex index, const char* kind) {
   return check;
 }
 
-/// Enough for any plan whose aligns keep off the limit: they need tens of pieces a motion, and
-/// some may need thousands.
+/// Return a budget that is enough for any plan whose sliding steps have a friction margin.
+/// They need tens of pieces per motion, and some may need thousands.
 motion::ProofBudget BudgetOf(const Plan& plan) {
   constexpr std::int64_t kUnitsOfAPlan = 200'000;
   constexpr std::int64_t kUnitsOfAContact = 250;
@@ -165,7 +165,7 @@ std::string WeakestStepText(const std::vector<StepCheck>& steps, double half_ang
   const auto [needed, available] =
       FormatRequiredDegrees(Degrees(steps[weakest].required->upper), Degrees(half_angle));
   return "step " + std::to_string(weakest) + " (" + steps[weakest].kind +
-         "), which needs a friction half-angle of " + needed + " of " + available + " degrees";
+         "), which requires a friction angle of " + needed + " of " + available + " degrees";
 }
 
 bool PlanCheck::passed() const { return !steps.empty() && std::ranges::all_of(steps, Passed); }
@@ -183,17 +183,17 @@ double FarthestFromPoints(const Plan& plan, const std::vector<Eigen::Vector3d>& 
 
 PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckOptions& options) {
   if (plan.dimension != object.dimension()) {
-    throw InputError("plan: /object/dimension: is " + std::to_string(plan.dimension) +
-                     ", but the object has dimension " + std::to_string(object.dimension()));
+    throw InputError("plan: /object/dimension: expected " + std::to_string(object.dimension()) +
+                     " as of the object, found " + std::to_string(plan.dimension));
   }
   const double torsion = options.torsion.value_or(plan.torsion);
   if (torsion != 0 && plan.dimension == 2) {
-    throw InputError("plan: /torsion: contacts of a planar object have none about their normals");
+    throw InputError("plan: /torsion: cannot be used with a planar object");
   }
   PlanCheck result;
   result.located = LocatePlan(object, plan);
   SetTorsion(torsion, result.located);
-  // Of their own, so that searches for bounds leave enough to decide with.
+  // Separate budgets, so that searches for bounds do not use up the budget for decisions.
   motion::ProofBudget decisions = BudgetOf(plan);
   motion::ProofBudget bounds = BudgetOf(plan);
   const double half_angle = options.half_angle.value_or(plan.half_angle);

@@ -34,11 +34,11 @@ const RestClosure::Found& RestClosure::Of(const FingerGrasp& grasp) {
 
 namespace {
 
-/// Whether a contact can turn from a face to another at a point of both: it reaches that point, and
-/// leaves it, without leaving the faces.
+/// Return whether a contact can change from one face to another at a common point.
+/// It reaches and leaves that point without leaving the faces.
 bool TurnsAtCommonPoint(const object::Object& object, const grasp::Contact& from,
                         const grasp::Contact& to, double tolerance) {
-  // Each of two points that should be one may be off by the tolerance.
+  // Each of the two points may be off by the tolerance.
   const auto common = object.CommonPoints(from.face, to.face, from.p, 2 * tolerance);
   return std::ranges::any_of(common, [&](const Eigen::Vector3d& p) {
     return object.ContainsSegment(from.face, from.p, p, tolerance) &&
@@ -75,10 +75,10 @@ std::string FingerName(FingerIndex finger) { return "finger " + std::to_string(f
 
 std::string WaypointName(std::size_t waypoint) { return "waypoint " + std::to_string(waypoint); }
 
-/// Of a grasp that is no waypoint of an align.
+/// Waypoint number of a grasp that is not a waypoint of a sliding step.
 constexpr int kNoWaypoint = -1;
 
-/// "waypoint 2: finger 1", or "finger 1" where there is no waypoint to name.
+/// Return "waypoint 2: finger 1", or "finger 1" without a waypoint.
 std::string At(int waypoint, FingerIndex finger) {
   return waypoint < 0 ? FingerName(finger) : WaypointName(waypoint) + ": " + FingerName(finger);
 }
@@ -87,13 +87,13 @@ Fault FaultOf(FingerIndex finger, int waypoint = kNoWaypoint) {
   return {.fingers = {finger}, .waypoint = waypoint};
 }
 
-/// A contact that is not where it should be.
+/// Return the fault of a contact that is not at its expected place.
 Fault Misplaced(FingerIndex finger, int waypoint, const grasp::Contact& found,
                 const grasp::Contact& expected) {
   return {.fingers = {finger}, .found = found, .expected = {expected}, .waypoint = waypoint};
 }
 
-/// Between two points of the object.
+/// Format the distance between two points of the object.
 std::string LengthText(const CheckContext& context, const Eigen::Vector3d& a,
                        const Eigen::Vector3d& b) {
   return FormatLength((a - b).stableNorm() * context.plan.scale);
@@ -103,9 +103,9 @@ void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, int way
                   StepFault& fault) {
   for (const FingerContact& held : grasp) {
     if (held.contact.face.valid()) continue;
-    // Located contacts without a face are as given: looking again tells why.
+    // Located contacts without a face are as given; locating them again finds the reason.
     const LocatedContact located = LocateContact(context.object, held.contact);
-    // To tell a fault takes a search of the surface.
+    // The details of a fault require a search of the surface.
     if (!fault.Wants(located.reason)) continue;
     const grasp::Contact nearest = NearestContact(context.object, held.contact);
     const std::string detail =
@@ -117,19 +117,21 @@ void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, int way
   }
 }
 
-/// Where more fingers hold than the hand has, one of them is named twice or outside the hand.
+/// Check a finger's number.
+/// If more fingers are in contact than the hand has, one of them is named twice or is outside the
+/// hand.
 void CheckFingerNumber(const CheckContext& context, FingerIndex finger, int waypoint,
                        StepFault& fault) {
   if (finger >= 0 && finger < context.plan.fingers) return;
   fault.Add(Reason::kTooManyFingers,
             At(waypoint, finger) + " does not exist: the hand has " +
-                std::to_string(context.plan.fingers) + ", numbered from 0",
+                std::to_string(context.plan.fingers) + " fingers, numbered from 0",
             FaultOf(finger, waypoint));
 }
 
-/// For a grasp at rest.
+/// Check a static grasp for fingers at the same point.
 void CheckCoincidence(const CheckContext& context, const FingerGrasp& grasp, StepFault& fault) {
-  // More than the hand has is a fault of its own, and may be too many to compare.
+  // Too many fingers are a separate fault, and may be too many to compare.
   if (grasp.size() > static_cast<std::size_t>(context.plan.fingers)) return;
   for (std::size_t i = 0; i < grasp.size(); ++i) {
     for (std::size_t j = i + 1; j < grasp.size(); ++j) {
@@ -137,14 +139,14 @@ void CheckCoincidence(const CheckContext& context, const FingerGrasp& grasp, Ste
       if (distance <= context.tolerance()) {
         fault.Add(Reason::kCoincidentFingers,
                   FingerName(grasp[i].finger) + " and " + FingerName(grasp[j].finger) +
-                      " hold at the same point",
+                      " are in contact at the same point",
                   {.fingers = {grasp[i].finger, grasp[j].finger}});
       }
     }
   }
 }
 
-/// A finger can make one contact at a time.
+/// Check that each finger has one contact.
 void CheckNamedOnce(const FingerGrasp& grasp, int waypoint, StepFault& fault) {
   std::set<FingerIndex> seen;
   for (const FingerContact& held : grasp) {
@@ -155,7 +157,7 @@ void CheckNamedOnce(const FingerGrasp& grasp, int waypoint, StepFault& fault) {
   }
 }
 
-/// Bounds on the larger of two required half-angles; none if either is none.
+/// Return bounds on the larger of two required friction angles; nullopt if either is nullopt.
 std::optional<grasp::RequiredHalfAngle> Larger(const std::optional<grasp::RequiredHalfAngle>& a,
                                                const std::optional<grasp::RequiredHalfAngle>& b) {
   if (!a || !b) return std::nullopt;
@@ -164,14 +166,15 @@ std::optional<grasp::RequiredHalfAngle> Larger(const std::optional<grasp::Requir
 
 std::string AngleNeeded(const CheckContext& context,
                         const std::optional<grasp::RequiredHalfAngle>& required) {
-  if (!required) return "is not force closure, and would be at no friction";
+  if (!required) return "is not force closure at any friction";
   const auto [needed, available] =
       FormatRequiredDegrees(Degrees(required->upper), Degrees(context.half_angle));
-  return "is not force closure: it needs a friction half-angle of " + needed + "°, and has " +
-         available + "°";
+  return "is not force closure: requires a friction angle of " + needed + "°, found " + available +
+         "°";
 }
 
-/// @param grasp  that is not force closure, or not proved to be.
+/// Return the fault of a grasp without force closure.
+/// @param grasp  grasp that is not force closure, or not proved to be.
 Fault LossOfClosure(const CheckContext& context, const FingerGrasp& grasp,
                     const std::optional<grasp::RequiredHalfAngle>& required) {
   Fault fault;
@@ -186,7 +189,7 @@ void LeaveUnproved(const std::string& why, const Fault& where, StepCheck& check,
   fault.Add(Reason::kNotProved, why, where);
 }
 
-/// A grasp at rest holds with the normals that fingertips feel too, where the plan says so.
+/// Include a static grasp with the normals of its contact patches, if the plan has a patch radius.
 void IncludePatches(const CheckContext& context, const FingerGrasp& grasp, const std::string& name,
                     StepCheck& check, StepFault& fault) {
   const auto* solid = dynamic_cast<const object::Polyhedron*>(&context.object);
@@ -206,7 +209,7 @@ void IncludePatches(const CheckContext& context, const FingerGrasp& grasp, const
             LossOfClosure(context, grasp, required));
 }
 
-/// Includes a grasp at rest in a step's force closure and required half-angle.
+/// Include a static grasp in a step's force closure and required friction angle.
 void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
                  StepCheck& check, StepFault& fault) {
   if (!context.judge_force_closure) return;
@@ -217,9 +220,8 @@ void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const ch
     fault.Add(Reason::kNotForceClosure, std::string(name) + " " + AngleNeeded(context, required),
               LossOfClosure(context, grasp, required));
   } else if (!required) {
-    LeaveUnproved(
-        std::string(name) + " is force closure at no friction half-angle that is surely below 90°",
-        LossOfClosure(context, grasp, required), check, fault);
+    LeaveUnproved(std::string(name) + " has no required friction angle that is certainly below 90°",
+                  LossOfClosure(context, grasp, required), check, fault);
   }
   if (holds) IncludePatches(context, grasp, name, check, fault);
 }
@@ -228,7 +230,7 @@ void AddObstacle(const std::optional<Obstacle>& obstacle, StepFault& fault) {
   if (obstacle) fault.Add(Reason::kUnreachable, obstacle->detail, obstacle->fault);
 }
 
-/// Where force closure is about to be decided: nothing found against it yet.
+/// Initialize the result before force closure is decided.
 void BeginForceClosure(const CheckContext& context, StepCheck& check) {
   if (!context.judge_force_closure) return;
   check.force_closure = true;
@@ -252,22 +254,23 @@ void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
       fault.Add(
           Reason::kDiscontinuous,
           At(0, held.finger) + " is " + LengthText(context, held.contact.p, moved->contact.p) +
-              " from where it was" +
-              (angle > kNormalTolerance ? ", its normal turned by " + FormatDegrees(Degrees(angle))
+              " from its contact before the step" +
+              (angle > kNormalTolerance ? ", its normal rotated by " + FormatDegrees(Degrees(angle))
                                         : ""),
           Misplaced(held.finger, 0, moved->contact, held.contact));
     } else if (moved->contact.face.valid() &&
                FindMotionFault(context.object, held.contact, moved->contact)) {
-      fault.Add(Reason::kDiscontinuous,
-                At(0, held.finger) +
-                    " is not where it was: beyond a gap in the surface, or a wall, thinner than "
-                    "points are known to",
-                Misplaced(held.finger, 0, moved->contact, held.contact));
+      fault.Add(
+          Reason::kDiscontinuous,
+          At(0, held.finger) +
+              " is not at its contact before the step: it is beyond a gap in the surface, or a "
+              "wall, thinner than the tolerance of points",
+          Misplaced(held.finger, 0, moved->contact, held.contact));
     }
   }
 }
 
-/// The fingers of a waypoint are those that hold.
+/// Check that the fingers of a waypoint are those in contact before the step.
 void CheckSameFingers(const FingerGrasp& before, const FingerGrasp& waypoint, int index,
                       StepFault& fault) {
   for (const FingerContact& held : before) {
@@ -279,7 +282,7 @@ void CheckSameFingers(const FingerGrasp& before, const FingerGrasp& waypoint, in
   }
   for (const FingerContact& held : waypoint) {
     if (FindFinger(before, held.finger) == nullptr) {
-      fault.Add(Reason::kDiscontinuous, At(index, held.finger) + " did not hold before",
+      fault.Add(Reason::kDiscontinuous, At(index, held.finger) + " was not in contact before",
                 FaultOf(held.finger, index));
     }
   }
@@ -293,21 +296,22 @@ void CheckWaypoint(const CheckContext& context, const FingerGrasp& before,
   CheckSameFingers(before, waypoint, index, fault);
 }
 
-/// For waypoints without other faults.
+/// Check the motions between waypoints that have no other faults.
 void CheckMotions(const CheckContext& context, const Align& step, StepFault& fault) {
   for (std::size_t w = 0; w + 1 < step.waypoints.size(); ++w) {
     for (const FingerContact& from : step.waypoints[w]) {
       const FingerContact* to = FindFinger(step.waypoints[w + 1], from.finger);
       if (const auto wrong = FindMotionFault(context.object, from.contact, to->contact)) {
         const auto index = static_cast<int>(w);
-        fault.Add(Reason::kLeavesFace, "on the way to " + At(index + 1, from.finger) + " " + *wrong,
+        fault.Add(Reason::kLeavesFace,
+                  "on the path to " + At(index + 1, from.finger) + " " + *wrong,
                   Misplaced(from.finger, index + 1, to->contact, from.contact));
       }
     }
   }
 }
 
-/// The fingers of a motion's start where they are at an instant of it.
+/// Return the fingers of a motion's start at their contacts at an instant of it.
 FingerGrasp FingersAt(const FingerGrasp& from, const motion::GraspMotion& motion, double t) {
   FingerGrasp there = from;
   for (std::size_t i = 0; i < there.size(); ++i) there[i].contact = motion[i].At(t);
@@ -322,27 +326,27 @@ motion::GraspMotion MotionBetween(const FingerGrasp& from, const FingerGrasp& to
   return motion;
 }
 
-/// Why proofs may be missing of what holds at every instant.
+/// Return a note on why a proof may be missing for a motion that is force closure at every instant.
 std::string SoftNote(const CheckContext& context) {
   if (context.plan.torsion == 0) return "";
-  return "; a soft finger counts as a hard point where its normal turns";
+  return "; a soft finger counts as a hard point while its normal rotates";
 }
 
 std::string UnprovedText(const motion::PathForceClosure& path, const std::string& way,
                          const std::optional<grasp::RequiredHalfAngle>& required) {
-  const std::string at = FormatShort(path.at) + " of the way " + way;
+  const std::string at = FormatShort(path.at) + " of the path " + way;
   if (path.ended_early) {
     return "force closure is not proved: the search for proofs ended at " + at +
-           ", where it needs more pieces than are looked at";
+           ", where the path requires more pieces than the limit";
   }
-  return "force closure is not proved near " + at + ": of " + std::to_string(path.undecided) +
-         " pieces, a millionth of it each, neither a proof nor a loss is found" +
-         (required ? "; all of it surely holds only from " +
+  return "force closure is not proved near " + at + ": " + std::to_string(path.undecided) +
+         " pieces, each a millionth of the path, are neither proved nor refuted" +
+         (required ? "; the whole path is certainly force closure only from " +
                          FormatRequiredDegrees(Degrees(required->upper)) + "°"
                    : "");
 }
 
-/// Includes the motion from one waypoint to the next in an align's force closure.
+/// Include the motion from one waypoint to the next in a sliding step's force closure.
 void IncludeMotion(const CheckContext& context, const Align& step, int waypoint, StepCheck& check,
                    StepFault& fault) {
   if (!context.judge_force_closure) return;
@@ -368,15 +372,14 @@ void IncludeMotion(const CheckContext& context, const Align& step, int waypoint,
     check.force_closure = false;
     const Fault loss = lost_at(there);
     fault.Add(Reason::kNotForceClosure,
-              "at " + FormatShort(path.at) + " of the way " + way + " the grasp " +
+              "at " + FormatShort(path.at) + " of the path " + way + " the grasp " +
                   AngleNeeded(context, there),
               loss);
   } else if (path.decision == grasp::Decision::kTooClose && !allowed) {
     LeaveUnproved(UnprovedText(path, way, required) + SoftNote(context), lost_at(required), check,
                   fault);
   } else if (!required && !allowed) {
-    LeaveUnproved("on the way " + way +
-                      " no bound on the friction half-angle that it needs is proved" +
+    LeaveUnproved("on the path " + way + " no bound on the required friction angle is proved" +
                       SoftNote(context),
                   lost_at(required), check, fault);
   }
@@ -419,7 +422,8 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
   for (const FingerContact& placed : step.place) {
     CheckFingerNumber(context, placed.finger, kNoWaypoint, fault);
     if (const FingerContact* holds = FindFinger(before, placed.finger)) {
-      fault.Add(Reason::kFingerNotFree, FingerName(placed.finger) + " is placed, but holds already",
+      fault.Add(Reason::kFingerNotFree,
+                FingerName(placed.finger) + " is placed, but is already in contact",
                 Misplaced(placed.finger, kNoWaypoint, placed.contact, holds->contact));
     }
   }
@@ -429,7 +433,7 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
     const bool again = !released.insert(finger).second;
     if (!again && FindFinger(before, finger) != nullptr) continue;
     fault.Add(Reason::kFingerNotHolding,
-              FingerName(finger) + " is released" + (again ? " twice" : ", but does not hold"),
+              FingerName(finger) + " is released" + (again ? " twice" : ", but is not in contact"),
               FaultOf(finger));
   }
   const FingerGrasp after = GraspAfter(before, step);
@@ -465,7 +469,7 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
   }
   CheckCoincidence(context, step.waypoints.back(), fault);
   CheckContinuity(context, before, step.waypoints.front(), fault);
-  // Every other fault comes before leaves-face, and may be of waypoints too large to pair.
+  // All other faults precede leaves-face; faulty waypoints may be too large to pair.
   if (fault.none()) CheckMotions(context, step, fault);
   if (fault.none()) {
     BeginForceClosure(context, check);

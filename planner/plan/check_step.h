@@ -13,43 +13,46 @@
 
 namespace regrasp::plan {
 
-/// Force closure of the grasps at rest of a plan, one after the other: what one step ends with the
-/// next one begins with, and is not decided twice.
+/// Evaluate force closure of the static grasps of a plan in sequence.
+/// Caches the last grasp, because the last grasp of a step is the first grasp of the next step.
 class RestClosure {
  public:
   struct Found {
     bool holds = false;
-    /// No larger than the friction where the grasp holds; nullopt where no half-angle is enough.
+    /// At most the friction angle if the grasp is force closure; nullopt if no friction angle is
+    /// enough.
     std::optional<grasp::RequiredHalfAngle> required;
   };
 
-  /// @param half_angle  friction, radians.
+  /// @param half_angle  friction angle in radians.
   RestClosure(const object::WrenchFrame& frame, double half_angle)
       : frame_(frame), half_angle_(half_angle) {}
 
-  /// @param grasp  located, or without contacts: it does not hold then.
+  /// Return the force closure of a grasp.
+  /// @param grasp  located grasp; without contacts it is not force closure.
   [[nodiscard]] const Found& Of(const FingerGrasp& grasp);
 
  private:
   object::WrenchFrame frame_;
   double half_angle_;
   FingerGrasp last_;
-  Found found_;  ///< of that
+  Found found_;  ///< result for the last grasp
 };
 
-/// What is wrong with a motion between two contacts that lie on the object: nullopt where the
-/// contact stays on one face all the way, or keeps its point (to within kPointTolerance · D) and
-/// turns from one face to another at a point that both have in common. Faces that are merely near
-/// each other, on the two sides of a thin wall or of a slit, have none.
+/// Return the fault of a motion between two contacts on the object; nullopt if there is none.
+/// A motion has no fault in two cases. The contact stays on one face throughout. Or it keeps its
+/// point (to within kPointTolerance · D) and changes from one face to another at a point that both
+/// have in common. Faces that are merely near each other, on both sides of a thin wall or of a
+/// slit, have no common point.
 [[nodiscard]] std::optional<std::string> FindMotionFault(const object::Object& object,
                                                          const grasp::Contact& from,
                                                          const grasp::Contact& to);
 
-/// The faults of one step: the first of the report's order counts.
+/// Fault of one step: of several faults, the first in the order of the report.
 class StepFault {
  public:
   void Add(Reason reason, const std::string& detail, const Fault& fault = {});
-  /// Whether a fault of this reason would count.
+  /// Return whether a fault of this reason would replace the current one.
   [[nodiscard]] bool Wants(Reason reason) const {
     return reason_ == Reason::kNone || reason < reason_;
   }
@@ -65,31 +68,33 @@ class StepFault {
   Fault fault_;
 };
 
-/// What every step is checked against. The plan is located (LocatePlan).
+/// Context of the checks of all steps. The plan is located (LocatePlan).
 struct CheckContext {
   const object::Object& object;
   const Plan& plan;
-  double half_angle;  ///< friction, radians
+  double half_angle;  ///< friction angle, radians
   RestClosure& rests;
-  motion::ProofBudget& decisions;   ///< for deciding force closure along all aligns
-  motion::ProofBudget& bounds;      ///< for the required half-angles of all aligns
-  double finger_radius = 0;         ///< the object's unit of length; 0: points
-  bool allow_undecided = false;     ///< CheckOptions
-  bool judge_force_closure = true;  ///< CheckOptions
+  motion::ProofBudget& decisions;  ///< budget for deciding force closure along all sliding steps
+  motion::ProofBudget& bounds;     ///< budget for the required friction angles of all sliding steps
+  double finger_radius = 0;        ///< radius in the object's unit of length; 0: points
+  bool allow_undecided = false;    ///< as in CheckOptions
+  bool judge_force_closure = true;  ///< as in CheckOptions
 
   [[nodiscard]] double tolerance() const { return object::kPointTolerance * object.diameter(); }
 
-  /// Points are read to within the tolerance: fingers that overlap something by less don't.
+  /// Finger radius reduced by the tolerance of points.
+  /// Overlaps smaller than the tolerance therefore do not count.
   [[nodiscard]] double least_radius() const { return finger_radius - tolerance(); }
 };
 
-/// The checks of one entry of the report: reason, detail, force closure, required half-angle and
-/// undecided intervals. Force closure is decided only where there is no other fault.
-/// @param before  the grasp that holds before the step; it has passed.
+/// Check one entry of the report.
+/// Sets reason, detail, force closure, required friction angle and undecided intervals. Force
+/// closure is decided only if there is no other fault.
+/// @param before  grasp before the step, which has passed.
 [[nodiscard]] StepCheck CheckHold(const CheckContext& context);
 [[nodiscard]] StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before,
                                     const Switch& step);
-/// The contacts stay: whether the hand can move them so is not asked here.
+/// Check a move. The contacts do not change; the hand's motion is not checked here.
 [[nodiscard]] StepCheck CheckMove(const CheckContext& context, const FingerGrasp& before);
 [[nodiscard]] StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before,
                                    const Align& step);

@@ -29,7 +29,7 @@ std::optional<SwitchRegion> MeasureSwitchRegion(const object::Polygon& polygon,
   if (before.size() != 2 || after.size() != 2) return std::nullopt;
   const double limit = polygon.diameter();
   SwitchRegion region;
-  // The second search need not go beyond what the first one found.
+  // The second search stops at the result of the first one.
   region.half_width =
       MeasureContactRegion(polygon, ContactsOf(after), half_angle,
                            MeasureContactRegion(polygon, ContactsOf(before), half_angle, limit));
@@ -43,12 +43,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A closed part of an edge, by its ends.
+/// Closed part of an edge, given by its ends.
 struct Piece {
   std::array<grasp::Contact, 2> ends;
 };
 
-/// The ring that a contact lies on, by lengths from its first vertex.
+/// Boundary ring of a contact, parameterized by the length from its first vertex.
 class RingPlace {
  public:
   RingPlace(const object::Polygon& polygon, const grasp::Contact& contact) : polygon_(polygon) {
@@ -66,8 +66,8 @@ class RingPlace {
     }
   }
 
-  /// The pieces within `reach` of the contact, both ends included; those at the ends first, as they
-  /// are the first to leave a set.
+  /// Return the pieces within `reach` of the contact, both ends included.
+  /// The farthest pieces are first, because they are the first to leave a convex set.
   [[nodiscard]] std::vector<Piece> Cut(double reach) const {
     const double perimeter = begins_.back();
     const double half = std::min(reach, perimeter / 2);
@@ -77,7 +77,7 @@ class RingPlace {
     };
     std::vector<Part> parts;
     for (std::size_t k = 0; k + 1 < begins_.size(); ++k) {
-      // The contact's interval reaches into the turns of the ring before and after.
+      // The contact's interval may extend into the previous and the next turn of the ring.
       for (const double turn : {-perimeter, 0.0, perimeter}) {
         const double low = std::max(begins_[k] + turn, place_ - half);
         const double high = std::min(begins_[k + 1] + turn, place_ + half);
@@ -103,12 +103,12 @@ class RingPlace {
   }
 
   const object::Polygon& polygon_;
-  FaceIndex first_{0};                ///< edge of the ring
-  std::vector<double> begins_ = {0};  ///< of its edges, then the perimeter
+  FaceIndex first_{0};                ///< first edge of the ring
+  std::vector<double> begins_ = {0};  ///< start of each edge, then the perimeter
   double place_ = 0;
 };
 
-/// Squeezing grasps push towards each other, stretching ones away from each other.
+/// Return whether a grasp presses inwards: its normals point towards each other.
 bool IsSqueezing(const grasp::Contact& a, const grasp::Contact& b) {
   return (b.p - a.p).dot(a.n) > 0;
 }

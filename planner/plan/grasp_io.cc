@@ -9,7 +9,7 @@ namespace regrasp::plan {
 
 namespace {
 
-/// The contact of a point whose normal is left out: its only face's.
+/// Return the contact of a point without a normal, on its only face.
 grasp::Contact ContactOfPoint(const JsonReader& json, const object::Object& object,
                               const Eigen::Vector3d& point) {
   const double tolerance = SurfaceTolerance(object);
@@ -19,8 +19,7 @@ grasp::Contact ContactOfPoint(const JsonReader& json, const object::Object& obje
   }
   const FaceIndex face = faces.front();
   if (faces.size() > 1 || object.DistanceToBorder(face, point) <= tolerance) {
-    json.Member("point").Fail("on a border of face " + std::to_string(face) +
-                              ", where the normal cannot be left out");
+    json.Member("point").Fail("on a border of face " + std::to_string(face) + ", normal required");
   }
   return {object.ClosestPoint(face, point), object.inward_normal(face), face};
 }
@@ -35,7 +34,7 @@ grasp::Contact ReadOnObject(const JsonReader& json, const object::Object& object
   }
   if (located.reason != Reason::kNone) {
     const grasp::Contact nearest = NearestContact(object, located.contact);
-    json.Member("normal").Fail(located.detail + "; the inward one is " +
+    json.Member("normal").Fail(located.detail + ", expected " +
                                VectorText(nearest.n, object.dimension()));
   }
   return located.contact;
@@ -52,7 +51,7 @@ grasp::Grasp ParseGrasp(std::string_view text, const std::string& name,
   for (const JsonReader& element : root.Member("contacts").Elements()) {
     grasp.push_back(ReadOnObject(element, object));
   }
-  if (grasp.empty()) root.Member("contacts").Fail("a grasp needs a contact");
+  if (grasp.empty()) root.Member("contacts").Fail("expected at least one contact");
   return grasp;
 }
 
@@ -70,7 +69,7 @@ std::string FormatGrasp(const grasp::Grasp& grasp, int dimension) {
 
 namespace {
 
-/// Counts contacts on invented surface, and remembers the first.
+/// Number of contacts on filled surface, and the first one.
 struct Found {
   int count = 0;
   std::string first;
@@ -97,8 +96,8 @@ std::string InventedContactsWarning(const object::Object& object, const Plan& lo
     }
   }
   if (found.count == 0) return "";
-  return std::to_string(found.count) + (found.count == 1 ? " contact lies" : " contacts lie") +
-         " on surface that a repair invented (" + found.first + "): nobody knows what is there";
+  return std::to_string(found.count) + (found.count == 1 ? " contact is" : " contacts are") +
+         " on surface that the repair filled in (" + found.first + "): the true surface is unknown";
 }
 
 }  // namespace regrasp::plan

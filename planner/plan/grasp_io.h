@@ -10,23 +10,24 @@
 
 namespace regrasp::plan {
 
-/// Reads a grasp file (docs/grasp.schema.json) and places it on the object: points are projected, a
-/// normal that is left out is the face's own.
-/// @throws InputError  names the file, the element as a JSON pointer, and what is wrong; also where
-///                     a point is farther than the tolerance from the surface, a normal is at odds
-///                     with it, or is left out on a border.
+/// Read a grasp file (docs/grasp.schema.json) and place it on the object.
+/// Points are projected onto the surface; an omitted normal is that of the face.
+/// @throws InputError  if the file is invalid, a point is farther than the tolerance from the
+///     surface, a normal contradicts the surface, or a normal is omitted on a border. The message
+///     names the file and the element as a JSON pointer.
 [[nodiscard]] grasp::Grasp ReadGrasp(const std::filesystem::path& path,
                                      const object::Object& object);
 [[nodiscard]] grasp::Grasp ParseGrasp(std::string_view text, const std::string& name,
                                       const object::Object& object);
 
-/// The text of a grasp file: same grasp, same bytes; doubles read back as the same bits.
+/// Return the text of a grasp file.
+/// The same grasp has the same bytes; doubles read back bit-identically.
 [[nodiscard]] std::string FormatGrasp(const grasp::Grasp& grasp, int dimension);
 
-/// What to say of a plan that places fingers on surface that a repair invented
-/// (Object::IsInvented): which contact, first of all, and how many; empty where none is there. The
-/// ends of aligns count, the way between does not.
-/// @param located  the plan as LocatePlan gives it: contacts know their faces.
+/// Return a warning about contacts on surface that a repair filled; empty if there are none.
+/// It names the first such contact and the number of contacts (Object::IsInvented). Both ends of
+/// sliding steps count, the path between them does not.
+/// @param located  plan from LocatePlan, with faces set.
 [[nodiscard]] std::string InventedContactsWarning(const object::Object& object,
                                                   const Plan& located);
 

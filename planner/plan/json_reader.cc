@@ -12,7 +12,7 @@ namespace regrasp::plan {
 
 namespace {
 
-/// Messages show no more of a value than this.
+/// Largest length of a value in messages.
 constexpr std::size_t kLongestQuote = 60;
 
 std::string Range(int lower, int upper) {
@@ -41,7 +41,7 @@ std::string JsonReader::Quoted() const {
 JsonReader JsonReader::Member(const char* key) const {
   if (!value_.is_object()) FailType("a JSON object");
   const auto member = value_.find(key);
-  if (member == value_.end()) Fail(std::string("\"") + key + "\" is missing");
+  if (member == value_.end()) Fail(std::string("member \"") + key + "\" not found");
   return {*member, file_, pointer_ + "/" + key};
 }
 
@@ -73,7 +73,7 @@ std::string JsonReader::OneOf(std::initializer_list<const char*> choices) const 
 double JsonReader::Number() const {
   if (!value_.is_number()) FailType("a number");
   const double number = value_.get<double>();
-  if (!(std::abs(number) <= kLargestNumber)) Fail("the number " + Quoted() + " is too large");
+  if (!(std::abs(number) <= kLargestNumber)) Fail("too large, found " + Quoted());
   return number;
 }
 
@@ -108,7 +108,7 @@ void JsonReader::ExpectFormat(const char* format) const {
 
 Json VectorJson(const Eigen::Vector3d& vector, int dimension) {
   Json json = Json::array();
-  // Adding 0 turns −0 into 0, which reads better.
+  // Adding 0 turns −0 into 0, which is easier to read.
   for (int i = 0; i < dimension; ++i) json.push_back(vector[i] + 0.0);
   return json;
 }
@@ -214,7 +214,8 @@ motion::MotionSegments ReadMotionSegments(const JsonReader& json, int dimension)
 namespace {
 
 constexpr std::size_t kSha256Digits = 64;
-/// Of quaternions in files; they are then made unit ones.
+/// Largest deviation from 1 of the length of quaternions in files; they are normalized after the
+/// check.
 constexpr double kUnitTolerance = 1e-6;
 
 std::vector<double> ReadNumbers(const JsonReader& json) {

@@ -13,10 +13,10 @@
 
 namespace regrasp::plan {
 
-/// Numbers beyond this are refused: their squares must not overflow.
+/// Largest absolute value of numbers, so that their squares do not overflow.
 inline constexpr double kLargestNumber = 1e15;
 
-/// A place in a JSON file that is being read: the value, and how messages call it.
+/// Value in a JSON file that is being read, with its name in messages.
 ///
 /// Every reading function throws InputError "plan.json: /steps/3/place/0/normal: expected …". The
 /// JSON value must outlive the reader.
@@ -27,27 +27,27 @@ class JsonReader {
 
   [[nodiscard]] bool Has(const char* key) const { return value_.contains(key); }
   [[nodiscard]] bool IsNull() const { return value_.is_null(); }
-  /// The member `key` of an object; missing is an error.
+  /// Return the member `key` of an object, which is required.
   [[nodiscard]] JsonReader Member(const char* key) const;
-  /// The elements of an array.
+  /// Return the elements of an array.
   [[nodiscard]] std::vector<JsonReader> Elements() const;
 
   [[nodiscard]] std::string String() const;
-  /// A string that is one of a few.
+  /// Return a string that must be one of the choices.
   [[nodiscard]] std::string OneOf(std::initializer_list<const char*> choices) const;
-  /// A number no larger in size than kLargestNumber.
+  /// Return a number with absolute value at most kLargestNumber.
   [[nodiscard]] double Number() const;
-  /// A whole number in [lower, upper], lower ≥ 0.
+  /// Return an integer in [lower, upper], lower ≥ 0.
   [[nodiscard]] int Integer(int lower, int upper) const;
-  /// A whole number of 64 bits, ≥ 0.
+  /// Return a 64-bit integer ≥ 0.
   [[nodiscard]] std::uint64_t Unsigned() const;
-  /// `dimension` numbers; the third is 0 in the plane.
+  /// Return `dimension` numbers as a vector; the third is 0 in the plane.
   [[nodiscard]] Eigen::Vector3d Vector(int dimension) const;
 
-  /// Demands `"format": format` and `"version": 1`.
+  /// Require `"format": format` and `"version": 1`.
   void ExpectFormat(const char* format) const;
 
-  /// The value as messages show it: one line, shortened.
+  /// Return the value for messages: one line, shortened.
   [[nodiscard]] std::string Quoted() const;
   [[noreturn]] void Fail(const std::string& what) const;
 
@@ -59,16 +59,16 @@ class JsonReader {
   std::string pointer_;
 };
 
-/// Numbers of a vector as JSON, two in the plane.
+/// Return the numbers of a vector as JSON, two in the plane.
 [[nodiscard]] Json VectorJson(const Eigen::Vector3d& vector, int dimension);
 
-/// Reads `{"point": […], "normal": […]}`, both of `dimension` numbers; further fields are ignored.
+/// Read `{"point": […], "normal": […]}`, both of `dimension` numbers; further fields are ignored.
 [[nodiscard]] grasp::Contact ReadContact(const JsonReader& json, int dimension);
 
-/// Reads an array of contacts, each with its `finger` and, if it has one, its `region`.
+/// Read an array of contacts, each with its `finger` and an optional `region`.
 [[nodiscard]] FingerGrasp ReadFingerGrasp(const JsonReader& json, int dimension);
 
-/// Reads a finger's number. Numbers outside the hand are left to the checker.
+/// Read a finger number. The checker rejects numbers outside the hand.
 [[nodiscard]] FingerIndex ReadFinger(const JsonReader& json);
 
 [[nodiscard]] Json ContactJson(const grasp::Contact& contact, int dimension);
@@ -77,24 +77,26 @@ class JsonReader {
 
 [[nodiscard]] Json ForcesJson(const std::vector<Eigen::Vector3d>& forces, int dimension);
 [[nodiscard]] Json MotionSegmentsJson(const motion::MotionSegments& pieces, int dimension);
-/// @throws InputError
+/// Read a list of forces.
+/// @throws InputError  if the value is not a list of vectors.
 [[nodiscard]] std::vector<Eigen::Vector3d> ReadForces(const JsonReader& json, int dimension);
-/// A list of numbers where there is one of that name; otherwise empty. @throws InputError
+/// Read a list of numbers; empty if there is no member of that name.
+/// @throws InputError  if the member is not a list of numbers.
 [[nodiscard]] std::vector<double> ReadTorques(const JsonReader& json, const char* name);
 [[nodiscard]] motion::MotionSegments ReadMotionSegments(const JsonReader& json, int dimension);
 
-/// The parts of a plan's file that say how a hand moves (docs/plan.schema.json).
-/// @throws InputError
+/// Read the parts of a plan file that describe the motion of a hand (docs/plan.schema.json).
+/// @throws InputError  if the value does not match the schema.
 [[nodiscard]] HandUse ReadHandUse(const JsonReader& json);
 [[nodiscard]] HandPath ReadHandPath(const JsonReader& json);
 [[nodiscard]] SwitchMotion ReadSwitchMotion(const JsonReader& json);
 
-/// Doubles read back as the same bits.
+/// Write a hand as JSON; doubles read back bit-identically.
 [[nodiscard]] Json HandUseJson(const HandUse& hand);
 [[nodiscard]] Json HandPathJson(const HandPath& path);
 [[nodiscard]] Json SwitchMotionJson(const SwitchMotion& motion);
 
-/// 64 lower-case hexadecimal digits.
+/// Read 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string ReadSha256(const JsonReader& json);
 
 }  // namespace regrasp::plan

@@ -20,7 +20,8 @@ namespace regrasp::plan {
 
 namespace {
 
-/// Points may be given anywhere; in diameters.
+/// Distance in diameters from which points are moved nearer to the object, since points may be
+/// anywhere.
 constexpr double kFarthest = 1e6;
 
 void LocateAll(const object::Object& object, FingerGrasp& grasp) {
@@ -31,7 +32,7 @@ bool IsUnit(const Eigen::Vector3d& normal) {
   return std::abs(normal.norm() - 1) <= kNormalLengthTolerance;
 }
 
-/// Angles between the contact's normal and those of faces near it, nearest first.
+/// Return the angles between the contact's normal and those of faces near it, nearest first.
 std::vector<std::pair<double, FaceIndex>> RankFaces(const std::vector<FaceIndex>& faces,
                                                     const object::Object& object,
                                                     const grasp::Contact& contact) {
@@ -48,7 +49,8 @@ grasp::Contact Project(const object::Object& object, const grasp::Contact& conta
   return {object.ClosestPoint(face, contact.p), object.inward_normal(face), face};
 }
 
-/// Most points that are asked for are near the surface; all faces are looked at only for others.
+/// Return the distance of a point to the surface.
+/// Most points are near the surface; only other points require a search of all faces.
 double DistanceToSurface(const object::Object& object, const Eigen::Vector3d& p) {
   constexpr double kNear = 0.05;
   for (double radius = 0.0125; radius <= kNear; radius *= 2) {
@@ -96,7 +98,7 @@ LocatedContact LocateContact(const object::Object& object, const grasp::Contact&
 grasp::Contact NearestContact(const object::Object& object, const grasp::Contact& contact) {
   const Eigen::Vector3d& centre = object.mass_properties().centroid;
   const Eigen::Vector3d away = contact.p - centre;
-  // From farther away the same point is nearest, and squares of distances stay finite.
+  // The nearest surface point is the same from farther away, and squares of distances stay finite.
   const double most = kFarthest * object.diameter();
   const double distance = away.stableNorm();
   const Eigen::Vector3d p = distance <= most ? contact.p : centre + away * (most / distance);
@@ -135,19 +137,19 @@ Plan LocatePlan(const object::Object& object, const Plan& plan) {
 
 namespace {
 
-/// No more places of a contact are looked at: where so many faces meet in one plane, almost, the
+/// Largest number of placements of a contact. If that many faces meet almost in one plane, the
 /// nearest normals are as good as any.
 constexpr std::size_t kMostChoices = 16;
 
-/// Points this near each other, over the diameter, are one up to rounding.
+/// Distance over the diameter within which points are equal up to rounding.
 constexpr double kRounding = 1e-12;
 
-/// One place of a contact, and the best path of the finger to it.
+/// Placement of a contact, and the best path of the finger to it.
 struct Choice {
   grasp::Contact place;
-  int faults = 0;     ///< on the best path
-  int ranks = 0;      ///< places before the chosen ones in their lists, summed
-  int previous = -1;  ///< choice at the waypoint before
+  int faults = 0;     ///< number of faults on the best path
+  int ranks = 0;      ///< sum of the ranks of the chosen placements
+  int previous = -1;  ///< index of the choice at the previous waypoint
 };
 
 using Choices = std::vector<Choice>;
@@ -170,7 +172,7 @@ bool IsBetter(const Choice& a, const Choice& b) {
   return a.faults != b.faults ? a.faults < b.faults : a.ranks < b.ranks;
 }
 
-/// Extends the best paths to the waypoint before by one motion.
+/// Extend the best paths to the previous waypoint by one motion.
 void Extend(const object::Object& object, const Choices& before, Choices& choices) {
   for (Choice& choice : choices) {
     Choice best;
@@ -186,9 +188,10 @@ void Extend(const object::Object& object, const Choices& before, Choices& choice
   }
 }
 
-/// A point of an edge has its projections on both faces, which rounding may keep apart: a finger
-/// that turns there would move by next to nothing, and nothing could be proved of that. It keeps
-/// the first one.
+/// Merge the two projections of a turning point.
+/// A point of an edge has a projection on each of both faces, and rounding may separate them. The
+/// finger would then have a tiny motion between them that cannot be proved. It keeps the first
+/// projection.
 void KeepTurningPoints(const object::Object& object, const std::vector<grasp::Contact*>& chain) {
   for (std::size_t j = 1; j < chain.size(); ++j) {
     const grasp::Contact& before = *chain[j - 1];
@@ -197,7 +200,7 @@ void KeepTurningPoints(const object::Object& object, const std::vector<grasp::Co
   }
 }
 
-/// The contacts of one finger, in the order of the waypoints.
+/// Place the contacts of one finger, in the order of the waypoints.
 void LocateChain(const object::Object& object, const std::vector<grasp::Contact*>& chain) {
   std::vector<Choices> choices;
   for (const grasp::Contact* contact : chain) {
@@ -216,7 +219,7 @@ void LocateChain(const object::Object& object, const std::vector<grasp::Contact*
 }  // namespace
 
 void LocateAlign(const object::Object& object, Align& align) {
-  // A finger that a waypoint names twice, by mistake, is two chains.
+  // A finger that a waypoint names twice, by mistake, counts as two chains.
   std::map<std::pair<FingerIndex, int>, std::vector<grasp::Contact*>> chains;
   for (FingerGrasp& waypoint : align.waypoints) {
     std::map<FingerIndex, int> named;
@@ -229,11 +232,11 @@ void LocateAlign(const object::Object& object, Align& align) {
 
 namespace {
 
-constexpr std::size_t kBlock = 256;  // grasps that a thread takes at a time
+constexpr std::size_t kBlock = 256;  // grasps per block of work
 
 using Vector = Eigen::Map<Eigen::Vector3d>;
 
-/// The contact of a point alone; nullopt off the surface and on borders.
+/// Return the contact of a point without a normal; a reason off the surface and on borders.
 LocatedContact LocatePoint(const object::Object& object, const Eigen::Vector3d& point) {
   const double tolerance = SurfaceTolerance(object);
   const std::vector<FaceIndex> faces = object.FacesNear(point, tolerance);

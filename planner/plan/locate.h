@@ -10,62 +10,65 @@
 
 namespace regrasp::plan {
 
-/// A normal for people: "(0, 0.6, -0.8)"; of a planar object two numbers.
+/// Format a normal for messages: "(0, 0.6, -0.8)"; two numbers for a planar object.
 [[nodiscard]] std::string VectorText(const Eigen::Vector3d& v, int dimension);
 
-/// A contact as a file gives it, placed on the object.
+/// Contact of a file, placed on the object.
 struct LocatedContact {
-  /// The point projected onto its face, the face's own normal, and the face; as given and with face
-  /// −1 where it has none.
+  /// Point projected onto its face, the face's normal, and the face. As given and with face −1 if
+  /// there is no face.
   grasp::Contact contact;
-  Reason reason = Reason::kNone;  ///< kOffSurface or kWrongNormal where it has no face
-  std::string detail;             ///< of a wrong normal, how far off, for people
+  Reason reason = Reason::kNone;  ///< kOffSurface or kWrongNormal if there is no face
+  std::string detail;             ///< deviation of a wrong normal, for messages
 };
 
-/// Finds the face of a contact: among the faces within SurfaceTolerance of the point, the one
-/// whose inward normal is nearest to the contact's, which must be within kNormalTolerance and of
-/// unit length within kNormalLengthTolerance. So the normal chooses where faces meet.
+/// Find the face of a contact.
+/// Among the faces within SurfaceTolerance of the point, it is the one whose inward normal is
+/// nearest to the contact's. That normal must be within kNormalTolerance of the contact's, whose
+/// length must be 1 within kNormalLengthTolerance. If faces meet at the point, the normal thus
+/// selects the face.
 [[nodiscard]] LocatedContact LocateContact(const object::Object& object,
                                            const grasp::Contact& contact);
 
-/// The place on the surface that is nearest to a contact's point, with the normal there; where
-/// faces are equally near, on the one whose normal is nearest to the contact's.
+/// Return the point on the surface nearest to a contact's point, with the normal there.
+/// If faces are equally near, it is on the one whose normal is nearest to the contact's.
 [[nodiscard]] grasp::Contact NearestContact(const object::Object& object,
                                             const grasp::Contact& contact);
 
-/// All places that a contact can have by the tolerances, nearest normal first, ties by distance and
-/// index; the first is that of LocateContact. Empty where that has none.
+/// Return all placements of a contact within the tolerances.
+/// They are ordered by the distance of the normals, ties by distance and index; the first is that
+/// of LocateContact. Empty if LocateContact finds no face.
 [[nodiscard]] std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,
                                                            const grasp::Contact& contact);
 
-/// Places every contact of a plan on the object, without judging; docs at PlanCheck::located.
+/// Place every contact of a plan on the object without checks (see PlanCheck::located).
 [[nodiscard]] Plan LocatePlan(const object::Object& object, const Plan& plan);
 
-/// Places the contacts of an align on the object, as LocateContact does. Where a contact lies on
-/// several faces that its normal cannot tell apart (at a vertex between collinear edges, for
-/// instance) each finger's faces are chosen so that its motion from waypoint to waypoint has the
-/// fewest faults (FindMotionFault), then by the nearest normals.
+/// Place the contacts of a sliding step on the object, as LocateContact does.
+/// A contact may be on several faces with the same normal, for example at a vertex between
+/// collinear edges. Each finger's faces are then chosen so that its motion between waypoints has
+/// the fewest faults (FindMotionFault), then by the nearest normals.
 void LocateAlign(const object::Object& object, Align& align);
 
-/// Many grasps of k contacts each on an object, in the layout of grasp::GraspArrays.
+/// Many located grasps of k contacts each, in the layout of grasp::GraspArrays.
 struct LocatedGrasps {
-  std::vector<double> points;   ///< projected onto the surface
-  std::vector<double> normals;  ///< unit, into the object: the faces' own
-  /// Of each grasp kNone, or why it cannot be held: kOffSurface or kWrongNormal (also of a point on
-  /// a border without a normal) of its first contact that has no place, which is left as it was
-  /// given, as are those after it; kUnreachable of one in a sealed cavity; kCoincidentFingers.
+  std::vector<double> points;   ///< points projected onto the surface
+  std::vector<double> normals;  ///< unit vectors into the object: the faces' normals
+  /// Reason per grasp why it is invalid, or kNone. kOffSurface and kWrongNormal refer to the first
+  /// contact without a face; kWrongNormal includes a point on a border without a normal. That
+  /// contact and the following ones stay as given. kUnreachable refers to a contact in a sealed
+  /// cavity. kCoincidentFingers refers to the whole grasp.
   std::vector<Reason> reasons;
-  /// Of each grasp the index of the contact that the reason is of; −1 with kNone and
-  /// kCoincidentFingers.
+  /// Index of the contact of the reason, per grasp; −1 for kNone and kCoincidentFingers.
   std::vector<int> contacts;
 };
 
-/// Places every contact as a grasp file's is (LocateContact); without normals on the only face at
-/// its point.
+/// Place every contact as those of a grasp file (LocateContact).
 /// @param points   N x k x 3 finite values.
-/// @param normals  as many, or none.
-/// @param threads  0: as many as the machine has cores.
-/// @throws std::invalid_argument  another number of values, or fewer than 0 threads.
+/// @param normals  N x k x 3 values, or none: each contact is then on the only face at its point.
+/// @param threads  number of threads; 0: one per core of the machine.
+/// @throws std::invalid_argument  if the numbers of values do not match, or the number of threads
+///     is negative.
 [[nodiscard]] LocatedGrasps LocateGrasps(const object::Object& object,
                                          std::span<const double> points,
                                          std::span<const double> normals, int contacts,

@@ -14,179 +14,187 @@
 
 namespace regrasp::plan {
 
-/// Normals in files must be of unit length within this (docs/formats.md).
+/// Largest deviation from 1 of the length of normals in files (docs/formats.md).
 inline constexpr double kNormalLengthTolerance = 1e-4;
 
-/// Normals in files must be within this of a face's own normal, radians: 0.1° (docs/formats.md).
+/// Largest angle between normals in files and the face's normal, radians: 0.1° (docs/formats.md).
 inline constexpr double kNormalTolerance = Radians(0.1);
 
-/// A contact and the finger that makes it; fingers are numbered from 0.
+/// Contact with its finger; fingers are numbered from 0.
 struct FingerContact {
   FingerIndex finger = {};
   grasp::Contact contact;
-  /// Of a contact that a switch between 2-finger grasps of a polygon places: how far both contacts
-  /// of the grasp before it, and of the grasp after it, may be off along the boundary, whichever
-  /// way each, and the grasp is still force closure. In the object's unit of length.
+  /// Independent contact region of a contact that a finger switch between 2-finger grasps of a
+  /// polygon places: a distance in the object's unit of length. If both contacts of the grasp
+  /// before, or of the grasp after, move along the boundary by up to this distance in any
+  /// direction, the grasp stays force closure.
   std::optional<double> region = std::nullopt;
 };
 
-/// The fingers that hold the object, in the order of the file.
+/// Fingers in contact with the object, in file order.
 using FingerGrasp = std::vector<FingerContact>;
 
-/// How a hand and the object in it stand at an instant.
+/// State of a hand and its object at an instant.
 struct HandState {
-  /// Of the object's frame (its file's axes and origin, lengths in metres) in the palm's frame.
+  /// Pose of the object's frame (axes and origin of its file, lengths in metres) in the palm's
+  /// frame.
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  /// Angles by finger, from the palm to the tip, as the hand's model has them, radians.
+  /// Joint angles [finger][joint] from the palm to the fingertip, in the order of the hand model,
+  /// radians.
   std::vector<std::vector<double>> joints;
 };
 
-/// States that follow each other. Between two of them joints go straight, the object's origin goes
-/// straight and its orientation turns about one axis at an even rate, all in the same time.
+/// Sequence of states. Between consecutive states the joints and the object's origin move linearly,
+/// and the object rotates about one axis at a constant rate, all in the same time.
 using HandPath = std::vector<HandState>;
 
-/// A finger switch as a hand does it: fingers come to their contacts, then others leave theirs. The
-/// first state of each is the last one before it.
+/// Finger switch as a motion of the hand: fingers reach their contacts, then other fingers leave
+/// theirs. The first state of each path is the last state before it.
 struct SwitchMotion {
   HandPath place;
   HandPath release;
 };
 
-/// The hand that a plan is for, and how it stands with the initial grasp.
+/// Hand of a plan, and its state at the initial grasp.
 struct HandUse {
   std::string name;
-  std::string file;    ///< of the hand, without folders
+  std::string file;    ///< file name of the hand, without folders
   std::string sha256;  ///< kinematics::HandModel::sha256
   HandState initial;
-  Eigen::Isometry3d goal = Eigen::Isometry3d::Identity();  ///< where the object is to be at last
+  Eigen::Isometry3d goal = Eigen::Isometry3d::Identity();  ///< goal pose of the object
 };
 
-/// The `place` fingers, all free before, touch; then the `release` fingers, all holding before,
-/// leave. The grasp before and the grasp after are each force closure.
+/// Finger switch: the `place` fingers, which are free, make contact; then the `release` fingers,
+/// which are in contact, break contact. The grasps before and after are each force closure.
 struct Switch {
   FingerGrasp place;
   std::vector<FingerIndex> release;
-  std::optional<SwitchMotion> motion = std::nullopt;  ///< of a plan for a hand
+  std::optional<SwitchMotion> motion = std::nullopt;  ///< only in a plan for a hand
 };
 
-/// A claim that an align is force closure everywhere on the path, with its proof: for each pair of
-/// waypoints that follow each other, pieces whose forces are in the order of the first of the two.
+/// Claim that a sliding step is force closure anywhere on the path, with its proof. For each pair
+/// of consecutive waypoints there are pieces; their forces are in the order of the first waypoint.
 using AlignCertificate = std::vector<motion::MotionSegments>;
 
-/// An align as a hand does it: a path for each pair of waypoints that follow each other, its states
-/// at equal shares of the way. The first state of each is the last one before it.
+/// Sliding step as a motion of the hand: for each pair of consecutive waypoints a path, whose
+/// states are at equal shares of the distance. The first state of each path is the last state
+/// before it.
 using AlignMotion = std::vector<HandPath>;
 
-/// The holding fingers move together along the surface, straight from waypoint to waypoint, all at
-/// the same rate. The first waypoint is the grasp before the step.
+/// Sliding step: the fingers in contact move together along the surface, straight from waypoint to
+/// waypoint, all at the same rate. The first waypoint is the grasp before the step.
 struct Align {
   std::vector<FingerGrasp> waypoints;
   std::optional<AlignCertificate> certificate = std::nullopt;
-  std::optional<AlignMotion> motion = std::nullopt;  ///< of a plan for a hand
+  std::optional<AlignMotion> motion = std::nullopt;  ///< only in a plan for a hand
 };
 
-/// The object moves in the hand: all fingers keep their contacts and go with it. To fingers without
-/// a hand nothing happens.
+/// In-hand motion: the object moves in the hand, and all fingers keep their contacts and move with
+/// it. Without a hand model the fingers do not change.
 struct Move {
   HandPath path;
 };
 
 using Step = std::variant<Switch, Align, Move>;
 
-/// How a plan over a roadmap of clustered contact points came about.
+/// Parameters of a plan on a roadmap of clustered contact points.
 struct RoadmapNote {
-  int contacts = 0;  ///< contact points asked for
+  int contacts = 0;  ///< requested number of contact points
   int clusters = 0;
   std::uint64_t seed = 0;
-  std::string start;  ///< what linked the start to the representatives: "algorithm-1", …
+  /// Algorithm that connected the start to the representatives: "algorithm-1", ….
+  std::string start;
   std::string goal;
-  /// Radians by which a contact's normal may differ from that of its patch (Plan::patch_radius),
-  /// and by which the contacts were clustered with less than the friction's half-angle.
+  /// Largest angle between a contact's normal and that of its patch (Plan::patch_radius), radians.
+  /// The contacts were clustered with a friction angle that is smaller by this angle.
   std::optional<double> roughness = std::nullopt;
-  bool allow_invented = false;  ///< contact points are on invented surface, too
+  bool allow_invented = false;  ///< whether contact points may be on filled surface
 };
 
-/// A regrasp plan: the contents of a plan file (docs/formats.md), angles in radians.
+/// Regrasp plan: the contents of a plan file (docs/formats.md), angles in radians.
 struct Plan {
   std::string object_file;
   std::string object_sha256;
-  /// Where the object is a solid that a repair made of the file's surface.
+  /// Record of the repair, if the object is a solid that a repair made of the file's surface.
   std::optional<object::RepairRecord> repair = std::nullopt;
-  /// What was made of several closed shells, where that was asked.
+  /// Treatment of several closed shells, if one was requested.
   std::optional<object::Shells> shells = std::nullopt;
   double scale = 1;  ///< metres per unit of the object's file
   int dimension = 3;
-  double half_angle = 0;  ///< friction half-angle, radians
-  int fingers = 0;        ///< that the hand has
+  double half_angle = 0;  ///< friction angle, radians
+  int fingers = 0;        ///< number of fingers of the hand
   std::string planner;
-  /// Radius that the fingers were planned with, the object's unit of length; points where none.
+  /// Radius of the fingers in planning, in the object's unit of length; without it fingers are
+  /// points.
   std::optional<double> finger_radius = std::nullopt;
-  /// Of all contacts (grasp::Contact::torsion), the object's unit of length; 0: hard points. What
-  /// contacts have themselves is set by LocatePlan.
+  /// Torsional friction length of all contacts (grasp::Contact::torsion), in the object's unit of
+  /// length; 0: hard-finger contacts. LocatePlan sets the torsion of the contacts themselves.
   double torsion = 0;
-  /// Radius of the patches that fingertips touch (object/patch_normal.h), the object's unit of
-  /// length: grasps at rest are force closure with the patches' normals too. None where they need
-  /// not be.
+  /// Radius of the contact patches of fingertips (object/patch_normal.h), in the object's unit of
+  /// length. If set, static grasps are force closure with the patches' normals too.
   std::optional<double> patch_radius = std::nullopt;
-  /// Whether every contact is at a point that the object's file gives (object/given_points.h), and
-  /// fingers move by switches only.
+  /// Whether every contact is at a point of the object's file (object/given_points.h), and fingers
+  /// move by switches only.
   bool at_given_points = false;
   std::optional<RoadmapNote> roadmap = std::nullopt;
-  std::optional<HandUse> hand = std::nullopt;  ///< that it is for; none: fingers without one
+  /// Hand of the plan; none: fingers without a hand model.
+  std::optional<HandUse> hand = std::nullopt;
   FingerGrasp initial;
   std::vector<Step> steps;
   grasp::Grasp goal;
 };
 
-/// An entry of a check, a replay or a report: 0 is the hold of the initial grasp, k the k-th step,
-/// which is Plan::steps[k − 1].
+/// Entry of a check, a replay or a report. 0 is the initial grasp, k the k-th step, Plan::steps[k −
+/// 1].
 using EntryIndex = Index<struct EntryTag>;
 
-/// The step of an entry that is not the hold.
+/// Return the step of an entry > 0.
 [[nodiscard]] inline const Step& StepOf(const Plan& plan, EntryIndex entry) {
   return plan.steps[entry - 1];
 }
 
-/// Gives all contacts of a plan, and the plan itself, this torsion.
+/// Set the torsional friction length of a plan and all its contacts.
 void SetTorsion(double torsion, Plan& plan);
 
-/// "hold" for entry 0 of a report, "switch", "align" or "move" for a step.
+/// Return "hold" for entry 0 of a report, "switch", "align" or "move" for a step.
 [[nodiscard]] const char* StepKind(const Step& step);
 
-/// The contact of a finger; null where it does not hold.
+/// Return the contact of a finger; null if it is not in contact.
 [[nodiscard]] const FingerContact* FindFinger(const FingerGrasp& grasp, FingerIndex finger);
 
-/// The grasp after `step` when `before` holds. Fingers keep their order; a placed finger comes
-/// last. Fingers of `release` that do not hold are ignored: the checker reports them.
+/// Return the grasp after `step` from the grasp `before`.
+/// Fingers keep their order; a placed finger comes last. Fingers of `release` that are not in
+/// contact are ignored, because the checker reports them.
 [[nodiscard]] FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step);
 
-/// The fingers of `from` on their way to a next waypoint of an align; those that it lacks stay.
-/// @param share  of the way, 0 to 1.
+/// Return the fingers of `from` between two waypoints of a sliding step.
+/// Fingers that `to` does not contain do not move.
+/// @param share  fraction of the distance, 0 to 1.
 [[nodiscard]] FingerGrasp GraspBetween(const FingerGrasp& from, const FingerGrasp& to,
                                        double share);
 
-/// Finger 0 at the first contact, 1 at the next.
+/// Return a grasp with finger 0 at the first contact, 1 at the next, and so on.
 [[nodiscard]] FingerGrasp FingersInOrder(const grasp::Grasp& grasp);
 
-/// The contacts without their fingers.
+/// Return the contacts without their fingers.
 [[nodiscard]] grasp::Grasp ContactsOf(const FingerGrasp& grasp);
 
-/// True iff points are within `tolerance` of each other and normals within kNormalTolerance.
+/// Return whether points are within `tolerance` and normals within kNormalTolerance.
 [[nodiscard]] bool AreSameContact(const grasp::Contact& a, const grasp::Contact& b,
                                   double tolerance);
 
-/// True iff the contacts of two grasps can be paired so that each pair is the same contact, in any
-/// order. A maximum matching: within tolerance one contact may fit several.
+/// Return whether the contacts of two grasps can be paired, in any order, into equal contacts.
+/// Computes a maximum matching, because one contact may match several within the tolerance.
 [[nodiscard]] bool AreSameGrasp(const grasp::Grasp& a, const grasp::Grasp& b, double tolerance);
 
-/// True iff the same fingers, in the same order, have the same bits of point, normal and torsion.
+/// Return whether fingers, order, and the bits of point, normal and torsion are the same.
 [[nodiscard]] bool AreIdentical(const FingerGrasp& a, const FingerGrasp& b);
 
-/// The state between two that follow each other on a path (HandPath).
+/// Return the state between two consecutive states of a path (HandPath).
 /// @param share  0: `from`, 1: `to`.
 [[nodiscard]] HandState StateBetween(const HandState& from, const HandState& to, double share);
 
-/// All paths of a step as a hand does it, in their order; none where the plan does not say.
+/// Return all paths of a step's hand motion in order; empty if the plan has none.
 [[nodiscard]] std::vector<const HandPath*> PathsOf(const Step& step);
 
 }  // namespace regrasp::plan

@@ -26,15 +26,16 @@ Switch ReadSwitch(const JsonReader& json, int dimension) {
   return step;
 }
 
-/// @param what  "forces", "torques".
+/// Require one element per finger.
+/// @param what  name in messages: "forces", "torques".
 void ExpectOneAFinger(const JsonReader& json, const char* what, std::size_t found,
                       std::size_t fingers) {
   if (found == fingers) return;
-  json.Fail("expected " + std::to_string(fingers) + " " + what + ", one a finger, found " +
+  json.Fail("expected " + std::to_string(fingers) + " " + what + ", one per finger, found " +
             std::to_string(found));
 }
 
-/// The torques of soft fingers, where a piece has any.
+/// Require a torque per finger if a piece has any torques.
 void ExpectTorques(const JsonReader& piece, const motion::MotionSegment& read,
                    std::size_t fingers) {
   if (read.start_torques.empty() && read.end_torques.empty()) return;
@@ -42,8 +43,8 @@ void ExpectTorques(const JsonReader& piece, const motion::MotionSegment& read,
   ExpectOneAFinger(piece.Member("end_torques"), "torques", read.end_torques.size(), fingers);
 }
 
-/// The elements of a list with one for each waypoint of an align but the last.
-/// @param what  they are lists of.
+/// Return the elements of a list with one for each waypoint of a sliding step except the last.
+/// @param what  name of the elements in messages.
 std::vector<JsonReader> ElementsByWay(const JsonReader& json, const Align& step,
                                       const std::string& what) {
   std::vector<JsonReader> ways = json.Elements();
@@ -132,8 +133,8 @@ object::Shells ReadShells(const JsonReader& json) {
 void ReadObjectPart(const JsonReader& json, Plan& plan) {
   plan.object_file = json.Member("file").String();
   if (plan.object_file.find('\0') != std::string::npos) {
-    // Behind it the name would go on for us and not for the system.
-    json.Member("file").Fail("a file name cannot hold a NUL character");
+    // Programs would read the name beyond the NUL character, the operating system would not.
+    json.Member("file").Fail("must not contain a NUL character");
   }
   plan.object_sha256 = ReadSha256(json.Member("sha256"));
   plan.scale = json.Member("scale").Number();
@@ -146,18 +147,18 @@ void ReadObjectPart(const JsonReader& json, Plan& plan) {
 double ReadHalfAngle(const JsonReader& json) {
   const double degrees = json.Number();
   if (!(degrees > 0 && degrees < 90)) {
-    json.Fail("must lie between 0 and 90, found " + json.Quoted());
+    json.Fail("must be between 0 and 90, found " + json.Quoted());
   }
   const double angle = Radians(degrees);
-  // A number next to an end of the interval may round onto it, in radians or written again.
+  // A number near an end of the interval may round onto it, in radians or when written again.
   if (!(angle > 0 && angle < std::numbers::pi / 2 && Degrees(angle) < 90)) {
     json.Fail("too close to an end of (0, 90), found " + json.Quoted());
   }
   return angle;
 }
 
-/// Degrees that read back as the same radians, where there are such, and round ones if possible:
-/// 20 rather than 19.999999999999996.
+/// Return degrees that read back as the same radians, if there are such.
+/// They are round if possible: 20 instead of 19.999999999999996.
 double WrittenDegrees(double radians) {
   constexpr double kRounding = 1e9;
   const double degrees = Degrees(radians);
@@ -175,17 +176,17 @@ double ReadRadius(const JsonReader& json) {
 }
 
 double ReadPatchRadius(const JsonReader& json, const Plan& plan) {
-  if (plan.dimension == 2) json.Fail("only solids have rough surfaces");
+  if (plan.dimension == 2) json.Fail("cannot be used with a planar object");
   return ReadRadius(json);
 }
 
 double ReadTorsion(const JsonReader& json, const Plan& plan) {
-  if (plan.dimension == 2) json.Fail("only contacts of solids have torsion");
+  if (plan.dimension == 2) json.Fail("cannot be used with a planar object");
   return ReadRadius(json);
 }
 
 bool ReadContactPlaces(const JsonReader& json, const Plan& plan) {
-  if (plan.dimension == 2) json.Fail("only surfaces give points");
+  if (plan.dimension == 2) json.Fail("cannot be used with a planar object");
   return json.OneOf({"given"}) == "given";
 }
 

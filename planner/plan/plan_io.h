@@ -9,16 +9,19 @@
 
 namespace regrasp::plan {
 
-/// More fingers than any hand has; a plan file that claims more is bad input.
+/// Largest number of fingers in a plan file, more than any hand has.
 inline constexpr int kMostFingers = 64;
 
-/// Reads a plan file (docs/plan.schema.json). Nothing is checked against an object here, and
-/// nothing that has a Reason: a finger named twice, or outside the hand, is for the checker.
-/// @throws InputError  names the file, the element as a JSON pointer, and what is wrong.
+/// Read a plan file (docs/plan.schema.json).
+/// It is not checked against an object. The checker finds faults that have a Reason, such as a
+/// finger that is named twice or is outside the hand.
+/// @throws InputError  if the file does not match the schema; names the file and the element as a
+///     JSON pointer.
 [[nodiscard]] Plan ReadPlan(const std::filesystem::path& path);
 [[nodiscard]] Plan ParsePlan(std::string_view text, const std::string& name);
 
-/// The text of a plan file: same plan, same bytes; doubles read back as the same bits.
+/// Return the text of a plan file.
+/// The same plan has the same bytes; doubles read back bit-identically.
 [[nodiscard]] std::string FormatPlan(const Plan& plan);
 
 }  // namespace regrasp::plan

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Of a fault that is named by where it is between waypoints.
+/// Waypoint number of a fault that is located between waypoints.
 constexpr int kBetweenWaypoints = -1;
 
 std::string Name(const FingerContact& held) { return "finger " + std::to_string(held.finger); }
@@ -22,7 +22,8 @@ double CentreDistance(const grasp::Contact& a, const grasp::Contact& b, double r
   return (criteria::BallCentre(a, radius) - criteria::BallCentre(b, radius)).norm();
 }
 
-/// @param grasp  at that instant.
+/// Return the obstacle of two fingers that overlap.
+/// @param grasp  grasp at that instant.
 Obstacle Overlap(const FingerContact& a, const FingerContact& b, const FingerGrasp& grasp,
                  double radius) {
   const auto [apart, needed] =
@@ -39,7 +40,7 @@ Obstacle Unreached(const FingerContact& held, const std::string& why, const Fing
           {.fingers = {held.finger}, .grasp = grasp, .finger_radius = radius}};
 }
 
-/// The obstacle with words before its own.
+/// Return the obstacle with a prefix of its text.
 Obstacle Named(const std::string& where, Obstacle obstacle, int waypoint) {
   obstacle.detail = where + obstacle.detail;
   obstacle.fault.waypoint = waypoint;
@@ -58,7 +59,9 @@ std::optional<Obstacle> FindOverlap(const FingerGrasp& grasp, double radius) {
   return std::nullopt;
 }
 
-/// @param shown  the whole grasp that these contacts are of.
+/// Find a contact that its finger cannot reach.
+/// @param grasp  contacts to check.
+/// @param shown  whole grasp that contains them.
 std::optional<Obstacle> FindUnreached(const object::Object& object, const FingerGrasp& grasp,
                                       const FingerGrasp& shown, double radius) {
   for (const FingerContact& held : grasp) {
@@ -69,9 +72,9 @@ std::optional<Obstacle> FindUnreached(const object::Object& object, const Finger
   return std::nullopt;
 }
 
-/// Looks for an instant of [begin, end] that `fails`, leaving out intervals about an instant for
-/// which `is_clear` answers yes.
-/// @param is_clear  (t, half): nothing fails from t − half to t + half.
+/// Search for an instant of [begin, end] that `fails`.
+/// Skips intervals about an instant for which `is_clear` returns true.
+/// @param is_clear  predicate (t, half): nothing fails from t − half to t + half.
 template <class Fails, class IsClear>
 std::optional<double> FindInstant(double begin, double end, const Fails& fails,
                                   const IsClear& is_clear) {
@@ -84,12 +87,12 @@ std::optional<double> FindInstant(double begin, double end, const Fails& fails,
   return FindInstant(middle, end, fails, is_clear);
 }
 
-/// The instant at which the object blocks a moving finger.
+/// Find an instant at which the object blocks a moving finger.
 std::optional<double> FindBlocked(const object::Object& object, const motion::ContactMotion& motion,
                                   double radius) {
   const FaceIndex from = motion.At(0).face;
   const FaceIndex to = motion.At(1).face;
-  // The far end of the segment that a finger sweeps moves fastest.
+  // The far end of the segment that a finger sweeps has the largest speed.
   const double length = radius + object.diameter();
   const double speed = motion.velocity().norm() + motion.turn() * length;
   const auto fails = [&](double t) { return !criteria::CanReach(object, motion.At(t), radius); };
@@ -103,7 +106,7 @@ std::optional<double> FindBlocked(const object::Object& object, const motion::Co
   return FindInstant(0, 1, fails, is_clear);
 }
 
-/// The instant at which two moving fingers overlap.
+/// Find an instant at which two moving fingers overlap.
 std::optional<double> FindMeeting(const motion::ContactMotion& a, const motion::ContactMotion& b,
                                   double radius) {
   const double speed = (a.velocity() - b.velocity()).norm() + radius * (a.turn() + b.turn());
@@ -118,7 +121,7 @@ std::optional<double> FindMeeting(const motion::ContactMotion& a, const motion::
 
 std::optional<Obstacle> FindPathObstacle(const object::Object& object, const FingerGrasp& from,
                                          const FingerGrasp& to, double radius) {
-  // Where points can be at both ends they can be on the path, which stays on the surface.
+  // Points that are reachable at both ends are reachable on the path, which stays on the surface.
   if (radius <= 0) return std::nullopt;
   std::vector<motion::ContactMotion> motions;
   for (const FingerContact& held : from) {

@@ -11,24 +11,26 @@
 
 namespace regrasp::plan {
 
-/// What is in the way of fingers, in words for people and for a picture.
+/// Obstacle of fingers, as text for messages and as a fault for an image.
 struct Obstacle {
   std::string detail;
   Fault fault;
 };
 
-/// What obstructs fingers of some radius (reach.h) in a plan; nullopt where nothing does. Contacts
-/// lie on the object and know their faces; to fingers of a radius of 0 or less, which are points,
-/// only sealed cavities are closed.
+/// Functions that return the obstacle of fingers of some radius (reach.h) in a plan; nullopt if
+/// there is none. Contacts are on the object and have faces. Fingers with a radius of 0 or less are
+/// points, for which only sealed cavities are unreachable.
 
-/// Of a grasp at rest: a contact that its finger cannot reach, or two fingers that overlap.
+/// Find an obstacle of a static grasp.
+/// It is a contact out of reach of its finger, or an overlap of two fingers.
 [[nodiscard]] std::optional<Obstacle> FindRestObstacle(const object::Object& object,
                                                        const FingerGrasp& grasp, double radius);
 
-/// Of a step that begins with `before`. In a switch all fingers hold together before those of
-/// `release` leave. In an align every waypoint counts as a rest, and on the path between two of
-/// them nothing may obstruct the moving fingers either: decided by bisection with bounds on how far
-/// they move, down to kShortestReachInterval of the path; what stays undecided there passes.
+/// Find an obstacle of a step that begins with `before`.
+/// In a finger switch all fingers are in contact together before those of `release` leave. In a
+/// sliding step every waypoint counts as a static grasp, and the moving fingers must be free of
+/// obstacles between waypoints too. Bisection decides this, with bounds on how far the fingers
+/// move, down to kShortestReachInterval of the path; shorter undecided intervals pass.
 [[nodiscard]] std::optional<Obstacle> FindStepObstacle(const object::Object& object,
                                                        const FingerGrasp& before, const Step& step,
                                                        double radius);
@@ -40,7 +42,7 @@ struct PlanObstacle {
   std::string detail;
 };
 
-/// The first in a sequence.
+/// Find the first obstacle of a sequence of steps.
 [[nodiscard]] std::optional<PlanObstacle> FindPlanObstacle(const object::Object& object,
                                                            const FingerGrasp& initial,
                                                            std::span<const Step> steps,

@@ -16,7 +16,7 @@ FingerGrasp GraspBefore(const Plan& plan, int entry) {
   return grasp;
 }
 
-/// Those that are drawn.
+/// Select the fingers that are drawn.
 FingerGrasp Select(FingerGrasp grasp, const Fault& fault) {
   std::ranges::stable_partition(
       grasp, [&](const FingerContact& held) { return Has(fault.fingers, held.finger); });
@@ -41,7 +41,7 @@ std::vector<FingerState> DuringSwitch(const FingerGrasp& before, const Switch& s
   return states;
 }
 
-/// A finger on its way from the first waypoint past the others up to `waypoint`.
+/// Return the state of a finger on its path from the first waypoint to `waypoint`.
 FingerState OnItsWay(const FingerContact& held, const Align& step, int waypoint) {
   FingerState state = StateOf(held, FingerRole::kMoved);
   for (int w = 0; w <= waypoint; ++w) {

@@ -11,22 +11,22 @@
 
 namespace regrasp::plan {
 
-/// What a finger is doing at one instant.
+/// Role of a finger at one instant.
 enum class FingerRole { kFree, kHolding, kPlaced, kReleased, kMoved };
 
-/// One finger at one instant, in metres and newtons, world frame.
+/// State of one finger at one instant, in metres and newtons, world frame.
 struct FingerState {
   FingerIndex finger = {};
   FingerRole role = FingerRole::kFree;
   Eigen::Vector3d tip_W = Eigen::Vector3d::Zero();      ///< centre of the fingertip
-  Eigen::Vector3d contact_W = Eigen::Vector3d::Zero();  ///< point of contact (planned, if free)
+  Eigen::Vector3d contact_W = Eigen::Vector3d::Zero();  ///< contact point; planned if free
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();   ///< inward normal at the contact
-  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();    ///< on the object; zero while free
-  /// Points along which a finger that moved came, from the first to contact_W; empty for others.
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();    ///< force on the object; zero while free
+  /// Path of a finger that moved, from its first point to contact_W; empty for others.
   std::vector<Eigen::Vector3d> path_W = {};
 };
 
-/// The object and the hand at one instant: what the replay measured and a frame shows.
+/// State of object and hand at one instant, measured in the replay or shown in a frame.
 ///
 /// World frame W: at the start the object's own frame O, scaled to metres, coincides with W.
 struct Snapshot {
@@ -34,23 +34,23 @@ struct Snapshot {
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   double fingertip_radius_m = 0;
   std::vector<FingerState> fingers;
-  /// Of a plan for a hand: where its palm is, and its links by their own order
-  /// (kinematics/hand_visuals.h); none otherwise.
+  /// For a plan with a hand: pose of the palm, and of the links in their own order
+  /// (kinematics/hand_visuals.h); otherwise empty.
   std::optional<Eigen::Isometry3d> X_WP = std::nullopt;
   std::vector<Eigen::Isometry3d> links_W = {};
-  /// Of a move of the object in the hand: where it was before.
+  /// For an in-hand motion: the object pose before it.
   std::optional<Eigen::Isometry3d> X_WO_before = std::nullopt;
 };
 
-/// What a frame can show of an entry that was not replayed: the object at rest, and the fingers
-/// where the plan has them, contacts as they are given, without forces. Of an align it is the
-/// instant of the fault, or else its end.
+/// Make the snapshot of an entry that was not replayed.
+/// The object does not move, and the fingers are at the plan's contacts, without forces. For a
+/// sliding step it shows the instant of the fault, otherwise its end.
 ///
-/// Contacts may be anywhere, and fingers outside the hand; of a hostile file no more than
-/// kMostDrawnFingers are told, those at fault first.
-/// @param located             on the object as far as it fits (PlanCheck::located).
-/// @param entry               0 the hold, k the k-th step.
-/// @param fingertip_radius_m  metres.
+/// Contacts may be anywhere, and fingers outside the hand. At most kMostDrawnFingers are included,
+/// those at fault first, because a malicious file may have any number.
+/// @param located             plan on the object as far as it fits (PlanCheck::located).
+/// @param entry               0 the initial grasp, k the k-th step.
+/// @param fingertip_radius_m  radius in metres.
 [[nodiscard]] Snapshot MakePlannedSnapshot(const Plan& located, int entry, const Fault& fault,
                                            double fingertip_radius_m);
 

@@ -48,25 +48,36 @@ struct CandidateSequence {
 [[nodiscard]] CandidateSequence MakeSwitchSequence(std::span<const grasp::Grasp> grasps,
                                                    int fingers);
 
-/// The first step that fingers of the evaluator's hand could not carry out.
+/// Find the first step that fingers of the evaluator's hand cannot execute.
 [[nodiscard]] std::optional<plan::PlanObstacle> FindObstacle(
     const CandidateSequence& candidate, const criteria::GraspEvaluator& evaluator);
 
-/// The answer that a sequence is: its plan, with its margin and a warning where a grasp does not
-/// meet the criteria; none where fingers of the hand cannot carry it out.
-/// @param request  its hand has as many fingers as the plan is for.
+/// Compute the smallest friction margin of the grasps of a sequence, radians.
+[[nodiscard]] double SmallestMargin(const std::vector<Rest>& rests,
+                                    const criteria::GraspEvaluator& evaluator);
+
+/// Name the weakest grasps of a sequence: the first one in which a fingertip has no clearance, and
+/// for each criterion that is not met everywhere the grasp that violates it most.
+/// @param rests  grasps before all steps and after each step.
+[[nodiscard]] std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
+                                                    const criteria::GraspEvaluator& evaluator);
+
+/// Make the result of a sequence: its plan and margin, and a warning if a grasp violates a
+/// criterion.
+/// @param request  its hand has as many fingers as the plan.
+/// @returns a result without a plan if the fingers of the hand cannot execute the sequence.
 [[nodiscard]] PlanResult ResultOf(const CandidateSequence& candidate,
                                   const criteria::GraspEvaluator& evaluator,
                                   const std::string& planner, const PlanRequest& request,
                                   const grasp::Grasp& goal);
 
-/// A random goal is drawn anew up to so many times while the sequence to it passes grasps that are
-/// not as good as asked.
+/// Number of random goals drawn at most until a sequence passes grasps of the required quality
+/// only.
 inline constexpr int kGoalDraws = 12;
 
-/// The first plan without a warning of kGoalDraws, or else the first one; that one also where the
-/// time is up for others.
-/// @param plan  draws a goal and plans to it; the last time one that the start is in a set with.
+/// Return the first plan without a warning of kGoalDraws plans; if all have one or the deadline
+/// passes, the first plan.
+/// @param plan  draws a goal and plans to it; if `last`, a goal that shares a set with the start.
 [[nodiscard]] PlanResult PlanToRandomGoal(const std::function<PlanResult(bool last)>& plan);
 
 }  // namespace regrasp::planning

@@ -77,26 +77,27 @@ std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
   const auto scope = planner.ScopeIn(request.object->dimension());
   if (!scope) {
     const std::string name = request.object_name.empty() ? "" : request.object_name + ": ";
-    return name + (planar ? "a planar object" : "a solid") + ", and the planner " + planner.name() +
-           " works on " + (planar ? "solids" : "planar objects") + " only";
+    return name + "planner " + planner.name() + " supports " +
+           (planar ? "solids" : "planar objects") + " only, found " +
+           (planar ? "a planar object" : "a solid");
   }
   if (planner.traits().needs_hand && !request.in_hand) {
-    return "the planner " + planner.name() + " plans for a hand, and none is given (--hand)";
+    return "planner " + planner.name() + " requires a hand (--hand)";
   }
   if (request.graph && !planner.traits().has_graph) {
-    return "the planner " + planner.name() + " has no graph";
+    return "planner " + planner.name() + ": graph not supported";
   }
   if (planar && request.hand.torsion > 0) {
-    return "--contact soft: contacts of a planar object have no torque about their normals";
+    return "--contact soft cannot be used with a planar object";
   }
   const std::vector<PlanOption>& has = planner.traits().options;
   for (const PlanOption option : OptionsOf(request)) {
     if (std::ranges::find(has, option) != has.end()) continue;
-    return OptionName(option) + ": the planner " + planner.name() + " has no such option";
+    return OptionName(option) + ": not supported by planner " + planner.name();
   }
   if (request.hand.fingers != 0 && request.hand.fingers < scope->fingers) {
-    return "the planner " + planner.name() + " needs a hand of " + std::to_string(scope->fingers) +
-           " fingers, and this one has " + std::to_string(request.hand.fingers);
+    return "planner " + planner.name() + " requires a hand with " + std::to_string(scope->fingers) +
+           " fingers, found " + std::to_string(request.hand.fingers);
   }
   return {};
 }

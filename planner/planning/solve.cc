@@ -81,7 +81,7 @@ class GraspResolver {
     const grasp::ContactLimits taken{soft ? evaluator_.fewest_contacts() : scope_.contacts.least,
                                      std::min(scope_.contacts.most, request_.hand.fingers)};
     if (found < taken.least || found > taken.most) {
-      refuse("the planner " + planner_.name() + " needs " + RangeText(taken) + " contacts, found " +
+      refuse("planner " + planner_.name() + " requires " + RangeText(taken) + " contacts, found " +
              std::to_string(found));
     }
     if (const auto pair =
@@ -94,12 +94,12 @@ class GraspResolver {
           (object::NearestPoint(*request_.given_points, grasp[i].p) - grasp[i].p).norm();
       if (off <= object::kAtGivenPoint * request_.object->diameter()) continue;
       refuse("contact " + std::to_string(i) + " is " + FormatShort(off) +
-             " from the nearest of the given points");
+             " from the nearest given point");
     }
     CheckForceClosure(grasp, refuse);
     if (const auto obstacle = plan::FindRestObstacle(*request_.object, plan::FingersInOrder(grasp),
                                                      request_.hand.fingertip_radius)) {
-      refuse("with a finger at each, by their numbers: " + obstacle->detail);
+      refuse("with one finger per contact: " + obstacle->detail);
     }
   }
 
@@ -110,13 +110,12 @@ class GraspResolver {
     if (grasp::IsForceClosure(felt.view(), evaluator_.frame(), half_angle)) return;
     const auto required = grasp::ComputeRequiredHalfAngle(felt.view(), evaluator_.frame());
     if (!required) {
-      refuse("not force closure: no friction half-angle below 90° is enough, given " +
+      refuse("not force closure at any friction angle below 90°, found " +
              FormatShort(Degrees(half_angle)) + "°");
     }
     const auto [needed, given] =
         FormatRequiredDegrees(Degrees(required->upper), Degrees(half_angle));
-    refuse("not force closure: needs a friction half-angle of " + needed + "°, given " + given +
-           "°");
+    refuse("not force closure: requires a friction angle of " + needed + "°, found " + given + "°");
   }
 
   const Planner& planner_;
@@ -156,9 +155,8 @@ PlanResult Solve(const Planner& planner, const PlanRequest& request) {
     return planner.Plan(resolved);
   } catch (const sampling::NoGrasp& none) {
     return Negative(Status::kNoGrasp, none.message);
-  } catch (const TimeUp& time_up) {
-    return Negative(Status::kNoSequence, "no sequence was found by the planner " + planner.name() +
-                                             " when " + time_up.what());
+  } catch (const TimeUp&) {
+    return Negative(Status::kNoSequence, "planner " + planner.name() + ": time limit reached");
   }
 }
 

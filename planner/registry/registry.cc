@@ -36,7 +36,7 @@ const std::vector<const planning::Planner*>& AllPlanners() { return Planners(); 
 void RegisterPlanner(std::unique_ptr<const planning::Planner> planner) {
   static std::vector<std::unique_ptr<const planning::Planner>> owned;
   if (planner->name() == "auto" || FindPlanner(planner->name()) != nullptr) {
-    throw InputError("planner " + planner->name() + " is registered already");
+    throw InputError("planner " + planner->name() + ": registered twice");
   }
   Planners().push_back(planner.get());
   owned.push_back(std::move(planner));
@@ -45,7 +45,7 @@ void RegisterPlanner(std::unique_ptr<const planning::Planner> planner) {
 std::string PlannerNames() {
   std::string names = "auto";
   for (const planning::Planner* planner : AllPlanners()) {
-    names += (planner == AllPlanners().back() ? " and " : ", ") + planner->name();
+    names += ", " + planner->name();
   }
   return names;
 }
@@ -80,25 +80,29 @@ std::string ThoseThatHave(planning::PlanOption option, const planning::PlanReque
 
 const planning::Planner& ChoosePlanner(const planning::PlanRequest& request) {
   if (const planning::Planner* planner = FirstThatServes(request)) return *planner;
-  std::string why = "no planner has all of";
-  const std::string object = request.object->dimension() == 2 ? "a planar object" : "a solid";
+  std::string why = "no planner supports this combination for " +
+                    std::string(request.object->dimension() == 2 ? "a planar object" : "a solid") +
+                    ":";
+  bool first = true;
   for (const planning::PlanOption option : planning::OptionsOf(request)) {
-    why += " " + planning::OptionName(option) + " (" + ThoseThatHave(option, request) + ")";
+    why += (first ? " " : ", ") + planning::OptionName(option) + " (" +
+           ThoseThatHave(option, request) + ")";
+    first = false;
   }
-  throw InputError(why + " for " + object);
+  throw InputError(why);
 }
 
 const planning::Planner& PlannerFor(const std::string& name, const planning::PlanRequest& request) {
   if (name == "auto") return ChoosePlanner(request);
   const planning::Planner* planner = FindPlanner(name);
   if (planner == nullptr) {
-    throw InputError("the planner \"" + name + "\" does not exist in this version; there are " +
+    throw InputError("--planner: unknown planner \"" + name + "\", expected one of " +
                      PlannerNames());
   }
   const std::string why = planning::WhyNotServed(*planner, request);
   if (why.empty()) return *planner;
   const planning::Planner* other = FirstThatServes(request);
-  throw InputError(why + (other == nullptr ? "" : "; use --planner " + other->name()));
+  throw InputError(why + (other == nullptr ? "" : "; help: use --planner " + other->name()));
 }
 
 }  // namespace regrasp::registry

@@ -102,7 +102,7 @@ SoupSurface SurfaceOf(const object::PolygonSoup& soup) {
     }
   }
   if (std::ranges::any_of(passes, [](const auto& edge) { return edge.second != 0; })) {
-    throw std::runtime_error("it is not closed");
+    throw std::runtime_error("not closed");
   }
   std::erase_if(surface.triangles, [&](const Corners& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] ||
@@ -445,7 +445,7 @@ class Arrangement {
       if (std::ranges::count(piece.under, t) == 0) turns += Turns(surface_.At(t), middle);
     }
     if (std::abs(turns - std::round(turns)) > kWholeNumber) {
-      throw std::runtime_error("what is inside is not clear");
+      throw std::runtime_error("cannot determine the interior");
     }
     return static_cast<int>(std::lround(turns));
   }

@@ -39,10 +39,10 @@ Judgement JudgeParts(const std::vector<double>& volume_shares,
                      const object::RepairOptions& options) {
   if (options.part || volume_shares.size() < 2 || volume_shares[1] <= kSmallPart) return {};
   return {Shortfall::kNotChosen,
-          std::to_string(volume_shares.size()) + " solids beside each other, with " +
+          std::to_string(volume_shares.size()) + " separate solids, with " +
               object::SharesText(volume_shares) +
-              " of the volume; --part K takes one (1: the largest), --shells union all as one "
-              "body"};
+              " of the volume; help: --part K selects one (1: the largest), --shells union unites "
+              "all"};
 }
 
 Judgement JudgeShape(const Comparison& comparison, const Original& original,
@@ -50,24 +50,23 @@ Judgement JudgeShape(const Comparison& comparison, const Original& original,
   const double deviation = comparison.seen_most / original.diameter;
   if (deviation > options.max_deviation + options.thickness.value_or(0) / 2 / original.diameter) {
     return {Shortfall::kTooFar,
-            "the solid is too far from its surface: 95 % of what is seen from outside lies "
-            "within " +
-                PercentOf(deviation) + " of the diameter, " + PercentOf(options.max_deviation) +
-                " are allowed (--max-deviation)",
+            "the solid deviates too much: 95 % of the visible surface is within " +
+                PercentOf(deviation) + " of the diameter, limit " +
+                PercentOf(options.max_deviation) + " (--max-deviation)",
             deviation};
   }
   if (options.thickness) return {};
   if (comparison.invented_share > kMostInvented) {
     return {Shortfall::kNotAllThere,
-            "the surface is not all there: " + PercentOf(comparison.invented_share) +
-                " of the solid's would be invented, " + PercentOf(kMostInvented) +
-                " at most are taken; scan the other sides too, or give an open sheet a wall "
+            "surface incomplete: " + PercentOf(comparison.invented_share) +
+                " of the solid would be filled in, limit " + PercentOf(kMostInvented) +
+                "; help: scan the other sides too, or give an open sheet a wall "
                 "(--solidify THICKNESS)"};
   }
   if (original.open && comparison.thin_share > kMostThin) {
-    return {Shortfall::kSheet, "it is an open sheet: " + PercentOf(comparison.thin_share) +
+    return {Shortfall::kSheet, "open sheet: " + PercentOf(comparison.thin_share) +
                                    " of the solid would be thinner than " + PercentOf(kThinWall) +
-                                   " of the diameter; give it a wall (--solidify THICKNESS)"};
+                                   " of the diameter; help: --solidify THICKNESS gives it a wall"};
   }
   return {};
 }

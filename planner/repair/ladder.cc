@@ -63,8 +63,8 @@ class Ladder {
     if (!surface) return false;
     if (last().facts["scatter"].get<double>() > kMostScatter) {
       last().outcome =
-          "its points lie about a surface and not on one: they scatter as widely as they are "
-          "apart; smooth or average them first";
+          "points are noise around a surface: they scatter as widely as their distance; "
+          "help: smooth or average them first";
       return false;
     }
     last().outcome = "a surface";
@@ -133,9 +133,9 @@ class Ladder {
         volumes.back()["volume"].get<double>() / volumes.front()["volume"].get<double>();
     if (HasOpenEdges(surface) && left < kLeastLeft) {
       last().shortfall = Shortfall::kSheet;
-      last().outcome = "it is an open sheet: a wrap enters it, and leaves " +
-                       FormatShort(100 * left, 3) +
-                       " % of the volume of a coarser one; give it a wall (--solidify THICKNESS)";
+      last().outcome =
+          "open sheet: a wrap enters it and keeps " + FormatShort(100 * left, 3) +
+          " % of the volume of a coarser one; help: --solidify THICKNESS gives it a wall";
       return false;
     }
     return IsCloseEnough(*std::move(made));
@@ -199,7 +199,7 @@ class Ladder {
     const auto coarse = Run("simplify", [&] { return Simplify(fine, *options_.facets); });
     if (!coarse) return false;
     if (Accepts(*coarse, &fine)) return true;
-    last().outcome += "; with a larger --faces it may come out";
+    last().outcome += "; help: use a larger --faces";
     return false;
   }
 

@@ -185,7 +185,7 @@ StageResult ReconstructSurface(const object::PolygonSoup& cloud) {
                                             CGAL::squared_distance(points[c], points[a])}));
     if (edge <= longest) result.soup.facets.push_back({int(a), int(b), int(c)});
   }
-  if (result.soup.facets.empty()) throw std::runtime_error("its points form no surface");
+  if (result.soup.facets.empty()) throw std::runtime_error("points do not form a surface");
   MakeCanonical(result.soup);
   result.facts["points"] = points.size();
   result.facts["typical_distance"] = longest / kLongEdge;

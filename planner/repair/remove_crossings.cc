@@ -110,7 +110,7 @@ class CutOut {
 
 StageResult RemoveCrossings(const object::PolygonSoup& soup) {
   const Mesh whole = MeshOf(soup);
-  if (!CGAL::is_closed(whole)) throw std::runtime_error("it is not closed");
+  if (!CGAL::is_closed(whole)) throw std::runtime_error("not closed");
   CutOut cut(whole);
   const std::size_t crossing = cut.size();
   for (int round = 0; round < kMostRounds && !cut.is_too_large(); ++round) {

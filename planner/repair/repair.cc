@@ -94,13 +94,13 @@ std::string RepairHint(const std::filesystem::path& path, const object::Reading&
   try {
     const Repaired repaired =
         Repair(object::ReadSoup(path, limited).soup, path.string(), {}, limited);
-    return "; --repair makes a solid of it: " + RepairText(repaired);
+    return "; help: --repair makes a solid of it: " + RepairText(repaired);
   } catch (const NotRepaired& refusal) {
-    return "; --repair makes no solid of it: " + MostHelpful(refusal.attempt()).outcome;
+    return "; --repair does not make a solid of it: " + MostHelpful(refusal.attempt()).outcome;
   } catch (const InputError&) {
-    return "; --repair makes no solid of it";
+    return "; --repair does not make a solid of it";
   } catch (const TimeUp&) {
-    return "; the program repair may make a solid of it";
+    return "; help: try regrasp repair";
   }
 }
 
@@ -230,7 +230,8 @@ std::string RepairText(const Repaired& repaired) {
   }
   const double d = repaired.diameter;
   return text + "); deviation " + Percent(repaired.comparison.seen_most / d) +
-         " of the diameter, " + Percent(InventedShare(repaired.solid)) + " of the surface invented";
+         " of the diameter, " + Percent(InventedShare(repaired.solid)) +
+         " of the surface filled in";
 }
 
 }  // namespace regrasp::repair

@@ -95,7 +95,7 @@ class Resolver {
       const Side& one = sides[i];
       const Side& other = sides[(i + 1) % sides.size()];
       if (has_inside_next(one) == has_inside_next(other)) {
-        throw std::runtime_error("its inside is not clear");
+        throw std::runtime_error("cannot determine the interior");
       }
       if (has_inside_next(one) == joins_) continue;
       pairs_.emplace_back(one, other);

@@ -57,15 +57,15 @@ StageRun RunStage(const std::function<StageResult()>& stage, const Deadline& dea
   switch (run.end) {
     case object::ChildEnd::kDone:
       if (auto result = FromBytes(run.bytes)) return {std::move(result), ""};
-      return {std::nullopt, "it did not come to its end"};
+      return {std::nullopt, "terminated abnormally"};
     case object::ChildEnd::kThrew:
       return {std::nullopt, run.bytes};
     case object::ChildEnd::kTookTooLong:
-      return {std::nullopt, "it took longer than allowed"};
+      return {std::nullopt, "time limit reached"};
     case object::ChildEnd::kCrashed:
       break;
   }
-  return {std::nullopt, "it crashed or ran out of memory"};
+  return {std::nullopt, "crashed or ran out of memory"};
 }
 
 StageResult TakePart(const object::PolygonSoup& soup, int part) {
@@ -80,7 +80,7 @@ StageResult TakePart(const object::PolygonSoup& soup, int part) {
       std::transform_reduce(solids.begin(), solids.end(), 0.0, std::plus(), VolumeOf);
   for (const Mesh& solid : solids) shares.push_back(VolumeOf(solid) / all);
   if (part > std::ssize(solids)) {
-    throw std::runtime_error("it has no part " + std::to_string(part) + " but " +
+    throw std::runtime_error("no part " + std::to_string(part) + ", found " +
                              std::to_string(solids.size()));
   }
   Mesh taken = solids[part - 1];

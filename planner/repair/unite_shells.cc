@@ -36,8 +36,8 @@ struct Shell {
 std::vector<Shell> ShellsOf(const Mesh& mesh) {
   std::vector<Shell> shells;
   for (Mesh& part : PartsOf(mesh)) {
-    if (!CGAL::is_closed(part)) throw std::runtime_error("not all of its shells are closed");
-    if (pmp::does_self_intersect(part)) throw std::runtime_error("a shell meets itself");
+    if (!CGAL::is_closed(part)) throw std::runtime_error("not all shells are closed");
+    if (pmp::does_self_intersect(part)) throw std::runtime_error("a shell intersects itself");
     const double volume = VolumeOf(part);
     const CGAL::Bbox_3 box = pmp::bbox(part);
     shells.push_back({std::move(part), volume, box});
@@ -82,7 +82,7 @@ void Add(ExactMesh& body, const Shell& shell) {
   ExactMesh sum;
   const bool done = solid ? pmp::corefine_and_compute_union(body, other, sum)
                           : pmp::corefine_and_compute_difference(body, other, sum);
-  if (!done) throw std::runtime_error("its shells cannot be united");
+  if (!done) throw std::runtime_error("shells cannot be united");
   body = std::move(sum);
 }
 

@@ -130,7 +130,7 @@ class ClusterSearch {
                                       ? " has no link to them"
                                       : std::string(" is linked by ") + RoadmapLinkName(link));
     };
-    result.message = "no sequence of finger switches was found from start to goal over " +
+    result.message = "planner roadmap connects no path over " +
                      std::to_string(roadmap_.clusters.clustered_count()) + " contact points in " +
                      std::to_string(roadmap_.clusters.cluster_count()) +
                      " clusters: " + std::to_string(roadmap_.roadmap.vertex_count()) +
@@ -141,9 +141,11 @@ class ClusterSearch {
     const std::string sizes = std::to_string(chain.start_size) +
                               " grasps of all contact points from start and " +
                               std::to_string(chain.goal_size) + " from goal";
-    result.message += chain.exhausted ? "; there is none: the last resort reached all of " + sizes +
-                                            " that one side can come to"
-                                      : "; the last resort gave up, having reached " + sizes;
+    result.message +=
+        chain.exhausted
+            ? "; no sequence exists over these points: the fallback search reached all of " +
+                  sizes + " that one side can reach"
+            : "; the fallback search stopped after " + sizes;
     return result;
   }
 

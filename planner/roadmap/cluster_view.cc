@@ -21,17 +21,15 @@ ContactClusters ClustersOf(const object::Polyhedron& solid, const plan::Plan& pl
   const plan::RoadmapNote& note = *plan.roadmap;
   const auto check = [](const char* name, int value, int least, int most) {
     if (value >= least && value <= most) return;
-    throw InputError(std::string("the plan's roadmap has ") + std::to_string(value) + " " + name +
-                     ", which no roadmap of clusters has");
+    throw InputError(std::string("plan: roadmap with ") + std::to_string(value) + " " + name +
+                     " is not a roadmap of clusters");
   };
   check("contact points", note.contacts, kFewestClusters, kMaxClusteredContacts);
   check("clusters", note.clusters, kFewestClusters, kMostClusters);
   ClusteredRoadmapOptions options;
   options.half_angle = plan.half_angle - note.roughness.value_or(0);
   if (options.half_angle <= 0) {
-    throw InputError(
-        "the plan's roadmap is rougher than its friction's half-angle, which leaves "
-        "nothing to cluster by");
+    throw InputError("plan: the roughness of the roadmap must be smaller than the friction angle");
   }
   options.contacts = note.contacts;
   options.clusters = note.clusters;

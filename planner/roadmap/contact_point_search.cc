@@ -156,7 +156,7 @@ class ContactPointSearch {
     const auto size = [&](int vertex) {
       return std::to_string(search::ReachableVertices(roadmap_, vertex, all).size());
     };
-    return "no sequence of finger switches leads from start to goal over these contact points: "
+    return "planner roadmap: no sequence over these contact points connects start and goal; "
            "searched " +
            std::to_string(roadmap_.points().size()) + " contact points, " +
            std::to_string(roadmap_.candidate_count()) + " subsets of four, " +

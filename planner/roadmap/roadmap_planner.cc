@@ -180,7 +180,7 @@ planning::GraphSummary RoadmapPlanner::SummarizeGraph(const planning::PlanReques
   const int queries = request.graph ? request.graph->queries : 0;
   Stopwatch stopwatch;
   if (SizeOf(request).clusters == 0) {
-    if (queries > 0) throw InputError("--queries: needs a roadmap of clusters (--clusters)");
+    if (queries > 0) throw InputError("--queries requires --clusters");
     return SummaryOf(BuildRoadmap(request, SpreadContacts(request)), request, stopwatch);
   }
   const ClusteredRoadmap clustered = BuildClusteredRoadmap(request);

@@ -101,11 +101,11 @@ std::vector<grasp::Contact> GivenContacts(const object::Polyhedron& solid,
     left.pop_back();
   }
   if (std::ssize(found) < least) {
-    throw NoGrasp{"of the " + std::to_string(points.size()) + " given points " +
-                  std::to_string(found.size()) + " take a finger, at least " +
-                  std::to_string(least) +
-                  " are needed: the others are no points of the surface, "
-                  "on edges or rough places of it (--roughness), or invented"};
+    throw NoGrasp{"expected at least " + std::to_string(least) +
+                  " given points for fingers, found " + std::to_string(found.size()) + " of " +
+                  std::to_string(points.size()) +
+                  ": a point must be on the surface, and not on an edge, a rough place "
+                  "(--roughness) or a filled surface"};
   }
   return EliminateSamples(found, most, SurfaceSampler(solid).measure());
 }

@@ -11,14 +11,14 @@ namespace regrasp::sets {
 
 namespace {
 
-/// Paths tried for one whose grasps are all of the quality that is asked for.
+/// Maximum number of paths in the search for one that meets the acceptance criteria.
 constexpr int kMaxPaths = 600;
 
-/// A graph that knows how far it is to its ends on the shortest paths: a search over sequences with
-/// the fewest switches looks at nothing beside them.
+/// Graph with exact distances to start and goal. A search for sequences with the fewest switches
+/// then visits shortest paths only.
 class OnShortestPaths final : public search::SwitchingGraph {
  public:
-  /// Both must outlive this object.
+  /// @param graph, paths  must outlive this object.
   OnShortestPaths(const search::SwitchingGraph& graph, const search::ShortestPaths& paths, int goal)
       : graph_(graph), paths_(paths), goal_(goal) {}
 
@@ -26,7 +26,7 @@ class OnShortestPaths final : public search::SwitchingGraph {
   void GetNeighbours(int vertex, std::vector<int>& neighbours) const override {
     graph_.GetNeighbours(vertex, neighbours);
   }
-  /// @param to  start or goal.
+  /// @param to  start or goal vertex.
   [[nodiscard]] int MinSwitches(int from, int to) const override {
     const int depth = paths_.depth[from];
     if (depth < 0) return paths_.switches + 1;
@@ -39,11 +39,11 @@ class OnShortestPaths final : public search::SwitchingGraph {
   int goal_;
 };
 
-/// Worse than every score of a GraspEvaluator: a sequence that fingers cannot carry out.
+/// Score of a sequence that the fingers cannot execute, below every score of a GraspEvaluator.
 constexpr double kScoreOfObstacle = -2;
 
-/// The switch that a step belongs to: the one that the grasp after it was chosen for, or else the
-/// last one before or the first one after it.
+/// Return the edge of a step: that of the grasp after it; otherwise the last one before or the
+/// first one after it.
 std::optional<search::VertexPair> EdgeNear(const planning::CandidateSequence& candidate, int step) {
   for (int i = step; i >= 0; --i) {
     if (candidate.rests[i].chosen_for) return candidate.rests[i].chosen_for;
@@ -54,8 +54,8 @@ std::optional<search::VertexPair> EdgeNear(const planning::CandidateSequence& ca
   return std::nullopt;
 }
 
-/// Bans the switches to grasps that were chosen and are not good enough.
-/// @returns whether there are any.
+/// Ban the switches to chosen grasps that do not meet the acceptance criteria.
+/// @returns whether there is any.
 bool BanPoor(const planning::CandidateSequence& candidate,
              const criteria::GraspEvaluator& evaluator, std::set<search::VertexPair>& banned) {
   bool any = false;
@@ -67,13 +67,13 @@ bool BanPoor(const planning::CandidateSequence& candidate,
   return any;
 }
 
-/// A sequence that is not as good as asked.
+/// Sequence that does not meet the acceptance criteria.
 struct PoorCandidate {
   planning::CandidateSequence sequence;
   bool has_obstacle;
 };
 
-/// The worst score of the grasps that were chosen.
+/// Return the lowest score of the chosen grasps.
 double ScoreOf(const PoorCandidate& candidate, const criteria::GraspEvaluator& evaluator) {
   double worst =
       candidate.has_obstacle ? kScoreOfObstacle : std::numeric_limits<double>::infinity();
@@ -83,7 +83,8 @@ double ScoreOf(const PoorCandidate& candidate, const criteria::GraspEvaluator& e
   return worst;
 }
 
-/// Scores of grasps that are not good take long: they are worked out only where nothing is good.
+/// Return the sequence with the best score. Scores of grasps that fail the criteria are expensive,
+/// so they are computed only if no sequence meets the criteria.
 std::optional<planning::CandidateSequence> BestOf(std::vector<PoorCandidate> candidates,
                                                   const criteria::GraspEvaluator& evaluator) {
   if (candidates.empty()) return std::nullopt;
@@ -109,7 +110,7 @@ std::optional<planning::CandidateSequence> FindCandidate(
     const std::function<std::optional<planning::CandidateSequence>(
         const std::vector<int>& path, std::set<search::VertexPair>& banned)>& make,
     const Deadline& deadline) {
-  // Where no path is free for the fingers' radius, the result is told so (ResultOf).
+  // If no path is free for the fingers' radius, ResultOf reports it.
   std::vector<PoorCandidate> poor;
   std::set<search::VertexPair> banned;
   for (int attempt = 0; attempt < kMaxPaths; ++attempt) {

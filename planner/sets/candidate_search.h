@@ -16,21 +16,25 @@
 
 namespace regrasp::sets {
 
-/// A convex piece of a set, by its number in the set.
+/// Index of a convex piece in its set.
 using PieceIndex = Index<struct PieceTag>;
 
-/// The waypoints of an align through the convex pieces of a set: one in each passage between two of
-/// them, fewest passages first (breadth first).
-/// @param starts, goals  of each piece, whether it contains the align's first grasp, or its last.
-/// @param find_passage   where an align can pass from one piece to another.
-/// @returns none where a piece contains both; nullopt where no chain of pieces joins them.
+/// Find the waypoints of a sliding step through the convex pieces of a set.
+///
+/// There is one waypoint in each passage between two pieces. Breadth-first search minimizes their
+/// number.
+/// @param starts, goals  for each piece, whether it contains the first or last grasp of the step.
+/// @param find_passage   function that returns the waypoint between two pieces; nullopt if there is
+///     none.
+/// @returns an empty vector if one piece contains both grasps; nullopt if the pieces are not
+///     connected.
 template <class Waypoint>
 [[nodiscard]] std::optional<std::vector<Waypoint>> FindPassages(
     const std::vector<bool>& starts, const std::vector<bool>& goals,
     const std::function<std::optional<Waypoint>(PieceIndex from, PieceIndex to)>& find_passage) {
   const int count = static_cast<int>(starts.size());
   std::vector<bool> seen = starts;
-  std::vector<PieceIndex> before(count);  // not valid before a start
+  std::vector<PieceIndex> before(count);  // invalid for a start piece
   std::vector<Waypoint> through(count);
   std::deque<PieceIndex> queue;
   for (PieceIndex piece{0}; piece < count; ++piece) {
@@ -57,16 +61,20 @@ template <class Waypoint>
   return std::nullopt;
 }
 
-/// The vertices of a path with the fewest switches, of these the widest; empty where there is none.
+/// Find the widest of the paths with the fewest switches.
+/// @returns its vertices; empty if there is no path.
 [[nodiscard]] std::vector<int> FindWidePath(const search::SwitchingGraph& graph, int start,
                                             int goal, const search::VertexWidth& width);
 
-/// The first sequence whose chosen grasps are all of the quality that is asked for, otherwise the
-/// one whose weakest is best: paths are tried without the switches that were too weak before, or
-/// that fingers of the evaluator's hand could not carry out. Where the time is up, the best so far.
-/// @param find_path  a path without banned edges; empty where there is none.
-/// @param make       its sequence, or nullopt and at least one more edge banned.
-/// @throws TimeUp  before there was one.
+/// Find a sequence whose chosen grasps all meet the acceptance criteria.
+///
+/// After a failure, the search bans the switches that do not meet them, or that the hand cannot
+/// execute, and tries another path. If no sequence meets the criteria, or at the deadline, the
+/// result is the sequence whose weakest grasp is best.
+/// @param find_path  function that returns a path without banned edges; empty if there is none.
+/// @param make  function that returns the sequence of a path. If it returns nullopt, it has banned
+///     at least one more edge.
+/// @throws TimeUp  if the deadline is reached before the first sequence.
 [[nodiscard]] std::optional<planning::CandidateSequence> FindCandidate(
     const criteria::GraspEvaluator& evaluator,
     const std::function<std::vector<int>(const std::set<search::VertexPair>& banned)>& find_path,

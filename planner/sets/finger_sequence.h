@@ -7,25 +7,30 @@
 
 namespace regrasp::sets {
 
-/// The same fingers at the contacts of the next waypoint of an align: each stays on its face, and
-/// the one whose face is gone goes to the contact that is left.
-/// @param next  as many contacts as fingers hold, at most one on a face that none was on before.
+/// Assign fingers to the contacts of the next waypoint of a sliding step.
+///
+/// Each finger stays on its face. If the next grasp has no contact on a finger's face, this finger
+/// takes the remaining contact.
+/// @param next  as many contacts as there are holding fingers; at most one on a new face.
 [[nodiscard]] plan::FingerGrasp FollowTo(const plan::FingerGrasp& holding,
                                          const grasp::Grasp& next);
 
-/// A sequence in the making: what the hand does next.
+/// Sequence of steps under construction.
 class FingerSequence {
  public:
-  /// @param fingers  of the hand.
+  /// @param start  initial grasp.
+  /// @param fingers  number of fingers of the hand.
   FingerSequence(const grasp::Grasp& start, int fingers);
 
-  /// Switches to a grasp; no step where it holds it already. Two switches in a row are one where
-  /// the hand has the fingers.
-  /// @param region  what is known of how far the contacts placed may be off.
+  /// Append a finger switch to a grasp; no step if it is the current grasp.
+  ///
+  /// Two consecutive switches are merged if the hand has enough fingers.
+  /// @param region  half-width of the contact region of the new contacts, if known; such a switch
+  ///     is not merged.
   void SwitchTo(const grasp::Grasp& after, std::optional<search::VertexPair> chosen_for,
                 std::optional<double> region = std::nullopt);
 
-  /// Aligns along waypoints, the first of which is the grasp that it holds.
+  /// Append a sliding step along waypoints, the first of which is the current grasp.
   void AlignAlong(const std::vector<grasp::Grasp>& waypoints,
                   std::optional<search::VertexPair> chosen_for);
 
@@ -38,7 +43,7 @@ class FingerSequence {
   planning::CandidateSequence candidate_;
   int fingers_;
   plan::FingerGrasp holding_;
-  plan::FingerGrasp held_before_;  ///< before the last step
+  plan::FingerGrasp held_before_;  ///< grasp before the last step
 };
 
 }  // namespace regrasp::sets

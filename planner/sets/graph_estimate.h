@@ -11,42 +11,43 @@
 
 namespace regrasp::sets {
 
-/// How much a switching graph has of what takes memory while it is built; or the bytes that each of
-/// these takes, with what vectors keep to grow into.
+/// Numbers of elements of a switching graph that take memory during construction; or the bytes per
+/// element, including spare capacity of vectors.
 struct GraphSize {
   double candidates = 0;
   double sets = 0;
   double switches = 0;
 
-  /// All bytes.
+  /// Compute the total number of bytes.
   [[nodiscard]] constexpr double Times(const GraphSize& bytes) const {
     return candidates * bytes.candidates + sets * bytes.sets + switches * bytes.switches;
   }
 };
 
-/// What is measured of graphs in which sets are joined over faces that both have.
+/// Measured constants of graphs in which two sets are connected if they have common faces.
 struct JoinedGraph {
   GraphSize bytes;
-  int common_faces = 0;  ///< over which two sets are joined
-  /// Switches over the square of the sets, times that power of the faces.
+  int common_faces = 0;  ///< number of faces that two connected sets have in common
+  /// Number of switches · faces^common_faces / sets².
   double switches = 0;
 
-  /// All bytes of a graph on n faces. @param size  without switches.
+  /// Compute the total number of bytes of a graph on n faces. @param size  numbers without
+  /// switches.
   [[nodiscard]] double BytesOf(GraphSize size, double n) const;
 };
 
-/// The faces that an estimate counts on: at most so many, drawn from all of them; ascending.
+/// Draw at most `most` faces on which an estimate counts; returned in ascending order.
 [[nodiscard]] std::vector<FaceIndex> DrawFaces(const object::Object& object, int most,
                                                RandomStream random);
 
-/// How many choices of so many faces there are among n, where `counted` are among m.
+/// Scale a count of combinations of `faces` faces among m faces to n faces.
 [[nodiscard]] double ScaleUp(double counted, int faces, double m, double n);
 
-/// What a planner's graph takes. @param bytes_for  for so many faces.
+/// Make the memory estimate of a planner's graph. @param bytes_for  bytes by number of faces.
 [[nodiscard]] MemoryNeed NeedOfGraph(const std::string& planner, const object::Object& object,
                                      std::function<double(double)> bytes_for);
 
-/// What is the same in the summary of every graph of grasp sets: all but types and edges.
+/// Make the common part of the summaries of all graphs: everything except types and edges.
 template <class Graph>
 [[nodiscard]] planning::GraphSummary SummaryOf(const Graph& graph, const object::Object& object,
                                                const std::string& planner) {

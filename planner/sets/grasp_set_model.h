@@ -12,24 +12,22 @@
 
 namespace regrasp::sets {
 
-/// A grasp that a model's planning begins or ends at, as a place in one of its sets.
+/// Start or goal grasp of a query, as a place in one set of the model.
 template <typename Place>
 struct Attachment {
   SetIndex set;
   Place place;
-  bool whole = true;  ///< it is the grasp itself; otherwise a switch leads from one to the other
+  bool whole = true;  ///< true: the place is the grasp itself; false: a switch connects them
 };
 
-/// Two grasps of neighbouring sets that the hand can switch between: contacts that stay are the
-/// same, bit for bit.
+/// Finger switch: two grasps of adjacent sets. Kept contacts are bit-identical in both.
 template <typename Place>
 struct SetSwitch {
   Place before;
   Place after;
 };
 
-/// A switch that is asked for: its sets, and the places to begin or end at; nullptr: it is free to
-/// choose.
+/// Query for a switch between two sets; `before` and `after` fix its grasps if they are not null.
 template <typename Place>
 struct SwitchEnds {
   SetIndex from;
@@ -38,8 +36,7 @@ struct SwitchEnds {
   const Place* after = nullptr;
 };
 
-/// What every model of grasp sets has: the types of its places, and the evaluator of the grasps
-/// that it chooses.
+/// Base of all models of grasp sets: types of places, and the evaluator of chosen grasps.
 template <typename PlaceOfModel>
 class EvaluatedModel {
  public:
@@ -48,11 +45,11 @@ class EvaluatedModel {
   using Switch = SetSwitch<Place>;
   using Ends = SwitchEnds<Place>;
 
-  /// For the request's object, criteria and hand.
+  /// Evaluator for the object, the acceptance criteria and the hand of the request.
   [[nodiscard]] const criteria::GraspEvaluator& evaluator() const { return evaluator_; }
 
  protected:
-  /// @param request  its object outlives this one.
+  /// @param request  query; its object must outlive this model.
   explicit EvaluatedModel(const planning::PlanRequest& request)
       : evaluator_(*request.object, request.criteria, request.hand) {}
 
@@ -60,36 +57,35 @@ class EvaluatedModel {
   criteria::GraspEvaluator evaluator_;
 };
 
-/// What a planner over sets of grasps supplies (polygon, contour, polyhedron); the planning itself
-/// is written once over it (set_planner.h).
+/// Interface of a planner over grasp sets (polygon, contour, polyhedron); see set_planner.h.
 ///
-/// A set is a vertex of the switching graph; a Place is a grasp in a set, in the model's own terms.
-/// All functions may throw TimeUp. A model may also have
+/// A set is a vertex of the switching graph. A Place is a grasp in a set, in a representation of
+/// the model. All functions may throw TimeUp. A model may also have
 ///   std::optional<double> Refine(Switch& change)
-/// which changes a chosen switch to what the objective asks for, and says how far its contacts may
-/// be off.
+/// which optimizes a chosen switch for the objective and returns the half-width of the contact
+/// region of its new contacts.
 template <typename Model>
 concept GraspSetModel = std::derived_from<Model, EvaluatedModel<typename Model::Place>> &&
     requires(Model model, SetIndex set, const typename Model::Place& place,
              const grasp::Grasp& grasp, RandomStream& random, const typename Model::Ends& ends) {
   { model.graph() } -> std::convertible_to<const SetGraph&>;
-  /// For messages: "focus cells".
+  /// Name of the sets for messages: "focus cells".
   { model.sets_name() } -> std::convertible_to<std::string>;
-  /// How wide a set is to pass; the more the better.
+  /// Width of a set; paths through wide sets are preferred.
   { model.WidthOf(set) } -> std::convertible_to<double>;
-  /// A grasp anywhere in a set; nullopt where none was found.
+  /// Draw a random grasp of a set; nullopt if none is found.
   { model.Draw(set, random) } -> std::same_as<std::optional<typename Model::Place>>;
 
   { model.GraspOf(place) } -> std::same_as<grasp::Grasp>;
-  /// The places of a grasp, the best first; empty where no set has it.
+  /// Find the places of a grasp, best first; empty if no set contains it.
   { model.Attach(grasp) } -> std::same_as<typename Model::Attachments>;
-  /// Why no set has it: "in none of …".
+  /// Explain why no set contains a grasp: "in none of …".
   { model.WhyUnattached(grasp) } -> std::convertible_to<std::string>;
 
-  /// The best switch that has these ends.
+  /// Find the best switch with the given ends.
   { model.FindSwitch(ends) } -> std::same_as<std::optional<typename Model::Switch>>;
-  /// The grasps that an align inside a set passes, both ends included: between two of them contacts
-  /// move straight, or one goes from a face to the next; empty where none is found.
+  /// Find the waypoints of a sliding step inside a set, including both ends; empty if there are
+  /// none. Between two waypoints, contacts move straight, or one contact passes to the next face.
   { model.FindRoute(place, place) } -> std::same_as<std::vector<typename Model::Place>>;
 };
 

@@ -13,29 +13,33 @@
 
 namespace regrasp::sets {
 
-/// A switch from the grasp at hand, or to the goal, is good enough with this share of the best
-/// one's margin: it spares an align.
+/// Fraction of the best switch's margin that suffices for a switch at the current or goal grasp,
+/// because that avoids a sliding step.
 inline constexpr double kGoodShare = 0.5;
 
-/// Contacts this close, over the diameter, are the same but for rounding.
+/// Distance between equal contacts due to rounding, divided by the diameter.
 inline constexpr double kContactRounding = 1e-12;
 
-/// Turns paths of a switching graph into sequences from one start to one goal (Phoka 2010, sections
-/// 3.4 and 4.6): a switch happens at the grasp at hand, or at the goal's, where that costs little,
-/// otherwise where its two grasps score best; between switches the fingers align inside the set.
+/// Converts paths of a switching graph to sequences from one start to one goal (Phoka 2010,
+/// sections 3.4 and 4.6).
+///
+/// A switch uses the current or the goal grasp if that costs little margin, otherwise the two
+/// grasps with the best score. Sliding steps inside the sets connect the switches.
 template <GraspSetModel Model>
 class SequenceBuilder {
  public:
   using Place = typename Model::Place;
 
-  /// All arguments outlive this object. @param fingers  of the hand.
+  /// All arguments must outlive this object. @param fingers  number of fingers of the hand.
   SequenceBuilder(Model& model, const grasp::Grasp& start, const grasp::Grasp& goal, int fingers)
       : model_(model), start_(start), goal_(goal), fingers_(fingers) {}
 
-  /// @param path    of sets, from the one that `from` is in to that of `to`.
-  /// @param banned  gets a switch of the path where doubles find none, or no align to it.
-  /// @returns nullopt then.
-  /// @throws NoGrasp  from one grasp of a set to another there is none.
+  /// Make the sequence of a path.
+  /// @param path  sets, from the one that contains `from` to the one that contains `to`.
+  /// @param banned  output: a switch of the path, if doubles find neither the switch nor a sliding
+  ///     step to it.
+  /// @returns nullopt if a switch was banned.
+  /// @throws NoGrasp  if both grasps are in one set and no sliding step connects them.
   [[nodiscard]] std::optional<planning::CandidateSequence> Make(
       const std::vector<SetIndex>& path, const Place& from, const Place& to,
       std::set<search::VertexPair>& banned) {
@@ -67,7 +71,7 @@ class SequenceBuilder {
 
   struct BestSwitch {
     std::optional<Switch> found;
-    double margin = 0;  ///< of its worse grasp, negative where that is not good
+    double margin = 0;  ///< smaller margin of its grasps; negative if one fails the criteria
   };
 
   struct ChosenSwitch {
@@ -129,12 +133,12 @@ class SequenceBuilder {
     return known->second;
   }
 
-  /// Negative where it is not good.
+  /// Return the margin of a grasp; negative if it does not meet the criteria.
   [[nodiscard]] double MarginOf(const Place& place) const {
     return model_.evaluator().Margin(GraspAt(place)).value_or(-1);
   }
 
-  /// The contacts of a place; those of start and goal as they were given.
+  /// Return the contacts of a place; those of start and goal exactly as given.
   [[nodiscard]] grasp::Grasp GraspAt(const Place& place) const {
     grasp::Grasp grasp = model_.GraspOf(place);
     const double rounding = kContactRounding * model_.evaluator().object().diameter();
@@ -149,7 +153,7 @@ class SequenceBuilder {
     return grasp;
   }
 
-  /// @returns false where no path is found inside the set.
+  /// Append a sliding step. @returns false if no path is found inside the set.
   [[nodiscard]] bool AlignTo(const Place& from, const Place& to,
                              std::optional<search::VertexPair> chosen_for,
                              FingerSequence& sequence) {
@@ -171,7 +175,8 @@ class SequenceBuilder {
   const grasp::Grasp& start_;
   const grasp::Grasp& goal_;
   int fingers_;
-  std::map<std::pair<SetIndex, SetIndex>, BestSwitch> best_;  ///< by the sets before and after
+  /// Best switches by the sets before and after.
+  std::map<std::pair<SetIndex, SetIndex>, BestSwitch> best_;
 };
 
 }  // namespace regrasp::sets

@@ -13,18 +13,18 @@
 #include "planner/planning/candidate_sequence.h"
 #include "planner/planning/plan_request.h"
 #include "planner/sampling/draw_grasp.h"
-#include "planner/sets/attached_graph.h"
 #include "planner/sets/candidate_search.h"
 #include "planner/sets/sequence_builder.h"
+#include "planner/sets/set_graph.h"
 #include "planner/sets/set_sampling.h"
 
 namespace regrasp::sets {
 
-/// The planning of one sequence over a model of grasp sets: what its stages share.
+/// Planner of one sequence over a model of grasp sets: state shared by its stages.
 template <GraspSetModel Model>
 class SetPlanner {
  public:
-  /// Both outlive this object.
+  /// The model and the request must outlive this object.
   SetPlanner(Model& model, const planning::PlanRequest& request, std::string planner)
       : model_(model),
         request_(request),
@@ -39,7 +39,7 @@ class SetPlanner {
     }
     if (!IsRandom(request_.goal)) {
       goal_ = request_.goal.grasp;
-      // Where there is nothing to do, the grasp need not be in a set.
+      // If the goal is the start, the grasp need not be in a set.
       if (IsGoalTheStart()) return Finish(planning::StartOf(start_));
       start_at_ = Attach(request_.start, start_);
       return PlanToGoal();
@@ -99,7 +99,7 @@ class SetPlanner {
     return ends;
   }
 
-  /// Of the places of a grasp in a set the best.
+  /// Return the best place of a grasp in a set.
   [[nodiscard]] static const Place& PlaceIn(const Attachments& attachments, SetIndex set) {
     return std::ranges::find(attachments, set, &Attachment<Place>::set)->place;
   }
@@ -124,7 +124,7 @@ class SetPlanner {
     return none;
   }
 
-  /// The sets of a sequence with the fewest switches, of these the widest.
+  /// Find the sets of the widest sequence with the fewest switches.
   [[nodiscard]] std::vector<int> FindPath(const std::set<search::VertexPair>& banned) {
     const AttachedGraph graph(model_.graph(), EndsOf(start_at_), EndsOf(goal_at_), banned);
     std::vector<int> path = FindWidePath(graph, graph.start(), graph.goal(), [&](int vertex) {
@@ -165,14 +165,16 @@ class SetPlanner {
   Attachments goal_at_;
 };
 
-/// Plans over a model of grasp sets, on a graph that is built already: many queries, one graph.
+/// Plan over a model of grasp sets, on an existing graph that can serve many queries.
 ///
-/// Among the paths with the fewest switches the one through the widest sets is taken. Where a
-/// switch's grasps are below the quality that is asked for, paths without it are tried; where there
-/// is none, a warning names the weakest step. A random goal is drawn anew where the sequence to it
-/// is not as good as asked.
-/// @param request  as Planner::Plan has it. @param planner  its name, for plan and messages.
-/// @throws NoGrasp, TimeUp
+/// The planner selects the widest of the paths with the fewest switches. If a switch's grasps do
+/// not meet the acceptance criteria, it tries paths without this switch. If none meets them, a
+/// warning names the weakest step. A random goal is redrawn if the sequence to it does not meet the
+/// criteria.
+/// @param request  same as for Planner::Plan.
+/// @param planner  name of the planner, for plan and messages.
+/// @throws NoGrasp  if no set contains the start or goal, or no random grasp is found.
+/// @throws TimeUp  if the deadline is reached.
 template <GraspSetModel Model>
 [[nodiscard]] planning::PlanResult PlanOverSets(Model& model, const planning::PlanRequest& request,
                                                 const std::string& planner) {

@@ -13,7 +13,7 @@ namespace regrasp::sets {
 
 namespace {
 
-/// Grasps drawn from one set, and sets looked at, before a random grasp is given up.
+/// Limits of the search for a random grasp: draws per set, and sets per pool.
 constexpr int kDrawsPerSet = 30;
 constexpr std::size_t kMaxSetDraws = 2000;
 

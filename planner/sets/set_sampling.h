@@ -12,24 +12,25 @@
 
 namespace regrasp::sets {
 
-/// The sets that a random grasp is drawn from, those of the first list first.
+/// Lists of sets from which a random grasp is drawn, in this order.
 using SamplingPools = std::vector<std::vector<SetIndex>>;
 
-/// A normal deviate, of mean 0 and standard deviation 1, of two uniform ones (Box and Muller 1958):
-/// several of them make a direction that is drawn evenly.
+/// Draw a standard normal deviate from two uniform ones (Box and Muller 1958).
+///
+/// A vector of them has a uniformly distributed direction.
 [[nodiscard]] double DrawNormal(RandomStream& random);
 
-/// All sets, for a start.
+/// Return the pools for a start: all sets.
 [[nodiscard]] SamplingPools StartPools(int set_count);
-/// For a goal: those in the components of the start's sets; the start's own where the others have
-/// no grasp.
+/// Return the pools for a goal: first all other sets in the components of the start's sets, then
+/// the start's own sets.
 [[nodiscard]] SamplingPools GoalPools(const search::Components& components,
                                       const std::set<SetIndex>& start_sets);
 
-/// Draws sets from pools and grasps from sets until one is good.
-/// @param draw  gives a grasp of a set; an empty one where none was found.
-/// @param name  how messages call the grasp.
-/// @throws NoGrasp  none of many draws is good.
+/// Draw sets from pools and grasps from sets until a grasp meets the acceptance criteria.
+/// @param name  name of the grasp for messages.
+/// @param draw  function that returns a random grasp of a set; an empty one if none is found.
+/// @throws NoGrasp  if none of many draws meets the criteria.
 [[nodiscard]] grasp::Grasp DrawFromSets(const std::string& name, SamplingPools pools,
                                         const std::function<grasp::Grasp(SetIndex set)>& draw,
                                         const criteria::GraspEvaluator& evaluator,

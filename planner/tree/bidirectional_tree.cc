@@ -44,33 +44,33 @@ GraspPath ReachedGrasps::PathTo(int node) const {
 
 namespace {
 
-/// Random candidates at first; when all have been tried their number doubles.
+/// Initial number of random candidates; it doubles when all have been tested.
 constexpr int kFirstCandidates = 8;
 
-/// Aligns to so many grasps of the other tree are tried from each new grasp.
+/// Number of grasps of the other tree to which a sliding step is tested from each new grasp.
 constexpr int kAlignsToMeet = 2;
 
-/// Force-closure tests that each tree may take before the other's turn, doubled in every round.
+/// Number of force-closure tests of a tree's first turn; it doubles in every round.
 constexpr std::int64_t kFirstTurn = 200;
 
-/// Draws for a grasp around another, over ever smaller surroundings.
+/// Number of draws for a grasp around another, in decreasing neighbourhoods.
 constexpr int kDrawsAround = 24;
 constexpr double kNarrower = 0.7;
 
-/// A grasp that is nearer than this to one of the tree, over the diameter, tells it nothing new: on
-/// the small faces of a mesh there are no others.
+/// Distance over the diameter below which a grasp near one of the tree adds nothing. On the small
+/// faces of a mesh all grasps are closer.
 constexpr double kLeastTravel = 0.05;
 
-/// Contacts have nowhere to go on it.
+/// Return whether a face is too small for contacts to move on it.
 bool IsSmall(FaceIndex face, const object::Object& object) {
   const double travel = kLeastTravel * object.diameter();
   return object.face_measure(face) < (object.dimension() == 3 ? travel * travel : travel);
 }
 
-/// So many candidates later than the grasp before it on its tuple of faces a grasp gets its turn.
+/// Delay of a grasp, in candidates, per earlier grasp on its tuple of faces.
 constexpr int kBehind = 8;
 
-/// What a draw costs beside its test, in tests.
+/// Cost of a draw in addition to its test, in tests.
 constexpr int kDrawCost = 2;
 
 }  // namespace
@@ -171,7 +171,7 @@ void BidirectionalTree::MakeQueueEntry(int side, int node) {
   Tree& tree = trees_[side];
   const criteria::ContactSet set = tree.reached[node];
   if (set.size() == space_.fingers()) {
-    // A full hand can only let go.
+    // A hand without a free finger can only release one.
     for (const int contact : set) TryToReach(side, set.Without(contact), node);
     return;
   }
@@ -212,7 +212,7 @@ void BidirectionalTree::Meet(int side, int node) {
     return;
   }
   std::vector<NodeAt> near = NearestOnTuple(1 - side, set, kAlignsToMeet);
-  // A full hand, which can switch to nothing, may still come to the other's faces across edges.
+  // A hand without a free finger cannot switch, but may reach the other's faces across edges.
   if (near.empty() && set.size() == space_.fingers()) near.push_back({0, any});
   for (const auto& [distance, there] : near) {
     if (auto align = AlignBetween(set, other[there], space_)) {
@@ -235,7 +235,7 @@ void BidirectionalTree::GrowAround(int side, std::int64_t until) {
 
 bool BidirectionalTree::AlignAround(int side, int node, double reach) {
   const criteria::ContactSet& from = trees_[side].reached[node];
-  // Of a full hand, which has no finger for a switch, one contact leaves its face.
+  // One contact of a hand without a free finger leaves its face, because a switch is impossible.
   const bool full = from.size() == space_.fingers();
   const int leaving = full ? static_cast<int>(random_.Index(from.size())) : -1;
   const double least_travel = kLeastTravel * space_.object().diameter();

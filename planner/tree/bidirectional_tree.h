@@ -21,33 +21,34 @@
 
 namespace regrasp::tree {
 
-/// A tree of the grasps that steps reach from one grasp.
+/// Tree of the grasps that are reachable from one grasp.
 class ReachedGrasps {
  public:
-  /// @param space  outlives this object.
+  /// @param space  search space that outlives this object.
   ReachedGrasps(const criteria::ContactSet& root, const SearchSpace& space);
 
   [[nodiscard]] int size() const { return static_cast<int>(nodes_.size()); }
   [[nodiscard]] const criteria::ContactSet& operator[](int node) const { return nodes_[node].set; }
-  /// The node of a grasp; −1 where it has not been reached.
+  /// Return the node of a grasp; −1 if it has not been reached.
   [[nodiscard]] int Find(const criteria::ContactSet& set) const;
-  /// The nodes on one tuple of faces, in the order in which they were reached.
+  /// Return the nodes on one tuple of faces, in the order in which they were reached.
   [[nodiscard]] const std::vector<int>& OnTuple(const FaceTuple& tuple) const;
-  /// Tuples of faces reached.
+  /// Number of reached tuples of faces.
   [[nodiscard]] int tuple_count() const { return static_cast<int>(tuples_.size()); }
 
-  /// Reaches a new grasp from a node. @returns its node.
+  /// Add a new grasp as a child of a node.
+  /// @returns its node.
   int Reach(const criteria::ContactSet& set, int parent,
             std::optional<FaceAlign> align = std::nullopt);
 
-  /// From the root to a node.
+  /// Return the path from the root to a node.
   [[nodiscard]] GraspPath PathTo(int node) const;
 
  private:
   struct Node {
     criteria::ContactSet set;
     int parent;
-    std::optional<FaceAlign> align;  ///< of the step from the parent; none for a switch
+    std::optional<FaceAlign> align;  ///< sliding step from the parent; none for a finger switch
   };
 
   const SearchSpace& space_;
@@ -56,33 +57,38 @@ class ReachedGrasps {
   std::map<FaceTuple, std::vector<int>> tuples_;
 };
 
-/// Joins two grasps by a tree of grasps from each, grown in turn (Kuffner and LaValle 2000).
+/// Connect two grasps by a tree of grasps from each, grown in turn (Kuffner and LaValle 2000).
 ///
-/// A tree grows by finger switches, every one of its grasps with every candidate contact, fair to
-/// all: no grasp sees a candidate before the others have seen those before it. Candidates are the
-/// contacts of both grasps, then random ones of the whole surface, the same for both trees, so that
-/// the trees meet. Where that alone has not joined them soon, trees also grow by aligns to random
-/// grasps of the tuples of faces that they have reached, by switches to points nearby, and across
-/// narrow places to new tuples of faces (FindTransition). A grasp whose tuple the other tree knows
-/// is joined to it by a straight align where one is proved.
+/// A tree grows by finger switches of each of its grasps with each candidate contact. The order is
+/// fair: no grasp tests a candidate before the others have tested the earlier ones. Candidates are
+/// the contacts of both grasps, then random ones of the whole surface. They are the same for both
+/// trees, so that the trees meet. If that alone does not connect them soon, trees also grow by:
+/// - sliding steps to random grasps of the tuples of faces that they have reached
+/// - finger switches to points nearby
+/// - transitions across narrow places to new tuples of faces (FindTransition)
+///
+/// A grasp on a tuple that the other tree has reached is connected to it by a straight sliding
+/// step, if one is proved.
 class BidirectionalTree {
  public:
-  /// @param from, to  grasps that the space admits, as do all that follow. All outlive this object.
+  /// @param from, to  grasps that the space admits.
+  /// @param source, random, space  sources of contacts and grasps; all arguments outlive this
+  ///     object.
   BidirectionalTree(const criteria::ContactSet& from, const criteria::ContactSet& to,
                     const sampling::SurfaceSampler& source, RandomStream& random,
                     SearchSpace& space);
 
-  /// Grows until the trees meet.
-  /// @returns nullopt where they have not met within the limits of the space.
+  /// Grow until the trees meet.
+  /// @returns the path; nullopt if they have not met within the limits of the space.
   [[nodiscard]] std::optional<GraspPath> Join();
 
-  /// Grasps and tuples of faces reached from either side.
+  /// Grasps and tuples of faces reached from one side: 0 start, 1 goal.
   [[nodiscard]] const ReachedGrasps& tree(int side) const { return trees_[side].reached; }
 
  private:
-  /// A grasp that candidates from `next` on have not been tried on.
+  /// Grasp that has not been tested with the candidates from `next` on.
   struct QueueEntry {
-    int rank;  ///< of equal ones the first; the queue's top is its largest
+    int rank;  ///< priority; the smallest is at the top, the lowest node number first
     int node;
     int next;
     bool operator<(const QueueEntry& other) const {
@@ -92,28 +98,30 @@ class BidirectionalTree {
   struct Tree {
     ReachedGrasps reached;
     std::priority_queue<QueueEntry> queue;
-    std::vector<QueueEntry> waiting;  ///< grasps that have seen all candidates
+    std::vector<QueueEntry> waiting;  ///< grasps that were tested with all candidates
   };
 
   void GrowBySwitches(int side, std::int64_t until);
   void GrowAround(int side, std::int64_t until);
-  /// Draw a grasp around one of the tree and reach it, if it is one, by an align or by a switch of
-  /// one contact. @returns whether it came to something.
+  /// Draw a grasp near one of the tree, and reach it by a sliding step or a switch of one contact.
+  /// @returns whether a grasp was added or already known.
   bool AlignAround(int side, int node, double reach);
   bool SwitchAround(int side, int node, double reach);
-  /// Looks for transitions from random grasps of the tree to tuples of faces new to it.
+  /// Search for transitions from random grasps of the tree to tuples of faces new to it.
   void GrowAcross(int side, std::int64_t until);
-  /// Any face of the body, or one that the other tree's grasps are on.
+  /// Draw a face: any face of the object, or one with contacts of the other tree.
   FaceIndex FaceAcross(int side);
-  /// Reaches a grasp by an align, whose node is returned; −1 where none was proved.
+  /// Reach a grasp by a sliding step.
+  /// @returns its node; −1 if no sliding step was proved.
   int AlignTo(int side, int node, const criteria::ContactSet& set);
-  /// The same for the last of several grasps, over some of the others where it has to be.
+  /// Reach the last of several grasps by sliding steps, through intermediate ones if necessary.
+  /// @returns its node; −1 if no sliding step was proved.
   int AlignAlong(int side, int node, std::span<const grasp::Grasp> path);
   void TryCandidate(int side, int node, int candidate);
   void TryToReach(int side, const criteria::ContactSet& set, int parent);
   void Reach(int side, const criteria::ContactSet& set, int parent,
              std::optional<FaceAlign> align = std::nullopt);
-  /// Lets candidates be tried on a grasp.
+  /// Queue a grasp for tests of candidates.
   void MakeQueueEntry(int side, int node);
   void Meet(int side, int node);
   struct NodeAt {
@@ -121,7 +129,8 @@ class BidirectionalTree {
     int node;
     auto operator<=>(const NodeAt&) const = default;
   };
-  /// Nodes of the tuple in a tree, those nearest to the grasp first.
+  /// Return nodes of the tree on the grasp's tuple of faces, the nearest first.
+  /// @param most  largest number of nodes.
   [[nodiscard]] std::vector<NodeAt> NearestOnTuple(int side, const criteria::ContactSet& set,
                                                    int most) const;
   void AddCandidates();

@@ -14,17 +14,18 @@ namespace regrasp::tree {
 
 namespace {
 
-/// The instant that is looked at before a proof is searched for: most motions that do not hold do
-/// not hold there. More of them cost more where motions hold than they spare where they do not.
+/// Instant that is tested before a proof is searched for: most infeasible motions fail there. More
+/// instants would cost more on feasible motions than they save on infeasible ones.
 constexpr double kProbe = 0.5;
 
-/// Force-closure tests that take as long as a search for a proof, about.
+/// Approximate cost of a search for a proof, in force-closure tests.
 constexpr int kTestsOfAProof = 6;
 
-/// A motion that needs shorter pieces of a proof keeps too close to the limit.
+/// Shortest piece of a proof. A motion that needs shorter pieces is too close to the limit.
 constexpr double kShortestPiece = 1.0 / 64;
 
-/// Of the criteria that grasps at rest meet: only those are shaken.
+/// Share of the criteria of static grasps that is required at turns. Only static grasps undergo
+/// disturbance tests.
 constexpr double kShareAtTurns = 0.25;
 
 motion::GraspMotion MotionBetween(const grasp::Grasp& from, const grasp::Grasp& to) {
@@ -40,7 +41,7 @@ bool HoldsAt(const motion::GraspMotion& motion, double t, SearchSpace& space) {
                                space.half_angle());
 }
 
-/// Whether fingers that are no points can carry an align out.
+/// Return whether fingers with a radius can execute a sliding step.
 bool IsFree(const std::vector<grasp::Grasp>& waypoints, const SearchSpace& space) {
   if (space.finger_radius() == 0) return true;
   plan::Align align;
@@ -51,7 +52,7 @@ bool IsFree(const std::vector<grasp::Grasp>& waypoints, const SearchSpace& space
                                  space.finger_radius());
 }
 
-/// What remains of a set without the contacts of another.
+/// Return the contacts of a set that another set does not contain.
 criteria::ContactSet Difference(const criteria::ContactSet& set,
                                 const criteria::ContactSet& other) {
   criteria::ContactSet rest;
@@ -61,7 +62,8 @@ criteria::ContactSet Difference(const criteria::ContactSet& set,
   return rest;
 }
 
-/// The cheapest assignment of contacts to as many others, by trying all: they are five at most.
+/// Cheapest assignment between two sets of contacts, by exhaustive search over at most five
+/// contacts.
 class Pairing {
  public:
   Pairing(const criteria::ContactSet& from, const criteria::ContactSet& to,
@@ -82,7 +84,7 @@ class Pairing {
   [[nodiscard]] int operator[](int i) const { return chosen_[i]; }
 
  private:
-  /// Changes of face, and the distance.
+  /// Number of changed faces, and distance.
   using Cost = std::pair<int, double>;
   static constexpr Cost kNever = {std::numeric_limits<int>::max(), 0};
 
@@ -115,8 +117,8 @@ class Pairing {
   Cost best_ = kNever;
 };
 
-/// A turn of a contact: it is at the `number`-th edge of its route when it has gone this share of
-/// the whole.
+/// Change of a contact's face: it is at the `number`-th edge of its route at this share of the
+/// motion.
 struct Turn {
   double share;
   std::size_t contact;
@@ -124,7 +126,7 @@ struct Turn {
   auto operator<=>(const Turn&) const = default;
 };
 
-/// Contacts that go along their routes together.
+/// Simultaneous motion of contacts along their routes.
 class JointPath {
  public:
   explicit JointPath(const std::vector<SurfaceRoute>& routes)
@@ -132,7 +134,7 @@ class JointPath {
     for (std::size_t i = 0; i < routes.size(); ++i) shares_.push_back(SharesOf(routes[i]));
   }
 
-  /// A grasp before and after each turn, and the ends.
+  /// Return the grasps before and after each turn, and the ends.
   std::vector<grasp::Grasp> Waypoints() {
     std::vector<grasp::Grasp> waypoints = {At(0)};
     double at = 0;
@@ -147,7 +149,7 @@ class JointPath {
   }
 
  private:
-  /// Of a route's contacts: how much of the path is behind them.
+  /// Return, for each contact of a route, the share of the path before it.
   static std::vector<double> SharesOf(const SurfaceRoute& route) {
     const double whole = LengthOf(route);
     std::vector<double> shares = {0};
@@ -191,10 +193,10 @@ class JointPath {
 
   const std::vector<SurfaceRoute>& routes_;
   std::vector<std::vector<double>> shares_;
-  std::vector<std::size_t> leg_;  ///< by contact: turns that it has made
+  std::vector<std::size_t> leg_;  ///< number of turns made [contact]
 };
 
-/// The waypoints of an align with these pairs; none where a contact has no route.
+/// Return the waypoints of a sliding step with these pairs; empty if a contact has no route.
 std::vector<grasp::Grasp> FindWaypoints(const ContactPairs& pairs, const SearchSpace& space) {
   std::vector<SurfaceRoute> routes;
   for (const auto& [a, b] : pairs) {
@@ -206,7 +208,7 @@ std::vector<grasp::Grasp> FindWaypoints(const ContactPairs& pairs, const SearchS
   return JointPath(routes).Waypoints();
 }
 
-/// Whether the grasps at the turns, where fingers wait, meet some of what is asked for.
+/// Return whether the grasps at turns, during which fingers wait, meet part of the criteria.
 bool AreGood(const std::vector<grasp::Grasp>& waypoints, SearchSpace& space) {
   const double share = space.share();
   if (!space.criteria().AsksMore()) return true;

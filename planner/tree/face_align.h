@@ -10,63 +10,66 @@
 
 namespace regrasp::tree {
 
-/// A motion of all contacts of a grasp along the surface, proved to keep force closure: between two
-/// waypoints every contact moves straight on its face, or one keeps its point and turns to the next
-/// face, and the others stand still.
+/// Motion of all contacts of a grasp along the surface, proved to keep force closure.
+/// Between two waypoints every contact moves straight on its face; or one contact keeps its point
+/// and changes to the next face, while the others do not move.
 struct FaceAlign {
-  /// Which contact of the first grasp goes to which of the second, by number.
+  /// Contact of the first grasp and its contact in the second grasp, by number.
   std::vector<std::pair<int, int>> contacts;
-  /// Waypoints between the two grasps, in the order of `contacts`; none where all of them stay on
+  /// Waypoints between the two grasps, in the order of `contacts`; empty if all contacts stay on
   /// their faces.
   std::vector<grasp::Grasp> between;
-  /// By pair of waypoints that follow each other, the ends included; in the order of `contacts`.
+  /// Proof per pair of consecutive waypoints, ends included, in the order of `contacts`.
   std::vector<motion::MotionSegments> proof;
 };
 
-/// The grasps of an align from the first to the last, in the order of its contacts.
+/// Return the grasps of a sliding step from the first to the last, in the order of its contacts.
 [[nodiscard]] std::vector<grasp::Grasp> WaypointsOf(const FaceAlign& align,
                                                     const SearchSpace& space);
 
-/// Whether the grasps at the turns of an align and half-way between its waypoints are as good as
-/// the space asks. AlignBetween only returns such aligns.
+/// Return whether the grasps at the turns, and halfway between waypoints, meet the criteria.
+/// AlignBetween returns only such sliding steps.
 [[nodiscard]] bool AdmitsPath(const FaceAlign& align, SearchSpace& space);
 
-/// The travel of all contacts of an align together; turns of normals add nothing.
+/// Return the total travel of all contacts of a sliding step; changes of normals do not count.
 [[nodiscard]] double TravelOf(const FaceAlign& align, const SearchSpace& space);
 
-/// The faces of a grasp's contacts, ascending.
+/// Faces of a grasp's contacts, ascending.
 using FaceTuple = std::vector<FaceIndex>;
 [[nodiscard]] FaceTuple TupleOf(const criteria::ContactSet& set, const SearchSpace& space);
 
-/// Whether an align may take a contact to another face: to a neighbouring one, or near by (kNear).
+/// Return whether a sliding step may move a contact to another face.
+/// The face must be adjacent, or within kNear.
 [[nodiscard]] bool MayHandOver(const grasp::Contact& from, const grasp::Contact& to,
                                const object::Object& object);
-/// Of the diameter. On a fine mesh faces are small, and what is near is few edges away.
+/// Distance to a face to which a contact may slide, over the diameter. On a fine mesh faces are
+/// small, and nearby faces are a few edges away.
 inline constexpr double kNear = 0.15;
 
 using ContactPairs = std::vector<std::pair<int, int>>;
 
-/// Pairs the contacts of two grasps for an align: common ones stay, the others go to one on their
-/// own face, or go over to another one (MayHandOver). Of all pairings the one with the fewest
-/// contacts that change their faces, of those the one with the least straight distance in all.
+/// Pair the contacts of two grasps for a sliding step.
+/// Common contacts stay. Others move to a contact on their own face, or on another face
+/// (MayHandOver). The result has the fewest contacts that change their faces, then the least total
+/// straight distance.
 ///
-/// Takes well under a microsecond, most of all where there is none.
+/// Takes well under a microsecond, least of all if there is no pairing.
 [[nodiscard]] std::optional<ContactPairs> PairContacts(const criteria::ContactSet& from,
                                                        const criteria::ContactSet& to,
                                                        const SearchSpace& space);
 
-/// The straight distance of all contacts together from one grasp to another; infinite where they
-/// can't be paired.
+/// Return the total straight distance of all contacts between two grasps.
+/// Infinite if they cannot be paired.
 [[nodiscard]] double DistanceBetween(const criteria::ContactSet& from,
                                      const criteria::ContactSet& to, const SearchSpace& space);
 
-/// Aligns from one grasp to another, force closure at the space's half-angle throughout: contacts
-/// go along their routes (FindSurfaceRoute), all at rates that bring them to their ends at once,
-/// and stop while one of them turns at an edge.
+/// Find a sliding step between two grasps that is force closure throughout.
+/// The friction angle is that of the space. Contacts move along their routes (FindSurfaceRoute), at
+/// rates that let all arrive at once, and stop while one of them changes its face at an edge.
 ///
-/// Law: between the same grasps in exchange, with each route turned round, the same holds.
-/// @returns nullopt where the contacts can't be paired, one has no route, or the motion was not
-///          proved to be force closure.
+/// Law: symmetric in the two grasps if each route is reversed.
+/// @returns the step; nullopt if the contacts cannot be paired, one has no route, or force closure
+///     of the motion was not proved.
 [[nodiscard]] std::optional<FaceAlign> AlignBetween(const criteria::ContactSet& from,
                                                     const criteria::ContactSet& to,
                                                     SearchSpace& space);

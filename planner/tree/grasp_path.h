@@ -7,13 +7,14 @@
 
 namespace regrasp::tree {
 
-/// A step between two grasps of a SearchSpace: a finger switch, or an align where there is one.
+/// Step between two grasps of a SearchSpace: a sliding step if `align` is set, otherwise a finger
+/// switch.
 struct PathStep {
   criteria::ContactSet to;
   std::optional<FaceAlign> align;
 };
 
-/// Grasps that follow each other.
+/// Sequence of grasps.
 struct GraspPath {
   criteria::ContactSet start;
   std::vector<PathStep> steps;
@@ -23,13 +24,13 @@ struct GraspPath {
   }
 };
 
-/// The same align backwards.
+/// Return the reversed sliding step.
 [[nodiscard]] FaceAlign Reversed(FaceAlign align);
 
-/// The same path backwards.
+/// Return the reversed path.
 [[nodiscard]] GraspPath Reversed(const GraspPath& path);
 
-/// Goes on with `more`, which begins where `path` ends.
+/// Append `more`, which begins with the last grasp of `path`.
 void Append(const GraspPath& more, GraspPath& path);
 
 }  // namespace regrasp::tree

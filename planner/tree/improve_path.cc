@@ -13,10 +13,10 @@ namespace regrasp::tree {
 
 namespace {
 
-/// Contacts are drawn as far away as half the diameter, or so many halvings less.
+/// Number of halvings of the distance at which contacts are drawn, from half the diameter.
 constexpr int kHalvings = 5;
 
-/// Draws for each contact that is still missing.
+/// Number of draws per missing contact.
 constexpr int kDraws = 8;
 
 void AddContact(int contact, std::vector<int>& contacts) {
@@ -88,14 +88,14 @@ void ReplaceSubpath(const GraspPath& by, const Subpath& subpath, GraspPath& path
 
 namespace {
 
-/// Passes over all subpaths, each with other random contacts.
+/// Number of passes over all subpaths, each with new random contacts.
 constexpr int kPasses = 3;
 
-/// Passes in a row, each with other random contacts, that have not lessened the travel before it is
-/// left at that.
+/// Number of consecutive passes without less travel, each with new random contacts, after which the
+/// search stops.
 constexpr int kIdlePasses = 4;
 
-/// A path that is shorter by a smaller part of itself is not worth another pass.
+/// Relative reduction below which another pass is not worthwhile.
 constexpr double kLeastGain = 1e-3;
 
 std::optional<GraspPath> SearchSubpath(const GraspPath& path, const Subpath& subpath,
@@ -119,7 +119,7 @@ bool ShortcutOnce(const sampling::SurfaceSampler& source, RandomStream& random, 
   return false;
 }
 
-/// Lets subpaths that cover the path be replaced, each overlapping the one before by half.
+/// Call `replace` for subpaths that cover the path; each overlaps the previous one by half.
 template <typename Replace>
 void ForEachSubpath(GraspPath& path, const Replace& replace) {
   for (int begin = 0; begin < static_cast<int>(path.steps.size());) {
@@ -140,12 +140,13 @@ void MaximiseMarginOn(Subpath subpath, int more_steps, const sampling::SurfaceSa
   FillUp(subpath, kSubpathContacts, source, random, space);
   const auto wider = SearchWidest(part.start, part.end(), subpath.contacts, UseAligns::kYes,
                                   static_cast<int>(part.steps.size()) + more_steps, least, space);
-  // Aligns of the part may have been refused to the search, being more than it takes on.
+  // The search may have refused sliding steps of the part because of its limits.
   if (!wider || RequiredHalfAngleOf(*wider, space) > RequiredHalfAngleOf(part, space)) return;
   ReplaceSubpath(*wider, subpath, path);
 }
 
-/// @returns whether anything was gained.
+/// Replace a subpath by one with less travel.
+/// @returns whether the travel decreased.
 bool MinimiseTravelOn(Subpath subpath, int more_steps, const sampling::SurfaceSampler& source,
                       RandomStream& random, SearchSpace& space, GraspPath& path) {
   const GraspPath part = PartOf(path, subpath);
@@ -241,7 +242,7 @@ class TravelSearch {
       if (masks.empty()) return std::nullopt;
       auto path = graph_.MakePath(masks);
       if (!path) continue;
-      // Over an edge an align's path is longer than the straight one.
+      // Over an edge a sliding step's path is longer than the straight one.
       if (TravelOf(*path, space_) < bound_) return path;
       return std::nullopt;
     }
@@ -250,12 +251,12 @@ class TravelSearch {
  private:
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 
-  /// A path to a grasp, and the one that it goes on from.
+  /// Path to a grasp, given by its last step.
   struct Label {
     double travel;
     int steps;
     Mask mask;
-    int parent;  ///< in `settled_`; -1 for the start
+    int parent;  ///< index in `settled_`; -1 for the start
     bool operator<(const Label& other) const {
       if (travel != other.travel) return travel > other.travel;
       if (steps != other.steps) return steps > other.steps;
@@ -274,7 +275,7 @@ class TravelSearch {
     });
   }
 
-  /// The grasps of the path; none where there is none.
+  /// Return the grasps of the path; empty if there is none.
   std::vector<Mask> Find() {
     fewest_.assign(graph_.mask_count(), std::numeric_limits<int>::max());
     settled_.clear();
@@ -283,7 +284,7 @@ class TravelSearch {
     while (!queue_.empty() && !space_.IsSpent()) {
       const Label label = queue_.top();
       queue_.pop();
-      // What was settled before has travelled less.
+      // Labels settled earlier have travelled less.
       if (fewest_[label.mask] <= label.steps || !graph_.Admits(label.mask)) continue;
       fewest_[label.mask] = label.steps;
       settled_.push_back(label);
@@ -309,7 +310,7 @@ class TravelSearch {
     graph_.ForEachAlign(label.mask, matters, push);
   }
 
-  /// As TravelOf has it.
+  /// Return the travel as TravelOf does.
   [[nodiscard]] double TravelOfSwitch(Mask from, Mask to) const {
     const Mask left = from & ~to;
     if (left == 0) return 0;
@@ -340,8 +341,8 @@ class TravelSearch {
   double bound_;
   std::vector<std::vector<double>> distances_;
   std::vector<double>
-      last_travel_;          ///< by mask: of one step to the goal; kNone where there is none
-  std::vector<int> fewest_;  ///< by mask: steps of the paths settled so far
+      last_travel_;          ///< travel of one step to the goal [mask]; kNone if there is none
+  std::vector<int> fewest_;  ///< number of steps of the paths settled so far [mask]
   std::vector<Label> settled_;
   std::priority_queue<Label> queue_;
 };
@@ -357,16 +358,16 @@ std::optional<GraspPath> SearchLeastTravel(const criteria::ContactSet& from,
 
 namespace {
 
-/// Shares of the criteria that are asked for one after the other.
+/// Number of levels between no criteria and all criteria.
 constexpr int kLevels = 8;
 
-/// Attempts in a row without a gain after which a path is left as it is.
+/// Number of consecutive failed attempts after which the repair stops.
 constexpr int kMostFailures = 30;
 
-/// Steps before and behind the weakest grasp that are replaced.
+/// Largest number of steps before and after the weakest grasp that are replaced.
 constexpr int kMostAround = 3;
 
-/// Steps that the replacement may have more.
+/// Largest number of additional steps of a replacement.
 constexpr int kMoreRepairSteps = 1;
 
 class QualityRepair {
@@ -390,8 +391,9 @@ class QualityRepair {
  private:
   [[nodiscard]] static double ShareOf(int level) { return static_cast<double>(level) / kLevels; }
 
-  /// Of a step: of the grasp that it leads to, if that is not the path's end, and of the align that
-  /// leads there.
+  /// Return the level of a step.
+  /// It is the level of the grasp that the step reaches, unless that is the path's end, and of its
+  /// sliding step.
   int LevelOf(const PathStep& step) {
     const bool is_end = &step == &path_.steps.back();
     int level = kLevels;
@@ -404,7 +406,8 @@ class QualityRepair {
     return level;
   }
 
-  /// The first of the steps of the lowest level, from 1, and that level; -1 where all are good.
+  /// Return the number, from 1, of the first step of the lowest level, and that level.
+  /// The number is -1 if all steps meet the criteria.
   std::pair<int, int> Weakest() {
     std::pair<int, int> weakest = {-1, kLevels};
     for (int number = 1; number <= static_cast<int>(path_.steps.size()); ++number) {

@@ -6,10 +6,10 @@ namespace regrasp::tree {
 
 namespace {
 
-/// The clock is looked at once in about a millisecond.
+/// Number of tests between two readings of the clock, about a millisecond.
 constexpr std::int64_t kTestsBetweenLooks = 500;
 
-/// What rays for a quality cost, in force-closure tests.
+/// Cost of ray shooting for a quality, in force-closure tests.
 constexpr std::int64_t kShotCost = 40;
 
 }  // namespace

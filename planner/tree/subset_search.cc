@@ -9,13 +9,13 @@ namespace regrasp::tree {
 
 namespace {
 
-/// Optimistic aligns that turn out not to hold before a search does without any more of them, and
-/// before it does without those across edges.
+/// Numbers of failed proofs after which a search uses no sliding steps, and no sliding steps across
+/// edges.
 constexpr std::size_t kMostRefusals = 32;
 constexpr int kMostOverRefusals = 8;
 
-/// Contacts that an align takes to other faces, and for each contact so many to choose from, the
-/// nearest ones.
+/// Largest number of contacts that a sliding step moves to other faces, and number of nearest
+/// choices for each.
 constexpr int kMostOver = 2;
 constexpr int kOverChoices = 3;
 
@@ -126,18 +126,18 @@ std::optional<GraspPath> SubsetGraph::MakePath(const std::vector<Mask>& masks) {
 
 namespace {
 
-/// Half-angles that are closer than this count as equal when the least one is looked for, radians.
+/// Accuracy of the bisection of friction angles, radians.
 constexpr double kEqualAngles = 1e-3;
 
 using Mask = SubsetGraph::Mask;
 
-/// A breadth-first search from both ends, by turns from the one with fewer grasps at hand.
+/// Breadth-first search from both ends; each round expands the end with fewer grasps.
 class SubsetSearch {
  public:
   SubsetSearch(SubsetGraph graph, int most_steps)
       : graph_(std::move(graph)), most_steps_(most_steps) {}
 
-  /// At the half-angle that the space has now.
+  /// Search at the current friction angle of the space.
   std::optional<GraspPath> Search() {
     while (const auto middle = Meet()) {
       if (auto path = graph_.MakePath(PathThrough(*middle))) return path;
@@ -149,13 +149,14 @@ class SubsetSearch {
   static constexpr Mask kUnseen = ~Mask{0};
   static constexpr Mask kNoGrasp = kUnseen - 1;
 
-  /// What was reached from one end.
+  /// Grasps reached from one end.
   struct Side {
-    std::vector<Mask> parents;  ///< by mask: where it was reached from, kUnseen or kNoGrasp
-    std::vector<Mask> level;    ///< the grasps reached last
-    std::vector<Mask> next;     ///< what can be reached from those, not tested yet
+    std::vector<Mask> parents;  ///< parent [mask], kUnseen or kNoGrasp
+    std::vector<Mask> level;    ///< grasps reached in the last round
+    std::vector<Mask> next;     ///< grasps reachable from those, not tested yet
   };
 
+  /// Expand the sides until they meet.
   /// @returns a grasp that both sides have reached.
   std::optional<Mask> Meet() {
     for (int i = 0; i < 2; ++i) {
@@ -179,7 +180,7 @@ class SubsetSearch {
     return std::nullopt;
   }
 
-  /// One grasp more between the sides: only what both can reach is tested.
+  /// Find a grasp between the sides; tests only grasps that both can reach.
   std::optional<Mask> MeetBetween(Side& near, Side& far) {
     FindNext(far);
     for (const Mask mask : far.next) {
@@ -249,7 +250,7 @@ std::optional<GraspPath> SearchWidest(const criteria::ContactSet& from,
   std::optional<GraspPath> widest;
   double low = least;
   double high = before;
-  // Most often the ends are the limit.
+  // Usually the ends determine the result.
   for (double middle = low + kEqualAngles; middle < high; middle = (low + high) / 2) {
     space.SetHalfAngle(middle);
     if (auto path = search.Search()) {

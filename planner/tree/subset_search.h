@@ -15,21 +15,23 @@
 
 namespace regrasp::tree {
 
-/// Whether aligns are looked for beside finger switches.
+/// Whether a search uses sliding steps in addition to finger switches.
 enum class UseAligns { kNo, kYes };
 
-/// What is known of every subset is kept in an array of 2¹⁶ numbers at most.
+/// Largest number of contacts of a subset search. Arrays with one element per subset have at most
+/// 2¹⁶ elements.
 inline constexpr int kMostSubsetContacts = 16;
 
-/// The grasps of a few contacts and the steps between them. A hand of h fingers switches from A to
-/// B iff |A ∪ B| ≤ h; aligns are taken to hold until a path that uses them is made, where they are
-/// proved, or refused from then on.
+/// Graph of the grasps of a few contacts and the steps between them.
+/// A hand of h fingers can switch from A to B iff |A ∪ B| ≤ h. Sliding steps are assumed feasible
+/// until a path that uses them is made. They are then proved, or refused from then on.
 class SubsetGraph {
  public:
-  /// Some of the contacts, by bits.
+  /// Subset of the contacts as bits.
   using Mask = std::uint32_t;
 
-  /// @param contacts  those of the ends included, at most kMostSubsetContacts. All outlive this.
+  /// @param contacts  contacts of the grasps, ends included, at most kMostSubsetContacts. All
+  ///     arguments outlive this object.
   SubsetGraph(const criteria::ContactSet& from, const criteria::ContactSet& to,
               const std::vector<int>& contacts, UseAligns aligns, SearchSpace& space);
 
@@ -40,7 +42,7 @@ class SubsetGraph {
   [[nodiscard]] int contact(int i) const { return contacts_[i]; }
   [[nodiscard]] criteria::ContactSet SetOf(Mask mask) const;
 
-  /// Whether a sequence may pass it; the ends are taken as they are.
+  /// Return whether a sequence may contain a grasp; both ends are admitted without a test.
   [[nodiscard]] bool Admits(Mask mask) {
     return mask == ends_[0] || mask == ends_[1] || space_.Admits(SetOf(mask));
   }
@@ -49,8 +51,9 @@ class SubsetGraph {
     return Count(a | b) <= space_.fingers() && AreApart(a | b);
   }
 
-  /// All that one switch leads to, tested or not.
-  /// @param matters  asked first. @param visit  told those that matter.
+  /// Visit all grasps one finger switch away, tested or not.
+  /// @param matters  predicate that selects grasps.
+  /// @param visit  callback for the selected grasps.
   template <typename Matters, typename Visit>
   void ForEachSwitch(Mask mask, const Matters& matters, const Visit& visit) const {
     Place(mask, mask, 0, space_.fingers() - Count(mask), [&](Mask next) {
@@ -58,9 +61,9 @@ class SubsetGraph {
     });
   }
 
-  /// All that one align may lead to, with the straight distance of all contacts together; the same
-  /// more than once where there are several pairings.
-  /// @param matters, visit  also told the distance.
+  /// Visit all grasps one sliding step away, with the total straight distance of all contacts.
+  /// A grasp with several pairings is visited several times.
+  /// @param matters, visit  predicate and callback, which also receive the distance.
   template <typename Matters, typename Visit>
   void ForEachAlign(Mask mask, const Matters& matters, const Visit& visit) {
     if (!aligns_) return;
@@ -71,18 +74,19 @@ class SubsetGraph {
     }
   }
 
-  /// Between two contacts.
+  /// Return the distance between two contacts.
   [[nodiscard]] double Distance(int a, int b) const {
     return (space_.contact(contacts_[a]).p - space_.contact(contacts_[b]).p).norm();
   }
 
-  /// @returns nullopt where an align is not proved; it is then refused at the space's half-angle
-  ///          and below. After some of those there are no more aligns across edges, after many none
-  ///          at all.
+  /// Make the path over a sequence of grasps, and prove its sliding steps.
+  /// @returns the path; nullopt if a sliding step is not proved. That step is then refused at the
+  ///     space's friction angle and below. After some refusals there are no more sliding steps
+  ///     across edges, after many none at all.
   [[nodiscard]] std::optional<GraspPath> MakePath(const std::vector<Mask>& masks);
 
  private:
-  /// Compilers call a function for std::popcount where the processor need not have it.
+  /// Compilers call a function for std::popcount if the target processor may lack the instruction.
   [[nodiscard]] static int Count(Mask mask) {
     int count = 0;
     for (; mask != 0; mask &= mask - 1) ++count;
@@ -91,21 +95,22 @@ class SubsetGraph {
 
   [[nodiscard]] Mask MaskOf(const criteria::ContactSet& set) const;
 
-  /// Whether a grasp of all fingers holds with no finger less. A hand that is full switches to
-  /// nothing but a part of what it holds, and its aligns have no spare finger to be carried out
-  /// with: full grasps are passed only where there is no other path.
+  /// Return whether a grasp of all fingers loses force closure without any one of them.
+  /// A hand without a free finger can only switch to a subset of its contacts, and has no finger
+  /// left to support sliding steps. Full grasps are therefore used only if there is no other path.
   [[nodiscard]] bool NeedsAll(const criteria::ContactSet& set) const;
 
   void FindTargets();
 
-  /// Enough contacts, and a finger to spare unless it `may_be_full`.
+  /// Return whether there are enough contacts and, unless `may_be_full`, a free finger.
   [[nodiscard]] bool CanRest(Mask mask, bool may_be_full) const {
     if (mask == ends_[0] || mask == ends_[1]) return true;
     const int held = Count(mask);
     return held >= space_.fewest_contacts() && (held < space_.fingers() || may_be_full);
   }
 
-  /// All switches from `mask` that place `placed`, and more contacts from the `first` on.
+  /// Visit all switches from `mask` that place `placed` and optionally more contacts from `first`
+  /// on.
   template <typename Reach>
   void Place(Mask mask, Mask placed, int first, int spare, const Reach& reach) const {
     const Mask added = placed & ~mask;
@@ -120,22 +125,22 @@ class SubsetGraph {
     }
   }
 
-  /// Where an align may take a contact.
+  /// Possible end of a contact's motion in a sliding step.
   struct Target {
     int contact;
-    int edges;  ///< 1 where that is on another face
+    int edges;  ///< 1 if it is on another face
     double distance;
   };
-  /// An align that has not been proved.
+  /// Sliding step that has not been proved.
   struct Move {
     Mask to;
-    int over;  ///< contacts that go over an edge
+    int over;  ///< number of contacts that move over an edge
     double distance;
   };
-  /// All grasps with each contact at itself or at another one of its face, or over an edge.
-  /// Enumerated once: searches come back to the same grasps at other half-angles.
+  /// Return all grasps with each contact unchanged, elsewhere on its face, or over an edge.
+  /// Computed once, because searches revisit the same grasps at other friction angles.
   [[nodiscard]] const std::vector<Move>& MovesFrom(Mask mask);
-  /// The same with the contacts from the `first` on, others having been moved.
+  /// Add the moves of the contacts from `first` on, after others have been moved.
   void AddMoves(Mask mask, const Move& moved, int first, std::vector<Move>& moves) const;
 
   [[nodiscard]] bool AreApart(Mask mask) const {
@@ -153,45 +158,47 @@ class SubsetGraph {
   SearchSpace& space_;
   const std::vector<int>& contacts_;
   bool aligns_;
-  int over_;  ///< contacts that an align may take to other faces
+  int over_;  ///< number of contacts that a sliding step may move to other faces
   int over_refusals_ = 0;
-  bool may_stay_full_ = false;  ///< grasps of all fingers may be reached from others, by aligns
-  std::vector<Mask> apart_;     ///< by contact: those that it can't meet
-  std::vector<std::vector<Target>> targets_;  ///< by contact
+  /// Whether sliding steps may connect grasps of all fingers to others.
+  bool may_stay_full_ = false;
+  std::vector<Mask> apart_;  ///< contacts that it cannot be combined with [contact]
+  std::vector<std::vector<Target>> targets_;  ///< possible ends [contact]
   std::unordered_map<Mask, std::vector<Move>> moves_;
   std::array<Mask, 2> ends_;
-  /// The largest half-angle at which an align was not proved.
+  /// Largest friction angle at which a sliding step was not proved.
   std::map<std::pair<Mask, Mask>, double> refused_;
 };
 
-/// Joins two grasps over grasps of a few contacts, with the fewest steps: a breadth-first search
-/// from both ends, by steps of a SubsetGraph, in which a subset is tested when it is first reached.
+/// Find a path over a few contacts with the fewest steps.
+/// Breadth-first search from both ends over the steps of a SubsetGraph. A subset is tested when it
+/// is first reached.
 ///
-/// Laws: none of the sets but the ends needs to be admitted; the fewest steps never grow with more
-/// contacts, more friction or aligns. (With aligns a path found is not always the shortest: those
-/// across edges are given up after some that are not proved.)
-/// @param contacts   those of the ends included, at most kMostSubsetContacts.
-/// @param most_steps the search ends there.
-/// @returns nullopt where there is no path.
+/// Laws: all grasps except the ends are admitted. The fewest steps never increase with more
+/// contacts, more friction or sliding steps. (With sliding steps the path found is not always the
+/// shortest, because those across edges are dropped after several failed proofs.)
+/// @param contacts   contacts of the grasps, ends included, at most kMostSubsetContacts.
+/// @param most_steps largest number of steps.
+/// @returns the path; nullopt if there is none.
 [[nodiscard]] std::optional<GraspPath> SearchSubsets(const criteria::ContactSet& from,
                                                      const criteria::ContactSet& to,
                                                      const std::vector<int>& contacts,
                                                      UseAligns aligns, int most_steps,
                                                      SearchSpace& space);
 
-/// Of the paths of at most `most_steps` steps one that needs the least friction, to a milliradian:
-/// the half-angle at which SearchSubsets finds one is bisected. What is known of a grasp or an
-/// align at one angle spares tests at the others, so that all take little more than the first.
-/// @param least  no path is looked for that needs less than this half-angle, radians.
-/// @returns nullopt where none needs less than the space's half-angle.
+/// Find a path of at most `most_steps` steps that requires the least friction, to a milliradian.
+/// Bisects the friction angle at which SearchSubsets finds a path. Results at one angle save tests
+/// at other angles, so that all searches together take little more time than the first.
+/// @param least  friction angle below which the search stops, radians.
+/// @returns the path; nullopt if none requires less than the space's friction angle.
 [[nodiscard]] std::optional<GraspPath> SearchWidest(const criteria::ContactSet& from,
                                                     const criteria::ContactSet& to,
                                                     const std::vector<int>& contacts,
                                                     UseAligns aligns, int most_steps, double least,
                                                     SearchSpace& space);
 
-/// Over the contacts of the two grasps alone, by switches. With enough friction that joins nearly
-/// all pairs.
+/// Find a path by finger switches over the contacts of the two grasps only.
+/// With enough friction this connects nearly all pairs.
 [[nodiscard]] std::optional<GraspPath> SearchOwnSubsets(const criteria::ContactSet& from,
                                                         const criteria::ContactSet& to,
                                                         SearchSpace& space);

@@ -14,13 +14,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Each moves the points of a route nearer to the shortest path, as it has few crossings.
+/// Number of rounds that move the points of a route towards the shortest path; routes have few
+/// crossings, so few rounds suffice.
 constexpr int kPullRounds = 8;
 
-/// A point this near an edge, over the diameter, is on it: what rounding leaves of the border.
+/// Distance over the diameter at which a point counts as on an edge: the rounding of the border.
 constexpr double kOnEdge = 1e-10;
 
-/// The point of an edge on the shortest path from p to q, which lie on its two sides.
+/// Return the point of an edge on the shortest path from p to q, which are on its two sides.
 Vector3d CrossingPoint(const object::FaceBorder& edge, const Vector3d& p, const Vector3d& q) {
   const double length = (edge.b - edge.a).norm();
   if (!(length > 0)) return edge.a;
@@ -34,14 +35,14 @@ Vector3d CrossingPoint(const object::FaceBorder& edge, const Vector3d& p, const 
   return edge.a + std::clamp(at, kFromCorner * length, (1 - kFromCorner) * length) * along;
 }
 
-/// A face that was reached, and where it was entered.
+/// Reached face, and the point at which it was entered.
 struct Entry {
   FaceIndex face;
   Vector3d at;
-  double length;  ///< of the path to there
+  double length;  ///< length of the path to that point
   int crossings;
-  int parent;               ///< −1 for the first face
-  object::FaceBorder edge;  ///< of the parent, that was crossed
+  int parent;               ///< index of the previous entry; −1 for the first face
+  object::FaceBorder edge;  ///< crossed edge of the parent
 };
 
 class RouteSearch {
@@ -58,7 +59,7 @@ class RouteSearch {
   }
 
  private:
-  /// The entry of the last face; −1 where it was not reached.
+  /// Return the entry of the last face; −1 if it was not reached.
   int FindLast() {
     std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>
         queue;

@@ -6,21 +6,21 @@ namespace regrasp::tree {
 
 namespace {
 
-/// A move is kept if it lowers the required half-angle to this share of what it is above the lowest
-/// of use; smaller gains are not worth a test.
+/// Factor by which a move must reduce the required friction angle above its useful minimum; smaller
+/// gains are not worth a test.
 constexpr double kWorthwhile = 0.98;
 
-/// Moves go up to this share of the diameter at first, farther after one that was kept, less far
-/// after one that was not.
+/// Initial size of moves over the diameter. It grows after a move that was kept, and shrinks after
+/// one that was not.
 constexpr double kFirstReach = 0.3;
 constexpr double kFarther = 1.5;
 constexpr double kNearer = 0.85;
 constexpr double kLeastReach = 1e-3;
 
-/// Halvings with which a lower level is found after a move.
+/// Number of bisection steps for a lower level after a move.
 constexpr int kTransitionHalvings = 4;
 
-/// Where the later grasp needs more than this at the beginning it is left alone, radians.
+/// Largest initial required friction angle of the later grasp, radians.
 constexpr double kHighest = 1.2;
 
 class Descent {
@@ -77,7 +77,7 @@ class Descent {
     return true;
   }
 
-  /// Brings the level down to what the later grasp requires, about.
+  /// Lower the level to approximately the required friction angle of the later grasp.
   void Lower(const grasp::Grasp& held, const grasp::Contact& placed) {
     const grasp::Grasp after = After(held, placed);
     double below = lowest_;
@@ -107,7 +107,8 @@ class Descent {
   grasp::Grasp held_;
   grasp::Contact placed_;
   std::vector<grasp::Grasp> path_;
-  /// There is no use in less; for good grasps there may be.
+  /// Lower bound on the level. Levels below the space's friction angle help only if more than force
+  /// closure is required.
   double lowest_;
   double level_ = 0;
 };

@@ -9,25 +9,25 @@
 
 namespace regrasp::tree {
 
-/// How a grasp gets to a place at which a finger can be switched.
+/// Motion of a grasp to a position at which a finger switch is possible.
 struct Transition {
-  /// Grasps of the first tuple of faces, each a little apart from the one before, all of them
-  /// admitted, and contact by contact in the same order. The first is where the search began.
+  /// Grasps of the first tuple of faces, each slightly different from the previous one, all
+  /// admitted, with contacts in the same order. The first is the start of the search.
   std::vector<grasp::Grasp> path;
-  /// What the last of them is switched to: one of its contacts has left, another one is placed.
+  /// Grasp after the switch from the last of them: one contact is released, another is placed.
   grasp::Grasp after;
 };
 
-/// Looks for a switch of one finger between two tuples of faces, where hardly any grasp of the
-/// first tuple allows one: all contacts, the one that is to be placed included, move together on
-/// their faces at random, and every move that lowers the half-angle that the later grasp requires
-/// is kept, as long as the earlier grasp is admitted, until the later one is admitted too. Where a
-/// quality is asked for, the half-angle is lowered below the space's own as well.
+/// Search for a switch of one finger between two tuples of faces that few grasps allow.
+/// All contacts, including the one to be placed, move together on their faces at random. A move is
+/// kept if it lowers the required friction angle of the later grasp and the earlier grasp stays
+/// admitted, until the later grasp is admitted too. If a quality is required, the angle may
+/// decrease below the space's friction angle.
 ///
-/// @param before   a grasp that the space admits.
-/// @param leaving  the place in it of the contact that leaves.
-/// @param placed   the contact that comes, to begin with.
-/// @returns nullopt where the moves came to nothing: no proof that there is no such switch.
+/// @param before   grasp that the space admits.
+/// @param leaving  index in `before` of the contact that is released.
+/// @param placed   initial position of the contact that is placed.
+/// @returns the transition; nullopt if the search fails, which does not prove that there is none.
 [[nodiscard]] std::optional<Transition> FindTransition(const grasp::Grasp& before, int leaving,
                                                        const grasp::Contact& placed,
                                                        const sampling::SurfaceSampler& source,

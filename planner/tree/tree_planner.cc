@@ -22,7 +22,7 @@ bool SameContact(const grasp::Contact& a, const grasp::Contact& b) {
   return a.face == b.face && a.p == b.p && a.n == b.n;
 }
 
-/// The waypoints of an align, each finger with its own contacts.
+/// Return the waypoints of a sliding step, with each finger at its own contacts.
 std::vector<plan::FingerGrasp> WaypointsFor(const plan::FingerGrasp& holding,
                                             const FaceAlign& align, const SearchSpace& space) {
   const std::vector<grasp::Grasp> grasps = WaypointsOf(align, space);
@@ -52,7 +52,9 @@ void AddAlign(const std::vector<plan::FingerGrasp>& waypoints,
   candidate.rests.push_back({after, std::nullopt});
 }
 
-/// Of each contact of `from` that is not in `to`: from there to the nearest one that is new.
+/// Return the travel of a finger switch.
+/// It is the sum, over the contacts of `from` that are not in `to`, of the distance to the nearest
+/// new contact.
 double TravelOfSwitch(const criteria::ContactSet& from, const criteria::ContactSet& to,
                       const SearchSpace& space) {
   double travel = 0;
@@ -105,19 +107,21 @@ namespace {
 
 using Status = planning::PlanResult::Status;
 
-/// Where the first sequence can't be repaired to meet the criteria, others are looked for whose
-/// grasps meet these shares of them from the beginning, each with this part of the effort.
+/// Shares of the criteria for further searches if the repair of the first sequence fails. Their
+/// grasps meet the share from the beginning. Each search has this part of the search budget.
 constexpr std::array kShares = {0.6, 1.0};
 constexpr int kShareEffortShare = 4;
 
-/// Bisections of the friction at which a sequence is found, and the largest that is tried, radians.
+/// Number of bisection steps for the friction angle at which a sequence is found, and the largest
+/// such angle, radians.
 constexpr int kExplainSteps = 8;
 const double kLargestExplained = Radians(85);
 
-/// The effort of one search of --explain over that of the search that found nothing.
+/// Divisor of the search budget for each search of --explain, relative to the search that found
+/// nothing.
 constexpr int kExplainEffortShare = 4;
 
-/// The planning of one sequence: what its stages share.
+/// State of the planning of one sequence, shared by its stages.
 class TreeSearch {
  public:
   explicit TreeSearch(const planning::PlanRequest& request)
@@ -136,7 +140,7 @@ class TreeSearch {
         MakeSpace(half_angle_, 0, effort_, "growing trees of grasps from start and goal");
     const auto found = Search(from, to, wide);
     if (!found) return NoSequence(from, to);
-    // The contacts of the path alone: the search may have come across thousands.
+    // Only the contacts of the path, because the search may have added thousands.
     SearchSpace space = MakeSpace(half_angle_, 1, effort_, "shortening and widening the sequence");
     GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
     std::vector<std::string> notes = Improve(path, from, space);
@@ -147,7 +151,7 @@ class TreeSearch {
   }
 
  private:
-  /// What a search that found nothing came to.
+  /// Extent of a search that found nothing.
   struct Reach {
     std::array<int, 2> grasps{};
     std::array<int, 2> tuples{};
@@ -155,8 +159,9 @@ class TreeSearch {
     bool out_of_time = false;
   };
 
-  /// @param share  of the criteria that is asked for.
-  /// @param what   is done in it, for people.
+  /// Make a search space.
+  /// @param share  required share of the criteria.
+  /// @param what   name of the activity for progress messages.
   SearchSpace MakeSpace(double half_angle, double share, std::int64_t effort,
                         const std::string& what) const {
     criteria::GraspCriteria criteria = request_.criteria;
@@ -169,7 +174,7 @@ class TreeSearch {
     return space;
   }
 
-  /// The path of the first stage that finds one.
+  /// Return the path of the first stage that finds one.
   std::optional<GraspPath> Search(const grasp::Grasp& from, const grasp::Grasp& to,
                                   SearchSpace& space) {
     const criteria::ContactSet start = space.Add(from);
@@ -189,21 +194,22 @@ class TreeSearch {
     return path;
   }
 
-  /// The path, or one whose grasps all meet the criteria; where none is found, one whose weakest
-  /// grasp is as good as could be reached, and no more is then asked for.
+  /// Return the path, or another whose grasps all meet the criteria.
+  /// If none is found, the result is the path with the best weakest grasp, and the requirements are
+  /// reduced to what it meets.
   GraspPath MakeGood(GraspPath path, const grasp::Grasp& from, const grasp::Grasp& to,
                      SearchSpace& space) {
     if (AreAdmitted(path, space)) return path;
     if (auto own = SearchOwnSubsets(path.start, path.end(), space)) return *std::move(own);
     const std::string asked = criteria::WithWhatIsAsked(request_.criteria);
-    request_.progress("looking for grasps" + asked);
+    request_.progress("searching for grasps" + asked);
     double best = Repair(path, space);
     for (const double share : kShares) {
       if (best == 1) return path;
-      SearchSpace wide =
-          MakeSpace(half_angle_, share, effort_ / kShareEffortShare, "looking for grasps" + asked);
+      SearchSpace wide = MakeSpace(half_angle_, share, effort_ / kShareEffortShare,
+                                   "searching for grasps" + asked);
       const auto found = Search(from, to, wide);
-      // What is not found with less asked for is not going to be found with more.
+      // A search that fails with lower requirements also fails with higher ones.
       if (!found) break;
       GraspPath other = Renumber(*found, wide, space);
       if (AreAdmitted(other, space)) return other;
@@ -216,7 +222,8 @@ class TreeSearch {
     return path;
   }
 
-  /// @returns the share of the criteria that all grasps of the path meet then.
+  /// Repair the weakest grasps of a path.
+  /// @returns the share of the criteria that all grasps of the result meet.
   double Repair(GraspPath& path, SearchSpace& space) {
     space.SetShare(0);
     path = ShortcutPath(std::move(path), source_, random_, space);
@@ -225,7 +232,7 @@ class TreeSearch {
     return RepairQuality(source_, random_, space, path);
   }
 
-  /// Whether the space admits what lies between the ends.
+  /// Return whether the space admits all grasps and sliding steps between the ends.
   [[nodiscard]] static bool AreAdmitted(const GraspPath& path, SearchSpace& space) {
     return std::all_of(path.steps.begin(), path.steps.end(), [&](const PathStep& step) {
       return (step.to == path.end() || space.Admits(step.to)) &&
@@ -233,7 +240,8 @@ class TreeSearch {
     });
   }
 
-  /// @returns what was gained of what was asked for.
+  /// Shorten the path and improve the objective.
+  /// @returns notes on the improvement.
   std::vector<std::string> Improve(GraspPath& path, const grasp::Grasp& from, SearchSpace& space) {
     const std::string before = Achieved(path, from, space);
     path = ShortcutPath(std::move(path), source_, random_, space);
@@ -244,25 +252,27 @@ class TreeSearch {
       path = MaximiseMargin(std::move(path), more, source_, random_, space);
     }
     if (before.empty()) return {};
-    return {"the first sequence had " + before + ", this one has " + Achieved(path, from, space)};
+    return {"the first sequence has " + before + ", the improved one " +
+            Achieved(path, from, space)};
   }
 
-  /// What the objective counts, aligns included; empty where that is the steps, which one sees.
+  /// Describe the value of the objective, including sliding steps.
+  /// Empty for the number of steps, which is obvious from the plan.
   [[nodiscard]] std::string Achieved(const GraspPath& path, const grasp::Grasp& from,
                                      const SearchSpace& space) const {
     switch (request_.objective) {
       case planning::Objective::kTravel:
-        return "a travel of all fingers together of " +
+        return "a total finger travel of " +
                FormatShort(TravelOf(path, space) / object_.diameter()) + " diameters";
       case planning::Objective::kMargin:
-        return "a margin of " + FormatFixed(Degrees(half_angle_ - Needed(path, from, space)), 2) +
-               "°";
+        return "a friction margin of " +
+               FormatFixed(Degrees(half_angle_ - Needed(path, from, space)), 2) + "°";
       default:
         return "";
     }
   }
 
-  /// The half-angle that the analytic check finds a sequence to need, radians.
+  /// Return the required friction angle of a sequence by the analytic check, radians.
   [[nodiscard]] double Needed(const GraspPath& path, const grasp::Grasp& from,
                               const SearchSpace& space) const {
     planning::CandidateSequence candidate = MakeCandidate(path, from, space);
@@ -286,36 +296,40 @@ class TreeSearch {
       return std::to_string(reach_.grasps[side]) + " grasps on " +
              std::to_string(reach_.tuples[side]) + " tuples of faces";
     };
-    result.message = std::string("no sequence was found by the planner general (failure is not ") +
-                     "a proof of infeasibility): " + reached(0) + " were reached from the start, " +
-                     reached(1) + " from the goal, in " + std::to_string(reach_.tests) + " tests" +
-                     (reach_.out_of_time ? ", when the time was up" : "");
+    result.message = "planner general explored " + reached(0) + " from the start and " +
+                     reached(1) + " from the goal in " + std::to_string(reach_.tests) + " tests" +
+                     (reach_.out_of_time ? "; time limit reached" : "") +
+                     "; this does not prove that there is no sequence" +
+                     (request_.explain ? ""
+                                       : "; help: --explain searches for the smallest friction "
+                                         "that is sufficient");
     if (request_.explain) result.message += Explain(from, to);
     return result;
   }
 
-  /// The smallest half-angle at which a sequence is found.
+  /// Report the smallest friction angle at which a sequence is found.
   std::string Explain(const grasp::Grasp& from, const grasp::Grasp& to) {
     double none = half_angle_;
     double some = kLargestExplained;
     const auto finds = [&](double half_angle) {
       SearchSpace space =
           MakeSpace(half_angle, 0, effort_ / kExplainEffortShare,
-                    "looking for a sequence at " + FormatShort(Degrees(half_angle)) + "°");
+                    "searching for a sequence at " + FormatShort(Degrees(half_angle)) + "°");
       return Search(from, to, space).has_value();
     };
-    if (!finds(some)) return "; nor was one at " + FormatShort(Degrees(some)) + "°";
+    if (!finds(some))
+      return "; none found at a friction angle of " + FormatShort(Degrees(some)) + "° either";
     for (int i = 0; i < kExplainSteps; ++i) {
       const double middle = (none + some) / 2;
       (finds(middle) ? some : none) = middle;
     }
-    return "; one was found at " + FormatShort(Degrees(some)) +
-           "°, an upper bound by search of the friction that is needed";
+    return "; a sequence is found at a friction angle of " + FormatShort(Degrees(some)) +
+           "°, an upper bound on the required one";
   }
 
   const planning::PlanRequest& request_;
   const object::Object& object_;
-  double half_angle_;  ///< of the request's criteria
+  double half_angle_;  ///< friction angle of the request's criteria
   std::int64_t effort_;
   criteria::GraspEvaluator evaluator_;
   sampling::SurfaceSampler source_;

@@ -7,34 +7,37 @@
 
 namespace regrasp::tree {
 
-/// What the hand does along a path: fingers 0, 1, … take the contacts of `start` in its order;
-/// aligns that follow each other are one step.
-/// @param start  the contacts of the path's start.
+/// Return the candidate sequence of a path.
+/// Fingers 0, 1, … have the contacts of `start` in its order. Consecutive sliding steps are one
+/// step.
+/// @param start  contacts of the path's start.
 [[nodiscard]] planning::CandidateSequence MakeCandidate(const GraspPath& path,
                                                         const grasp::Grasp& start,
                                                         const SearchSpace& space);
 
-/// The travel of all fingers together: along the surface in an align, straight from where one
-/// leaves to where one comes in a switch.
+/// Return the total travel of all fingers.
+/// In a sliding step it is measured along the surface. In a finger switch it is the straight
+/// distance from the released to the placed contact.
 [[nodiscard]] double TravelOf(const GraspPath& path, const SearchSpace& space);
 
-/// The planner `general`: joins any two force-closure grasps that the hand can hold, on any body,
-/// in space (three to five contacts, of soft fingers from two on, a hand of five fingers) and in
-/// the plane (two to four contacts, four fingers), with switches and aligns.
+/// Planner `general`: connects any two force-closure grasps that the hand can hold, on any object.
+/// It uses finger switches and sliding steps. In space, grasps have three to five contacts, with
+/// soft fingers also two, and the hand has five fingers by default. In the plane, grasps have two
+/// to four contacts, and the default is four fingers.
 ///
-/// First the grasps of the two grasps' own contacts; then a tree from each, grown by switches with
-/// contacts of the whole surface and by aligns, until they meet (BidirectionalTree). The sequence
-/// is then shortened, and made better in what the objective asks for. Every align is proved to keep
-/// force closure.
+/// It first searches the grasps of the contacts of start and goal. Then it grows a tree from each,
+/// by switches with contacts of the whole surface and by sliding steps, until they meet
+/// (BidirectionalTree). Finally it shortens the sequence and improves the objective. Every sliding
+/// step is proved to keep force closure.
 ///
-/// Failure is not a proof of infeasibility: the message says what was reached.
+/// Failure is not a proof of infeasibility; the message reports the extent of the search.
 class TreePlanner final : public planning::Planner {
  public:
   TreePlanner();
   [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override;
 
-  /// Force-closure tests after which a search gives up where PlanRequest::effort leaves it open;
-  /// about two microseconds each.
+  /// Default of PlanRequest::effort: number of force-closure tests of a search, about two
+  /// microseconds each.
   static constexpr std::int64_t kDefaultEffort = 1'000'000;
 };
 

@@ -1,8 +1,13 @@
 """Plan regrasps and validate them: grasps, plans and reports as Python objects.
 
-A hand holds an object by its fingertips and changes its grasp without letting go. `plan` finds the
-sequence, `validate` checks it and replays it in a physics engine, and `force_closure` evaluates one
-or many grasps.
+A hand holds an object with its fingertips and changes its grasp without letting go. `plan` finds
+the sequence of steps, `validate` checks it and replays it in a physics engine, and `force_closure`
+evaluates one grasp or a million.
+
+Lengths are in the object's unit; `Object.scale` is its size in metres. Angles are in degrees, and
+their names end in `_deg`. Errors are exceptions with the one-line text that the programs print.
+`InputError` (a `ValueError`) is raised for an invalid file or argument, `NoPlan` if no plan is
+found, and `OSError` if the machine fails.
 
 >>> import regrasp
 >>> cube = regrasp.Object.read("models/cube.obj")
@@ -13,13 +18,6 @@ or many grasps.
 >>> report = regrasp.validate(cube, plan)
 >>> report.passed
 True
-
-Lengths are in the object's own unit; `scale` is the number of metres per unit. Angles are in
-degrees, as in files and on the command line, and their names end in `_deg`.
-
-Errors are exceptions whose text is the one-line message of the programs: `InputError` (a
-`ValueError`) for an invalid file or argument, `NoPlan` if no sequence is found, `OSError` if the
-machine fails.
 """
 
 from ._regrasp import InputError

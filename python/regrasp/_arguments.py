@@ -37,7 +37,7 @@ def finite(name: str, array: np.ndarray) -> np.ndarray:
     """Return the array if all its values are finite."""
     if not np.isfinite(array).all():
         place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-        raise InputError(f"{name}{list(place)}: {array[place]} is not finite")
+        raise InputError(f"{name}{list(place)} must be finite, found {array[place]}")
     return array
 
 
@@ -45,9 +45,9 @@ def flags(name: str, value, shape: tuple[int, ...]) -> np.ndarray:
     """Return a bool array of the given shape."""
     array = _array(name, value, str(shape))
     if array.dtype != bool:
-        raise InputError(f"{name}: truth values are needed, found an array of {array.dtype}")
+        raise InputError(f"{name} must be an array of bool, found an array of {array.dtype}")
     if array.shape != shape:
-        raise InputError(f"{name}: the shape is {shape}, found {array.shape}")
+        raise InputError(f"{name} must have shape {shape}, found {array.shape}")
     return array
 
 
@@ -55,9 +55,9 @@ def numbers_or_nan(name: str, value, shapes: str, dimensions: tuple[int, ...]) -
     """Return float64 values as `numbers` does, but allow values that are not finite."""
     array = _array(name, value, shapes)
     if array.dtype.kind not in "fiu":
-        raise InputError(f"{name}: numbers are needed, found an array of {array.dtype}")
+        raise InputError(f"{name} must be an array of numbers, found an array of {array.dtype}")
     if array.ndim not in dimensions:
-        raise InputError(f"{name}: the shape is {shapes}, found {array.shape}")
+        raise InputError(f"{name} must have shape {shapes}, found {array.shape}")
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
@@ -65,9 +65,9 @@ def indices(name: str, value, shapes: str, dimensions: tuple[int, ...]) -> np.nd
     """Return int64 values; parameters as for `numbers`."""
     array = _array(name, value, shapes)
     if array.ndim not in dimensions:
-        raise InputError(f"{name}: the shape is {shapes}, found {array.shape}")
+        raise InputError(f"{name} must have shape {shapes}, found {array.shape}")
     if array.dtype.kind not in "iu":
-        raise InputError(f"{name}: integers are needed, found an array of {array.dtype}")
+        raise InputError(f"{name} must be an array of integers, found an array of {array.dtype}")
     return np.ascontiguousarray(array, dtype=np.int64)
 
 
@@ -97,7 +97,7 @@ def unmasked(name: str, value) -> None:
             place = [int(i) for i in np.argwhere(mask)[0]] if mask.ndim else ""
             count = int(mask.sum())
             more = f" and {count - 1} more" if count > 1 else ""
-            raise InputError(f"{name}{place}: is masked{more}, expected numbers without a mask; "
+            raise InputError(f"{name}{place} must not be masked, found a masked value{more}; "
                              "help: leave masked values out, or fill them")
         if isinstance(part, (list, tuple)) and depth < _MOST_AXES and id(part) not in seen:
             seen.add(id(part))
@@ -113,7 +113,7 @@ def _array(name: str, value, shapes: str) -> np.ndarray:
     try:
         return np.asarray(value)
     except ValueError as error:
-        raise InputError(f"{name}: no array of shape {shapes}: {error}") from None
+        raise InputError(f"{name} must be an array of shape {shapes}: {error}") from None
 
 
 def number(name: str, value, lower: float, upper: float = math.inf, *, zero: bool = False) -> float:
@@ -124,12 +124,12 @@ def number(name: str, value, lower: float, upper: float = math.inf, *, zero: boo
             raise TypeError
         result = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name}: a number is needed, found {shown(value)}") from None
+        raise InputError(f"{name} must be a number, found {shown(value)}") from None
     if zero and result == 0:
         return 0
     if not (lower < result < upper):
         limits = f"above {lower:g}" if upper == math.inf else f"between {lower:g} and {upper:g}"
-        raise InputError(f"{name}: {limits}, found {result!r}")
+        raise InputError(f"{name} must be {limits}, found {result!r}")
     return result
 
 
@@ -139,9 +139,9 @@ def integer(name: str, value, lower: int, upper: int) -> int:
     try:
         result = operator.index(value)
     except TypeError:
-        raise InputError(f"{name}: an integer is needed, found {shown(value)}") from None
+        raise InputError(f"{name} must be an integer, found {shown(value)}") from None
     if not lower <= result <= upper:
-        raise InputError(f"{name}: from {lower} to {upper}, found {result}")
+        raise InputError(f"{name} must be from {lower} to {upper}, found {result}")
     return result
 
 
@@ -152,30 +152,30 @@ def choice(name: str, value: str, words) -> str:
         return value
     near = difflib.get_close_matches(value, words, 1) if isinstance(value, str) else []
     hint = f"; did you mean {near[0]!r}?" if near else ""
-    raise InputError(f"{name}: {shown(value)} is none of {', '.join(map(repr, words))}{hint}")
+    raise InputError(f"{name} must be one of {', '.join(map(repr, words))}, found {shown(value)}{hint}")
 
 
 def flag(name: str, value) -> bool:
     """Return a bool."""
     if isinstance(value, (bool, np.bool_)):
         return bool(value)
-    raise InputError(f"{name}: True or False is needed, found {shown(value)}")
+    raise InputError(f"{name} must be True or False, found {shown(value)}")
 
 
 def text(name: str, value) -> str:
     """Return a str."""
     if isinstance(value, str):
         return value
-    raise InputError(f"{name}: a text is needed, found {shown(value)}")
+    raise InputError(f"{name} must be a str, found {shown(value)}")
 
 
 def path(name: str, value) -> str:
     """Return a file system path as a str."""
     if not isinstance(value, (str, bytes, os.PathLike)):
-        raise InputError(f"{name}: a path is needed, found {shown(value)}")
+        raise InputError(f"{name} must be a path, found {shown(value)}")
     result = os.fsdecode(value)
     if not result or "\0" in result:
-        raise InputError(f"{name}: a path is needed, found {shown(result)}")
+        raise InputError(f"{name} must be a path, found {shown(result)}")
     return result
 
 
@@ -183,7 +183,7 @@ def callback(name: str, value):
     """Return a function or None."""
     if value is None or callable(value):
         return value
-    raise InputError(f"{name}: a function is needed, found {shown(value)}")
+    raise InputError(f"{name} must be callable or None, found {shown(value)}")
 
 
 def of_type(name: str, value, kind: type, hint: str = ""):
@@ -191,7 +191,7 @@ def of_type(name: str, value, kind: type, hint: str = ""):
     if isinstance(value, kind):
         return value
     article = "an" if kind.__name__[0] in "AEIOU" else "a"
-    raise InputError(f"{name}: {article} {kind.__name__} is needed, found "
+    raise InputError(f"{name} must be {article} {kind.__name__}, found "
                      f"{type(value).__name__}{hint}")
 
 
@@ -199,21 +199,21 @@ def vector(name: str, value, length: int) -> np.ndarray:
     """Return `length` finite numbers, shape (length,)."""
     vector = numbers(name, value, f"({length},)", (1,))
     if len(vector) != length:
-        raise InputError(f"{name}: {length} numbers are needed, found {len(vector)}")
+        raise InputError(f"{name} must have {length} numbers, found {len(vector)}")
     return vector
 
 
 def mapping(name: str, value) -> dict:
     """Return a dictionary."""
     if not isinstance(value, dict):
-        raise InputError(f"{name}: a mapping is needed, found {type(value).__name__}")
+        raise InputError(f"{name} must be a mapping, found {type(value).__name__}")
     return value
 
 
 def member(name: str, mapping: dict, key: str):
     """Return the value of a key of a dictionary."""
     if key not in mapping:
-        raise InputError(f"{name}: no {key}")
+        raise InputError(f"{name}: {key} not found")
     return mapping[key]
 
 
@@ -239,32 +239,32 @@ def bounded(name: str, value):
         else:
             return 1
         if depth > _DEEPEST:
-            raise InputError(f"{name}: nested deeper than {_DEEPEST} levels")
+            raise InputError(f"{name} must not be nested deeper than {_DEEPEST} levels")
         if id(part) not in known:
             known[id(part)] = 1 + sum(count(inner, depth + 1) for inner in parts)
         return known[id(part)]
 
     if count(value, 0) > _MOST_VALUES:
-        raise InputError(f"{name}: more than {_MOST_VALUES} values, what is referred to counted in "
-                         "each place")
+        raise InputError(f"{name} must not have more than {_MOST_VALUES} values, counting a shared "
+                         "value at each place")
     return value
 
 
 def texts(name: str, values) -> list[str]:
     """Return a list of str."""
     if not isinstance(values, (list, tuple)) or not all(isinstance(v, str) for v in values):
-        raise InputError(f"{name}: a list of texts is needed, found {shown(values)}")
+        raise InputError(f"{name} must be a list of str, found {shown(values)}")
     return list(values)
 
 
 def half_angle(mu: float | None, friction_angle_deg: float | None) -> float | None:
     """Return the friction angle in radians; None if neither argument is given."""
     if mu is not None and friction_angle_deg is not None:
-        raise InputError("mu and friction_angle_deg: give one of them")
+        raise InputError("mu cannot be used with friction_angle_deg")
     if mu is not None:
         mu = number("mu", mu, 0)
         if mu > 1e15:  # rounds to a right angle
-            raise InputError(f"mu: at most 1e15, found {mu:g}")
+            raise InputError(f"mu must be at most 1e15, found {mu:g}")
         return math.atan(mu)
     if friction_angle_deg is not None:
         # Same rounding as Radians() of the programs.
@@ -276,5 +276,5 @@ def needed_half_angle(mu: float | None, friction_angle_deg: float | None) -> flo
     """Return the friction angle in radians; one of the arguments is required."""
     angle = half_angle(mu, friction_angle_deg)
     if angle is None:
-        raise InputError("mu: friction is needed; give mu or friction_angle_deg")
+        raise InputError("mu or friction_angle_deg is required")
     return angle

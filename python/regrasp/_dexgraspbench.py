@@ -59,7 +59,7 @@ def read_bodex(path: str | os.PathLike, *, object_pose: ArrayLike | None = None)
     shape = "(1, N, stages, 7 + J)"
     stages = _arguments.numbers(where, member(name, data, "robot_pose"), shape, (4,))
     if stages.shape[0] != 1 or stages.shape[2] < 2:
-        raise InputError(f"{where}: the shape is {shape} with two stages or more, "
+        raise InputError(f"{where} must have shape {shape} with at least two stages, "
                          f"found {stages.shape}")
     grasps = _grasps(name, data, "robot_pose", stages[0, :, 1], object_pose)
     grasps.lost.append("all stages of robot_pose but the second")
@@ -78,7 +78,7 @@ def _scene_object(name: str, data: dict) -> dict | None:
     elif len(scene) == 1:
         key = next(iter(scene))
     else:
-        raise InputError(f"{where}: no interest_obj_name, expected it for {len(scene)} objects")
+        raise InputError(f"{where}: interest_obj_name not found, required for {len(scene)} objects")
     return _arguments.mapping(f"{where}: scene: {key}", member(f"{where}: scene", scene, key))
 
 
@@ -99,7 +99,7 @@ def _scale(where: str, value) -> float:
     """Return the uniform scale. Some versions of BODex and Dexonomy store it per axis."""
     scale = _arguments.numbers(where, value, "(), (1,) or (3,)", (0, 1)).ravel()
     if len(scale) == 0 or (scale != scale[0]).any():
-        raise InputError(f"{where}: one scale is needed, found {_arguments.shown(scale.tolist())}")
+        raise InputError(f"{where} must be one scale, found {_arguments.shown(scale.tolist())}")
     return _arguments.number(where, scale[0], 0)
 
 
@@ -109,7 +109,7 @@ def _joint_names(name: str, data: dict, count: int) -> list[str]:
         names = names.tolist()
     names = _arguments.texts(f"{name}: joint_names", names)
     if names and len(names) != count:
-        raise InputError(f"{name}: joint_names: {len(names)} for {count} joints")
+        raise InputError(f"{name}: joint_names must have {count} names, one per joint, found {len(names)}")
     return names
 
 
@@ -117,7 +117,7 @@ def _grasps(name: str, data: dict, key: str, qpos: np.ndarray,
             object_pose: ArrayLike | None) -> HandGrasps:
     """Return grasps from palms and joints (N, 7 + J) and the object's pose in the world frame."""
     if qpos.shape[1] < 8:
-        raise InputError(f"{name}: {key}: a pose of 7 and joints are needed, found {qpos.shape}")
+        raise InputError(f"{name}: {key} must have 7 numbers for the pose and one per joint, found shape {qpos.shape}")
     scene = _scene_object(name, data)
     pose = _object_pose(name, data, scene, object_pose)
     joint_names = _joint_names(name, data, qpos.shape[1] - 7)

@@ -32,10 +32,10 @@ def read_dexgraspnet(path: str | os.PathLike) -> HandGrasps:
     name = path = _arguments.path("path", path)
     entries = _dict_file.read_content(path)
     if isinstance(entries, dict):
-        raise InputError(f"{name}: must be a list of dictionaries, as DexGraspNet writes it, found one "
+        raise InputError(f"{name} must be a list of dictionaries, as DexGraspNet writes it, found one "
                          "dictionary")
     if not entries:
-        raise InputError(f"{name}: must hold a grasp or more, found none")
+        raise InputError(f"{name} must have at least one grasp, found none")
     joint_names: list[str] = []
     rows, scales, lost = [], [], set()
     for i, entry in enumerate(entries):
@@ -59,7 +59,7 @@ def _number(where: str, value) -> float:
     """Return a finite number, which may be an array with one element."""
     array = _arguments.numbers(where, value, "()", (0, 1)).ravel()
     if len(array) != 1:
-        raise InputError(f"{where}: must be a number, found {len(array)} of them")
+        raise InputError(f"{where} must be a number, found {len(array)} numbers")
     return float(array[0])
 
 
@@ -68,7 +68,7 @@ def _row(where: str, qpos: dict, joint_names: list[str]) -> list[float]:
     keys = [*_POSITION, *_ANGLES, *joint_names]
     other = sorted(map(str, set(qpos) - set(keys)))
     if other:
-        raise InputError(f"{where}: {_arguments.shown(other[0])}: must be a joint of the first grasp")
+        raise InputError(f"{where}: {_arguments.shown(other[0])} must be a joint of the first grasp")
     return [_number(f"{where}: {key}", member(where, qpos, key)) for key in keys]
 
 

@@ -19,7 +19,7 @@ class _Array:
 def _reconstruct(kind, shape, dtype):
     """Return an array without content, as NumPy pickles it."""
     if kind is not _Array or shape != (0,):
-        raise InputError("it holds an array that NumPy did not write")
+        raise InputError("contains an array that NumPy did not write")
     return np.core.multiarray._reconstruct(np.ndarray, shape, dtype)
 
 
@@ -45,16 +45,16 @@ class _ArraysOnly(pickle.Unpickler):
         try:
             return _ARRAY_PARTS[module, name]
         except KeyError:
-            raise InputError(f"it holds {module}.{name}; only dictionaries, lists, texts, numbers "
-                             "and arrays are read") from None
+            raise InputError(f"contains {module}.{name}, expected only dict, list, str, numbers "
+                             "and arrays") from None
 
 
 def _unpickle(file):
     begin = file.tell()
     for operation, _, _ in pickletools.genops(file):
         if operation.name in _NOT_DATA:
-            raise InputError(f"it holds {operation.name}; only dictionaries, lists, texts, numbers "
-                             "and arrays are read")
+            raise InputError(f"contains {operation.name}, expected only dict, list, str, numbers "
+                             "and arrays")
     file.seek(begin)
     return _ArraysOnly(file).load()
 
@@ -111,7 +111,7 @@ def read_content(path) -> dict | list[dict]:
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
     except Exception as error:  # caused by truncated or forged pickles
-        raise InputError(f"{path}: not a dictionary of NumPy: {error}".replace("\n", " ")) from None
+        raise InputError(f"{path}: not a NumPy dictionary file: {error}".replace("\n", " ")) from None
     several = isinstance(found, list) or (
         isinstance(found, np.ndarray) and found.dtype == object and found.ndim == 1)
     entries = list(found) if several else [found]
@@ -120,9 +120,9 @@ def read_content(path) -> dict | list[dict]:
         if not isinstance(entry, dict):
             what = (f"an array of {entry.dtype}" if isinstance(entry, np.ndarray)
                     else type(entry).__name__)
-            raise InputError(f"{at}: a dictionary is needed, found {what}")
+            raise InputError(f"{at} must be a dictionary, found {what}")
         if not all(isinstance(key, str) for key in entry):
-            raise InputError(f"{at}: keys of the dictionary are to be texts")
+            raise InputError(f"{at}: keys of the dictionary must be str")
     _arguments.bounded(path, entries)
     return entries if several else found
 
@@ -135,6 +135,6 @@ def read_dict(path) -> dict:
     """
     found = read_content(path)
     if isinstance(found, list):
-        raise InputError(f"{path}: a dictionary is needed, found a list of {len(found)}, as "
-                         "DexGraspNet writes them; help: use read_dexgraspnet")
+        raise InputError(f"{path} must be a dictionary, found a list of {len(found)}, as "
+                         "DexGraspNet writes it; help: use read_dexgraspnet")
     return found

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import _arguments, _html, _npz
+from . import _arguments, _deprecated, _html, _npz
 from ._regrasp import InputError
 from .objects import Object
 from .plans import Plan
@@ -41,27 +41,33 @@ class FingerGrasps:
         for name in ("points", "normals"):
             array = _arguments.numbers_or_nan(name, getattr(self, name), "(N, F, 3)", (3,))
             if array.shape[0] != len(self.names) or array.shape[2] != 3 or array.shape[1] < 1:
-                raise InputError(f"{name}: the shape is ({len(self.names)}, F, 3) for "
+                raise InputError(f"{name} must have shape ({len(self.names)}, F, 3) for "
                                  f"{len(self.names)} names, found {array.shape}")
             setattr(self, name, array)
         if self.normals.shape != self.points.shape:
-            raise InputError(f"normals: the shape is that of points, {self.points.shape}, "
+            raise InputError(f"normals must have the shape of points, {self.points.shape}, "
                              f"found {self.normals.shape}")
 
     def __len__(self) -> int:
         return len(self.names)
 
     def _repr_html_(self) -> str:
-        held = [", ".join(map(str, np.flatnonzero(row))) for row in self.holds[:_ROWS]]
+        held = [", ".join(map(str, np.flatnonzero(row))) for row in self.active[:_ROWS]]
         more = f"{len(self)} grasps" + (f", the first {_ROWS}" if len(self) > _ROWS else "")
-        lost = f"; not carried over: {', '.join(self.lost)}" if self.lost else ""
+        lost = f"; not converted: {', '.join(self.lost)}" if self.lost else ""
         return _html.text(more + lost) + _html.table(["grasp", "fingers"],
                                                      [list(row) for row in zip(self.names, held)])
 
     @property
-    def holds(self) -> np.ndarray:
+    def active(self) -> np.ndarray:
         """Contact mask (N, F): True for a finger in contact."""
         return ~np.isnan(self.points).any(axis=-1)
+
+    @property
+    def holds(self) -> np.ndarray:
+        """Deprecated name of `active`."""
+        _deprecated.renamed("FingerGrasps.holds", "active")
+        return self.active
 
     def on(self, object: Object, *, tolerance: float = 0.002) -> FingerGrasps:
         """Return the grasps projected onto the object's surface: nearest points with the surface's
@@ -76,31 +82,31 @@ class FingerGrasps:
                 surface.
         """
         if _arguments.of_type("object", object, Object).dimension != 3:
-            raise InputError(f"object: {object.name} is a polygon; these are grasps of solids")
+            raise InputError(f"object must be a solid, found the polygon {object.name}")
         tolerance = _arguments.number("tolerance", tolerance, 0)
-        holds = self.holds
+        active = self.active
         points, normals = self.points.copy(), self.normals.copy()
-        points[holds], normals[holds] = object.nearest(self.points[holds])
+        points[active], normals[active] = object.nearest(self.points[active])
         off = np.linalg.norm(points - self.points, axis=-1) * object.scale
         self._check("points", off > tolerance, lambda at:
-                    f"{1000 * off[at]:.3g} mm off {object.name}, {1000 * tolerance:g} mm are allowed")
+                    f"{1000 * off[at]:.3g} mm from the surface of {object.name}, expected at most {1000 * tolerance:g} mm")
         self._check("normals", np.einsum("nfi,nfi->nf", normals, self.normals) < 0, lambda at:
-                    f"out of {object.name}, where its surface is nearest")
+                    f"points out of {object.name}, expected a normal into the object")
         return FingerGrasps(points, normals, self.names, self.lost)
 
     def _check(self, name: str, wrong: np.ndarray, what) -> None:
         places = np.argwhere(wrong)
         if len(places):
             grasp, finger = (int(i) for i in places[0])
-            raise InputError(f"{name}[{grasp}, {finger}]: of {self.names[grasp]}, finger {finger}: "
-                             f"{what((grasp, finger))}; in all {len(places)}")
+            raise InputError(f"{name}[{grasp}, {finger}]: grasp {self.names[grasp]}, finger {finger}: "
+                             f"{what((grasp, finger))}; {len(places)} in total")
 
     def write_npz(self, path: str | os.PathLike) -> None:
         """Write the input file of `validate --grasps`."""
-        holds = self.holds
-        _npz.write(_arguments.path("path", path), holds=holds,
-                   points=np.where(holds[..., None], self.points, 0),
-                   normals=np.where(holds[..., None], self.normals, 0))
+        active = self.active
+        _npz.write_grasps(_arguments.path("path", path), active=active,
+                          points=np.where(active[..., None], self.points, 0),
+                          normals=np.where(active[..., None], self.normals, 0))
 
     def as_plan(self, object: Object, mu: float | None = None, *,
                 friction_angle_deg: float | None = None) -> Plan:
@@ -119,10 +125,10 @@ class FingerGrasps:
             Plan that is not validated; use `validate` to test it.
         """
         if _arguments.of_type("object", object, Object).dimension != 3:
-            raise InputError(f"object: {object.name} is a polygon; these are grasps of solids")
+            raise InputError(f"object must be a solid, found the polygon {object.name}")
         half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
         if not len(self):
-            raise InputError("names: there is no grasp")
+            raise InputError("names must have at least one grasp, found none")
         goal = [{"point": c["point"], "normal": c["normal"]} for c in self._contacts(-1)]
         steps = [step for i in range(1, len(self)) for step in self._steps(i)]
         result = Plan(json.dumps({
@@ -136,13 +142,13 @@ class FingerGrasps:
         return result
 
     def _contacts(self, grasp: int, fingers=None) -> list[dict]:
-        fingers = np.flatnonzero(self.holds[grasp]) if fingers is None else fingers
+        fingers = np.flatnonzero(self.active[grasp]) if fingers is None else fingers
         return [{"finger": int(f), "point": self.points[grasp, f].tolist(),
                  "normal": self.normals[grasp, f].tolist()} for f in fingers]
 
     def _steps(self, grasp: int) -> list[dict]:
         """Return the steps from the previous grasp to this one."""
-        before, after = self.holds[grasp - 1], self.holds[grasp]
+        before, after = self.active[grasp - 1], self.active[grasp]
         elsewhere = before & after & (self.points[grasp] != self.points[grasp - 1]).any(axis=-1)
         steps = [(np.flatnonzero(after & ~before), [])]
         for finger in np.flatnonzero(elsewhere):

@@ -21,11 +21,11 @@ def _graspit_pose(name: str, element) -> tuple[np.ndarray, np.ndarray]:
     text = element.findtext("transform/fullTransform", "").strip()
     match = _TRANSFORM.fullmatch(text)
     if not match:
-        raise InputError(f"{name}: transform: (w x y z)[x y z] is needed, found {shown(text)}")
+        raise InputError(f"{name}: transform must be (w x y z)[x y z], found {shown(text)}")
     try:
         values = np.array([float(number) for number in match.groups()])
     except ValueError:
-        raise InputError(f"{name}: transform: seven numbers are needed, found {shown(text)}") from None
+        raise InputError(f"{name}: transform must have 7 numbers, found {shown(text)}") from None
     values = vector(f"{name}: transform", values, 7)
     return values[4:] / 1000, _poses.unit(f"{name}: transform", values[:4])
 
@@ -46,13 +46,13 @@ def read_graspit(path: str | os.PathLike) -> HandGrasps:
         world = xml.etree.ElementTree.parse(path).getroot()
     # An encoding unknown to the parser raises LookupError or ValueError.
     except (xml.etree.ElementTree.ParseError, LookupError, ValueError) as error:
-        raise InputError(f"{name}: no XML: {error}") from None
+        raise InputError(f"{name}: not an XML file: {error}") from None
     if world.tag == "virtual_contacts":
-        raise InputError(f"{name}: contacts on links of GraspIt!'s own model of a hand, whose frames are "
-                         "not known here; save the world instead")
+        raise InputError(f"{name}: virtual_contacts is not supported, because its frames are those of a GraspIt! hand model; "
+                         "help: save the world instead")
     bodies, robots = world.findall("graspableBody"), world.findall("robot")
     if world.tag != "world" or not bodies or not robots:
-        raise InputError(f"{name}: a world with a graspableBody and a robot is needed, found "
+        raise InputError(f"{name}: expected a world with a graspableBody and a robot, found "
                          f"{world.tag} with {len(bodies)} and {len(robots)}")
     position, back = _poses.inverse(*_graspit_pose(f"{name}: graspableBody", bodies[0]))
     palm, turn = _graspit_pose(f"{name}: robot", robots[-1])
@@ -60,7 +60,7 @@ def read_graspit(path: str | os.PathLike) -> HandGrasps:
     try:
         joints = np.array([float(number) for number in text])
     except ValueError:
-        raise InputError(f"{name}: robot: dofValues: numbers are needed") from None
+        raise InputError(f"{name}: robot: dofValues must be numbers") from None
     vector(f"{name}: robot: dofValues", joints, len(joints))
     lost = [f"{len(world.findall(tag))} {tag}" for tag in ("obstacle", "connection", "camera")
             if world.findall(tag)]

@@ -73,13 +73,13 @@ class HandGrasps:
             array = _arguments.numbers(name, getattr(self, name), text, (len(shape),))
             unnamed = name == "joints" and not joints and len(array) == count
             if array.shape != shape and not unnamed:
-                raise InputError(f"{name}: the shape is {text} for {count} names, found {array.shape}")
+                raise InputError(f"{name} must have shape {text} for {count} names, found {array.shape}")
             setattr(self, name, array)
         self.quaternions = _poses.unit("quaternions", self.quaternions)
         if self.scales is not None:
             self.scales = _arguments.numbers("scales", self.scales, f"({count},)", (1,))
             if self.scales.shape != (count,) or not (self.scales > 0).all():
-                raise InputError(f"scales: must be {count} numbers above 0, found "
+                raise InputError(f"scales must be {count} numbers above 0, found "
                                  f"{_arguments.shown(self.scales.tolist())}")
 
     def __len__(self) -> int:
@@ -90,7 +90,7 @@ class HandGrasps:
                  ", ".join(f"{x:.4g}" for x in self.quaternions[i]), f"{self.confidence[i]:.3g}"]
                 for i, name in enumerate(self.names[:_ROWS])]
         more = f"{len(self)} grasps" + (f", the first {_ROWS}" if len(self) > _ROWS else "")
-        lost = f"; not carried over: {', '.join(self.lost)}" if self.lost else ""
+        lost = f"; not converted: {', '.join(self.lost)}" if self.lost else ""
         return _html.text(f"{more}, {self.joints.shape[1]} joints{lost}") + _html.table(
             ["grasp", "palm (m)", "quaternion w, x, y, z", "confidence"], rows)
 
@@ -104,7 +104,7 @@ class HandGrasps:
         """
         palm = _arguments.numbers("palm", palm, "(3,) or (7,)", (1,))
         if len(palm) not in (3, 7):
-            raise InputError(f"palm: 3 numbers are needed, or 7, found {len(palm)}")
+            raise InputError(f"palm must have 3 or 7 numbers, found {len(palm)}")
         turn = _poses.unit("palm", palm[3:]) if len(palm) == 7 else np.array([1., 0, 0, 0])
         positions = self.positions + _poses.matrices(self.quaternions) @ palm[:3]
         return replace(self, positions=positions,
@@ -125,7 +125,7 @@ class HandGrasps:
         if self.joint_names:
             return hand.ordered(self.joint_names, self.joints)
         if self.joints.shape[1] != len(hand.joint_names):
-            raise InputError(f"joints: {hand.name} has {len(hand.joint_names)}, found "
+            raise InputError(f"joints must have {len(hand.joint_names)} columns for {hand.name}, found "
                              f"{self.joints.shape[1]} without names")
         return self.joints
 
@@ -162,7 +162,7 @@ class HandGrasps:
         """
         _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
         if _arguments.of_type("object", object, Object).dimension != 3:
-            raise InputError(f"object: {object.name} is a polygon; hands hold solids")
+            raise InputError(f"object must be a solid, found the polygon {object.name}")
         return measure_gaps(self, hand, object, self._scales_for(object))
 
     def _scales_for(self, object: Object) -> np.ndarray:
@@ -171,8 +171,8 @@ class HandGrasps:
             return np.full(len(self), object.scale)
         other = np.flatnonzero(self.scales != object.scale)
         if object.scale != 1 and len(other):
-            raise InputError(f"object: {object.name} has scale {object.scale:g}, expected "
-                             f"{self.scales[other[0]]:g} as in grasp {self.names[other[0]]}, or 1")
+            raise InputError(f"object must have scale 1 or {self.scales[other[0]]:g}, as in grasp {self.names[other[0]]}, "
+                             f"found {object.scale:g} for {object.name}")
         return self.scales
 
 

@@ -46,7 +46,7 @@ class HandMotion:
         self.times = _arguments.numbers("times", self.times, "(T,)", (1,))
         count = len(self.times)
         if (np.diff(self.times) < 0).any() or (count and self.times[0] < 0):
-            raise InputError("times: they begin at 0 or later and grow")
+            raise InputError("times must be increasing and not negative")
         self.joint_names = _arguments.texts("joint_names", self.joint_names)
         self.control_names = _arguments.texts("control_names", self.control_names)
         for name, width, names in [
@@ -57,7 +57,7 @@ class HandMotion:
                 continue
             array = _arguments.numbers(name, getattr(self, name), f"({count}, {width})", (2,))
             if array.shape != (count, width):
-                raise InputError(f"{name}: the shape is ({count}, {width}) for {count} times{names}, "
+                raise InputError(f"{name} must have shape ({count}, {width}) for {count} times{names}, "
                                  f"found {array.shape}")
             setattr(self, name, array)
         self.object_poses[:, 3:] = _poses.unit("object_poses", self.object_poses[:, 3:])
@@ -80,18 +80,18 @@ def read_trajectory(path: str | os.PathLike) -> HandMotion:
     try:
         with open(path, "rb") as file:
             if not zipfile.is_zipfile(file):
-                raise ValueError("it is no ZIP archive")
+                raise ValueError("not a ZIP archive")
             file.seek(0)
             with np.load(file, allow_pickle=False) as arrays:
                 found = {key: arrays[key] for key in keys if key in arrays}
         # NumPy returns the bytes of a member that is not an array.
         for key, array in found.items():
             if not isinstance(array, np.ndarray):
-                raise ValueError(f"{key} is no array")
+                raise ValueError(f"{key} is not an array")
     except (FileNotFoundError, IsADirectoryError, PermissionError):
         raise
     except Exception as error:  # caused by damaged or forged archives
-        raise InputError(f"{name}: no NPZ file of arrays: {error}".replace("\n", " ")) from None
+        raise InputError(f"{name}: not an NPZ file of arrays: {error}".replace("\n", " ")) from None
     for key in keys:
         _arguments.member(name, found, key)
     try:
@@ -133,12 +133,12 @@ def hand_plan(path: str | os.PathLike, hand: Hand) -> tuple[str, dict]:
     _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     data = Plan.read(name).data
     if "hand" not in data:
-        raise InputError(f"{name}: a plan for fingers without a hand has no joints")
+        raise InputError(f"{name}: not a plan for a hand")
     if data["hand"]["name"] != hand.name:
-        raise InputError(f"{name}: the plan is for {data['hand']['name']}, not {hand.name}")
+        raise InputError(f"{name}: the plan must be for {hand.name}, found {data['hand']['name']}")
     count = sum(len(finger) for finger in data["hand"]["initial"]["joints"])
     if count != len(hand.joint_names):
-        raise InputError(f"{name}: {count} joints, and {hand.name} has {len(hand.joint_names)}")
+        raise InputError(f"{name}: expected {len(hand.joint_names)} joints of {hand.name}, found {count}")
     return name, data
 
 

@@ -20,7 +20,7 @@ def help_as(parser: argparse.ArgumentParser, kind: str) -> str:
         InputError: If there is no such format.
     """
     if kind not in KINDS:
-        raise InputError(f"--help-as: {', '.join(KINDS[:-1])} or {KINDS[-1]} is needed, found {kind}")
+        raise InputError(f"--help-as must be {', '.join(KINDS[:-1])} or {KINDS[-1]}, found \"{kind}\"")
     return {"man": _man, "bash": _bash, "zsh": _zsh, "fish": _fish, "markdown": _markdown}[kind](parser)
 
 
@@ -103,8 +103,10 @@ def _fish(parser) -> str:
 
 
 def _markdown(parser) -> str:
-    lines = [f"## {parser.prog}", "", parser.description + " " + " ".join(parser.epilog.split()), "",
-             "```", _usage(parser), "```", ""]
+    lines = [f"# {parser.prog}", "", f"This page is the reference of `{parser.prog}`. `{parser.prog} --help` prints "
+             "the same text. [Exit codes](exit_codes.md) are those of all commands.", "",
+             parser.description + " " + " ".join(parser.epilog.split()), "", "```", _usage(parser), "```", "",
+             "## Options", ""]
     for name, value, text, needed in _options(parser):
         lines.append(f"- `{name}{' ' + value if value else ''}`{' (required)' if needed else ''} "
                      f"{text[:1].upper() + text[1:]}")

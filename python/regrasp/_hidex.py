@@ -46,7 +46,7 @@ def read_hidex(path: str | os.PathLike, *, frame: str | None = None,
     if frame is None:
         frame = "world" if away.any() else "object" if counted or not holds.all() else None
     if frame is None:
-        raise InputError(f'frame: {name} does not tell; give "object" or "world"')
+        raise InputError(f'frame is required for {name}, which does not contain it: "object" or "world"')
     points[~holds] = np.nan
     if frame == "world":
         back = np.swapaxes(_poses.matrices(poses[:, 3:]), 1, 2)
@@ -72,14 +72,14 @@ def _rows(name: str) -> list[list[float]]:
         with open(name, encoding="utf-8") as file:
             lines = [line.split(",") for line in file if line.strip()]
     except UnicodeDecodeError as error:
-        raise InputError(f"{name}: no CSV: {error}") from None
+        raise InputError(f"{name}: not a CSV file: {error}") from None
     rows = []
     for i, line in enumerate(lines, 1):
         try:
             rows.append([float(cell) for cell in line if cell.strip()])
         except ValueError:
             wrong = next(cell.strip() for cell in line if not _is_number(cell))
-            raise InputError(f"{name}: row {i}: numbers are needed, found "
+            raise InputError(f"{name}: row {i}: expected numbers, found "
                              f"{_arguments.shown(wrong)}") from None
     return rows
 
@@ -89,17 +89,17 @@ def _table(name: str, rows: list[list[float]]) -> tuple[np.ndarray, np.ndarray, 
     counted = int(bool(rows) and len(rows[0]) == 1)
     body = rows[counted:]
     if not body:
-        raise InputError(f"{name}: there is no row with contacts")
+        raise InputError(f"{name}: expected at least one row with contacts, found none")
     fingers = rows[0][0] if counted else (len(body[0]) - 7) / 6
     if fingers not in range(1, 65):
         found = f"{fingers:g} fingers" if counted else str(len(rows[0]))
-        raise InputError(f"{name}: row 1: 6 numbers for each of 1 to 64 fingers and 7 of a pose are "
-                         f"needed, found {found}")
+        raise InputError(f"{name}: row 1: expected 6 numbers per finger for 1 to 64 fingers and 7 for a pose, "
+                         f"found {found}")
     fingers = int(fingers)
     width = 7 + 6 * fingers
     for i, row in enumerate(body, 1 + counted):
         if len(row) != width and not (counted and len(row) > width):
-            raise InputError(f"{name}: row {i}: {width} numbers are needed, found {len(row)}")
+            raise InputError(f"{name}: row {i}: expected {width} numbers, found {len(row)}")
     table = np.array([row[:width] for row in body])
     poses, contacts = (table[:, :7], table[:, 7:]) if counted else (table[:, -7:], table[:, :-7])
     if not np.isfinite(poses).all():

@@ -25,9 +25,9 @@ def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
     name = path = _arguments.path("path", path)
     data = mapping(name, _yaml.read(path))
     if data.get("format") != "isaac_grasp":
-        raise InputError(f"{name}: format: isaac_grasp is needed, found {shown(data.get('format'))}")
+        raise InputError(f"{name}: format must be isaac_grasp, found {shown(data.get('format'))}")
     if data.get("format_version", "1.0") not in ("1.0", "1", 1):
-        raise InputError(f"{name}: format_version: 1.0 is needed, found "
+        raise InputError(f"{name}: format_version must be 1.0, found "
                          f"{shown(data['format_version'])}")
     grasps = mapping(f"{name}: grasps", member(name, data, "grasps"))
     positions, quaternions, joints, confidence, lost = [], [], [], [], set()
@@ -44,7 +44,7 @@ def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
         angles = mapping(f"{where}: cspace_position", grasp.get("cspace_position") or {})
         joint_names = list(angles) if joint_names is None else joint_names
         if set(angles) != set(joint_names):
-            raise InputError(f"{where}: cspace_position: other joints than in the first grasp")
+            raise InputError(f"{where}: cspace_position must have the joints of the first grasp")
         joints.append(vector(f"{where}: cspace_position", [angles[j] for j in joint_names],
                               len(joint_names)) if angles else np.zeros(0))
         confidence.append(vector(f"{where}: confidence", [grasp.get("confidence", 1)], 1)[0])

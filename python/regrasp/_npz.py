@@ -14,3 +14,12 @@ def write(path: str, **arrays: np.ndarray) -> None:
     content = io.BytesIO()
     np.savez(content, **arrays)
     _regrasp.write_file(path, content.getvalue())
+
+
+GRASPS_VERSION = 2
+"""Format version of files for `validate --grasps`; version 1 calls the mask `holds` instead of `active`."""
+
+
+def write_grasps(path: str, **arrays: np.ndarray) -> None:
+    """Write the arrays of a file for `validate --grasps`, with its format version."""
+    write(path, format_version=np.array(GRASPS_VERSION), **arrays)

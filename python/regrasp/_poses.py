@@ -34,6 +34,6 @@ def unit(name: str, quaternions) -> np.ndarray:
     quaternions = np.asarray(quaternions, dtype=float)
     lengths = np.linalg.norm(quaternions, axis=-1, keepdims=True)
     if not (np.abs(lengths - 1) < 1e-2).all():
-        raise InputError(f"{name}: a quaternion of length 1 is needed, found "
+        raise InputError(f"{name} must be a unit quaternion, found length "
                          f"{lengths.ravel()[np.argmax(np.abs(lengths.ravel() - 1))]:.6g}")
     return quaternions / lengths

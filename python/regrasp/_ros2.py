@@ -103,8 +103,8 @@ def write_mcap(path: str | os.PathLike, motion: HandMotion, hand: Hand | None = 
     start = round(_arguments.number("start_time", start_time, 0, 2**31, zero=True) * 10**9)
     # Seconds in ROS 2 are an int32.
     if len(motion) and start / 10**9 + motion.times[-1] >= 2**31 - 1:
-        raise InputError(f"times: the last one is {motion.times[-1]:g} s, and ROS 2 counts seconds since "
-                         "1970 up to 2^31")
+        raise InputError(f"times must be below 2^31 s, the largest time of ROS 2, found "
+                         f"{motion.times[-1]:g} s")
     frames = _arguments.text("palm_frame", palm_frame), _arguments.text("object_frame", object_frame)
     tips, names = np.zeros((len(motion), 0, 3)), []
     if hand is not None:
@@ -112,13 +112,13 @@ def write_mcap(path: str | os.PathLike, motion: HandMotion, hand: Hand | None = 
         tips = hand.tips(hand.ordered(motion.joint_names, motion.joints))
         names = [f"{finger}_tip" for finger in hand.fingers]
     if len({*frames, *names}) < 2 + len(names):
-        raise InputError("palm_frame: frames need different names, found "
+        raise InputError("palm_frame: frames must have different names, found "
                          + ", ".join([*frames, *names]))
     for what, words in [("palm_frame", frames[:1]), ("object_frame", frames[1:]),
                         ("joint_names", motion.joint_names), ("control_names", motion.control_names)]:
         for word in words:
             if not word or not word.isprintable():
-                raise InputError(f"{what}: a printable name is needed, found {_arguments.shown(word)}")
+                raise InputError(f"{what} must be a printable name, found {_arguments.shown(word)}")
     writer = _mcap.Writer("ros2", f"regrasp {version}")
     # Metadata of rosbag2; empty: defaults.
     metadata = {"offered_qos_profiles": ""}

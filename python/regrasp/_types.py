@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 Path = Union[str, bytes, os.PathLike]
 Progress = Optional[Callable[[str], object]]
-"""Function that is called with a line of text. An exception in it stops the work."""
+"""A function that is called with one line of text; an exception from it stops the work."""
 
 GivenGrasp = Union[ArrayLike, tuple[ArrayLike, ArrayLike], Path]
 """Points, points and normals, or the path of a grasp file."""

@@ -42,7 +42,7 @@ def read(path: str) -> object:
     except OSError:
         raise
     except RecursionError:
-        raise InputError(f"{path}: no YAML: nested too deep") from None
+        raise InputError(f"{path}: not a YAML file: nested too deep") from None
     except Exception as error:  # parser errors, and invalid numbers and dates
-        raise InputError(f"{path}: no YAML: {' '.join(str(error).split())}") from None
+        raise InputError(f"{path}: not a YAML file: {' '.join(str(error).split())}") from None
     return _arguments.bounded(path, data)

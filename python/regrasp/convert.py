@@ -16,9 +16,9 @@ from ._regrasp import InputError, version
 from .hands import Hand
 from .objects import Object
 
-_EPILOG = """Read, by the files' ending: isaac_grasp 1.0 (.yaml), dictionaries of DexGraspBench, Dexonomy and BODex
+_EPILOG = """Input, by file ending: isaac_grasp 1.0 (.yaml), dictionaries of DexGraspBench, Dexonomy and BODex
 (.npy, .npz), lists of DexGraspNet (.npy), worlds of GraspIt! (.xml), plans of HiDex (.csv), plans of regrasp for a hand (.json),
-trajectories of validate (.npz, to .mcap). Written: isaac_grasp 1.0 (.yaml), contacts for validate --grasps
+trajectories of validate (.npz, to .mcap). Output: isaac_grasp 1.0 (.yaml), contacts for validate --grasps
 (.npz), plans of regrasp (.json, of .csv), ROS 2 transforms and joint states (.mcap)."""
 
 
@@ -26,7 +26,7 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message):
         """Print one line, like the other programs, and exit."""
-        self.exit(2, f"{self.prog}: {message} ({self.prog} --help lists all options)\n")
+        self.exit(2, f"{self.prog}: error: {message} ({self.prog} --help lists all)\n")
 
 
 class _HelpAs(argparse.Action):
@@ -47,31 +47,32 @@ class NoContacts(Exception):
 def parser() -> argparse.ArgumentParser:
     """Return the parser of the program's options."""
     parser = _Parser(
-        prog="regrasp-convert", description="Converts grasps and plans between formats, and says what "
-        "it could not carry over.", epilog=_EPILOG)
-    parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format; of .csv and "
-                        "for .mcap one")
-    parser.add_argument("--output", required=True, metavar="FILE", help=".yaml, .npz, .json or .mcap")
-    parser.add_argument("--hand", metavar="FILE", help="hand file; for .json and .npz; for .mcap also "
-                        "the fingertips")
-    parser.add_argument("--palm", metavar="X,Y,Z[,QW,QX,QY,QZ]", help="the palm's frame in that of the "
-                        "body whose poses the files give, metres and a quaternion, --palm=-1,2,3 where "
-                        "it begins with a minus (default: they are the palm's own)")
-    parser.add_argument("--object", metavar="FILE", help="object file; for .npz and of .csv")
-    parser.add_argument("--object-pose", metavar="X,Y,Z,QW,QX,QY,QZ", help="the object's pose in the "
-                        "world of a dictionary (.npy, .npz), instead of the file's or if it has none")
-    parser.add_argument("--scale", type=float, metavar="METRES_PER_UNIT", help="of the object file "
-                        "(default: the scale in the file of the grasps, 1 if it has none)")
-    parser.add_argument("--tolerance-mm", type=float, default=2, metavar="MM", help="a fingertip "
-                        "touches that is no farther from the surface, or deeper in it; so far a contact "
-                        "of .csv may be off it (default 2)")
-    parser.add_argument("--fingers", metavar="NAME,...", help="those whose contacts are "
-                        "written, and which must all touch (default: all fingers, where they touch)")
-    parser.add_argument("--frame", choices=["object", "world"], help="that contacts of .csv are in, "
-                        "where all fingers touch all the time and so the file does not tell")
-    parser.add_argument("--mesh-scale", type=float, default=1, metavar="X", help="by which HiDex scales "
-                        "the object's file, scale in its setup.yaml; of .csv (default 1)")
-    parser.add_argument("--mu", type=float, metavar="X", help="friction coefficient; of .csv to .json")
+        prog="regrasp-convert", description="Convert grasps and plans between formats, and report what "
+        "the output format cannot represent.", epilog=_EPILOG)
+    parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format; one file for .csv "
+                        "and .mcap")
+    parser.add_argument("--output", required=True, metavar="FILE", help="output file: .yaml, .npz, .json or .mcap")
+    parser.add_argument("--hand", metavar="FILE", help="hand file; required for .json and .npz; adds the fingertips "
+                        "to .mcap")
+    parser.add_argument("--palm", metavar="X,Y,Z[,QW,QX,QY,QZ]", help="pose of the palm frame in the "
+                        "frame of the body whose poses the files contain; metres and a quaternion. Write "
+                        "--palm=-1,2,3 if it starts with a minus (default: identity)")
+    parser.add_argument("--object", metavar="FILE", help="object file; required for .npz and for input .csv")
+    parser.add_argument("--object-pose", metavar="X,Y,Z,QW,QX,QY,QZ", help="pose of the object in the "
+                        "world frame of a dictionary (.npy, .npz); replaces that of the file")
+    parser.add_argument("--scale", type=float, metavar="METRES_PER_UNIT", help="scale of the object file "
+                        "(default: the scale in the file of the grasps, or 1)")
+    parser.add_argument("--tolerance-mm", type=float, default=2, metavar="MM", help="largest distance "
+                        "of a fingertip from the surface, outside or inside, that counts as contact; "
+                        "largest distance of a contact of .csv from the surface (default 2)")
+    parser.add_argument("--fingers", metavar="NAME,...", help="fingers whose contacts are "
+                        "written; grasps without contact of each of them are omitted (default: all fingers "
+                        "in contact)")
+    parser.add_argument("--frame", choices=["object", "world"], help="frame of the contacts of .csv; "
+                        "required if all fingers are always in contact, because the file does not contain it")
+    parser.add_argument("--mesh-scale", type=float, default=1, metavar="X", help="scale that HiDex applies to "
+                        "the object file (scale in its setup.yaml); for .csv (default 1)")
+    parser.add_argument("--mu", type=float, metavar="X", help="friction coefficient; required for .csv to .json")
     parser.add_argument("--version", action="version", version=f"regrasp-convert {version}",
                         help="print the version and exit")
     parser.add_argument("--help-as", action=_HelpAs, metavar="FORMAT", help=argparse.SUPPRESS)
@@ -84,7 +85,7 @@ def _ending(path: str) -> str:
 
 def _need(value, name: str, what: str):
     if value is None:
-        raise InputError(f"--{name}: is needed {what}")
+        raise InputError(f"--{name} is required {what}")
     return value
 
 
@@ -92,7 +93,7 @@ def _numbers(option: str, text: str) -> list[float]:
     try:
         return [float(number) for number in text.split(",")]
     except ValueError:
-        raise InputError(f"{option}: numbers are needed, found {text!r}") from None
+        raise InputError(f"{option} must be numbers separated by commas, found {text!r}") from None
 
 
 def _read_dictionary(path: str, options) -> formats.HandGrasps:
@@ -105,14 +106,14 @@ def _read_dictionary(path: str, options) -> formats.HandGrasps:
     if options.object_pose is not None:
         pose = _numbers("--object-pose", options.object_pose)
         if len(pose) != 7:
-            raise InputError(f"--object-pose: 7 numbers are needed, found {len(pose)}")
+            raise InputError(f"--object-pose must have 7 numbers, found {len(pose)}")
     return read(path, object_pose=pose)
 
 
 def _check_object_pose(path: str, options) -> None:
     """Check that --object-pose is not given for a file without object pose."""
     if options.object_pose is not None:
-        raise InputError(f"--object-pose: cannot be used with {path}, expected a dictionary of "
+        raise InputError(f"--object-pose cannot be used with {path}, expected a dictionary of "
                          "DexGraspBench, Dexonomy or BODex")
 
 
@@ -121,14 +122,14 @@ def _read(path: str, hand: Hand | None, options) -> formats.HandGrasps:
     if ending not in (".npy", ".npz"):
         _check_object_pose(path, options)
     if ending == ".json":
-        return formats.of_plan(path, _need(hand, "hand", "for the joints' names of a plan"))
+        return formats.of_plan(path, _need(hand, "hand", "for the joint names of a plan"))
     if ending in (".npy", ".npz"):
         return _read_dictionary(path, options)
     if ending in (".yaml", ".yml"):
         return formats.read_isaac_grasp(path)
     if ending == ".xml":
         return formats.read_graspit(path)
-    raise InputError(f"{path}: .yaml, .npy, .npz, .xml, .csv or .json is read")
+    raise InputError(f"{path}: file type not supported, expected .yaml, .npy, .npz, .xml, .csv or .json")
 
 
 def _fitting(path: str, grasps: formats.HandGrasps, hand: Hand | None) -> formats.HandGrasps:
@@ -144,10 +145,10 @@ def _fitting(path: str, grasps: formats.HandGrasps, hand: Hand | None) -> format
 def _join(parts: list[formats.HandGrasps]) -> formats.HandGrasps:
     names = [part.joint_names for part in parts]
     if any(n != names[0] for n in names) or len({p.joints.shape[1] for p in parts}) > 1:
-        raise InputError("the files have other joints than each other")
+        raise InputError("INPUT: all files must have the same joints")
     lost = sorted({what for part in parts for what in part.lost})
     if len({p.scales is None for p in parts}) > 1:
-        raise InputError("scale: some of the files have one and others do not")
+        raise InputError("INPUT: all files must have a scale, or none of them")
     worlds = [part.world for part in parts if part.world is not None]
 
     def all_of(name: str, of: list) -> np.ndarray:
@@ -171,12 +172,12 @@ def _check_output(options) -> None:
     for path in [*options.inputs, options.hand, options.object]:
         if path and os.path.exists(path) and os.path.exists(options.output) and \
                 os.path.samefile(path, options.output):
-            raise InputError(f"--output: {options.output}: is an input")
+            raise InputError(f"--output {options.output} must not be an input")
 
 
 def _single(inputs: list[str], what: str) -> str:
     if len(inputs) > 1:
-        raise InputError(f"{inputs[1]}: {what} is converted alone")
+        raise InputError(f"{inputs[1]}: {what} must be the only input")
     return inputs[0]
 
 
@@ -189,11 +190,11 @@ def _convert_motion(options, hand: Hand | None) -> list[str]:
     """Convert to .mcap."""
     path = _single(options.inputs, "what goes to .mcap")
     if _ending(path) == ".json":
-        motion = formats.motion_of_plan(path, _need(hand, "hand", "for the joints' names of a plan"))
+        motion = formats.motion_of_plan(path, _need(hand, "hand", "for the joint names of a plan"))
     elif _ending(path) == ".npz":
         motion = formats.read_trajectory(path)
     else:
-        raise InputError(f"{path}: .mcap is made of a plan (.json) or a trajectory (.npz)")
+        raise InputError(f"{path}: --output .mcap requires a plan (.json) or a trajectory (.npz)")
     formats.write_mcap(options.output, motion, hand)
     return motion.lost
 
@@ -202,7 +203,7 @@ def _convert_fingers(options) -> list[str]:
     """Convert from .csv."""
     ending = _ending(options.output)
     if ending not in (".npz", ".json"):
-        raise InputError(f"--output: {options.output}: .csv goes to .npz or .json")
+        raise InputError(f"--output {options.output} must be .npz or .json for an input .csv")
     grasps = formats.read_hidex(_single(options.inputs, "a plan"), frame=options.frame,
                                 mesh_scale=options.mesh_scale)
     body = _object(options)
@@ -230,8 +231,8 @@ def _write_contacts(options, grasps: formats.HandGrasps, hand: Hand) -> list[str
         if cause is not None:
             print("regrasp-convert: warning: no grasp has two fingertips at the surface; likely cause: "
                   f"{cause}", file=sys.stderr)
-    _npz.write(options.output, points=points[kept][:, chosen], normals=normals[kept][:, chosen],
-               holds=touching[kept], grasps=kept)
+    _npz.write_grasps(options.output, points=points[kept][:, chosen], normals=normals[kept][:, chosen],
+                      active=touching[kept], grasps=kept)
     lost.append("palm and joints")
     off = (~touching).sum(axis=0)
     if off.any():
@@ -299,7 +300,7 @@ def _write_isaac_grasp(options, grasps: formats.HandGrasps, hand: Hand | None) -
         grasps.names = [f"grasp_{i}" for i in range(len(grasps))]
     if not grasps.joint_names:
         if hand is None:
-            raise InputError("--hand: is needed, as the joints have no names")
+            raise InputError("--hand is required, because the joints have no names")
         grasps.joints, grasps.joint_names = grasps.in_order_of(hand), hand.joint_names
     formats.write_isaac_grasp(options.output, grasps)
     return grasps.lost
@@ -309,7 +310,7 @@ def _run(options) -> list[str]:
     """Convert the inputs, and return descriptions of the content that is not converted."""
     ending = _ending(options.output)
     if ending not in (".yaml", ".yml", ".npz", ".json", ".mcap"):
-        raise InputError(f"--output: {options.output}: .yaml, .npz, .json or .mcap is written")
+        raise InputError(f"--output {options.output} must be .yaml, .npz, .json or .mcap")
     _check_output(options)
     if _ending(options.inputs[0]) == ".csv":
         return _convert_fingers(options)
@@ -317,7 +318,7 @@ def _run(options) -> list[str]:
     if ending == ".mcap":
         return _convert_motion(options, hand)
     if ending == ".json":
-        raise InputError(f"{options.inputs[0]}: only .csv goes to .json")
+        raise InputError(f"{options.inputs[0]}: --output .json requires an input .csv")
     if ending == ".npz":
         _need(hand, "hand", "to find contacts")
         _need(options.object, "object", "to find contacts")
@@ -342,16 +343,16 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"regrasp-convert: {none}", file=sys.stderr)
         return 1
     except InputError as error:
-        print(f"regrasp-convert: {error}".replace("\n", " "), file=sys.stderr)
+        print(f"regrasp-convert: error: {error}".replace("\n", " "), file=sys.stderr)
         return 2
     except (FileNotFoundError, IsADirectoryError) as error:
-        print(f"regrasp-convert: {error.filename}: {error.strerror.lower()}", file=sys.stderr)
+        print(f"regrasp-convert: error: {error.filename}: {error.strerror.lower()}", file=sys.stderr)
         return 2
     except OSError as error:
-        print(f"regrasp-convert: {error}", file=sys.stderr)
+        print(f"regrasp-convert: error: {error}", file=sys.stderr)
         return 3
     for what in lost:
-        print(f"regrasp-convert: not carried over: {what}", file=sys.stderr)
+        print(f"regrasp-convert: note: not converted: {what}", file=sys.stderr)
     return 0
 
 

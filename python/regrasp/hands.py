@@ -1,4 +1,4 @@
-"""Hands: fingers that are chains of hinges, with a ball at each fingertip."""
+"""Hands: fingers with revolute joints and a sphere at each fingertip."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from ._types import ArrayLike
 
 
 class Hand:
-    """A hand as its file `hand.json` and the model beside it have it (docs/formats.md)."""
+    """A hand, as described by its hand file and the model that the file names (docs/format_hand.md).
+    """
 
     def __init__(self, core: _regrasp.Hand):
         if not isinstance(core, _regrasp.Hand):
@@ -21,7 +22,10 @@ class Hand:
 
     @classmethod
     def read(cls, path: str | os.PathLike) -> Hand:
-        """Reads a hand file and the MJCF or URDF model that it names.
+        """Read a hand file and the MJCF or URDF model that it names.
+
+        Raises:
+            InputError: a file is invalid, or the model has features that plans cannot represent.
 
         >>> Hand.read("models/hands/ring4.json").fingers
         ['finger0', 'finger1', 'finger2', 'finger3']
@@ -30,7 +34,7 @@ class Hand:
 
     @property
     def name(self) -> str:
-        """As its file says."""
+        """Name of the hand, from its file."""
         return self._core.name
 
     @property
@@ -40,22 +44,22 @@ class Hand:
 
     @property
     def joint_names(self) -> list[str]:
-        """Names of the J joints, by finger, from the palm to the tip."""
+        """Names of the J joints, finger by finger, from the palm to the fingertip."""
         return [joint for finger in self._core.joint_names for joint in finger]
 
     @property
     def radii(self) -> np.ndarray:
-        """(F,) radii of the fingertips' balls, metres."""
+        """Radii (F,) of the fingertip spheres, metres."""
         return np.array(self._core.radii)
 
     def tips(self, joints: ArrayLike) -> np.ndarray:
-        """Centres of the fingertips' balls in the palm's frame, metres.
+        """Compute the centres of the fingertip spheres in the palm frame, metres.
 
         Args:
-            joints: angles (J,) or (N, J), radians, in the order of `joint_names`.
+            joints: joint angles (J,) or (N, J), radians, in the order of `joint_names`.
 
         Returns:
-            (F, 3) or (N, F, 3).
+            An array (F, 3) or (N, F, 3).
 
         >>> Hand.read("models/hands/ring4.json").tips(np.zeros(16)).shape
         (4, 3)
@@ -63,31 +67,31 @@ class Hand:
         joints = _arguments.numbers("joints", joints, "(J,) or (N, J)", (1, 2))
         count = len(self.joint_names)
         if joints.shape[-1] != count:
-            raise InputError(f"joints: {self.name} has {count} joints, found {joints.shape}")
+            raise InputError(f"joints must have {count} joints for {self.name}, found shape {joints.shape}")
         tips = self._core.tips(np.atleast_2d(joints))
         return tips[0] if joints.ndim == 1 else tips
 
     def ordered(self, names: list[str], joints: ArrayLike) -> np.ndarray:
-        """Angles in the order of `joint_names`.
+        """Return joint angles in the order of `joint_names`.
 
         Args:
-            names: of J or more joints.
-            joints: (N, as many) their angles.
+            names: names of the columns of `joints`; they include all J joints.
+            joints: array (N, K) of joint angles for K names.
 
         Returns:
-            (N, J).
+            An array (N, J).
 
         Raises:
-            InputError: a joint of the hand is missing.
+            InputError: a joint of the hand is missing in `names`.
         """
         names = _arguments.texts("names", names)
         joints = _arguments.numbers("joints", joints, f"(N, {len(names)})", (2,))
         if joints.shape[1] != len(names):
-            raise InputError(f"joints: the shape is (N, {len(names)}) for {len(names)} names, "
+            raise InputError(f"joints must have shape (N, {len(names)}) for {len(names)} names, "
                              f"found {joints.shape}")
         missing = [name for name in self.joint_names if name not in names]
         if missing:
-            raise InputError(f"names: {self.name} has joints {missing[0]} …, found "
+            raise InputError(f"names must contain the joint {missing[0]} of {self.name}, found "
                              f"{_arguments.shown(names)}")
         return joints[:, [names.index(name) for name in self.joint_names]]
 

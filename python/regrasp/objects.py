@@ -1,4 +1,4 @@
-"""Objects: solids bounded by flat faces, and polygons in the plane."""
+"""Objects: closed solids with planar faces, and polygons."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _SHELLS = {None: None, "union": _regrasp.Shells.union, "largest": _regrasp.Shell
 
 
 class Object:
-    """What is grasped: a closed surface mesh, or a polygon. It is valid and does not change.
+    """An object to grasp: a closed surface mesh or a polygon. It is valid and immutable.
 
     Made by `Object.read`, `Object.from_arrays` and `Object.from_polygon`.
     """
@@ -27,17 +27,17 @@ class Object:
     @classmethod
     def read(cls, path: str | os.PathLike, *, scale: float = 1, repair: bool = False,
              shells: str | None = None, progress: Progress = None) -> Object:
-        """Reads a mesh (OBJ, OFF, PLY, STL, GLB, 3MF, …) or a polygon (WKT).
+        """Read a mesh (OBJ, OFF, PLY, STL, GLB, 3MF, …) or a polygon (WKT).
 
         Args:
-            path: the file.
+            path: path of the file.
             scale: metres per unit of the file.
-            repair: makes a solid of a surface that is none, as the program `repair` does.
-            shells: what several closed shells are: "union" or "largest"; None: refused.
-            progress: called with a line of text for each stage.
+            repair: whether to make a closed solid of a defective surface, like the program `repair`.
+            shells: meaning of several closed shells, "union" or "largest"; default: raise InputError.
+            progress: function that is called with one line of text per stage.
 
         Raises:
-            InputError: the file cannot be read, or is no solid; names the element.
+            InputError: the file cannot be read or is not a closed solid; the message names the element.
 
         >>> Object.read("models/cube.obj").face_count
         6
@@ -51,16 +51,17 @@ class Object:
     @classmethod
     def from_arrays(cls, vertices: ArrayLike, faces: ArrayLike, *, scale: float = 1,
                     name: str = "object.obj") -> Object:
-        """A solid of a closed triangle mesh.
+        """Make a solid from a closed triangle mesh.
 
         Args:
-            vertices: (V, 3) numbers.
-            faces: (F, 3) integers, indices of vertices, counter-clockwise from outside.
+            vertices: array (V, 3), coordinates in the object's unit.
+            faces: array (F, 3) of integers, vertices of the triangles, counter-clockwise from outside.
             scale: metres per unit of the vertices.
-            name: how plans and messages call it: the file that `write` makes of it.
+            name: name of the object in plans and messages, and file name for `write`.
 
         Raises:
-            InputError: an array of another shape, or no closed surface; names the face.
+            InputError: the shape of an array is wrong, or the surface is not closed; the message names the
+                triangle.
 
         >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
         >>> Object.from_arrays(corners, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]).diameter
@@ -68,30 +69,33 @@ class Object:
         """
         vertices = _arguments.numbers("vertices", vertices, "(V, 3)", (2,))
         if vertices.shape[1] != 3:
-            raise InputError(f"vertices: the shape is (V, 3), found {vertices.shape}")
+            raise InputError(f"vertices must have shape (V, 3), found {vertices.shape}")
         faces = _arguments.indices("faces", faces, "(F, 3)", (2,))
         if faces.shape[1] != 3:
-            raise InputError(f"faces: the shape is (F, 3), found {faces.shape}")
+            raise InputError(f"faces must have shape (F, 3), found {faces.shape}")
         if len(vertices) == 0:
-            raise InputError("vertices: there are none, the shape is (0, 3)")
+            raise InputError("vertices must have at least one vertex, found shape (0, 3)")
         wrong = np.argwhere((faces < 0) | (faces >= len(vertices)))
         if len(wrong):
             place = tuple(int(i) for i in wrong[0])
-            raise InputError(f"faces{list(place)}: there is no vertex {faces[place]}, "
-                             f"there are {len(vertices)}")
+            raise InputError(f"faces{list(place)} must be a vertex from 0 to {len(vertices) - 1}, "
+                             f"found {faces[place]}")
         return cls(_regrasp.object_from_arrays(
             vertices, faces, _arguments.number("scale", scale, 0), _arguments.text("name", name)))
 
     @classmethod
     def from_polygon(cls, outline: ArrayLike, holes: Sequence[ArrayLike] = (), *, scale: float = 1,
                      name: str = "object.wkt") -> Object:
-        """A planar object.
+        """Make a planar object from its outline.
 
         Args:
-            outline: (V, 2) numbers, the corners in order; the first is not repeated.
-            holes: further such arrays.
+            outline: array (V, 2), corners in order; the first is not repeated.
+            holes: outlines of holes, arrays of the same form.
             scale: metres per unit.
-            name: how plans and messages call it.
+            name: name of the object in plans and messages, and file name for `write`.
+
+        Raises:
+            InputError: an outline intersects itself or another one, or the shape of an array is wrong.
 
         >>> Object.from_polygon([[0, 0], [2, 0], [2, 1], [0, 1]]).measure
         2.0
@@ -99,14 +103,14 @@ class Object:
         try:
             holes = list(holes)
         except TypeError:
-            raise InputError("holes: a list of arrays is needed, found "
+            raise InputError("holes must be a list of arrays, found "
                              f"{_arguments.shown(holes)}") from None
         rings = []
         for label, ring in [("outline", outline)] + [
                 (f"holes[{i}]", hole) for i, hole in enumerate(holes)]:
             corners = _arguments.numbers(label, ring, "(V, 2)", (2,))
             if corners.shape[1] != 2 or len(corners) < 3:
-                raise InputError(f"{label}: the shape is (V, 2) with three corners or more, "
+                raise InputError(f"{label} must have shape (V, 2) with at least 3 corners, "
                                  f"found {corners.shape}")
             closed = [*corners.tolist(), corners[0].tolist()]
             rings.append("(" + ", ".join(f"{x!r} {y!r}" for x, y in closed) + ")")
@@ -115,13 +119,14 @@ class Object:
                                             _arguments.text("name", name)))
 
     def nearest(self, points: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-        """The places on the surface that are nearest to points, on all cores.
+        """Project points onto the surface, on all processors.
 
         Args:
-            points: (N, 3), or (N, 2) of a polygon, in the object's unit.
+            points: array (N, 3), or (N, 2) for a polygon, in the object's unit.
 
         Returns:
-            Places of the same shape, and unit normals into the object there.
+            The nearest points of the surface, of the same shape, and the unit normals there, which point
+            into the object.
 
         >>> place, normal = Object.read("models/cube.obj").nearest([[0.05, 0.01, 0.02]])
         >>> place.tolist(), normal.tolist()
@@ -130,7 +135,7 @@ class Object:
         shape = f"(N, {self.dimension})"
         points = _arguments.numbers("points", points, shape, (2,))
         if points.shape[1] != self.dimension:
-            raise InputError(f"points: the shape is {shape}, found {points.shape}")
+            raise InputError(f"points must have shape {shape}, found {points.shape}")
         padded = np.zeros((len(points), 3))
         padded[:, :self.dimension] = points
         # In parts, between which the interpreter sees to signals.
@@ -141,19 +146,23 @@ class Object:
         return places, normals
 
     def write(self, path: str | os.PathLike) -> None:
-        """Writes the file that the programs read as this object; of one made from arrays only."""
+        """Write the file from which the programs read this object.
+
+        Raises:
+            InputError: the object was read from a file.
+        """
         if not self._core.text:
-            raise InputError(f"{self.name}: was read from a file, which is still there")
+            raise InputError(f"{self.name} was read from a file, expected an object from arrays")
         _regrasp.write_file(_arguments.path("path", path), self._core.text.encode())
 
     @property
     def name(self) -> str:
-        """Its file's name, without folders."""
+        """Name of the file, without folders."""
         return self._core.name
 
     @property
     def sha256(self) -> str:
-        """Of its file's bytes, by which a plan knows its object."""
+        """SHA-256 of the file's bytes; a plan identifies its object by it."""
         return self._core.sha256
 
     @property
@@ -168,32 +177,32 @@ class Object:
 
     @property
     def face_count(self) -> int:
-        """Faces: all coplanar neighbouring triangles together; of a polygon its edges."""
+        """Number of planar faces, each of all coplanar adjacent triangles; edges of a polygon."""
         return self._core.face_count
 
     @property
     def diameter(self) -> float:
-        """The largest distance between two vertices, in the object's unit."""
+        """Largest distance between two vertices, in the object's unit."""
         return self._core.diameter
 
     @property
     def measure(self) -> float:
-        """Volume of a solid, area of a polygon, in the object's unit to the third or second."""
+        """Volume of a solid or area of a polygon, in the object's unit cubed or squared."""
         return self._core.measure
 
     @property
     def centroid(self) -> np.ndarray:
-        """Of the volume or the area, (3,) or (2,)."""
+        """Centroid of the volume (3,) or of the area (2,)."""
         return np.array(self._core.centroid[:self.dimension])
 
     @property
     def vertices(self) -> np.ndarray:
-        """(V, 3) of a solid; (V, 2) of a polygon, its outline."""
+        """Vertices (V, 3) of a solid, or corners (V, 2) of the outline of a polygon."""
         return self._core.vertices
 
     @property
     def triangles(self) -> np.ndarray:
-        """(F, 3) indices of vertices, counter-clockwise from outside; (0, 3) of a polygon."""
+        """Vertices (F, 3) of triangles, counter-clockwise from outside; (0, 3) for a polygon."""
         return self._core.triangles
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""Plans: sequences of finger switches and aligns from one grasp to another."""
+"""Plans: sequences of finger switches, sliding steps and in-hand motions between two grasps."""
 
 from __future__ import annotations
 
@@ -19,43 +19,47 @@ _MOST_JOBS = 1024
 
 
 class NoPlan(RuntimeError):
-    """No sequence was found; the text says what was searched."""
+    """Raised if no plan is found; the text reports the search."""
 
 
 class Plan:
-    """A plan as its file has it: made by `plan` or `Plan.read`.
+    """A plan, as in its file; returned by `plan`, `plan_in_hand` and `Plan.read`.
 
-    `text` is the file, byte by byte what the program `plan` writes, `data` the same as a dict
-    (docs/plan.schema.json).
+    `text` is the content of the file, byte for byte as the program `plan` writes it. `data` is the
+    same as a dict (docs/plan.schema.json). `warnings` and `notes` are lists of text from the planner.
     """
 
     def __init__(self, text: str, name: str = "plan.json"):
-        """
-        Args:
-            text: of a plan file.
-            name: how messages and reports call it.
+        """Args:
+            text: content of a plan file.
+            name: name of the plan in messages and reports.
 
         Raises:
-            InputError: it is none; names the element.
+            InputError: `text` is not a plan; the message names the element.
         """
         _regrasp.check_plan_text(_arguments.text("text", text), _arguments.text("name", name))
         self.text = text
         self.name = name
         self.data: dict = json.loads(text)
         self.object: Object | None = None
-        """That it is for, where that is known: `plan` sets it, and you may after `Plan.read`. A
-        notebook then shows every step."""
+        """Object of the plan if it is known. `plan` sets it; set it after `Plan.read` to make a notebook
+        display every step."""
         self.warnings: list[str] = []
         self.notes: list[str] = []
 
     @classmethod
     def read(cls, path: str | os.PathLike) -> Plan:
-        """Reads a plan file."""
+        """Read a plan file.
+
+        Raises:
+            InputError: the file is not a plan.
+            OSError: the file cannot be read.
+        """
         path = _arguments.path("path", path)
         return cls(_text_of(path), os.path.basename(path))
 
     def write(self, path: str | os.PathLike) -> None:
-        """Writes the plan file."""
+        """Write the plan file."""
         _regrasp.write_file(_arguments.path("path", path), self.text.encode())
 
     @property
@@ -64,17 +68,17 @@ class Plan:
         return self.data["steps"]
 
     def figure(self, object: Object | None = None, *, width_mm: float = 174) -> str:
-        """A drawing of all steps, in lines, as the program `figure` makes it.
+        """Draw all steps as a line drawing, like the program `figure`.
 
         Args:
-            object: that the plan is for; None: `Plan.object`.
-            width_mm: of the drawing, millimetres.
+            object: object of the plan; default: `Plan.object`.
+            width_mm: width of the drawing, millimetres.
 
         Returns:
-            SVG.
+            The drawing, as SVG text.
 
         Raises:
-            InputError: the object is not known or another one, or a step breaks a rule.
+            InputError: the object is unknown or is not that of the plan, or a step is invalid.
 
         >>> cube = Object.read("models/cube.obj")
         >>> plan(cube, "models/cube.start.json", "models/cube.goal.json", mu=0.4).figure()[:5]
@@ -82,8 +86,8 @@ class Plan:
         """
         object = self.object if object is None else object
         if object is None:
-            raise InputError(f"object: {self.name} does not hold {self.data['object']['file']}; "
-                             "give it")
+            raise InputError(f"object is required, because {self.name} does not contain "
+                             f"{self.data['object']['file']}")
         return _regrasp.draw_plan(_arguments.of_type("object", object, Object)._core, self.text,
                                   self.name, _arguments.number("width_mm", width_mm, 20, 2000))
 
@@ -116,7 +120,7 @@ def _text_of(path: str) -> str:
         with open(path, encoding="utf-8") as file:
             return file.read()
     except UnicodeDecodeError as error:
-        raise InputError(f"{path}: not UTF-8: {error}") from None
+        raise InputError(f"{path}: not valid UTF-8: {error}") from None
 
 
 def _fingers(contacts: list[dict]) -> str:
@@ -142,37 +146,36 @@ def plan(object: Object, start: GivenGrasp, goal: GivenGrasp, mu: float | None =
          contacts: int | None = None, clusters: int | None = None, seed: int = 0,
          min_quality: float = 0.01, finger_radius: float = 0, torsion: float = 0,
          time_limit: float | None = None, progress: Progress = None) -> Plan:
-    """Finds a sequence from one grasp to another with force closure at every instant.
+    """Find a plan from one grasp to another with force closure at every instant.
 
-    The same arguments give the same plan, bit for bit, and the same that the program `plan` writes.
+    The same arguments give the same plan, bit for bit, unless `time_limit` ends the search. It is the
+    plan that the program `plan` writes.
 
     Args:
-        object: what is held.
-        start: the grasp at the beginning: (k, 3) points on the surface ((k, 2) in the plane), a
-            pair (points, normals), the path of a grasp file, "random" or "random-any" (evenly over
-            the surface).
-        goal: the grasp at the end, likewise.
-        mu: friction coefficient, or
-        friction_angle_deg: the half-angle of the friction cones in degrees.
-        planner: "auto", or the name of a planner as on the command line.
-        optimize: "steps", "margin", "travel", or "regions" in the plane; with a hand "margin": of
-            the plans that its motors carry out the one with most to spare.
-        contacts: contact points of the planner "roadmap"; None: as many as it likes.
-        clusters: that it sorts them into.
-        seed: of all that is drawn at random.
-        min_quality: that random grasps have at least and the sequence prefers.
-        finger_radius: of the fingers, in the object's unit; 0: points.
-        torsion: of soft fingers the largest torque about a normal over the largest tangential force,
-            in the object's unit; 0: hard points.
-        time_limit: seconds after which planning gives up; the plan then depends on the machine.
-        progress: called with a line of text for each stage.
+        object: object to hold.
+        start: start grasp. An array (k, 3) of points on the surface ((k, 2) for a polygon), a pair
+            (points, normals), or the path of a grasp file. "random" draws it from the planner's own
+            graph, "random-any" uniformly on the surface.
+        goal: goal grasp, in the same forms.
+        mu: friction coefficient; give either `mu` or `friction_angle_deg`.
+        friction_angle_deg: friction angle, degrees.
+        planner: "auto" or the name of a planner, as on the command line.
+        optimize: objective: "steps", "margin" or "travel"; "regions" for polygons.
+        contacts: number of contact points of the planner "roadmap"; default: chosen by the planner.
+        clusters: number of clusters of these points; default: chosen by the planner.
+        seed: seed of all random choices.
+        min_quality: smallest grasp quality ε of random grasps; the plan prefers such grasps.
+        finger_radius: radius of the fingers, in the object's unit; 0: points.
+        torsion: torsional friction length of soft fingers, in the object's unit; 0: hard fingers.
+        time_limit: longest time, seconds. A plan then depends on the speed of the machine.
+        progress: function that is called with one line of text per stage.
 
     Returns:
-        The plan, with `warnings` and `notes` about it.
+        The plan, with `warnings` and `notes`.
 
     Raises:
-        InputError: an argument is wrong, or a grasp is not on the object or not force closure.
-        NoPlan: no sequence was found.
+        InputError: an argument is invalid, or a grasp is not on the object or not force closure.
+        NoPlan: no plan is found. This does not prove that none exists.
 
     >>> cube = Object.read("models/cube.obj")
     >>> start = [[.03, .004, .002], [-.03, .002, -.004], [.003, .03, .004], [-.002, -.03, .001]]
@@ -208,39 +211,38 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
                  reserve: str = "required", clearance: float = 0.001, seed: int = 0,
                  min_quality: float = 0.01, time_limit: float | None = None,
                  jobs: int | None = None, progress: Progress = None) -> Plan:
-    """Finds how a hand turns an object, moves it, or changes its grasp: with all joints, and without
-    collisions.
+    """Find how a hand rotates or moves an object, or changes its grasp.
 
-    One of `turn`, `goal_pose` and `goal` says what the hand is to do. The same arguments give the
-    same plan, bit for bit, and the same that the program `plan --hand` writes.
+    The plan has the joint angles of all fingers and is free of collisions. Set at least one of `turn`,
+    `goal_pose` and `goal`. The same arguments give the same plan, bit for bit, unless `time_limit`
+    ends the search.
 
     Args:
-        object: what is held, a solid.
-        hand: the hand.
-        mu: friction coefficient, or
-        friction_angle_deg: the half-angle of the friction cones in degrees.
-        turn: an axis of the object, "x", "y" or "z", and degrees.
-        start: the grasp at the beginning, as for `plan`, of three contacts to as many as there are
-            fingers; None: any.
-        goal: the grasp at the end, likewise.
-        start_pose: of the object's frame in the palm's: seven numbers, position in metres and
-            quaternion w, x, y, z; None: where the hand's reach is best.
-        goal_pose: likewise.
-        reserve: whether something to spare for the hand's motors, and that they carry the plan
-            out in a simulation, is "required", "preferred" (otherwise there is a plan that they do
-            not carry out) or not asked for ("none").
-        clearance: that links keep from each other, from palm and object, metres.
-        seed: of all that is drawn at random.
-        min_quality: that the sequence prefers.
-        time_limit: seconds after which planning gives up.
-        jobs: searches at a time; None: one a processor. Without a time limit it changes nothing but
-            the time that it takes.
-        progress: called with a line of text for each stage, from whichever thread is at it.
+        object: object to hold, a solid.
+        hand: hand that moves it.
+        mu: friction coefficient; give either `mu` or `friction_angle_deg`.
+        friction_angle_deg: friction angle, degrees.
+        turn: rotation, as a pair of an object axis ("x", "y" or "z") and an angle in degrees.
+        start: start grasp of three contacts or more, in the forms of `plan`; default: any.
+        goal: goal grasp, in the same forms.
+        start_pose: initial pose of the object frame in the palm frame. Seven numbers: position in
+            metres and unit quaternion w, x, y, z. Default: the pose at which the fingers reach most
+            of the object.
+        goal_pose: final pose, in the same form.
+        reserve: robustness of the plan. "required" returns only a plan that executes in simulation on
+            the hand's actuators. "preferred" returns a plan that does not if there is no other.
+            "none" does not simulate.
+        clearance: smallest distance of links to each other, palm and object, metres.
+        seed: seed of all random choices.
+        min_quality: grasp quality ε that the plan prefers.
+        time_limit: longest time, seconds.
+        jobs: number of parallel searches; default: one per processor. Without a time limit the plan
+            does not depend on it.
+        progress: function that is called with one line of text per stage, from any thread.
 
     Raises:
-        InputError: an argument is wrong.
-        NoPlan: no sequence was found, or none that the hand's motors carry out; its text says what
-            fails.
+        InputError: an argument is invalid.
+        NoPlan: no plan is found, or none that executes in simulation; the text names the failure.
 
     >>> ring = Hand.read("models/hands/ring4.json")
     >>> cube = Object.read("models/cube.obj")
@@ -250,13 +252,13 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     _arguments.of_type("object", object, Object)
     _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     if object.dimension != 3:
-        raise InputError(f"object: {object.name} is a polygon; hands hold solids")
+        raise InputError(f"object must be a solid, found the polygon {object.name}")
     if turn is not None and goal_pose is not None:
-        raise InputError("turn: goal_pose says already how the object is to be in the end")
+        raise InputError("turn cannot be used with goal_pose")
     if turn is None and goal_pose is None and goal is None:
-        raise InputError('turn: say what the hand is to do: turn=("z", 90), goal_pose or goal')
+        raise InputError('a goal is required: turn=("z", 90), goal_pose or goal')
     if turn is None and goal_pose is None and start is None and start_pose is None:
-        raise InputError("goal: start or start_pose says what is before it")
+        raise InputError("goal requires start or start_pose")
     given = _asked(mu, friction_angle_deg, seed, min_quality, time_limit)
     if jobs is None:
         jobs = min(os.cpu_count() or 1, _MOST_JOBS)
@@ -276,7 +278,7 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
 
 
 def _asked(mu, friction_angle_deg, seed, min_quality, time_limit):
-    """What is asked of every planner."""
+    """Return the arguments that all planners share."""
     given = _regrasp.PlanArguments()
     given.half_angle = _arguments.needed_half_angle(mu, friction_angle_deg)
     given.seed = _arguments.integer("seed", seed, 0, 2**64 - 1)
@@ -290,25 +292,25 @@ def _turn(turn) -> tuple[list[float], float]:
     try:
         axis, degrees = turn
     except (TypeError, ValueError):
-        raise InputError('turn: an axis and degrees, as in ("z", 90), found '
+        raise InputError('turn must be an axis and degrees, for example ("z", 90), found '
                          f"{_arguments.shown(turn)}") from None
     axis = _arguments.choice("turn[0]", axis, ["x", "y", "z"])
     degrees = _arguments.number("turn[1]", degrees, -3600.1, 3600.1)
     if degrees == 0:
-        raise InputError("turn[1]: degrees other than 0, found 0")
+        raise InputError("turn[1] must not be 0 degrees")
     return [float(axis == other) for other in "xyz"], degrees * (math.pi / 180)
 
 
 def _pose(name: str, pose) -> list[float]:
     pose = _arguments.numbers(name, pose, "(7,)", (1,))
     if len(pose) != 7:
-        raise InputError(f"{name}: position and quaternion are 7 numbers, found {len(pose)}")
+        raise InputError(f"{name} must have 7 numbers, position and quaternion, found {len(pose)}")
     length = math.hypot(*pose[3:])
     if abs(length - 1) > 1e-3:
-        raise InputError(f"{name}: the quaternion's length must be 1, found {length:.4g}")
+        raise InputError(f"{name} must have a unit quaternion, found length {length:.4g}")
     distance = math.hypot(*pose[:3])
     if distance > 10:
-        raise InputError(f"{name}: positions are in metres from the palm, found {distance:.4g} m")
+        raise InputError(f"{name} must be within 10 m of the palm, found {distance:.4g} m")
     return pose.tolist()
 
 
@@ -323,7 +325,7 @@ def _plan_of(object: Object, text, message, warnings, notes) -> Plan:
 
 
 def _grasp_text(name: str, grasp, object: Object, random: bool = True) -> str:
-    """A grasp argument as the text of a grasp file, or one of the words for random ones."""
+    """Return a grasp argument as the text of a grasp file, or the word for a random grasp."""
     if isinstance(grasp, (str, bytes, os.PathLike)):
         if random and grasp in _RANDOM:
             return grasp
@@ -332,19 +334,19 @@ def _grasp_text(name: str, grasp, object: Object, random: bool = True) -> str:
             return _text_of(grasp)
         except FileNotFoundError:
             words = f", {' or '.join(map(repr, _RANDOM))}" if random else ""
-            raise InputError(f"{name}: there is no file {grasp}; give points, a file{words}") from None
+            raise InputError(f"{name}: file {grasp} not found, expected points, a file{words}") from None
     normals = None
     if isinstance(grasp, tuple) and len(grasp) == 2:
         grasp, normals = grasp
     shape = f"(k, {object.dimension})"
     points = _arguments.numbers(name, grasp, shape, (2,))
     if points.shape[1] != object.dimension:
-        raise InputError(f"{name}: the shape is {shape}, found {points.shape}")
+        raise InputError(f"{name} must have shape {shape}, found {points.shape}")
     contacts = [{"point": point} for point in points.tolist()]
     if normals is not None:
         normals = _arguments.numbers(f"{name}[1]", normals, shape, (2,))
         if normals.shape != points.shape:
-            raise InputError(f"{name}[1]: the shape is that of the points, {points.shape}, "
+            raise InputError(f"{name}[1] must have the shape of the points, {points.shape}, "
                              f"found {normals.shape}")
         for contact, normal in zip(contacts, normals.tolist()):
             contact["normal"] = normal

@@ -1,4 +1,4 @@
-"""Reports: what the analytic check and the replay say of a plan."""
+"""Reports: results of the analytic check and the replay of a plan."""
 
 from __future__ import annotations
 
@@ -15,9 +15,11 @@ from .plans import Plan
 
 
 class Report:
-    """What `validate` says: `data` is report.json as a dict (docs/report.schema.json).
+    """The result of `validate`; `data` is report.json as a dict (docs/report.schema.json).
 
-    A notebook shows its contact sheet and its table.
+    A notebook displays the overview image and the table. `text` is the content of report.json, `table`
+    a text with one line per step and the verdict. `failure` is one line with the failure, its cause and
+    a remedy, or None if the plan passes.
     """
 
     def __init__(self, core: _regrasp.Report, object: Object):
@@ -27,39 +29,42 @@ class Report:
         self._object = object
         self._drawn: dict[tuple[int, int], tuple] = {}
         self.text: str = core.json
-        """Of report.json."""
+        """Content of report.json."""
         self.data: dict = json.loads(self.text)
         self.table: str = core.table
-        """For people: a line for each step, what is weakest, the verdict."""
+        """Text with one line per step, the weakest step and the verdict."""
         self.failure: str | None = core.failure
-        """What failed, why and what would mend it, in one line; None where the plan passes."""
+        """Failure, cause and remedy in one line; None if the plan passes."""
 
     @property
     def passed(self) -> bool:
-        """The verdict."""
+        """Whether the plan passes."""
         return self.failure is None
 
     @property
     def steps(self) -> list[dict]:
-        """What is said of the hold and of each step after it."""
+        """Results of the initial grasp and of each step, as in report.json."""
         return self.data["steps"]
 
     def frames(self, size: tuple[int, int] = (1280, 960)) -> list[np.ndarray]:
-        """The pictures of the hold and of each step up to the one that failed.
+        """Draw the initial grasp and each step, up to the first that fails.
 
         Args:
             size: width and height, pixels.
 
         Returns:
-            Arrays (height, width, 3) of uint8, RGB, rows from the top.
+            Arrays (height, width, 3) of uint8, RGB, first row at the top.
         """
         return self._draw(size)[0]
 
     def overview(self, size: tuple[int, int] = (1280, 960)) -> np.ndarray:
-        """The contact sheet: all frames, small, with the verdict; (H, W, 3) of uint8.
+        """Draw the overview image: all frames at a small size, with the verdict.
 
         Args:
-            size: of the frames, before they are made small.
+            size: width and height of each frame before it is scaled down, pixels.
+
+        Returns:
+            An array (height, width, 3) of uint8, RGB, first row at the top.
         """
         return self._draw(size)[1]
 
@@ -67,7 +72,7 @@ class Report:
         try:
             width, height = size
         except (TypeError, ValueError):
-            raise InputError("size: width and height are needed, found "
+            raise InputError("size must be width and height, found "
                              f"{_arguments.shown(size)}") from None
         limits = _regrasp.least_frame_side, _regrasp.most_frame_side
         size = (_arguments.integer("size[0]", width, *limits),
@@ -97,39 +102,39 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
              hand: Hand | None = None, replay: str | None = None, tip: str | None = None,
              tolerance_mm: float = 2, tolerance_deg: float = 5, feedback: bool = True,
              progress: Progress = None) -> Report:
-    """Checks a plan analytically, replays it with frictional point fingers or by a hand, and disturbs
-    the object.
+    """Check a plan analytically, replay it, and test each static grasp with disturbance wrenches.
 
     Args:
-        object: that the plan was made for.
-        plan: from `regrasp.plan` or `Plan.read`.
-        mu: friction coefficient instead of the plan's, or
-        friction_angle_deg: the half-angle of the cones in degrees.
-        torsion: of soft fingers instead of the plan's, in the object's unit; 0: hard points.
-        mass: of the object, kg; None: of water.
-        squeeze: total normal force of a grasp, N; None: ten times what the shake needs.
-        shake: force of the disturbance over the squeeze.
-        tolerance: allowed motion and slip over the object's diameter.
-        engine: of the replay by points, "mujoco", "ode" (the Open Dynamics Engine), or "both": MuJoCo
-            decides, and every step on which they differ is named; None: "mujoco".
-        stress: also finds the largest push that each grasp bears in each direction.
-        hand: of a plan for a hand: also checks its joints, limits, fingertips and collisions; frames
+        object: object that the plan was made for.
+        plan: plan from `plan`, `plan_in_hand` or `Plan.read`.
+        mu: friction coefficient; default: that of the plan. Give at most one of `mu` and
+            `friction_angle_deg`.
+        friction_angle_deg: friction angle, degrees.
+        torsion: torsional friction length of soft fingers, in the object's unit. 0 means hard fingers;
+            the default is that of the plan.
+        mass: mass of the object, kg; default: that of water.
+        squeeze: grasp force (sum of normal forces), N; default: ten times what the disturbance needs.
+        shake: disturbance force as a share of the grasp force.
+        tolerance: allowed displacement and slip as a share of the object's diameter.
+        engine: engine of the replay by point fingers: "mujoco" (default), "ode", or "both": MuJoCo
+            decides, and steps on which the engines differ are listed.
+        stress: whether to compute the largest disturbance that each grasp resists per direction.
+        hand: hand of the plan. Its joints, limits, fingertips and collisions are checked, and images
             show it.
-        replay: "points", by ideal fingers, or "hand", on the hand's own model with its motors; None:
-            by the hand where there is one.
-        tip: what of a fingertip touches the object in a replay by the hand: "ball", that of the hand's
-            file, for which plans are made, or "geometry", what the hand's model has there for
-            collisions; None: "ball".
-        tolerance_mm: how far the object may be from its planned place in a replay by the hand.
-        tolerance_deg: how far it may be turned from it.
-        feedback: of a replay by the hand: joint targets follow the object's measured pose.
-        progress: called with a line of text after each step.
+        replay: "points" for ideal point fingers, or "hand" for the hand's model with its actuators;
+            default: "hand" if a hand is given.
+        tip: shape of fingertips in the replay by a hand. "ball" (default) is the sphere of the hand
+            file, for which plans are made; "geometry" is the collision geometry of the model.
+        tolerance_mm: allowed distance of the object from its planned position in the replay by a hand.
+        tolerance_deg: allowed rotation from its planned orientation in the replay by a hand.
+        feedback: whether joint targets follow the measured object pose in the replay by a hand.
+        progress: function that is called with one line of text per step.
 
     Returns:
-        The report; a plan that fails is no exception.
+        The report. A plan that fails is not an exception.
 
     Raises:
-        InputError: the plan is for another object, or an argument is wrong.
+        InputError: the plan is for another object, or an argument is invalid.
 
     >>> cube = Object.read("models/cube.obj")
     >>> from regrasp import plan
@@ -147,7 +152,7 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     """
     _arguments.of_type("object", object, Object)
     _arguments.of_type("plan", plan, Plan, "; Plan.read reads a file")
-    given = _regrasp.ValidateArguments()
+    given = _regrasp.ValidationOptions()
     given.half_angle = _arguments.half_angle(mu, friction_angle_deg)
     if torsion is not None:
         given.torsion = _arguments.number("torsion", torsion, 0, zero=True)
@@ -163,22 +168,23 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     if hand is not None:
         _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     if hand is not None and "hand" not in plan.data:
-        raise InputError(f"hand: {plan.name} is a plan for fingers without a hand")
+        raise InputError(f"hand cannot be used with {plan.name}, which is not a plan for a hand")
     if hand is not None and object.dimension != 3:
-        raise InputError(f"object: {object.name} is a polygon; hands hold solids")
+        raise InputError(f"object must be a solid, found the polygon {object.name}")
     if replay is None:
         replay = "points" if hand is None else "hand"
     given.replay_by_hand = _arguments.choice("replay", replay, ["points", "hand"]) == "hand"
     if given.replay_by_hand and hand is None:
-        raise InputError("hand: is needed for a replay by it")
+        raise InputError('hand is required for replay="hand"')
     if given.replay_by_hand and engine is not None:
-        raise InputError('engine: goes with replay="points"')
+        raise InputError('engine requires replay="points"')
     if given.replay_by_hand and given.stress:
-        raise InputError('stress: goes with replay="points"')
+        raise InputError('stress requires replay="points"')
     if tip is not None:
-        given.own_tips = _arguments.choice("tip", tip, ["ball", "geometry"]) == "geometry"
+        if _arguments.choice("tip", tip, ["ball", "geometry"]) == "geometry":
+            given.use_tip_geometry()
         if not given.replay_by_hand:
-            raise InputError('tip: goes with replay="hand"')
+            raise InputError('tip requires replay="hand"')
     given.feedback = _arguments.flag("feedback", feedback)
     given.set_hand_tolerance(_arguments.number("tolerance_mm", tolerance_mm, 0),
                              _arguments.number("tolerance_deg", tolerance_deg, 0))

@@ -11,10 +11,10 @@
 
 #include "planner/base/number.h"
 #include "render/figures/contact_space_track.h"
-#include "render/figures/panel_text.h"
+#include "render/figures/figure_page.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"
-#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
 
@@ -22,28 +22,28 @@ using Eigen::Vector2d;
 
 namespace {
 
-// Points.
+// Lengths in points.
 constexpr double kVertexTick = 2;
 constexpr double kLabelTick = 4;
 constexpr double kTickWidth = 0.35;
 constexpr double kFrameWidth = 0.5;
-constexpr double kLabelDistance = 2;  ///< from the tick to the label
-constexpr double kBelowGap = 28;      ///< least distance of labels below a plot
-constexpr double kBesideGap = 16;     ///< and beside it
-constexpr double kTitleBelow = 23;    ///< from a plot to the base of the title below it
-constexpr double kTitleBeside = 36;   ///< and to the title beside it
+constexpr double kLabelDistance = 2;  ///< distance from tick to label
+constexpr double kBelowGap = 28;      ///< minimum distance of labels below a plot
+constexpr double kBesideGap = 16;     ///< minimum distance of labels next to a plot
+constexpr double kTitleBelow = 23;    ///< distance from a plot to the base of the title below it
+constexpr double kTitleBeside = 36;   ///< distance from a plot to the title next to it
 
 constexpr int kVertexDigits = 3;
-/// Lengths of more vertices than this are harder to read than round ones.
+/// Number of vertices above which round lengths are easier to read.
 constexpr int kFewVertices = 8;
 
-/// Places this close, over the perimeter, are one: rounding.
+/// Relative difference of positions that are equal up to rounding.
 constexpr double kRounding = 1e-9;
 
 struct Vertex {
-  double place;   ///< as the axis has it
-  double length;  ///< on the ring
-  bool begins;    ///< the ring begins here
+  double place;   ///< position on the axis
+  double length;  ///< length on the ring
+  bool begins;    ///< whether the ring starts here
 };
 
 std::vector<Vertex> ShownVertices(const contour::Boundary& boundary, contour::RingIndex ring,
@@ -64,7 +64,8 @@ std::vector<Vertex> ShownVertices(const contour::Boundary& boundary, contour::Ri
 
 std::string LengthLabel(double length) { return FormatShort(length, kVertexDigits); }
 
-/// The length that an axis shows where a ring begins: its end, where it shows one turn.
+/// Return the label at the start of a ring: the perimeter at the end of an axis over one period, 0
+/// otherwise.
 std::string BeginLabel(const contour::Boundary& boundary, contour::RingIndex ring,
                        const contour::PlaceRange& shown, double place, const AxisUnit& unit) {
   const double perimeter = boundary.perimeter(ring);
@@ -73,7 +74,7 @@ std::string BeginLabel(const contour::Boundary& boundary, contour::RingIndex rin
   return end ? LengthLabel(unit.per_unit * perimeter) : "0";
 }
 
-/// Vertices that print keeps apart; where a ring begins is always kept.
+/// Remove vertices that print cannot separate, except the starts of rings.
 std::vector<Vertex> Thin(const std::vector<Vertex>& vertices, double gap) {
   std::vector<Vertex> kept;
   for (const Vertex& vertex : vertices) {
@@ -88,7 +89,7 @@ std::vector<Vertex> Thin(const std::vector<Vertex>& vertices, double gap) {
   return kept;
 }
 
-/// True iff vertices are few, far apart and have lengths that their labels tell apart.
+/// Return whether vertices are few, far apart and have distinct labels.
 bool CanBeLabelled(const std::vector<Vertex>& vertices, double gap) {
   if (vertices.size() < 2 || vertices.size() > kFewVertices) return false;
   for (std::size_t i = 1; i < vertices.size(); ++i) {
@@ -99,28 +100,28 @@ bool CanBeLabelled(const std::vector<Vertex>& vertices, double gap) {
   return true;
 }
 
-/// The shortest of 1, 2 or 5 times a power of ten that is no shorter than `least`.
+/// Return the shortest length of the form 1, 2 or 5 times a power of ten that is at least `least`.
 double RoundLengthAbove(double least) {
-  // From one round length to the next the factor is 2 or 2.5.
+  // The ratio of consecutive round lengths is 2 or 2.5.
   const double step = RoundLength(2 * least);
   return step >= least ? step : RoundLength(2.5 * least);
 }
 
-/// Round lengths on an axis, but near where the ring begins.
+/// Return ticks at round lengths, except near the start of the ring.
 std::vector<AxisTick> RoundTicks(double perimeter, const contour::PlaceRange& shown, double gap,
                                  const AxisUnit& unit) {
-  const double told = RoundLengthAbove(unit.per_unit * gap);
-  const double step = told / unit.per_unit;
-  // As many digits as tell the largest length from the one a step below, and no fewer than it has
-  // before the point.
+  const double labelled = RoundLengthAbove(unit.per_unit * gap);
+  const double step = labelled / unit.per_unit;
+  // Enough digits to distinguish the largest length from the previous tick, and all digits before
+  // the decimal point.
   const int first = static_cast<int>(std::floor(std::log10(unit.per_unit * perimeter)));
-  const int digits = 1 + first - std::min(static_cast<int>(std::floor(std::log10(told))), 0);
+  const int digits = 1 + first - std::min(static_cast<int>(std::floor(std::log10(labelled))), 0);
   std::vector<AxisTick> ticks;
   for (double turn = std::floor(shown.low / perimeter); turn * perimeter <= shown.high; ++turn) {
     for (double k = 1; k * step <= perimeter - gap; ++k) {
       const double place = turn * perimeter + k * step;
       if (place >= shown.low && place <= shown.high)
-        ticks.push_back({place, FormatShort(k * told, std::max(digits, 1))});
+        ticks.push_back({place, FormatShort(k * labelled, std::max(digits, 1))});
     }
   }
   return ticks;
@@ -181,7 +182,7 @@ void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, contour::Rin
     DrawLabel(cr, tick.label, base, TextAlign::kCentre);
   }
   const std::string title = AxisTitle(boundary, length, ring, unit);
-  // To the right of a plot the page may end.
+  // The page can end at the right border of the plot.
   const double width = std::max(window.size().x(), LabelWidth(cr, title));
   const Vector2d middle(window.corner.x() + window.size().x() - width / 2, bottom + kTitleBelow);
   DrawLabel(cr, title, middle, TextAlign::kCentre);
@@ -196,7 +197,7 @@ void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingI
     const double y = window.ToPage({window.low.x(), tick.place}).y();
     const double tick_length = tick.label.empty() ? kVertexTick : kLabelTick;
     StrokeLine(cr, {left, y}, {left - tick_length, y}, kTickWidth);
-    // Digits are about as high as this share of the font: they are centred on the tick.
+    // Height of digits per font size, to centre them at the tick.
     constexpr double kDigitShare = 0.36;
     const Vector2d base(left - kLabelTick - kLabelDistance, y + kDigitShare * kLabelFont);
     DrawLabel(cr, tick.label, base, TextAlign::kRight);
@@ -233,7 +234,7 @@ std::array<contour::RingIndex, 2> RingsOf(const contour::ContourGraph& graph, se
   return {graph.boundary().ring_of(edges[0]), graph.boundary().ring_of(edges[1])};
 }
 
-/// The largest square in a set, at an end of an edge of its diagram; of size 0 where there is none.
+/// The largest square in a set, at the end of an edge of its diagram; size 0 if there is none.
 struct LargestSquare {
   Vector2d centre = Vector2d::Zero();
   double size = 0;
@@ -269,8 +270,8 @@ MapSet MakeSet(contour::SetGeometry& geometry, sets::SetIndex set, std::optional
   return made;
 }
 
-/// The path of an align. Where a contact turns from the last edge of a ring to the first its place
-/// becomes zero; no edge is as long as half of its ring.
+/// Add the path of a sliding step, split at moves of a contact from the last edge of a ring to the
+/// first. A larger jump than half the perimeter identifies this, because no edge is that long.
 void AddPath(const contour::Boundary& boundary, const std::vector<AxisGrasp>& path,
              std::vector<SpaceShape>& paths) {
   SpaceShape shape;
@@ -295,8 +296,8 @@ void AddPath(const contour::Boundary& boundary, const std::vector<AxisGrasp>& pa
 std::string SetName(int k) {
   constexpr int kLetters = 26;
   std::string letters;
-  for (int rest = k; rest >= 0; rest = rest / kLetters - 1) {
-    letters.insert(letters.begin(), static_cast<char>('A' + rest % kLetters));
+  for (int remaining = k; remaining >= 0; remaining = remaining / kLetters - 1) {
+    letters.insert(letters.begin(), static_cast<char>('A' + remaining % kLetters));
   }
   return letters;
 }
@@ -320,11 +321,11 @@ ContactSpaceMap MapContactSpace(contour::SetGeometry& geometry,
   std::set<contour::RingIndex> used;
   for (std::size_t i = 0; i < track.size(); ++i) {
     const TrackEntry& entry = track[i];
-    map.rests.push_back(PointOf(graph.boundary(), entry.grasp));
-    used.insert(map.rests.back().rings.begin(), map.rests.back().rings.end());
+    map.grasps.push_back(PointOf(graph.boundary(), entry.grasp));
+    used.insert(map.grasps.back().rings.begin(), map.grasps.back().rings.end());
     AddPath(graph.boundary(), entry.path, map.paths);
     if (entry.kind == std::string_view("switch")) {
-      map.switches.push_back({map.rests[i - 1], map.rests[i], entry.shared_axis});
+      map.switches.push_back({map.grasps[i - 1], map.grasps[i], entry.shared_axis});
     }
   }
   map.rings.assign(used.begin(), used.end());
@@ -338,5 +339,86 @@ ContactSpaceMap MapContactSpace(contour::SetGeometry& geometry,
   }
   return map;
 }
+
+namespace {
+
+// Lengths in points.
+/// Steeper than most lines of a set.
+constexpr Hatch kHatch = {.slope = 2, .spacing = 2.4, .width = 0.3};
+constexpr double kDash = 2.4;
+constexpr double kDotDash = 0.8;
+
+void AddPieces(cairo_t* cr, const PlotWindow& window, std::span<const Outline> pieces) {
+  cairo_new_path(cr);
+  cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
+  std::vector<Vector2d> points;
+  for (const Outline& outline : pieces) {
+    points.clear();
+    for (const Vector2d& p : outline) points.push_back(window.ToPage(p));
+    AddOutline(cr, points);
+  }
+}
+
+}  // namespace
+
+Color PlanSetTint(int index) {
+  static constexpr std::array<Color, 6> kTints = {{
+      {128, 177, 218},  // blue
+      {247, 206, 108},  // amber
+      {150, 214, 176},  // green
+      {204, 148, 186},  // mauve
+      {240, 160, 124},  // coral
+      {178, 172, 224},  // violet
+  }};
+  return kTints[index % kTints.size()];
+}
+
+Color OtherSetTint(sets::SetIndex set) {
+  static constexpr std::array<unsigned char, 3> kGreys = {224, 236, 213};
+  const unsigned char grey = kGreys[set % kGreys.size()];
+  return {grey, grey, grey};
+}
+
+void SaveAndClip(cairo_t* cr, const PlotWindow& window) {
+  cairo_save(cr);
+  SetBox(cr, window.corner, window.size());
+  cairo_clip(cr);
+}
+
+void FillPieces(cairo_t* cr, const PlotWindow& window, std::span<const Outline> pieces,
+                Color color) {
+  AddPieces(cr, window, pieces);
+  Fill(cr, color);
+}
+
+void HatchPieces(cairo_t* cr, const PlotWindow& window, std::span<const Outline> pieces,
+                 Color color) {
+  if (pieces.empty()) return;
+  cairo_save(cr);
+  AddPieces(cr, window, pieces);
+  cairo_clip(cr);
+  DrawHatch(cr, window.corner, window.size(), kHatch, color);
+  cairo_restore(cr);
+}
+
+void StrokeSegments(cairo_t* cr, const PlotWindow& window, std::span<const Segment> segments,
+                    Color color, double width) {
+  cairo_new_path(cr);
+  for (const Segment& segment : segments) {
+    const Vector2d a = window.ToPage(segment[0]);
+    const Vector2d b = window.ToPage(segment[1]);
+    cairo_move_to(cr, a.x(), a.y());
+    cairo_line_to(cr, b.x(), b.y());
+  }
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+  Stroke(cr, color, width);
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
+}
+
+void SetDash(cairo_t* cr) { cairo_set_dash(cr, &kDash, 1, 0); }
+
+void SetDots(cairo_t* cr) { cairo_set_dash(cr, &kDotDash, 1, 0); }
+
+void ClearDash(cairo_t* cr) { cairo_set_dash(cr, nullptr, 0, 0); }
 
 }  // namespace regrasp::render

@@ -5,10 +5,8 @@
 #include <vector>
 
 #include "render/figures/contact_space_map.h"
-#include "render/figures/contact_space_overview.h"
+#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
-#include "render/figures/panel_text.h"
-#include "render/figures/print_size.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
@@ -70,36 +68,36 @@ std::optional<ContactSwitch> DescribeContactSwitch(contour::SetGeometry& geometr
 
 namespace {
 
-// Points.
-constexpr double kTopSpace = 16;     ///< for the titles
-constexpr double kMiddleSpace = 74;  ///< between the windows, for the bars
+// Lengths in points.
+constexpr double kTopSpace = 16;     ///< space for titles
+constexpr double kMiddleSpace = 74;  ///< space between the windows for bars
 constexpr double kRightSpace = 6;
-constexpr double kPadding = 7;     ///< around a set in its window
-constexpr double kNarrowest = 62;  ///< window without padding
+constexpr double kPadding = 7;     ///< padding around a set in its window
+constexpr double kNarrowest = 62;  ///< minimum width of a window without padding
 constexpr double kTallest = 120 * kPointsPerMillimetre;
 constexpr double kTitleAbove = 5;
 constexpr double kBarWidth = 7;
-constexpr double kBarDistance = 17;  ///< from the middle of one bar to the next
+constexpr double kBarDistance = 17;  ///< distance between the middles of bars
 constexpr double kDiagramLine = 0.3;
 constexpr double kSquareLine = 0.8;
 constexpr double kSharedLine = 0.5;
 constexpr double kDotRadius = 1.3;
-constexpr double kMarkAside = 6.5;   ///< from a grasp to its number inside the square
-constexpr double kMarkBeyond = 4.5;  ///< from the square to a number outside
-constexpr double kLargeSquare = 11;  ///< half-width that has space for the number
+constexpr double kMarkAside = 6.5;   ///< distance from a grasp to its number inside the square
+constexpr double kMarkBeyond = 4.5;  ///< distance from the square to a number outside
+constexpr double kLargeSquare = 11;  ///< half-width of a square that has space for the number
 
 constexpr Color kDiagramInk = {80, 92, 120};
-/// Pale: the diagram is drawn over it.
+/// Pale, because the diagram is drawn on top.
 constexpr Color kHatchInk = {252, 252, 252};
 constexpr Color kBand = {240, 240, 240};
 
-struct Extent {
+struct SetExtent {
   Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity());
   Vector2d high = -low;
 };
 
-Extent ExtentOf(const ContactSwitchSide& side) {
-  Extent extent;
+SetExtent SetExtentOf(const ContactSwitchSide& side) {
+  SetExtent extent;
   for (const Outline& outline : side.set.pieces) {
     for (const Vector2d& p : outline) {
       extent.low = extent.low.cwiseMin(p);
@@ -109,7 +107,7 @@ Extent ExtentOf(const ContactSwitchSide& side) {
   return extent;
 }
 
-/// The largest scale at which two widths, none drawn below the narrowest, fit.
+/// Return the largest scale at which two widths fit, if neither is drawn narrower than kNarrowest.
 double FitWidths(double a, double b, double space) {
   const double scale = space / (a + b);
   if (scale * std::min(a, b) >= kNarrowest) return scale;
@@ -132,13 +130,14 @@ void DrawGrasp(cairo_t* cr, const ContactSwitchSide& side, const PlotWindow& win
   SetBox(cr, at - Vector2d::Constant(half), Vector2d::Constant(2 * half));
   Stroke(cr, kInk, kSquareLine);
   DrawDot(cr, at, kDotRadius);
-  // In a corner of a large square, beyond the corner of a small one; towards the window's middle.
+  // Inside a corner of a large square, or outside the corner of a small one, towards the middle of
+  // the window.
   const double aside = half > kLargeSquare ? kMarkAside : half + kMarkBeyond;
   const bool left = at.x() < window.corner.x() + window.size().x() / 2;
   DrawMark(cr, std::to_string(side.grasp_entry), at + Vector2d(left ? aside : -aside, -aside));
 }
 
-/// A part of the shared length, as a bar about `x`.
+/// Draw a range of the shared axis as a bar centred at `x`.
 void DrawBar(cairo_t* cr, const PlotWindow& window, const contour::PlaceRange& range, double x,
              Color fill, const std::string& name) {
   const double top = window.ToPage({window.low.x(), range.high}).y();
@@ -161,7 +160,7 @@ void DrawBars(cairo_t* cr, const ContactSwitch& step, const SwitchLayout& layout
           PlanSetTint(step.sides[1].name), after);
 }
 
-/// From the left end of the first window to the right end of the second.
+/// Return the left end of the first window and the right end of the second.
 std::array<double, 2> Across(const SwitchLayout& layout) {
   const PlotWindow& right = layout.windows[1];
   return {layout.windows[0].corner.x(), right.corner.x() + right.size().x()};
@@ -204,10 +203,10 @@ void DrawSwitch(cairo_t* cr, const contour::Boundary& boundary, const ContactSwi
 }  // namespace
 
 SwitchLayout LayOutSwitch(const ContactSwitch& step) {
-  const std::array<Extent, 2> extents = {ExtentOf(step.sides[0]), ExtentOf(step.sides[1])};
+  const std::array<SetExtent, 2> extents = {SetExtentOf(step.sides[0]), SetExtentOf(step.sides[1])};
   const double low = std::min(extents[0].low.y(), extents[1].low.y());
   const double high = std::max(extents[0].high.y(), extents[1].high.y());
-  const auto width_of = [](const Extent& extent) { return extent.high.x() - extent.low.x(); };
+  const auto width_of = [](const SetExtent& extent) { return extent.high.x() - extent.low.x(); };
   const double space = kTwoColumnWidth - kLeftSpace - kMiddleSpace - kRightSpace - 4 * kPadding;
   const double scale = std::min(FitWidths(width_of(extents[0]), width_of(extents[1]), space),
                                 (kTallest - 2 * kPadding) / (high - low));
@@ -222,8 +221,8 @@ SwitchLayout LayOutSwitch(const ContactSwitch& step) {
     window.high = {middle + half / scale, high + kPadding / scale};
     used += window.size().x();
   }
-  const double spare = kTwoColumnWidth - kLeftSpace - kMiddleSpace - kRightSpace - used;
-  layout.windows[0].corner = {kLeftSpace + spare / 2, kTopSpace};
+  const double unused = kTwoColumnWidth - kLeftSpace - kMiddleSpace - kRightSpace - used;
+  layout.windows[0].corner = {kLeftSpace + unused / 2, kTopSpace};
   layout.windows[1].corner = {
       layout.windows[0].corner.x() + layout.windows[0].size().x() + kMiddleSpace, kTopSpace};
   layout.height = kTopSpace + layout.windows[0].size().y() + kBottomSpace;

@@ -15,52 +15,57 @@
 
 namespace regrasp::render {
 
-/// One of the two sets of a switch, unfolded: the place of the contact that stays upwards, that of
-/// the other one to the right.
+/// One of the two sets of a switch, unfolded: the boundary length of the contact that stays points
+/// upwards, that of the second contact to the right.
 struct ContactSwitchSide {
-  int name = 0;  ///< of the set (SetName)
+  int name = 0;  ///< index of the set's name (SetName)
   bool stretching = false;
-  plan::EntryIndex grasp_entry{0};  ///< of the plan: the grasp after it
+  plan::EntryIndex grasp_entry{0};  ///< plan entry after which the plan has this grasp
   contour::RingIndex other_ring;
   UnfoldedSet set;
   Eigen::Vector2d grasp = Eigen::Vector2d::Zero();
-  double size = 0;                 ///< half-width of the largest square about the grasp
-  contour::PlaceRange projection;  ///< of the set, on the length of the contact that stays
+  double size = 0;                 ///< half-width of the largest square around the grasp
+  contour::PlaceRange projection;  ///< range of the set along the vertical axis
 };
 
-/// What the figure of a switch shows: both sets with that length in line.
+/// Content of the figure of a switch: both sets with a common vertical axis.
 struct ContactSwitch {
   plan::EntryIndex entry{0};
   contour::RingIndex shared_ring;
-  std::array<ContactSwitchSide, 2> sides;  ///< before and after
-  contour::PlaceRange overlap;             ///< of the two projections, about the contact that stays
+  std::array<ContactSwitchSide, 2> sides;  ///< sets before and after the switch
+  contour::PlaceRange
+      overlap;  ///< intersection of the two projections, around the contact that stays
 };
 
-/// @param entry  of the track, a switch.
-/// @returns nullopt where no contact stays, or a grasp lies in no set: at the very border of force
-///          closure.
+/// Compute the content of the figure of a switch.
+/// @param entry  index of a switch in the track.
+/// @returns nullopt if no contact stays, or if a grasp is on the border of force closure and in no
+///          set.
 [[nodiscard]] std::optional<ContactSwitch> DescribeContactSwitch(
     contour::SetGeometry& geometry, const std::vector<TrackEntry>& track, plan::EntryIndex entry,
     const std::map<sets::SetIndex, int>& names);
 
-/// Where a switch's two sets are drawn.
+/// Positions of the two sets of a switch.
 struct SwitchLayout {
   std::array<PlotWindow, 2> windows;
-  double height = 0;  ///< of the page without its caption
+  double height = 0;  ///< height of the page without its caption, points
 };
 
-/// One scale for both sets and both axes, so that squares are squares; the windows show the same
-/// places upwards. As large as two columns and a page's height allow.
+/// Lay out both sets with one scale for all axes, so that squares stay squares, and the same
+/// vertical range. The scale is as large as two columns and the height of a page allow.
 [[nodiscard]] SwitchLayout LayOutSwitch(const ContactSwitch& step);
 
-/// Draws a switch in contact space, as a file's bytes, two columns wide (Phoka 2010, figures 4.6
-/// and 4.9): the two sets unfolded, with the place of the contact that stays upwards, in line; bars
-/// of their projections on it and of what these have in common; thin, the L-infinity Voronoi
-/// diagram of each set's border; the two grasps with the largest squares about them; and the line
-/// at the contact that stays.
+/// Draw a switch in contact space, two columns wide (Phoka 2010, figures 4.6 and 4.9).
 ///
-/// Laws: the same plan gives the same bytes.
-/// @throws EnvironmentError  Cairo failed.
+/// The figure shows
+///   - the two unfolded sets with a common vertical axis for the contact that stays,
+///   - bars of their projections onto this axis and of the intersection of these,
+///   - the L-infinity Voronoi diagram of each set's border in thin lines,
+///   - the two grasps with the largest squares around them, and
+///   - the line through the contact that stays.
+/// Deterministic.
+/// @returns the bytes of the file.
+/// @throws EnvironmentError  if Cairo fails.
 [[nodiscard]] std::string DrawContactSwitch(const contour::Boundary& boundary,
                                             const ContactSwitch& step, const AxisUnit& unit,
                                             const std::string& caption, FigureFormat format);

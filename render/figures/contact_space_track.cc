@@ -12,7 +12,8 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Where a piece lies in the plane: its places in this order or the other, moved by whole periods.
+/// The placement of a piece in the plane: optionally swapped coordinates, and an offset by whole
+/// periods.
 struct Placement {
   bool swapped = false;
   Vector2d offset = Vector2d::Zero();
@@ -23,7 +24,7 @@ struct Placement {
   friend bool operator==(const Placement&, const Placement&) = default;
 };
 
-/// A neighbour of a piece, as it continues a placement of that piece.
+/// A neighbour of a piece, with the placement that continues that of the piece.
 struct Continuation {
   contour::PieceIndex piece;
   Placement placement;
@@ -41,13 +42,13 @@ Continuation Continue(const contour::ContourGraph& graph, const contour::PiecePa
   const int axis = placement.swapped ? 1 - turning : turning;
   Continuation found = {beyond, placement};
   found.placement.swapped = graph.pieces()[beyond].edges[axis] != edge_beyond;
-  // Zero, or a period where the ring begins again.
+  // Zero, or a period at the end of the ring.
   const double step = boundary.end(passage.edge) - boundary.begin(next);
   found.placement.offset[axis] += forward ? step : -step;
   return found;
 }
 
-/// The passage as a line, at the border of one of its pieces.
+/// Return the line of a passage at the border of one of its pieces.
 Segment PassageLine(const contour::ContourGraph& graph, const contour::PiecePassage& passage,
                     contour::PieceIndex piece) {
   const contour::Boundary& boundary = graph.boundary();
@@ -114,7 +115,7 @@ std::vector<contour::BorderSegment> SplitBorder(const contour::ContourGraph& gra
   std::vector<contour::BorderSegment> parts;
   for (const contour::BorderSegment& segment : contour::SetBorder(graph, set)) {
     const bool upright = segment.from.x() == segment.to.x();
-    if (!upright && segment.from.y() != segment.to.y()) {  // it cuts one piece
+    if (!upright && segment.from.y() != segment.to.y()) {  // diagonal parts belong to one piece
       parts.push_back(segment);
       continue;
     }
@@ -165,7 +166,7 @@ UnfoldedSet UnfoldSet(contour::SetGeometry& geometry, const contour::PlacedGrasp
 
 namespace {
 
-/// The contacts of a grasp on the axes that their fingers have.
+/// Return the contacts of a grasp on the axes of their fingers.
 AxisGrasp OnAxes(const plan::FingerGrasp& grasp, const AxisGrasp& axes) {
   assert(grasp.size() == 2);
   const bool turned = grasp[0].finger == axes[1].finger;
@@ -199,7 +200,7 @@ void Follow(const plan::Move& /*step*/, const AxisGrasp& before, TrackEntry& ent
 
 }  // namespace
 
-std::optional<RestSize> FindOtherThanTwoFingers(const plan::Plan& plan) {
+std::optional<StaticGraspSize> FindOtherThanTwoContacts(const plan::Plan& plan) {
   plan::FingerGrasp grasp = plan.initial;
   plan::EntryIndex entry{0};
   for (const plan::Step& step : plan.steps) {
@@ -208,11 +209,11 @@ std::optional<RestSize> FindOtherThanTwoFingers(const plan::Plan& plan) {
     ++entry;
   }
   if (grasp.size() == 2) return std::nullopt;
-  return RestSize{entry, static_cast<int>(grasp.size())};
+  return StaticGraspSize{entry, static_cast<int>(grasp.size())};
 }
 
 std::vector<TrackEntry> TrackPlan(const plan::Plan& plan) {
-  assert(!FindOtherThanTwoFingers(plan));
+  assert(!FindOtherThanTwoContacts(plan));
   TrackEntry hold;
   hold.kind = "hold";
   hold.grasp = {plan.initial[0], plan.initial[1]};

@@ -5,24 +5,29 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include "planner/base/error.h"
-#include "render/figures/figure_mark.h"
+#include "planner/base/number.h"
+#include "render/figures/figure_format.h"
+#include "render/picture/cairo_paint.h"
+#include "render/picture/caption.h"
 #include "render/picture/image.h"
 
 namespace regrasp::render {
 
 namespace {
 
-/// Prints sharp at the size it has; journals ask for this many dots per inch and more.
+/// Resolution of a PNG: journals require at least this many dots per inch.
 constexpr double kPixelsPerPoint = 300.0 / 72.0;
-/// Cairo's images end at 32767 pixels a side; half of it keeps the memory below a gigabyte.
+/// Maximum side, pixels. Half of Cairo's limit of 32767 keeps the memory below a gigabyte.
 constexpr double kLongestSide = 16000;
-/// Every PDF has this date: files of the same figure are the same bytes.
+/// Date of every PDF, so that files of the same figure are identical.
 constexpr char kPdfDate[] = "2000-01-01T00:00:00Z";
 
 cairo_status_t Append(void* bytes, const unsigned char* data, unsigned int length) {
@@ -30,13 +35,13 @@ cairo_status_t Append(void* bytes, const unsigned char* data, unsigned int lengt
   return CAIRO_STATUS_SUCCESS;
 }
 
-void Demand(cairo_status_t status) {
+void Require(cairo_status_t status) {
   if (status == CAIRO_STATUS_SUCCESS) return;
   throw EnvironmentError(std::string("the figure cannot be drawn: ") +
                          cairo_status_to_string(status));
 }
 
-/// Removes the page's name from an SVG: Cairo numbers its surfaces over the life of the process.
+/// Remove the surface name from an SVG. Cairo numbers surfaces over the life of the process.
 void RemoveSurfaceName(std::string& svg) {
   static constexpr std::string_view kBegin = "<g";
   static constexpr std::string_view kName = " id=\"surface";
@@ -80,25 +85,210 @@ FigurePage::FigurePage(FigureFormat format, double width, double height, double 
       surface_(MakeSurface(magnification * width, magnification * height)),
       context_(cairo_create(surface_.get())) {
   cairo_t* cr = context_.get();
-  Demand(cairo_status(cr));
+  Require(cairo_status(cr));
   cairo_scale(cr, scale_ * magnification, scale_ * magnification);
   cairo_set_source_rgb(cr, 1, 1, 1);
   cairo_paint(cr);
 }
 
 std::string FigurePage::Finish() {
-  Demand(cairo_status(context_.get()));
+  Require(cairo_status(context_.get()));
   if (format_ == FigureFormat::kPng) {
     cairo_surface_flush(surface_.get());
-    Demand(cairo_surface_write_to_png_stream(surface_.get(), Append, bytes_.get()));
+    Require(cairo_surface_write_to_png_stream(surface_.get(), Append, bytes_.get()));
   } else {
     cairo_show_page(context_.get());
     cairo_surface_finish(surface_.get());
-    Demand(cairo_surface_status(surface_.get()));
+    Require(cairo_surface_status(surface_.get()));
   }
   if (format_ == FigureFormat::kSvg) RemoveSurfaceName(*bytes_);
   MarkFigure(format_, *bytes_);
   return std::move(*bytes_);
+}
+
+namespace {
+
+// Lengths in points.
+constexpr double kInset = 5;  ///< distance from the right border of the panel
+constexpr double kWidth = 0.6;
+constexpr double kBarTick = 1.5;
+constexpr double kTextAbove = 2.5;
+
+constexpr double kLongest = 0.25;  ///< maximum length of a scale bar per width of the panel
+
+}  // namespace
+
+double ScaleBarLength(double width, double points_per_metre) {
+  return RoundLength(kLongest * width / points_per_metre);
+}
+
+void DrawScaleBar(cairo_t* cr, const Eigen::Vector2d& panel, double points_per_metre) {
+  const double metres = ScaleBarLength(panel.x(), points_per_metre);
+  const double right = panel.x() - kInset;
+  const double left = right - metres * points_per_metre;
+  const double y = panel.y() - kWidth;
+  SetColor(cr, kInk);
+  StrokeLine(cr, {left, y}, {right, y}, kWidth);
+  for (const double x : {left, right}) StrokeLine(cr, {x, y - kBarTick}, {x, y}, kWidth);
+  DrawLabel(cr, FormatLength(metres), {(left + right) / 2, y - kTextAbove}, TextAlign::kCentre);
+}
+
+using Eigen::Vector2d;
+
+namespace {
+
+/// Distance from its anchor up to which a name needs no leader line, in radii.
+constexpr double kBeside = 3.2;
+constexpr double kLeaderWidth = 0.4;  ///< width of a leader line, points
+constexpr double kLeaderHalo = 0.8;   ///< width of its halo on each side, points
+constexpr double kLeaderStart =
+    0.75;  ///< distance of its start from the centre of the name, in radii
+constexpr double kLeaderEnd =
+    3.6;  ///< distance of its end from the contact, outside the marker, points
+
+void DrawLeader(cairo_t* cr, const Vector2d& name, const Vector2d& owner) {
+  const Vector2d direction = owner - name;
+  if (direction.norm() < kBeside * kNumberRadius) return;
+  const Vector2d from = name + kLeaderStart * kNumberRadius * direction.normalized();
+  const Vector2d to = owner - kLeaderEnd * direction.normalized();
+  SetColor(cr, kWhite);
+  StrokeLine(cr, from, to, kLeaderWidth + 2 * kLeaderHalo);
+  SetColor(cr, kInk);
+  StrokeLine(cr, from, to, kLeaderWidth);
+}
+
+}  // namespace
+
+std::vector<Vector2d> DrawNumbers(cairo_t* cr, std::span<const std::string> names,
+                                  std::span<const LabelAnchor> anchors,
+                                  std::span<const Obstacle> obstacles, const Vector2d& panel) {
+  std::vector<Vector2d> centres = PlaceLabels(
+      anchors, obstacles, kNumberRadius, static_cast<int>(panel.x()), static_cast<int>(panel.y()));
+  for (std::size_t i = 0; i < names.size(); ++i) DrawLeader(cr, centres[i], anchors[i].Owner());
+  for (std::size_t i = 0; i < names.size(); ++i) DrawMark(cr, names[i], centres[i]);
+  return centres;
+}
+
+namespace {
+
+constexpr double kHalo = 1.6;  ///< width of the halo of a mark, points
+constexpr char kClauseEnd = ';';
+
+/// Set the font of all pages. It is unhinted, so that SVG, PDF and PNG have the same layout.
+void SetFont(cairo_t* cr, double size, bool bold) {
+  SelectFont(cr, size, bold, "sans");
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+  cairo_set_font_options(cr, options);
+  cairo_font_options_destroy(options);
+}
+
+/// Split a text after each separator and trim the parts.
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size() - 1) + 1;
+    std::string part = text.substr(begin, end - begin);
+    part.erase(0, part.find_first_not_of(' '));
+    part.erase(part.find_last_not_of(' ') + 1);
+    if (!part.empty()) parts.push_back(part);
+    begin = end;
+  }
+  return parts;
+}
+
+/// Return the words of a clause. Numbers stay with the preceding word.
+std::vector<std::string> Words(const std::string& clause) {
+  std::vector<std::string> words;
+  for (const std::string& word : Split(clause, ' ')) {
+    const bool number = std::isdigit(static_cast<unsigned char>(word.front())) != 0;
+    if (number && !words.empty()) {
+      words.back() += " " + word;
+    } else {
+      words.push_back(word);
+    }
+  }
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> WrapCaption(const std::string& caption, double width) {
+  const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
+  const CairoContext context(cairo_create(surface.get()));
+  SetFont(context.get(), kCaptionFont, /*bold=*/false);
+  const auto fits = [&](const std::string& text) {
+    return TextWidth(context.get(), text) <= width;
+  };
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& text) {
+    if (!lines.empty() && fits(lines.back() + " " + text)) {
+      lines.back() += " " + text;
+    } else {
+      lines.push_back(text);
+    }
+  };
+  for (const std::string& clause : Split(caption, kClauseEnd)) {
+    if (fits(clause)) {
+      add(clause);
+    } else {
+      for (const std::string& word : Words(clause)) add(word);
+    }
+  }
+  return lines;
+}
+
+void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, double top) {
+  SetFont(cr, kCaptionFont, /*bold=*/false);
+  SetColor(cr, kInk);
+  double base = top;
+  for (const std::string& line : lines) {
+    base += kLineHeight;
+    cairo_move_to(cr, x - TextWidth(cr, line) / 2, base);
+    cairo_show_text(cr, line.c_str());
+  }
+}
+
+std::string DrawWithCaption(FigureFormat format, const Eigen::Vector2d& size,
+                            const std::string& caption, const std::function<void(cairo_t*)>& draw,
+                            double magnification) {
+  const std::vector<std::string> lines = WrapCaption(caption, size.x());
+  FigurePage page(format, size.x(), size.y() + CaptionHeight(lines.size()), magnification);
+  draw(page.context());
+  DrawCaption(page.context(), lines, size.x() / 2, size.y());
+  return page.Finish();
+}
+
+double LabelWidth(cairo_t* cr, const std::string& text) {
+  SetFont(cr, kLabelFont, /*bold=*/false);
+  return TextWidth(cr, text);
+}
+
+void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base, TextAlign align) {
+  const double width = LabelWidth(cr, text);
+  SetColor(cr, kInk);
+  double left = base.x();
+  if (align == TextAlign::kCentre) left -= width / 2;
+  if (align == TextAlign::kRight) left -= width;
+  cairo_move_to(cr, left, base.y());
+  cairo_show_text(cr, text.c_str());
+  cairo_new_path(cr);
+}
+
+void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre) {
+  SetFont(cr, kNumberFont, /*bold=*/true);
+  const Eigen::Vector2d begin = CentredText(cr, text, centre);
+  cairo_new_path(cr);
+  cairo_move_to(cr, begin.x(), begin.y());
+  cairo_text_path(cr, text.c_str());
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  Stroke(cr, kWhite, kHalo);
+  cairo_move_to(cr, begin.x(), begin.y());
+  SetColor(cr, kInk);
+  cairo_show_text(cr, text.c_str());
+  cairo_new_path(cr);
 }
 
 }  // namespace regrasp::render

@@ -2,40 +2,111 @@
 
 #include <cairo.h>
 
+#include <Eigen/Core>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "render/figures/figure_format.h"
 #include "render/picture/cairo_paint.h"
+#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 
-/// A white page that Cairo draws on, in points (1/72 inch) from the top left, and the bytes of a
-/// file of it.
+/// A white page for drawing with Cairo, in points (1/72 inch) from the top left corner.
 ///
-/// Deterministic: the same drawing gives the same bytes, as no date or random number gets in.
+/// Deterministic: the same drawing gives the same bytes, without dates or random numbers.
 class FigurePage {
  public:
-  /// @param width, height  points; positive. A PNG has 300 dots per inch, fewer where a side would
-  ///                       be longer than Cairo can draw.
-  /// @param magnification  how much larger everything is in the file, text and lines too.
-  /// @throws EnvironmentError  Cairo cannot make the page.
+  /// Create a page.
+  /// @param width, height  size in points, positive. A PNG has 300 dots per inch, or fewer if a
+  ///               side exceeds Cairo's limit.
+  /// @param magnification  scale factor of everything in the file, including text and lines.
+  /// @throws EnvironmentError  if Cairo cannot create the page.
   FigurePage(FigureFormat format, double width, double height, double magnification = 1);
 
   [[nodiscard]] cairo_t* context() const { return context_.get(); }
 
-  /// Ends the page and returns the file's bytes; to be called once, at the end.
-  /// @throws EnvironmentError  Cairo failed, now or while drawing.
+  /// End the page and return the bytes of the file. Must be called once, last.
+  /// @throws EnvironmentError  if Cairo failed, now or while drawing.
   [[nodiscard]] std::string Finish();
 
  private:
   [[nodiscard]] cairo_surface_t* MakeSurface(double width, double height);
 
   FigureFormat format_;
-  std::unique_ptr<std::string> bytes_;  ///< Cairo keeps its address
-  double scale_ = 1;                    ///< pixels per point
+  std::unique_ptr<std::string> bytes_;  ///< Cairo stores its address
+  double scale_ = 1;                    ///< scale of a PNG, pixels per point
   CairoSurface surface_;
   CairoContext context_;
 };
+
+/// Height of the scale bar at the bottom of a panel, points.
+inline constexpr double kScaleBarSpace = 14;
+
+/// Return the length of a panel's scale bar, metres: the longest round length (RoundLength) up to a
+/// quarter of the panel's width.
+/// @param width  width of the panel, points.
+[[nodiscard]] double ScaleBarLength(double width, double points_per_metre);
+
+/// Draw the scale bar with its length at the bottom right of a panel.
+/// @param panel  size of the panel, points.
+void DrawScaleBar(cairo_t* cr, const Eigen::Vector2d& panel, double points_per_metre);
+
+/// Radius of the circle that a finger's number needs, points.
+inline constexpr double kNumberRadius = 4.8;
+
+/// Draw names of fingers or grasps near their anchors (PlaceLabels), with leader lines to distant
+/// ones.
+/// @param panel  size of the panel, points; names stay inside.
+/// @returns the centres of the names.
+std::vector<Eigen::Vector2d> DrawNumbers(cairo_t* cr, std::span<const std::string> names,
+                                         std::span<const LabelAnchor> anchors,
+                                         std::span<const Obstacle> obstacles,
+                                         const Eigen::Vector2d& panel);
+
+/// Font sizes of captions and finger numbers, points: readable in print.
+inline constexpr double kCaptionFont = 7.5;
+inline constexpr double kNumberFont = 7.5;
+inline constexpr double kLabelFont = 6.5;  ///< font size of axes
+inline constexpr double kLineHeight = 1.25 * kCaptionFont;
+
+/// Break a caption into lines of at most `width` points, unless a word is longer.
+///
+/// Lines break after semicolons, or between words if necessary. Numbers stay with the preceding
+/// word.
+[[nodiscard]] std::vector<std::string> WrapCaption(const std::string& caption, double width);
+
+/// Return the height of a caption with the space below it, points.
+[[nodiscard]] inline double CaptionHeight(std::size_t lines) {
+  return (static_cast<double>(lines) + 0.5) * kLineHeight;
+}
+
+/// Draw lines centred at x, the first one below `top`.
+void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, double top);
+
+/// Draw a figure with a caption below it.
+/// @param size  size of the drawing, points.
+/// @param magnification  magnification of the page (FigurePage).
+/// @returns the bytes of the file.
+[[nodiscard]] std::string DrawWithCaption(FigureFormat format, const Eigen::Vector2d& size,
+                                          const std::string& caption,
+                                          const std::function<void(cairo_t*)>& draw,
+                                          double magnification = 1);
+
+/// Alignment of a line of text relative to its position.
+enum class TextAlign { kLeft, kCentre, kRight };
+
+/// Draw a line of text of an axis.
+/// @param base  position on the baseline.
+void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base, TextAlign align);
+
+/// Return the width of a text of an axis, points.
+[[nodiscard]] double LabelWidth(cairo_t* cr, const std::string& text);
+
+/// Draw a bold name or number, centred, with a white halo.
+void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre);
 
 }  // namespace regrasp::render

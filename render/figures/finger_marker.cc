@@ -6,24 +6,24 @@
 #include <numbers>
 
 #include "render/picture/cairo_paint.h"
-#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kWhiteRim = 0.5;      ///< points, around a filled marker and its ring
-constexpr double kOutlineWidth = 0.9;  ///< points
-constexpr double kRingDistance = 1.9;  ///< of the ring from the marker, points
-constexpr double kRingWidth = 0.8;     ///< points
+constexpr double kWhiteRim = 0.5;  ///< width of the rim around a filled marker and its ring, points
+constexpr double kOutlineWidth = 0.9;  ///< line width of a hollow marker, points
+constexpr double kRingDistance = 1.9;  ///< distance from a marker to its ring, points
+constexpr double kRingWidth = 0.8;     ///< line width of a ring, points
 
-/// What is seen of a marker around another one on it, points: a triangle there reaches 1.5 radii.
+/// Visible width of a marker around another one on top, points. A triangle extends to 1.5 radii.
 constexpr double kNestedRim = 1.6;
 
-/// A regular polygon of the same area as the disc.
+/// A regular polygon with the area of the disc.
 struct MarkerShape {
-  int corners;   ///< 0 for a disc
+  int corners;   ///< number of corners; 0 for a disc
   double start;  ///< angle of the first corner, radians
 };
 constexpr std::array<MarkerShape, 5> kShapes = {

@@ -6,43 +6,45 @@
 #include <span>
 
 #include "planner/base/index.h"
-#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
 
 enum class MarkerStyle {
   kFilled,
-  kPale,    ///< where the contact is behind the object
-  kHollow,  ///< only the border, on white: where a finger has left
+  kPale,    ///< contact behind the object
+  kHollow,  ///< white with a border: position that a finger has left
 };
 
-/// Of a marker on which no other lies, points.
+/// Radius of a marker without other markers on top, points.
 inline constexpr double kMarkerRadius = 2.7;
 
-/// Marks where a finger is: a shape and a colour for each finger (disc, square, triangle, diamond,
-/// pentagon; both repeat after five fingers), so that they stay apart in grey.
+/// A marker for the position of a finger. Shapes (disc, square, triangle, diamond, pentagon) and
+/// colours differ between fingers, and repeat after five. Markers are therefore distinguishable in
+/// greyscale.
 struct FingerMarker {
   FingerIndex finger = {};
-  Eigen::Vector2d centre;  ///< points
+  Eigen::Vector2d centre;  ///< position, points
   MarkerStyle style = MarkerStyle::kFilled;
-  bool ring = false;              ///< around it, of a finger just placed
-  double radius = kMarkerRadius;  ///< all shapes look about as large as a disc of this radius
+  bool ring = false;              ///< whether it has the ring of a placed finger
+  double radius = kMarkerRadius;  ///< radius of the disc with the same area, points
 
-  /// How far it reaches with its ring, points.
+  /// Return the distance from the centre to the outer border, with the ring, points.
   [[nodiscard]] double reach() const;
 };
 
-/// Enlarges those that others cover by more than half, so that a rim is seen of each: contacts at
-/// one place are nested, at their true place.
-/// @param markers  in the order in which they are drawn.
+/// Enlarge markers that others cover by more than half, so that a rim stays visible. Contacts at
+/// one position are drawn nested.
+/// @param markers  markers in drawing order.
 void EnlargeCovered(std::span<FingerMarker> markers);
 
 void DrawFingerMarker(cairo_t* cr, const FingerMarker& marker);
 
-/// A colour that is `share` of it and white for the rest.
+/// Mix a colour with white.
+/// @param share  share of the colour, 0 to 1.
 [[nodiscard]] Color Paler(Color color, double share);
 
-/// How much of its colour is left of what is behind an object.
+/// Share of the colour of elements behind an object.
 inline constexpr double kBehindShare = 0.45;
 
 }  // namespace regrasp::render

@@ -21,13 +21,13 @@ using Frame = polygon::EdgeFrame<double>;
 
 constexpr double kHalfTurn = std::numbers::pi;
 
-/// Where the cones' intersection has a smaller area, over D², they only touch and rounding made the
-/// rest: the tolerance for reading points, squared.
+/// Area per D² below which cones only touch, up to rounding: the square of the tolerance for
+/// contact points.
 constexpr double kLeastArea = object::kPointTolerance * object::kPointTolerance;
 
-/// Cones are this much narrower where it is computed what sees a grasp, relative: at φ* borders of
-/// two cones can lie on one line, and where they meet would be a matter of rounding. Corners are
-/// then known to 1e-16 / 1e-9 of the diameter, far below what a page shows.
+/// Relative reduction of the cone angles for the computation of common points. At φ* the borders of
+/// two cones can be collinear, and their intersection would depend on rounding. Corners then have
+/// an accuracy of 1e-16 / 1e-9 diameters, which is invisible.
 constexpr double kNarrower = 1 - 1e-9;
 
 Vector2d Head(const Eigen::Vector3d& v) { return v.head<2>(); }
@@ -56,8 +56,8 @@ Vector2d Centroid(const Outline& outline) {
   return origin + sum / Area(outline);
 }
 
-/// The points that see all contacts in their double-sided cones: a convex part for each choice of
-/// sides that has an interior.
+/// The points from which all contacts are in their double-sided cones: a convex part for each
+/// choice of sides with a non-empty interior.
 class CommonPoints {
  public:
   explicit CommonPoints(const object::Polygon& polygon)
@@ -91,7 +91,7 @@ class CommonPoints {
                   {});
   }
 
-  /// Cuts a region to one side of a double-sided cone.
+  /// Clip a region to one side of a double-sided cone.
   static void Clip(const Vector2d& apex, const Vector2d& axis, double half_angle, Region& region) {
     const polygon::Vector2<double> p = FromEigen(apex);
     const double middle = AngleOf(axis);
@@ -111,7 +111,7 @@ class CommonPoints {
   double diameter_;
 };
 
-/// The focus cell of three edges, all its parts.
+/// Return all parts of the focus cell of three edges.
 std::vector<Outline> CellOf(const object::Polygon& polygon, const grasp::Grasp& grasp,
                             double half_angle) {
   polygon::GraspSet set;
@@ -128,7 +128,7 @@ Frame FrameOf(const object::Polygon& polygon, FaceIndex face, double half_angle)
                                         std::tan(half_angle));
 }
 
-/// φ* of some normals; not positive where they do not positively span the plane.
+/// Return φ* of the normals; not positive if they do not positively span the plane.
 double LargestSpanningAngle(const grasp::Grasp& grasp) {
   std::vector<double> angles;
   for (const grasp::Contact& contact : grasp) angles.push_back(AngleOf(Head(contact.n)));
@@ -153,9 +153,9 @@ std::optional<GraspDiagram> TryTwoFinger(const grasp::Grasp& grasp, double half_
   const double first = line.dot(Head(grasp[0].n));
   const double second = -line.dot(Head(grasp[1].n));
   const double least = std::cos(half_angle);
-  const bool squeezing = first > least && second > least;
+  const bool pressing = first > least && second > least;
   const bool stretching = -first > least && -second > least;
-  if (!squeezing && !stretching) return std::nullopt;
+  if (!pressing && !stretching) return std::nullopt;
   GraspDiagram diagram;
   diagram.kind = DiagramKind::kTwoFinger;
   diagram.cones = FrictionCones(grasp, half_angle);
@@ -178,8 +178,10 @@ std::optional<GraspDiagram> TryConcurrent(const object::Polygon& polygon, const 
   return diagram;
 }
 
-/// The middle of the widest range of directions in a cone whose lines through `a` separate `b` from
-/// `c`; nullopt where there are none. All of a cone's directions are within π of its right border.
+/// Return the middle of the widest range of directions in a cone whose lines through `a` separate
+/// `b` from `c`.
+/// @param cone  cone whose directions are within π of its right border.
+/// @returns nullopt if there is no such direction.
 std::optional<Vector2d> SeparatingDirection(const polygon::DirectionCone<double>& cone,
                                             const Vector2d& a, const Vector2d& b,
                                             const Vector2d& c) {
@@ -189,8 +191,8 @@ std::optional<Vector2d> SeparatingDirection(const polygon::DirectionCone<double>
   const double width = std::atan2(Cross(right, left), right.dot(left));
   std::vector<double> turns = {0, width};
   for (const Vector2d& line : {Vector2d(b - a), Vector2d(c - a)}) {
-    const double turn =
-        std::remainder(AngleOf(line) - start, kHalfTurn);  // the line, not its direction
+    const double turn = std::remainder(AngleOf(line) - start,
+                                       kHalfTurn);  // modulo π, because lines have no direction
     for (const double t : {turn, turn + kHalfTurn}) {
       if (t > 0 && t < width) turns.push_back(t);
     }
@@ -240,27 +242,27 @@ std::optional<GraspDiagram> TryParallel(const object::Polygon& polygon, const gr
 }  // namespace
 
 GraspDiagram DescribeGrasp(const object::Polygon& polygon, const grasp::Grasp& grasp,
-                           double half_angle) {
-  if (!(half_angle > 0) || !(half_angle < kHalfTurn / 2)) {
-    throw std::invalid_argument("DescribeGrasp: the half-angle is not in (0, pi/2)");
+                           double friction_angle) {
+  if (!(friction_angle > 0) || !(friction_angle < kHalfTurn / 2)) {
+    throw std::invalid_argument("DescribeGrasp: the friction angle must be in (0, pi/2)");
   }
   for (const grasp::Contact& contact : grasp) {
     if (!contact.face.valid() || contact.face >= polygon.face_count()) {
-      throw std::invalid_argument("DescribeGrasp: a contact has no face");
+      throw std::invalid_argument("DescribeGrasp: every contact must have a face");
     }
   }
   std::optional<GraspDiagram> diagram;
-  if (grasp.size() == 2) diagram = TryTwoFinger(grasp, half_angle);
+  if (grasp.size() == 2) diagram = TryTwoFinger(grasp, friction_angle);
   if (grasp.size() == 3) {
-    // Where both are valid, the wider cones show more of the grasp.
-    diagram = TryConcurrent(polygon, grasp, half_angle);
-    auto parallel = TryParallel(polygon, grasp, half_angle);
+    // If both types apply, wider cones show more of the grasp.
+    diagram = TryConcurrent(polygon, grasp, friction_angle);
+    auto parallel = TryParallel(polygon, grasp, friction_angle);
     const auto width = [](const GraspDiagram& d) { return d.cones.front().half_angle; };
     if (parallel && (!diagram || width(*parallel) > width(*diagram))) diagram = std::move(parallel);
   }
   if (diagram) return *diagram;
   GraspDiagram other;
-  other.cones = FrictionCones(grasp, half_angle);
+  other.cones = FrictionCones(grasp, friction_angle);
   return other;
 }
 

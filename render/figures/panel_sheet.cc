@@ -6,25 +6,24 @@
 #include <numeric>
 #include <vector>
 
+#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
-#include "render/figures/panel_text.h"
-#include "render/figures/print_size.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
 
 namespace {
 
-constexpr double kGap = 8;  ///< between panels of a sheet, points
-constexpr int kUsualColumns = 4;
-/// Panels as low as this, over their width, would be small in a usual row: a sheet of a long object
-/// has fewer columns if it is no taller than a page.
+constexpr double kGap = 8;  ///< gap between panels, points
+constexpr int kDefaultColumns = 4;
+/// Ratio of height to width below which a panel is low. Sheets of low panels have fewer columns if
+/// their height does not exceed a page, because such panels would be small.
 constexpr double kLowPanel = 0.6;
 constexpr double kTallestSheet = 235 * kPointsPerMillimetre;
 
 double MagnificationOf(const FigureStyle& style) { return style.font_pt / kCaptionFont; }
 
-/// What is laid out at the usual size of text for a width in print.
+/// Return the width of the layout at the default font size for a width in print.
 double LayoutWidth(double width_mm, const FigureStyle& style) {
   return width_mm * kPointsPerMillimetre / MagnificationOf(style);
 }
@@ -41,7 +40,7 @@ void DrawPanel(cairo_t* cr, const FigurePanels& panels, int index, double width,
   cairo_restore(cr);
 }
 
-/// The lines of every caption, and the most lines of any in each row.
+/// Layout of a sheet: the lines of each caption, and the maximum number of lines in each row.
 struct SheetLayout {
   int columns;
   double panel_width, panel_height;
@@ -63,7 +62,7 @@ SheetLayout LayOutIn(int columns, const FigurePanels& panels, std::span<const in
                      const FigureStyle& style) {
   SheetLayout layout;
   layout.columns = columns;
-  const int on_page = std::min(columns, kUsualColumns);
+  const int on_page = std::min(columns, kDefaultColumns);
   const double width = (LayoutWidth(style.sheet_width_mm, style) - (on_page - 1) * kGap) / on_page;
   layout.panel_width = std::min(width, LayoutWidth(style.width_mm, style));
   layout.panel_height = panels.HeightFor(layout.panel_width);
@@ -78,21 +77,21 @@ SheetLayout LayOutIn(int columns, const FigurePanels& panels, std::span<const in
 SheetLayout LayOut(const FigurePanels& panels, std::span<const int> indices,
                    const FigureStyle& style) {
   const int columns = SheetColumns(static_cast<int>(indices.size()));
-  SheetLayout usual = LayOutIn(columns, panels, indices, style);
-  const bool low = usual.panel_height < kLowPanel * usual.panel_width;
-  for (int fewer = 2; low && fewer < std::min(columns, kUsualColumns); ++fewer) {
+  SheetLayout standard = LayOutIn(columns, panels, indices, style);
+  const bool low = standard.panel_height < kLowPanel * standard.panel_width;
+  for (int fewer = 2; low && fewer < std::min(columns, kDefaultColumns); ++fewer) {
     SheetLayout layout = LayOutIn(fewer, panels, indices, style);
     if (layout.height() * MagnificationOf(style) <= kTallestSheet) return layout;
   }
-  return usual;
+  return standard;
 }
 
 }  // namespace
 
 int SheetColumns(int count) {
-  constexpr int kLargestPage = 24;  ///< panels; six rows of four
+  constexpr int kLargestPage = 24;  ///< maximum number of panels on a page: six rows of four
   if (count <= 3) return count;
-  if (count <= kLargestPage) return count == 5 || count == 6 || count == 9 ? 3 : kUsualColumns;
+  if (count <= kLargestPage) return count == 5 || count == 6 || count == 9 ? 3 : kDefaultColumns;
   return static_cast<int>(std::ceil(std::sqrt(count)));
 }
 

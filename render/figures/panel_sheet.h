@@ -9,22 +9,22 @@
 #include "planner/object/polygon.h"
 #include "render/figures/figure_format.h"
 
-/// Cairo's, so that who names panels needs no Cairo.
+/// Forward declaration of Cairo's type, so that users of panels do not include Cairo.
 using cairo_t = struct _cairo;
 
 namespace regrasp::render {
 
-/// The panels of a figure for a paper: pictures of one size and scale, each with a caption.
+/// The panels of a figure for a paper: images of one size and scale, each with a caption.
 class FigurePanels {
  public:
   virtual ~FigurePanels() = default;
 
   [[nodiscard]] virtual int count() const = 0;
-  /// "(a) hold: fingers 0, 1, 2".
+  /// Return the caption of a panel, for example "(a) hold: fingers 0, 1, 2".
   [[nodiscard]] virtual std::string caption(int index) const = 0;
-  /// How high a panel is that is `width` wide, points.
+  /// Return the height of a panel for a width, points.
   [[nodiscard]] virtual double HeightFor(double width) const = 0;
-  /// Draws a panel from (0, 0) to (width, HeightFor(width)); what is beyond is clipped.
+  /// Draw a panel from (0, 0) to (width, HeightFor(width)), with clipping.
   virtual void Draw(cairo_t* cr, int index, double width) const = 0;
 
  protected:
@@ -33,29 +33,33 @@ class FigurePanels {
   FigurePanels& operator=(const FigurePanels&) = default;
 };
 
-/// How a figure is printed. Markers, lines and arrows are as large beside the text as they are by
-/// default.
+/// Print settings of a figure. Markers, lines and arrows scale with the font size.
 struct FigureStyle {
   FigureFormat format = FigureFormat::kSvg;
-  double width_mm = 85;         ///< of the figure of one step: a column of a journal
-  double sheet_width_mm = 174;  ///< two columns
-  double font_pt = 7.5;         ///< of captions and numbers
+  double width_mm = 85;         ///< width of the figure of one step: a column of a journal
+  double sheet_width_mm = 174;  ///< width of a sheet: two columns
+  double font_pt = 7.5;         ///< font size of captions and numbers
 };
 
-/// A panel with its caption below, as a file's bytes.
-/// @throws EnvironmentError  Cairo failed.
+/// Draw a panel with its caption below.
+/// @returns the bytes of the file.
+/// @throws EnvironmentError  if Cairo fails.
 [[nodiscard]] std::string DrawStepFigure(const FigurePanels& panels, int index,
                                          const FigureStyle& style);
 
-/// A sheet of panels in rows, in the order of `indices`. Low panels stand fewer in a row; more than
-/// 24 make the sheet wider, not the panels smaller.
-/// @throws EnvironmentError  Cairo failed.
+/// Draw a sheet of panels in rows.
+///
+/// Sheets of low panels have fewer columns. More than 24 panels make the sheet wider instead of
+/// reducing panels.
+/// @param indices  panels in the order of the sheet.
+/// @returns the bytes of the file.
+/// @throws EnvironmentError  if Cairo fails.
 [[nodiscard]] std::string DrawSheet(const FigurePanels& panels, std::span<const int> indices,
                                     const FigureStyle& style);
-/// Of all panels.
+/// Draw a sheet of all panels.
 [[nodiscard]] std::string DrawSheet(const FigurePanels& panels, const FigureStyle& style);
 
-/// Panels in a row of a sheet of `count` (> 0), where they are not low.
+/// Return the number of columns of a sheet with `count` (> 0) panels that are not low.
 [[nodiscard]] int SheetColumns(int count);
 
 }  // namespace regrasp::render

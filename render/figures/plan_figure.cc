@@ -7,14 +7,12 @@
 #include "planner/base/number.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
-#include "render/figures/panel_fingers.h"
-#include "render/figures/panel_grasp.h"
+#include "render/figures/figure_page.h"
 #include "render/figures/panel_sheet.h"
-#include "render/figures/panel_text.h"
-#include "render/figures/panel_view.h"
+#include "render/figures/planar_panel.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"
-#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
 
@@ -38,7 +36,7 @@ const char* TypeName(DiagramKind kind) {
   return "other grasp";
 }
 
-/// The type of the grasp, with φ where its cones are narrower than those of the friction.
+/// Return the type of a grasp, with φ if its cones are narrower than the friction cones.
 std::string Describe(const GraspDiagram& grasp, double friction) {
   std::string name = TypeName(grasp.kind);
   if (grasp.kind != DiagramKind::kConcurrent) return name;
@@ -48,7 +46,7 @@ std::string Describe(const GraspDiagram& grasp, double friction) {
   return drawn == theta ? name : name + "; φ = " + drawn + " < θ = " + theta;
 }
 
-/// Where a finger is at the waypoints of an align.
+/// Return the positions of a finger at the waypoints of a sliding step.
 std::vector<BorderPoint> PathOf(const plan::Align& align, FingerIndex finger) {
   std::vector<BorderPoint> path;
   for (const plan::FingerGrasp& waypoint : align.waypoints) {
@@ -93,8 +91,8 @@ void AddActions(const plan::FingerGrasp& /*before*/, const plan::Move& /*step*/,
 std::string PanelLabel(int index) {
   constexpr int kLetters = 26;
   std::string letters;
-  for (int rest = index; rest >= 0; rest = rest / kLetters - 1) {
-    letters.insert(letters.begin(), static_cast<char>('a' + rest % kLetters));
+  for (int remaining = index; remaining >= 0; remaining = remaining / kLetters - 1) {
+    letters.insert(letters.begin(), static_cast<char>('a' + remaining % kLetters));
   }
   return "(" + letters + ")";
 }
@@ -128,7 +126,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kBorderWidth = 0.9;  ///< of the polygon, points
+constexpr double kBorderWidth = 0.9;  ///< width of the polygon's border, points
 
 void AddPolygon(cairo_t* cr, const object::Polygon& polygon, const PanelView& view) {
   cairo_new_path(cr);

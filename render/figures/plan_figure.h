@@ -15,51 +15,50 @@
 
 namespace regrasp::render {
 
-/// A place on the polygon's border and the unit normal that points out of the material there.
+/// A point on the border of a polygon with the outward unit normal.
 struct BorderPoint {
   Eigen::Vector2d p;
   Eigen::Vector2d outward;
 };
 
-/// One finger in a figure.
+/// A finger in a figure.
 struct DiagramFinger {
   FingerIndex finger = {};
   plan::FingerRole role = plan::FingerRole::kHolding;
   BorderPoint contact;
-  /// The path of a moved finger, its start first and its contact last; empty for the others.
+  /// path of a sliding finger from its start to its contact; empty for other fingers
   std::vector<BorderPoint> path;
 };
 
-/// What a figure shows of one entry of a plan: the grasp after it, and what the fingers did.
+/// Content of the panel of a plan entry: the grasp after it, and the actions of the fingers.
 struct StepDiagram {
-  std::string kind;     ///< "hold", or as StepKind
-  std::string caption;  ///< "(a) hold: fingers 0, 1, 2; concurrent grasp"
-  GraspDiagram grasp;   ///< its cones belong to the first of `fingers`, in their order
-  std::vector<DiagramFinger> fingers;  ///< those that hold after the step, then released ones
+  std::string kind;     ///< "hold", or the result of StepKind
+  std::string caption;  ///< caption, for example "(a) hold: fingers 0, 1, 2; concurrent grasp"
+  GraspDiagram
+      grasp;  ///< diagram of the grasp; its cones belong to the first of `fingers`, in order
+  std::vector<DiagramFinger> fingers;  ///< fingers in contact after the step, then released ones
 };
 
-/// The figures of a plan: the hold of the initial grasp, then one for each step.
+/// Compute the panels of a plan: the initial grasp, then one panel per step.
 ///
-/// The caption says what happens, the type of the grasp after it, and the cones' half-angle φ where
-/// it is smaller than the friction's θ.
-/// @param plan  of this polygon, located (LocatePlan), and legal (CheckPlan).
+/// A caption states the step, the type of the grasp after it, and the angle φ of the cones if it is
+/// smaller than the friction angle θ.
+/// @param plan  valid plan (CheckPlan) that is located on the polygon (LocatePlan).
 [[nodiscard]] std::vector<StepDiagram> DescribePlan(const object::Polygon& polygon,
                                                     const plan::Plan& plan);
 
-/// "(a)" … "(z)", "(aa)", "(ab)" …
+/// Return the label of a panel: "(a)" … "(z)", "(aa)", "(ab)" …
 [[nodiscard]] std::string PanelLabel(int index);
 
-/// The panels of a planar plan, one for each step.
+/// The panels of a planar plan, one per entry.
 ///
-/// Each shows the polygon, the grasp (render/figures/panel_grasp.h) and what the fingers do
-/// (render/figures/panel_fingers.h). Sizes are those of print: lines from 0.35 points, text of 7.5
-/// points. All panels of a figure have one scale.
-///
-/// Laws: the same plan gives the same bytes.
+/// Each panel shows the polygon, the grasp and the actions of the fingers
+/// (render/figures/planar_panel.h). All panels of a figure have one scale. Deterministic.
 class PlanPanels final : public FigurePanels {
  public:
-  /// @param polygon          outlives this object.
-  /// @param metres_per_unit  of the polygon, for the scale bar.
+  /// Create the panels.
+  /// @param polygon          must outlive this object.
+  /// @param metres_per_unit  unit of the polygon in metres, for the scale bar.
   PlanPanels(const object::Polygon& polygon, std::vector<StepDiagram> diagrams,
              double metres_per_unit = 1)
       : polygon_(polygon), diagrams_(std::move(diagrams)), metres_per_unit_(metres_per_unit) {}
@@ -75,10 +74,10 @@ class PlanPanels final : public FigurePanels {
   double metres_per_unit_;
 };
 
-/// The panels of a plan of a polygon (PlanPanels) or of a solid (SolidPanels).
-/// @param object  outlives the panels.
-/// @param plan    of this object, located and legal (CheckPlan).
-/// @param solid   for a solid only.
+/// Create the panels of a plan for a polygon (PlanPanels) or a solid (SolidPanels).
+/// @param object  must outlive the panels.
+/// @param plan    valid plan (CheckPlan) that is located on the object.
+/// @param solid   options for a solid.
 [[nodiscard]] std::unique_ptr<FigurePanels> MakePanels(const object::Object& object,
                                                        const plan::Plan& plan,
                                                        const SolidFigureOptions& solid = {});

@@ -5,24 +5,90 @@
 #include <cmath>
 
 #include "planner/plan/snapshot.h"
+#include "render/figures/figure_page.h"
 #include "render/figures/finger_marker.h"
-#include "render/figures/hidden_lines.h"
-#include "render/figures/panel_text.h"
 #include "render/figures/plan_figure.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"
-#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
 
-using Eigen::Vector2d;
+namespace {
+
 using Eigen::Vector3d;
+
+/// Distance within which a surface is the one that contains the point.
+constexpr double kOnSurface = 2e-3;
+constexpr double kPlaceTolerance = 1e-5;  ///< accuracy of a change of visibility, per step
+
+class LineSplitter {
+ public:
+  LineSplitter(const RayTree& surface, const LineSegment& line, const Vector3d& back)
+      : surface_(surface), line_(line), back_(back) {}
+
+  void Split(LineParts& parts) const {
+    const int steps =
+        std::max(1, static_cast<int>(std::ceil((line_[1] - line_[0]).norm() / kVisibilityStep)));
+    double begin = 0;
+    // Samples are in the middle of steps, because ends coincide with corners of other lines.
+    bool hidden = HiddenAt(0.5 / steps);
+    for (int i = 1; i < steps; ++i) {
+      const double from = (i - 0.5) / steps;
+      const double to = (i + 0.5) / steps;
+      if (HiddenAt(to) == hidden) continue;
+      const double change = FindChange(from, to, hidden);
+      Add(begin, change, hidden, parts);
+      begin = change;
+      hidden = !hidden;
+    }
+    Add(begin, 1, hidden, parts);
+  }
+
+ private:
+  [[nodiscard]] Vector3d At(double t) const { return line_[0] + t * (line_[1] - line_[0]); }
+  [[nodiscard]] bool HiddenAt(double t) const { return IsHidden(surface_, At(t), back_); }
+
+  [[nodiscard]] double FindChange(double from, double to, bool hidden) const {
+    const double enough = kPlaceTolerance * (to - from);
+    while (to - from > enough) {
+      const double middle = (from + to) / 2;
+      (HiddenAt(middle) == hidden ? from : to) = middle;
+    }
+    return to;
+  }
+
+  void Add(double from, double to, bool hidden, LineParts& parts) const {
+    (hidden ? parts.hidden : parts.visible).push_back({At(from), At(to)});
+  }
+
+  const RayTree& surface_;
+  const LineSegment& line_;
+  const Vector3d& back_;
+};
+
+}  // namespace
+
+bool IsHidden(const RayTree& surface, const Vector3d& point, const Vector3d& back) {
+  return surface.CountHits(point, back, kOnSurface, 1) > 0;
+}
+
+LineParts SplitByVisibility(const RayTree& surface, std::span<const LineSegment> lines,
+                            const Vector3d& back) {
+  LineParts parts;
+  for (const LineSegment& line : lines) {
+    LineSplitter(surface, line, back).Split(parts);
+  }
+  return parts;
+}
+
+using Eigen::Vector2d;
 
 namespace {
 
-// Points.
-constexpr double kMargin = 10;               ///< for markers, arrow heads and numbers
-constexpr double kTallestSolidPanel = 1.25;  ///< over its width
+// Lengths in points.
+constexpr double kMargin = 10;               ///< margin for markers, arrow heads and numbers
+constexpr double kTallestSolidPanel = 1.25;  ///< maximum height of a panel per width
 constexpr double kEdge = 0.8;
 constexpr double kHiddenEdge = 0.35;
 constexpr double kHiddenDash = 1.6;
@@ -31,23 +97,23 @@ constexpr double kSolidConeBorder = 0.4;
 constexpr double kSolidArrowWidth = 1.0;
 constexpr double kSolidPathWidth = 0.9;
 
-constexpr double kSolidConeFill = 0.26;  ///< opacity
+constexpr double kSolidConeFill = 0.26;  ///< opacity of cones
 constexpr Color kHiddenInk = {120, 128, 142};
 constexpr int kConeSides = 48;
 
-// What it costs a number to cover things: the weights of label_layout.h.
+// Costs of covering an element with a number (see PlaceLabels).
 constexpr double kSolidMarkerWeight = 2;
 constexpr double kStemWeight = 1.5;
 constexpr double kEdgeWeight = 0.25;
 
-/// Seams between triangles of one colour, points.
+/// Line width that closes seams between triangles of one colour, points.
 constexpr double kSeam = 0.4;
 
-/// From the picture's frame to a panel, without perspective.
+/// A parallel projection from the normalized frame to a panel.
 struct PanelCamera {
   Eigen::Matrix3d axes;
-  double scale;       ///< points per diameter
-  Vector2d top_left;  ///< what the panel's corner shows, along right and up
+  double scale;       ///< scale, points per diameter
+  Vector2d top_left;  ///< coordinates of the panel's corner along right and up
 
   [[nodiscard]] Vector2d operator()(const Vector3d& p) const {
     const Vector2d flat = (axes.transpose() * p).head<2>();
@@ -62,7 +128,7 @@ class SolidPainter {
       : cr_(cr), body_(body), camera_(camera) {}
 
   void DrawBody() {
-    // The triangles that face the eye turn the same way: together they are one area.
+    // Triangles that face the eye have the same orientation, so that they fill one area.
     cairo_new_path(cr_);
     cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_WINDING);
     for (const auto& [a, b, c] : body_.surface.triangles) {
@@ -89,7 +155,7 @@ class SolidPainter {
     cairo_set_line_cap(cr_, CAIRO_LINE_CAP_BUTT);
   }
 
-  /// The outline of a cone on the panel: its apex and what is seen of its rim.
+  /// Draw the outline of a cone: its apex and the visible part of its rim.
   void DrawCone(const FingerGlyph& glyph, double half_angle) {
     if (glyph.role == plan::FingerRole::kReleased) return;
     const Vector3d axis = -glyph.outward;
@@ -138,7 +204,7 @@ class SolidPainter {
     }
   }
 
-  /// The starts of moved fingers, then the contacts.
+  /// Return the markers of the starts of sliding fingers, then of the contacts.
   [[nodiscard]] std::vector<FingerMarker> MarkersOf(const std::vector<FingerGlyph>& fingers) const {
     std::vector<FingerMarker> markers;
     for (const FingerGlyph& glyph : fingers) {
@@ -182,10 +248,11 @@ class SolidPainter {
     return glyph.role == plan::FingerRole::kMoved && glyph.path.size() > 1;
   }
   [[nodiscard]] bool IsBehind(const FingerGlyph& glyph) const {
-    return IsHidden(body_.rays, glyph.contact + glyph.ball_radius * glyph.outward, camera_.back());
+    return IsHidden(body_.rays, glyph.contact + glyph.fingertip_radius * glyph.outward,
+                    camera_.back());
   }
 
-  /// Counter-clockwise, so that outlines that overlap fill what any of them covers.
+  /// Return the points in counter-clockwise order, so that overlapping outlines fill their union.
   template <class Points>
   static Points TurnedLeft(Points points) {
     double area = 0;
@@ -198,7 +265,7 @@ class SolidPainter {
     return points;
   }
 
-  /// Thin and dashed where it is hidden.
+  /// Draw a line, thin and dashed if it is hidden.
   void DrawLine(const LineSegment& line, Color color, double width) {
     const LineParts parts = SplitByVisibility(body_.rays, {&line, 1}, camera_.back());
     SetColor(cr_, Paler(color, kBehindShare));
@@ -219,7 +286,7 @@ SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan
                          const SolidFigureOptions& options)
     : frame_{plan.scale * solid.diameter(), plan.scale * solid.mass_properties().centroid},
       body_(MakeBodyShape(solid, options.body)),
-      half_angle_(plan.half_angle) {
+      friction_angle_(plan.half_angle) {
   const int entries = static_cast<int>(plan.steps.size()) + 1;
   for (plan::EntryIndex entry{0}; entry < entries; ++entry) {
     const plan::Snapshot snapshot = plan::MakePlannedSnapshot(plan, entry, {}, 0);
@@ -241,9 +308,9 @@ SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan
     for (const FingerGlyph& glyph : fingers) {
       extend(glyph.end);
       extend(glyph.contact);
-      // The cone fits into a ball about its rim.
-      const Vector3d rim = glyph.contact - kConeLength * std::cos(half_angle_) * glyph.outward;
-      const double radius = kConeLength * std::sin(half_angle_);
+      // A sphere around the rim contains the cone.
+      const Vector3d rim = glyph.contact - kConeLength * std::cos(friction_angle_) * glyph.outward;
+      const double radius = kConeLength * std::sin(friction_angle_);
       for (const int axis : {0, 1}) {
         extend(rim + radius * axes_.col(axis));
         extend(rim - radius * axes_.col(axis));
@@ -273,7 +340,7 @@ void SolidPanels::Draw(cairo_t* cr, int index, double width) const {
   SolidPainter painter(cr, body_, camera);
   const std::vector<FingerGlyph>& fingers = fingers_[index];
   painter.DrawBody();
-  for (const FingerGlyph& glyph : fingers) painter.DrawCone(glyph, half_angle_);
+  for (const FingerGlyph& glyph : fingers) painter.DrawCone(glyph, friction_angle_);
   painter.DrawVisibleEdges();
   for (const FingerGlyph& glyph : fingers) painter.DrawStem(glyph);
   for (const FingerGlyph& glyph : fingers) painter.DrawMotion(glyph);

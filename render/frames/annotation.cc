@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "planner/base/number.h"
@@ -21,11 +22,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Of the root of the area: 23 pixels at 1280 × 960.
+/// Font size per square root of the image area: 23 pixels at 1280 × 960.
 constexpr double kFontSize = 0.0208;
-constexpr double kLongestBar = 0.20;  ///< of the image's width
+constexpr double kLongestBar = 0.20;  ///< maximum length of the scale bar per image width
 
-// In font sizes.
+// Lengths in multiples of the font size.
 constexpr double kMargin = 1.33;
 constexpr double kLineHeight = 1.25;
 constexpr double kNumberSize = 1.2;
@@ -36,19 +37,19 @@ constexpr double kLeaderWidth = 0.08;
 constexpr double kRingGap = 0.36;
 constexpr double kRingWidth = 0.14;
 
-/// A number this near to its finger needs no line to it, in radii of a label.
+/// Largest distance of a number from its finger without a line between them, in label radii.
 constexpr double kBeside = 2.6;
 
-/// Labels should not cover these; to cover a cone is a lesser evil.
+/// Weights of obstacles. Covering a cone is preferable to covering a finger.
 constexpr double kFingerWeight = 1;
 constexpr double kConeWeight = 0.25;
 constexpr double kTextWeight = 3;
-/// The friction cone counts as a strip of this share of its length.
+/// Radius of the strip that represents a friction cone, per length of the cone.
 constexpr double kConeStrip = 0.3;
 
-/// Numbers and rings are nearer to the ink than their finger's colour: thin strokes look paler.
+/// Factor that darkens numbers and rings, because thin strokes look paler than areas.
 constexpr double kShade = 0.82;
-constexpr double kLighter = 0.55;  ///< on a dark ground
+constexpr double kLighter = 0.55;  ///< factor for a dark background
 
 Color NumberColor(Color color, const Ground& ground) {
   const bool dark = ground.paper.g < ground.ink.g;
@@ -58,17 +59,19 @@ Color NumberColor(Color color, const Ground& ground) {
   return {shade(color.r), shade(color.g), shade(color.b)};
 }
 
-/// Writes on one picture.
+/// Text and rings on one frame.
 class Writer {
  public:
-  /// All arguments outlive this object.
+  /// Create a writer. All arguments must outlive it.
   Writer(cairo_t* cr, const Camera& camera, const TextStyle& style)
       : cr_(cr), camera_(camera), ground_(style.ground), font_(style.font) {}
 
-  /// A ring just outside the ball, dark within white, so that it shows on any ground.
+  /// Draw a ring just outside the fingertip, dark on white, so that it is visible on any
+  /// background.
   void DrawRing(const FingerGlyph& glyph) const {
-    const Vector2d centre = camera_.Project(glyph.ball);
-    const double radius = glyph.ball_radius * camera_.PixelsPerUnit(glyph.ball) + kRingGap * font_;
+    const Vector2d centre = camera_.Project(glyph.fingertip);
+    const double radius =
+        glyph.fingertip_radius * camera_.PixelsPerUnit(glyph.fingertip) + kRingGap * font_;
     for (const bool halo : {true, false}) {
       SetCircle(cr_, centre, radius);
       Stroke(cr_, halo ? ground_.halo : NumberColor(glyph.color, ground_),
@@ -76,8 +79,8 @@ class Writer {
     }
   }
 
-  /// Writes the caption, in a smaller font where it would need more than two lines, and returns
-  /// what it covers.
+  /// Draw the caption, in a smaller font if it needs more than two lines.
+  /// @returns the covered areas.
   [[nodiscard]] std::vector<Obstacle> DrawCaption(const std::string& caption) const;
   [[nodiscard]] std::vector<Obstacle> DrawScaleBar(double metres_per_unit) const;
   void DrawNumbers(std::span<const FingerGlyph> fingers, std::span<const Obstacle> covered) const;
@@ -97,23 +100,24 @@ class Writer {
   double font_;
 };
 
-/// A line from a number to its finger's ball, where it does not stand beside the finger.
+/// Draw a line from a number to its fingertip unless the number is next to the finger.
 void Writer::DrawLeader(const FingerGlyph& glyph, const Vector2d& number, double font) const {
-  const Vector2d ball = camera_.Project(glyph.ball);
-  if (DistanceToSegment(number, ball, camera_.Project(glyph.end)) < kBeside * kLabelRadius * font) {
+  const Vector2d fingertip = camera_.Project(glyph.fingertip);
+  if (DistanceToSegment(number, fingertip, camera_.Project(glyph.end)) <
+      kBeside * kLabelRadius * font) {
     return;
   }
-  const Vector2d along = (ball - number).normalized();
+  const Vector2d along = (fingertip - number).normalized();
   const Vector2d from = number + kLabelRadius * font * along;
   for (const bool halo : {true, false}) {
     cairo_move_to(cr_, from.x(), from.y());
-    cairo_line_to(cr_, ball.x(), ball.y());
+    cairo_line_to(cr_, fingertip.x(), fingertip.y());
     Stroke(cr_, halo ? ground_.halo : NumberColor(glyph.color, ground_),
            (halo ? 2.4 : 1) * kLeaderWidth * font);
   }
 }
 
-/// "1st", … of each finger that aligns, where they do not begin together; empty otherwise.
+/// Return "1st" and so on for each sliding finger. Empty if all start together.
 std::vector<std::string> OrdinalsOf(std::span<const FingerGlyph> fingers) {
   constexpr std::array<const char*, 5> kOrdinals = {"1st", "2nd", "3rd", "4th", "5th"};
   std::set<int> starts;
@@ -138,7 +142,7 @@ void Writer::DrawNumbers(std::span<const FingerGlyph> fingers,
   for (const FingerGlyph& glyph : fingers) {
     const Vector2d anchor = camera_.Project(glyph.end);
     anchors.push_back(
-        {anchor, anchor - camera_.Project(glyph.contact), camera_.Project(glyph.ball)});
+        {anchor, anchor - camera_.Project(glyph.contact), camera_.Project(glyph.fingertip)});
     texts.push_back(std::to_string(glyph.finger));
     colors.push_back(NumberColor(glyph.color, ground_));
   }
@@ -162,8 +166,8 @@ void Writer::DrawNumbers(std::span<const FingerGlyph> fingers,
   }
 }
 
-/// Breaks a text at spaces into lines that are no wider than `most` in the current font, where
-/// words allow it.
+/// Break a text at spaces into lines of at most `most` in the current font, unless a word is
+/// longer.
 std::vector<std::string> BreakLines(cairo_t* cr, const std::string& text, double most) {
   std::vector<std::string> lines(1);
   std::istringstream words(text);
@@ -237,19 +241,19 @@ double FontSize(int width, int height) {
   return kFontSize * std::sqrt(static_cast<double>(width) * height);
 }
 
-void DrawRings(const CairoImage& page, const Camera& camera, std::span<const FingerGlyph> fingers,
+void DrawRings(const CairoImage& image, const Camera& camera, std::span<const FingerGlyph> fingers,
                const TextStyle& style) {
-  const Writer writer(page.context(), camera, style);
+  const Writer writer(image.context(), camera, style);
   for (const FingerGlyph& glyph : fingers) {
     if (glyph.role == plan::FingerRole::kPlaced) writer.DrawRing(glyph);
   }
 }
 
-std::vector<Obstacle> DrawCaption(const CairoImage& page, const Camera& camera,
+std::vector<Obstacle> DrawCaption(const CairoImage& image, const Camera& camera,
                                   const std::string& caption, double metres_per_unit,
                                   const TextStyle& style) {
-  const Writer writer(page.context(), camera, style);
-  cairo_set_line_join(page.context(), CAIRO_LINE_JOIN_ROUND);
+  const Writer writer(image.context(), camera, style);
+  cairo_set_line_join(image.context(), CAIRO_LINE_JOIN_ROUND);
   std::vector<Obstacle> covered = writer.DrawCaption(caption);
   for (const Obstacle& bar : writer.DrawScaleBar(metres_per_unit)) covered.push_back(bar);
   return covered;
@@ -258,17 +262,17 @@ std::vector<Obstacle> DrawCaption(const CairoImage& page, const Camera& camera,
 std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGlyph> fingers) {
   std::vector<Obstacle> obstacles;
   for (const FingerGlyph& glyph : fingers) {
-    const double pixels = camera.PixelsPerUnit(glyph.ball);
-    const Vector2d ball = camera.Project(glyph.ball);
-    obstacles.push_back({ball, ball, glyph.ball_radius * pixels, kFingerWeight});
+    const double pixels = camera.PixelsPerUnit(glyph.fingertip);
+    const Vector2d fingertip = camera.Project(glyph.fingertip);
+    obstacles.push_back({fingertip, fingertip, glyph.fingertip_radius * pixels, kFingerWeight});
     obstacles.push_back(
-        {ball, camera.Project(glyph.end), glyph.ball_radius / 2 * pixels, kFingerWeight});
+        {fingertip, camera.Project(glyph.end), glyph.fingertip_radius / 2 * pixels, kFingerWeight});
     obstacles.push_back({camera.Project(glyph.contact),
                          camera.Project(glyph.contact - glyph.outward * kConeLength),
                          kConeStrip * kConeLength * pixels, kConeWeight});
     if (FirstLeg(glyph)) {
       const Vector2d ghost = camera.Project(glyph.path.front());
-      obstacles.push_back({ghost, ghost, glyph.ball_radius * pixels, kFingerWeight});
+      obstacles.push_back({ghost, ghost, glyph.fingertip_radius * pixels, kFingerWeight});
     }
     for (std::size_t i = 1; i < glyph.path.size(); ++i) {
       obstacles.push_back(
@@ -278,10 +282,113 @@ std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGl
   return obstacles;
 }
 
-void DrawNumbers(const CairoImage& page, const Camera& camera, std::span<const FingerGlyph> fingers,
-                 std::span<const Obstacle> covered, const TextStyle& style) {
-  cairo_set_line_join(page.context(), CAIRO_LINE_JOIN_ROUND);
-  Writer(page.context(), camera, style).DrawNumbers(fingers, covered);
+void DrawNumbers(const CairoImage& image, const Camera& camera,
+                 std::span<const FingerGlyph> fingers, std::span<const Obstacle> covered,
+                 const TextStyle& style) {
+  cairo_set_line_join(image.context(), CAIRO_LINE_JOIN_ROUND);
+  Writer(image.context(), camera, style).DrawNumbers(fingers, covered);
+}
+
+namespace {
+
+using Eigen::Vector3d;
+
+// Lengths in multiples of the font size.
+constexpr double kRadius = 3.6;
+constexpr double kSpace = 1.1;   ///< occupied radius per radius of the inset
+constexpr double kTravel = 3.6;  ///< length of the magnified path
+constexpr double kDisc = 0.8;    ///< radius of a finger's start and end disc
+constexpr double kArrow = 0.22;
+constexpr double kInsetRim = 0.09;
+constexpr double kText = 0.8;
+
+constexpr double kMostMagnified = 200;
+constexpr double kPale = 0.35;
+constexpr double kWeight = 3;  ///< weight of an inset as an obstacle
+
+double LengthOf(const std::vector<Vector3d>& path) {
+  double length = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+Vector3d MiddleOf(const FingerGlyph& glyph) { return (glyph.path.front() + glyph.contact) / 2; }
+
+/// Return the camera with a longer focal length, shifted so that `point` is projected to `place`.
+Camera Magnify(Camera camera, double magnification, const Vector3d& point, const Vector2d& place) {
+  camera.half_height /= magnification;
+  const Vector2d off = (place - camera.Project(point)) / camera.PixelsPerUnit(point);
+  camera.position -= camera.axes.leftCols<2>() * Vector2d(off.x(), -off.y());
+  return camera;
+}
+
+}  // namespace
+
+std::vector<AlignInset> PlaceInsets(const Camera& camera, std::span<const FingerGlyph> fingers,
+                                    std::span<const Obstacle> covered, const TextStyle& style) {
+  std::vector<AlignInset> insets;
+  if (style.font < kSmallestFont) return insets;
+  std::vector<LabelAnchor> anchors;
+  for (const FingerGlyph& glyph : fingers) {
+    const double length = LengthOf(glyph.path);
+    if (!FirstLeg(glyph) || !(length < 2 * glyph.fingertip_radius)) continue;
+    const double pixels = length * camera.PixelsPerUnit(glyph.contact);
+    const double magnification = std::min(kTravel * style.font / pixels, kMostMagnified);
+    const Vector2d fingertip = camera.Project(glyph.fingertip);
+    AlignInset& inset = insets.emplace_back();
+    inset.glyph = glyph;
+    inset.fingertip = fingertip;
+    inset.radius = kRadius * style.font;
+    inset.magnification = magnification;
+    anchors.push_back({fingertip, fingertip - camera.Project(Vector3d::Zero())});
+  }
+  std::vector<Obstacle> obstacles = ObstaclesOf(camera, fingers);
+  obstacles.insert(obstacles.end(), covered.begin(), covered.end());
+  const std::vector<Vector2d> centres =
+      PlaceLabels(anchors, obstacles, kSpace * kRadius * style.font, camera.width, camera.height);
+  for (std::size_t i = 0; i < insets.size(); ++i) {
+    insets[i].centre = centres[i];
+    insets[i].camera =
+        Magnify(camera, insets[i].magnification, MiddleOf(insets[i].glyph), centres[i]);
+  }
+  return insets;
+}
+
+std::vector<Obstacle> DrawInset(const CairoImage& image, const AlignInset& inset, const Image& body,
+                                const TextStyle& style) {
+  cairo_t* cr = image.context();
+  const FingerGlyph& glyph = inset.glyph;
+  const Ground& ground = style.ground;
+  const double font = style.font;
+  const Camera& camera = inset.camera;
+  SetColor(cr, ground.ink);
+  StrokeLine(cr, inset.centre, inset.fingertip, kInsetRim * font);
+  cairo_save(cr);
+  SetCircle(cr, inset.centre, inset.radius);
+  cairo_clip(cr);
+  const CairoImage background(body);
+  cairo_set_source_surface(cr, background.surface(), 0, 0);
+  cairo_paint(cr);
+  std::vector<Vector2d> path;
+  for (const Vector3d& p : glyph.path) path.push_back(camera.Project(p));
+  SetCircle(cr, path.front(), kDisc * font);
+  Fill(cr, glyph.color, kPale);
+  SetCircle(cr, path.back(), kDisc * font);
+  Fill(cr, glyph.color);
+  DrawArrow(cr, path, kArrow * font, ground.ink, ground.halo);
+  DrawDot(cr, path.front(), kArrow * font);
+  SelectFont(cr, kText * font, /*bold=*/false);
+  constexpr int kDigits = 2;
+  const std::string text = "× " + FormatPlain(inset.magnification, kDigits);
+  const Vector2d low(0, 0.72 * inset.radius);
+  const Vector2d at = CentredText(cr, text, inset.centre + low);
+  cairo_move_to(cr, at.x(), at.y());
+  cairo_text_path(cr, text.c_str());
+  FillWithHalo(cr, ground.ink, 0.3 * font, ground.halo);
+  cairo_restore(cr);
+  SetCircle(cr, inset.centre, inset.radius);
+  Stroke(cr, ground.ink, kInsetRim * font);
+  return {{inset.centre, inset.centre, inset.radius, kWeight}};
 }
 
 }  // namespace regrasp::render

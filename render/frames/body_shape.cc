@@ -18,18 +18,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The top of a prism above the plane of the contacts, in diameters: rays in that plane meet the
+/// Height of the top of a prism above the contact plane, in diameters: rays in this plane hit the
 /// walls and not their rims.
 constexpr double kTop = 1e-3;
 
-/// In diameters.
-constexpr double kLongestScratch = 0.3;
+/// Longest total length of a tree of creases that is removed, in diameters.
+constexpr double kLongestStrayCrease = 0.3;
 
 struct IndexedMesh {
   std::vector<Vector3d> vertices;
-  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
+  std::vector<std::array<int, 3>> triangles;  ///< vertex indices, counter-clockwise from outside
 
-  /// Twice the area, outward.
+  /// Return the outward normal of a triangle, of twice its area as length.
   [[nodiscard]] Vector3d AreaNormal(std::size_t triangle) const {
     const auto& [a, b, c] = triangles[triangle];
     return (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]);
@@ -40,7 +40,7 @@ IndexedMesh MeshOf(const object::Polyhedron& solid) {
   return {solid.vertices(), solid.triangles()};
 }
 
-/// A prism of `thickness`, a length, below the polygon.
+/// Return a prism below the polygon, `thickness` high in object units.
 IndexedMesh MeshOf(const object::Polygon& polygon, double thickness) {
   IndexedMesh mesh;
   const double top = kTop * polygon.diameter();
@@ -76,16 +76,15 @@ std::vector<Vector3d> UnitNormals(const IndexedMesh& mesh) {
   return normals;
 }
 
-/// At each corner the mean, by area, of the facets around it that turn away by no more than the
-/// crease angle.
-FacetMesh ShadeSmoothly(const IndexedMesh& mesh, const std::vector<Vector3d>& normals,
-                        double crease_angle) {
+/// Compute corner normals: the area-weighted mean over adjacent triangles within the crease angle.
+ShadedMesh ShadeSmoothly(const IndexedMesh& mesh, const std::vector<Vector3d>& normals,
+                         double crease_angle) {
   std::vector<std::vector<std::size_t>> around(mesh.vertices.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const int vertex : mesh.triangles[t]) around[vertex].push_back(t);
   }
   const double least_cosine = std::cos(crease_angle);
-  FacetMesh surface;
+  ShadedMesh surface;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     std::array<Vector3d, 3> corners;
     std::array<Vector3d, 3> corner_normals;
@@ -103,18 +102,18 @@ FacetMesh ShadeSmoothly(const IndexedMesh& mesh, const std::vector<Vector3d>& no
   return surface;
 }
 
-/// The angle that the surface turns by where facets meet; π where they are not two.
-double TurnAt(const std::vector<std::size_t>& facets, const std::vector<Vector3d>& normals) {
-  if (facets.size() != 2) return std::numbers::pi;
-  const Vector3d& a = normals[facets[0]];
-  const Vector3d& b = normals[facets[1]];
+/// Return the angle between the normals at an edge, radians; π if it does not have two triangles.
+double AngleAt(const std::vector<std::size_t>& triangles, const std::vector<Vector3d>& normals) {
+  if (triangles.size() != 2) return std::numbers::pi;
+  const Vector3d& a = normals[triangles[0]];
+  const Vector3d& b = normals[triangles[1]];
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Leaves out creases that hang together in short trees: on a coarse mesh of a round body they are
-/// scratches in the middle of a surface. Loops, however small, stay.
-std::vector<std::pair<int, int>> WithoutScratches(const IndexedMesh& mesh,
-                                                  const std::vector<std::pair<int, int>>& creases) {
+/// Remove creases that form short trees. On a coarse mesh of a round object they look like
+/// scratches. Loops of any length are kept.
+std::vector<std::pair<int, int>> RemoveStrayCreases(
+    const IndexedMesh& mesh, const std::vector<std::pair<int, int>>& creases) {
   boost::disjoint_sets_with_storage<> joined(mesh.vertices.size());
   for (const auto& [a, b] : creases) joined.union_set(a, b);
   struct Group {
@@ -133,18 +132,18 @@ std::vector<std::pair<int, int>> WithoutScratches(const IndexedMesh& mesh,
   std::ranges::copy_if(creases, std::back_inserter(kept), [&](const auto& edge) {
     const Group& group = by_root[joined.find_set(edge.first)];
     const bool is_tree = group.edges < static_cast<int>(group.vertices.size());
-    return !is_tree || group.length > kLongestScratch;
+    return !is_tree || group.length > kLongestStrayCrease;
   });
   return kept;
 }
 
 void AddEdges(const IndexedMesh& mesh, const std::vector<Vector3d>& normals,
               const BodyOptions& options, BodyShape& shape) {
-  std::map<std::pair<int, int>, std::vector<std::size_t>> facets_of_edge;
+  std::map<std::pair<int, int>, std::vector<std::size_t>> triangles_of_edge;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     for (const auto& edge : {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)}) {
-      facets_of_edge[edge].push_back(t);
+      triangles_of_edge[edge].push_back(t);
     }
   }
   const bool all = options.edges == EdgeStyle::kAll;
@@ -153,14 +152,14 @@ void AddEdges(const IndexedMesh& mesh, const std::vector<Vector3d>& normals,
     return std::array<Vector3d, 2>{mesh.vertices[edge.first], mesh.vertices[edge.second]};
   };
   std::vector<std::pair<int, int>> creases;
-  for (const auto& [edge, facets] : facets_of_edge) {
-    const double turn = TurnAt(facets, normals);
-    if (turn > least) creases.push_back(edge);
-    if (turn > object::kCoplanarAngle && facets.size() == 2) {
-      shape.folds.push_back({ends(edge), {normals[facets[0]], normals[facets[1]]}});
+  for (const auto& [edge, triangles] : triangles_of_edge) {
+    const double angle = AngleAt(triangles, normals);
+    if (angle > least) creases.push_back(edge);
+    if (angle > object::kCoplanarAngle && triangles.size() == 2) {
+      shape.folds.push_back({ends(edge), {normals[triangles[0]], normals[triangles[1]]}});
     }
   }
-  for (const auto& edge : all ? creases : WithoutScratches(mesh, creases)) {
+  for (const auto& edge : all ? creases : RemoveStrayCreases(mesh, creases)) {
     shape.edges.push_back(ends(edge));
   }
 }

@@ -6,54 +6,56 @@
 
 #include "planner/base/number.h"
 #include "planner/object/object.h"
-#include "render/frames/facet_mesh.h"
-#include "render/frames/ray_tree.h"
+#include "render/frames/shaded_mesh.h"
 
 namespace regrasp::render {
 
-/// Which edges of an object's facets are drawn.
+/// Selection of the edges of an object's triangles that are drawn.
 enum class EdgeStyle {
-  kCrease,  ///< those where the surface turns by more than the crease angle, but for short ends
-  kAll,     ///< all between facets that are not coplanar
+  kCrease,  ///< edges at which the surface bends by more than the crease angle, except isolated
+            ///< short ones
+  kAll,     ///< all edges between triangles that are not coplanar
   kNone,
 };
 
-/// Where a surface turns by less than this, radians, it is drawn as one smooth surface.
-inline constexpr double kUsualCreaseAngle = Radians(40);
+/// Crease angle of the default options, radians. Smaller bends are shaded smoothly.
+inline constexpr double kDefaultCreaseAngle = Radians(40);
 
-/// Where two facets meet: part of the outline where one of them faces the eye and the other does
-/// not.
+/// An edge between two triangles. It is part of the outline if exactly one of them faces the eye.
 struct Fold {
   std::array<Eigen::Vector3d, 2> edge;
-  std::array<Eigen::Vector3d, 2> normals;  ///< unit, of the two facets, outward
+  std::array<Eigen::Vector3d, 2> normals;  ///< outward unit normals of the two triangles
 };
 
-/// What is drawn of an object: its true surface, shaded smoothly but across creases, its edges, and
-/// the folds that may be its outline.
+/// Drawable parts of an object: its exact surface with smooth shading up to creases, its edges, and
+/// the folds that can be part of its outline.
 struct BodyShape {
-  FacetMesh surface;
-  RayTree rays;  ///< that meet the surface
+  ShadedMesh surface;
+  RayTree rays;  ///< ray queries of the surface
   std::vector<std::array<Eigen::Vector3d, 2>> edges;
   std::vector<Fold> folds;
 };
 
-/// Thickness of the prism that stands for a polygon where none is given, in diameters.
-inline constexpr double kUsualThickness = 0.25;
+/// Default thickness of the prism that represents a polygon, in object diameters.
+inline constexpr double kDefaultThickness = 0.25;
 
 struct BodyOptions {
-  double thickness = kUsualThickness;  ///< of the prism of a planar object, in diameters
+  /// Thickness of the prism of a planar object, in object diameters.
+  double thickness = kDefaultThickness;
   EdgeStyle edges = EdgeStyle::kCrease;
-  double crease_angle = kUsualCreaseAngle;  ///< radians
+  double crease_angle = kDefaultCreaseAngle;  ///< crease angle, radians
 };
 
-/// The shape of an object about its centroid in units of its diameter. A polygon becomes a prism
-/// whose top lies in the plane z = 0, a hair above it: contacts, fingers and cones, which are drawn
-/// at z = 0, are then seen on its outline and before it.
+/// Compute the shape of an object relative to its centroid, in units of its diameter.
+///
+/// A polygon becomes a prism whose top is slightly above the plane z = 0. Contacts, fingers and
+/// cones are drawn at z = 0, so they appear on its outline and in front of it.
 [[nodiscard]] BodyShape MakeBodyShape(const object::Object& object,
                                       const BodyOptions& options = {});
 
-/// The folds of a body that an eye sees as its outline, or as the outline of a part of it.
-/// @param to_eye  from a point of the body towards the eye, in the body's frame; any length.
+/// Return the folds that appear as outline of the object or of a part of it.
+/// @param to_eye  function from a point of the object to a vector towards the eye, in the object
+///                frame, of any length.
 template <class ToEye>
 [[nodiscard]] std::vector<std::array<Eigen::Vector3d, 2>> FindOutline(const BodyShape& body,
                                                                       const ToEye& to_eye) {

@@ -9,11 +9,11 @@ namespace regrasp::render {
 
 namespace {
 
-/// Of an orthographic camera from the scene's centre: far enough to be outside, whatever the view.
+/// Distance of an orthographic camera from the centre of the scene: always outside the scene.
 constexpr double kOrthographicDistance = 10;
 
-/// Where a camera must be along one image axis and how far back, to see coordinates `a` within
-/// slopes −`low` and `high` of its line of sight.
+/// Bounds of a camera's position along one image axis and of its distance, so that coordinates stay
+/// within the slopes −`low` and `high` of its optical axis.
 struct AxisFit {
   double high, low;
   double max_high = -std::numeric_limits<double>::infinity();
@@ -24,13 +24,13 @@ struct AxisFit {
     max_low = std::max(max_low, -a + low * z);
   }
   [[nodiscard]] double Distance() const { return (max_high + max_low) / (high + low); }
-  /// The scene sits in the middle of the space that is left at distance `d`.
+  /// Return the centre that puts the scene in the middle of the free space at distance `d`.
   [[nodiscard]] double Centre(double d) const {
     return ((max_high - high * d) + (low * d - max_low)) / 2;
   }
 };
 
-/// How far from the line of sight points may be, in half-heights of the picture.
+/// Slopes of the borders of the usable area, relative to half the image height.
 struct Slopes {
   double side, top, bottom;
 };
@@ -58,7 +58,7 @@ void FitOrthographic(const Slopes& slopes, std::span<const Eigen::Vector3d> poin
   const Eigen::Vector2d size = box.sizes();
   const double half =
       std::max(size.x() / (2 * slopes.side), size.y() / (slopes.top + slopes.bottom));
-  // The scene sits in the middle of the space that is left.
+  // The scene is in the middle of the free space.
   const double y = box.center().y() - half * (slopes.top - slopes.bottom) / 2;
   camera.half_height = half;
   camera.position = camera.axes * Eigen::Vector3d(box.center().x(), y, kOrthographicDistance);
@@ -87,7 +87,7 @@ Eigen::Vector2d Camera::Project(const Eigen::Vector3d& point) const {
 }
 
 Eigen::Matrix3d CameraAxes(const Eigen::Vector3d& back) {
-  // Nearer to the pole than this the z axis no longer tells which way is up.
+  // Above this z component, the z axis is too close to the viewing direction to define up.
   constexpr double kPole = 0.999;
   const Eigen::Vector3d up =
       std::abs(back.normalized().z()) < kPole ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
@@ -105,7 +105,7 @@ Camera FitCamera(const Eigen::Matrix3d& axes, Projection projection, int width, 
   camera.projection = projection;
   camera.width = width;
   camera.height = height;
-  // The side margin is a share of the height; a narrow image gives at most a quarter of its width.
+  // The side margin is relative to the height, and at most a quarter of the width.
   const double side = std::min(2 * margins.side * height / width, 0.5);
   const Slopes slopes = {static_cast<double>(width) / height * (1 - side), 1 - 2 * margins.top,
                          1 - 2 * margins.bottom};
@@ -125,14 +125,14 @@ Camera Crop(const Camera& camera, const Margins& margins, std::span<const Eigen:
   const Eigen::Vector2d before = box.min() - Eigen::Vector2d(side, margins.top * camera.height);
   const Eigen::Vector2d after =
       Eigen::Vector2d(camera.width - side, camera.height * (1 - margins.bottom)) - box.max();
-  const Eigen::Vector2d spare = before.cwiseMin(after);
-  const auto cropped = [](int size, double spare_before, int least) {
-    const auto half = static_cast<int>(std::ceil(size / 2.0 - std::max(spare_before, 0.0)));
+  const Eigen::Vector2d free_space = before.cwiseMin(after);
+  const auto cropped = [](int size, double free_before, int least) {
+    const auto half = static_cast<int>(std::ceil(size / 2.0 - std::max(free_before, 0.0)));
     return std::min(size, std::max(2 * half, least));
   };
   Camera crop = camera;
-  crop.width = cropped(camera.width, spare.x(), narrowest);
-  crop.height = cropped(camera.height, spare.y(), lowest);
+  crop.width = cropped(camera.width, free_space.x(), narrowest);
+  crop.height = cropped(camera.height, free_space.y(), lowest);
   crop.half_height *= static_cast<double>(crop.height) / camera.height;
   return crop;
 }

@@ -9,53 +9,55 @@ namespace regrasp::render {
 
 enum class Projection { kPerspective, kOrthographic };
 
-/// A camera: right, up and back are its axes, back pointing away from what it sees.
+/// A camera with the axes right, up and back. It looks along −back.
 struct Camera {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns right, up, back
   Projection projection = Projection::kPerspective;
-  /// Half of what it sees from the bottom to the top: a length if orthographic, otherwise per
-  /// length of depth (the tangent of half the field of view).
+  /// Half the height of the visible area: a length for an orthographic camera, otherwise per unit
+  /// of depth (the tangent of half the field of view).
   double half_height = 1;
   int width = 1;
   int height = 1;
 
-  /// Pixel coordinates, x to the right and y down from the top left corner.
+  /// Project a point to pixel coordinates, x to the right and y down from the top left corner.
   [[nodiscard]] Eigen::Vector2d Project(const Eigen::Vector3d& point) const;
-  /// How many pixels a unit of length spans at `point`, across the line of sight.
+  /// Return the number of pixels per unit of length at `point`, perpendicular to the line of sight.
   [[nodiscard]] double PixelsPerUnit(const Eigen::Vector3d& point) const;
-  /// Distance along the line of sight of the image's centre.
+  /// Return the distance of a point along the optical axis.
   [[nodiscard]] double Depth(const Eigen::Vector3d& point) const;
-  /// The unit vector from `point` towards the eye.
+  /// Return the unit vector from a point towards the eye.
   [[nodiscard]] Eigen::Vector3d ToEye(const Eigen::Vector3d& point) const;
 };
 
-/// Shares of the image's height that stay free of the scene.
+/// Empty margins of an image, per image height.
 struct Margins {
   double side, top, bottom;
 };
 
-/// Axes of a camera that looks along −`back` with z (or y, where back is along z) up.
+/// Return the axes of a camera that looks along −`back`, with z up, or y up if `back` is parallel
+/// to z.
 [[nodiscard]] Eigen::Matrix3d CameraAxes(const Eigen::Vector3d& back);
 
-/// The tangent of half of the vertical field of view in perspective: a long lens, so that parallel
-/// edges look so.
+/// Tangent of half the vertical field of view of a perspective camera. It is small, so that
+/// parallel edges look parallel.
 inline constexpr double kTanHalfHeight = 0.15;
 
-/// The nearest camera with these axes and this field of view, or the orthographic one of the
-/// smallest half-height, that has all points inside the margins.
+/// Compute the nearest perspective camera, or the smallest orthographic one, that has all points
+/// inside the margins.
 ///
-/// In perspective: in camera axes a point (x, y, z) is inside iff |x − cx| ≤ t (d − z), likewise
-/// for y, d the camera's place along its back axis: the smallest d and the centre follow from the
-/// extremes of ±x + t z, without iteration.
+/// For a perspective camera the solution is in closed form. In camera axes a point (x, y, z) is
+/// inside if and only if |x − cx| ≤ t (d − z), and the same holds for y. Here d is the position of
+/// the camera along its back axis and t the slope of the border. The smallest d and the centre
+/// follow from the extrema of ±x + t z.
 [[nodiscard]] Camera FitCamera(const Eigen::Matrix3d& axes, Projection projection, int width,
                                int height, const Margins& margins,
                                std::span<const Eigen::Vector3d> points);
 
-/// The same picture without what is beyond the margins of the points on both sides alike.
-/// @param camera   by FitCamera, of these points and margins.
-/// @param narrowest, lowest  pixels that stay.
-/// @returns a camera of even width and height, no larger than before.
+/// Crop the image symmetrically to the points and their margins.
+/// @param camera   result of FitCamera for the same points and margins.
+/// @param narrowest, lowest  minimum width and height, pixels.
+/// @returns a camera of even width and height, at most the original size.
 [[nodiscard]] Camera Crop(const Camera& camera, const Margins& margins,
                           std::span<const Eigen::Vector3d> points, int narrowest, int lowest);
 

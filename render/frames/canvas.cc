@@ -1,12 +1,17 @@
 #include "render/frames/canvas.h"
 
+#include <GL/osmesa.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
+#include <string>
 
-#include "render/frames/offscreen_context.h"
+#include "planner/base/error.h"
+#include "planner/base/shared_library.h"
 
 namespace regrasp::render {
 
@@ -14,33 +19,140 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A frame is drawn in bands of at most this many samples, so that memory stays bounded (64 MB).
+/// OpenGL functions that draw frames, without their prefix.
+// clang-format off
+#define REGRASP_GL_FUNCTIONS(F) \
+  F(BlendFunc) F(Clear) F(ClearColor) F(Color4ub) F(ColorMask) F(ColorMaterial) F(DepthFunc) F(DepthMask) \
+  F(Disable) F(DrawArrays) F(Enable) F(EnableClientState) F(Finish) F(Frustum) F(LightModelfv) F(Lightfv) \
+  F(LoadIdentity) F(LoadMatrixd) F(MatrixMode) F(MultMatrixd) F(NormalPointer) F(Ortho) F(PopMatrix) \
+  F(PushMatrix) F(VertexPointer) F(Viewport)
+// clang-format on
+
+/// OpenGL functions of OSMesa, loaded at the first call of gl().
+struct Gl {
+#define REGRASP_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
+  REGRASP_GL_FUNCTIONS(REGRASP_GL_MEMBER)
+#undef REGRASP_GL_MEMBER
+  decltype(&::OSMesaCreateContextExt) CreateContext = nullptr;
+  decltype(&::OSMesaDestroyContext) DestroyContext = nullptr;
+  decltype(&::OSMesaMakeCurrent) MakeCurrent = nullptr;
+};
+
+constexpr int kDepthBits = 24;
+constexpr int kBytesPerPixel = 4;
+
+Gl LoadGl() {
+  // Mesa 22 (Debian 12) and older versions.
+  const SharedLibrary mesa({"libOSMesa.so.8", "libOSMesa.so.6"});
+  Gl gl;
+#define REGRASP_GL_FIND(name) mesa.Find("gl" #name, gl.name);
+  REGRASP_GL_FUNCTIONS(REGRASP_GL_FIND)
+#undef REGRASP_GL_FIND
+  mesa.Find("OSMesaCreateContextExt", gl.CreateContext);
+  mesa.Find("OSMesaDestroyContext", gl.DestroyContext);
+  mesa.Find("OSMesaMakeCurrent", gl.MakeCurrent);
+  return gl;
+}
+
+/// Return the functions of the loaded library.
+/// @throws EnvironmentError  if OSMesa is not installed.
+const Gl& gl() {
+  static const Gl functions = LoadGl();
+  return functions;
+}
+
+OSMesaContext CreateContext() {
+  // Mesa would store shaders in the home folder. The name of this variable depends on its version.
+  constexpr char kName[] = "MESA_SHADER_CACHE_DISABLE";
+  constexpr char kOldName[] = "MESA_GLSL_CACHE_DISABLE";
+  if (std::getenv(kName) == nullptr && std::getenv(kOldName) == nullptr) {
+    for (const char* name : {kName, kOldName}) setenv(name, "true", /*overwrite=*/1);
+  }
+  return gl().CreateContext(OSMESA_RGBA, kDepthBits, 0, 0, nullptr);
+}
+
+/// An OSMesa context of OpenGL (compatibility profile) with its buffers: RGBA with 8 bits per
+/// channel, rows from bottom to top, and depth.
+class OffscreenContext {
+ public:
+  /// Create a context.
+  /// @throws EnvironmentError  if the context cannot be created in this size.
+  OffscreenContext(int width, int height);
+  ~OffscreenContext();
+  OffscreenContext(const OffscreenContext&) = delete;
+  OffscreenContext& operator=(const OffscreenContext&) = delete;
+
+  /// A scope in which OpenGL functions of this thread draw into the context. Another thread can use
+  /// the context afterwards.
+  class Use {
+   public:
+    explicit Use(OffscreenContext& context) { context.MakeCurrent(); }
+    ~Use();
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+  };
+  /// Return the drawn pixels. Requires a preceding glFinish.
+  [[nodiscard]] const std::vector<unsigned char>& pixels() const { return pixels_; }
+
+ private:
+  void MakeCurrent();
+
+  int width_, height_;
+  std::vector<unsigned char> pixels_;
+  OSMesaContext context_;
+};
+
+OffscreenContext::OffscreenContext(int width, int height)
+    : width_(width),
+      height_(height),
+      pixels_(std::size_t{kBytesPerPixel} * width * height),
+      context_(CreateContext()) {
+  if (context_ == nullptr) throw EnvironmentError("no off-screen rendering context (OSMesa)");
+  try {
+    const Use tried(*this);
+  } catch (...) {
+    gl().DestroyContext(context_);
+    throw;
+  }
+}
+
+OffscreenContext::~OffscreenContext() { gl().DestroyContext(context_); }
+
+OffscreenContext::Use::~Use() { gl().MakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
+void OffscreenContext::MakeCurrent() {
+  if (gl().MakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width_, height_) != GL_TRUE) {
+    throw EnvironmentError("the off-screen rendering context of " + std::to_string(width_) + "x" +
+                           std::to_string(height_) + " pixels cannot be used (OSMesa)");
+  }
+}
+
+/// Maximum number of samples per band. A frame is drawn in bands to bound its memory (64 MB).
 constexpr int kMaxBandSamples = 1 << 24;
-/// The depth range, in distances from the camera to the origin.
+/// Limits of the depth range, relative to the distance from camera to origin.
 constexpr double kNearFactor = 0.1;
 constexpr double kFarFactor = 4;
 
-/// Of a surface's own colour: in shade, and what the light adds where it falls straight on it.
+/// Share of a surface's colour in shade, and the additional share at normal incidence of light.
 constexpr float kAmbient = 0.60F;
 constexpr float kDiffuse = 0.48F;
-/// Where the light comes from, in the camera's axes.
+/// Direction towards the light, in camera axes.
 constexpr float kLightFrom[4] = {-0.45F, 0.75F, 0.8F, 0};
 
 /// Weights of layers are multiples of 1 / kOne.
 constexpr int kOne = 256;
 constexpr int kFullAlpha = 255;
 
-/// How much less a veil hides in the middle of a window, and over how much of its radius that comes
-/// about.
+/// Reduction of a veil's opacity in the middle of a window, and width of the transition per radius.
 constexpr double kWindowClearness = 0.7;
 constexpr double kWindowRim = 0.55;
 
-/// What OpenGL draws triangles from.
+/// Vertex arrays of OpenGL.
 struct Vertices {
   std::vector<float> points;
   std::vector<float> normals;
 
-  explicit Vertices(const FacetMesh& mesh) {
+  explicit Vertices(const ShadedMesh& mesh) {
     Append(mesh.triangles, points);
     Append(mesh.normals, normals);
   }
@@ -59,7 +171,7 @@ struct Vertices {
   }
 };
 
-/// Rows from `top` to `top + rows` of an image `height` rows high.
+/// Rows from `top` to `top + rows` of an image with `height` rows.
 struct Band {
   int top, rows, height;
 };
@@ -95,17 +207,17 @@ void SetColor(Color color, double opacity) {
   gl().Color4ub(color.r, color.g, color.b, static_cast<GLubyte>(std::lround(255 * opacity)));
 }
 
-/// Draws shapes with the colour that is set.
+/// Draws shapes in the current colour.
 class FormPainter {
  public:
   FormPainter(const Camera& camera, const std::vector<Vertices>& meshes)
       : camera_(camera), meshes_(meshes) {}
 
-  void operator()(const Ball& ball) const {
-    Vertices(MakeCapsule(ball.centre, ball.centre, ball.radius)).Draw();
+  void operator()(const Sphere& sphere) const {
+    Vertices(MakeCapsule(sphere.centre, sphere.centre, sphere.radius)).Draw();
   }
-  void operator()(const Rod& rod) const {
-    Vertices(MakeCapsule(rod.from, rod.to, rod.radius)).Draw();
+  void operator()(const Capsule& capsule) const {
+    Vertices(MakeCapsule(capsule.from, capsule.to, capsule.radius)).Draw();
   }
   void operator()(const Line& line) const {
     gl().Disable(GL_LIGHTING);
@@ -134,11 +246,11 @@ class FormPainter {
   const std::vector<Vertices>& meshes_;
 };
 
-/// Translucent shapes, the farthest first.
+/// Return the translucent shapes in order of decreasing distance.
 std::vector<Shape> SortTranslucent(const Camera& camera, const std::vector<Shape>& shapes) {
   struct Middle {
-    Vector3d operator()(const Ball& ball) const { return ball.centre; }
-    Vector3d operator()(const Rod& rod) const { return (rod.from + rod.to) / 2; }
+    Vector3d operator()(const Sphere& sphere) const { return sphere.centre; }
+    Vector3d operator()(const Capsule& capsule) const { return (capsule.from + capsule.to) / 2; }
     Vector3d operator()(const Line& line) const { return (line.from + line.to) / 2; }
     Vector3d operator()(const MeshInstance& mesh) const { return mesh.pose.translation(); }
   };
@@ -162,16 +274,16 @@ void InitState() {
   gl().EnableClientState(GL_NORMAL_ARRAY);
 }
 
-/// Whether what is drawn sets the colours, and the samples' alpha.
+/// Set whether drawing changes the colours and the alpha values of samples.
 void SetMask(bool colors, bool alpha) {
   gl().ColorMask(colors ? GL_TRUE : GL_FALSE, colors ? GL_TRUE : GL_FALSE,
                  colors ? GL_TRUE : GL_FALSE, alpha ? GL_TRUE : GL_FALSE);
 }
 
-/// The shapes' picture with others, opaque, among them. Where one of those is seen the sample's
-/// alpha is its opacity, elsewhere 0.
-void DrawPicture(const FormPainter& painter, const Drawing& drawing,
-                 const std::vector<Shape>& translucent, std::span<const Shape> more) {
+/// Draw the shapes together with more shapes, which are opaque. The alpha of a sample is the
+/// opacity of one of these if it is visible there, and 0 otherwise.
+void DrawPass(const FormPainter& painter, const Drawing& drawing,
+              const std::vector<Shape>& translucent, std::span<const Shape> more) {
   SetMask(true, true);
   gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   SetMask(true, false);
@@ -191,7 +303,7 @@ void DrawPicture(const FormPainter& painter, const Drawing& drawing,
   gl().Finish();
 }
 
-/// How much of each picture is seen: that of the shapes alone, then those of the layers. Sums to
+/// Return the weights of the image without layer and of the images with each layer. Their sum is
 /// kOne.
 std::vector<int> WeightsOf(const std::vector<Layer>& layers) {
   std::vector<int> weights;
@@ -205,11 +317,11 @@ std::vector<int> WeightsOf(const std::vector<Layer>& layers) {
   return weights;
 }
 
-/// Adds a band of samples, RGBA from the bottom, to the sums of the pixels that they belong to.
+/// Add a band of RGBA samples, from bottom to top, to the sums of their pixels.
 void AddSamples(const unsigned char* samples, int width, int rows, int factor, int weight,
                 std::vector<std::uint32_t>& sums) {
   const int row = 4 * width;
-  std::vector<std::uint16_t> column(row);  // of rows that belong to one row of pixels
+  std::vector<std::uint16_t> column(row);  // sums over the sample rows of one pixel row
   std::uint32_t* out = sums.data();
   for (int bottom = rows; bottom > 0; bottom -= factor) {
     std::ranges::fill(column, 0);
@@ -229,7 +341,7 @@ void AddSamples(const unsigned char* samples, int width, int rows, int factor, i
 
 class Canvas::Impl {
  public:
-  Impl(const std::vector<FacetMesh>& meshes, int width, int height, int supersampling)
+  Impl(const std::vector<ShadedMesh>& meshes, int width, int height, int supersampling)
       : width_(width),
         height_(height),
         factor_(supersampling),
@@ -261,24 +373,24 @@ class Canvas::Impl {
   }
 
  private:
-  /// Samples of an image from row `top` on, the last one first.
+  /// A band of samples that starts at row `top` of the image, stored from the last row up.
   struct SampleBand {
     int width, top, rows, factor;
   };
 
-  /// All pictures over each other, sample by sample.
+  /// Blend all images sample by sample.
   std::vector<unsigned char> Compose(const FormPainter& painter, const Drawing& drawing,
                                      const std::vector<Shape>& translucent,
                                      const SampleBand& band) const {
     const std::size_t count = std::size_t{4} * band.width * band.rows;
     const auto draw = [&](std::span<const Shape> more) {
-      DrawPicture(painter, drawing, translucent, more);
+      DrawPass(painter, drawing, translucent, more);
       return context_.pixels().data();
     };
     const unsigned char* seen = draw(drawing.veil->shapes);
     std::vector<unsigned char> veil(seen, seen + count);
     FadeInWindows(drawing.veil->windows, band, veil);
-    // What is before the covers keeps its alpha.
+    // Samples in front of the covers keep their alpha.
     SetMask(false, true);
     gl().Color4ub(0, 0, 0, 0);
     for (const MeshInstance& cover : drawing.veil->covers) painter(cover);
@@ -312,7 +424,7 @@ class Canvas::Impl {
     }
   }
 
-  /// What is in a window hides less.
+  /// Reduce the opacity of samples inside windows.
   static void FadeInWindows(const std::vector<Window>& windows, const SampleBand& band,
                             std::vector<unsigned char>& samples) {
     for (const Window& window : windows) {
@@ -358,8 +470,8 @@ class Canvas::Impl {
     } else {
       const std::vector<int> weights = WeightsOf(drawing.layers);
       for (std::size_t i = 0; i < weights.size(); ++i) {
-        DrawPicture(painter, drawing, translucent,
-                    i == 0 ? std::span<const Shape>() : drawing.layers[i - 1].shapes);
+        DrawPass(painter, drawing, translucent,
+                 i == 0 ? std::span<const Shape>() : drawing.layers[i - 1].shapes);
         AddSamples(context_.pixels().data(), width_ * factor_, rows, factor_, weights[i], sums);
       }
     }
@@ -371,11 +483,12 @@ class Canvas::Impl {
 
   int width_, height_, factor_;
   int band_rows_;
-  std::shared_ptr<const std::vector<Vertices>> meshes_;  ///< copies have the same
+  std::shared_ptr<const std::vector<Vertices>>
+      meshes_;  ///< vertex arrays of the meshes, shared with copies
   OffscreenContext context_;
 };
 
-Canvas::Canvas(const std::vector<FacetMesh>& meshes, int width, int height, int supersampling)
+Canvas::Canvas(const std::vector<ShadedMesh>& meshes, int width, int height, int supersampling)
     : impl_(std::make_unique<Impl>(meshes, width, height, supersampling)) {}
 Canvas::Canvas(const Canvas& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Canvas::~Canvas() = default;

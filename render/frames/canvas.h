@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <memory>
 #include <optional>
@@ -7,103 +8,143 @@
 #include <vector>
 
 #include "render/frames/camera.h"
-#include "render/frames/facet_mesh.h"
-#include "render/picture/color_table.h"
+#include "render/frames/shaded_mesh.h"
 #include "render/picture/image.h"
 
 namespace regrasp::render {
 
-struct Ball {
+struct Sphere {
   Eigen::Vector3d centre;
   double radius;
 };
 
-/// A cylinder with round ends.
-struct Rod {
+/// A cylinder with hemispherical ends.
+struct Capsule {
   Eigen::Vector3d from;
   Eigen::Vector3d to;
   double radius;
 };
 
-/// A line of even colour, whatever the light, with round ends.
+/// A line with round ends and a uniform colour, without lighting.
 struct Line {
   Eigen::Vector3d from;
   Eigen::Vector3d to;
   double radius;
 };
 
-/// One of the canvas's meshes, by its index.
+/// A mesh of the canvas, given by its index, at a pose.
 struct MeshInstance {
   int mesh;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
 };
 
 struct Shape {
-  std::variant<Ball, Rod, Line, MeshInstance> form;
+  std::variant<Sphere, Capsule, Line, MeshInstance> form;
   Color color;
   double opacity = 1;
 };
 
-/// Shapes that lie over a picture as one translucent sheet.
+/// Shapes that are blended over an image as one translucent sheet.
 struct Layer {
   std::vector<Shape> shapes;
   double opacity = 1;
 };
 
-/// A round place of an image, pixels: from its rim to its middle what is before it grows clearer.
+/// A disc of an image within which a veil becomes more transparent towards the centre, pixels.
 struct Window {
   Eigen::Vector2d centre;
   double radius;
-  double strength;  ///< of 1
+  double strength;  ///< share of the full effect, 0 to 1
 };
 
-/// Things that stand before and behind what the layers show, each with an opacity of its own. Only
-/// the nearest of them is seen at a place: behind the layers where one of `covers` stands before
-/// it, otherwise over them.
+/// Translucent shapes in front of and behind the layers, each with its own opacity.
+///
+/// At each pixel only the nearest shape is visible. It is blended below the layers if one of
+/// `covers` is in front of it, otherwise over them.
 struct Veil {
   std::vector<Shape> shapes;
   std::vector<MeshInstance> covers;
-  std::vector<Window> windows;  ///< where it hides less
+  std::vector<Window> windows;  ///< areas in which the veil is more transparent
 };
 
-/// What a canvas draws.
+/// The content of an image.
 struct Drawing {
-  /// Those with an opacity below 1 must be convex: only their near side is drawn.
+  /// Shapes without a layer. Translucent ones must be convex: only their near side is drawn.
   std::vector<Shape> shapes;
-  /// The picture of the shapes and the first layer, opaque, is laid over that of the shapes alone;
-  /// that of the shapes and the second layer over both; and so on. A body's far side and then its
-  /// near side are so seen through exactly, whatever the order of its triangles.
+  /// The opaque image of the shapes with layer i is blended over the previous result, for each
+  /// layer in turn. The far and the near side of an object are thereby blended exactly, for any
+  /// order of triangles.
   std::vector<Layer> layers;
-  /// Lines that are drawn, opaque, where neither shapes nor `hiding` stand before them.
+  /// Opaque lines that are drawn where neither shapes nor `hiding` occlude them.
   std::vector<Shape> outline;
   std::vector<MeshInstance> hiding;
-  /// With it a layer changes the picture only where it is seen.
+  /// If set, each layer is blended only at its visible pixels.
   std::optional<Veil> veil = std::nullopt;
 };
 
-/// An off-screen OpenGL window with one soft light from above the camera's left shoulder
-/// and no shadows.
+/// An off-screen OpenGL canvas with one soft light from above and left of the camera, without
+/// shadows.
 ///
-/// Deterministic: the same drawing gives the same bytes. The scene is about the origin, of size 1.
-/// A canvas may be used by one thread after the other; a copy has a window of its own, so that two
-/// threads draw at a time.
+/// The scene is centred at the origin and has size 1. Deterministic: the same drawing gives the
+/// same bytes. One thread at a time can use a canvas. A copy has its own OpenGL context, so that
+/// several threads can draw in parallel.
 class Canvas {
  public:
-  /// @param meshes         what MeshInstance names.
-  /// @param width, height  pixels of its images.
-  /// @param supersampling  samples along both axes of a pixel, averaged.
-  /// @throws EnvironmentError  no off-screen rendering context.
-  Canvas(const std::vector<FacetMesh>& meshes, int width, int height, int supersampling);
+  /// Create a canvas.
+  /// @param meshes         meshes that MeshInstance refers to.
+  /// @param width, height  size of the images, pixels.
+  /// @param supersampling  number of averaged samples along both axes of a pixel.
+  /// @throws EnvironmentError  if there is no off-screen rendering context.
+  Canvas(const std::vector<ShadedMesh>& meshes, int width, int height, int supersampling);
   ~Canvas();
   Canvas(const Canvas& other);
   Canvas& operator=(const Canvas&) = delete;
 
-  /// @param camera  of the canvas's width and height.
+  /// Draw an image.
+  /// @param camera  camera with the size of the canvas.
   [[nodiscard]] Image Draw(const Camera& camera, const Drawing& drawing, Color paper = kWhite);
 
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;
+};
+
+/// Points whose projections bound the projections of shapes.
+class ProjectedExtent {
+ public:
+  /// Create an empty extent.
+  /// @param axes    axes of the camera.
+  /// @param meshes  meshes that MeshInstance refers to; must outlive this object.
+  ProjectedExtent(const Eigen::Matrix3d& axes, const std::vector<ShadedMesh>& meshes)
+      : axes_(axes), meshes_(meshes) {}
+
+  void operator()(const Sphere& sphere) {
+    for (const double sign : {-1.0, 1.0}) {
+      for (const int axis : {0, 1})
+        points_.push_back(sphere.centre + sign * sphere.radius * axes_.col(axis));
+    }
+  }
+  void operator()(const Capsule& capsule) { AddEnds(capsule); }
+  void operator()(const Line& line) { AddEnds(line); }
+  void operator()(const MeshInstance& instance) {
+    for (const auto& corners : meshes_[instance.mesh].triangles) {
+      for (const Eigen::Vector3d& p : corners) points_.push_back(instance.pose * p);
+    }
+  }
+  template <class Form>
+  void AddEnds(const Form& form) {
+    for (const Eigen::Vector3d& end : {form.from, form.to}) (*this)(Sphere{end, form.radius});
+  }
+  void Add(const std::variant<Sphere, Capsule, Line, MeshInstance>& form) {
+    std::visit(*this, form);
+  }
+
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return points_; }
+
+ private:
+  const Eigen::Matrix3d& axes_;
+  const std::vector<ShadedMesh>& meshes_;
+  std::vector<Eigen::Vector3d> points_;
 };
 
 }  // namespace regrasp::render

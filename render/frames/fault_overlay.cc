@@ -1,5 +1,3 @@
-#include "render/frames/fault_overlay.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "render/frames/annotation.h"
+#include "render/frames/fault_marks.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
@@ -18,7 +17,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// In font sizes.
+// Lengths in multiples of the font size.
 constexpr double kFaultMargin = 1.33;
 constexpr double kFaultCaptionMargin = 2.6;
 constexpr double kLineWidth = 0.11;
@@ -27,10 +26,10 @@ constexpr double kFaultHalo = 0.32;
 constexpr double kDash = 0.35;
 constexpr double kFaultRingGap = 0.3;
 constexpr double kAbsentRadius = 0.9;
-constexpr double kFaultLeader =
-    1.6;  ///< a text farther than this from what it tells has a line to it
+/// Distance of a text from its mark beyond which a line connects them.
+constexpr double kFaultLeader = 1.6;
 
-// In diameters of the object.
+// Lengths in object diameters.
 constexpr double kNormalLength = 0.2;
 constexpr double kPlaceRadius = 0.030;
 constexpr double kPushLength = 0.30;
@@ -42,7 +41,7 @@ constexpr Color kPush = {118, 42, 151};
 
 constexpr int kRimPoints = 72;
 
-/// Two unit vectors across `axis` and each other.
+/// Return two unit vectors perpendicular to `axis` and to each other.
 std::pair<Vector3d, Vector3d> Across(const Vector3d& axis) {
   const Vector3d u = axis.unitOrthogonal();
   return {u, axis.cross(u)};
@@ -57,7 +56,7 @@ struct Box {
 
 class Overlay {
  public:
-  Overlay(cairo_t* cr, const Camera& camera, const PictureFrame& frame, const TextStyle& style)
+  Overlay(cairo_t* cr, const Camera& camera, const NormalizedFrame& frame, const TextStyle& style)
       : cr_(cr),
         camera_(camera),
         frame_(frame),
@@ -71,25 +70,25 @@ class Overlay {
     for (const FingerGlyph& glyph : fingers) {
       for (int i = 0; i < 8; ++i) {
         const double turn = std::numbers::pi * i / 4;
-        const double radius = glyph.ball_radius * camera_.PixelsPerUnit(glyph.ball);
-        busy_.push_back(camera_.Project(glyph.ball) +
+        const double radius = glyph.fingertip_radius * camera_.PixelsPerUnit(glyph.fingertip);
+        busy_.push_back(camera_.Project(glyph.fingertip) +
                         radius * Vector2d(std::cos(turn), std::sin(turn)));
       }
       for (const Vector3d& p :
-           {glyph.ball, glyph.contact, glyph.stem_end, glyph.end,
+           {glyph.fingertip, glyph.contact, glyph.stem_end, glyph.end,
             Vector3d(glyph.end + 0.05 * glyph.outward), Vector3d(glyph.end + 0.025 * glyph.outward),
-            Vector3d((glyph.ball + glyph.stem_end) / 2)}) {
+            Vector3d((glyph.fingertip + glyph.stem_end) / 2)}) {
         busy_.push_back(camera_.Project(p));
       }
     }
   }
 
-  /// A ring around a finger at fault, which the body may hide.
+  /// Draw a ring around a faulty finger, which the object can hide.
   void DrawRing(const FingerGlyph& glyph) {
     const double radius =
-        glyph.ball_radius * camera_.PixelsPerUnit(glyph.ball) + kFaultRingGap * font_;
+        glyph.fingertip_radius * camera_.PixelsPerUnit(glyph.fingertip) + kFaultRingGap * font_;
     for (const bool white : {true, false}) {
-      SetCircle(cr_, camera_.Project(glyph.ball), radius);
+      SetCircle(cr_, camera_.Project(glyph.fingertip), radius);
       Stroke(cr_, white ? style_.ground.halo : kFaultRed, (white ? 2.6 : 1.4) * kLineWidth * font_);
     }
   }
@@ -146,7 +145,7 @@ class Overlay {
     Label(at, place.text, kExpected, radius);
   }
 
-  /// The rim of the cone and its two sides.
+  /// Draw the rim of the cone and its two sides.
   void Draw(const FaultMarks::Cone& cone, bool planar) {
     auto [u, v] = Across(cone.axis);
     if (planar) {
@@ -159,16 +158,17 @@ class Overlay {
     for (int i = 0; i < kRimPoints; ++i) {
       const double turn = 2 * std::numbers::pi * i / kRimPoints;
       const Vector3d side = std::cos(turn) * u + std::sin(turn) * v;
-      rim.push_back(Project(cone.apex + length * (std::cos(cone.half_angle) * cone.axis +
-                                                  std::sin(cone.half_angle) * side)));
+      rim.push_back(Project(cone.apex + length * (std::cos(cone.friction_angle) * cone.axis +
+                                                  std::sin(cone.friction_angle) * side)));
     }
     cairo_new_path(cr_);
     AddOutline(cr_, rim);
     StrokeDashed(kFaultRed, 1);
     const Vector2d middle = Project(cone.apex + length * cone.axis) - apex;
     const auto bearing = [&](const Vector2d& p) {
-      const Vector2d way = p - apex;
-      return std::atan2(middle.x() * way.y() - middle.y() * way.x(), middle.dot(way));
+      const Vector2d direction = p - apex;
+      return std::atan2(middle.x() * direction.y() - middle.y() * direction.x(),
+                        middle.dot(direction));
     };
     const auto [left, right] = std::ranges::minmax_element(rim, {}, bearing);
     Dash(apex, *left, kFaultRed, 1);
@@ -177,7 +177,7 @@ class Overlay {
     if (!cone.text.empty()) Label(*left, cone.text, kFaultRed);
   }
 
-  void Draw(const FaultMarks::Tip& tip) {
+  void Draw(const FaultMarks::Fingertip& tip) {
     const Vector3d at = frame_.FromWorld(tip.centre);
     SetCircle(cr_, camera_.Project(at), tip.radius / frame_.diameter_m * camera_.PixelsPerUnit(at));
     Fill(cr_, kFaultRed, 0.10);
@@ -185,7 +185,7 @@ class Overlay {
     StrokeDashed(kFaultRed, 1.2);
   }
 
-  /// A ring around what is hidden, perhaps, with its number.
+  /// Draw a ring with a text around a place that can be hidden.
   void Draw(const FaultMarks::Spot& spot) {
     const Vector2d at = Project(spot.at);
     const double radius = kSpotRadius * camera_.PixelsPerUnit(frame_.FromWorld(spot.at));
@@ -221,7 +221,7 @@ class Overlay {
     Label(arc.front(), push.name, kPush);
   }
 
-  /// At the top left, in as many lines as it takes.
+  /// Draw the heading at the top left, on as many lines as necessary.
   void DrawHeading(const std::string& text) {
     if (style_.font < kSmallestFont) return;
     const double margin = kFaultMargin * font_;
@@ -234,7 +234,7 @@ class Overlay {
     }
   }
 
-  /// Under the heading: a finger at fault that is not in the picture.
+  /// Draw a faulty finger that is not in the image below the heading.
   void DrawAbsent(FingerIndex finger) {
     const double margin = kFaultMargin * font_;
     const double radius = kAbsentRadius * font_;
@@ -252,7 +252,7 @@ class Overlay {
     base_ += radius;
   }
 
-  /// Texts come last, over everything, where heading and absent fingers leave space.
+  /// Draw the texts last, on top of everything. They avoid heading and absent fingers.
   void DrawLabels() {
     for (const auto& [at, text, color, gap] : labels_) PlaceLabel(at, text, color, gap);
   }
@@ -276,7 +276,7 @@ class Overlay {
     double gap;
   };
 
-  /// Three quarters of a rim, those that cross least of what is there.
+  /// Return the three quarters of a rim that cross the fewest marks.
   [[nodiscard]] std::vector<Vector2d> FreestArc(std::vector<Vector2d> rim) const {
     constexpr int kStarts = 8;
     std::vector<Vector2d> best;
@@ -295,7 +295,7 @@ class Overlay {
     return best;
   }
 
-  /// Lines of words, no wider than `width` where a word is not.
+  /// Break a text into lines of at most `width`, unless a word is longer.
   [[nodiscard]] std::vector<std::string> Wrap(const std::string& text, double width) const {
     std::vector<std::string> lines = {""};
     std::istringstream words(text);
@@ -324,7 +324,7 @@ class Overlay {
     labels_.push_back({at, text, color, gap});
   }
 
-  /// Texts should not cover a line.
+  /// Mark a line as an area that texts should not cover.
   void Occupy(const Vector2d& a, const Vector2d& b) {
     constexpr int kParts = 8;
     for (int i = 0; i <= kParts; ++i) busy_.push_back(a + i * (b - a) / kParts);
@@ -354,8 +354,8 @@ class Overlay {
     const double arm = 0.3 * font_;
     SetColor(cr_, color);
     for (const double side : {-1.0, 1.0}) {
-      const Vector2d way(arm, side * arm);
-      StrokeLine(cr_, at - way, at + way, 1.3 * kLineWidth * font_);
+      const Vector2d direction(arm, side * arm);
+      StrokeLine(cr_, at - direction, at + direction, 1.3 * kLineWidth * font_);
     }
   }
 
@@ -368,12 +368,12 @@ class Overlay {
     regrasp::render::DrawArrow(cr_, path, weight * kLineWidth * font_, color, style_.ground.halo);
   }
 
-  /// Near `at` where it covers least, with a line to it where it is not beside it.
+  /// Draw a text near `at` where it covers least, with a line to `at` if it is not next to it.
   void PlaceLabel(const Vector2d& at, const std::string& text, Color color, double gap) {
     SelectFont(cr_, font_, /*bold=*/true);
     const Vector2d half(TextWidth(cr_, text) / 2, 0.6 * font_);
     const Vector2d margin = half + Vector2d::Constant(0.4 * font_);
-    // Off the border, below the heading and above the caption.
+    // Inside the border, below the heading and above the caption.
     const Vector2d low =
         half + Vector2d(kFaultMargin * font_, std::max(kFaultMargin * font_, base_));
     const Vector2d high = Vector2d(camera_.width, camera_.height) - half -
@@ -383,9 +383,10 @@ class Overlay {
     for (const double distance : {0.9, 1.8, 3.0, 4.5, 6.5}) {
       for (int i = 0; i < 16; ++i) {
         const double turn = 2 * std::numbers::pi * i / 16;
-        const Vector2d way(std::cos(turn), std::sin(turn));
+        const Vector2d direction(std::cos(turn), std::sin(turn));
         const double away = gap + distance * font_;
-        Vector2d centre = at + (away * way.array() + half.array() * way.array()).matrix();
+        Vector2d centre =
+            at + (away * direction.array() + half.array() * direction.array()).matrix();
         centre = centre.cwiseMin(high).cwiseMax(low);
         const double cost = Covered({centre - margin, centre + margin}) + distance / 4;
         if (cost < least) {
@@ -419,21 +420,21 @@ class Overlay {
 
   cairo_t* cr_;
   const Camera& camera_;
-  const PictureFrame& frame_;
+  const NormalizedFrame& frame_;
   const TextStyle& style_;
   double font_;
-  std::vector<Vector2d> busy_;   ///< what texts should not cover
-  std::vector<Obstacle> lines_;  ///< of marks
-  std::vector<Box> taken_;       ///< by texts
+  std::vector<Vector2d> busy_;   ///< points that texts should not cover
+  std::vector<Obstacle> lines_;  ///< lines of marks
+  std::vector<Box> taken_;       ///< boxes of texts
   std::vector<LabelText> labels_;
-  double base_ = 0;  ///< of what is written at the top left
+  double base_ = 0;  ///< baseline of the last text at the top left
 };
 
 }  // namespace
 
 std::vector<Vector3d> ExtentOf(const FaultMarks& marks, double diameter_m) {
   std::vector<Vector3d> points;
-  const auto add_ball = [&](const Vector3d& centre, double radius) {
+  const auto add_sphere = [&](const Vector3d& centre, double radius) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const double sign : {-1.0, 1.0}) {
         points.push_back(centre + sign * radius * Vector3d::Unit(axis));
@@ -447,30 +448,30 @@ std::vector<Vector3d> ExtentOf(const FaultMarks& marks, double diameter_m) {
     points.push_back(normal.at + kNormalLength * diameter_m * normal.along);
   }
   for (const auto& place : marks.places) {
-    add_ball(place.contact - kPlaceRadius * diameter_m * place.normal, kPlaceRadius * diameter_m);
+    add_sphere(place.contact - kPlaceRadius * diameter_m * place.normal, kPlaceRadius * diameter_m);
   }
   for (const auto& cone : marks.cones) points.push_back(cone.apex);
-  for (const auto& tip : marks.tips) add_ball(tip.centre, tip.radius);
-  for (const auto& spot : marks.spots) add_ball(spot.at, kSpotRadius * diameter_m);
+  for (const auto& tip : marks.fingertips) add_sphere(tip.centre, tip.radius);
+  for (const auto& spot : marks.spots) add_sphere(spot.at, kSpotRadius * diameter_m);
   if (marks.push && marks.push->force_N.norm() > 0) {
     points.push_back(marks.centroid + kPushLength * diameter_m * marks.push->force_N.normalized());
   }
   return points;
 }
 
-std::vector<Obstacle> DrawFaultMarks(const CairoImage& page, const Camera& camera,
-                                     const PictureFrame& frame, const BodyShape& body,
+std::vector<Obstacle> DrawFaultMarks(const CairoImage& image, const Camera& camera,
+                                     const NormalizedFrame& frame, const BodyShape& body,
                                      std::span<const FingerGlyph> fingers, const FaultMarks& marks,
                                      const TextStyle& style) {
-  Overlay overlay(page.context(), camera, frame, style);
+  Overlay overlay(image.context(), camera, frame, style);
   overlay.Avoid(fingers);
   if (marks.X_WO_before) overlay.DrawGhost(body, *marks.X_WO_before, marks.ghost_text);
   for (const FingerGlyph& glyph : fingers) {
-    // One that is placed has its ring.
+    // A placed finger already has its ring.
     const bool at_fault = std::ranges::find(marks.fingers, glyph.finger) != marks.fingers.end();
     if (at_fault && glyph.role != plan::FingerRole::kPlaced) overlay.DrawRing(glyph);
   }
-  for (const auto& tip : marks.tips) overlay.Draw(tip);
+  for (const auto& tip : marks.fingertips) overlay.Draw(tip);
   for (const auto& spot : marks.spots) overlay.Draw(spot);
   for (const auto& cone : marks.cones) overlay.Draw(cone, marks.planar);
   for (const auto& place : marks.places) overlay.Draw(place);
@@ -479,7 +480,7 @@ std::vector<Obstacle> DrawFaultMarks(const CairoImage& page, const Camera& camer
   if (marks.push) overlay.DrawPush(*marks.push, marks.centroid);
   overlay.DrawHeading(marks.heading);
   for (const FingerIndex finger : marks.fingers) {
-    // Those of a hand are in the picture.
+    // Fingers of a hand are always in the image.
     const bool shown = !marks.links.empty();
     if (!shown && std::ranges::find(fingers, finger, &FingerGlyph::finger) == fingers.end()) {
       overlay.DrawAbsent(finger);

@@ -8,10 +8,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Lengths in diameters of the object.
-constexpr double kBallRadius = 0.030;
+// Lengths in object diameters.
+constexpr double kFingertipRadius = 0.030;
 constexpr double kStemRadius = 0.013;
-constexpr double kStemLength = 0.125;  // from the contact to the stem's end
+constexpr double kStemLength = 0.125;  // from the contact to the end of the stem
 constexpr double kForceRadius = 0.0055;
 constexpr double kLongestForce = 0.20;
 constexpr double kShortestForce = 0.055;
@@ -21,25 +21,26 @@ constexpr double kArrowSpace = kMotionGap + kMotionLength;
 constexpr double kMotionRadius = 0.009;
 constexpr double kTrackRadius = 0.007;
 constexpr double kTrackDash = 0.030;
-constexpr double kBeforeBall =
-    1.7;  ///< where a track ends, in radii of the ball that hides its end
+/// Distance of a track's end from the fingertip that hides it, in fingertip radii.
+constexpr double kBeforeFingertip = 1.7;
 
-/// Shares of the free space in front of a contact that ball and stem may take: less than half, so
-/// that there is space for the finger on the other side.
-constexpr double kBallShare = 0.15;
+/// Shares of the free space in front of a contact that sphere, stem and gap can use. Less than
+/// half, so that the finger on the opposite side has space too.
+constexpr double kFingertipShare = 0.15;
 constexpr double kStemShare = 0.45;
 constexpr double kGapShare = 0.2;
 
-/// A finger this near to its contact is drawn at it.
+/// Distance below which a finger is drawn at its contact.
 constexpr double kTouching = 1e-3;
 
-/// Nearer than this a ray meets the face that it starts on.
+/// Distance within which a ray ignores the surface at its origin.
 constexpr double kRaySkip = 1e-4;
 
 constexpr double kConeOpacity = 0.5;
 constexpr double kGhostGlyphOpacity = 0.33;
 
-/// The pose of a mesh that opens along +z at the origin: apex at `apex`, opening along `direction`.
+/// Return the pose of a mesh that opens along +z at the origin, moved to `apex` and opening along
+/// `direction`.
 Eigen::Isometry3d PoseAlong(const Vector3d& apex, const Vector3d& direction) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction).matrix();
@@ -51,12 +52,12 @@ void AddArrow(const Vector3d& tail, const Vector3d& tip, double radius, Color co
               const GlyphMeshes& meshes, std::vector<Shape>& shapes) {
   const Vector3d direction = (tip - tail).normalized();
   const Vector3d neck = tip - direction * (0.8 * kArrowHeadLength);
-  shapes.push_back({Rod{tail, neck, radius}, color});
+  shapes.push_back({Capsule{tail, neck, radius}, color});
   shapes.push_back({MeshInstance{meshes.arrow_head, PoseAlong(tip, -direction)}, color});
 }
 
-/// Dashes from a to b of a path on which `before` lies behind a: gaps and dashes take turns along
-/// the whole path, and one that goes round a corner is drawn in two.
+/// Add the dashes from a to b of a path with length `before` up to a. The pattern continues over
+/// corners.
 void AddDashes(const Vector3d& a, const Vector3d& b, double before, Color color,
                std::vector<Shape>& shapes) {
   const double after = before + (b - a).norm();
@@ -65,35 +66,36 @@ void AddDashes(const Vector3d& a, const Vector3d& b, double before, Color color,
     const double start = std::max(2 * k * kTrackDash, before) - before;
     const double end = std::min((2 * k + 1) * kTrackDash, after) - before;
     if (start < end)
-      shapes.push_back({Rod{a + along * start, a + along * end, kTrackRadius}, color});
+      shapes.push_back({Capsule{a + along * start, a + along * end, kTrackRadius}, color});
   }
 }
 
-/// The path that a finger came, just off the surface: its ball's ghost at the start, dashes, and an
-/// arrowhead before its ball where the path is longer than that.
+/// Add the path of a sliding finger just off the surface: a ghost at its start, dashes, and an
+/// arrow head in front of the fingertip if the path is long enough.
 void AddTrack(const FingerGlyph& glyph, Color color, const GlyphMeshes& meshes,
               std::vector<Shape>& shapes) {
   if (!FirstLeg(glyph)) return;
   const Vector3d lift = glyph.outward * kTrackRadius;
-  // Which way it stood there is not known.
-  shapes.push_back({Ball{glyph.path.front(), glyph.ball_radius}, color, kGhostGlyphOpacity});
-  shapes.push_back({Ball{glyph.path.front() + lift, 2 * kTrackRadius}, color});
+  // The orientation of the finger at its start is unknown.
+  shapes.push_back({Sphere{glyph.path.front(), glyph.fingertip_radius}, color, kGhostGlyphOpacity});
+  shapes.push_back({Sphere{glyph.path.front() + lift, 2 * kTrackRadius}, color});
   double before = 0;
   for (std::size_t i = 1; i < glyph.path.size(); ++i) {
     AddDashes(glyph.path[i - 1] + lift, glyph.path[i] + lift, before, color, shapes);
     before += (glyph.path[i] - glyph.path[i - 1]).norm();
   }
-  // It may stay while others go on.
+  // The finger can stop while others continue.
   const auto last = std::find_if(glyph.path.rbegin(), glyph.path.rend(),
                                  [&](const Vector3d& p) { return p != glyph.path.back(); });
   const Vector3d leg = glyph.contact - *last;
   if (leg.norm() < kArrowHeadLength) return;
-  const double back = std::min(kBeforeBall * glyph.ball_radius, leg.norm() - kArrowHeadLength);
+  const double back =
+      std::min(kBeforeFingertip * glyph.fingertip_radius, leg.norm() - kArrowHeadLength);
   const Vector3d tip = glyph.contact - leg.normalized() * back + lift;
   shapes.push_back({MeshInstance{meshes.arrow_head, PoseAlong(tip, -leg.normalized())}, color});
 }
 
-/// How far the fingertip is from the surface, metres.
+/// Return the distance of the fingertip from the surface, metres.
 double GapOf(const plan::FingerState& state, double fingertip_radius_m) {
   const double away = (state.contact_W - state.tip_W).dot(state.normal_W.normalized());
   return std::max(0.0, away - fingertip_radius_m);
@@ -105,14 +107,15 @@ bool IsInMotion(plan::FingerRole role) {
 
 }  // namespace
 
-Eigen::Isometry3d PictureFrame::BodyPose(const Eigen::Isometry3d& X_WO) const {
+Eigen::Isometry3d NormalizedFrame::BodyPose(const Eigen::Isometry3d& X_WO) const {
   Eigen::Isometry3d pose = X_WO;
   pose.translation() = FromWorld(X_WO * centroid_m);
   return pose;
 }
 
-std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const PictureFrame& frame,
-                                          const RayTree& body, const GlyphOptions& options) {
+std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot,
+                                          const NormalizedFrame& frame, const RayTree& body,
+                                          const GlyphOptions& options) {
   const Eigen::Isometry3d to_body = frame.BodyPose(snapshot.X_WO).inverse();
   std::vector<FingerGlyph> glyphs;
   for (const plan::FingerState& state : snapshot.fingers) {
@@ -127,21 +130,21 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const 
     glyph.force = state.force_W;
     const double clearance =
         body.Distance(to_body * glyph.contact, to_body.linear() * glyph.outward, kRaySkip);
-    glyph.ball_radius =
-        options.finger_radius.value_or(std::min(kBallRadius, kBallShare * clearance));
+    glyph.fingertip_radius =
+        options.finger_radius.value_or(std::min(kFingertipRadius, kFingertipShare * clearance));
     glyph.stem_radius =
-        options.finger_radius.value_or(kStemRadius * glyph.ball_radius / kBallRadius);
+        options.finger_radius.value_or(kStemRadius * glyph.fingertip_radius / kFingertipRadius);
     const double stem =
-        std::max(2 * glyph.ball_radius, std::min(kStemLength, kStemShare * clearance));
+        std::max(2 * glyph.fingertip_radius, std::min(kStemLength, kStemShare * clearance));
     const double gap = options.gaps == GapView::kNone
                            ? 0
                            : GapOf(state, snapshot.fingertip_radius_m) / frame.diameter_m;
     const double away = std::min({kGapScale * gap, kGapShare * clearance, kArrowSpace});
     const Vector3d tip = glyph.contact + away * glyph.outward;
-    glyph.ball = tip + glyph.outward * glyph.ball_radius;
+    glyph.fingertip = tip + glyph.outward * glyph.fingertip_radius;
     glyph.stem_end = tip + glyph.outward * stem;
-    // A finger that is drawn away from its contact is seen to move, and stands where its arrow is
-    // otherwise.
+    // A finger drawn away from its contact is visibly in motion and occupies the place of its
+    // arrow.
     const bool has_arrow =
         IsInMotion(state.role) && clearance > kStemLength + kArrowSpace && away < kTouching;
     glyph.end = glyph.stem_end + (has_arrow ? kArrowSpace : 0) * glyph.outward;
@@ -171,9 +174,10 @@ void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const Glyph
   const Color color = glyph.color;
   const bool ghost = glyph.role == plan::FingerRole::kReleased;
   const double opacity = ghost ? kGhostGlyphOpacity : 1;
-  shapes.push_back({Ball{glyph.ball, glyph.ball_radius}, color, opacity});
-  const Vector3d stem_start = glyph.ball + glyph.outward * (glyph.ball_radius - glyph.stem_radius);
-  shapes.push_back({Rod{stem_start, glyph.stem_end, glyph.stem_radius}, color, opacity});
+  shapes.push_back({Sphere{glyph.fingertip, glyph.fingertip_radius}, color, opacity});
+  const Vector3d stem_start =
+      glyph.fingertip + glyph.outward * (glyph.fingertip_radius - glyph.stem_radius);
+  shapes.push_back({Capsule{stem_start, glyph.stem_end, glyph.stem_radius}, color, opacity});
   if (glyph.end != glyph.stem_end) {
     const Vector3d near = glyph.stem_end + glyph.outward * kMotionGap;
     AddArrow(ghost ? near : glyph.end, ghost ? glyph.end : near, kMotionRadius, color, meshes,

@@ -8,18 +8,16 @@
 #include <stdexcept>
 
 #include "planner/sets/polyhedron/focus_contacts.h"
-#include "render/frames/align_inset.h"
 #include "render/frames/annotation.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/camera.h"
 #include "render/frames/canvas.h"
-#include "render/frames/extent.h"
-#include "render/frames/fault_overlay.h"
+#include "render/frames/fault_marks.h"
 #include "render/frames/finger_glyph.h"
 #include "render/frames/step_scene.h"
 #include "render/frames/viewpoint.h"
 #include "render/picture/cairo_paint.h"
-#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
 
@@ -28,59 +26,59 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kEdgeRadius = 0.0026;  // in diameters
-/// The more edges a body has beyond this, the thinner they are drawn: those of a fine mesh would
-/// cover it.
+/// Number of edges above which they are drawn thinner, because the edges of a fine mesh would cover
+/// it.
 constexpr double kManyEdges = 150;
 
-/// Representatives of clusters, in diameters.
+/// Radius of cluster representatives, in diameters.
 constexpr double kRepresentativeRadius = 0.005;
-/// Of the near surface where it shows clusters.
+/// Opacity of the near surface if it shows clusters.
 constexpr double kClusterOpacity = 0.85;
 
-/// Opacity of the body's near surface, and of its far surface behind that.
+/// Opacity of the near surface, and of the far surface behind it.
 constexpr double kOutsideOpacity = 0.33;
 constexpr double kInsideOpacity = 0.30;
-/// Of a prism, whose fingers and cones lie on its top: what is below only hints at its depth.
+/// Opacity of a prism. Fingers and cones are on its top, so its lower part only indicates depth.
 constexpr double kPrismOpacity = 0.9;
 constexpr Color kPrism = {205, 221, 241};
 
-/// The focus point, the lines to it and the outlines of contact regions, in diameters.
+/// Radii of the focus point, the lines to it and the outlines of contact regions, in diameters.
 constexpr double kFocusRadius = 0.014;
 constexpr double kFocusLineRadius = 0.0020;
 constexpr double kRegionLineRadius = 0.0030;
 constexpr Color kFocus = {150, 30, 90};
 constexpr Color kBlack = {0, 0, 0};
 
-/// A contact of the replay is this near to the face that it is planned on, in diameters.
+/// Largest distance of a replayed contact from its planned face, in diameters.
 constexpr double kFocusReach = 1e-2;
 
-/// What is farther from the object's centre (diameters) does not widen the picture.
+/// Distance from the centre (diameters) beyond which additional points do not enlarge the view.
 constexpr double kFarMark = 1.5;
 
-/// An object that moved farther than this (diameters) does not widen the picture.
+/// Translation (diameters) beyond which an object does not enlarge the view.
 constexpr double kFarAway = 0.5;
 
-/// What stays free of the scene, in font sizes: all around, above it for a heading, and below it
-/// for a caption of two lines.
+/// Margins in font sizes: all around, at the top for a heading, and at the bottom for a caption of
+/// two lines.
 constexpr double kFrameMargin = 2.1;
 constexpr double kHeadingMargin = 3.75;
 constexpr double kCaptionMargin = 4.6;
-constexpr double kMostMargin = 0.25;  ///< of the image's height
+constexpr double kMostMargin = 0.25;  ///< maximum margin per image height
 
-/// Of a frame's sides these shares stay, whatever is drawn: for captions and headings.
+/// Minimum width and height of a cropped frame per original side, for captions and headings.
 constexpr double kNarrowest = 0.75;
 constexpr double kLowest = 0.35;
 
 constexpr int kMaxSupersampling = 4;
 
-/// Of the object where it was: its near side, its lines.
+/// Opacity of the near side and the lines of the ghost.
 constexpr double kGhostOpacity = 0.14;
 constexpr double kGhostLineOpacity = 0.55;
 
-/// So many frames of a hand, evenly taken from all, say from where it is seen.
+/// Maximum number of evenly spaced frames of a hand that determine the viewpoint.
 constexpr std::size_t kMostViewed = 12;
 
-/// The clusters' meshes come next, one a colour, and then those of the hand's links.
+/// Meshes of clusters follow, one per colour, and then those of the hand's links.
 enum Mesh { kOutsideMesh, kInsideMesh, kConeMesh, kArrowMesh, kClusterMesh };
 
 void CheckOptions(const FrameOptions& options) {
@@ -91,41 +89,41 @@ void CheckOptions(const FrameOptions& options) {
   }
 }
 
-/// The surface's triangles, those of one colour a mesh.
-std::vector<FacetMesh> MakeClusterMeshes(const FacetMesh& surface,
-                                         const roadmap::ClusterView& clusters) {
-  std::vector<FacetMesh> meshes(roadmap::kClusterColors);
+/// Split a surface into one mesh per colour.
+std::vector<ShadedMesh> MakeClusterMeshes(const ShadedMesh& surface,
+                                          const roadmap::ClusterView& clusters) {
+  std::vector<ShadedMesh> meshes(roadmap::kClusterColors);
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    FacetMesh& mesh = meshes[clusters.color_of_triangle[i]];
+    ShadedMesh& mesh = meshes[clusters.color_of_triangle[i]];
     mesh.triangles.push_back(surface.triangles[i]);
     mesh.normals.push_back(surface.normals[i]);
   }
   return meshes;
 }
 
-std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double half_angle,
-                                  const std::optional<roadmap::ClusterView>& clusters) {
-  std::vector<FacetMesh> meshes = {
+std::vector<ShadedMesh> MakeMeshes(const BodyShape& body, bool planar, double friction_angle,
+                                   const std::optional<roadmap::ClusterView>& clusters) {
+  std::vector<ShadedMesh> meshes = {
       body.surface, TurnInsideOut(body.surface),
-      planar ? MakeWedge(half_angle, kConeLength) : MakeCone(half_angle, kConeLength),
+      planar ? MakeWedge(friction_angle, kConeLength) : MakeCone(friction_angle, kConeLength),
       MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
   if (clusters) {
-    for (FacetMesh& mesh : MakeClusterMeshes(body.surface, *clusters)) {
+    for (ShadedMesh& mesh : MakeClusterMeshes(body.surface, *clusters)) {
       meshes.push_back(std::move(mesh));
     }
   }
   return meshes;
 }
 
-/// Those of a hand come last.
-std::vector<FacetMesh> WithHand(std::vector<FacetMesh> meshes, const HandView* hand,
-                                const PictureFrame& frame) {
+/// Append the meshes of a hand.
+std::vector<ShadedMesh> WithHand(std::vector<ShadedMesh> meshes, const HandView* hand,
+                                 const NormalizedFrame& frame) {
   if (hand == nullptr) return meshes;
-  for (FacetMesh& mesh : MakeHandMeshes(*hand, frame)) meshes.push_back(std::move(mesh));
+  for (ShadedMesh& mesh : MakeHandMeshes(*hand, frame)) meshes.push_back(std::move(mesh));
   return meshes;
 }
 
-/// Turns the friction cones, which are flat in the plane, about their axes into the plane.
+/// Rotate flat friction cones about their axes into the plane.
 void LayFlat(std::vector<Shape>& shapes) {
   for (Shape& shape : shapes) {
     auto* mesh = std::get_if<MeshInstance>(&shape.form);
@@ -158,17 +156,17 @@ bool IsNear(const Eigen::Isometry3d& pose) {
 
 class FrameRenderer::Impl {
  public:
-  Impl(const object::Object& object, double scale, double half_angle,
+  Impl(const object::Object& object, double scale, double friction_angle,
        const std::vector<plan::Snapshot>& snapshots, const FrameOptions& options)
       : options_(options),
         object_(object),
         scale_(scale),
-        half_angle_(half_angle),
+        friction_angle_(friction_angle),
         body_(MakeBodyShape(object, options.body)),
         frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
         planar_(object.dimension() == 2),
         hand_(options.hand ? std::make_shared<const HandFigure>(*options.hand, frame_) : nullptr),
-        meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters)),
+        meshes_(MakeMeshes(body_, planar_, friction_angle, options.clusters)),
         largest_force_(LargestForce(snapshots)),
         style_{FontSize(options.width, options.height), GroundOf(options.background)},
         cameras_(MakeCameras(snapshots)),
@@ -191,28 +189,29 @@ class FrameRenderer::Impl {
     if (!snapshot.links_W.empty() && hand_) {
       drawing.veil = HandOf(snapshot, fingers, fault, camera);
     }
-    const std::vector<Vector3d> turn = AddBefore(snapshot, fault, camera, drawing);
+    const std::vector<Vector3d> arrow = AddBefore(snapshot, fault, camera, drawing);
     if (options_.show_focus) AddFocus(snapshot, drawing.shapes);
     if (options_.clusters) AddRepresentatives(snapshot, drawing.shapes);
     const auto draw = [&](Color paper) {
-      const CairoImage page(canvas_.Draw(camera, drawing, paper));
-      DrawRings(page, camera, fingers, style_);
-      std::vector<Obstacle> covered = DrawCaption(page, camera, caption, frame_.diameter_m, style_);
+      const CairoImage image(canvas_.Draw(camera, drawing, paper));
+      DrawRings(image, camera, fingers, style_);
+      std::vector<Obstacle> covered =
+          DrawCaption(image, camera, caption, frame_.diameter_m, style_);
       const auto cover = [&covered](const std::vector<Obstacle>& more) {
         covered.insert(covered.end(), more.begin(), more.end());
       };
-      cover(ObstaclesOf(camera, turn));
+      cover(ObstaclesOf(camera, arrow));
       if (fault != nullptr) {
-        cover(DrawFaultMarks(page, camera, frame_, body_, fingers, *fault, style_));
+        cover(DrawFaultMarks(image, camera, frame_, body_, fingers, *fault, style_));
       }
       if (options_.gaps == GapView::kNone) {
         for (const AlignInset& inset : PlaceInsets(camera, fingers, covered, style_)) {
           const Drawing body = DrawBody(pose, inset.camera, inset.magnification);
-          cover(DrawInset(page, inset, canvas_.Draw(inset.camera, body, paper), style_));
+          cover(DrawInset(image, inset, canvas_.Draw(inset.camera, body, paper), style_));
         }
       }
-      DrawNumbers(page, camera, fingers, covered, style_);
-      return page.ToImage();
+      DrawNumbers(image, camera, fingers, covered, style_);
+      return image.ToImage();
     };
     if (options_.background != Background::kTransparent) return draw(style_.ground.paper);
     return MakeTransparent(draw(kWhite), draw(kBlack));
@@ -228,8 +227,8 @@ class FrameRenderer::Impl {
             hand_->Windows(snapshot, fingers, camera)};
   }
 
-  /// The object where it was before it moved in the hand, and how it turned; not where a fault has
-  /// a ghost of its own.
+  /// Draw the pose before an in-hand motion and an arrow of the rotation, unless a fault has its
+  /// own ghost.
   std::vector<Vector3d> AddBefore(const plan::Snapshot& snapshot, const FaultMarks* fault,
                                   const Camera& camera, Drawing& drawing) const {
     if (!snapshot.X_WO_before || (fault != nullptr && fault->X_WO_before)) return {};
@@ -249,9 +248,9 @@ class FrameRenderer::Impl {
       line.opacity = kGhostLineOpacity;
       drawing.shapes.push_back(std::move(line));
     }
-    const auto turn = TurnArrow(body_.surface, before, after, camera.axes.col(2));
-    if (!turn.empty()) AddTurnArrow(turn, kArrowMesh, style_.ground.turn, drawing.shapes);
-    return turn;
+    const auto arrow = RotationArrow(body_.surface, before, after, camera.axes.col(2));
+    if (!arrow.empty()) AddRotationArrow(arrow, kArrowMesh, style_.ground.rotation, drawing.shapes);
+    return arrow;
   }
 
   [[nodiscard]] std::vector<FingerGlyph> GlyphsOf(const plan::Snapshot& snapshot) const {
@@ -272,9 +271,9 @@ class FrameRenderer::Impl {
     return shapes;
   }
 
-  /// The body is translucent in two layers, its far side and its near side: what it hides, edges
-  /// too, comes out paler by itself.
-  /// @param magnification  that its lines do not share.
+  /// Draw the object as two translucent layers, its far and its near side. Hidden parts and edges
+  /// thereby become paler.
+  /// @param magnification  magnification of the camera; line widths do not scale with it.
   [[nodiscard]] Drawing DrawBody(const Eigen::Isometry3d& pose, const Camera& camera,
                                  double magnification = 1) const {
     Drawing drawing;
@@ -308,8 +307,9 @@ class FrameRenderer::Impl {
 
   void AddRepresentatives(const plan::Snapshot& snapshot, std::vector<Shape>& shapes) const {
     for (const Vector3d& p : options_.clusters->representatives) {
-      shapes.push_back({Ball{frame_.FromWorld(snapshot.X_WO * (scale_ * p)), kRepresentativeRadius},
-                        style_.ground.ink});
+      shapes.push_back(
+          {Sphere{frame_.FromWorld(snapshot.X_WO * (scale_ * p)), kRepresentativeRadius},
+           style_.ground.ink});
     }
   }
 
@@ -323,7 +323,7 @@ class FrameRenderer::Impl {
     }
   }
 
-  /// The contacts of the fingers that hold, where they are planned, on the object.
+  /// Return the grasp of the fingers in contact, projected onto the faces of the object.
   [[nodiscard]] grasp::Grasp HeldGrasp(const plan::Snapshot& snapshot) const {
     const Eigen::Isometry3d X_OW = snapshot.X_WO.inverse();
     grasp::Grasp grasp;
@@ -349,12 +349,12 @@ class FrameRenderer::Impl {
     const auto* solid = dynamic_cast<const object::Polyhedron*>(&object_);
     if (solid == nullptr) return;
     const grasp::Grasp grasp = HeldGrasp(snapshot);
-    const auto view = polyhedron::DescribeFocus(*solid, grasp, half_angle_);
+    const auto view = polyhedron::DescribeFocus(*solid, grasp, friction_angle_);
     if (!view) return;
     const auto place = [&](const Vector3d& p) {
       return frame_.FromWorld(snapshot.X_WO * (scale_ * p));
     };
-    shapes.push_back({Ball{place(view->focus), kFocusRadius}, kFocus});
+    shapes.push_back({Sphere{place(view->focus), kFocusRadius}, kFocus});
     for (const grasp::Contact& contact : grasp) {
       shapes.push_back({Line{place(contact.p), place(view->focus), kFocusLineRadius}, kFocus});
     }
@@ -367,25 +367,27 @@ class FrameRenderer::Impl {
     }
   }
 
-  /// All that is drawn of a sequence.
+  /// Everything that is drawn of a sequence.
   struct Sequence {
-    std::vector<std::vector<FingerGlyph>> frames = {};  ///< none of what is far away
+    /// Fingers of each frame; empty if the object is far away.
+    std::vector<std::vector<FingerGlyph>> frames = {};
     std::vector<Eigen::Isometry3d> poses = {Eigen::Isometry3d::Identity()};
-    std::vector<Standing> standing = {};  ///< of plans for a hand
-    std::vector<Vector3d> hands = {};     ///< points that bound them
+    /// Object and hand in each frame of a plan for a hand.
+    std::vector<FramePlacement> placements = {};
+    std::vector<Vector3d> hands = {};  ///< points that bound the hands
   };
 
   [[nodiscard]] Sequence SequenceOf(const std::vector<plan::Snapshot>& snapshots) const {
     Sequence all;
     for (const plan::Snapshot& snapshot : snapshots) {
       all.frames.emplace_back();
-      if (hand_) all.standing.emplace_back();
+      if (hand_) all.placements.emplace_back();
       const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
       if (!IsNear(pose)) continue;
       all.poses.push_back(pose);
       if (snapshot.X_WO_before) all.poses.push_back(frame_.BodyPose(*snapshot.X_WO_before));
       if (hand_) {
-        all.standing.back() = {pose.inverse(), hand_->Rays(snapshot)};
+        all.placements.back() = {pose.inverse(), hand_->Rays(snapshot)};
         const std::vector<Vector3d> bounds = hand_->Bounds(snapshot);
         all.hands.insert(all.hands.end(), bounds.begin(), bounds.end());
       }
@@ -395,60 +397,61 @@ class FrameRenderer::Impl {
     return all;
   }
 
-  /// Points whose pictures bound that of a sequence.
+  /// Return points whose projections bound the images of a sequence.
   [[nodiscard]] std::vector<Vector3d> ExtentOf(const Sequence& all,
                                                const Eigen::Matrix3d& axes) const {
-    Extent extent(axes, meshes_);
+    ProjectedExtent extent(axes, meshes_);
     for (const Eigen::Isometry3d& pose : all.poses) extent.Add(MeshInstance{kOutsideMesh, pose});
     for (const std::vector<FingerGlyph>& fingers : all.frames) {
       for (const Shape& shape : FingerShapes(fingers)) extent.Add(shape.form);
       for (const FingerGlyph& glyph : fingers) {
-        extent.Add(Ball{glyph.end + glyph.outward * kLabelSpace, kLabelSpace / 2});
+        extent.Add(Sphere{glyph.end + glyph.outward * kLabelSpace, kLabelSpace / 2});
       }
     }
-    for (const Vector3d& p : all.hands) extent.Add(Ball{p, 0});
-    for (const Vector3d& p_W : options_.reached) extent.Add(Ball{frame_.FromWorld(p_W), 0});
+    for (const Vector3d& p : all.hands) extent.Add(Sphere{p, 0});
+    for (const Vector3d& p_W : options_.reached) extent.Add(Sphere{frame_.FromWorld(p_W), 0});
     for (const Vector3d& p_W : options_.also_seen) {
       const Vector3d p = frame_.FromWorld(p_W);
-      if (p.norm() < kFarMark) extent.Add(Ball{p, kLabelSpace / 2});
+      if (p.norm() < kFarMark) extent.Add(Sphere{p, kLabelSpace / 2});
     }
     return extent.points();
   }
 
-  /// Of most frames, and of those that have one of their own, by their index.
+  /// The common camera, and the own cameras of frames by index.
   struct Cameras {
     Camera common;
     std::map<int, Camera> own = {};
   };
 
-  /// The margins are as many pixels whatever the height.
+  /// Fit a camera with the same margins in pixels for any height.
   [[nodiscard]] Camera FitTo(const std::vector<Vector3d>& points, const Vector3d& back, int width,
                              int height) const {
     Margins margins = MarginsFor(options_);
     for (double* margin : {&margins.side, &margins.top, &margins.bottom}) {
       *margin *= static_cast<double>(options_.height) / height;
     }
-    const Projection usual = planar_ ? Projection::kOrthographic : Projection::kPerspective;
-    return FitCamera(CameraAxes(back), options_.view.projection.value_or(usual), width, height,
-                     margins, points);
+    const Projection default_projection =
+        planar_ ? Projection::kOrthographic : Projection::kPerspective;
+    return FitCamera(CameraAxes(back), options_.view.projection.value_or(default_projection), width,
+                     height, margins, points);
   }
 
-  /// Through a hand's plan the palm stays where it is, seen from one place.
+  /// Choose viewpoints. A plan for a hand has one viewpoint, with the palm fixed in the image.
   [[nodiscard]] Viewpoints ViewpointsOf(const Sequence& all) const {
-    if (all.standing.empty()) {
+    if (all.placements.empty()) {
       return ChooseViewpoints(body_, planar_, all.frames, largest_force_);
     }
     const std::size_t stride = 1 + (all.frames.size() - 1) / kMostViewed;
     std::vector<std::vector<FingerGlyph>> frames;
-    std::vector<Standing> standing;
+    std::vector<FramePlacement> placements;
     for (std::size_t i = 0; i < all.frames.size(); i += stride) {
       frames.push_back(all.frames[i]);
-      standing.push_back(all.standing[i]);
+      placements.push_back(all.placements[i]);
     }
-    return {ChooseViewpoints(body_, planar_, frames, largest_force_, standing).common, {}};
+    return {ChooseViewpoints(body_, planar_, frames, largest_force_, placements).common, {}};
   }
 
-  /// Cameras that see all that is drawn.
+  /// Compute cameras that see everything.
   [[nodiscard]] Cameras MakeCameras(const std::vector<plan::Snapshot>& snapshots) const {
     const Sequence all = SequenceOf(snapshots);
     const ViewOptions& view = options_.view;
@@ -488,23 +491,23 @@ class FrameRenderer::Impl {
   FrameOptions options_;
   const object::Object& object_;
   double scale_;
-  double half_angle_;
+  double friction_angle_;
   BodyShape body_;
-  PictureFrame frame_;
+  NormalizedFrame frame_;
   bool planar_;
-  std::shared_ptr<const HandFigure> hand_;  ///< none without a hand; copies have the same
-  std::vector<FacetMesh> meshes_;           ///< without the hand's
+  std::shared_ptr<const HandFigure> hand_;  ///< null without a hand; shared with copies
+  std::vector<ShadedMesh> meshes_;          ///< meshes of object and fingers
   double largest_force_;
   TextStyle style_;
   Cameras cameras_;
   Canvas canvas_;
 };
 
-FrameRenderer::FrameRenderer(const object::Object& object, double scale, double half_angle,
+FrameRenderer::FrameRenderer(const object::Object& object, double scale, double friction_angle,
                              const std::vector<plan::Snapshot>& snapshots,
                              const FrameOptions& options) {
   CheckOptions(options);
-  impl_ = std::make_unique<Impl>(object, scale, half_angle, snapshots, options);
+  impl_ = std::make_unique<Impl>(object, scale, friction_angle, snapshots, options);
 }
 FrameRenderer::FrameRenderer(const FrameRenderer& other)
     : impl_(std::make_unique<Impl>(*other.impl_)) {}

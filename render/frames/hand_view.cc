@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
 namespace {
@@ -17,20 +17,20 @@ using Eigen::Vector3d;
 
 constexpr Color kHandColor = {222, 214, 203};
 constexpr Color kHandOutline = {96, 92, 90};
-/// How much of its finger's colour a tip that touches has, and of red a link at fault.
+/// Share of the finger's colour in a fingertip in contact, and of red in a faulty link.
 constexpr double kTint = 0.42;
 constexpr double kFaultTint = 0.72;
-/// How much a hand hides of what is behind it.
+/// Opacity of a hand.
 constexpr double kHandOpacity = 0.9;
 /// Width of its outline, in diameters.
 constexpr double kHandRim = 0.006;
-/// By so much for each joint links are thicker than those before them: round ends of two links that
-/// are the same ball at a joint would fight for it.
+/// Offset of a link's surface per preceding joint, in diameters. Without it two links with the same
+/// sphere at a joint would flicker.
 constexpr double kHair = 1.5e-3;
 
-/// Around the middle of ball and cone, in diameters.
+/// Radius of a window around the middle of fingertip and cone, in diameters.
 constexpr double kWindow = 0.16;
-/// A finger of whose places this share is hidden is seen as through glass.
+/// Hidden share of a finger above which its window is fully clear.
 constexpr double kMostHidden = 0.5;
 constexpr double kHandRaySkip = 1e-4;
 
@@ -41,15 +41,15 @@ Color Mixed(Color a, Color b, double share) {
   return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
 
-FacetMesh InPicture(FacetMesh mesh, const PictureFrame& frame) {
+ShadedMesh Normalized(ShadedMesh mesh, const NormalizedFrame& frame) {
   for (auto& corners : mesh.triangles) {
     for (Vector3d& p : corners) p /= frame.diameter_m;
   }
   return mesh;
 }
 
-/// Parts that hang together and are inside out are turned: a shell of them would hide them.
-void OrientOutward(FacetMesh& mesh) {
+/// Flip connected parts whose triangles are oriented inwards: their shells would hide them.
+void OrientOutward(ShadedMesh& mesh) {
   const int count = static_cast<int>(mesh.triangles.size());
   std::vector<int> parts(count);
   std::iota(parts.begin(), parts.end(), 0);
@@ -57,14 +57,15 @@ void OrientOutward(FacetMesh& mesh) {
     while (parts[i] != i) i = parts[i] = parts[parts[i]];
     return i;
   };
-  std::map<std::array<double, 3>, int> owner;  // of each corner
+  std::map<std::array<double, 3>, int> owner;  // first triangle of each corner
   for (int i = 0; i < count; ++i) {
     for (const Vector3d& p : mesh.triangles[i]) {
       const auto [found, is_new] = owner.try_emplace({p.x(), p.y(), p.z()}, i);
       if (!is_new) parts[part_of(i)] = part_of(found->second);
     }
   }
-  // About a point in the middle, so that a part with holes has about the volume that it encloses.
+  // Volumes relative to a point in the middle, so that a part with holes has about the volume that
+  // it encloses.
   std::vector<Vector3d> sums(count, Vector3d::Zero());
   std::vector<int> sizes(count, 0);
   for (int i = 0; i < count; ++i) {
@@ -87,24 +88,24 @@ void OrientOutward(FacetMesh& mesh) {
   }
 }
 
-void Grow(double by, FacetMesh& mesh) {
+void Grow(double by, ShadedMesh& mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (int k = 0; k < 3; ++k) mesh.triangles[i][k] += by * mesh.normals[i][k];
   }
 }
 
-/// A mesh a little larger, seen from inside: before it stands the mesh itself but at its rim.
-FacetMesh MakeShell(FacetMesh mesh) {
+/// Return a slightly enlarged mesh with inward orientation. The mesh hides all of it but the rim.
+ShadedMesh MakeShell(ShadedMesh mesh) {
   Grow(kHandRim, mesh);
   return TurnInsideOut(std::move(mesh));
 }
 
-/// The farthest corners in many directions.
-std::vector<Vector3d> FarthestCorners(const FacetMesh& mesh) {
+/// Return the farthest corners in many directions.
+std::vector<Vector3d> FarthestCorners(const ShadedMesh& mesh) {
   constexpr int kDirections = 96;
   std::vector<Vector3d> farthest;
   for (int i = 0; i < kDirections; ++i) {
-    // Evenly over the sphere: a spiral by the golden angle.
+    // Golden-angle spiral: evenly distributed over the sphere.
     const double z = 1 - (2.0 * i + 1) / kDirections;
     const double turn = std::numbers::pi * (3 - std::sqrt(5)) * i;
     const Vector3d direction(std::sqrt(1 - z * z) * std::cos(turn),
@@ -126,10 +127,10 @@ bool Touches(const plan::FingerState& finger) {
 
 }  // namespace
 
-std::vector<FacetMesh> MakeHandMeshes(const HandView& hand, const PictureFrame& frame) {
-  std::vector<FacetMesh> meshes;
+std::vector<ShadedMesh> MakeHandMeshes(const HandView& hand, const NormalizedFrame& frame) {
+  std::vector<ShadedMesh> meshes;
   for (const HandLinkView& view : hand) {
-    FacetMesh mesh = InPicture(view.mesh, frame);
+    ShadedMesh mesh = Normalized(view.mesh, frame);
     OrientOutward(mesh);
     Grow(kHair * view.link.joints, mesh);
     meshes.push_back(MakeShell(mesh));
@@ -138,11 +139,11 @@ std::vector<FacetMesh> MakeHandMeshes(const HandView& hand, const PictureFrame& 
   return meshes;
 }
 
-HandFigure::HandFigure(const HandView& hand, const PictureFrame& frame) : frame_(frame) {
+HandFigure::HandFigure(const HandView& hand, const NormalizedFrame& frame) : frame_(frame) {
   for (const HandLinkView& view : hand) {
     links_.push_back(view.link);
-    is_tip_.push_back(view.is_tip);
-    const FacetMesh mesh = InPicture(view.mesh, frame);
+    is_fingertip_.push_back(view.is_fingertip);
+    const ShadedMesh mesh = Normalized(view.mesh, frame);
     rays_.emplace_back(mesh);
     bounds_.push_back(FarthestCorners(mesh));
   }
@@ -165,7 +166,8 @@ std::vector<Shape> HandFigure::Shapes(const plan::Snapshot& snapshot,
     const auto finger =
         std::ranges::find(snapshot.fingers, link.finger, &plan::FingerState::finger);
     const bool touches = finger != snapshot.fingers.end() && Touches(*finger);
-    return touches && is_tip_[i] ? Mixed(kHandColor, FingerColor(link.finger), kTint) : kHandColor;
+    return touches && is_fingertip_[i] ? Mixed(kHandColor, FingerColor(link.finger), kTint)
+                                       : kHandColor;
   };
   std::vector<Shape> shapes;
   for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
@@ -205,7 +207,7 @@ std::vector<Window> HandFigure::Windows(const plan::Snapshot& snapshot,
     int hidden = 0;
     for (const double place : kPlaces) {
       const Vector3d p = glyph.contact + place * kConeLength * glyph.outward;
-      if (IsMet(links, p, camera.ToEye(p), kHandRaySkip)) ++hidden;
+      if (IsHit(links, p, camera.ToEye(p), kHandRaySkip)) ++hidden;
     }
     if (hidden == 0) continue;
     const double share = static_cast<double>(hidden) / kPlaces.size();

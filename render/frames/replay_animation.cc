@@ -16,18 +16,18 @@ void RenderInOrder(const FrameRenderer& renderer, std::span<const FrameTask> tas
   const auto count = static_cast<int>(tasks.size());
   const int ahead = std::min(workers, count);
   std::vector<FrameRenderer> renderers(ahead, renderer);
-  std::deque<std::future<Image>> frames;
-  // A renderer's next task starts when its last one is done.
+  std::deque<std::future<Image>> pending;
+  // The next task of a renderer starts after its previous one.
   const auto start = [&](int index) {
-    frames.push_back(std::async(std::launch::async, [&, index] {
+    pending.push_back(std::async(std::launch::async, [&, index] {
       const FrameTask& task = tasks[index];
       return renderers[index % ahead].Render(*task.snapshot, task.caption, task.fault, task.view);
     }));
   };
   for (int index = 0; index < ahead; ++index) start(index);
   for (int index = 0; index < count; ++index) {
-    const Image image = frames.front().get();
-    frames.pop_front();
+    const Image image = pending.front().get();
+    pending.pop_front();
     if (index + ahead < count) start(index + ahead);
     take(index, image);
   }
@@ -35,17 +35,17 @@ void RenderInOrder(const FrameRenderer& renderer, std::span<const FrameTask> tas
 
 namespace {
 
-/// More than this between two samples, in units, is no motion that could be shown.
+/// Maximum motion between two samples, in units. Larger motions cannot be displayed.
 constexpr double kLargestMotion = 0.25;
 constexpr double kStillMotion = 1e-3;
 
-/// So many pictures show all colours: each finger holds in one of them.
+/// Number of example frames for a palette: each finger is in contact in one of them.
 constexpr int kMostExamples = 8;
 
-double LargestForce(const std::vector<AnimationRest>& rests) {
+double LargestForce(const std::vector<AnimationPause>& pauses) {
   double largest = std::numeric_limits<double>::min();
-  for (const AnimationRest& rest : rests) {
-    for (const plan::FingerState& finger : rest.snapshot.fingers) {
+  for (const AnimationPause& pause : pauses) {
+    for (const plan::FingerState& finger : pause.snapshot.fingers) {
       largest = std::max(largest, finger.force_W.norm());
     }
   }
@@ -65,59 +65,60 @@ double MotionBetween(const plan::Snapshot& a, const plan::Snapshot& b, double di
   return std::isfinite(most) ? std::min(most, kLargestMotion) : kLargestMotion;
 }
 
-/// How far the replay has come at each rest; the samples up to it belong to its entry.
-std::vector<double> ProgressAtRests(const std::vector<plan::Snapshot>& samples,
-                                    const std::vector<double>& progress,
-                                    const std::vector<AnimationRest>& rests) {
+/// Return the accumulated motion at each pause. The samples up to it belong to its entry.
+std::vector<double> ProgressAtPauses(const std::vector<plan::Snapshot>& samples,
+                                     const std::vector<double>& progress,
+                                     const std::vector<AnimationPause>& pauses) {
   std::vector<double> at;
-  for (const AnimationRest& rest : rests) {
+  for (const AnimationPause& pause : pauses) {
     const auto end =
-        std::ranges::upper_bound(samples, rest.snapshot.time_s, {}, &plan::Snapshot::time_s);
+        std::ranges::upper_bound(samples, pause.snapshot.time_s, {}, &plan::Snapshot::time_s);
     at.push_back(end == samples.begin() ? 0 : progress[end - samples.begin() - 1]);
   }
   return at;
 }
 
-/// How many pictures each entry has.
-std::vector<int> CountPictures(const std::vector<double>& at_rests) {
+/// Return the number of frames of each entry.
+std::vector<int> CountFrames(const std::vector<double>& at_pauses) {
   std::vector<int> counts;
   int all = 0;
   double before = 0;
-  for (const double at : at_rests) {
-    const double wanted = std::ceil(kPicturesPerUnit * (at - before));
-    counts.push_back(static_cast<int>(std::clamp<double>(wanted, kFewestPictures, kMostPictures)));
+  for (const double at : at_pauses) {
+    const double wanted = std::ceil(kFramesPerUnit * (at - before));
+    counts.push_back(
+        static_cast<int>(std::clamp<double>(wanted, kMinEntryFrames, kMaxEntryFrames)));
     all += counts.back();
     before = at;
   }
-  if (all <= kMostPicturesInAll) return counts;
-  for (int& count : counts) count = std::max(1, count * kMostPicturesInAll / all);
+  if (all <= kMaxFrames) return counts;
+  for (int& count : counts) count = std::max(1, count * kMaxFrames / all);
   return counts;
 }
 
-int RestTime_ms(const std::vector<AnimationRest>& rests, std::size_t entry) {
-  if (rests[entry].marks) return kFailedRestTime_ms;
-  if (entry + 1 == rests.size()) return kLastRestTime_ms;
-  return entry == 0 ? kFirstRestTime_ms : kRestTime_ms;
+int PauseTime_ms(const std::vector<AnimationPause>& pauses, std::size_t entry) {
+  if (pauses[entry].marks) return kFailurePause_ms;
+  if (entry + 1 == pauses.size()) return kLastPause_ms;
+  return entry == 0 ? kFirstPause_ms : kPause_ms;
 }
 
-void AddRest(const std::vector<AnimationRest>& rests, std::size_t entry,
-             std::vector<AnimationPicture>& pictures) {
-  const AnimationRest& rest = rests[entry];
-  const FaultMarks* marks = rest.marks ? &*rest.marks : nullptr;
-  pictures.push_back({{&rest.snapshot, rest.caption, marks}, RestTime_ms(rests, entry)});
+void AddPause(const std::vector<AnimationPause>& pauses, std::size_t entry,
+              std::vector<AnimationFrame>& frames) {
+  const AnimationPause& pause = pauses[entry];
+  const FaultMarks* marks = pause.marks ? &*pause.marks : nullptr;
+  frames.push_back({{&pause.snapshot, pause.caption, marks}, PauseTime_ms(pauses, entry)});
 }
 
-/// Some of the rests: they have the colours of the fingers, of forces and of marks.
+/// Render some of the pauses. They contain the colours of fingers, forces and marks.
 std::vector<Image> RenderExamples(const FrameRenderer& renderer,
-                                  const std::vector<AnimationPicture>& pictures, int workers) {
-  std::vector<FrameTask> rests;
-  for (const AnimationPicture& picture : pictures) {
-    if (picture.duration_ms > kPictureTime_ms) rests.push_back(picture.frame);
+                                  const std::vector<AnimationFrame>& frames, int workers) {
+  std::vector<FrameTask> pauses;
+  for (const AnimationFrame& frame : frames) {
+    if (frame.duration_ms > kFrameTime_ms) pauses.push_back(frame.task);
   }
   std::vector<FrameTask> chosen;
-  const auto count = static_cast<int>(rests.size());
+  const auto count = static_cast<int>(pauses.size());
   const int examples = std::min(count, kMostExamples);
-  for (int i = 1; i <= examples; ++i) chosen.push_back(rests[count * i / examples - 1]);
+  for (int i = 1; i <= examples; ++i) chosen.push_back(pauses[count * i / examples - 1]);
   std::vector<Image> images;
   RenderInOrder(renderer, chosen, workers,
                 [&images](int, const Image& image) { images.push_back(image); });
@@ -152,57 +153,57 @@ std::vector<int> ChooseInstants(const std::vector<double>& progress, double from
   return chosen;
 }
 
-std::vector<AnimationPicture> JoinAnimation(const std::vector<std::vector<plan::Snapshot>>& motions,
-                                            const std::vector<AnimationRest>& rests) {
+std::vector<AnimationFrame> JoinAnimation(const std::vector<std::vector<plan::Snapshot>>& motions,
+                                          const std::vector<AnimationPause>& pauses) {
   std::size_t all = 0;
   for (const auto& motion : motions) all += motion.size();
-  const std::size_t stride = 1 + all / (kMostPicturesInAll + 1);
-  std::vector<AnimationPicture> pictures;
-  for (std::size_t entry = 0; entry < rests.size(); ++entry) {
+  const std::size_t stride = 1 + all / (kMaxFrames + 1);
+  std::vector<AnimationFrame> frames;
+  for (std::size_t entry = 0; entry < pauses.size(); ++entry) {
     for (std::size_t i = stride / 2; i < motions[entry].size(); i += stride) {
-      pictures.push_back({{&motions[entry][i], rests[entry].moving_caption}, kPictureTime_ms});
+      frames.push_back({{&motions[entry][i], pauses[entry].moving_caption}, kFrameTime_ms});
     }
-    AddRest(rests, entry, pictures);
+    AddPause(pauses, entry, frames);
   }
-  return pictures;
+  return frames;
 }
 
-std::vector<AnimationPicture> CutAnimation(const std::vector<plan::Snapshot>& samples,
-                                           const std::vector<AnimationRest>& rests,
-                                           double diameter_m) {
-  const std::vector<double> progress = MeasureProgress(samples, diameter_m, LargestForce(rests));
-  const std::vector<double> at_rests = ProgressAtRests(samples, progress, rests);
-  const std::vector<int> counts = CountPictures(at_rests);
-  std::vector<AnimationPicture> pictures;
+std::vector<AnimationFrame> CutAnimation(const std::vector<plan::Snapshot>& samples,
+                                         const std::vector<AnimationPause>& pauses,
+                                         double diameter_m) {
+  const std::vector<double> progress = MeasureProgress(samples, diameter_m, LargestForce(pauses));
+  const std::vector<double> at_pauses = ProgressAtPauses(samples, progress, pauses);
+  const std::vector<int> counts = CountFrames(at_pauses);
+  std::vector<AnimationFrame> frames;
   double from = 0;
-  for (std::size_t entry = 0; entry < rests.size(); ++entry) {
-    const AnimationRest& rest = rests[entry];
-    for (const int at : ChooseInstants(progress, from, at_rests[entry], counts[entry])) {
-      pictures.push_back({{&samples[at], rest.moving_caption}, kPictureTime_ms});
+  for (std::size_t entry = 0; entry < pauses.size(); ++entry) {
+    const AnimationPause& pause = pauses[entry];
+    for (const int at : ChooseInstants(progress, from, at_pauses[entry], counts[entry])) {
+      frames.push_back({{&samples[at], pause.moving_caption}, kFrameTime_ms});
     }
-    AddRest(rests, entry, pictures);
-    from = at_rests[entry];
+    AddPause(pauses, entry, frames);
+    from = at_pauses[entry];
   }
-  return pictures;
+  return frames;
 }
 
 std::vector<std::string> RenderAnimation(const FrameRenderer& renderer,
-                                         const std::vector<AnimationPicture>& pictures,
-                                         const std::vector<MovingFormat>& formats, int workers,
-                                         const std::function<void(int)>& on_picture) {
-  if (pictures.empty()) throw std::invalid_argument("RenderAnimation: no picture");
-  const bool has_gif = std::ranges::find(formats, MovingFormat::kGif) != formats.end();
+                                         const std::vector<AnimationFrame>& frames,
+                                         const std::vector<AnimationFormat>& formats, int workers,
+                                         const std::function<void(int)>& on_frame) {
+  if (frames.empty()) throw std::invalid_argument("RenderAnimation: no frame");
+  const bool has_gif = std::ranges::find(formats, AnimationFormat::kGif) != formats.end();
   const std::vector<Image> examples =
-      has_gif ? RenderExamples(renderer, pictures, workers) : std::vector<Image>();
-  std::vector<std::unique_ptr<MovingPicture>> files;
+      has_gif ? RenderExamples(renderer, frames, workers) : std::vector<Image>();
+  std::vector<std::unique_ptr<Animation>> files;
   std::vector<FrameTask> tasks;
-  for (const AnimationPicture& picture : pictures) tasks.push_back(picture.frame);
+  for (const AnimationFrame& frame : frames) tasks.push_back(frame.task);
   RenderInOrder(renderer, tasks, workers, [&](int index, const Image& image) {
     for (std::size_t i = files.size(); i < formats.size(); ++i) {
-      files.push_back(MakeMovingPicture(formats[i], image.width, image.height, examples));
+      files.push_back(MakeAnimation(formats[i], image.width, image.height, examples));
     }
-    for (const auto& file : files) file->Add(image, pictures[index].duration_ms);
-    if (on_picture) on_picture(index + 1);
+    for (const auto& file : files) file->Add(image, frames[index].duration_ms);
+    if (on_frame) on_frame(index + 1);
   });
   std::vector<std::string> bytes;
   for (const auto& file : files) bytes.push_back(file->Finish());

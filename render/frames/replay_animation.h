@@ -8,11 +8,11 @@
 
 #include "planner/plan/snapshot.h"
 #include "render/frames/frame.h"
-#include "render/picture/moving_picture.h"
+#include "render/picture/animation.h"
 
 namespace regrasp::render {
 
-/// What FrameRenderer::Render is given; what it points to outlives it.
+/// Arguments of FrameRenderer::Render. Referenced objects must outlive the task.
 struct FrameTask {
   const plan::Snapshot* snapshot;
   std::string caption;
@@ -20,86 +20,92 @@ struct FrameTask {
   int view = kCommonView;
 };
 
-/// Draws frames in several threads, each with a copy of the renderer, and hands them on in this one
-/// in the order of the tasks, while further ones are drawn. The frames do not depend on the number
-/// of workers.
-/// @param workers  ≥ 1.
-/// @param take     called with the index of a task and its frame.
-/// @throws what Render or `take` throws.
+/// Draw frames in several threads, each with a copy of the renderer, and pass them on in order.
+///
+/// `take` is called in the calling thread while further frames are drawn. Frames do not depend on
+/// the number of workers.
+/// @param workers  number of threads, ≥ 1.
+/// @param take     function that is called with the index of a task and its frame.
+/// @throws exceptions of Render and `take`.
 void RenderInOrder(const FrameRenderer& renderer, std::span<const FrameTask> tasks, int workers,
                    const std::function<void(int index, const Image& image)>& take);
 
-/// The end of an entry, where the animation rests.
-struct AnimationRest {
+/// The end of a plan entry, at which the animation pauses.
+struct AnimationPause {
   plan::Snapshot snapshot;
-  std::string moving_caption;  ///< below what leads to it
+  std::string moving_caption;  ///< caption of the frames before it
   std::string caption;
-  std::optional<FaultMarks> marks = std::nullopt;  ///< of a failed step
+  std::optional<FaultMarks> marks = std::nullopt;  ///< marks of a failed step
 };
 
-/// How an animation is cut: pictures where something moves, whatever its time in the replay, and a
-/// rest at the end of every entry. A unit of motion is a fingertip's travel of kMotionUnit
-/// diameters, or half of the largest contact force coming or going.
+/// Fingertip travel per unit of motion, in diameters. The other unit of motion is half of the
+/// largest contact force appearing or disappearing. An animation has frames in proportion to
+/// motion, independent of time, and a pause at the end of each entry.
 inline constexpr double kMotionUnit = 0.02;
-inline constexpr double kPicturesPerUnit = 4;  ///< a finger comes down in ten pictures
-inline constexpr int kFewestPictures = 8;      ///< of an entry
-inline constexpr int kMostPictures = 64;       ///< of an entry: a long align goes faster
-inline constexpr int kPictureTime_ms = kTick_ms;
-/// At the first rest one finds one's way about the picture; before the animation begins again the
-/// last one can be looked at, longer where it tells what failed.
-inline constexpr int kFirstRestTime_ms = 1500;
-inline constexpr int kRestTime_ms = 900;
-inline constexpr int kLastRestTime_ms = 2500;
-inline constexpr int kFailedRestTime_ms = 4000;
+/// Frames per unit of motion: about ten for a finger that is placed.
+inline constexpr double kFramesPerUnit = 4;
+inline constexpr int kMinEntryFrames = 8;  ///< minimum number of frames of an entry
+/// Maximum number of frames of an entry: longer motions are faster.
+inline constexpr int kMaxEntryFrames = 64;
+inline constexpr int kFrameTime_ms = kTick_ms;
+/// Durations of pauses. The first one leaves time to understand the image. The last one precedes
+/// the repetition, and is longer if it shows a failure.
+inline constexpr int kFirstPause_ms = 1500;
+inline constexpr int kPause_ms = 900;
+inline constexpr int kLastPause_ms = 2500;
+inline constexpr int kFailurePause_ms = 4000;
 
-/// A plan of many entries has fewer pictures an entry, but one at least and its rest.
-inline constexpr int kMostPicturesInAll = 900;
+/// Maximum number of frames of an animation. Entries of long plans have fewer frames, but at least
+/// one and a pause.
+inline constexpr int kMaxFrames = 900;
 
-/// How far the replay has come at each sample, in units of motion, ascending. A jump, where a free
-/// finger appears somewhere else, counts as little; time counts a little too, so that no two
-/// samples are equal.
-/// @param largest_force  newtons, > 0.
+/// Compute the accumulated motion at each sample, in units of motion, ascending.
+///
+/// Jumps, when a free finger appears at another position, have a limited contribution. Time
+/// contributes slightly, so that the values are distinct.
+/// @param diameter_m     diameter of the object, metres.
+/// @param largest_force  largest contact force, newtons, > 0.
 [[nodiscard]] std::vector<double> MeasureProgress(const std::vector<plan::Snapshot>& samples,
                                                   double diameter_m, double largest_force);
 
-/// The instants of one entry that an animation shows, by their index in `progress`: at most
-/// `count`, evenly spaced over what lies in (from, to], ascending, without repetition.
-/// @param progress  ascending.
+/// Choose the instants of an entry that an animation shows.
+/// @param progress  accumulated motion per sample, ascending.
+/// @param from, to  motion at the start (exclusive) and the end (inclusive) of the entry.
+/// @returns at most `count` indices into `progress`, evenly spaced in motion, strictly ascending.
 [[nodiscard]] std::vector<int> ChooseInstants(const std::vector<double>& progress, double from,
                                               double to, int count);
 
-/// A picture of an animation, and how long it is shown.
-struct AnimationPicture {
-  FrameTask frame;
+/// A frame of an animation and its duration.
+struct AnimationFrame {
+  FrameTask task;
   int duration_ms;
 };
 
-/// Cuts a replay into the pictures of an animation: they are spread over what moves, so that a
-/// finger is seen to come down, forces to change, and a finger to leave; every entry rests at its
-/// end.
-/// @param samples  states during the replay, ascending in time; those after the last rest that was
-///                 replayed are left out. They and the rests outlive what is returned.
-/// @param rests    in the order of the plan, ≥ 1.
-[[nodiscard]] std::vector<AnimationPicture> CutAnimation(const std::vector<plan::Snapshot>& samples,
-                                                         const std::vector<AnimationRest>& rests,
-                                                         double diameter_m);
+/// Divide a replay into the frames of an animation, evenly spaced in motion, with a pause per
+/// entry.
+/// @param samples  states of the replay, ascending in time. States after the last pause are
+///                 ignored. Samples and pauses must outlive the result.
+/// @param pauses   ends of the entries, in plan order, ≥ 1.
+/// @param diameter_m  diameter of the object, metres.
+[[nodiscard]] std::vector<AnimationFrame> CutAnimation(const std::vector<plan::Snapshot>& samples,
+                                                       const std::vector<AnimationPause>& pauses,
+                                                       double diameter_m);
 
-/// The same of pictures that are chosen already: those before each rest.
-/// @param motions  as many as rests; they and the rests outlive what is returned.
-[[nodiscard]] std::vector<AnimationPicture> JoinAnimation(
+/// Combine given frames and pauses into an animation.
+/// @param motions  states before each pause. Motions and pauses must outlive the result.
+[[nodiscard]] std::vector<AnimationFrame> JoinAnimation(
     const std::vector<std::vector<plan::Snapshot>>& motions,
-    const std::vector<AnimationRest>& rests);
+    const std::vector<AnimationPause>& pauses);
 
-/// Draws the pictures and writes one file of them in each format. Deterministic, whatever the
-/// number of workers.
-/// @param renderer    with GapView::kShown.
-/// @param pictures    ≥ 1.
-/// @param workers     threads that draw, ≥ 1.
-/// @param on_picture  called with the number of pictures done, after each.
-/// @throws EnvironmentError  no off-screen rendering context, or no encoder.
+/// Draw the frames and encode one file per format. The result does not depend on `workers`.
+/// @param renderer  renderer with GapView::kShown.
+/// @param frames    frames of the animation, ≥ 1.
+/// @param workers   number of threads that draw, ≥ 1.
+/// @param on_frame  function that is called with the number of finished frames.
+/// @throws EnvironmentError  if there is no off-screen rendering context or no encoder.
 [[nodiscard]] std::vector<std::string> RenderAnimation(
-    const FrameRenderer& renderer, const std::vector<AnimationPicture>& pictures,
-    const std::vector<MovingFormat>& formats, int workers,
-    const std::function<void(int)>& on_picture = {});
+    const FrameRenderer& renderer, const std::vector<AnimationFrame>& frames,
+    const std::vector<AnimationFormat>& formats, int workers,
+    const std::function<void(int)>& on_frame = {});
 
 }  // namespace regrasp::render

@@ -1,14 +1,109 @@
 #include "render/frames/step_scene.h"
 
+#include <assimp/GltfMaterial.h>
+#include <assimp/scene.h>
+
 #include <algorithm>
+#include <assimp/Exporter.hpp>
 #include <cmath>
+#include <memory>
 #include <string>
 
+#include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/plan/snapshot.h"
 #include "render/frames/finger_glyph.h"
 
 namespace regrasp::render {
+
+namespace {
+
+/// Convert coordinates with z up to coordinates with y up.
+aiVector3D Turned(const Eigen::Vector3d& p) {
+  return {static_cast<ai_real>(p.x()), static_cast<ai_real>(p.z()), static_cast<ai_real>(-p.y())};
+}
+
+aiMesh* MakeMesh(const ScenePart& part, unsigned material) {
+  const auto triangles = static_cast<unsigned>(part.mesh.triangles.size());
+  auto* mesh = new aiMesh;
+  mesh->mName = part.name;
+  mesh->mMaterialIndex = material;
+  mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+  mesh->mNumVertices = 3 * triangles;
+  mesh->mVertices = new aiVector3D[mesh->mNumVertices];
+  mesh->mNormals = new aiVector3D[mesh->mNumVertices];
+  mesh->mNumFaces = triangles;
+  mesh->mFaces = new aiFace[triangles];
+  for (unsigned t = 0; t < triangles; ++t) {
+    aiFace& face = mesh->mFaces[t];
+    face.mNumIndices = 3;
+    face.mIndices = new unsigned[3];
+    for (unsigned i = 0; i < 3; ++i) {
+      face.mIndices[i] = 3 * t + i;
+      mesh->mVertices[3 * t + i] = Turned(part.mesh.triangles[t][i]);
+      mesh->mNormals[3 * t + i] = Turned(part.mesh.normals[t][i]);
+    }
+  }
+  return mesh;
+}
+
+/// Convert an sRGB channel to the linear colours of glTF.
+float Linear(unsigned char channel) {
+  const float value = static_cast<float>(channel) / 255;
+  return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
+}
+
+aiMaterial* MakeMaterial(const ScenePart& part) {
+  auto* material = new aiMaterial;
+  const aiString name(part.name);
+  material->AddProperty(&name, AI_MATKEY_NAME);
+  const aiColor4D color(Linear(part.color.r), Linear(part.color.g), Linear(part.color.b),
+                        static_cast<float>(part.opacity));
+  material->AddProperty(&color, 1, AI_MATKEY_BASE_COLOR);
+  const float metallic = 0, roughness = 0.8F;
+  material->AddProperty(&metallic, 1, AI_MATKEY_METALLIC_FACTOR);
+  material->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
+  const aiString mode(part.opacity < 1 ? "BLEND" : "OPAQUE");
+  material->AddProperty(&mode, AI_MATKEY_GLTF_ALPHAMODE);
+  return material;
+}
+
+aiNode* MakeNode(const std::string& name, unsigned mesh) {
+  auto* node = new aiNode(name);
+  node->mNumMeshes = 1;
+  node->mMeshes = new unsigned[1]{mesh};
+  return node;
+}
+
+/// Return a scene that owns everything it points to.
+std::unique_ptr<aiScene> MakeScene(const std::string& name, const std::vector<ScenePart>& parts) {
+  auto scene = std::make_unique<aiScene>();
+  const auto count = static_cast<unsigned>(parts.size());
+  scene->mMeshes = new aiMesh*[count]();
+  scene->mMaterials = new aiMaterial*[count]();
+  scene->mRootNode = new aiNode(name);
+  scene->mRootNode->mChildren = new aiNode*[count]();
+  for (unsigned i = 0; i < count; ++i) {
+    scene->mMeshes[i] = MakeMesh(parts[i], i);
+    scene->mMaterials[i] = MakeMaterial(parts[i]);
+    scene->mRootNode->mChildren[i] = MakeNode(parts[i].name, i);
+    scene->mRootNode->mChildren[i]->mParent = scene->mRootNode;
+  }
+  scene->mNumMeshes = scene->mNumMaterials = scene->mRootNode->mNumChildren = count;
+  return scene;
+}
+
+}  // namespace
+
+std::string EncodeGlb(const std::string& name, const std::vector<ScenePart>& parts) {
+  const std::unique_ptr<aiScene> scene = MakeScene(name, parts);
+  Assimp::Exporter exporter;
+  const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), "glb2");
+  if (blob == nullptr) {
+    throw EnvironmentError(std::string("glTF: assimp: ") + exporter.GetErrorString());
+  }
+  return {static_cast<const char*>(blob->data), blob->size};
+}
 
 namespace {
 
@@ -19,15 +114,15 @@ using Eigen::Vector3d;
 constexpr double kLeastTurn = Radians(3);
 constexpr double kStep = Radians(4);
 
-// In diameters.
+// Lengths in diameters.
 constexpr double kTurnRadius = 0.40;
-constexpr double kAbove = 0.06;  ///< the object
+constexpr double kAbove = 0.06;  ///< distance from the object
 constexpr double kLineRadius = 0.011;
-/// The arrow's head, of that of forces.
+/// Size of the arrow head relative to the head of force arrows.
 constexpr double kHead = 2;
 
-/// How far a body goes along a direction from its origin.
-double Height(const FacetMesh& surface, const Isometry3d& pose, const Vector3d& along) {
+/// Return the extent of an object from its origin along a direction.
+double Height(const ShadedMesh& surface, const Isometry3d& pose, const Vector3d& along) {
   const Vector3d in_body = pose.linear().transpose() * along;
   double height = 0;
   for (const auto& corners : surface.triangles) {
@@ -38,11 +133,11 @@ double Height(const FacetMesh& surface, const Isometry3d& pose, const Vector3d& 
 
 }  // namespace
 
-std::vector<Vector3d> TurnArrow(const FacetMesh& surface, const Isometry3d& before,
-                                const Isometry3d& after, const Vector3d& to_eye) {
+std::vector<Vector3d> RotationArrow(const ShadedMesh& surface, const Isometry3d& before,
+                                    const Isometry3d& after, const Vector3d& to_eye) {
   const AngleAxisd turn(after.linear() * before.linear().transpose());
   if (turn.angle() < kLeastTurn) return {};
-  // Seen from the end of the axis that is nearer to the eye, or else from above.
+  // Seen from the end of the axis that is nearer to the eye, with a preference for the top.
   const bool turned_away = turn.axis().dot(to_eye + Vector3d::UnitZ() / 2) < 0;
   const Vector3d out = turned_away ? Vector3d(-turn.axis()) : turn.axis();
   const double height = std::max(Height(surface, before, out) + before.translation().dot(out),
@@ -60,11 +155,11 @@ std::vector<Vector3d> TurnArrow(const FacetMesh& surface, const Isometry3d& befo
   return arrow;
 }
 
-void AddTurnArrow(const std::vector<Vector3d>& arrow, int arrow_head, Color color,
-                  std::vector<Shape>& shapes) {
+void AddRotationArrow(const std::vector<Vector3d>& arrow, int arrow_head, Color color,
+                      std::vector<Shape>& shapes) {
   const Vector3d& tip = arrow.back();
   const double head = kHead * kArrowHeadLength;
-  // The head lies along the chord that is as long as it.
+  // The head is aligned with the chord of its length.
   auto base = arrow.end() - 1;
   while (base != arrow.begin() && (*base - tip).norm() < 0.9 * head) --base;
   for (auto at = arrow.begin(); at != base; ++at) {
@@ -90,10 +185,10 @@ namespace {
 
 constexpr double kGlass = 0.45;  ///< opacity of the object
 
-/// The meshes that shapes of fingers name.
+/// Meshes that the shapes of fingers refer to.
 enum Mesh { kConeMesh, kArrowMesh };
 
-FacetMesh Moved(FacetMesh mesh, const Eigen::Isometry3d& pose) {
+ShadedMesh Moved(ShadedMesh mesh, const Eigen::Isometry3d& pose) {
   for (auto& corners : mesh.triangles) {
     for (Vector3d& p : corners) p = pose * p;
   }
@@ -103,7 +198,7 @@ FacetMesh Moved(FacetMesh mesh, const Eigen::Isometry3d& pose) {
   return mesh;
 }
 
-FacetMesh Scaled(FacetMesh mesh, double scale, const Vector3d& offset) {
+ShadedMesh Scaled(ShadedMesh mesh, double scale, const Vector3d& offset) {
   for (auto& corners : mesh.triangles) {
     for (Vector3d& p : corners) p = scale * p + offset;
   }
@@ -111,27 +206,29 @@ FacetMesh Scaled(FacetMesh mesh, double scale, const Vector3d& offset) {
 }
 
 struct MeshOfForm {
-  const std::vector<FacetMesh>& meshes;
+  const std::vector<ShadedMesh>& meshes;
 
-  FacetMesh operator()(const Ball& ball) const {
-    return MakeCapsule(ball.centre, ball.centre, ball.radius);
+  ShadedMesh operator()(const Sphere& sphere) const {
+    return MakeCapsule(sphere.centre, sphere.centre, sphere.radius);
   }
-  FacetMesh operator()(const Rod& rod) const { return MakeCapsule(rod.from, rod.to, rod.radius); }
-  FacetMesh operator()(const Line& line) const {
+  ShadedMesh operator()(const Capsule& capsule) const {
+    return MakeCapsule(capsule.from, capsule.to, capsule.radius);
+  }
+  ShadedMesh operator()(const Line& line) const {
     return MakeCapsule(line.from, line.to, line.radius);
   }
-  FacetMesh operator()(const MeshInstance& instance) const {
+  ShadedMesh operator()(const MeshInstance& instance) const {
     return Moved(meshes[instance.mesh], instance.pose);
   }
 };
 
-void AddTo(FacetMesh& all, const FacetMesh& mesh) {
+void AddTo(ShadedMesh& all, const ShadedMesh& mesh) {
   all.triangles.insert(all.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
   all.normals.insert(all.normals.end(), mesh.normals.begin(), mesh.normals.end());
 }
 
-/// What is opaque of a finger is one part; what is not, its cone or its ghost, another.
-void AddFinger(const FingerGlyph& glyph, const std::vector<FacetMesh>& meshes,
+/// Add a finger as one opaque part and one translucent part (cone or ghost).
+void AddFinger(const FingerGlyph& glyph, const std::vector<ShadedMesh>& meshes,
                std::vector<ScenePart>& parts) {
   std::vector<Shape> shapes;
   AddFingerShapes(glyph, /*largest_force=*/0, {kConeMesh, kArrowMesh}, shapes);
@@ -153,10 +250,10 @@ void AddFinger(const FingerGlyph& glyph, const std::vector<FacetMesh>& meshes,
 std::vector<ScenePart> MakeStepScene(const object::Object& object, const plan::Plan& located,
                                      plan::EntryIndex entry, const BodyOptions& options) {
   const BodyShape body = MakeBodyShape(object, options);
-  const PictureFrame frame = {located.scale * object.diameter(),
-                              located.scale * object.mass_properties().centroid};
-  const std::vector<FacetMesh> meshes = {MakeCone(located.half_angle, kConeLength),
-                                         MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
+  const NormalizedFrame frame = {located.scale * object.diameter(),
+                                 located.scale * object.mass_properties().centroid};
+  const std::vector<ShadedMesh> meshes = {MakeCone(located.half_angle, kConeLength),
+                                          MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
   std::vector<ScenePart> parts = {{"object", body.surface, kBodyOutside, kGlass}};
   const plan::Snapshot snapshot = plan::MakePlannedSnapshot(located, entry, {}, 0);
   for (const FingerGlyph& glyph : MakeFingerGlyphs(snapshot, frame, body.rays)) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
 #include "planner/object/object.h"
@@ -8,40 +10,60 @@
 #include "render/frames/body_shape.h"
 #include "render/frames/camera.h"
 #include "render/frames/canvas.h"
-#include "render/frames/facet_mesh.h"
-#include "render/frames/gltf.h"
+#include "render/frames/shaded_mesh.h"
+#include "render/picture/image.h"
 #include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 
-/// What is drawn of where an object was before it moved.
+/// A named part of a 3D scene.
+struct ScenePart {
+  std::string name;
+  ShadedMesh mesh;
+  Color color;
+  double opacity = 1;
+};
+
+/// Encode a scene as a binary glTF 2.0 file (.glb), with a node and a mesh per part.
+///
+/// Lengths are in the unit of the parts, which glTF interprets as metres. The scene is rotated so
+/// that z points up, where glTF has y. Deterministic: the same parts give the same bytes.
+/// @param name  name of the root node, the parent of all others.
+/// @throws EnvironmentError  if assimp cannot write the scene.
+[[nodiscard]] std::string EncodeGlb(const std::string& name, const std::vector<ScenePart>& parts);
+
+/// Colour of an object's former pose.
 inline constexpr Color kBefore = {112, 120, 138};
 
-/// How an object turned, as an arrow about the axis of its turn, over the end of the object that is
-/// turned to the eye: as long as the turn, in the picture's unit of length.
+/// Compute an arrow that shows a rotation of the object about its axis, above the end of the object
+/// that faces the eye.
 ///
-/// @param surface        of the object, in its frame.
-/// @param before, after  its pose.
-/// @param to_eye         unit.
-/// @returns points of the arrow, the last one its tip; none of a turn that is too small to be seen.
-[[nodiscard]] std::vector<Eigen::Vector3d> TurnArrow(const FacetMesh& surface,
-                                                     const Eigen::Isometry3d& before,
-                                                     const Eigen::Isometry3d& after,
-                                                     const Eigen::Vector3d& to_eye);
+/// The arc has the angle of the rotation. Lengths are in normalized units.
+/// @param surface        surface of the object, in the object frame.
+/// @param before, after  poses of the object.
+/// @param to_eye         unit vector.
+/// @returns points of the arrow up to its head; empty if the rotation is too small to see.
+[[nodiscard]] std::vector<Eigen::Vector3d> RotationArrow(const ShadedMesh& surface,
+                                                         const Eigen::Isometry3d& before,
+                                                         const Eigen::Isometry3d& after,
+                                                         const Eigen::Vector3d& to_eye);
 
-/// Draws it. @param arrow_head  among the canvas's meshes.
-void AddTurnArrow(const std::vector<Eigen::Vector3d>& arrow, int arrow_head, Color color,
-                  std::vector<Shape>& shapes);
+/// Add the shapes of a rotation arrow.
+/// @param arrow_head  index of the arrow head in the canvas meshes.
+void AddRotationArrow(const std::vector<Eigen::Vector3d>& arrow, int arrow_head, Color color,
+                      std::vector<Shape>& shapes);
 
-/// What labels should not cover of it.
+/// Return the areas of a rotation arrow that labels should not cover.
 [[nodiscard]] std::vector<Obstacle> ObstaclesOf(const Camera& camera,
                                                 const std::vector<Eigen::Vector3d>& arrow);
 
-/// An entry of a plan as a scene in space, metres, in the object's frame: the object as glass, and
-/// for each finger its ball, stem and friction cone, its arrow or its track, as frames draw them,
-/// without forces. Names are "object", "finger 0", "finger 0 cone" ...
-/// @param located  the plan on this object (LocatePlan).
-/// @param entry    0 the hold, k the k-th step.
+/// Convert a plan entry to a 3D scene in metres, in the object frame.
+///
+/// The object is translucent. Each finger has its fingertip sphere, stem and friction cone, and its
+/// arrow or track, as in frames but without forces. Names are "object", "finger 0", "finger 0 cone"
+/// and so on.
+/// @param located  plan with faces of this object (LocatePlan).
+/// @param entry    index of the entry: 0 the initial grasp, k the k-th step.
 [[nodiscard]] std::vector<ScenePart> MakeStepScene(const object::Object& object,
                                                    const plan::Plan& located,
                                                    plan::EntryIndex entry,

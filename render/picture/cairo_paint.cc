@@ -50,10 +50,10 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Half the width of an arrow's head over its length.
+/// Ratio of half the width of an arrow head to its length.
 constexpr double kHeadSlope = 0.42;
 
-constexpr double kDotRim = 0.7;  ///< points
+constexpr double kDotRim = 0.7;  ///< width of the rim of a dot, points
 
 }  // namespace
 
@@ -157,7 +157,7 @@ void StrokeArrow(cairo_t* cr, std::span<const Vector2d> path, double width) {
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
   if (!(length > 0)) return;
   const double head = std::min(kArrowHead, length);
-  // The shaft ends inside the head; what of the path is nearer to the tip is left out.
+  // The shaft ends inside the head, so path points within the head are omitted.
   const Vector2d& tip = path.back();
   std::size_t last = path.size() - 1;
   while (last > 0 && (path[last - 1] - tip).norm() < head) --last;
@@ -178,7 +178,7 @@ void StrokeArrow(cairo_t* cr, std::span<const Vector2d> path, double width) {
 
 void DrawArrow(cairo_t* cr, std::span<const Vector2d> path, double width, Color color, Color halo) {
   constexpr double kHaloWidth = 1.9;
-  // Arrowheads are of one size: the page is scaled instead.
+  // Arrow heads have a fixed size, so the coordinate system is scaled instead.
   std::vector<Vector2d> scaled(path.begin(), path.end());
   for (Vector2d& p : scaled) p /= width;
   cairo_save(cr);

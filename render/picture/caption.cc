@@ -20,10 +20,11 @@ double RoundLength(double limit) {
 
 namespace {
 
-/// What an object turns and goes at least to be said to, radians and metres: less is rounding.
-constexpr double kLeastTurn = 1e-4;
-constexpr double kLeastShift = 1e-5;
-/// Of a length.
+/// Smallest rotation (radians) and translation (metres) that are reported. Smaller ones are
+/// rounding errors.
+constexpr double kMinRotation = 1e-4;
+constexpr double kMinTranslation = 1e-5;
+/// Significant digits of a length.
 constexpr int kDigits = 2;
 
 std::string List(const std::vector<FingerIndex>& fingers) {
@@ -41,11 +42,12 @@ std::vector<FingerIndex> FingersOf(const plan::FingerGrasp& grasp) {
 
 struct Travel {
   FingerIndex finger;
-  double length;  ///< from waypoint to waypoint, the object's unit of length
-  int begin;      ///< the first waypoint where it is somewhere else
+  double length;  ///< length of the polyline through the waypoints, object units
+  int begin;      ///< index of the first waypoint with another position
 };
 
-/// The fingers whose last waypoint is not their first, as they begin to move, then by number.
+/// Return the fingers whose last waypoint differs from their first, in the order in which they
+/// start, then by number.
 std::vector<Travel> MovedFingers(const plan::Align& align) {
   std::vector<Travel> moved;
   if (align.waypoints.empty()) return moved;
@@ -84,22 +86,26 @@ std::string Describe(const plan::Align& step) {
   return fingers.empty() ? "align" : "align: move " + List(fingers);
 }
 
-/// "move: turn the object by 38°"; where it does not turn, "move: shift the object by 2.1 mm".
+/// Return "move: rotate the object by 38°", or "move: translate the object by 2.1 mm" if it does
+/// not rotate.
 std::string Describe(const plan::Move& step) {
   if (step.path.empty()) return "move";
   const Eigen::Isometry3d& from = step.path.front().pose;
   const Eigen::Isometry3d& to = step.path.back().pose;
-  const Eigen::AngleAxisd turn(from.linear().transpose() * to.linear());
-  if (turn.angle() >= kLeastTurn) {
-    return "move: turn the object by " + FormatDegrees(Degrees(turn.angle()));
+  const Eigen::AngleAxisd rotation(from.linear().transpose() * to.linear());
+  if (rotation.angle() >= kMinRotation) {
+    return "move: rotate the object by " + FormatDegrees(Degrees(rotation.angle()));
   }
-  const double shift = (to.translation() - from.translation()).norm();
-  return shift < kLeastShift ? "move: free fingers"
-                             : "move: shift the object by " + FormatLength(shift, kDigits);
+  const double translation = (to.translation() - from.translation()).norm();
+  return translation < kMinTranslation
+             ? "move: free fingers"
+             : "move: translate the object by " + FormatLength(translation, kDigits);
 }
 
-/// "move 1 by 12 mm, 3 by 0.8 mm together along the surface", or "… then 3 by …" where it begins
-/// later; empty where nothing moves.
+/// Return the motion of the fingers, for example "move 1 by 12 mm, 3 by 0.8 mm together along the
+/// surface".
+///
+/// Fingers that start later follow "then". Empty if no finger moves.
 std::string DescribeTravel(const plan::Align& step, double scale) {
   const std::vector<Travel> moved = MovedFingers(step);
   if (moved.empty()) return "";

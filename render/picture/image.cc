@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <new>
 #include <stdexcept>
@@ -11,6 +12,18 @@
 #include "planner/base/file.h"
 
 namespace regrasp::render {
+
+Color FingerColor(FingerIndex finger) {
+  static constexpr std::array<Color, 5> kColors = {{
+      {0, 101, 165},   // blue
+      {240, 176, 0},   // amber
+      {61, 179, 158},  // teal
+      {136, 34, 85},   // wine
+      {208, 88, 0},    // vermilion
+  }};
+  const int size = static_cast<int>(kColors.size());
+  return kColors[((finger % size) + size) % size];
+}
 
 std::string PngInteger(std::uint32_t number) {
   std::string bytes;
@@ -63,7 +76,7 @@ Image MakeTransparent(Image on_white, const Image& on_black) {
   }
   on_white.alpha.resize(on_white.rgb.size() / 3);
   for (std::size_t i = 0; i < on_white.alpha.size(); ++i) {
-    // By how much white is brighter than black is the share of the ground, in every channel.
+    // In every channel, the difference between white and black is the share of the background.
     int ground = 255;
     for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
       ground = std::min(ground, std::max(0, on_white.rgb[k] - on_black.rgb[k]));
@@ -75,7 +88,7 @@ Image MakeTransparent(Image on_white, const Image& on_black) {
 
 namespace {
 
-/// Colours as PNG has them, without the white that shines through.
+/// Return RGBA pixels, with the colours unblended from white.
 std::vector<unsigned char> Interleave(const Image& image) {
   std::vector<unsigned char> rgba;
   rgba.reserve(4 * image.alpha.size());
@@ -93,12 +106,12 @@ std::vector<unsigned char> Interleave(const Image& image) {
 // PNG specification, 11.2.1.
 constexpr char kBitDepth = 8, kRgb = 2, kRgba = 6;
 
-/// Most of a frame is of one colour: filters take twice as long and gain nothing.
+/// Most pixels of a frame have the same colour. Filters double the time and do not reduce the size.
 constexpr char kNoFilter = 0;
-/// The first at which zlib looks for the best match: as small as the usual 6 with filters.
+/// Lowest level with lazy matching: as small as the default 6 with filters.
 constexpr int kCompressionLevel = 4;
 
-/// The rows of pixels as PNG has them.
+/// Return the compressed rows of pixels of a PNG file.
 std::string CompressRows(const std::vector<unsigned char>& pixels, int height) {
   const std::size_t row = pixels.size() / height;
   std::string rows;
@@ -113,7 +126,7 @@ std::string CompressRows(const std::vector<unsigned char>& pixels, int height) {
   if (compress2(reinterpret_cast<Bytef*>(compressed.data()), &size,
                 reinterpret_cast<const Bytef*>(rows.data()), rows.size(),
                 kCompressionLevel) != Z_OK) {
-    throw std::bad_alloc();  // nothing else can fail
+    throw std::bad_alloc();  // no other error is possible
   }
   compressed.resize(size);
   return compressed;

@@ -13,17 +13,17 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kAngles = 24;
-/// Distances from the anchor to the label's centre, in label radii, and what each costs.
+/// Distances from the anchor to the centre of the label, in label radii.
 constexpr double kDistances[] = {1.15, 1.7, 2.4, 3.3, 4.5, 6, 8, 11};
-constexpr double kDistanceCost = 0.35;  ///< per label radius
-constexpr double kAngleCost = 0.4;      ///< for the side opposite to the wanted one
-constexpr double kOverlapCost = 6;      ///< for covering by one label radius
+constexpr double kDistanceCost = 0.35;  ///< cost per label radius of distance
+constexpr double kAngleCost = 0.4;      ///< cost of the side opposite to the preferred one
+constexpr double kOverlapCost = 6;      ///< cost of covering an obstacle by one label radius
 constexpr double kOutsideCost = 100;
 constexpr double kWrongOwnerCost = 200;
-/// What it costs not to be nearer to its own owner than to another by this share.
+/// Largest ratio of the distances to the own and to another owner that is free of cost.
 constexpr double kClearlyNearer = 0.9;
 constexpr double kUnclearOwnerCost = 2;
-/// Other labels count as obstacles of this weight, a little larger than they are.
+/// Weight of other labels as obstacles, and the factor by which they are enlarged.
 constexpr double kLabelWeight = 2;
 constexpr double kLabelMargin = 1.1;
 constexpr int kRounds = 4;

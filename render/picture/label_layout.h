@@ -8,12 +8,12 @@
 
 namespace regrasp::render {
 
-/// The z component of the cross product: positive where b is to the left of a.
+/// Return the z component of the cross product, positive if b is to the left of a.
 [[nodiscard]] inline double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// How far p is from the segment from a to b, which may be a point.
+/// Return the distance of p from the segment ab, which may be a point.
 [[nodiscard]] inline double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
                                               const Eigen::Vector2d& b) {
   const Eigen::Vector2d segment = b - a;
@@ -22,31 +22,33 @@ namespace regrasp::render {
   return (p - a - t * segment).norm();
 }
 
-/// What a label belongs to, in pixels: it is best placed next to `anchor` on the side of
-/// `direction` (not necessarily unit; zero where any side is as good), and must not be nearer to
-/// the owner of another label than to its own.
+/// Preferred position of a label, pixels.
 struct LabelAnchor {
   Eigen::Vector2d anchor;
   Eigen::Vector2d direction;
-  std::optional<Eigen::Vector2d> owner = std::nullopt;  ///< the anchor where it is not given
+  /// Point that the label names; nullopt: the anchor.
+  std::optional<Eigen::Vector2d> owner = std::nullopt;
 
   [[nodiscard]] const Eigen::Vector2d& Owner() const { return owner ? *owner : anchor; }
 };
 
-/// Something that labels should not cover: all points within `radius` of the segment ab.
+/// An area that labels should not cover: all points within `radius` of the segment ab.
 struct Obstacle {
   Eigen::Vector2d a;
   Eigen::Vector2d b;
   double radius = 0;
-  double weight = 1;  ///< how bad it is to cover it
+  double weight = 1;  ///< relative cost of covering it
 };
 
-/// Centres of round labels of `label_radius` pixels that lie in the image, near their anchors, and
-/// cover neither obstacles nor each other as far as possible.
+/// Compute centres of round labels that are inside the image and near their anchors.
 ///
-/// Each label takes the cheapest of two fans of places, around its anchor and around its owner, in
-/// turn, until none improves. Law: a label is nearer to its own owner than to any other, unless two
-/// owners are the same point.
+/// Labels avoid obstacles and each other if possible. The candidates of a label are two fans of
+/// positions, around its anchor and around its owner. Labels move to their cheapest candidate in
+/// turn, for a fixed number of rounds. A label is nearer to its own owner than to any other owner,
+/// unless two owners coincide.
+/// @param label_radius   radius of every label, pixels.
+/// @param width, height  size of the image, pixels.
+/// @returns one centre per anchor, pixels.
 [[nodiscard]] std::vector<Eigen::Vector2d> PlaceLabels(std::span<const LabelAnchor> anchors,
                                                        std::span<const Obstacle> obstacles,
                                                        double label_radius, int width, int height);

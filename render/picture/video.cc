@@ -1,4 +1,4 @@
-#include "render/picture/video.h"
+#include "render/picture/animation.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -15,24 +15,24 @@ extern "C" {
 
 #include "planner/base/error.h"
 #include "planner/base/shared_library.h"
-#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
 
 namespace {
 
 constexpr int kBytesPerPixel = 3;
-constexpr int kLongestSide = 16384;  ///< that both formats can hold
+constexpr int kLongestSide = 16384;  ///< maximum side that both formats support, pixels
 
-/// Of libx264, 0 to 51: thin lines and small numbers stay sharp.
+/// Rate factor of libx264, 0 to 51: thin lines and small digits stay sharp.
 constexpr char kRateFactor[] = "18";
-/// A player can begin every two seconds.
-constexpr int kPicturesBetweenKeys = 40;
+/// Frames between two key frames: players can seek to every second second.
+constexpr int kFramesBetweenKeys = 40;
 
-/// GIF counts time in these.
+/// Time unit of GIF.
 constexpr int kCentisecond_ms = 10;
 
-/// The functions of ffmpeg's libraries that are used, by library.
+/// Functions of the ffmpeg libraries that are used, by library.
 // clang-format off
 #define REGRASP_AVCODEC_FUNCTIONS(F) \
   F(av_packet_alloc) F(av_packet_free) F(av_packet_rescale_ts) F(avcodec_alloc_context3) \
@@ -48,7 +48,7 @@ constexpr int kCentisecond_ms = 10;
   F(av_log_set_level) F(av_memdup) F(av_opt_set) F(av_opt_set_int) F(av_strerror)
 // clang-format on
 
-/// The functions of ffmpeg's libraries, loaded at the first call of ffmpeg().
+/// Functions of the ffmpeg libraries, loaded at the first call of ffmpeg().
 struct Ffmpeg {
 #define REGRASP_AV_MEMBER(name) decltype(&::name) name = nullptr;
   REGRASP_AVCODEC_FUNCTIONS(REGRASP_AV_MEMBER)
@@ -57,7 +57,7 @@ struct Ffmpeg {
 #undef REGRASP_AV_MEMBER
 };
 
-/// A library of ffmpeg, in the version of the headers.
+/// Load an ffmpeg library in the version of the headers.
 SharedLibrary LibraryOf(const char* name, int version) {
   return SharedLibrary({"lib" + std::string(name) + ".so." + std::to_string(version)});
 }
@@ -84,7 +84,7 @@ const Ffmpeg& ffmpeg() {
   return functions;
 }
 
-/// What a call of ffmpeg returned.
+/// Return the result of an ffmpeg call, or throw if it is an error code.
 int Require(int result) {
   if (result >= 0) return result;
   if (result == AVERROR(ENOMEM)) throw std::bad_alloc();
@@ -145,14 +145,15 @@ class Muxer {
   [[nodiscard]] AVFormatContext& context() { return *context_; }
 
  private:
-  /// What is written so far, to be read while more is written: so MP4's muxer moves its index.
+  /// Open the bytes written so far for reading while writing continues. The MP4 muxer needs this to
+  /// move its index.
   static int OpenWritten(AVFormatContext* context, AVIOContext** io, const char* /*url*/,
                          int /*flags*/, AVDictionary** /*options*/) {
     std::uint8_t* written = nullptr;
     const int size = ffmpeg().avio_get_dyn_buf(context->pb, &written);
     auto* bytes = static_cast<std::uint8_t*>(ffmpeg().av_memdup(written, size));
     if (bytes == nullptr) return AVERROR(ENOMEM);
-    // Without a function that reads, the buffer is all there is.
+    // Without a read function the context reads only this buffer.
     *io = ffmpeg().avio_alloc_context(bytes, size, 0, nullptr, nullptr, nullptr, nullptr);
     if (*io == nullptr) {
       ffmpeg().av_free(bytes);
@@ -171,7 +172,7 @@ class Muxer {
     std::uint8_t* bytes = nullptr;
     const int size = ffmpeg().avio_get_dyn_buf(context_->pb, &bytes);
     std::string text(reinterpret_cast<const char*>(bytes), size);
-    // This one ends the bytes where something was written last, which is not their end in an MP4.
+    // avio_close_dyn_buf truncates at the last write position, which is not the end of an MP4.
     ffmpeg().avio_close_dyn_buf(context_->pb, &bytes);
     context_->pb = nullptr;
     ffmpeg().av_free(bytes);
@@ -181,7 +182,7 @@ class Muxer {
   AVFormatContext* context_ = nullptr;
 };
 
-/// An encoder of libavcodec and its muxer; one thread, so that bytes are the same everywhere.
+/// An encoder of libavcodec with its muxer. Uses one thread, so that bytes are the same everywhere.
 class Encoder {
  public:
   struct Settings {
@@ -189,11 +190,11 @@ class Encoder {
     const AVCodec* codec;
     AVPixelFormat pixels;
     int width, height;
-    int tick_ms;  ///< its unit of time
-    /// MP4 alone: where its pictures are stands before them, so that a player on a network can
-    /// begin before it has all of the file.
+    int tick_ms;  ///< time unit, milliseconds
+    /// Whether an MP4 has its index at the start, so that a player can start before the whole file
+    /// is loaded.
     bool index_first = false;
-    /// Of the codec alone.
+    /// Private options of the codec.
     std::vector<std::pair<const char*, const char*>> options = {};
   };
 
@@ -207,7 +208,7 @@ class Encoder {
     codec_->pix_fmt = settings.pixels;
     codec_->time_base = {settings.tick_ms, 1000};
     codec_->framerate = av_inv_q(codec_->time_base);
-    codec_->gop_size = kPicturesBetweenKeys;
+    codec_->gop_size = kFramesBetweenKeys;
     codec_->thread_count = 1;
     codec_->flags |= AV_CODEC_FLAG_BITEXACT;
     if ((muxer_.context().oformat->flags & AVFMT_GLOBALHEADER) != 0) {
@@ -228,12 +229,12 @@ class Encoder {
     Require(ffmpeg().av_frame_get_buffer(frame_.get(), 0));
   }
 
-  /// What is encoded next, to be written to.
+  /// Return the frame that is encoded next, writable.
   AVFrame& NextFrame() {
     Require(ffmpeg().av_frame_make_writable(frame_.get()));
     return *frame_;
   }
-  /// Shows the frame from `time` on, ticks.
+  /// Encode the frame with display time `time`, ticks.
   void Encode(std::int64_t time) {
     frame_->pts = time;
     Send(frame_.get());
@@ -245,7 +246,7 @@ class Encoder {
   [[nodiscard]] Muxer& muxer() { return muxer_; }
 
  private:
-  /// As Convert makes them.
+  /// Set the colour space that Convert uses.
   void SetColors() {
     codec_->color_range = AVCOL_RANGE_MPEG;
     codec_->colorspace = AVCOL_SPC_BT709;
@@ -271,13 +272,12 @@ class Encoder {
 
 int Even(int side) { return side + side % 2; }
 
-/// Luma of ITU-R BT.709, 0 to 255, of what is linear in the channels.
+/// Compute the luma of ITU-R BT.709 from linear combinations of the channels, 0 to 255.
 double Luma(const std::array<double, 3>& rgb) {
   return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
-/// The mean of the pixels of a square; beyond the image's right and lower border it goes on as it
-/// is there.
+/// Compute the mean colour of a square. Border pixels are repeated outside the image.
 std::array<double, 3> MeanColor(const Image& image, int left, int top, int side) {
   std::array<double, 3> mean = {};
   for (int y = top; y < top + side; ++y) {
@@ -291,7 +291,7 @@ std::array<double, 3> MeanColor(const Image& image, int left, int top, int side)
   return mean;
 }
 
-/// Fills a frame of Y'CbCr (BT.709, limited range), with one colour for each square of four pixels.
+/// Fill a frame with Y'CbCr (BT.709, limited range), with one chroma value per 2 × 2 pixels.
 void Convert(const Image& image, AVFrame& frame) {
   constexpr double kLuma = 219.0 / 255, kBlue = 224 / (1.8556 * 255), kRed = 224 / (1.5748 * 255);
   const auto set = [&frame](int plane, int x, int y, double value) {
@@ -312,14 +312,14 @@ void Convert(const Image& image, AVFrame& frame) {
   }
 }
 
-/// What all videos have: a size, and images that come one after the other.
-class Video : public MovingPicture {
+/// Common part of MP4 and GIF: checks sizes and adds up durations.
+class Video : public Animation {
  public:
   Video(int width, int height) : width_(width), height_(height) {
     if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide) {
       throw std::invalid_argument("video: images of a size that it cannot hold");
     }
-    ffmpeg().av_log_set_level(AV_LOG_QUIET);  // a library prints nothing
+    ffmpeg().av_log_set_level(AV_LOG_QUIET);  // a library must not print
   }
 
   void Add(const Image& image, int duration_ms) final {
@@ -333,7 +333,7 @@ class Video : public MovingPicture {
 
  protected:
   virtual void AddImage(const Image& image, int duration_ms) = 0;
-  /// Where the next image begins.
+  /// Start time of the next image, milliseconds.
   [[nodiscard]] int time_ms() const { return time_ms_; }
 
  private:
@@ -360,7 +360,7 @@ class Mp4 : public Video {
                   Even(height),
                   kTick_ms,
                   /*index_first=*/true,
-                  // "mbtree" is a float estimate that is not the same on every processor.
+                  // "mbtree" uses floating-point estimates that depend on the processor.
                   {{"preset", "medium"},
                    {"tune", "animation"},
                    {"mbtree", "0"},
@@ -369,8 +369,8 @@ class Mp4 : public Video {
   std::string Finish() override { return encoder_.Finish(); }
 
  private:
-  /// An image that stays is encoded again and again, in few bytes: programs for slides and editing
-  /// expect an even rate.
+  /// Encode an image once per tick. Repetitions need few bytes, and programs for slides and editing
+  /// expect a constant frame rate.
   void AddImage(const Image& image, int duration_ms) override {
     Convert(image, encoder_.NextFrame());
     for (int at = 0; at < duration_ms; at += kTick_ms) {
@@ -409,7 +409,7 @@ class Gif : public Video {
     encoder_.Encode(time_ms() / kCentisecond_ms);
     last_duration_ms_ = duration_ms;
   }
-  /// ARGB; those without a colour are transparent: pixels that stay as they are.
+  /// Write the ARGB palette. Unused entries are transparent and mark pixels that do not change.
   void SetPalette(std::uint32_t* argb) const {
     std::fill_n(argb, AVPALETTE_COUNT, 0);
     std::ranges::transform(colors_.colors(), argb, [](Color color) {
@@ -424,11 +424,11 @@ class Gif : public Video {
 
 }  // namespace
 
-std::unique_ptr<MovingPicture> MakeMp4(int width, int height) {
+std::unique_ptr<Animation> MakeMp4(int width, int height) {
   return std::make_unique<Mp4>(width, height);
 }
 
-std::unique_ptr<MovingPicture> MakeGif(int width, int height, const std::vector<Color>& colors) {
+std::unique_ptr<Animation> MakeGif(int width, int height, const std::vector<Color>& colors) {
   if (colors.empty() || colors.size() > kGifColors) {
     throw std::invalid_argument("MakeGif: no such number of colours");
   }

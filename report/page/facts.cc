@@ -5,7 +5,6 @@
 
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "report/hand_limits.h"
 #include "report/page/step_table.h"
 #include "report/report_table.h"
 
@@ -13,10 +12,10 @@ namespace regrasp::report {
 
 namespace {
 
-/// Significant, as NumberText has.
+/// Number of significant digits, as in NumberText.
 constexpr int kQualityDigits = 3;
 
-/// The style of values that need a line of their own.
+/// Class of values that need a line of their own.
 constexpr char kLong[] = "digest";
 
 void AddGrasp(const Report& report, FactList& facts) {
@@ -39,9 +38,9 @@ void AddTrials(const sim::TrialSummary& trials, FactList& facts) {
 void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
   facts.Add("Diameter", LengthText(settings.diameter_m));
   facts.Add("Mass", NumberText(settings.mass_kg) + " kg");
-  facts.Add("Squeeze", SqueezeText(settings));
-  facts.Add("Shake", NumberText(100 * settings.shake) + " % of the squeeze");
-  if (settings.protocol == sim::Protocol::kFixed) facts.Add("Protocol", "fixed squeeze");
+  facts.Add("Grasp force", SqueezeText(settings));
+  facts.Add("Disturbance", NumberText(100 * settings.shake) + " % of the grasp force");
+  if (settings.protocol == sim::Protocol::kFixed) facts.Add("Protocol", "fixed grasp force");
   if (settings.hand) {
     const sim::HandTolerance& tolerance = settings.hand->tolerance;
     facts.Add("Replay", settings.hand->feedback
@@ -77,7 +76,7 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
   const plan::EntryIndex weakest = report.weakest_step();
   if (weakest.valid() && !report.grasp && report.steps_passed()) {
     facts.Add("Weakest", StepName(weakest) + ", " +
-                             FormatDegrees(measures[weakest].margin_deg.value_or(0)) + " to spare");
+                             FormatDegrees(measures[weakest].margin_deg.value_or(0)) + " margin");
   }
   if (report.trials) AddTrials(*report.trials, facts);
   if (report.settings) AddSettings(*report.settings, facts);

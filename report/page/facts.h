@@ -10,10 +10,10 @@
 
 namespace regrasp::report {
 
-/// Names and values, beside each other on a page.
+/// Names and values in two columns on a page.
 class FactList {
  public:
-  /// @param style  a class of the style sheet, "digest" for long lines; may be empty.
+  /// @param style  class of the style sheet, "digest" for long lines; may be empty.
   void Add(std::string_view name, std::string_view value, const std::string& style = "") {
     const Attributes attributes = style.empty() ? Attributes() : Attributes{{"class", style}};
     facts_.emplace_back("div", attributes, Element("dt", {}, name), Element("dd", {}, value));
@@ -24,10 +24,10 @@ class FactList {
   std::vector<Element> facts_;
 };
 
-/// Names and values of what was validated and how, beside each other: files and their digests,
-/// friction, the weakest step or finger, trials, and the settings of the replay where there was
-/// one.
-/// @param measures  of each entry (MeasureSteps).
+/// Return the settings and inputs of a validation as names and values.
+/// They are files with digests, friction, the weakest step or finger, trials, and the settings of
+/// the replay if there was one.
+/// @param measures  measures of each entry (MeasureSteps).
 [[nodiscard]] Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measures);
 
 }  // namespace regrasp::report

@@ -19,7 +19,7 @@ namespace {
 
 constexpr char kNoFinding[] = "–";
 
-/// The steps that were replayed.
+/// Return the steps that were replayed.
 std::vector<const ReportStep*> Replayed(const Report& report) {
   std::vector<const ReportStep*> steps;
   for (const ReportStep& step : report.steps) {
@@ -35,7 +35,7 @@ std::string_view BetweenText(sim::Between between) {
     case sim::Between::kAnalysisFails:
       return "the replay passes, the analysis fails";
     case sim::Between::kFixedFails:
-      return "adapted forces resist the shake, a fixed squeeze does not";
+      return "adapted forces resist the disturbance, a fixed grasp force does not";
     case sim::Between::kOdeFails:
       return "MuJoCo passes, ODE fails";
     case sim::Between::kOdePasses:
@@ -85,16 +85,17 @@ std::vector<Element> WhatItTakes(const Report& report) {
   if (steps.empty()) return {};
   const bool both = std::ranges::any_of(
       steps, [](const ReportStep* step) { return step->replay->adapted && step->replay->fixed; });
-  std::vector<Element> head = HeadCells(
-      {"Step", "Weakest finger", "Needs alone", "Least margin at rest", "Least margin in shakes"});
+  std::vector<Element> head =
+      HeadCells({"Step", "Weakest finger", "Needs alone", "Least margin in static grasp",
+                 "Least margin under disturbances"});
   std::vector<Element> rows;
-  if (both) head.push_back(HeadCell("Fixed squeeze"));
+  if (both) head.push_back(HeadCell("Fixed grasp force"));
   for (const ReportStep* step : steps) rows.push_back(RequirementsRow(*step, both));
   return {
       Element("h2", {}, "What it takes"), ScrolledTable(head, rows),
       Note("Weakest finger: the one whose own friction may fall least while all others keep "
-           "theirs; it needs this half-angle alone, none where the grasp does without it. Least "
-           "margin: the friction half-angle less the largest angle between a finger’s force and "
+           "theirs; it needs this friction angle alone, none if the grasp does not need it. Least "
+           "margin: the friction angle less the largest angle between a finger’s force and "
            "its normal, as the replay measured it.")};
 }
 
@@ -105,8 +106,8 @@ std::optional<double> Least(const ReportStep& step, double sim::DirectionStress:
 
 Element StressPlot(const Report& report) {
   StepPlot plot;
-  plot.title = "The largest push that each rest resists in its weakest direction";
-  plot.y_axis = "% of the squeeze";
+  plot.title = "Largest disturbance that each static grasp resists in its weakest direction";
+  plot.y_axis = "% of the grasp force";
   plot.series = {{"replay", {}, PlotMark::kDisc}, {"analysis", {}, PlotMark::kRing}};
   for (const ReportStep& step : report.steps) {
     plot.series[0].values.push_back(Least(step, &sim::DirectionStress::replay));
@@ -115,7 +116,7 @@ Element StressPlot(const Report& report) {
   plot.limit = PlotLimit{100 * report.settings->shake, "shake", false};
   return Element(
       "div", {{"class", "plots"}},
-      Figure({}, DrawStepPlot(plot), "The weakest direction of each rest.",
+      Figure({}, DrawStepPlot(plot), "The weakest direction of each static grasp.",
              "The largest push that is resisted, as the replay found it and by analysis."));
 }
 
@@ -141,9 +142,9 @@ std::vector<Element> Stress(const Report& report) {
   std::vector<Element> found = {Element("h2", {}, "The largest push")};
   if (report.steps.size() > 1) found.push_back(StressPlot(report));
   found.push_back(ScrolledTable(head, rows));
-  found.push_back(
-      Note("In percent of the squeeze, of a turn over half the diameter: the largest that each "
-           "rest stood in the replay | that forces inside the cones balance, by analysis."));
+  found.push_back(Note(
+      "In percent of the grasp force, torques over half the diameter: the largest that each "
+      "static grasp resisted in the replay | that forces inside the cones balance, by analysis."));
   return found;
 }
 
@@ -160,7 +161,7 @@ Element LimitsRow(const sim::DriveLimits& limit) {
   return row;
 }
 
-/// The limits that a replay by a hand relies on.
+/// Return the limits that a replay by a hand assumes.
 std::vector<Element> Limits(const Report& report) {
   if (!report.settings || !report.settings->hand) return {};
   const std::vector<sim::DriveLimits>& limits = report.settings->hand->limits;

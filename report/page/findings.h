@@ -7,10 +7,10 @@
 
 namespace regrasp::report {
 
-/// The part of report.html on what the examinations of a plan found, as elements: where analysis,
-/// replay and fixed squeeze disagree, with the likely cause; a line per step on what it takes, the
-/// weakest finger and the margins of forces to their cones; and, where the report has them, the
-/// largest pushes, as a table and, of a plan with steps, as a plot. Empty where there is nothing.
+/// Return the section of report.html with the findings, as elements; empty without findings.
+/// The section lists disagreements between analysis, replay and fixed grasp force with their likely
+/// cause. One line per step has the required friction, the weakest finger and the force margins. If
+/// the report has resisted wrenches, they follow as a table and, for a plan with steps, as a plot.
 [[nodiscard]] std::vector<Element> MakeFindings(const Report& report);
 
 }  // namespace regrasp::report

@@ -8,29 +8,29 @@
 
 namespace regrasp::report {
 
-/// Bytes as a URI that holds them, "data:image/webp;base64,…".
+/// Return bytes as a data URI, "data:image/webp;base64,…".
 [[nodiscard]] std::string DataUri(std::string_view media_type, std::string_view bytes);
 
-/// A relative path as a link to it, "plan%231/report.html": bytes other than unreserved characters
-/// (RFC 3986, 2.3) and slashes are written in percent, so that none is taken for a scheme, a query
-/// or a fragment.
+/// Return a relative path as a link, "plan%231/report.html".
+/// Bytes other than unreserved characters (RFC 3986, 2.3) and slashes are percent-encoded, so that
+/// none is read as a scheme, a query or a fragment.
 [[nodiscard]] std::string PathUri(std::string_view path);
 
-/// Where a page may take its pictures from; it loads nothing else.
+/// Permitted sources of a page's images; a page loads nothing else.
 enum class PictureSource {
-  kInPage,   ///< from the page alone (DataUri)
-  kOwnSite,  ///< and from files beside it
+  kInPage,   ///< in the page (DataUri)
+  kOwnSite,  ///< also files in the folder of the page
 };
 
-/// The text of an HTML page in the style of report pages, which runs nothing, whatever stands in
-/// it. Well-formed XML too.
-/// @param parts  what stands in it, one below the other.
+/// Return an HTML page in the style of report pages. It runs no scripts, whatever its content.
+/// The page is also well-formed XML.
+/// @param parts  elements of the page, from top to bottom.
 [[nodiscard]] std::string FormatHtmlPage(std::string_view title, const std::vector<Element>& parts,
                                          PictureSource pictures = PictureSource::kInPage);
 
-/// A page's first lines: what it is in small letters, its subject, and the verdict with what it
-/// says in words.
-/// @param extent  text behind "Pass" or "Fail", as "in 14 of 20 trials"; may be empty.
+/// Return the head of a page: its kind in small letters, its subject, and the verdict with a
+/// summary.
+/// @param extent  text after "Pass" or "Fail", for example "in 14 of 20 trials"; may be empty.
 [[nodiscard]] Element PageHeader(std::string_view kind, std::string_view subject, bool passed,
                                  std::string_view statement, std::string_view extent = "");
 

@@ -55,7 +55,7 @@ class Page {
                       report_.plan_file, report_.passed(), Statement(), Extent());
   }
 
-  /// How many trials the verdict is about; empty without trials.
+  /// Return the number of trials for the verdict; empty without trials.
   [[nodiscard]] std::string Extent() const {
     if (!report_.trials) return "";
     const sim::TrialSummary& trials = *report_.trials;
@@ -65,7 +65,7 @@ class Page {
                                   std::to_string(trials.options.count) + " trials";
   }
 
-  /// What the verdict says, in words.
+  /// Return the verdict in words.
   [[nodiscard]] std::string Statement() const {
     if (failed_) return FailureStatement();
     const auto failure = DescribeFailure(report_);
@@ -78,13 +78,14 @@ class Page {
     const sim::ReplaySettings& settings = *report_.settings;
     const std::string what =
         " with " + FormatDegrees(Degrees(report_.half_angle)) +
-        " of friction, and in the replay the object resisted a push and a twist of " +
-        NumberText(100 * settings.shake) + " % of the squeeze along every axis, in both directions";
+        " of friction, and in the replay the object resisted a force and a torque of " +
+        NumberText(100 * settings.shake) +
+        " % of the grasp force along every axis, in both directions";
     if (report_.grasp) return "The grasp is force closure" + what + ".";
     const std::string steps = std::to_string(plan_.steps.size());
     return "The hold and " +
            (plan_.steps.size() == 1 ? "the one step" : "all " + steps + " steps") +
-           " stand: every grasp along them is force closure" + what + ", at every rest.";
+           " pass: every grasp along them is force closure" + what + ", in every static grasp.";
   }
 
   [[nodiscard]] std::string FailureStatement() const {
@@ -97,7 +98,8 @@ class Page {
     }
     text = Capitalized(text + failure.reason + ".");
     if (!failure.what.empty()) text += " " + Capitalized(failure.what) + ".";
-    text += WhyAndMend(failure.why, failure.mend);
+    text += WhyAndMend(failure.why, failure.mend) +
+            " For all causes and remedies, run regrasp validate --explain " + failure.reason + ".";
     const bool replayed = report_.steps[*failed_].replay.has_value();
     text +=
         replayed ? " The replay found it." : " The analytic check found it; it was not replayed.";
@@ -122,7 +124,7 @@ class Page {
   }
 
   [[nodiscard]] Parts Plots() const {
-    if (report_.grasp) return {};  // one entry is no plot
+    if (report_.grasp) return {};  // one entry makes no plot
     Parts figures;
     if (HasAny(&StepMeasures::moved_m)) figures.push_back(MotionFigure());
     if (HasAny(&StepMeasures::margin_deg)) figures.push_back(MarginFigure());
@@ -151,15 +153,15 @@ class Page {
     plot.series = {{"all grasps of the step", Values(&StepMeasures::margin_deg), PlotMark::kDisc}};
     if (HasAny(&StepMeasures::rest_margin_deg)) {
       plot.series.push_back(
-          {"forces at rest", Values(&StepMeasures::rest_margin_deg), PlotMark::kRing});
+          {"forces in static grasp", Values(&StepMeasures::rest_margin_deg), PlotMark::kRing});
     }
     plot.limit = PlotLimit{0, "", false};
     plot.failed = failed_;
-    return Figure(
-        {}, DrawStepPlot(plot), "What friction is left.",
-        "Discs: the friction half-angle less the smallest one at which every grasp of the "
-        "step is force closure. Rings: the friction half-angle less the largest angle "
-        "between a finger's force and its normal, at rest after the step in the replay.");
+    return Figure({}, DrawStepPlot(plot), "What friction is left.",
+                  "Discs: the friction angle less the smallest one at which every grasp of the "
+                  "step is force closure. Rings: the friction angle less the largest angle "
+                  "between a finger's force and its normal, in the static grasp after the step in "
+                  "the replay.");
   }
 
   [[nodiscard]] bool HasPicture(plan::EntryIndex index) const {
@@ -176,7 +178,7 @@ class Page {
     return anchors;
   }
 
-  /// The picture of what failed comes first, and large.
+  /// The image of the failure comes first, and large.
   [[nodiscard]] Parts FailedFrame() const {
     if (!failed_ || !HasPicture(*failed_)) return {};
     return {Element("div", {{"class", "failure"}}, Parts{Frame(report_.steps[*failed_])})};
@@ -216,7 +218,7 @@ class Page {
                            {"src", DataUri(picture.media_type, picture.bytes)}});
   }
 
-  /// It plays as moving images do: by itself, silently and for ever.
+  /// The animation starts by itself, silently, and repeats.
   [[nodiscard]] static Element MakeVideo(const PagePicture& picture, const std::string& name) {
     return Element("video",
                    {{"aria-label", name},

@@ -9,30 +9,30 @@
 
 namespace regrasp::report {
 
-/// A picture, ready to be put into a page.
+/// An image in the form that a page contains.
 struct PagePicture {
-  std::string bytes;  ///< of its file; empty where there is no picture
-  int width = 0;      ///< pixels, as is the height
+  std::string bytes;  ///< bytes of the file; empty if there is no image
+  int width = 0;      ///< width and height, pixels
   int height = 0;
-  std::string_view media_type = "image/webp";  ///< of an image, or of a video that browsers play
-  bool own_view = false;                       ///< not taken from where the others are
+  /// MIME type of an image, or of a video that browsers play
+  std::string_view media_type = "image/webp";
+  bool own_view = false;  ///< whether the camera differs from that of the other images
 };
 
-/// The text of report.html: what a report says, for people, as one HTML page that needs no other
-/// file and no script: verdict, settings, plots of displacement and of the margin to the friction
-/// cone over the steps, a table with a line per step, and the pictures.
+/// Return the text of report.html, a page without scripts that needs no other file.
+/// It has the verdict, settings, plots of displacement and friction margin over the steps, a table
+/// with one line per step, and the images.
 ///
-/// Every text from outside is escaped, and the page forbids scripts and requests in its own header.
-/// Well-formed XML too. Same report, same bytes.
-/// @param plan      the one that was reported on, for the names of steps.
-/// @param pictures  one per entry of the report, or none at all.
-/// @param moving    of the whole replay, where there is one; left out on paper.
+/// External text is escaped, and the page's own header forbids scripts and requests. The page is
+/// also well-formed XML. The same report gives the same bytes.
+/// @param plan      plan of the report, for the names of steps.
+/// @param pictures  one image per entry of the report, or none at all.
+/// @param moving    animation of the replay, if there is one; omitted in print.
 [[nodiscard]] std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
                                            const std::vector<PagePicture>& pictures,
                                            const PagePicture& moving = {});
 
-/// How wide a picture should be, pixels, so that a page of `count` of them can be sent by mail: the
-/// more, the smaller.
+/// Return the width of an image in pixels with which a page of `count` images can be sent by mail.
 [[nodiscard]] int PagePictureWidth(int count);
 
 }  // namespace regrasp::report

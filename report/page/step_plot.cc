@@ -12,10 +12,10 @@ namespace regrasp::report {
 
 namespace {
 
-/// More ticks than this crowd a plot.
+/// Largest number of ticks.
 constexpr int kMostTicks = 6;
 
-/// A quotient this near to a whole number is one: 0.3 / 0.1 is a hair below 3.
+/// Distance from a whole number within which a quotient is rounded: 0.3 / 0.1 is slightly below 3.
 constexpr double kWhole = 1e-9;
 
 void CheckFinite(const std::vector<double>& values) {
@@ -86,7 +86,7 @@ std::string FormatPowerOfTen(int exponent) {
 
 namespace {
 
-// Units of the picture: at the usual width of a column one of them is about a pixel.
+// Units of the image; at the usual column width, one is about a pixel.
 constexpr double kWidth = 480;
 constexpr double kHeight = 280;
 constexpr double kLeft = 62;
@@ -95,11 +95,11 @@ constexpr double kTop = 30;
 constexpr double kBottom = 46;
 constexpr double kMarkRadius = 3.6;
 constexpr double kTickGap = 6;     ///< between an axis and its numbers
-constexpr double kHalfFont = 4.5;  ///< from the middle of a line of text to its base line
+constexpr double kHalfFont = 4.5;  ///< from the middle of a line of text to its baseline
 
-/// More labels than this crowd the horizontal axis.
+/// Largest number of labels on the horizontal axis.
 constexpr int kMostStepLabels = 12;
-/// More marks than this crowd a line: it is drawn without them.
+/// Largest number of marks on a line; a line with more is drawn without marks.
 constexpr std::size_t kMostMarks = 60;
 
 constexpr int kDecimals = 2;
@@ -170,14 +170,14 @@ class Drawing {
     return kHeight - kBottom - axis_.Position(value) * (kHeight - kBottom - kTop);
   }
 
-  /// What follows the step that failed.
+  /// Shade the steps after the failure.
   void AddSkipped(Element& svg) const {
     if (!plot_.failed || *plot_.failed + 1 >= static_cast<int>(steps_)) return;
     const double from = X(*plot_.failed + 0.5);
     svg.Add(Box("skipped", from, kTop, kWidth - kRight - from, kHeight - kBottom - kTop));
   }
 
-  /// The bad side of the limit.
+  /// Shade the bad side of the limit.
   void AddBeyond(Element& svg) const {
     if (!plot_.limit) return;
     const double y = Y(plot_.limit->value);
@@ -215,7 +215,7 @@ class Drawing {
     const double y = Y(plot_.limit->value);
     svg.Add(Line("limit", kLeft, y, kWidth - kRight, y));
     if (plot_.limit->label.empty()) return;
-    // The label stands on the good side, where there is always space.
+    // The label is on the good side, where there is always space.
     const double text = plot_.limit->from_above ? y + 3 * kHalfFont : y - kHalfFont;
     svg.Add(
         Text("end", kWidth - kRight - kTickGap, text, plot_.limit->label, {{"class", "limit"}}));
@@ -259,7 +259,7 @@ class Drawing {
     return Element("tspan", {{"class", style}}, mark == PlotMark::kDisc ? "●" : "○");
   }
 
-  /// Names above the plot, each behind its mark; one text, so that names never overlap.
+  /// Names above the plot, each after its mark. They are one text, so that they never overlap.
   [[nodiscard]] Element Legend() const {
     constexpr double kBase = 16;
     Element names("text", {{"x", Number(kLeft)}, {"y", Number(kBase)}});

@@ -42,16 +42,16 @@ namespace {
 
 constexpr int kDigits = 3;
 
-/// Numbers from here on, and below there, are written with a power of ten.
+/// Limits from which numbers are written with a power of ten.
 constexpr double kPlainFrom = 1e-3;
 constexpr double kPlainTo = 1e6;
 
-/// Less than an atom says nothing.
+/// Lengths below the size of an atom are meaningless.
 constexpr double kShortest_m = 1e-10;
 
 constexpr char kNothing[] = "–";
 
-/// The number without the zeros at its end, and without a point at its end.
+/// Return the number without trailing zeros and without a trailing point.
 std::string WithoutZeros(std::string text) {
   if (text.find('.') == std::string::npos) return text;
   text.erase(text.find_last_not_of('0') + 1);
@@ -83,7 +83,7 @@ std::string LengthText(double metres) {
 
 namespace {
 
-/// A replay that became unstable may have measured infinity.
+/// An unstable replay can have infinite values.
 std::optional<double> IfFinite(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
@@ -119,8 +119,7 @@ std::string StepName(plan::EntryIndex index) {
 }
 
 std::string WhyAndMend(const std::string& why, const std::string& mend) {
-  return (why.empty() ? "" : " Why: " + why + ".") +
-         (mend.empty() ? "" : " What would mend it: " + mend + ".");
+  return (why.empty() ? "" : " Why: " + why + ".") + (mend.empty() ? "" : " Help: " + mend + ".");
 }
 
 std::string Capitalized(std::string text) {
@@ -181,11 +180,12 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
     const plan::EntryIndex index = step.check.index;
     rows.push_back(StepRow(step, StepTitle(plan, index), measures[index], anchors[index]));
   }
-  return {ScrolledTable(head, rows),
-          Note("Needs: the smallest friction half-angle at which every grasp of the step is "
-               "force closure. Margin: what is left of the plan’s friction. Displacement, "
-               "rotation and slip: the largest in the replay of the step and the shakes after "
-               "it.")};
+  return {
+      ScrolledTable(head, rows),
+      Note("Needs: the smallest friction angle at which every grasp of the step is "
+           "force closure. Margin: what is left of the plan’s friction. Displacement, "
+           "rotation and slip: the largest in the replay of the step and the disturbances after "
+           "it.")};
 }
 
 std::vector<Element> MakeFingerTable(const Report& report) {
@@ -201,9 +201,9 @@ std::vector<Element> MakeFingerTable(const Report& report) {
   return {
       Element("h2", {}, "Fingers"),
       ScrolledTable(HeadCells({"Finger", "Needs alone", "Margin", "Others need without it"}), rows),
-      Note("Needs alone: how far the friction half-angle of this finger may fall while all "
-           "others keep theirs; 0 where it is not needed. Others need without it: the "
-           "friction half-angle at which the grasp is force closure without this finger.")};
+      Note("Needs alone: how far the friction angle of this finger may fall while all "
+           "others keep theirs; 0 if it is not needed. Others need without it: the "
+           "friction angle at which the grasp is force closure without this finger.")};
 }
 
 }  // namespace regrasp::report

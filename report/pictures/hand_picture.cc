@@ -18,15 +18,15 @@ using plan::HandState;
 /// much that the object goes.
 constexpr double kTurnPerPicture = Radians(3);
 constexpr double kWayPerPicture = 1e-3;  // metres
-constexpr int kMostPictures = 40;        // of a path
+constexpr int kMaxEntryFrames = 40;      // of a path
 
-void Add(const render::FacetMesh& more, render::FacetMesh& mesh) {
+void Add(const render::ShadedMesh& more, render::ShadedMesh& mesh) {
   mesh.triangles.insert(mesh.triangles.end(), more.triangles.begin(), more.triangles.end());
   mesh.normals.insert(mesh.normals.end(), more.normals.begin(), more.normals.end());
 }
 
-render::FacetMesh MeshOf(const kinematics::LinkVisual& link) {
-  render::FacetMesh mesh;
+render::ShadedMesh MeshOf(const kinematics::LinkVisual& link) {
+  render::ShadedMesh mesh;
   for (std::size_t i = 0; i < link.triangles.size(); ++i) {
     mesh.Add(link.triangles[i], link.normals[i]);
   }
@@ -70,7 +70,7 @@ std::vector<Passing> Spread(const plan::HandPath& path) {
   for (std::size_t i = 1; i < path.size(); ++i) {
     along.push_back(along.back() + MotionBetween(path[i - 1], path[i]));
   }
-  const int count = std::min(kMostPictures, static_cast<int>(std::ceil(along.back())));
+  const int count = std::min(kMaxEntryFrames, static_cast<int>(std::ceil(along.back())));
   std::vector<Passing> states;
   for (int picture = 1; picture < count; ++picture) {
     const double at = along.back() * picture / count;
@@ -117,9 +117,9 @@ HandPicture::HandPicture(const kinematics::HandFile& hand, const plan::Plan& pla
   std::erase_if(links_, [](const kinematics::LinkVisual& link) { return link.above_palm; });
   render::HandView view;
   for (kinematics::LinkVisual& link : links_) {
-    const bool is_tip =
+    const bool is_fingertip =
         link.finger.valid() && link.after == std::ssize(hand_.fingers[link.finger].joints);
-    view.push_back({{link.finger, link.after}, is_tip, MeshOf(link)});
+    view.push_back({{link.finger, link.after}, is_fingertip, MeshOf(link)});
     // From here on they only say where the links are.
     link.triangles = {};
     link.normals = {};

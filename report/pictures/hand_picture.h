@@ -12,30 +12,31 @@
 
 namespace regrasp::report {
 
-/// The hand of a plan as frames show it. With it frames have the palm at rest, its up direction
-/// upwards, and the object moves.
+/// The hand of a plan in frames. The palm is fixed, its up direction is vertical, and the object
+/// moves.
 class HandPicture {
  public:
-  /// @param plan        with a hand; outlives this object.
-  /// @param centroid_m  of the object, in its frame.
+  /// @param plan        plan with a hand; outlives this object.
+  /// @param centroid_m  centroid of the object in its frame, metres.
   HandPicture(const kinematics::HandFile& hand, const plan::Plan& plan,
               const Eigen::Vector3d& centroid_m);
 
   [[nodiscard]] const std::shared_ptr<const render::HandView>& view() const { return view_; }
 
-  /// Brings what was seen at the end of an entry to where object and hand are then; where the
-  /// hand's check failed, to where they are at that instant.
+  /// Place the snapshot of the end of an entry at the poses of object and hand at that time.
+  /// If the check of the hand failed, they are those of the failing instant.
   void Place(plan::EntryIndex entry, plan::Snapshot& snapshot, plan::Fault& fault) const;
 
-  /// What is between the end of the entry before and that of this one: hand and object at instants
-  /// along the paths of its joints, evenly by how far joints turn and the object goes. Fingers that
-  /// hold have the forces of the rest before until others leave, then those of the rest after.
-  /// @param before, after  what was seen at the two ends, not placed yet.
+  /// Return hand and object at instants between the ends of the previous entry and of this one.
+  /// The instants are evenly spaced in joint angle and object motion. Until fingers break contact,
+  /// holding fingers have the forces of the static grasp before, then those of the static grasp
+  /// after.
+  /// @param before, after  snapshots of the two ends, not placed yet.
   [[nodiscard]] std::vector<plan::Snapshot> Between(plan::EntryIndex entry,
                                                     const plan::Snapshot& before,
                                                     const plan::Snapshot& after) const;
 
-  /// Points that bound, about, where the hand of a placed snapshot is.
+  /// Return points that approximately bound the hand of a placed snapshot.
   [[nodiscard]] std::vector<Eigen::Vector3d> Reached(const plan::Snapshot& snapshot) const;
 
  private:
@@ -47,8 +48,8 @@ class HandPicture {
   kinematics::HandModel hand_;
   std::vector<kinematics::LinkVisual> links_;
   std::shared_ptr<const render::HandView> view_;
-  std::vector<plan::HandState> states_;  ///< at the end of each entry
-  Eigen::Isometry3d X_WP_;               ///< of the palm in the picture
+  std::vector<plan::HandState> states_;  ///< poses at the end of each entry
+  Eigen::Isometry3d X_WP_;               ///< pose of the palm in the image
 };
 
 }  // namespace regrasp::report

@@ -8,8 +8,8 @@
 
 #include "planner/plan/locate.h"
 #include "planner/plan/snapshot.h"
-#include "render/frames/contact_sheet.h"
-#include "render/frames/fault_overlay.h"
+#include "render/frames/fault_marks.h"
+#include "render/frames/overview_image.h"
 #include "render/frames/replay_animation.h"
 #include "render/picture/caption.h"
 #include "report/failure.h"
@@ -35,7 +35,7 @@ std::string Caption(const plan::Plan& plan, const ReportStep& step) {
   return Failed(step) ? caption + " — " + std::string(plan::ReasonName(step.reason())) : caption;
 }
 
-render::SheetLabel MakeLabel(const ReportStep& step) {
+render::OverviewLabel MakeLabel(const ReportStep& step) {
   const bool failed = Failed(step);
   const std::string verdict(failed ? plan::ReasonName(step.reason()) : VerdictName(step.verdict()));
   return {std::to_string(step.check.index) + "  " + step.check.kind, verdict,
@@ -46,7 +46,7 @@ render::SheetLabel MakeLabel(const ReportStep& step) {
 }
 
 /// The verdict in a line.
-render::SheetLabel MakeHeading(const Report& report) {
+render::OverviewLabel MakeHeading(const Report& report) {
   return {HeadingText(report), "", report.passed() ? kGood : kBad};
 }
 
@@ -70,8 +70,8 @@ Shown ShowFailure(const object::Object& object, const plan::Plan& plan, const Re
                                  : plan::MakePlannedSnapshot(plan::LocatePlan(object, plan),
                                                              step.check.index, fault, radius);
   if (hand != nullptr) hand->Place(step.check.index, snapshot, fault);
-  render::FaultPicture picture =
-      render::MakeFaultPicture(object, report.scale, reason, fault, snapshot, step.detail());
+  render::FaultScene picture =
+      render::MakeFaultScene(object, report.scale, reason, fault, snapshot, step.detail());
   return {&step, std::move(picture.snapshot), std::move(picture.marks)};
 }
 
@@ -109,7 +109,7 @@ std::vector<Shown> ShowEntries(const object::Object& object, const plan::Plan& p
 }
 
 /// Grey cells for the steps after a failure; the last one stands for all that have no room.
-void AddSkipped(const Report& report, int cells, render::ContactSheet& sheet) {
+void AddSkipped(const Report& report, int cells, render::OverviewImage& sheet) {
   const auto first = std::ranges::find_if(report.steps, &ReportStep::skipped);
   const auto skipped = static_cast<int>(report.steps.end() - first);
   for (int i = 0; i < cells; ++i) {
@@ -152,9 +152,9 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
   render::FrameOptions frame = options.frame;
   if (options.hand != nullptr) frame.hand = options.hand->view();
   const render::FrameRenderer renderer = MakeRenderer(object, report, shown, frame);
-  render::ContactSheet sheet(count + skipped, renderer.width(), renderer.height(),
-                             options.sheet_width, MakeHeading(report),
-                             render::GroundOf(options.frame.background));
+  render::OverviewImage sheet(count + skipped, renderer.width(), renderer.height(),
+                              options.sheet_width, MakeHeading(report),
+                              render::GroundOf(options.frame.background));
   std::vector<render::FrameTask> tasks;
   for (const auto& [step, snapshot, marks] : shown) {
     const int view = static_cast<int>(tasks.size());
@@ -175,17 +175,17 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
 MovingPictures DrawAnimation(const object::Object& object, const plan::Plan& plan,
                              const DrawingOptions& options,
                              const std::vector<plan::Snapshot>& samples,
-                             const std::vector<render::MovingFormat>& formats,
+                             const std::vector<render::AnimationFormat>& formats,
                              const Report& report) {
   const std::vector<Shown> shown = ShowEntries(object, plan, options.hand, report);
   std::vector<std::vector<plan::Snapshot>> motions;
   if (options.hand != nullptr) motions = ShowMotions(*options.hand, report);
-  std::vector<render::AnimationRest> rests;
+  std::vector<render::AnimationPause> rests;
   for (const auto& [step, snapshot, marks] : shown) {
     rests.push_back(
         {snapshot, render::FrameCaption(plan, step->check.index), Caption(plan, *step), marks});
   }
-  const std::vector<render::AnimationPicture> pictures =
+  const std::vector<render::AnimationFrame> pictures =
       options.hand != nullptr
           ? render::JoinAnimation(motions, rests)
           : render::CutAnimation(samples, rests, report.scale * object.diameter());

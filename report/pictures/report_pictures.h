@@ -6,9 +6,9 @@
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
-#include "render/frames/contact_sheet.h"
 #include "render/frames/frame.h"
-#include "render/picture/moving_picture.h"
+#include "render/frames/overview_image.h"
+#include "render/picture/animation.h"
 #include "report/pictures/hand_picture.h"
 #include "report/report.h"
 
@@ -18,7 +18,7 @@ struct DrawingOptions {
   render::FrameOptions frame;
   const HandPicture* hand = nullptr;  ///< of a plan for a hand; null: fingers without one
   int workers = 1;                    ///< threads that draw
-  int sheet_width = render::kSheetWidth;
+  int sheet_width = render::kOverviewWidth;
   /// Called with the number of pictures drawn and of all, after each.
   std::function<void(int done, int all)> on_picture = [](int, int) {};
 };
@@ -59,7 +59,7 @@ struct MovingPictures {
 [[nodiscard]] MovingPictures DrawAnimation(const object::Object& object, const plan::Plan& plan,
                                            const DrawingOptions& options,
                                            const std::vector<plan::Snapshot>& samples,
-                                           const std::vector<render::MovingFormat>& formats,
+                                           const std::vector<render::AnimationFormat>& formats,
                                            const Report& report);
 
 }  // namespace regrasp::report

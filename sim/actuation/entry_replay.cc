@@ -12,8 +12,8 @@
 #include "planner/base/number.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/plan.h"
+#include "sim/actuation/execution_monitor.h"
 #include "sim/actuation/hand_control.h"
-#include "sim/actuation/hand_judge.h"
 #include "sim/actuation/sliding_tips.h"
 #include "sim/actuation/torque_squeeze.h"
 #include "sim/measure/shake.h"
@@ -78,14 +78,14 @@ struct EntryReplay::Coming {
 
 EntryReplay::EntryReplay(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
                          const HandControlSettings& control, const HandReplayOptions& options,
-                         const HandReplayObserver& observer)
+                         const ReplayObserver& observer)
     : world_(world),
       plan_(plan),
       shake_(options.shake * control.squeeze_N),
       radius_(plan.scale * solid.diameter() / 2),
       start_off_(options.start_shift_m.norm() + radius_ * options.start_turn_rad.norm()),
       observer_(observer),
-      judge_(world, solid, plan.scale, options.tolerance),
+      monitor_(world, solid, plan.scale, options.tolerance),
       control_(world, solid, plan.scale, control),
       state_(plan.hand->initial) {}
 
@@ -93,7 +93,7 @@ void EntryReplay::GoOnFrom(const Rested& rest) {
   rest_ = rest.world;
   world_.Restore(rest_);
   control_.CopyState(rest.control);
-  judge_.CopyState(rest.judge);
+  monitor_.CopyState(rest.monitor);
   state_ = rest.state;
   holding_ = rest.holding;
 }
@@ -101,7 +101,7 @@ void EntryReplay::GoOnFrom(const Rested& rest) {
 StepReplay EntryReplay::Carry(plan::EntryIndex index) {
   StepReplay step;
   step.index = index;
-  judge_.Start();
+  monitor_.Start();
   try {
     Perform(index);
     Rest();
@@ -131,19 +131,17 @@ void EntryReplay::Perform(plan::EntryIndex index) {
 }
 
 void EntryReplay::Describe(StepReplay& step) const {
-  const HandMeasures& measures = judge_.measures();
+  const HandMeasures& measures = monitor_.measures();
   step.hand = measures;
   step.displacement_m = measures.off_m;
   step.rotation_deg = Degrees(measures.off_rad);
   step.moved_m = measures.off_m + radius_ * measures.off_rad;
   step.drift_m = measures.rest_off_m + radius_ * measures.rest_off_rad;
   step.slip_m = measures.slip_m;
-  const auto& breach = judge_.breach();
-  if (!breach || step.reason != plan::Reason::kNone) return;
-  step.reason = breach->reason;
-  step.detail = breach->detail;
-  step.fault = breach->fault;
-  step.contact_lost = breach->reason == plan::Reason::kContactLost;
+  const auto& violation = monitor_.violation();
+  if (!violation || step.reason != plan::Reason::kNone) return;
+  static_cast<Violation&>(step) = *violation;
+  step.contact_lost = violation->reason == plan::Reason::kContactLost;
 }
 
 plan::Snapshot EntryReplay::SnapshotNow() const {
@@ -167,8 +165,8 @@ plan::Snapshot EntryReplay::SnapshotNow() const {
 void EntryReplay::Tick() {
   control_.Steer(state_);
   control_.Step();
-  judge_.Watch(state_.pose);
-  if (judge_.breach()) throw StepFails();
+  monitor_.Watch(state_.pose);
+  if (monitor_.violation()) throw StepFails();
 }
 
 template <typename OnTick>
@@ -177,31 +175,31 @@ void EntryReplay::Run(double seconds, const OnTick& on_tick) {
   for (int i = 1; i <= steps; ++i) {
     on_tick(static_cast<double>(i) / steps);
     Tick();
-    if (observer_.on_step && !shaking_) observer_.on_step(world_);
+    if (observer_.on_time_step && !shaking_) observer_.on_time_step(world_);
   }
 }
 
 void EntryReplay::TakeHold() {
-  judge_.SetPhase("while the hand takes hold");
+  monitor_.SetPhase("while the hand takes hold");
   for (const plan::FingerContact& held : plan_.initial) {
     control_.Attach(held.finger);
     holding_.push_back(held.finger);
   }
-  judge_.WatchContacts(plan_.initial, plan_.scale, start_off_);
-  if (judge_.breach()) throw StepFails();
+  monitor_.WatchContacts(plan_.initial, plan_.scale, start_off_);
+  if (monitor_.violation()) throw StepFails();
   // Something holds the object until the fingers do.
   world_.PinObject(true);
-  judge_.SetSettling(true);
+  monitor_.SetSettling(true);
   control_.SetFeedback(false);
   const Hold all = {holding_};
   Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
   world_.PinObject(false);
   control_.SetFeedback(true);
-  for (const FingerIndex f : holding_) judge_.SetHolding(f, true);
+  for (const FingerIndex f : holding_) monitor_.SetHolding(f, true);
 }
 
 void EntryReplay::Move(const plan::HandPath& path) {
-  judge_.SetPhase("during the move");
+  monitor_.SetPhase("during the move");
   const TimedPath timed(path, CarryingSpeed(world_));
   const double duration = timed.duration();
   Run(duration, [&](double share) { state_ = timed.At(share * duration); });
@@ -214,11 +212,11 @@ void EntryReplay::Switch(const plan::Switch& change) {
     return std::ranges::find(change.release, f) != change.release.end();
   });
   if (!change.place.empty()) PlaceFingers(change);
-  judge_.SetPhase("while forces are handed over");
-  for (const FingerIndex f : change.release) judge_.SetHolding(f, false);
+  monitor_.SetPhase("while forces are handed over");
+  for (const FingerIndex f : change.release) monitor_.SetHolding(f, false);
   HandOver({holding_}, {after});
   for (const FingerIndex f : after) {
-    if (std::ranges::find(holding_, f) == holding_.end()) judge_.SetHolding(f, true);
+    if (std::ranges::find(holding_, f) == holding_.end()) monitor_.SetHolding(f, true);
   }
   holding_ = after;
   if (!change.release.empty()) ReleaseFingers(change);
@@ -234,7 +232,7 @@ void EntryReplay::Align(const plan::Align& align) {
   for (std::size_t i = 0; i + 1 < align.waypoints.size(); ++i) {
     Slide(align.waypoints[i], align.waypoints[i + 1], (*align.motion)[i], hold);
   }
-  judge_.SetPhase("while forces are handed over");
+  monitor_.SetPhase("while forces are handed over");
   ChangeSliding(align.waypoints.back(), hold, {holding_});
 }
 
@@ -243,9 +241,9 @@ void EntryReplay::ChangeSliding(const plan::FingerGrasp& at, Hold& hold, const H
     if (std::ranges::find(to.sliding, one.finger, &SlidingFinger::finger) != to.sliding.end()) {
       continue;
     }
-    judge_.WatchContacts({*plan::FindFinger(at, one.finger)}, plan_.scale);
+    monitor_.WatchContacts({*plan::FindFinger(at, one.finger)}, plan_.scale);
     control_.Attach(one.finger);
-    judge_.SetHolding(one.finger, true);
+    monitor_.SetHolding(one.finger, true);
   }
   HandOver(hold, to);
   hold = to;
@@ -264,13 +262,13 @@ void EntryReplay::Slide(const plan::FingerGrasp& from, const plan::FingerGrasp& 
     for (const SlidingFinger& tip : tips.At(share)) {
       const Vector3d centre_O = tips.CentreAt(tip.finger, share);
       control_.LeadAlongSurface(tip.finger, centre_O);
-      judge_.SetSliding(tip.finger, centre_O);
+      monitor_.SetSliding(tip.finger, centre_O);
     }
   };
-  judge_.SetPhase(is_held ? "while forces are handed over" : unheld);
+  monitor_.SetPhase(is_held ? "while forces are handed over" : unheld);
   lead(0);
   ChangeSliding(from, hold, sliding);
-  judge_.SetPhase(is_held ? "while a finger slides" : unheld);
+  monitor_.SetPhase(is_held ? "while a finger slides" : unheld);
   Run(tips.duration(), [&](double share) {
     lead(share);
     hold.sliding = tips.At(share);
@@ -279,7 +277,7 @@ void EntryReplay::Slide(const plan::FingerGrasp& from, const plan::FingerGrasp& 
 }
 
 void EntryReplay::PlaceFingers(const plan::Switch& change) {
-  judge_.SetPhase("while a finger comes");
+  monitor_.SetPhase("while a finger comes");
   const plan::HandPath& path = change.motion->place;
   std::vector<Coming> coming;
   for (const plan::FingerContact& placed : change.place) {
@@ -335,13 +333,13 @@ void EntryReplay::Descend(const HandState& end, std::vector<Coming>& coming) {
   }
   for (const Coming& finger : coming) {
     if (!finger.down) control_.Attach(finger.finger);
-    judge_.WatchPlaced(finger.finger);
+    monitor_.WatchPlaced(finger.finger);
   }
-  if (judge_.breach()) throw StepFails();
+  if (monitor_.violation()) throw StepFails();
 }
 
 void EntryReplay::ReleaseFingers(const plan::Switch& change) {
-  judge_.SetPhase("while a finger leaves");
+  monitor_.SetPhase("while a finger leaves");
   for (const FingerIndex f : change.release) control_.Detach(f);
   const TimedPath timed(change.motion->release, kFreeJoints);
   const double duration = timed.duration();
@@ -358,13 +356,13 @@ void EntryReplay::ReleaseFingers(const plan::Switch& change) {
 }
 
 void EntryReplay::Rest() {
-  judge_.SetPhase("coming to rest");
+  monitor_.SetPhase("coming to rest");
   Run(kSettle, [](double) {});
-  judge_.SetPhase("at rest");
-  judge_.SetSettling(false);
-  judge_.WatchRest(state_.pose);
-  judge_.WatchTipsAtRest();
-  if (judge_.breach()) throw StepFails();
+  monitor_.SetPhase("at rest");
+  monitor_.SetSettling(false);
+  monitor_.WatchRest(state_.pose);
+  monitor_.WatchTipsAtRest();
+  if (monitor_.violation()) throw StepFails();
 }
 
 void EntryReplay::Shake() {
@@ -374,21 +372,21 @@ void EntryReplay::Shake() {
   if (shake_ == 0) return;
   shaking_ = true;
   const HandControl control = control_;
-  const HandJudge judge = judge_;
+  const ExecutionMonitor monitor = monitor_;
   for (const Push& push : PushDirections(3)) {
     const std::string name = PushText(push, shake_, radius_);
-    judge_.SetPhase("under " + name);
+    monitor_.SetPhase("under " + name);
     const grasp::Wrench wrench = PushWrench(push, shake_);
     const Vector3d torque = radius_ * wrench.torque_over_radius;
-    judge_.SetPush({wrench.force, torque, name});
+    monitor_.SetPush({wrench.force, torque, name});
     Run(kHandPushRamp, [&](double share) { world_.SetLoad(share * wrench.force, share * torque); });
     Run(kPushHold, [](double) {});
-    judge_.WatchRest(state_.pose);
-    if (judge_.breach()) throw StepFails();
+    monitor_.WatchRest(state_.pose);
+    if (monitor_.violation()) throw StepFails();
     world_.SetLoad(Vector3d::Zero(), Vector3d::Zero());
     world_.Restore(rest_);
     control_.CopyState(control);
-    judge_.CopyState(judge);
+    monitor_.CopyState(monitor);
   }
   shaking_ = false;
 }

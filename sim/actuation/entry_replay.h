@@ -2,46 +2,46 @@
 
 #include <vector>
 
+#include "sim/actuation/execution_monitor.h"
 #include "sim/actuation/hand_control.h"
-#include "sim/actuation/hand_judge.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/hand_world.h"
 
 namespace regrasp::sim {
 
-/// Carries out the entries of a plan with a hand, one after another, the hold first, each judged.
+/// Executes the steps of a plan with a hand in order, initial grasp first, and monitors each.
 class EntryReplay {
  public:
   /// All but settings and options outlive this object.
   EntryReplay(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
               const HandControlSettings& control, const HandReplayOptions& options,
-              const HandReplayObserver& observer);
+              const ReplayObserver& observer);
 
-  /// Carries out an entry, the one before being done, comes to rest and shakes the object there.
+  /// Execute a step after the one before it, wait for the static grasp, and disturb it.
   StepReplay Carry(plan::EntryIndex index);
 
-  /// A rest after an entry that passed: all that what comes depends on.
+  /// Complete state in the static grasp after a step that passed.
   struct Rested {
     HandWorld::State world;
     HandControl control;
-    HandJudge judge;
+    ExecutionMonitor monitor;
     plan::HandState state;
     std::vector<FingerIndex> holding;
   };
-  /// After an entry that passed.
-  [[nodiscard]] Rested rested() const { return {rest_, control_, judge_, state_, holding_}; }
-  /// Of the same hand, object and settings, and of a plan with the same entries until then.
+  /// Return the state after a step that passed.
+  [[nodiscard]] Rested rested() const { return {rest_, control_, monitor_, state_, holding_}; }
+  /// Continue from the state of a plan with the same steps, hand, object and settings.
   void GoOnFrom(const Rested& rest);
 
  private:
-  struct Coming;  ///< a finger on its way down to a contact
+  struct Coming;  ///< a finger that approaches a contact
 
   void Perform(plan::EntryIndex index);
   void Describe(StepReplay& step) const;
-  /// What is seen, in the object's frame: pictures put it where hand and object are.
+  /// Return the state in the object's frame, for images.
   [[nodiscard]] plan::Snapshot SnapshotNow() const;
   void Tick();
-  /// @param on_tick  told the share of the time that is over.
+  /// @param on_tick  callback with the elapsed share of the time.
   template <typename OnTick>
   void Run(double seconds, const OnTick& on_tick);
   void TakeHold();
@@ -49,8 +49,8 @@ class EntryReplay {
   void Switch(const plan::Switch& change);
   void HandOver(const Hold& from, const Hold& to);
   void Align(const plan::Align& align);
-  /// @param at    where fingers are that slide no more.
-  /// @param hold  before, and then `to`.
+  /// @param at    contacts of the fingers that stop.
+  /// @param hold  present hold; afterwards `to`.
   void ChangeSliding(const plan::FingerGrasp& at, Hold& hold, const Hold& to);
   /// Fingers slide from a waypoint to the next, those whose contacts differ.
   /// @param hold  as in ChangeSliding.
@@ -60,16 +60,16 @@ class EntryReplay {
   void Descend(const plan::HandState& end, std::vector<Coming>& coming);
   void ReleaseFingers(const plan::Switch& change);
   void Rest();
-  /// Pushes and turns the object in twelve directions, each from the same rest.
+  /// Apply disturbances in twelve directions, each from the same static grasp.
   void Shake();
 
   HandWorld& world_;
   const plan::Plan& plan_;
   double shake_;      ///< newtons
   double radius_;     ///< half the object's diameter, metres
-  double start_off_;  ///< what the object's points are off at first, at most
-  const HandReplayObserver& observer_;
-  HandJudge judge_;
+  double start_off_;  ///< upper bound on the initial offset of the object's points
+  const ReplayObserver& observer_;
+  ExecutionMonitor monitor_;
   HandControl control_;
   plan::HandState state_;             ///< planned now
   std::vector<FingerIndex> holding_;  ///< since the last rest

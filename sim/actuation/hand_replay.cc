@@ -22,10 +22,10 @@ namespace {
 using Eigen::Vector3d;
 using plan::HandState;
 
-/// Of plans that begin alike: rests that are kept, some 20 kB each.
+/// Most static grasps that HandReplays keeps, about 20 kB each.
 constexpr int kMostKnown = 5000;
 
-/// Where hand and object are at first.
+/// Return the initial state of hand and object.
 HandState StartOf(const plan::Plan& plan, const HandReplayOptions& options,
                   const Vector3d& centroid) {
   HandState start = plan.hand->initial;
@@ -44,7 +44,7 @@ ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& soli
                           const HandReplayOptions& options) {
   ReplaySettings s;
   s.mu = std::tan(control.half_angle);
-  s.mass_kg = options.mass_kg;
+  s.mass_kg = *options.mass_kg;
   s.squeeze_N = control.squeeze_N;
   s.squeeze_source = options.squeeze_N ? SqueezeSource::kGiven : SqueezeSource::kTorques;
   s.shake = options.shake;
@@ -73,23 +73,30 @@ ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& soli
   return s;
 }
 
+/// Return the options with the mass of the object.
+HandReplayOptions WithMass(HandReplayOptions options, const object::Polyhedron& solid,
+                           double scale) {
+  options.mass_kg = BodyOf(solid, scale, options).mass_kg;
+  return options;
+}
+
+/// @pre the mass is set.
 HandWorldOptions WorldOptions(const HandReplayOptions& options, double half_angle) {
   return {options.friction_factor * std::tan(half_angle),
-          options.mass_factor * options.mass_kg,
+          options.mass_factor * *options.mass_kg,
           kGravity,
           options.force_factor,
           options.joint_offsets,
           options.tip};
 }
 
-/// @param world  is left anyhow.
+/// @param world  changes to an arbitrary state.
 HandControlSettings ControlSettings(HandWorld& world, const object::Polyhedron& solid,
                                     const plan::Plan& plan, const HandReplayOptions& options,
                                     int entries) {
-  const double half_angle = options.half_angle.value_or(plan.half_angle);
-  HandControlSettings control{half_angle, 0, options.mass_kg * kGravity, options.feedback};
+  HandControlSettings control{plan.half_angle, 0, *options.mass_kg * kGravity, options.feedback};
   control.squeeze_N = options.squeeze_N.value_or(
-      TorqueSqueeze(world, solid, plan, entries, half_angle, control.weight_N));
+      TorqueSqueeze(world, solid, plan, entries, plan.half_angle, control.weight_N));
   return control;
 }
 
@@ -139,16 +146,16 @@ std::vector<double> NumbersOf(const plan::Plan& plan, plan::EntryIndex entry) {
 }  // namespace
 
 ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedron& solid,
-                        const plan::Plan& plan, const HandReplayOptions& options,
-                        const HandReplayObserver& observer, int steps) {
+                        const plan::Plan& plan, const HandReplayOptions& given,
+                        const ReplayObserver& observer, int steps) {
   if (plan.torsion != 0) {
     throw InputError(
         "replay by a hand: its fingertips are hard points, and the plan is for soft "
         "fingers; --replay points has them");
   }
   const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
-  HandWorld world(file, solid, plan.scale,
-                  WorldOptions(options, options.half_angle.value_or(plan.half_angle)));
+  const HandReplayOptions options = WithMass(given, solid, plan.scale);
+  HandWorld world(file, solid, plan.scale, WorldOptions(options, plan.half_angle));
   const HandControlSettings control = ControlSettings(world, solid, plan, options, entries);
   ReplayResult result;
   result.settings = SettingsOf(world, solid, plan, control, options);
@@ -163,7 +170,7 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
 }
 
 struct HandReplays::Impl {
-  /// A rest that a plan came to, and what was tried from there.
+  /// A static grasp that a plan reached, and its successors.
   struct Come {
     StepReplay step;
     EntryReplay::Rested rested;
@@ -173,7 +180,8 @@ struct HandReplays::Impl {
 
   kinematics::HandFile file;
   const object::Polyhedron& solid;
-  HandReplayOptions options;
+  HandReplayOptions given;
+  HandReplayOptions options = {};  ///< with the mass at this scale
   double half_angle = 0;
   double scale = 0;
   std::optional<HandWorld> world = {};
@@ -190,8 +198,8 @@ struct HandReplays::Impl {
     half_angle = plan.half_angle;
     scale = plan.scale;
     Forget();
-    world.emplace(file, solid, scale,
-                  WorldOptions(options, options.half_angle.value_or(half_angle)));
+    options = WithMass(given, solid, scale);
+    world.emplace(file, solid, scale, WorldOptions(options, half_angle));
   }
 
   ReplayResult Run(const plan::Plan& plan, const Deadline& deadline) {
@@ -203,7 +211,7 @@ struct HandReplays::Impl {
     ReplayResult result;
     result.settings = SettingsOf(*world, solid, plan, control, options);
     world->Place(StartOf(plan, options, world->centroid_O()));
-    const HandReplayObserver unseen;
+    const ReplayObserver unseen;
     EntryReplay replay(*world, solid, plan, control, options, unseen);
     Next* next = &begun[control.squeeze_N];
     const Come* last = nullptr;

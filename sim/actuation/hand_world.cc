@@ -85,8 +85,8 @@ struct HandWorld::Impl {
     UpdateConstants(*model, *data);
     SetReplayOptions(-options.gravity_m_s2 * (palm.linear() * hand.up), frozen, *model);
     couplings.emplace(*model);
-    // Links that touch anything are a failure and not a matter of forces: HandJudge looks. The
-    // engine looks at pairs that are named, of which there are none.
+    // Links that touch anything are a failure and not a matter of forces: ExecutionMonitor looks.
+    // The engine looks at pairs that are named, of which there are none.
     model->opt.collision = mjCOL_PAIR;
     model->npair = 0;
     std::fill_n(model->geom_contype, model->ngeom, 0);

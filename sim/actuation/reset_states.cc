@@ -56,7 +56,7 @@ ResetStates::ResetStates(const kinematics::HandFile& file, const object::Polyhed
       world_(file, solid, scale,
              {options.friction_factor * std::tan(options.half_angle), options.mass_kg, kGravity}),
       fresh_(world_, solid, scale, AtRest(options.tolerance)),
-      judge_(fresh_) {
+      monitor_(fresh_) {
   const std::vector<std::string> names = world_.joint_names();
   for (const kinematics::Finger& finger : world_.hand().fingers) {
     std::vector<int>& places = joints_.emplace_back();
@@ -82,7 +82,7 @@ std::optional<double> ResetStates::SqueezeOf(const plan::HandState& rest,
 std::variant<ResetState, Reason> ResetStates::Make(const plan::HandState& rest,
                                                    const plan::FingerGrasp& grasp,
                                                    double squeeze_N) {
-  judge_.CopyState(fresh_);
+  monitor_.CopyState(fresh_);
   try {
     TakeHold(rest, grasp, squeeze_N);
   } catch (const UnstableError&) {
@@ -112,16 +112,16 @@ void ResetStates::TakeHold(const plan::HandState& rest, const plan::FingerGrasp&
     control.Step();
   }
   world_.PinObject(false);
-  for (const FingerIndex f : hold.fingers) judge_.SetHolding(f, true);
+  for (const FingerIndex f : hold.fingers) monitor_.SetHolding(f, true);
   for (int i = StepsIn(kSettle, world_); i > 0 && !Failure(); --i) {
     control.Step();
-    judge_.Watch(rest.pose);
+    monitor_.Watch(rest.pose);
   }
 }
 
 std::optional<Reason> ResetStates::Failure() const {
-  if (!judge_.breach()) return std::nullopt;
-  return judge_.breach()->reason;
+  if (!monitor_.violation()) return std::nullopt;
+  return monitor_.violation()->reason;
 }
 
 ResetState ResetStates::Store(const plan::FingerGrasp& grasp, double squeeze_N) const {
@@ -156,18 +156,19 @@ std::optional<Reason> ResetStates::Validate(ResetState& state) {
   world_.Place(StateOf(state));
   world_.SetControls(state.controls);
   state.qpos = world_.Save().engine.qpos;
-  judge_.CopyState(fresh_);
-  for (FingerIndex f{0}; f < std::ssize(state.tips); ++f) judge_.SetHolding(f, state.tips[f].holds);
+  monitor_.CopyState(fresh_);
+  for (FingerIndex f{0}; f < std::ssize(state.tips); ++f)
+    monitor_.SetHolding(f, state.tips[f].holds);
   try {
     for (int i = StepsIn(kHeld, world_); i > 0 && !Failure(); --i) {
       world_.Step();
-      judge_.Watch(pose);
+      monitor_.Watch(pose);
     }
   } catch (const UnstableError&) {
     return Reason::kSimulationUnstable;
   }
-  state.off_m = judge_.measures().off_m;
-  state.off_rad = judge_.measures().off_rad;
+  state.off_m = monitor_.measures().off_m;
+  state.off_rad = monitor_.measures().off_rad;
   return Failure();
 }
 
@@ -224,6 +225,9 @@ NpzArray ResetNumbersOf(const DrawnStates& drawn, const std::string& name,
   });
 }
 
+/// Version of the file format: 2 calls the mask of fingers in contact `active` instead of `holds`.
+constexpr double kStatesVersion = 2;
+
 NpzArray Names(const std::string& name, const std::vector<std::string>& texts) {
   return {name, {texts.size()}, {}, texts};
 }
@@ -241,7 +245,7 @@ void AddStates(const DrawnStates& drawn, std::size_t fingers, std::vector<NpzArr
       drawn, "object_quaternion", {4},
       [](const ResetState& state, Values& values) { AppendVector(state.quaternion, values); }));
   arrays.push_back(
-      TipsOf(drawn, "holds", {fingers},
+      TipsOf(drawn, "active", {fingers},
              [](const ResetState::Tip& tip, Values& values) { values.push_back(tip.holds); }));
   arrays.back().is_truth = true;
   arrays.push_back(VectorsOf(drawn, "contact_points", fingers, &ResetState::Tip::contact_O));
@@ -292,7 +296,7 @@ std::string FormatResetStates(const DrawnStates& drawn, const kinematics::HandMo
                               const ResetStateOptions& options, const ResetStatesOrigin& origin) {
   std::vector<std::string> fingers;
   for (const kinematics::Finger& finger : hand.fingers) fingers.push_back(finger.name);
-  std::vector<NpzArray> arrays;
+  std::vector<NpzArray> arrays = {Number("format_version", kStatesVersion)};
   AddStates(drawn, fingers.size(), arrays);
   arrays.push_back(Names("joint_names", drawn.joint_names));
   arrays.push_back(Names("control_names", drawn.control_names));
@@ -343,8 +347,8 @@ struct NoState {
 };
 
 std::string CountText(const Found& tried) {
-  std::string text = std::to_string(tried.unbalanced) +
-                     " have no contact forces that the fingers give and that carry the weight";
+  std::string text =
+      std::to_string(tried.unbalanced) + " without feasible contact forces that support the weight";
   for (const auto& [reason, count] : tried.fallen) {
     text += ", " + std::to_string(count) + " " + std::string(plan::ReasonName(reason));
   }
@@ -355,7 +359,7 @@ Found FindState(RandomStream random, int most_tried, Worker& worker) {
   Found found;
   for (int i = 0; i < most_tried; ++i) {
     const auto rest = worker.draw(random);
-    if (!rest) throw NoState{"no random grasp that the hand reaches holds the object"};
+    if (!rest) throw NoState{"no random grasp within reach of the hand is force closure"};
     const auto squeeze = worker.states.SqueezeOf(rest->state, rest->grasp);
     if (!squeeze) {
       ++found.unbalanced;
@@ -368,8 +372,8 @@ Found FindState(RandomStream random, int most_tried, Worker& worker) {
     }
     ++found.fallen[std::get<plan::Reason>(made)];
   }
-  throw NoState{"of " + std::to_string(most_tried) +
-                " random grasps that the hand reaches it holds none: " + CountText(found)};
+  throw NoState{"none of " + std::to_string(most_tried) +
+                " random grasps within reach of the hand holds the object: " + CountText(found)};
 }
 
 DrawnStates Collect(std::vector<Found> found, const HandWorld& world) {

@@ -14,8 +14,8 @@
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
+#include "sim/actuation/execution_monitor.h"
 #include "sim/actuation/hand_control.h"
-#include "sim/actuation/hand_judge.h"
 #include "sim/actuation/hand_world.h"
 #include "sim/scene/settings.h"
 
@@ -94,7 +94,7 @@ class ResetStates {
   void TakeHold(const plan::HandState& rest, const plan::FingerGrasp& grasp, double squeeze_N);
   [[nodiscard]] ResetState Store(const plan::FingerGrasp& grasp, double squeeze_N) const;
   [[nodiscard]] plan::HandState StateOf(const ResetState& state) const;
-  /// Whether the judge has seen something fail.
+  /// Whether the monitor has seen something fail.
   [[nodiscard]] std::optional<plan::Reason> Failure() const;
 
   const object::Polyhedron& solid_;
@@ -102,8 +102,8 @@ class ResetStates {
   ResetStateOptions options_;
   double weight_N_;  ///< of the object
   HandWorld world_;
-  HandJudge fresh_;  ///< that has seen nothing
-  HandJudge judge_;
+  ExecutionMonitor fresh_;  ///< that has seen nothing
+  ExecutionMonitor monitor_;
   std::vector<std::vector<int>> joints_;  ///< by finger: places among all joints of the model
 };
 

@@ -8,15 +8,14 @@
 #include <utility>
 
 #include "planner/base/error.h"
-#include "planner/object/body_measures.h"
 #include "planner/plan/locate.h"
 #include "sim/actuation/hand_replay.h"
 
 namespace regrasp::sim {
 namespace {
 
-/// The least share that a step leaves of what is allowed. Shakes are left out, and torques: the
-/// squeeze is chosen by their limits.
+/// Return the smallest tolerance margin of a step, as a share of each limit. Disturbance tests do
+/// not count, nor do torques: the grasp force follows from their limits.
 double SpareOf(const HandMeasures& measures, const HandTolerance& tolerance) {
   const double at_rest = tolerance.at_rest;
   return 1 - std::max({measures.off_m / tolerance.length_m, measures.off_rad / tolerance.angle_rad,
@@ -33,38 +32,24 @@ double SpareOf(const ReplayResult& result) {
   return std::max(0.0, least);
 }
 
-/// Of plans for one scale at a time.
-struct Replays {
-  double scale = 0;
-  std::unique_ptr<HandReplays> replays = nullptr;
-};
-
-/// What each thread replays with: its plans have much in common with the one before.
+/// The replays of each thread: successive plans of a thread have many steps in common.
 class ReplaysByThread {
  public:
   ReplaysByThread(kinematics::HandFile file, const object::Polyhedron& solid)
       : file_(std::move(file)), solid_(solid) {}
 
-  HandReplays& At(double scale) {
-    Replays& own = Own();
-    if (!own.replays || scale != own.scale) {
-      HandReplayOptions options;
-      options.mass_kg = object::MeasureBody(solid_, scale).mass_kg;
-      own = {scale, std::make_unique<HandReplays>(file_, solid_, options)};
-    }
-    return *own.replays;
+  HandReplays& Own() {
+    const std::scoped_lock lock(mutex_);
+    std::unique_ptr<HandReplays>& own = by_thread_[std::this_thread::get_id()];
+    if (!own) own = std::make_unique<HandReplays>(file_, solid_, HandReplayOptions());
+    return *own;
   }
 
  private:
-  Replays& Own() {
-    const std::scoped_lock lock(mutex_);
-    return by_thread_[std::this_thread::get_id()];  // which stays where it is
-  }
-
   kinematics::HandFile file_;
   const object::Polyhedron& solid_;
   std::mutex mutex_;
-  std::map<std::thread::id, Replays> by_thread_;
+  std::map<std::thread::id, std::unique_ptr<HandReplays>> by_thread_;
 };
 
 }  // namespace
@@ -75,8 +60,7 @@ ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid) {
   return [replays, &solid](const plan::Plan& plan,
                            const Deadline& deadline) -> std::optional<planning::ExecutionResult> {
     try {
-      const ReplayResult result =
-          replays->At(plan.scale).Replay(plan::LocatePlan(solid, plan), deadline);
+      const ReplayResult result = replays->Own().Replay(plan::LocatePlan(solid, plan), deadline);
       const bool fails = !result.steps.empty() && result.steps.back().reason != plan::Reason::kNone;
       // The first entry is the start grasp.
       const std::ptrdiff_t passed = std::ssize(result.steps) - (fails ? 1 : 0);

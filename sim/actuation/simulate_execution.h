@@ -10,13 +10,13 @@
 
 namespace regrasp::sim {
 
-/// Tells how far a hand carries a plan out: replayed on its own model (ReplayHand) with the plan's
-/// friction, for a body of the density of water, shakes included. For planners that look for plans
-/// that it does (planning::InHandTask). Several threads may ask at a time.
+/// Make a function that simulates the execution of plans for planners (planning::InHandTask). It
+/// replays a plan on the hand's own model (ReplayHand) with the plan's friction, for an object with
+/// the density of water, including disturbance tests. Several threads may call it at a time.
 ///
-/// @param solid  outlives what is returned.
-/// @returns what tells of a plan, at its deadline after the entry that is replayed then; nullopt
-///          where the hand's model can't be simulated.
+/// @param solid  must outlive the function.
+/// @returns function that stops at its deadline after the present step, and returns nullopt if the
+///          hand's model cannot be simulated.
 [[nodiscard]] std::function<std::optional<planning::ExecutionResult>(const plan::Plan&,
                                                                      const Deadline&)>
 ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid);

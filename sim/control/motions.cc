@@ -39,13 +39,14 @@ void MixForces(ReplayWorld& world, const HandForces& from, const HandForces& to,
 
 namespace {
 
-/// From 0 to 1 with no speed at either end.
+/// Return a smooth interpolation from 0 to 1 with zero speed at both ends.
 double Smooth(double t) { return t * t * (3 - 2 * t); }
 
 double Mix(double from, double to, double share) { return (1 - share) * from + share * to; }
 
-/// How far a finger stands off: not into what lies opposite, in a hole. The ball of twice the
-/// fingertip's radius at the contact is empty (DeriveSettings).
+/// Return the distance of a free finger from its contact.
+/// In a hole, the finger must not penetrate the opposite side. The sphere of twice the fingertip's
+/// radius at the contact is empty (DeriveSettings).
 double StandOff(const ReplayWorld& world) {
   return std::min(kStandOff * world.settings().diameter_m, 2 * world.settings().fingertip_radius_m);
 }
@@ -53,7 +54,7 @@ double StandOff(const ReplayWorld& world) {
 void Touch(ReplayWorld& world, FingerIndex finger) {
   WorldFinger& state = world.fingers()[finger];
   const Vector3d tip = world.engine().tip(finger);
-  // Same control as before: what pressed through the spring now presses through the feed-forward.
+  // The control does not change: the spring force becomes the feed-forward force.
   state.force_S += world.settings().finger_stiffness_N_m * (state.anchor_S - tip);
   state.anchor_S = tip;
   state.holding = true;

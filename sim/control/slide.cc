@@ -19,21 +19,22 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Forces are planned anew after this share of D of travel of the tip that goes farthest, and
-/// after this turn of a normal, radians: in between they are mixed, and have to fit the cones.
+/// Travel over D of the fastest fingertip, and turn of a normal in radians, after which forces are
+/// planned again. In between they are interpolated and must stay inside the cones.
 constexpr double kRollSegment = 0.01;
 constexpr double kTurnSegment = Radians(2);
-/// The engine misses a touch at an edge now and then, so that turns are short.
-constexpr double kLeastRollTime = 0.08;  ///< natural times
+/// Least duration of a segment. Short turns are preferred, because the engine occasionally misses a
+/// contact at an edge.
+constexpr double kLeastRollTime = 0.08;  ///< characteristic times
 
 Vector3d Tip(const grasp::Contact& contact, double radius) {
   return contact.p - radius * contact.n;
 }
 
-/// What the fingers have to do at most.
+/// Largest motions of the fingers.
 struct Extent {
-  double travel = 0;  ///< of a contact, metres
-  double turn = 0;    ///< of a normal, radians
+  double travel = 0;  ///< travel of a contact, metres
+  double turn = 0;    ///< turn of a normal, radians
 };
 
 Extent FindExtent(const plan::FingerGrasp& from, const plan::FingerGrasp& to) {
@@ -47,7 +48,7 @@ Extent FindExtent(const plan::FingerGrasp& from, const plan::FingerGrasp& to) {
   return most;
 }
 
-/// Forces that hold the object in a grasp: inside narrower cones where there are such.
+/// Plan forces that hold the object in a grasp, inside narrower cones if possible.
 HandForces PlanForces(const ReplayWorld& world, const plan::FingerGrasp& grasp_B) {
   const Eigen::Matrix3d R_SB = world.X_SB().linear();
   const grasp::Wrench load{R_SB.transpose() * world.weight_S(), Vector3d::Zero()};
@@ -64,7 +65,7 @@ HandForces PlanForces(const ReplayWorld& world, const plan::FingerGrasp& grasp_B
   return hand;
 }
 
-/// Takes a tip along with its contact; whatever it is off the plan stays.
+/// Move a fingertip together with its contact; its deviation from the plan does not change.
 void MoveAlong(ReplayWorld& world, FingerIndex finger, const grasp::Contact& contact_B) {
   WorldFinger& state = world.fingers()[finger];
   const double radius = world.settings().fingertip_radius_m;
@@ -114,7 +115,7 @@ void RollFingers(ReplayWorld& world, const plan::FingerGrasp& from_B,
 
 namespace {
 
-/// Contacts this close, over D, are one: the finger stays.
+/// Distance over D within which contacts are equal, and the finger does not move.
 constexpr double kSamePoint = 1e-9;
 
 bool Stays(const ReplayWorld& world, const grasp::Contact& from, const grasp::Contact& to) {
@@ -127,7 +128,7 @@ std::vector<FingerIndex> FingersOf(const plan::FingerGrasp& grasp) {
   return fingers;
 }
 
-/// The verdict stands; to go on with an object that is lost takes long and tells nothing.
+/// The verdict is final. Continuing with a lost object would take long and add no information.
 bool HasFailed(ReplayWorld& world) { return world.monitor().reason() != plan::Reason::kNone; }
 
 void HandOver(ReplayWorld& world, const FingerHandover& move) {
@@ -135,7 +136,7 @@ void HandOver(ReplayWorld& world, const FingerHandover& move) {
   SwitchFingers(world, move.targets, FingersOf(move.support_fingers));
 }
 
-/// The finger that the others balance best goes first.
+/// Slide the fingers one after the other; the finger that the others balance best is first.
 void Slide(ReplayWorld& world, const plan::FingerGrasp& from, const plan::FingerGrasp& to) {
   std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -194,20 +195,20 @@ void TellMoved(ReplayWorld& world, const std::vector<plan::FingerGrasp>& waypoin
 
 namespace {
 
-/// The largest normal force of a sliding finger that is tried, over the squeeze.
+/// Largest normal force of a sliding finger over the grasp force.
 constexpr double kLargestSlideForce = 0.5;
 
-/// Forces are planned anew after this share of D of travel.
+/// Travel over D after which forces are planned again.
 constexpr double kSegment = 0.01;
-constexpr double kLeastSegmentTime = 0.4;  ///< natural times
+constexpr double kLeastSegmentTime = 0.4;  ///< characteristic times
 
 struct SlideForces {
   HandForces hand;
   double margin = 0;
 };
 
-/// Forces while `finger` slides towards `direction_B`, pressing with `normal`: the finger's is on
-/// its cone's edge, the others balance it and the weight inside narrower cones.
+/// Plan forces while `finger` slides towards `direction_B` with the normal force `normal`.
+/// Its force is on its cone's edge; the others balance it and the weight inside narrower cones.
 SlideForces PlanSlide(const ReplayWorld& world, FingerIndex finger, const grasp::Contact& at_B,
                       const Vector3d& direction_B, double normal, double friction_share) {
   const double mu = world.settings().mu;
@@ -235,8 +236,8 @@ SlideForces PlanSlide(const ReplayWorld& world, FingerIndex finger, const grasp:
   return result;
 }
 
-/// The smallest normal force with a good margin, or else the one with the best; with the whole
-/// friction only where kSlideFriction of it leaves no margin.
+/// Choose the smallest normal force with a good margin, otherwise the one with the best margin.
+/// The full friction is used only if kSlideFriction of it leaves no margin.
 SlideForces ChooseSlide(const ReplayWorld& world, FingerIndex finger, const grasp::Contact& at_B,
                         const Vector3d& direction_B) {
   std::optional<SlideForces> best;
@@ -260,7 +261,8 @@ Vector3d Direction(const grasp::Contact& from, const grasp::Contact& to) {
   return along.norm() > 0 ? Vector3d(along.normalized()) : Vector3d::Zero();
 }
 
-/// One straight segment of the path: tip and forces change together, at constant rates.
+/// Move along one straight segment of the path.
+/// Fingertip and forces change together at constant rates.
 void MoveTip(ReplayWorld& world, FingerIndex finger, const grasp::Contact& from,
              const grasp::Contact& to, const HandForces& forces_after, double duration) {
   const HandForces forces_before = CurrentForces(world);

@@ -25,32 +25,34 @@ constexpr double kSameTurn = 1e-8;   // radians
 constexpr double kTipAtRest = 1e-6;
 constexpr double kTipInMove = 1e-4;
 constexpr double kTipDepth = 3e-4;
-/// A finger that comes or goes may be as near as a touching one this far around its contact.
+/// Distance from a contact within which an approaching or leaving finger may be as close as a
+/// touching one.
 constexpr double kApproach = 0.012;
 constexpr double kLimitSlack = 1e-9;    // radians
 constexpr double kSameCoupling = 1e-6;  // radians
-constexpr double kSlack = 1e-6;         // of the clearance
-/// What moves less than this between two samples and is not shown to be clear is not: metres.
+constexpr double kSlack = 1e-6;         // subtracted from the clearance
+/// Motion between two samples, in metres, at which the subdivision stops. A pair that is not proved
+/// to be clear by then is too close.
 constexpr double kFinest = 1e-4;
 constexpr double kGoalPlace = 1e-6;
 constexpr double kGoalTurn = 1e-6;
 
-/// How often a path is looked at for where it is worst.
+/// Number of samples of a path in the search for its smallest gap.
 constexpr int kMostSamples = 96;
 
 using MaybeFault = std::optional<HandFinding>;
 
-/// Parts of the hand that are too near to each other.
+/// Parts of the hand that are too close to each other.
 struct NearPair {
   int part;
   int other = -1;     ///< −1: the object
-  double needed = 0;  ///< how near they may be
+  double needed = 0;  ///< required gap
 };
 
-/// A path of a step, and how messages call it.
+/// Path of a step with its name in messages.
 struct NamedPath {
   const plan::HandPath& states;
-  std::string name = {};  ///< empty: no path but one state
+  std::string name = {};  ///< empty for a single state instead of a path
 
   [[nodiscard]] std::string InState(std::size_t index) const {
     return name.empty() ? "" : "in state " + std::to_string(index) + " of " + name;
@@ -103,7 +105,7 @@ class Checker {
   }
 
  private:
-  /// How the hand stands at an instant, and the contacts that tips are at.
+  /// State of the hand at an instant, and the contacts of the holding fingers.
   struct Instant {
     HandState state;
     plan::FingerGrasp holding;
@@ -116,7 +118,7 @@ class Checker {
     return pose * (plan_.scale * held.contact.p - radius * held.contact.n);
   }
 
-  /// Faults of shapes and beginnings.
+  /// Check the number of fingers and joints of a state.
   MaybeFault CheckShape(const HandState& state) const;
   MaybeFault CheckContinues(const plan::HandPath& path);
   MaybeFault CheckJoints(const NamedPath& path, std::size_t index);
@@ -135,9 +137,9 @@ class Checker {
   MaybeFault CheckStaysPut(const HandState& now, const HandState& before,
                            const std::string& what) const;
   MaybeFault CheckGoal() const;
-  /// Everything between two instants that follow each other on a path.
-  /// @param index  of the second one's state.
-  /// @param others  contacts that fingers come to or leave.
+  /// Check everything between two consecutive instants of a path.
+  /// @param index  number of the second state.
+  /// @param others  contacts that fingers approach or leave.
   MaybeFault CheckPath(const NamedPath& path, std::size_t index, const Instant& from,
                        const Instant& to, const plan::FingerGrasp& others);
   using Conflict = std::variant<HandFinding, NearPair>;
@@ -160,17 +162,17 @@ class Checker {
 
 MaybeFault Checker::CheckShape(const HandState& state) const {
   if (std::ssize(state.joints) != finger_count()) {
-    return NoSuchPath("a state has " + std::to_string(state.joints.size()) +
-                          " fingers, and the hand has " + std::to_string(finger_count()),
+    return NoSuchPath("a state has " + std::to_string(state.joints.size()) + " fingers, expected " +
+                          std::to_string(finger_count()),
                       state_);
   }
   for (FingerIndex finger{0}; finger < finger_count(); ++finger) {
     const std::size_t joints = body_.hand().fingers[finger].joints.size();
     if (state.joints[finger].size() == joints) continue;
-    HandFinding finding = NoSuchPath("a state has " + std::to_string(state.joints[finger].size()) +
-                                         " joints of " + FingerText(body_.hand(), finger) +
-                                         ", and the hand has " + std::to_string(joints),
-                                     state_);
+    HandFinding finding =
+        NoSuchPath("a state has " + std::to_string(state.joints[finger].size()) + " joints of " +
+                       FingerText(body_.hand(), finger) + ", expected " + std::to_string(joints),
+                   state_);
     finding.fault.fingers = {finger};
     for (int moved = 1; moved <= static_cast<int>(joints); ++moved) {
       finding.fault.hand->links.push_back({finger, moved});
@@ -237,7 +239,8 @@ MaybeFault Checker::CheckRest() {
   return CheckPath(path, 1, {state_, holding_}, {state_, holding_}, {});
 }
 
-/// Where the plan has no posture of this hand the picture shows that of its model.
+/// Return the finding with the joint configuration of the hand model.
+/// Used for images if the plan has no joint configuration for this hand.
 HandFinding Checker::AtModelsRest(HandFinding finding) const {
   HandState& state = finding.fault.hand->state;
   state.joints.clear();
@@ -256,7 +259,8 @@ double Checker::NeededFromObject(int part, const Isometry3d& pose,
   return off <= kApproach ? -kTipDepth : clearance_;
 }
 
-/// Something that is nearer in the middle of an interval than what moves in it allows.
+/// Find a pair that is too close at the middle of an interval.
+/// Its gap there is smaller than its motion in the interval requires.
 std::optional<NearPair> Checker::FindNear(const Instant& middle, const std::vector<double>& bounds,
                                           double object_bound, const plan::FingerGrasp& others) {
   body_.SetJoints(middle.state.joints);
@@ -308,8 +312,9 @@ std::optional<Checker::Conflict> Checker::FindConflict(const Instant& from, cons
   return FindConflict(middle, to, others, when);
 }
 
-/// The same pair where the rest of the path brings it nearest: what is only just too near where it
-/// is found first is hardly seen, and what there is to mend is larger.
+/// Report the same pair at its smallest gap on the remaining path.
+/// The first violation is barely visible in an image, and the smallest gap shows the required
+/// correction.
 HandFinding Checker::WorstOf(const NearPair& near, const NamedPath& path, std::size_t index) {
   const auto last = path.states.size() - 1;
   const double stretch = static_cast<double>(last - index + 1);
@@ -324,7 +329,7 @@ HandFinding Checker::WorstOf(const NearPair& near, const NamedPath& path, std::s
     gaps.push_back(near.other < 0 ? GapToObject(body_, state_at(sample), near.part, triangles_)
                                   : GapBetween(body_, state_at(sample), near.part, near.other));
   }
-  // Where they are deep in each other gaps tell no more how deep: the middle of it.
+  // If they overlap deeply, gaps do not measure the depth: use the middle of the overlap.
   const double least = *std::ranges::min_element(gaps) + kFinest / 2;
   const auto first = std::ranges::find_if(gaps, [&](double gap) { return gap <= least; });
   const auto end = std::find_if(first, gaps.end(), [&](double gap) { return gap > least; });
@@ -333,7 +338,7 @@ HandFinding Checker::WorstOf(const NearPair& near, const NamedPath& path, std::s
       static_cast<std::size_t>(stretch * static_cast<double>(worst) / kMostSamples), last - index);
   const std::string when = path.After(index + step - 1);
   const HandState state = state_at(worst);
-  // What was asked for without the slack.
+  // The requirement without the slack.
   const double needed = near.needed < 0 ? near.needed : clearance_ + kSlack;
   if (near.other < 0) return PartMeetsObject(body_, state, near.part, triangles_, needed, when);
   return PartsCollide(body_, state, near.part, near.other, needed, when);
@@ -362,7 +367,7 @@ MaybeFault Checker::CheckMove(const plan::Move& move) {
   return std::nullopt;
 }
 
-/// Some fingers go, the object and all others stand still.
+/// Check a path on which some fingers move, while the object and all other fingers do not.
 MaybeFault Checker::CheckFingersGo(const NamedPath& path, const plan::FingerGrasp& moving,
                                    const plan::FingerGrasp& still) {
   if (moving.empty()) return std::nullopt;
@@ -386,7 +391,7 @@ MaybeFault Checker::CheckStaysPut(const HandState& now, const HandState& before,
   return ObjectJumps(now, before.pose, "moves while fingers " + what + ": it is");
 }
 
-/// From one waypoint of an align to the next, at equal shares of the way.
+/// Check the path from one waypoint of a sliding step to the next, at equal shares of the distance.
 MaybeFault Checker::CheckSlide(const NamedPath& path, const plan::FingerGrasp& from,
                                const plan::FingerGrasp& to) {
   const plan::HandPath& states = path.states;
@@ -414,7 +419,8 @@ MaybeFault Checker::CheckAlign(const plan::Align& align) {
   const std::size_t ways = align.waypoints.size() - 1;
   if (align.motion->size() != ways) {
     return NoSuchPath("the hand has " + std::to_string(align.motion->size()) +
-                          " paths in this step, and its waypoints ask for " + std::to_string(ways),
+                          " paths in this step, expected " + std::to_string(ways) +
+                          " for its waypoints",
                       state_);
   }
   for (std::size_t w = 0; w < ways; ++w) {
@@ -462,7 +468,7 @@ MaybeFault Checker::CheckGoal() const {
   return GoalMissed(state_, goal);
 }
 
-/// Tells two hands apart by what they are called, and only if that is the same by their digests.
+/// Describe the difference of two hands by their names, or by their digests if the names are equal.
 std::string OtherHand(const kinematics::HandModel& found, const plan::HandUse& expected) {
   constexpr std::size_t kShown = 12;
   const auto describe = [](const std::string& name, const std::string& file) {
@@ -483,7 +489,7 @@ std::vector<plan::HandFault> CheckHand(const kinematics::HandFile& file,
                                        const object::Polyhedron& solid, const plan::Plan& plan,
                                        const HandCheckOptions& options) {
   if (!plan.hand) {
-    throw InputError("--hand: the plan is for fingers without a hand; leave --hand out");
+    throw InputError("--hand cannot be used with a plan without a hand");
   }
   if (plan.hand->sha256 != file.hand.sha256) {
     throw InputError("--hand: " + OtherHand(file.hand, *plan.hand));

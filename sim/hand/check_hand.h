@@ -11,35 +11,35 @@
 namespace regrasp::sim {
 
 struct HandCheckOptions {
-  double clearance_m = 1e-3;  ///< that links keep from each other, from palm and object
+  double clearance_m = 1e-3;  ///< minimum gap between links, palm and object
 };
 
-/// Checks that a hand can carry out its plan, by other means than those that planned it: the
-/// engine's kinematics, and the Frank-Wolfe method for what is near each other. Asked are:
+/// Check that a hand can execute its plan, independently of the planner's methods.
+/// It uses the engine's kinematics, and the Frank-Wolfe method for distances. The checks are:
 ///
-/// - states that follow each other without a jump, each with all joints of the hand;
-/// - joints within their limits, and coupled joints at what they are coupled to, to 1e-6 rad, in
-///   every state;
-/// - tips at the contacts of the fingers that hold: within 1e-6 m at rest, 1e-4 m in moves and
-///   aligns; and ended there, those that are placed;
-/// - no link nearer to another one, to the palm or to the object than the clearance, everywhere
-///   along the paths: certified by a bound on how far things move between samples. A tip that
-///   holds, or is about to, may touch the object, and be in it by 0.3 mm;
-/// - the object at last where the plan says that it is to be.
+/// - Consecutive states are continuous, and each has all joints of the hand.
+/// - In every state, joints are within their limits, and coupled joints match their coupling to
+///   1e-6 rad.
+/// - Fingertips in contact are at their contacts: within 1e-6 m in static grasps, within 1e-4 m
+///   during in-hand motions and sliding steps. Placed fingers end at their contacts.
+/// - No link is closer to another link, to the palm or to the object than the clearance, anywhere
+///   on the paths. This is certified by a bound on motion between samples. A fingertip in contact,
+///   or about to be, may touch the object and penetrate it by up to 0.3 mm.
+/// - The object ends at the goal pose of the plan.
 ///
-/// @param plan  located (plan::LocatePlan), with a hand.
-/// @returns the first fault of each entry that has one; later entries are looked at as if the ones
-///          before them were right.
-/// A fault names the finger, the joint or the links, with the number and what is allowed, and has a
-/// place that can be drawn; links that are too near are told where the path brings them nearest.
-/// @throws InputError  the hand is not the one that the plan was made for.
+/// @param plan  plan with a hand, located (plan::LocatePlan).
+/// @returns the first fault of each entry that has one. Later entries are checked as if the earlier
+///     ones were valid. A fault names the finger, the joint or the links, the value and the limit,
+///     and has a place that can be drawn. Links that are too close are reported at their smallest
+///     gap on the path.
+/// @throws InputError  if the hand is not the one of the plan.
 [[nodiscard]] std::vector<plan::HandFault> CheckHand(const kinematics::HandFile& file,
                                                      const object::Polyhedron& solid,
                                                      const plan::Plan& plan,
                                                      const HandCheckOptions& options = {});
 
-/// The same of a hand's file.
-/// @throws InputError  the hand cannot be read, too.
+/// Check that the hand of a file can execute its plan.
+/// @throws InputError  if the hand cannot be read, or is not the one of the plan.
 [[nodiscard]] std::vector<plan::HandFault> CheckHand(const std::filesystem::path& hand_file,
                                                      const object::Polyhedron& solid,
                                                      const plan::Plan& plan,

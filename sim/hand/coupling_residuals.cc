@@ -48,8 +48,8 @@ void CouplingResiduals::AddTendon(int tendon, double factor, Equation& equation)
   }
 }
 
-/// Constraints are between positions beyond those of the reference configuration. Terms beyond the
-/// linear one, spatial tendons and loops are refused when the hand is read.
+/// Add constraints relative to the positions of the reference configuration.
+/// The hand reader rejects nonlinear terms, spatial tendons and loops.
 void CouplingResiduals::AddEqualities() {
   const auto is_fixed = [&](int tendon) {
     return model_.wrap_type[model_.tendon_adr[tendon]] == mjWRAP_JOINT;

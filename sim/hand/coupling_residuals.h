@@ -10,24 +10,25 @@ struct mjData_;
 
 namespace regrasp::sim {
 
-/// The couplings of a hand's joints as its model and its file state them, without the planner's
-/// kinematics: equality constraints of joints and of fixed tendons, `<mimic>`, and the couplings of
-/// the hand's file.
+/// Couplings of a hand's joints from its model and its file, independent of the planner's
+/// kinematics.
+/// They are equality constraints of joints and of fixed tendons, `<mimic>`, and the couplings of
+/// the hand file.
 class CouplingResiduals {
  public:
   explicit CouplingResiduals(const kinematics::HandFile& file);
 
-  /// How far a joint is from the angle that a coupling demands.
+  /// Deviation of a joint from the angle that a coupling requires.
   struct Residual {
     int joint = -1;      ///< joint of the model; -1 if nothing is coupled
     double radians = 0;  ///< absolute value
-    std::string source;  ///< element that states the coupling, for messages
+    std::string source;  ///< element that defines the coupling, for messages
   };
   /// Return the largest residual in the joint positions of `data`.
   [[nodiscard]] Residual Largest(const mjData_& data) const;
 
  private:
-  /// Σ coefficient · angle of joint = constant; the first joint follows the others.
+  /// Term of Σ coefficient · joint angle = constant; the first joint follows the others.
   struct Term {
     int joint;
     double coefficient;
@@ -42,7 +43,7 @@ class CouplingResiduals {
                    const std::string& source);
   void AddTendon(int tendon, double factor, Equation& equation) const;
 
-  const mjModel_& model_;  ///< kept by the hand's file
+  const mjModel_& model_;  ///< owned by the hand file
   std::vector<Equation> equations_;
 };
 

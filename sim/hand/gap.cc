@@ -9,11 +9,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What is not shown by then is not shown. Most pairs take ten; some that are nearly as near as is
-/// asked for take thousands.
+/// Largest number of steps, after which nothing is proved. Most pairs take ten; some with a gap
+/// close to the limit take thousands.
 constexpr int kMostSteps = 20'000;
 
-// Of what is told to people.
+// Number of steps for gaps in messages.
 constexpr int kMeasureSteps = 2'000;
 constexpr double kMeasured = 1e-3;
 constexpr double kFreeing = 0.01;
@@ -25,22 +25,23 @@ const Vector3d& FarthestAlong(const std::vector<Vector3d>& points, const Vector3
                                    [&](const Vector3d& point) { return point.dot(direction); });
 }
 
-/// A point of the difference of two hulls as a mean of corners of it.
+/// Point of the difference of two hulls, as a weighted mean of its corners.
 class MeanOfCorners {
  public:
   MeanOfCorners(const Vector3d& a, const Vector3d& b) : corners_{{a - b, a, 1}}, mean_(a - b) {}
 
   [[nodiscard]] const Vector3d& mean() const { return mean_; }
 
-  /// The point of the first hull that it is the difference of.
+  /// Return the corresponding point of the first hull.
   [[nodiscard]] Vector3d InFirst() const {
     Vector3d point = Vector3d::Zero();
     for (const Weighted& held : corners_) point += held.weight * held.of_first;
     return point;
   }
 
-  /// Moves weight from the corner that is worst along the mean to that of two points, as far as
-  /// that brings the mean nearer to the origin. @returns whether it did.
+  /// Move weight from the farthest corner along the mean to the corner of two points.
+  /// Moves as much as brings the mean nearer to the origin.
+  /// @returns whether it moved any.
   bool Exchange(const Vector3d& a, const Vector3d& b) {
     const Vector3d corner = a - b;
     const auto worst = std::ranges::max_element(
@@ -115,7 +116,7 @@ bool HaveGap(const ConvexBody& a, const ConvexBody& b, double gap) {
     const Vector3d& mean = between.mean();
     const double length = mean.norm();
     if (length <= needed) return false;
-    // All of the difference of the hulls is beyond this plane.
+    // All points of the difference of the hulls are beyond this plane.
     const Vector3d& in_a = FarthestAlong(a.points, -mean);
     const Vector3d& in_b = FarthestAlong(b.points, mean);
     if ((in_a - in_b).dot(mean) > needed * length) return true;

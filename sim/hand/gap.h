@@ -6,38 +6,41 @@
 
 namespace regrasp::sim {
 
-/// The hull of some points, grown by a radius, where it is.
+/// Convex hull of points, extended by a radius.
 struct ConvexBody {
   std::vector<Eigen::Vector3d> points;
   double radius = 0;
-  /// A ball that contains it.
+  /// Bounding sphere.
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double reach = 0;
 };
 
-/// With its ball.
+/// Make a convex body with its bounding sphere.
 [[nodiscard]] ConvexBody MakeConvexBody(std::vector<Eigen::Vector3d> points, double radius);
 
-/// True only where two solids are certainly more than `gap` apart (negative: overlap by less than
-/// that, as far as the radii go). By the pairwise Frank-Wolfe method (Lacoste-Julien and Jaggi
-/// 2015), which goes to the nearest points of the hulls, until a plane between them shows it.
+/// Return whether two solids are certainly more than `gap` apart.
+/// A negative gap allows overlap by less than that, as far as the radii extend. The pairwise
+/// Frank-Wolfe method (Lacoste-Julien and Jaggi 2015) moves towards the nearest points of the hulls
+/// until a separating plane proves the gap.
 [[nodiscard]] bool HaveGap(const ConvexBody& a, const ConvexBody& b, double gap);
 
-/// How near two things are, for people: to about a thousandth.
+/// Gap between two objects for messages, to about a thousandth.
 struct Nearness {
-  /// Negative where they overlap: by how far the first one has to move to come free, along the best
-  /// of some directions.
+  /// Negative if they overlap: distance by which the first must move to be free, along the best of
+  /// several directions.
   double gap = 0;
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< between the points that are nearest
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< point between the nearest points
 };
 
-/// How near a solid is to the nearest of others. Of one deep inside only the hulls' radii count,
-/// until FreeingDistance says more: its gap is at least the one that is told.
-/// @param others  at least one.
+/// Return the gap between a solid and the nearest of several solids.
+/// For a solid deep inside another, only the hulls' radii count, and the actual gap is at least the
+/// result; FreeingDistance is more precise.
+/// @param others  solids, at least one.
 [[nodiscard]] Nearness NearestOf(const ConvexBody& solid, std::span<const ConvexBody> others);
 
-/// How far a solid has to move to have no part in common with others, along the best of some
-/// directions of length 1, to 1 % and no finer than 1 µm.
+/// Return the distance by which a solid must move to be free of other solids.
+/// It is that of the best direction, to 1 % but no finer than 1 µm.
+/// @param directions  unit vectors.
 [[nodiscard]] double FreeingDistance(const ConvexBody& solid, std::span<const ConvexBody> others,
                                      std::span<const Eigen::Vector3d> directions);
 

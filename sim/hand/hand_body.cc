@@ -31,7 +31,7 @@ Isometry3d PoseOf(const mjtNum* position, const mjtNum* matrix) {
 }  // namespace
 
 struct HandBody::Impl {
-  /// Its points in the frame of its body.
+  /// Points of a shape in the frame of its body.
   struct Shape {
     int body;
     std::vector<Vector3d> points;
@@ -51,11 +51,11 @@ struct HandBody::Impl {
   const mjModel* model;
   kinematics::DataPtr data;
   int palm = 0;
-  std::vector<std::vector<int>> joint_ids;  ///< of the model, by finger
+  std::vector<std::vector<int>> joint_ids;  ///< joint of the model [finger][joint]
   std::vector<int> tip_bodies;
   std::vector<HandPart> parts;
-  std::vector<Shape> shapes;                ///< by part
-  std::vector<std::vector<double>> levers;  ///< by part and joint
+  std::vector<Shape> shapes;                ///< shapes [part]
+  std::vector<std::vector<double>> levers;  ///< moment arms [part][joint]
   std::set<std::pair<int, int>> may_touch;
   CouplingResiduals couplings;
 
@@ -68,7 +68,7 @@ struct HandBody::Impl {
   [[nodiscard]] int BodyId(const std::string& name) const {
     return mj_name2id(model, mjOBJ_BODY, name.c_str());
   }
-  /// The finger that a body belongs to, and how many of its joints are at or above the body.
+  /// Return the finger of a body, and the number of its joints at or above the body.
   [[nodiscard]] HandPart Owner(int body) const {
     HandPart part;
     for (FingerIndex finger{0}; finger < std::ssize(joint_ids); ++finger) {
@@ -119,7 +119,9 @@ struct HandBody::Impl {
       AddPart(tip_bodies[i], {Vector3d::Zero(), tip.centre}, tip.radius, true);
     }
   }
-  /// At rest: from each joint to the next one, and from the last one to the farthest point.
+  /// Measure moment arms in the reference configuration.
+  /// They are sums of distances from each joint to the next one, and from the last one to the
+  /// farthest point.
   void MeasureLevers() {
     const auto anchor = [&](int joint) -> Vector3d {
       return Eigen::Map<const Vector3d>(data->xanchor + std::ptrdiff_t{3} * joint);

@@ -13,16 +13,16 @@
 
 namespace regrasp::sim {
 
-/// A part of a hand that has a place of its own.
+/// Part of a hand that moves as one body.
 struct HandPart {
-  FingerIndex finger;  ///< not valid: the palm
-  int joints = 0;      ///< of the finger that move it
+  FingerIndex finger;  ///< finger; not valid for the palm
+  int joints = 0;      ///< number of the finger's joints that move it
   bool is_tip = false;
   std::string body;
 };
 
-/// A hand as the engine has it: where its parts and tips are, in the palm's frame, whatever the
-/// planner's kinematics say.
+/// Hand in the engine's kinematics: poses of its parts and fingertips in the palm's frame.
+/// Independent of the planner's kinematics.
 class HandBody {
  public:
   explicit HandBody(const kinematics::HandFile& file);
@@ -32,27 +32,29 @@ class HandBody {
 
   [[nodiscard]] const kinematics::HandModel& hand() const;
   [[nodiscard]] const std::vector<HandPart>& parts() const;
-  /// Pairs of parts that may touch: neighbours along a finger, and what is near at rest.
+  /// Return whether parts may touch.
+  /// These are neighbours along a finger, and parts that are close in the reference configuration.
   [[nodiscard]] bool MayTouch(int a, int b) const;
 
-  /// @param joints  by finger, from the palm to the tip, as the model has them; as many as it has.
+  /// Set the joints.
+  /// @param joints  angles [finger][joint] from the palm to the fingertip, in the order and number
+  ///     of the model.
   void SetJoints(const std::vector<std::vector<double>>& joints);
-  /// How far a joint of a finger is from what it is coupled to.
+  /// Deviation of a finger's joint from its coupling.
   struct Uncoupled {
     FingerIndex finger;
-    int joint = 0;  ///< of the finger, from the palm on
+    int joint = 0;  ///< joint of the finger, from the palm on
     double radians = 0;
-    std::string source;  ///< element that states the coupling, for messages
+    std::string source;  ///< element that defines the coupling, for messages
   };
   /// Return the largest residual of the couplings; none if no joint of a finger is coupled.
   [[nodiscard]] std::optional<Uncoupled> LargestCouplingResidual() const;
   [[nodiscard]] ConvexBody Place(int part) const;
-  /// A point of a joint's hinge.
+  /// Return a point of a joint's axis.
   [[nodiscard]] Eigen::Vector3d JointAnchor(FingerIndex finger, int joint) const;
-  /// The centre of a fingertip's ball.
+  /// Return the centre of a fingertip sphere.
   [[nodiscard]] Eigen::Vector3d TipCentre(FingerIndex finger) const;
-  /// No point of the part moves farther than this, metres, while the joints go straight from one to
-  /// the other.
+  /// Return a bound on the motion of all points of a part, metres, while the joints move linearly.
   [[nodiscard]] double MotionBound(int part, const std::vector<std::vector<double>>& from,
                                    const std::vector<std::vector<double>>& to) const;
 

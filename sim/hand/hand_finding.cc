@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 using plan::HandState;
 using plan::Reason;
 
-/// Of one that is tried for a way out of a solid; the faces that it is in give the object's.
+/// Number of directions for moving a part out of another part. For the object the normals of its
+/// triangles are used instead.
 constexpr int kDirections = 60;
 constexpr std::size_t kMostFaces = 24;
 
@@ -28,7 +29,7 @@ double TurnAngle(const Isometry3d& a, const Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
-/// "100 µm and 0.20°", without what is zero.
+/// Return "100 µm and 0.20°", without zero parts.
 std::string MotionText(const Isometry3d& a, const Isometry3d& b) {
   constexpr double kNothing = 1e-12;
   const double length = (a.translation() - b.translation()).norm();
@@ -50,7 +51,7 @@ HandFinding AtJoint(Reason reason, HandBody& body, const HandState& state, Finge
   HandFinding finding{reason, "", {.fingers = {finger}}};
   plan::HandFaultPlace& place = finding.fault.hand.emplace();
   place.state = state;
-  // All that the joint moves: not every joint has a link that can be seen.
+  // All links that the joint moves, because not every joint has a visible link.
   const int last = static_cast<int>(state.joints[finger].size());
   for (int moved = joint + 1; moved <= last; ++moved) place.links.push_back({finger, moved});
   place.at = body.JointAnchor(finger, joint);
@@ -58,7 +59,7 @@ HandFinding AtJoint(Reason reason, HandBody& body, const HandState& state, Finge
   return finding;
 }
 
-/// Names what is at fault, with its number.
+/// Describe the parts at fault, with their gap.
 HandFinding Collision(const HandBody& body, const HandState& state, const std::vector<int>& parts,
                       const Nearness& nearness) {
   HandFinding finding{Reason::kHandCollides, "", {}};
@@ -79,20 +80,20 @@ HandFinding Collision(const HandBody& body, const HandState& state, const std::v
   return finding;
 }
 
-/// "a comes within 0.3 mm of b", "a goes 3.2 mm into b".
+/// Return "a comes within 0.3 mm of b" or "a is 3.2 mm inside b".
 std::string NearText(const std::string& a, const std::string& b, double gap,
                      const LimitText& text) {
-  if (gap < 0) return a + " goes " + text.value + " into " + b;
+  if (gap < 0) return a + " is " + text.value + " inside " + b;
   return a + " comes within " + text.value + " of " + b;
 }
 
-/// Sizes of a gap and of the one that is needed, metres; those below 0 are depths.
+/// Return the texts of a gap and of the required gap, metres; negative values are depths.
 LimitText GapText(double gap, double needed) {
   if ((gap < 0) == (needed < 0)) return FormatLengthWithLimit(std::abs(gap), std::abs(needed));
   return {FormatLength(std::abs(gap)), FormatLength(std::abs(needed))};
 }
 
-/// Evenly over the sphere (a spiral by the golden angle).
+/// Return directions evenly distributed over the sphere (a spiral by the golden angle).
 std::vector<Vector3d> AllDirections() {
   std::vector<Vector3d> directions;
   for (int i = 0; i < kDirections; ++i) {
@@ -110,7 +111,7 @@ ConvexBody MovedSolid(const Isometry3d& pose, ConvexBody solid) {
   return solid;
 }
 
-/// Ways out of the surface that a solid is in: the normals of its triangles.
+/// Return directions out of the surface that a solid penetrates: the normals of its triangles.
 std::vector<Vector3d> WaysOut(const ConvexBody& solid, std::span<const ConvexBody> surface) {
   std::vector<Vector3d> ways;
   for (const ConvexBody& triangle : surface) {
@@ -147,7 +148,7 @@ HandFinding NoSuchFinger(FingerIndex finger, const HandState& state) {
 HandFinding ObjectJumps(const HandState& now, const Isometry3d& before, const std::string& when) {
   HandFinding finding{
       Reason::kHandJumps,
-      "the object " + when + " " + MotionText(now.pose, before) + " from where it was",
+      "the object " + when + " " + MotionText(now.pose, before) + " from its previous pose",
       {}};
   plan::HandFaultPlace& place = finding.fault.hand.emplace();
   place.state = now;
@@ -175,7 +176,7 @@ HandFinding JointJumps(HandBody& body, const HandState& now, FingerIndex finger,
   HandFinding finding = AtJoint(Reason::kHandJumps, body, now, finger, joint, jump + " off");
   finding.detail = "joint " + body.hand().fingers[finger].joints[joint].name + " of " +
                    FingerText(body.hand(), finger) + " begins the step at " + text.value + ", " +
-                   jump + " from where it was (" + text.limit + ")";
+                   jump + " from its previous angle (" + text.limit + ")";
   return finding;
 }
 
@@ -205,8 +206,8 @@ HandFinding JointUncoupled(HandBody& body, const HandState& state,
                                 uncoupled.joint, off + " off its coupling");
   finding.detail = "joint " + joint.name + " of " + FingerText(body.hand(), uncoupled.finger) +
                    " is at " + DegreesText(state.joints[uncoupled.finger][uncoupled.joint]) +
-                   After(when) + ": " + off + " from what its coupling demands (" +
-                   uncoupled.source + "), limit " + FormatShort(Degrees(most)) + "°";
+                   After(when) + ": " + off + " from its coupling (" + uncoupled.source +
+                   "), limit " + FormatShort(Degrees(most)) + "°";
   return finding;
 }
 
@@ -219,8 +220,7 @@ HandFinding TipOff(HandBody& body, const HandState& state, FingerIndex finger,
   const auto [value, limit] = FormatLengthWithLimit(off, tolerance);
   HandFinding finding{Reason::kTipOffContact, "", {.fingers = {finger}}};
   finding.detail = "the tip of " + FingerText(body.hand(), finger) + " is " + value +
-                   " from where it touches its contact" + After(when) + "; up to " + limit +
-                   " is taken";
+                   " from its contact" + After(when) + ", limit " + limit;
   plan::HandFaultPlace& place = finding.fault.hand.emplace();
   place.state = state;
   place.links = {{finger, static_cast<int>(of.joints.size())}};
@@ -271,7 +271,7 @@ HandFinding PartMeetsObject(HandBody& body, const HandState& state, int part,
   const LimitText text = GapText(nearness.gap, needed);
   finding.detail = NearText(PartText(body, part), "the object", nearness.gap, text) + After(when) +
                    "; " +
-                   (needed < 0 ? "a tip that touches may be " + text.limit + " in it"
+                   (needed < 0 ? "a tip that touches may be " + text.limit + " inside"
                                : "the clearance is " + text.limit);
   return finding;
 }

@@ -9,65 +9,66 @@
 
 namespace regrasp::sim {
 
-/// What a check of a hand finds wrong, told with numbers for people and with its place for a
-/// picture. Each of these makes one kind of it; all lengths in metres, all angles in radians.
+/// Finding of a hand check: text with numbers for messages, and its place for an image. Each of the
+/// functions below makes one kind of finding; all lengths are in metres, all angles in radians.
 struct HandFinding {
   plan::Reason reason = plan::Reason::kNone;
   std::string detail;
   plan::Fault fault;
 };
 
-/// "finger 1 (middle)".
+/// Return "finger 1 (middle)".
 [[nodiscard]] std::string FingerText(const kinematics::HandModel& hand, FingerIndex finger);
 
-/// A path or a state that does not fit the hand.
-/// @param state  as the hand stood before.
+/// Report a path or state that does not match the hand.
+/// @param state  state of the hand before it.
 [[nodiscard]] HandFinding NoSuchPath(const std::string& what, const plan::HandState& state);
 
-/// A contact for a finger that the hand has not.
+/// Report a contact for a finger that the hand does not have.
 [[nodiscard]] HandFinding NoSuchFinger(FingerIndex finger, const plan::HandState& state);
 
-/// The object is not where it was.
+/// Report a discontinuous object pose.
 [[nodiscard]] HandFinding ObjectJumps(const plan::HandState& now, const Eigen::Isometry3d& before,
                                       const std::string& when);
 
-/// The object is not where it is to be at last.
+/// Report a final object pose that differs from the goal.
 [[nodiscard]] HandFinding GoalMissed(const plan::HandState& last, const Eigen::Isometry3d& goal);
 
-/// A joint is not where it was.
-/// @param joint  of the finger, from the palm on.
+/// Report a discontinuous joint angle.
+/// @param joint  joint of the finger, from the palm on.
 [[nodiscard]] HandFinding JointJumps(HandBody& body, const plan::HandState& now, FingerIndex finger,
                                      int joint, double before);
 
+/// Report a joint outside its limits.
 /// @param when  "in state 3 of its path", or empty.
 [[nodiscard]] HandFinding JointOutside(HandBody& body, const plan::HandState& state,
                                        FingerIndex finger, int joint, const std::string& when);
 
-/// A joint that is not where its coupling has it.
-/// @param most  residual that is allowed, radians.
+/// Report a joint that deviates from its coupling.
+/// @param most  allowed residual, radians.
 [[nodiscard]] HandFinding JointUncoupled(HandBody& body, const plan::HandState& state,
                                          const HandBody::Uncoupled& uncoupled, double most,
                                          const std::string& when);
 
-/// A tip that is not where it touches its contact.
-/// @param expected   its centre there, in the palm's frame.
-/// @param tolerance  how far it may be away.
+/// Report a fingertip away from its contact.
+/// @param expected   centre of the fingertip at its contact, in the palm's frame.
+/// @param tolerance  allowed distance.
 [[nodiscard]] HandFinding TipOff(HandBody& body, const plan::HandState& state, FingerIndex finger,
                                  const Eigen::Vector3d& expected, double tolerance,
                                  const std::string& when);
 
-/// Two parts of the hand that are too near to each other.
+/// Report two parts of the hand that are too close to each other.
 [[nodiscard]] HandFinding PartsCollide(HandBody& body, const plan::HandState& state, int a, int b,
                                        double clearance, const std::string& when);
 
-/// A part of the hand that is too near to the object, or too deep in it.
-/// @param surface  the object's triangles in its own frame, counter-clockwise from outside.
-/// @param needed   how near it may be; negative: how deep.
+/// Report a part of the hand that is too close to the object, or too deep in it.
+/// @param surface  triangles of the object in its own frame, counter-clockwise from outside.
+/// @param needed   required gap; negative: allowed depth.
 [[nodiscard]] HandFinding PartMeetsObject(HandBody& body, const plan::HandState& state, int part,
                                           std::span<const ConvexBody> surface, double needed,
                                           const std::string& when);
 
-/// How near two parts are, or a part and the object: as above, but for the depth.
+/// Return the gap between two parts, or a part and the object, without the depth of overlaps.
 [[nodiscard]] double GapBetween(HandBody& body, const plan::HandState& state, int a, int b);
 [[nodiscard]] double GapToObject(HandBody& body, const plan::HandState& state, int part,
                                  std::span<const ConvexBody> surface);

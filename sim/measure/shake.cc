@@ -14,10 +14,10 @@ namespace regrasp::sim {
 
 namespace {
 
-/// In the plane there are two forces and one torque.
+/// Return whether an axis exists: in the plane there are two forces and one torque.
 bool IsAxis(int dimension, bool turn, int axis) { return dimension == 3 || turn == (axis == 2); }
 
-/// "+x"
+/// Return "+x" and so on.
 std::string AxisName(const Push& push) {
   return std::string(push.sign > 0 ? "+" : "-") + "xyz"[push.axis];
 }
@@ -72,7 +72,7 @@ void KeepRest::Restore() {
 
 namespace {
 
-/// The push, or a share of it, as the object's load.
+/// Apply a share of a disturbance as the object's load.
 void Load(ReplayWorld& world, const grasp::Wrench& push_S, double share) {
   const double radius = world.settings().diameter_m / 2;
   world.engine().SetLoad(share * push_S.force, share * radius * push_S.torque_over_radius);
@@ -91,7 +91,7 @@ void PushAdapted(ReplayWorld& world, const grasp::Wrench& push_S) {
 void PushFixed(ReplayWorld& world, const grasp::Wrench& push_S) {
   world.monitor().SetGiving(true);
   world.Run(kPushRamp, [&](double share) { Load(world, push_S, share); });
-  // What swings on the servos for long is not lost, and what slides does not come back.
+  // A long oscillation on the servos is not a loss, and an object that slides does not return.
   (void)WaitUntilStill(world);
   world.MonitorRest();
   world.Run(kPushRamp, [&](double share) { Load(world, push_S, 1 - share); });
@@ -112,7 +112,7 @@ void Shake(ReplayWorld& world, DisturbanceResponse response,
   const double size = world.settings().shake * world.settings().squeeze_N;
   if (size == 0) return;
   const double radius = world.settings().diameter_m / 2;
-  const char* how = response == DisturbanceResponse::kAdapted ? "" : " at fixed squeeze";
+  const char* how = response == DisturbanceResponse::kAdapted ? "" : " at fixed grasp force";
   KeepRest rest(world);
   for (const Push& push : PushDirections(world.scene().dimension)) {
     const std::string name = PushText(push, size, radius) + how;
@@ -134,22 +134,21 @@ double LeastShake(double tolerance) {
 void CheckShake(const ReplaySettings& settings) {
   const double least = LeastShake(settings.tolerance);
   if (settings.shake == 0 || settings.shake > least) return;
-  throw InputError("replay: a body that nothing holds would stand a shake of " +
-                   FormatShort(settings.shake) + " (--shake) with a tolerance of " +
-                   FormatShort(settings.tolerance) +
-                   " (--tolerance); the shake has to be larger than " + FormatShort(least));
+  throw InputError("--shake " + FormatShort(settings.shake) +
+                   " is too small to detect a lost grasp at --tolerance " +
+                   FormatShort(settings.tolerance) + ", expected more than " + FormatShort(least));
 }
 
 namespace {
 
-/// The first push that is tried, over the squeeze; doubled as long as the object stands it.
+/// First disturbance of the search over the grasp force; it doubles as long as the object resists.
 constexpr double kFirstStress = 0.01;
 
-/// No grasp resists more: forces inside the cones sum to less than the squeeze over cos θ, and half
-/// angles near 90 degrees, where that is more, are not what a hand has.
+/// Upper limit of the search. Forces inside the cones sum to less than the grasp force over cos θ,
+/// so resisting more requires friction angles near 90 degrees, which no hand has.
 constexpr double kMostStress = 10;
 
-/// Whether the object stands a push of `share` of the squeeze.
+/// Return whether the grasp resists a disturbance of `share` of the grasp force.
 bool Resists(ReplayWorld& world, KeepRest& rest, const Push& push, double share) {
   world.StartMonitoring();
   bool stands = false;
@@ -158,7 +157,7 @@ bool Resists(ReplayWorld& world, KeepRest& rest, const Push& push, double share)
              DisturbanceResponse::kAdapted);
     stands = world.monitor().reason() == plan::Reason::kNone;
   } catch (const UnstableError&) {
-    // A push under which the simulation falls apart is not resisted.
+    // A disturbance that makes the simulation unstable is not resisted.
   }
   rest.Restore();
   return stands;

@@ -9,16 +9,20 @@
 
 namespace regrasp::sim {
 
-/// The finger that has the least of its own friction to spare in the grasps of an entry, at rest:
-/// of the hold the initial grasp, of a switch the grasps before and after it, of an align the
-/// grasps at its waypoints. As planner/grasp/finger_friction.h has it; of equal ones the first.
+/// Weakest fingers of the static grasps of an entry: those with the smallest friction margin of
+/// their own.
+/// The grasps of an entry are the initial grasp, or those before and after a finger switch, or
+/// those at the waypoints of a sliding step. The criterion is that of
+/// planner/grasp/finger_friction.h; among equal fingers, the first.
 class WeakestFingers {
  public:
-  /// @param located  contacts on the surface, in the unit of `frame`; must outlive this object.
+  /// @param located  plan with contacts on the surface, in the unit of `frame`; must outlive this
+  ///     object.
   WeakestFingers(const plan::Plan& located, const object::WrenchFrame& frame, double half_angle)
       : located_(located), frame_(frame), half_angle_(half_angle) {}
 
-  /// @returns nullopt where an entry has no contacts, or no grasp of it is force closure.
+  /// Return the weakest finger of an entry.
+  /// @returns nullopt if the entry has no contacts, or none of its grasps is force closure.
   [[nodiscard]] std::optional<NeedOfFinger> OfEntry(plan::EntryIndex index);
 
  private:
@@ -27,12 +31,12 @@ class WeakestFingers {
   const plan::Plan& located_;
   object::WrenchFrame frame_;
   double half_angle_;
-  // What one entry ends with the next one begins with.
+  // Last grasp of the previous entry, which is the first of the next one.
   plan::FingerGrasp last_;
   std::optional<NeedOfFinger> last_weakest_;
 };
 
-/// The grasps of an entry, in the order of time (see WeakestFingers).
+/// Return the grasps of an entry in order of time (see WeakestFingers).
 [[nodiscard]] std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located,
                                                            plan::EntryIndex index);
 

@@ -16,40 +16,40 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Contacts give by this share of the bodies' own mobility, so that the friction of a grasp with
-/// more contacts than it needs is determined: the object creeps by 1e-9 of its size in a natural
-/// time.
+/// Compliance of contacts over the mobility of the bodies. It makes the friction of a grasp with
+/// redundant contacts unique; the object creeps by 1e-9 of its size per characteristic time.
 constexpr double kCompliance = 1e-7;
-/// ODE's solver goes from contact to contact, and where a force comes to two of its bounds at once,
-/// as it does in a slide or where a finger hardly touches, it may find no way on. The step is then
-/// made again with the contacts in another order, bounds that are this share narrower, and contacts
-/// this much softer; where that does not help, a little deeper than at rest too, which pushes.
+/// Perturbations of steps that fail. ODE's solver proceeds from contact to contact. It may fail if
+/// a force reaches two of its bounds at once, for example in a slide or at a light contact. The
+/// step is then repeated with another order of the contacts, narrower bounds by this share, and
+/// softer contacts. If that does not help, contacts are also slightly deeper than in equilibrium,
+/// which increases their forces.
 constexpr double kNarrower = 1e-6;
 constexpr double kDeeper = 0.01;  ///< over kRestDepth
 constexpr int kFirstDeeper = 5;
 constexpr double kSofter = 3;
 constexpr int kMostTries = 8;
 
-/// The share of a contact's depth that a step takes back, ODE's own default.
+/// Share of a contact's depth that a step recovers, ODE's default.
 constexpr double kDepthRecovery = 0.2;
-/// Contacts that hold stay this deep, over D: the object is held by them from step to step.
+/// Depth over D of contacts in equilibrium, so that they hold the object from step to step.
 constexpr double kRestDepth = 1e-7;
 
-/// A step is solved until all contacts keep their cones, this often at most. Where an object slides
-/// or a finger touches at high speed forces may alternate; the last ones then stand.
+/// Largest number of solutions of a step until all contacts obey their cones. If an object slides
+/// or a finger makes contact at high speed, forces may alternate; the last ones are then used.
 constexpr int kMostSolutions = 20;
-/// Of the squeeze: a contact that carries less than this is not looked at for its cone.
+/// Contact force over the grasp force below which the cone is not checked.
 constexpr double kSlack = 1e-6;
 
-/// The inertia of fingers, over m D²: none turns.
+/// Inertia of fingers over m D², so large that they do not rotate.
 constexpr double kFingerInertia = 1e6;
 
-/// Everything that the next steps depend on; the engine's units.
+/// Position and velocity of a body or a fingertip, in the engine's units.
 struct Motion {
   Vector3d position = Vector3d::Zero(), velocity = Vector3d::Zero();
 };
 
-/// A patch that a finger touches.
+/// Patch in contact with a finger.
 struct PatchIndex {
   FingerIndex finger;
   SiteIndex site;
@@ -57,7 +57,7 @@ struct PatchIndex {
   auto operator<=>(const PatchIndex&) const = default;
 };
 
-/// A contact in a step, in S.
+/// Contact in a step, in S.
 struct Touch {
   PatchIndex where;
   PatchTouch place;
@@ -84,23 +84,23 @@ struct OdeEngine::Impl {
   EngineUnits units;
   Scene scene;  ///< in the engine's units
   double mu = 0;
-  std::vector<std::vector<PatchPrism>> sites;  ///< prisms of each site
+  std::vector<std::vector<PatchPrism>> sites;  ///< prisms [site]
 
   OdeWorld world = MakeOdeWorld();
   OdeJointsPtr joints{dJointGroupCreate(0)};
   dBodyID object = nullptr;
   std::vector<dBodyID> fingers;
 
-  // The state.
+  // State.
   double time = 0;
   Motion centre;
   Quaterniond turn = Quaterniond::Identity();
   Vector3d spin = Vector3d::Zero();
   std::vector<Motion> tips;
-  std::map<PatchIndex, Vector3d> forces;  ///< of the contacts of the last step, on the object
-  std::vector<TipForce> tip_forces;       ///< their sums, in newtons; contacts are hard points here
+  std::map<PatchIndex, Vector3d> forces;  ///< contact forces of the last step, on the object
+  std::vector<TipForce> tip_forces;       ///< their sums per finger, in newtons; without torques
 
-  // What acts.
+  // Inputs.
   std::vector<Vector3d> targets;
   std::vector<std::vector<SiteIndex>> sites_of_finger;
   double gravity = 0;
@@ -151,7 +151,7 @@ Vector3d OdeEngine::Impl::ServoPush(FingerIndex finger) const {
   return s.finger_stiffness_N_m * (targets[finger] - position) - s.finger_damping_Ns_m * velocity;
 }
 
-/// With the forces of the last step; of a new contact with what its finger pushes.
+/// Return the contacts with the forces of the last step; a new contact has the force of its servo.
 std::vector<Touch> OdeEngine::Impl::FindTouches() const {
   const Isometry3d X_SB = Eigen::Translation3d(centre.position) * turn;
   const Isometry3d X_BS = X_SB.inverse();
@@ -174,7 +174,7 @@ std::vector<Touch> OdeEngine::Impl::FindTouches() const {
   return touches;
 }
 
-/// The state as ODE's, with everything that acts on the bodies.
+/// Set ODE's bodies to the state, with all loads on them.
 void OdeEngine::Impl::LoadBodies() {
   dWorldSetGravity(world.get(), 0, 0, -gravity);
   dBodySetPosition(object, centre.position.x(), centre.position.y(), centre.position.z());
@@ -197,7 +197,8 @@ void OdeEngine::Impl::LoadBodies() {
   }
 }
 
-/// @param deeper  than at rest at least, over kRestDepth; nothing where 0.
+/// Add the contact joint of a touch.
+/// @param deeper  additional depth over kRestDepth beyond equilibrium; 0: the actual depth.
 void OdeEngine::Impl::AddJoint(const Touch& touch, const FrictionBox& box, double deeper,
                                dJointFeedback& feedback) {
   dContact contact{};
@@ -234,8 +235,8 @@ void OdeEngine::Impl::AddJoints(const std::vector<Touch>& touches, int tried,
   }
 }
 
-/// Solves the step again with the forces that it led to until they keep their cones.
-/// @return whether ODE's solver came to its end.
+/// Solve the step repeatedly with the resulting forces until they obey their cones.
+/// @return whether ODE's solver converged.
 bool OdeEngine::Impl::Solve(int tried, std::vector<Touch>& touches) {
   const ReplaySettings& s = scene.settings;
   std::vector<FrictionBox> boxes(touches.size());
@@ -263,7 +264,7 @@ void OdeEngine::Impl::SolveByTries(std::vector<Touch>& touches) {
     dWorldSetCFM(world.get(), compliance * mobility * s.timestep_s);
     if (Solve(tried, touches)) return;
   }
-  throw UnstableError("ODE's solver came to no end");
+  throw UnstableError("the solver of ODE did not converge");
 }
 
 void OdeEngine::Impl::TakeBodies(const std::vector<Touch>& touches) {
@@ -275,7 +276,7 @@ void OdeEngine::Impl::TakeBodies(const std::vector<Touch>& touches) {
     tips[f] = {Read(dBodyGetPosition(fingers[f])), Read(dBodyGetLinearVel(fingers[f]))};
   }
   if (scene.dimension == 2) {
-    // Nothing pushes out of the plane; rounding is taken away.
+    // No force acts out of the plane, so any motion out of it is rounding and is removed.
     centre.position.z() = centre.velocity.z() = 0;
     turn = Quaterniond(turn.w(), 0, 0, turn.z()).normalized();
     spin.head<2>().setZero();
@@ -365,8 +366,9 @@ Vector3d Take(const double*& values) {
 
 }  // namespace
 
-// Positions: centre, turn as w x y z, tips. Velocities: centre, spin, tips. Behind the warm start
-// of the other engine stand the contacts: finger, site and patch, and the force.
+// Save the state. Positions: centre, rotation as w x y z, fingertips. Velocities: centre, spin,
+// fingertips. In place of MuJoCo's warm start there are the contacts: finger, site, patch, and
+// force.
 OdeEngine::State OdeEngine::Save() const {
   State state;
   state.time = impl_->time;

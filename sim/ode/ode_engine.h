@@ -9,20 +9,21 @@
 
 namespace regrasp::sim {
 
-/// The version of ODE that the project is built for, "0.16.2".
+/// Return the version of ODE for which the project is built, "0.16.2".
 [[nodiscard]] std::string OdeVersion();
 
-/// The same scene in the Open Dynamics Engine, a second opinion beside MuJoCo: hard contacts, found
-/// exactly from the patches (patch_touch.h), and Coulomb's circular cones, held by solving each
-/// step again until every box of friction lies in its cone and gives nothing away (friction_box.h).
+/// Simulation of the same scene in the Open Dynamics Engine, independent of MuJoCo.
+/// Contacts are hard and computed exactly from the patches (ode_world.h). Friction cones are
+/// circular: each step is solved again until the friction of every contact is inside its cone and,
+/// if its box limits it, on the cone (KeepsCone).
 ///
-/// What both share is the scene: bodies, masses, patches, time step, and the law of the servos.
-/// Fingertips are balls that do not turn. In the plane everything stays in it.
+/// Both engines share the scene: bodies, masses, patches, time step, and the control law of the
+/// servos. Fingertips are spheres that do not rotate. In the plane all motion stays in the plane.
 ///
-/// Messages and errors of ODE do not reach the terminal: they become UnstableError.
+/// Messages and errors of ODE become UnstableError; they do not reach the terminal.
 class OdeEngine final : public Engine {
  public:
-  /// @param scene  in metres.
+  /// @param scene  scene in metres.
   OdeEngine(const Scene& scene, const object::Object& body);
   ~OdeEngine() override;
 

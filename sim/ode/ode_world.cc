@@ -18,10 +18,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A friction force below this share of the normal one has no direction to speak of.
+/// Friction force over the normal force below which its direction is undefined.
 constexpr double kNoDirection = 1e-9;
 
-/// A box holds a force back that comes this near to its side, relatively.
+/// Relative distance to a side at which the box limits a force.
 constexpr double kAtSide = 1e-6;
 
 double NormalPart(const Vector3d& normal, const Vector3d& force) {
@@ -70,7 +70,7 @@ using Eigen::Vector2d;
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The point of a convex region that is nearest to `q`: `q` itself inside.
+/// Return the point of a convex region nearest to `q`, which is `q` itself if inside.
 Vector2d NearestInRegion(const std::vector<Vector2d>& outline, const Vector2d& q) {
   Vector2d nearest = q;
   double least = std::numeric_limits<double>::infinity();
@@ -123,13 +123,13 @@ std::optional<PatchTouch> TouchPatch(const PatchPrism& prism, const Vector3d& ce
 
 namespace {
 
-/// Set where ODE complains during a step of this thread: its solver of complementarity problems
-/// came upon a pivot that is not positive.
+/// Set if ODE reports a problem during a step of this thread: its solver of complementarity
+/// problems found a pivot that is not positive.
 thread_local bool complained = false;
 
 void TakeMessage(int /*number*/, const char* /*format*/, va_list /*values*/) { complained = true; }
 
-/// Called where ODE would otherwise end the process.
+/// Throw instead of ODE's end of the process.
 [[noreturn]] void ThrowError(int /*number*/, const char* format, va_list values) {
   std::array<char, 500> text{};
   (void)std::vsnprintf(text.data(), text.size(), format, values);

@@ -12,70 +12,73 @@
 
 namespace regrasp::sim {
 
-/// What friction may push at a contact: `along` the direction and `across` it, each way.
+/// Bounds on the friction of a contact: ± `along` the direction and ± `across` it.
 struct FrictionBox {
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, in the tangent plane
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit vector in the tangent plane
   double along = 0;
   double across = 0;
 };
 
-/// A box inside the circle of friction forces |t| ≤ μ N about a contact's normal, with its corners
-/// on the circle: long in the direction of the last friction force and the narrower the nearer this
-/// is to the circle.
+/// Return a box inside the circle of friction forces |t| ≤ μ N about a contact's normal.
+/// Its corners are on the circle. It is long in the direction of the last friction force, and
+/// narrower the closer this force is to the circle.
 ///
-/// ODE bounds friction by a box. One with the sides 2 μ N lets forces be √2 times too large, also
-/// where it is turned towards the last force: three contacts together turn theirs from step to step
-/// so that each uses a corner. A box inside the circle never does. As it is made anew from the
-/// force that it led to, that force comes as near to the circle as kLongest of it, in every
+/// ODE bounds friction by a box. A box with the sides 2 μ N permits forces √2 times too large, even
+/// if it is turned towards the last force. Three contacts together turn their boxes from step to
+/// step so that each uses a corner. A box inside the circle never permits that. Because it is
+/// computed again from each resulting force, that force can reach kLongest of the circle, in every
 /// direction.
 ///
-/// Laws: along² + across² = (μ N)², along ≥ across ≥ 0, whatever the force; turns with the force.
-/// @param normal  unit.
-/// @param force   the last one at the contact, whose normal part N counts where it is positive.
+/// Laws: along² + across² = (μ N)², along ≥ across ≥ 0 for any force; equivariant to rotations.
+/// @param normal  unit vector.
+/// @param force   last force at the contact; its normal component N counts if it is positive.
 [[nodiscard]] FrictionBox BoxInCircle(const Eigen::Vector3d& normal, const Eigen::Vector3d& force,
                                       double mu);
 
-/// The box along `direction` alone, for the plane, where the friction cone is flat: ± μ N.
+/// Return the box along `direction` only, for the plane, in which the friction cone is flat: ± μ N.
 [[nodiscard]] FrictionBox BoxInPlane(const Eigen::Vector3d& normal, const Eigen::Vector3d& force,
                                      double mu);
 
-/// Whether a force found with a box is one of Coulomb's cone about its own normal part: not outside
-/// it, and on it where the box held it back; both within kConeTolerance of μ N and `slack`,
-/// newtons.
+/// Return whether a force that was solved with a box obeys Coulomb's cone.
+/// It must not be outside the cone of its own normal component, and must be on it if the box
+/// limited it. Both hold within kConeTolerance of μ N and `slack`, newtons.
 [[nodiscard]] bool KeepsCone(const Eigen::Vector3d& normal, const FrictionBox& box,
                              const Eigen::Vector3d& force, double mu, double slack);
 
-/// Of μ N, the largest `along`: what friction is given away is a thousandth of the default shake,
-/// and the force can turn by 0.26° in a solution.
+/// Largest `along` over μ N. The lost friction is a thousandth of the default disturbance, and the
+/// force can turn by 0.26° per solution.
 inline constexpr double kLongest = 0.99999;
 inline constexpr double kConeTolerance = 3e-5;
 
-/// The convex prism under a contact patch, which a fingertip touches.
+/// Convex prism under a contact patch, which a fingertip touches.
 struct PatchPrism {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();    ///< a corner of the outline
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();    ///< corner of the outline
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: two in the patch, outward
   std::vector<Eigen::Vector2d> outline;                ///< counter-clockwise in the first two axes
   double thickness = 0;                                ///< inward
 };
 
-/// A ball that reaches into a prism.
+/// Contact of a sphere with a prism.
 struct PatchTouch {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< of the prism, nearest to the ball's centre
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, from the ball into the prism
-  double depth = 0;                                  ///< of the ball in the prism, positive
+  /// Point of the prism nearest to the sphere's centre.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit vector from the sphere into the prism
+  double depth = 0;                                  ///< penetration depth of the sphere, positive
 };
 
+/// Make the prism of a contact patch.
 /// @param inward  unit normal of the patch's face, into the object.
 [[nodiscard]] PatchPrism MakePrism(const ContactPatch& patch, const Eigen::Vector3d& inward,
                                    double thickness);
 
-/// Where a ball touches a prism: beyond the patch's outline its rim and sides count. Nothing where
-/// the ball is off it, or its centre is below it. Exact up to rounding. All lengths in one unit, in
-/// the frame of the patch.
+/// Compute the contact of a sphere with a prism, exact up to rounding.
+/// Beyond the patch's outline the rim and the sides count. All lengths are in one unit, in the
+/// frame of the patch.
+/// @returns the contact; nullopt if the sphere does not touch the patch, or its centre is below it.
 [[nodiscard]] std::optional<PatchTouch> TouchPatch(const PatchPrism& prism,
                                                    const Eigen::Vector3d& centre, double radius);
 
-// RAII around ODE's handles, and its messages as exceptions.
+// RAII wrappers of ODE's handles, and its messages as exceptions.
 
 struct OdeThreadingDeleter {
   void operator()(dThreadingImplementationID threading) const {
@@ -93,20 +96,20 @@ using OdeThreadingPtr =
 using OdeWorldPtr = std::unique_ptr<std::remove_pointer_t<dWorldID>, OdeWorldDeleter>;
 using OdeJointsPtr = std::unique_ptr<std::remove_pointer_t<dJointGroupID>, OdeJointsDeleter>;
 
-/// A world with its bodies. What it steps with is its own: worlds of several threads share nothing.
+/// World with its bodies. It owns its step memory, so worlds of several threads share nothing.
 struct OdeWorld {
   OdeThreadingPtr threading;
-  OdeWorldPtr world;  ///< goes before what it steps with
+  OdeWorldPtr world;  ///< destroyed before its step memory
 
   [[nodiscard]] dWorldID get() const { return world.get(); }
 };
 
-/// Starts ODE once in a process and takes its messages. Its errors become UnstableError; nothing
-/// reaches the terminal.
+/// Initialize ODE once per process, and make a world.
+/// ODE's errors become UnstableError; none of its messages reach the terminal.
 [[nodiscard]] OdeWorld MakeOdeWorld();
 
-/// One time step with ODE's direct solver.
-/// @return whether the solver came to an end; where not, the step is not to be trusted.
+/// Simulate one time step with ODE's direct solver.
+/// @return whether the solver converged; otherwise the step is unreliable.
 [[nodiscard]] bool StepOde(dWorldID world, double timestep);
 
 }  // namespace regrasp::sim

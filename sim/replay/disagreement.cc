@@ -49,7 +49,7 @@ class ReplayFault {
       if (Finding found = (this->*look)()) return *found;
     }
     return {.cause = Cause::kUnknown,
-            .text = "no cause found: quality " + FormatShort(quality()) + ", shake " +
+            .text = "no cause found: quality " + FormatShort(quality()) + ", disturbance " +
                     FormatShort(step_.settings.shake),
             .values = {{"quality", quality()}, {"shake", step_.settings.shake}}};
   }
@@ -62,7 +62,7 @@ class ReplayFault {
         if (away >= slip) continue;
         const auto [border, most] = FormatLengthWithLimit(Metres(away), Metres(slip));
         return Disagreement{.cause = Cause::kEdge,
-                            .text = Finger(held.finger) + " stands " + border +
+                            .text = Finger(held.finger) + " is " + border +
                                     " from the border of its face, and may slip " + most,
                             .values = {{"finger", held.finger},
                                        {"border_m", Metres(away)},
@@ -106,11 +106,11 @@ class ReplayFault {
                                       {"clearance_m", Metres(clearance)},
                                       {"fingertip_radius_m", Metres(tip)},
                                       {"border_m", Metres(away)}}};
-        found.text = corner ? Finger(held.finger) + " stands in a concave corner, " +
+        found.text = corner ? Finger(held.finger) + " is in a concave corner, " +
                                   FormatLength(Metres(away)) + " from the border of its face"
                             : "a fingertip of radius " + FormatLength(Metres(tip)) +
-                                  " has no room at " + Finger(held.finger) + ", where " +
-                                  FormatLength(Metres(clearance)) + " fit";
+                                  " does not fit at " + Finger(held.finger) + ", clearance " +
+                                  FormatLength(Metres(clearance));
         return found;
       }
     }
@@ -128,8 +128,8 @@ class ReplayFault {
       if (!carried || carried->upper >= weight) continue;
       const auto [load, most] = FormatWithLimit(weight, carried->lower, 4);
       return Disagreement{.cause = Cause::kWeight,
-                          .text = "the squeeze does not carry the weight: the weight is " + load +
-                                  " of the squeeze, the grasp carries " + most,
+                          .text = "the grasp force does not support the weight: the weight is " +
+                                  load + " of the grasp force, the grasp supports " + most,
                           .values = {{"weight", weight}, {"carried", carried->lower}}};
     }
     return std::nullopt;
@@ -141,7 +141,7 @@ class ReplayFault {
     const auto [reached, needed] = FormatWithLimit(quality(), shake, 4);
     return Disagreement{
         .cause = Cause::kQuality,
-        .text = "the quality is below the shake: ε = " + reached + ", shake " + needed,
+        .text = "the quality is below the disturbance: ε = " + reached + ", disturbance " + needed,
         .values = {{"quality", quality()}, {"shake", shake}}};
   }
 
@@ -156,9 +156,10 @@ class ReplayFault {
       const double least = left ? left->lower : 0;
       const auto [resisted, needed] = FormatWithLimit(least, step_.settings.shake, 4);
       return Disagreement{.cause = Cause::kWeight,
-                          .text = "beside the weight, " + FormatShort(Weight().force.norm()) +
-                                  " of the squeeze, the grasp resists " + resisted + " in " +
-                                  PushName(push) + ", less than the shake of " + needed,
+                          .text = "in addition to the weight, " +
+                                  FormatShort(Weight().force.norm()) +
+                                  " of the grasp force, the grasp resists " + resisted + " in " +
+                                  PushName(push) + ", less than the disturbance of " + needed,
                           .values = {{"weight", Weight().force.norm()},
                                      {"resisted", least},
                                      {"shake", step_.settings.shake}}};
@@ -167,9 +168,10 @@ class ReplayFault {
   }
 
   [[nodiscard]] Finding LookAtCones() const {
-    for (const auto& [margins, when] : {std::pair{&step_.replay.motion_margins, "in the motion"},
-                                        {&step_.replay.rest_margins, "at rest"},
-                                        {&step_.replay.shake_margins, "during the shake"}}) {
+    for (const auto& [margins, when] :
+         {std::pair{&step_.replay.motion_margins, "during the motion"},
+          {&step_.replay.rest_margins, "in the static grasp"},
+          {&step_.replay.shake_margins, "under a disturbance"}}) {
       const auto least = SmallestMargin(*margins);
       if (!least || *least >= kConeReached) continue;
       const FingerIndex finger = FingerOfSmallestMargin(*margins);
@@ -190,13 +192,13 @@ Disagreement ExplainFixed(const ExaminedStep& step) {
   const auto least = SmallestMargin(fixed.shake_margins);
   if (least && *least < kConeReached) {
     const FingerIndex finger = FingerOfSmallestMargin(fixed.shake_margins);
-    return ConeReached("with the squeeze of the rest the force of " + Finger(finger) +
+    return ConeReached("with the grasp force of the static grasp the force of " + Finger(finger) +
                            " reached its friction cone",
                        finger, *least);
   }
   if (Finding edge = ReplayFault(step).LookForEdge()) return *edge;
   return {.cause = Cause::kUnknown,
-          .text = "no cause found: the object gave way by " + FormatLength(fixed.give_m) +
+          .text = "no cause found: the object yielded by " + FormatLength(fixed.give_m) +
                   " on the servos, and no force reached its cone",
           .values = {{"give_m", fixed.give_m}}};
 }
@@ -206,28 +208,29 @@ Disagreement ExplainAnalysis(const ExaminedStep& step) {
       step.check.reason != plan::Reason::kNotProved) {
     return {
         .cause = Cause::kNotSimulated,
-        .text = "the replay does not look at " + std::string(plan::ReasonName(step.check.reason))};
+        .text = "the replay does not model " + std::string(plan::ReasonName(step.check.reason))};
   }
   if (step.settings.shake == 0) {
     return {.cause = Cause::kNoShake,
-            .text = "without a shake the weight alone does not test the grasp",
+            .text = "without a disturbance the replay does not test the grasp",
             .values = {{"shake", 0}}};
   }
   const double half_angle = std::atan(step.settings.mu);
   if (!step.check.required) {
-    return {.cause = Cause::kUnknown, .text = "no cause found: no friction below 90° serves"};
+    return {.cause = Cause::kUnknown,
+            .text = "no cause found: no friction angle below 90° is sufficient"};
   }
   const double required = step.check.required->upper;
   if (required <= half_angle) {
     return {.cause = Cause::kNotSimulated,
-            .text = "the replay goes by the normals of facets, not by those of patches"};
+            .text = "the replay uses the normals of facets, not of contact patches"};
   }
   const LimitText text = FormatRequiredDegrees(Degrees(required), Degrees(half_angle));
   const bool near = step.settings.mu >= kNearCritical * std::tan(required);
   return {.cause = near ? Cause::kCriticalFriction : Cause::kUnknown,
-          .text = std::string(near ? "the friction is hardly below the critical one"
+          .text = std::string(near ? "the friction is less than 2 % below the required one"
                                    : "no cause found") +
-                  ": half-angle " + text.limit + "°, required " + text.value + "°",
+                  ": friction angle " + text.limit + "°, required " + text.value + "°",
           .values = {{"half_angle_deg", Degrees(half_angle)},
                      {"required_half_angle_deg", Degrees(required)}}};
 }
@@ -239,7 +242,7 @@ Finding LookAtCriticalFriction(const ExaminedStep& step) {
   const double ratio = step.settings.mu / critical;
   if (std::abs(ratio - 1) > kNearCriticalOfTwo) return std::nullopt;
   return Disagreement{.cause = Cause::kCriticalFriction,
-                      .text = "the friction is " + FormatShort(ratio) + " times the critical one",
+                      .text = "the friction is " + FormatShort(ratio) + " times the required one",
                       .values = {{"half_angle_deg", Degrees(std::atan(step.settings.mu))},
                                  {"required_half_angle_deg", Degrees(step.check.required->upper)}}};
 }
@@ -273,10 +276,9 @@ std::optional<Disagreement> ExplainEngines(const ExaminedStep& step) {
   if (Finding critical = LookAtCriticalFriction(step)) return Named(between, *critical);
   const plan::Reason reason = mujoco ? step.replay.ode->reason : step.replay.reason;
   if (reason == plan::Reason::kSimulationUnstable) {
-    return Named(between,
-                 {.cause = Cause::kUnstable,
-                  .text = std::string(mujoco ? "ODE" : "MuJoCo") + " did not come through: " +
-                          (mujoco ? step.replay.ode->detail : step.replay.detail)});
+    return Named(between, {.cause = Cause::kUnstable,
+                           .text = std::string(mujoco ? "ODE" : "MuJoCo") + " did not converge: " +
+                                   (mujoco ? step.replay.ode->detail : step.replay.detail)});
   }
   if (!mujoco) return Named(between, ReplayFault(step).Explain());
   StepReplay failed = step.replay;

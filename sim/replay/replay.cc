@@ -53,8 +53,7 @@ void Perform(ReplayWorld& world, const object::Object& object, const plan::Plan&
 /// The step as the monitor measured it.
 StepMotion Describe(const MotionMonitor& monitor) {
   StepMotion result;
-  result.reason = monitor.reason();
-  result.detail = monitor.detail();
+  static_cast<Violation&>(result) = {monitor.reason(), monitor.detail(), {}};
   result.displacement_m = monitor.displacement_m();
   result.rotation_deg = Degrees(monitor.rotation_rad());
   result.moved_m = monitor.moved_m();

@@ -16,7 +16,7 @@ namespace regrasp::sim {
 
 namespace {
 
-/// The fingers of `to` in the order of `from`.
+/// Return the fingers of `to` in the order of `from`.
 plan::FingerGrasp InOrderOf(const plan::FingerGrasp& from, const plan::FingerGrasp& to) {
   plan::FingerGrasp ordered;
   for (const plan::FingerContact& held : from) {
@@ -78,28 +78,28 @@ bool AlignPath::IsTurning(std::size_t k, double t) const {
 
 namespace {
 
-/// Contacts this close, over D, are one: the finger stays.
+/// Distance over D within which contacts are equal, and the finger does not move.
 constexpr double kSamePoint = 1e-9;
 
-/// Where on its finger's path a support finger touches, if it can: in the middle, so that it is far
-/// from both ends; at last at the target itself.
+/// Positions of a support finger on its finger's path, in order of preference: the middle, far from
+/// both ends, first; the target itself last.
 constexpr std::array kSupportShares = {0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 1.0};
 
-/// Where a segment holds only at the full friction, this much of it is gone: what a mixture has to
-/// spare falls about evenly with the length.
+/// Shares of a segment that is valid only at full friction. The margin of an intermediate grasp
+/// decreases about linearly with the length.
 constexpr std::array kShorter = {0.5, 0.4, 0.6, 0.3, 0.7};
 
-/// A segment is lengthened by halving the last share of the path so often.
+/// Number of bisections by which a segment is extended within the last share of the path.
 constexpr int kRefinements = 4;
 
-/// A sliding finger needs clearance all along its path; looked for at so many places of a segment.
+/// Number of points of a segment at which a sliding finger's clearance is tested.
 constexpr int kAlignClearanceSamples = 4;
 
-/// What is asked of a segment.
+/// Requirements on a segment.
 struct Demand {
   double half_angle;
   double clearance;  ///< 0: none
-  bool may_turn;     ///< fingers may rest between the normals of two faces
+  bool may_turn;     ///< whether fingers may stop between the normals of two faces
 };
 
 struct Segment {
@@ -150,7 +150,7 @@ class ScriptWriter {
     return Holds(plan::ContactsOf(path_.At(t)), limits_.half_angle);
   }
 
-  /// The contacts that differ between two grasps of the path.
+  /// Return the contacts that differ between two grasps of the path.
   [[nodiscard]] Places FindMoving(const plan::FingerGrasp& from,
                                   const plan::FingerGrasp& to) const {
     Places moving;
@@ -172,7 +172,7 @@ class ScriptWriter {
     });
   }
 
-  /// Hands the contacts of `group` in `grasp` over to where they are at `end`.
+  /// Hand the contacts of `group` in `grasp` over to their positions at `end`.
   [[nodiscard]] std::optional<FingerHandover> HandOver(double begin, double end,
                                                        const Places& group, const Demand& demand,
                                                        grasp::Grasp& grasp) const {
@@ -197,8 +197,7 @@ class ScriptWriter {
     return std::nullopt;
   }
 
-  /// All moving contacts are handed over, in this order, as many at once as there are spare
-  /// fingers.
+  /// Hand over all moving contacts in this order, as many at once as there are free fingers.
   [[nodiscard]] std::optional<std::vector<AlignMove>> HandOverInOrder(double begin, double end,
                                                                       const Places& order,
                                                                       const Demand& demand) const {
@@ -226,7 +225,7 @@ class ScriptWriter {
     return Segment{end, *std::move(moves)};
   }
 
-  /// How far the path from `begin` on is force closure, in steps of a share of the path.
+  /// Return how far the path from `begin` is force closure, in steps of a share of the path.
   [[nodiscard]] int FindReach(double begin) const {
     int reach = static_cast<int>(std::floor(begin * kSharesOfPath));
     while (reach < path_.end() * kSharesOfPath && HoldsAt(Place(reach + 1))) ++reach;
@@ -237,7 +236,7 @@ class ScriptWriter {
     return static_cast<double>(steps) / kSharesOfPath;
   }
 
-  /// The longest segment that is found from `begin` up to a number of steps.
+  /// Return the longest valid segment from `begin` up to a number of steps.
   [[nodiscard]] std::optional<Segment> FindLongest(double begin, int reach,
                                                    const Demand& demand) const {
     const int first = static_cast<int>(std::floor(begin * kSharesOfPath)) + 1;
@@ -265,8 +264,8 @@ class ScriptWriter {
     }
   }
 
-  /// The finger `k` may slide: the other contacts hold the object without it, with something to
-  /// spare.
+  /// Return whether finger `k` may slide.
+  /// The other contacts must hold the object without it, with a margin.
   [[nodiscard]] bool OthersHold(const grasp::Grasp& grasp, std::size_t k) const {
     grasp::Grasp others = grasp;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
@@ -274,8 +273,8 @@ class ScriptWriter {
     return grasp::QualityAtLeast(others, frame_, half_angle, kSlideQuality);
   }
 
-  /// An order in which the contacts `left` of `grasps.back()` can slide to where they are in `to`;
-  /// the grasps in between are added.
+  /// Find an order in which the contacts `left` can slide to their positions in `to`.
+  /// They start at `grasps.back()`. Appends the grasps in between.
   [[nodiscard]] bool OrderSlides(const plan::FingerGrasp& to, const Places& left,
                                  std::vector<plan::FingerGrasp>& grasps) const {
     if (left.empty()) return true;
@@ -320,7 +319,7 @@ class ScriptWriter {
     return segment;
   }
 
-  /// The longest slide from `begin` on that is found.
+  /// Return the longest valid slide from `begin`.
   [[nodiscard]] std::optional<Segment> FindSlide(double begin, int reach) const {
     const int first = static_cast<int>(std::floor(begin * kSharesOfPath)) + 1;
     const int waypoint = (static_cast<int>(std::floor(begin)) + 1) * kSharesOfPath;
@@ -330,7 +329,7 @@ class ScriptWriter {
     return std::nullopt;
   }
 
-  /// The first place after `begin`, up to `reach`, from which fingers can slide; `reach` if none.
+  /// Return the first point after `begin` from which fingers can slide; `reach` if there is none.
   [[nodiscard]] int FindNextSlide(double begin, int reach) const {
     const int first = static_cast<int>(std::floor(begin * kSharesOfPath)) + 1;
     for (int steps = first; steps < reach; ++steps) {
@@ -362,7 +361,8 @@ class ScriptWriter {
     return longest;
   }
 
-  /// A shorter segment in place of the longest one, whose mixtures may be at the very limit.
+  /// Return a shorter segment instead of the longest one.
+  /// The intermediate grasps of the longest one may be at the limit.
   [[nodiscard]] Segment MakeEasier(double begin, int reach, Segment longest) const {
     const double length = longest.end - begin;
     for (const double share : kEasyFriction) {
@@ -388,7 +388,7 @@ class ScriptWriter {
     });
   }
 
-  /// By bisection: a segment is as long as the path done before it allows.
+  /// Divide the path into slides by bisection; a segment is as long as its predecessor allows.
   [[nodiscard]] std::optional<std::vector<double>> CutSlides(double begin, double end) const {
     std::vector<double> cuts;
     double done = 0, length = 1;

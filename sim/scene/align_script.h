@@ -10,44 +10,47 @@
 
 namespace regrasp::sim {
 
-/// The contacts `share` of the path between two waypoints; normals turn on the great circle.
+/// Return the contacts at `share` of the path between two waypoints.
+/// Normals turn on the great circle.
 [[nodiscard]] plan::FingerGrasp Interpolate(const plan::FingerGrasp& from,
                                             const plan::FingerGrasp& to, double share);
 
-/// The path of an align as one motion: t from 0 to end(), a whole number at each waypoint.
+/// Path of a sliding step as one motion: t from 0 to end(), an integer at each waypoint.
 class AlignPath {
  public:
-  /// @param align  at least one waypoint; each has the fingers of the first, in any order.
+  /// @param align  sliding step with at least one waypoint. Each waypoint has the fingers of the
+  ///     first, in any order.
   explicit AlignPath(const plan::Align& align);
 
   [[nodiscard]] int end() const { return static_cast<int>(waypoints_.size()) - 1; }
-  /// Fingers in the order of the first waypoint.
+  /// Return the grasp at t, with fingers in the order of the first waypoint.
   [[nodiscard]] plan::FingerGrasp At(double t) const;
-  /// How far the contacts move from `from` to `to`, all added up; turns of normals add nothing.
+  /// Return the total travel of the contacts from `from` to `to`; turns of normals do not count.
   [[nodiscard]] double Travel(double from, double to) const;
-  /// True iff the k-th contact is between the normals of two faces at t.
+  /// Return whether the k-th contact is between the normals of two faces at t.
   [[nodiscard]] bool IsTurning(std::size_t k, double t) const;
 
  private:
   std::vector<plan::FingerGrasp> waypoints_;
 };
 
-/// Fingers move to other contacts by switches: spare ones, the support fingers, touch, the fingers
-/// lift and come down at their targets, the support fingers leave. The k-th of them is for the k-th
-/// target.
+/// Motion of fingers to other contacts by finger switches. Free fingers, the support fingers, make
+/// contact. Then the fingers lift and reach their targets, and the support fingers break contact.
+/// The k-th of them belongs to the k-th target.
 struct FingerHandover {
   plan::FingerGrasp support_fingers;
   plan::FingerGrasp targets;
 };
 
-/// Fingers move along the surface, one after the other, from one grasp to the next; all of them lie
-/// between two waypoints, and their k-th contacts belong together. Where only one contact differs
-/// from a grasp to the next the order of the fingers is settled.
+/// Sliding of fingers along the surface, one after the other, from one grasp to the next. All
+/// grasps are between two waypoints, and their k-th contacts correspond. If only one contact
+/// differs between consecutive grasps, the order of the fingers is fixed.
 struct FingersSlide {
   std::vector<plan::FingerGrasp> grasps;
 };
 
-/// All fingers roll along the surface together (sim/control/slide.h), between two waypoints.
+/// Simultaneous rolling of all fingers along the surface (sim/control/slide.h), between two
+/// waypoints.
 struct FingersRoll {
   plan::FingerGrasp from;
   plan::FingerGrasp to;
@@ -55,57 +58,64 @@ struct FingersRoll {
 
 using AlignMove = std::variant<FingerHandover, FingersSlide, FingersRoll>;
 
-/// How the replay carries out an align.
+/// Execution of a sliding step in the replay.
 struct AlignScript {
   std::vector<AlignMove> moves;
   AlignShares shares;
 };
 
-/// What a script has to keep to.
+/// Constraints of a script.
 struct AlignLimits {
-  double half_angle = 0;           ///< friction, radians
-  std::vector<FingerIndex> spare;  ///< fingers that hold nothing
-  /// Wherever a finger comes to rest a ball of this radius should fit
-  /// (planner/criteria/reach.h), the unit that of the object.
+  double half_angle = 0;           ///< friction angle, radians
+  std::vector<FingerIndex> spare;  ///< fingers that are not in contact
+  /// Preferred radius of a sphere that fits at every contact at which a finger stops
+  /// (planner/criteria/reach.h), in the object's unit.
   double clearance = 0;
-  /// Where there is no script with that, a ball of this one.
+  /// Radius of that sphere if there is no script with `clearance`.
   double least_clearance = 0;
-  /// Slides are preferred to handovers. Without spare fingers they are all there is.
+  /// Whether to prefer slides to handovers. Without free fingers only slides are possible.
   bool slide = false;
 };
 
-/// Cuts the whole path of an align, across its waypoints, into as few segments as are valid; in
-/// each the moving fingers are handed over, as many at once as there are spare ones.
+/// Divide the path of a sliding step, across its waypoints, into as few valid segments as possible.
+/// In each segment the moving fingers are handed over, as many at once as there are free fingers.
 ///
-/// A segment is as long as it can be: every grasp of the path between its ends is force closure (at
-/// kSharesOfPath places between two waypoints), and so are the mixtures that come up during the
-/// handovers, support fingers included. Fingers come to rest only where they can stand, with
-/// `clearance`: not in a concave corner, nor on a normal that turns there. A segment that holds
-/// at kEasyFriction of the friction too is preferred, unless it is less than half as long; then
-/// about half of the segment is taken. Only where no segment is valid fingers rest with
-/// `least_clearance`, then between two normals too, and at last where nothing fits.
+/// A segment is as long as possible. Every grasp of the path between its ends is force closure (at
+/// kSharesOfPath points between two waypoints), and so are the intermediate grasps during the
+/// handovers, support fingers included. Fingers stop only with `clearance`: not in a concave
+/// corner, nor on a normal that turns there. A segment that is also valid at kEasyFriction of the
+/// friction is preferred, unless it is less than half as long; then about half of the segment is
+/// used. Only if no segment is valid may fingers stop with `least_clearance`, then between two
+/// normals too, and finally without clearance.
 ///
-/// With `slide`, or where no finger is spare, fingers slide as far as they can: one after the
-/// other, each only while the others alone, as they stand then, have the quality kSlideQuality at
-/// kSlideFriction of the friction; where the fingertip has its clearance all along; and no segment
-/// leaves a subpath between two waypoints or leaps over a place where the planned grasp is not
-/// force closure. A segment is at least a kSharesOfPath-th of the subpath; where there is none,
-/// fingers are handed over up to the next place where there is one.
+/// With `slide`, or without a free finger, fingers slide as far as possible, one after the other. A
+/// segment of sliding satisfies these conditions:
+/// - The other fingers alone, at their current contacts, have the quality kSlideQuality at
+///   kSlideFriction of the friction.
+/// - The fingertip has its clearance throughout.
+/// - The segment stays between two waypoints, and does not skip a point at which the planned grasp
+///   is not force closure.
+/// - It is at least 1 / kSharesOfPath of the subpath.
 ///
-/// Where no segment is valid at all the fingers go to the next waypoint all the same: without a
-/// spare finger all of them roll at once, otherwise they slide, the path cut so that grasps between
-/// two slides are force closure where that is possible.
+/// If there is no such segment, fingers are handed over up to the next point at which there is one.
+///
+/// If no segment is valid, the fingers move to the next waypoint anyway. Without a free finger all
+/// of them roll at once. Otherwise they slide, and the path is divided so that grasps between two
+/// slides are force closure if possible.
 [[nodiscard]] AlignScript WriteAlignScript(const object::Object& object, const plan::Align& align,
                                            const AlignLimits& limits);
 
 inline constexpr int kSharesOfPath = 16;
-inline constexpr double kSlideFriction = 0.85;  ///< of μ, left to the fingers that hold
-/// The sliding finger presses with a hundredth of the squeeze at least (kSlideForce), and friction
-/// pulls along: force and torque on the object are at most √2 √(1 + μ²) of that. Twice it is what
-/// the others can balance in every direction.
+inline constexpr double kSlideFriction = 0.85;  ///< share of μ available to the holding fingers
+/// Required quality of the other fingers. The sliding finger's normal force is at least a hundredth
+/// of the grasp force (kSlideForce), and its friction acts along the motion. Force and torque on
+/// the object are thus at most √2 √(1 + μ²) times that. The other fingers can balance twice that in
+/// every direction.
 inline constexpr double kSlideQuality = 0.02;
-inline constexpr double kShortestAlignSegment = 1.0 / 256;  ///< of the path between two waypoints
-inline constexpr int kHopelessSegments = 8;                 ///< where no number of them is valid
-inline constexpr std::array kEasyFriction = {0.9, 0.97, 0.99};  ///< of μ, the first that holds
+/// Share of the path between two waypoints.
+inline constexpr double kShortestAlignSegment = 1.0 / 256;
+inline constexpr int kHopelessSegments = 8;  ///< number of segments if no number is valid
+/// Shares of μ; the first valid one is used.
+inline constexpr std::array kEasyFriction = {0.9, 0.97, 0.99};
 
 }  // namespace regrasp::sim

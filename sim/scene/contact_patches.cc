@@ -65,27 +65,28 @@ using Point = Kernel::Point_2;
 using Rectangle = Kernel::Iso_rectangle_2;
 using Ring = std::vector<Point>;
 
-/// Two areas that differ by less than this, relatively, are equal: rounding of clipped corners.
-/// A notch that is missed is smaller than a ten-thousandth of the patch's side.
+/// Relative difference below which areas are equal: rounding of clipped corners. Notches smaller
+/// than a ten-thousandth of the patch's side may be missed.
 constexpr double kAreaTolerance = 1e-9;
 
-/// Pieces smaller than this share of the square are slivers of rounding along its border, unless
-/// the face itself is that small.
+/// Share of the square below which pieces are slivers of rounding along its border, unless the face
+/// itself is that small.
 constexpr double kLeastPiece = 1e-8;
 
-/// Pieces smaller than this share of the largest are slivers on a small face.
+/// Share of the largest piece below which pieces are slivers on a small face.
 constexpr double kLeastOfLargest = 1e-3;
 
-/// Half the side of the least patch, over D: places nearer than this are one where files are read.
+/// Half the side of the smallest patch, over D: closer points are equal when files are read.
 constexpr double kPointPatch = object::kPointTolerance;
 
-/// Near the corners of a face rectangles are halved this often at most, to 3e-4 of the diameter for
-/// a path and 8e-5 for a point, as long as another shape is valid: fingers that hold slip by a
-/// thousandth of that, and a tip of 0.04 D rolls that far in a turn of what the object may move.
+/// Largest number of halvings of rectangles near the corners of a face, if another shape is valid.
+/// They shrink to 3e-4 of the diameter for a path and 8e-5 for a point. Holding fingers slip by a
+/// thousandth of that, and a fingertip of 0.04 D rolls that far within the rotation limit of the
+/// object.
 constexpr int kPathHalvings = 6, kPointHalvings = 8;
 
-/// The width of the least shape that is not a rectangle, over D. On narrower ones the engine finds
-/// contacts so far off that fingers slip.
+/// Width of the narrowest shape that is not a rectangle, over D. On narrower shapes the engine's
+/// contacts are so inaccurate that fingers slip.
 constexpr double kLeastWidth = 1e-3;
 
 /// Coordinates in the plane of a face: u along `axis`, v to its left seen from outside.
@@ -98,8 +99,8 @@ struct Chart {
   [[nodiscard]] Vector3d Lift(const Point& p) const { return origin + p.x() * u + p.y() * v; }
 };
 
-/// Along the path; along the nearest border where the path is a point, so that a rectangle can lie
-/// along it.
+/// Return the direction of the path.
+/// For a point, it is that of the nearest border, so that a rectangle can be aligned with it.
 Vector3d ChartAxis(const object::Polyhedron& body, const ContactSite& site) {
   const Vector3d path = site.to - site.from;
   if (path.norm() > object::kPointTolerance * body.diameter()) return path;
@@ -165,9 +166,9 @@ double TotalArea(const std::vector<Ring>& pieces) {
   return area;
 }
 
-/// A rectangle along u that reaches `size` from the path on all sides, cut short at its ends and at
-/// its sides to the distance of the nearest border where it does not fit otherwise; nothing where
-/// none fits.
+/// Return a rectangle along u that reaches `size` from the path on all sides.
+/// If it does not fit, its ends and sides are shortened to the distance of the nearest border.
+/// nullopt if none fits.
 std::optional<Rectangle> FittingWindow(const object::Polyhedron& body, const ContactSite& site,
                                        const Chart& chart, double size) {
   const double end = chart.u.dot(site.to - site.from);
@@ -185,7 +186,7 @@ std::optional<Rectangle> FittingWindow(const object::Polyhedron& body, const Con
   return std::nullopt;
 }
 
-/// The largest of the fitting windows of `size`, half of it, a quarter of it …, down to `least`.
+/// Return the largest fitting window of `size`, half of it, a quarter of it …, down to `least`.
 std::optional<Rectangle> LargestFittingWindow(const object::Polyhedron& body,
                                               const ContactSite& site, const Chart& chart,
                                               double size, double least) {
@@ -195,12 +196,12 @@ std::optional<Rectangle> LargestFittingWindow(const object::Polyhedron& body,
   return std::nullopt;
 }
 
-/// The rectangle that reaches `size` from the path on all sides.
+/// Return the rectangle that reaches `size` from the path on all sides.
 Rectangle WholeWindow(const ContactSite& site, const Chart& chart, double size) {
   return {Point(-size, -size), Point(chart.u.dot(site.to - site.from) + size, size)};
 }
 
-/// Of a convex ring: at most twice the distance of the nearest two parallel lines around it.
+/// Return at most twice the distance of the nearest two parallel lines around a convex ring.
 double Width(const Ring& ring) {
   double longest = 0;
   for (const Point& a : ring) {

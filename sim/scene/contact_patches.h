@@ -10,45 +10,49 @@
 
 namespace regrasp::sim {
 
-/// The true surface of the body that is simulated, for the eye.
+/// Surface of the simulated object for rendering.
 struct VisibleSurface {
-  std::vector<Eigen::Vector3d> vertices;      ///< the object's own frame and units
+  std::vector<Eigen::Vector3d> vertices;      ///< in the object's own frame and unit
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
 };
 
-/// A solid's own surface; a polygon's prism of the height `thickness` about the plane z = 0.
+/// Return the surface of a solid, or of the prism of a polygon about the plane z = 0.
+/// @param thickness  height of the prism.
 [[nodiscard]] VisibleSurface MakeVisibleSurface(const object::Object& object, double thickness);
 
-/// Where a finger touches: a face (an edge, in the plane), and the straight path of the contact on
-/// it (a point where `from` is `to`). Lengths are the object's own units.
+/// Place at which a finger makes contact: a face (in the plane: an edge), and the straight path of
+/// the contact on it, a point if `from` equals `to`. Lengths are in the object's unit.
 struct ContactSite {
   FaceIndex face = {};
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
 };
 
-/// A convex piece of the true surface near a site; its prism is what a finger collides with.
+/// Convex piece of the object's surface near a site. A finger collides with its prism.
 struct ContactPatch {
   std::vector<Eigen::Vector3d> outline;  ///< counter-clockwise from outside
-  bool rectangle = false;                ///< of four right angles: a box will do, found exactly
+  /// Whether all angles are right angles, so that a box represents it exactly.
+  bool rectangle = false;
 };
 
-/// The surface of the site's face within `size` of its path, as few convex pieces.
+/// Return the surface of the site's face within `size` of its path, as few convex pieces.
 ///
-/// A rectangle where one fits between the borders, cut short towards them and as small as size / 64
-/// in sharp corners of the face (size / 256 for a point), since the engine finds contacts with
-/// boxes exactly and misses some of those with other shapes, or finds them in the wrong place where
-/// they are small; otherwise the part of the face inside the square of half-side `size` about the
-/// path, in one piece where that is convex, else one per triangle. On a face that is narrower than
-/// 1e-3 D, far smaller than a fingertip, the largest rectangle that fits, however small; 2e-6 D
-/// wide where none does, across the face's border. Never none. A finger that leaves its patch has
-/// left the face or slipped that far. MuJoCo collides convex shapes only, so a body that is not
-/// convex is touched through these and never through its hull.
+/// A rectangle is preferred, because the engine finds contacts with boxes exactly. With other
+/// shapes it misses some contacts, or misplaces them if the shapes are small. The rectangle is
+/// shortened towards the borders of the face, down to size / 64 in sharp corners (size / 256 for a
+/// point). If no rectangle fits, the result is the part of the face inside the square of half-side
+/// `size` about the path: one piece if that is convex, otherwise one per triangle.
+///
+/// On a face that is narrower than 1e-3 D, much smaller than a fingertip, the result is the largest
+/// rectangle that fits, however small. If none fits, it is 2e-6 D wide and extends across the
+/// face's border. There is always at least one piece. A finger that leaves its patch has left the
+/// face, or has slipped that far. MuJoCo collides convex shapes only, so fingers touch a nonconvex
+/// object through these pieces and never through its hull.
 [[nodiscard]] std::vector<ContactPatch> MakeContactPatches(const object::Polyhedron& body,
                                                            const ContactSite& site, double size);
 
-/// The piece of a polygon's edge within `size` of the site's path, cut at the edge's ends: a
-/// rectangle of the height `thickness` about the plane z = 0.
+/// Return the piece of a polygon's edge within `size` of the site's path, up to the edge's ends.
+/// It is a rectangle of height `thickness` about the plane z = 0.
 [[nodiscard]] ContactPatch MakeEdgePatch(const object::Polygon& polygon, const ContactSite& site,
                                          double size, double thickness);
 

@@ -10,16 +10,15 @@ namespace regrasp::sim {
 
 namespace {
 
-/// Called by the engine where it would otherwise end the process.
+/// Throw instead of the engine's end of the process.
 [[noreturn]] void ThrowError(const char* message) {
   throw UnstableError(std::string("engine error: ") + message);
 }
 
-/// The engine counts warnings of a simulation in mjData, where CheckState looks; printing and the
-/// log file are what this replaces.
+/// Replaces printing and the log file; CheckState reads the engine's counts of warnings in mjData.
 void IgnoreWarning(const char* /*message*/) {}
 
-/// What the hooks were before, while simulations live, perhaps in several threads.
+/// Previous hooks while simulations live, possibly in several threads.
 struct HooksBefore {
   std::mutex mutex;
   int living = 0;
@@ -28,13 +27,14 @@ struct HooksBefore {
 };
 HooksBefore before;
 
-/// The warnings that mean that a step is not to be trusted; the others are of the renderer.
+/// Warnings after which a step is unreliable; the others concern the renderer.
 constexpr std::array kFatalWarnings = {mjWARN_INERTIA, mjWARN_CONTACTFULL, mjWARN_CNSTRFULL,
                                        mjWARN_BADQPOS, mjWARN_BADQVEL,     mjWARN_BADQACC,
                                        mjWARN_BADCTRL};
 
 bool AreFinite(const mjtNum* values, int count) {
-  // After every step: 0 times a number is 0 only where it is finite, and vectors are summed fast.
+  // Fast test after every step: 0 times a number is 0 only if it is finite, and vector sums are
+  // fast.
   return (0 * Eigen::Map<const Eigen::VectorXd>(values, count)).sum() == 0;
 }
 

@@ -10,21 +10,20 @@
 
 namespace regrasp::sim {
 
-/// Everything that the next steps of a simulation depend on, in the engine's units: replaying from
-/// a saved state gives the same bits.
+/// Complete state of a simulation, in the engine's units. A replay from a saved state is
+/// bit-identical.
 struct EngineState {
   double time = 0;
   std::vector<double> qpos, qvel, act, qacc_warmstart;
 };
 
-/// The engine warned of the state of a simulation or refused to go on, or a state is not finite.
+/// Error of an unstable simulation: the engine warned or stopped, or a state is not finite.
 class UnstableError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What the engine's units are. It has absolute limits and tolerances, so that every body should
-/// look alike to it.
+/// Units of the engine. They make all objects look alike to its absolute limits and tolerances.
 struct EngineUnits {
   double length_m = 1;
   double mass_kg = 1;
@@ -33,21 +32,22 @@ struct EngineUnits {
   [[nodiscard]] double force_N() const { return mass_kg * length_m / (time_s * time_s); }
 };
 
-/// One of the places where fingers touch, Scene::sites (sim/scene/scene.h).
+/// Index of a place at which fingers make contact, Scene::sites (sim/scene/scene.h).
 using SiteIndex = Index<struct SiteTag>;
 
-/// What a finger does to the object, in the frame of the scene; zero where they do not touch.
+/// Load of a finger on the object, in the frame of the scene; zero without contact.
 struct TipForce {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m, about the normal; 0 of hard points
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N
+  /// N m, about the normal; 0 for hard-finger contacts.
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
 };
 
-/// The physics of one scene (sim/scene/scene.h): an object, free or in the plane, and fingers on
-/// servos that stop at the patches of sites. It knows no plan and judges nothing: targets of the
-/// servos and loads go in; poses, tips and forces of contacts come out.
+/// Physics of one scene (sim/scene/scene.h): an object, free or in the plane, and servo fingers.
+/// The patches of sites stop the fingers. The engine is independent of plans and verdicts. Inputs
+/// are targets of the servos and loads; outputs are poses, fingertips and contact forces.
 ///
-/// Lengths in metres, forces in newtons, seconds, all in the world frame of the scene, whatever the
-/// units of the engine are.
+/// Lengths are in metres, forces in newtons, times in seconds, all in the world frame of the scene,
+/// whatever the internal units of the engine.
 class Engine {
  public:
   using State = EngineState;
@@ -60,34 +60,36 @@ class Engine {
   [[nodiscard]] virtual double time() const = 0;
   [[nodiscard]] virtual Eigen::Isometry3d object_pose() const = 0;
   [[nodiscard]] virtual Eigen::Vector3d tip(FingerIndex finger) const = 0;
-  /// What a finger did to the object in the last step.
+  /// Load of a finger on the object in the last step.
   [[nodiscard]] virtual const TipForce& tip_force(FingerIndex finger) const = 0;
 
-  /// Moves a finger there at once, at rest.
+  /// Place a fingertip immediately, with zero velocity.
   virtual void PlaceTip(FingerIndex finger, const Eigen::Vector3d& tip) = 0;
-  /// Moves a finger by an offset at once; its velocity stays.
+  /// Shift a fingertip immediately; its velocity does not change.
   virtual void ShiftTip(FingerIndex finger, const Eigen::Vector3d& offset) = 0;
-  /// What the finger's servo steers for: its tip position at rest under no force.
+  /// Set the target of a finger's servo: its fingertip position in equilibrium without force.
   virtual void SetTarget(FingerIndex finger, const Eigen::Vector3d& target) = 0;
-  /// The patches of this site, and no others, stop the finger; none where it is not valid.
+  /// Let the patches of this site, and no others, stop the finger; none if it is not valid.
   virtual void SetSite(FingerIndex finger, SiteIndex site) = 0;
   virtual void AddSite(FingerIndex finger, SiteIndex site) = 0;
-  /// Acceleration along −z, m/s².
+  /// Set the acceleration along −z, m/s².
   virtual void SetGravity(double gravity) = 0;
-  /// Force and torque on the object about its centre of mass, besides gravity and fingers.
+  /// Set the load on the object about its centre of mass.
+  /// It acts in addition to gravity and fingers.
   virtual void SetLoad(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) = 0;
 
-  /// One time step.
-  /// @throws UnstableError
+  /// Simulate one time step.
+  /// @throws UnstableError  if the simulation becomes unstable.
   virtual void Step() = 0;
 
   [[nodiscard]] virtual State Save() const = 0;
-  /// Also after UnstableError.
+  /// Restore a state, also after UnstableError.
   virtual void Restore(const State& state) = 0;
 };
 
-/// Takes MuJoCo's two global hooks while any simulation lives, in whatever thread: its errors
-/// become UnstableError, its warnings neither reach the terminal nor leave a log file.
+/// Handlers of MuJoCo's errors and warnings while any simulation lives, in any thread.
+/// They replace its two global hooks: errors become UnstableError, and warnings neither reach the
+/// terminal nor leave a log file.
 class EngineHooks {
  public:
   EngineHooks();
@@ -96,12 +98,12 @@ class EngineHooks {
   EngineHooks& operator=(const EngineHooks&) = delete;
 };
 
-/// @throws UnstableError  a warning says that the last step is not to be trusted, or the state is
-///                        not finite.
+/// Check the state after a step.
+/// @throws UnstableError  if a warning makes the last step unreliable, or the state is not finite.
 void CheckState(const mjModel& model, const mjData& data);
 
 [[nodiscard]] EngineState SaveState(const mjModel& model, const mjData& data);
-/// Of the same model. Warnings of what happened since are forgotten.
+/// Restore a state of the same model, and clear later warnings.
 void RestoreState(const EngineState& state, mjData& data);
 
 }  // namespace regrasp::sim

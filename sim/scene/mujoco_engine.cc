@@ -7,7 +7,6 @@
 
 #include "planner/base/error.h"
 #include "planner/mujoco/handles.h"
-#include "planner/mujoco/memory_files.h"
 #include "sim/scene/engine.h"
 
 namespace regrasp::sim {
@@ -21,11 +20,12 @@ using mujoco::ModelPtr;
 
 constexpr const char* kFileName = "scene.xml";
 
-/// Of a contact that resists no torque.
+/// Dimension of a contact without torsional friction.
 constexpr int kPointDimensions = 3;
 
 ModelPtr LoadModel(const std::string& mjcf) {
-  thread_local mujoco::MemoryFiles files;  // to make one took 1 % of a replay's time
+  // reused, because construction took 1 % of a replay's time
+  thread_local mujoco::MemoryFiles files;
   files.Replace(kFileName, mjcf);
   std::array<char, 1000> error{};
   ModelPtr model(mj_loadXML(kFileName, files.get(), error.data(), static_cast<int>(error.size())));
@@ -33,12 +33,12 @@ ModelPtr LoadModel(const std::string& mjcf) {
   return model;
 }
 
-/// Where the engine's model has a finger.
+/// Location of a finger in the engine's model.
 struct FingerParts {
   int geom;
-  int position;         ///< of its slides in qpos
-  int velocity;         ///< in qvel
-  const mjtNum* start;  ///< where they are 0
+  int position;         ///< index of its slide joints in qpos
+  int velocity;         ///< index in qvel
+  const mjtNum* start;  ///< position at which they are 0
 };
 
 }  // namespace
@@ -52,10 +52,10 @@ struct MujocoEngine::Impl {
   ModelPtr model;
   DataPtr data;
   int object = 0;
-  int slides = 0;  ///< of a finger: 3 in space, 2 in the plane
+  int slides = 0;  ///< number of slide joints of a finger: 3 in space, 2 in the plane
   std::vector<FingerParts> fingers;
   std::vector<TipForce> tip_forces;
-  std::vector<FingerIndex> finger_of_geom;  ///< none for the object's
+  std::vector<FingerIndex> finger_of_geom;  ///< finger [geom]; none for those of the object
   std::vector<std::vector<int>> geoms_of_site;
 
   Impl(const std::string& mjcf, int finger_count, const EngineUnits& given);
@@ -105,8 +105,8 @@ void MujocoEngine::Impl::ReadForces() {
     const bool first = finger_of_geom[contact.geom1].valid();
     const FingerIndex finger = finger_of_geom[first ? contact.geom1 : contact.geom2];
     if (!finger.valid()) continue;
-    // Of the second geom, force and then torque along the axes of the contact's frame, its rows:
-    // what mj_contactForce copies where cones are elliptic.
+    // Force, then torque, on the second geom along the axes of the contact frame, its rows.
+    // mj_contactForce copies the same values for elliptic cones.
     const mjtNum* local = data->efc_force + contact.efc_address;
     const Eigen::Map<const Eigen::Matrix3d> axes(contact.frame);
     const double unit = first ? units.force_N() : -units.force_N();

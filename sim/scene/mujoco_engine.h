@@ -7,20 +7,21 @@
 
 namespace regrasp::sim {
 
-/// The version of MuJoCo that is linked, "2.2.2".
+/// Return the version of the linked MuJoCo, such as "2.2.2".
 [[nodiscard]] std::string EngineVersion();
 
-/// MuJoCo's model and data of one scene: a body "object" whose centre of mass is its origin, free
-/// or on the joints x, y and turn about z, and fingers "finger0" … on a slide along each axis of
-/// space or of the plane.
+/// MuJoCo model and data of one scene.
+/// The body "object" has its centre of mass as origin. It is free, or has the joints x, y and a
+/// rotation about z. The fingers "finger0" … have a slide joint along each axis of space or of the
+/// plane.
 ///
-/// Warnings and errors of MuJoCo neither reach the terminal nor leave a log file: they become
-/// exceptions.
+/// Warnings and errors of MuJoCo become exceptions; they neither reach the terminal nor leave a log
+/// file.
 class MujocoEngine final : public Engine {
  public:
-  /// @param mjcf   FormatScene (sim/scene/scene.h).
-  /// @param units  of the numbers in `mjcf`.
-  /// @throws EnvironmentError  MuJoCo does not take the scene.
+  /// @param mjcf   scene from FormatScene (sim/scene/scene.h).
+  /// @param units  units of the numbers in `mjcf`.
+  /// @throws EnvironmentError  if MuJoCo rejects the scene.
   MujocoEngine(const std::string& mjcf, int fingers, const EngineUnits& units = {});
   ~MujocoEngine() override;
 

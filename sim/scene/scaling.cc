@@ -15,7 +15,7 @@ namespace regrasp::sim {
 
 namespace {
 
-/// Those that hold the object before, between and after the steps.
+/// Return the grasps before, between and after the steps.
 std::vector<grasp::Grasp> GraspsOf(const plan::Plan& plan, int entries) {
   std::vector<grasp::Grasp> grasps = {plan::ContactsOf(plan.initial)};
   plan::FingerGrasp holding = plan.initial;
@@ -30,7 +30,8 @@ std::vector<grasp::Grasp> GraspsOf(const plan::Plan& plan, int entries) {
   return grasps;
 }
 
-/// The largest weight over the squeeze that all grasps carry; those that carry none left out.
+/// Return the largest weight over the grasp force that all grasps carry.
+/// Ignores grasps that carry none.
 double CarriedShare(const object::Object& object, const std::vector<grasp::Grasp>& grasps,
                     double half_angle) {
   const grasp::Wrench down{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
@@ -56,14 +57,14 @@ double HandSqueeze(const object::Object& object, const plan::Plan& located, int 
 
 namespace {
 
-/// Bodies that can be simulated. Every body looks alike to the engine (UnitsOf): these are sizes
-/// beyond which something was mistyped, between molecules and planets.
+/// Range of the simulation. Every object looks alike to the engine (UnitsOf). These sizes, between
+/// molecules and planets, exclude typing errors.
 constexpr double kLeastDiameter = 1e-9, kLargestDiameter = 1e7;    // metres
 constexpr double kLeastThickness = 1e-3, kLargestThickness = 1e3;  // over the diameter
 constexpr double kLeastMass = 1e-30, kLargestMass = 1e30;          // kilograms
 constexpr double kLeastSqueeze = 1e-30, kLargestSqueeze = 1e36;    // newtons
 
-/// Limits that the constants of the header must keep; see DeriveSettings.
+/// Limits on the constants of the header; see DeriveSettings.
 static_assert(kStiffness >= 5);
 static_assert(kDampingStep <= 0.6);
 
@@ -89,8 +90,8 @@ void CheckBody(const object::Object& object, const ReplayOptions& options,
   CheckRange("mass", body.mass_kg, kLeastMass, kLargestMass, "kg");
 }
 
-/// The radius of gyration about the axis where it is smallest, object's unit; in the plane there is
-/// one axis only.
+/// Return the smallest radius of gyration over all axes, in the object's unit.
+/// In the plane there is one axis only.
 double LeastGyration(const object::Object& object) {
   const object::MassProperties& mass = object.mass_properties();
   const double least = object.dimension() == 2 ? mass.inertia(2, 2)
@@ -100,8 +101,8 @@ double LeastGyration(const object::Object& object) {
   return std::sqrt(std::max(least, 0.0) / mass.volume);
 }
 
-/// √(I / (F · arm)), seconds: how fast the body turns about its long axis where the squeeze is off
-/// it by an arm, as it is once fingertips roll.
+/// Return √(I / (F · arm)), seconds, the characteristic time of rotation about the long axis.
+/// The grasp force has a moment arm about this axis once fingertips roll.
 double RollingTime(const ReplaySettings& s, double gyration) {
   const double arm = std::max(s.fingertip_radius_m, gyration);
   return gyration * std::sqrt(s.mass_kg / (s.squeeze_N * arm));
@@ -110,7 +111,7 @@ double RollingTime(const ReplaySettings& s, double gyration) {
 }  // namespace
 
 object::BodyMeasures BodyOf(const object::Object& object, double scale,
-                            const ReplayOptions& options) {
+                            const ReplayConditions& options) {
   object::BodyMeasures body =
       object::MeasureBody(object, scale, options.density_kg_m3, options.thickness);
   if (options.mass_kg) body.mass_kg = *options.mass_kg;
@@ -123,7 +124,7 @@ ReplaySettings DeriveSettings(const object::Object& object, double scale, double
   const object::BodyMeasures body = BodyOf(object, scale, options);
   CheckBody(object, options, body);
   s.diameter_m = body.diameter_m;
-  s.mu = std::tan(options.half_angle.value_or(half_angle));
+  s.mu = std::tan(half_angle);
   s.thickness_m = body.thickness_m;
   s.mass_kg = body.mass_kg;
   s.shake = options.shake;

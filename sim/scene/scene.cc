@@ -18,16 +18,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Each finger that touches has a collision bit of its own, of the 31 that an int has.
+/// Largest number of fingers with contacts. Each has its own collision bit, of the 31 of an int.
 constexpr int kMostTouching = 31;
 
-/// A path is looked at this often for the clearance that a fingertip has along it.
+/// Number of points of a path at which a fingertip's clearance is tested.
 constexpr int kClearanceSamples = 8;
 
-/// Fingers that the plan never uses wait this far from the centroid, in diameters.
+/// Distance from the centroid of fingers that the plan never uses, in diameters.
 constexpr double kParkingDistance = 1.5;
 
-/// Gathers where fingers touch.
+/// Collector of the sites at which fingers make contact.
 struct SiteCollector {
   const object::Object& object;
   double scale;
@@ -75,7 +75,7 @@ struct SiteCollector {
   }
 
  private:
-  /// The number of sites if there is none.
+  /// Return the index of an equal site; the number of sites if there is none.
   [[nodiscard]] int FindEqual(const ContactSite& site) const {
     const auto equal = std::ranges::find_if(scene.sites, [&](const SceneSite& other) {
       return other.place.face == site.face &&
@@ -86,19 +86,19 @@ struct SiteCollector {
   }
 };
 
-/// The initial grasp and the first steps of a plan, and how many fingers they need.
+/// Initial grasp and first steps of a plan, and the fingers that they require.
 struct Sequence {
   const object::Object& object;
   const plan::Plan& plan;
   int steps;
 
-  /// The contacts that entry `index` of the report names and where fingers come to rest.
+  /// Return the contacts that entry `index` of the report names and at which fingers stop.
   [[nodiscard]] plan::FingerGrasp PlannedRests(plan::EntryIndex index) const {
     if (index == 0) return plan.initial;
     const plan::Step& step = plan::StepOf(plan, index);
     if (const auto* change = std::get_if<plan::Switch>(&step)) return change->place;
     const auto* align = std::get_if<plan::Align>(&step);
-    if (align == nullptr) return {};  // a move: where they were
+    if (align == nullptr) return {};  // in-hand motion: no new contacts
     const auto& waypoints = align->waypoints;
     return waypoints.empty() ? plan::FingerGrasp() : waypoints.back();
   }
@@ -132,12 +132,12 @@ struct Sequence {
   }
 };
 
-/// The clearance that the fingertip which is wanted needs: twice its radius where it is derived.
+/// Return the clearance that the fingertip requires: twice its radius if the radius is derived.
 double WantedClearance(const object::Object& object, const ReplayOptions& options) {
   return options.finger_radius.value_or(2 * kTipRadius * object.diameter());
 }
 
-/// The smallest clearance of contacts where fingers stand, at most `limit`.
+/// Return the smallest clearance of the contacts of a grasp, at most `limit`.
 double SmallestClearance(const object::Object& object, const plan::FingerGrasp& grasp,
                          double limit) {
   double least = limit;
@@ -147,7 +147,7 @@ double SmallestClearance(const object::Object& object, const plan::FingerGrasp& 
   return least;
 }
 
-/// The entries with the scripts of all aligns, in the object's own frame and unit.
+/// Return the entries with the scripts of all sliding steps, in the object's own frame and unit.
 std::vector<SceneEntry> WriteScripts(const Sequence& sequence, int fingers, double half_angle,
                                      double wanted, AlignChoice choice) {
   const double D = sequence.object.diameter();
@@ -198,7 +198,7 @@ double DistanceTo(const ContactSite& site, const Vector3d& point) {
   return (site.from + t * path - point).norm();
 }
 
-/// Names the first finger that has to come to rest where no ball fits.
+/// Report the first finger that must stop at a contact at which no sphere fits.
 std::optional<plan::Obstacle> FindUnreachable(const object::Object& object,
                                               const plan::FingerGrasp& rests) {
   const double least = kLeastClearance * object.diameter();
@@ -207,14 +207,14 @@ std::optional<plan::Obstacle> FindUnreachable(const object::Object& object,
     if (clearance >= least) continue;
     return plan::Obstacle{
         "finger " + std::to_string(held.finger) +
-            " cannot stand at its contact: no fingertip thicker than a radius of " +
-            FormatShort(clearance) + " fits in the corner there",
+            " does not fit at its contact: the corner has room for a fingertip radius of at most " +
+            FormatShort(clearance),
         {.fingers = {held.finger}, .found = held.contact}};
   }
   return std::nullopt;
 }
 
-/// Everywhere that fingers come to rest in entry `index`.
+/// Return all contacts at which fingers stop in entry `index`.
 plan::FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, plan::EntryIndex index) {
   plan::FingerGrasp rests = sequence.PlannedRests(index);
   const std::optional<AlignScript>& script = scene_O.entries[index].script;
@@ -268,8 +268,8 @@ std::vector<ContactPatch> MakeScenePatches(const object::Object& body, double sc
   return patches;
 }
 
-/// Of the homogeneous body about its centroid, kg m². A polygon's moments are those of its area:
-/// its prism adds M t²/12 about the axes in the plane.
+/// Return the inertia of the homogeneous object about its centroid, kg m².
+/// A polygon's moments are those of its area; its prism adds M t²/12 about the axes in the plane.
 Eigen::Matrix3d Inertia(const object::Object& body, double scale, const ReplaySettings& s) {
   const double mass = s.mass_factor * s.mass_kg;
   Eigen::Matrix3d inertia =
@@ -290,7 +290,8 @@ void PlaceFingersAtStart(const object::Object& object, Scene& scene) {
   }
 }
 
-/// A hand may have many more fingers than ever touch.
+/// Assign collision bits to the fingers with contacts.
+/// A hand may have many more fingers.
 void AssignCollisionBits(Scene& scene) {
   std::set<FingerIndex> touching;
   for (const SceneSite& site : scene.sites) {
@@ -305,14 +306,13 @@ void AssignCollisionBits(Scene& scene) {
   for (const FingerIndex finger : touching) scene.fingers[finger].collision_bit = 1 << place++;
 }
 
-/// Scripts, what is unreachable, and sites.
+/// Set scripts, unreachable fingers, and sites.
 void LayOut(const Sequence& sequence, const ReplayOptions& options, Scene& scene) {
   const object::Object& object = sequence.object;
   const double scale = sequence.plan.scale;
-  const double half_angle = options.half_angle.value_or(sequence.plan.half_angle);
   const int fingers = static_cast<int>(scene.fingers.size());
-  scene.entries =
-      WriteScripts(sequence, fingers, half_angle, WantedClearance(object, options), options.align);
+  scene.entries = WriteScripts(sequence, fingers, sequence.plan.half_angle,
+                               WantedClearance(object, options), options.align);
   SiteCollector collector{object, scale, scene,
                           object::kPointTolerance * object.diameter() * scale};
   for (plan::EntryIndex index{0}; index <= sequence.steps; ++index) {
@@ -351,9 +351,8 @@ Scene MakeScene(const object::Object& body, const plan::Plan& plan, int steps,
   LayOut(sequence, options, scene);
   AssignCollisionBits(scene);
   if (options.hand_squeeze && !options.squeeze_N) {
-    options.squeeze_N =
-        HandSqueeze(body, plan, steps + 1, options.half_angle.value_or(plan.half_angle),
-                    BodyOf(body, plan.scale, options).mass_kg);
+    options.squeeze_N = HandSqueeze(body, plan, steps + 1, plan.half_angle,
+                                    BodyOf(body, plan.scale, options).mass_kg);
   }
   scene.settings = DeriveSettings(
       body, plan.scale, plan.half_angle,
@@ -397,7 +396,7 @@ Scene InUnits(Scene scene, const EngineUnits& units) {
 }
 
 SiteIndex FindSite(const Scene& scene, const grasp::Contact& from_S, const grasp::Contact& to_S) {
-  // A finger that turns at an edge is at its new face's site already.
+  // A finger that turns at an edge is already at its new face's site.
   const Vector3d begin = from_S.face == to_S.face ? from_S.p : to_S.p;
   SiteIndex best;
   double least = std::numeric_limits<double>::infinity();

@@ -13,23 +13,25 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Collision distances are found to this, over D; contacts are 1e-7 D deep.
+/// Tolerance of collision distances over D; contacts are 1e-7 D deep.
 constexpr double kCollisionTolerance = 1e-9;
 
-/// The engine needs some inertia for the fingers, which never turn: that of a ball, 2/5 m r².
+/// Inertia over m r² of the fingers, which never rotate but require one in the engine: that of a
+/// sphere, 2/5 m r².
 constexpr double kBallInertia = 0.4;
 
-/// Half the length of a capsule finger over the prism's thickness: its ends stay clear of the
+/// Half the length of a capsule finger over the prism's thickness; its ends stay away from the
 /// prism's rims.
 constexpr double kCapsuleLength = 0.25;
 
-/// How much stiffer than normal forces friction is. The engine lets torsional friction give way the
-/// more the smaller the torsion is: as stiff as for hard points, objects held by soft fingers of a
-/// torsion of a hundredth of their size creep too fast to count as at rest.
+/// Ratio of the stiffness of friction to that of normal forces. The engine makes torsional friction
+/// more compliant for smaller torsion. With the value of hard-finger contacts, objects held by soft
+/// fingers with a torsion of a hundredth of their size creep too fast for a static grasp.
 constexpr double kHardImpratio = 100;
 constexpr double kSoftImpratio = 1000;
 
-/// Impacts are softened over two time steps, the least that the engine's integration bears.
+/// Number of time steps over which impacts are softened, the smallest at which the engine's
+/// integration is stable.
 constexpr double kContactSteps = 2;
 
 std::string Join(std::initializer_list<double> values) {
@@ -41,7 +43,7 @@ std::string Join(std::initializer_list<double> values) {
   return text;
 }
 
-/// The engine counts a space behind the last number as another number.
+/// The engine counts a space after the last number as another number.
 void Append(std::string& list, const std::string& item) {
   if (!list.empty()) list += ' ';
   list += item;
@@ -65,8 +67,9 @@ std::string FormatBox(const ContactPatch& patch, double thickness) {
          "\"";
 }
 
-/// The vertices are about the patch's first corner: the engine keeps them in single precision, and
-/// about the body's centre small patches would be tilted.
+/// Return the mesh of a patch's prism, with vertices relative to the patch's first corner.
+/// The engine stores them in single precision; relative to the object's centre, small patches would
+/// be tilted.
 std::string FormatPrismMesh(const std::string& name, const ContactPatch& patch,
                             const Vector3d& inward, double thickness) {
   std::string vertices;
@@ -143,16 +146,16 @@ std::string FormatObjectJoints(int dimension) {
          "      <joint type=\"hinge\" axis=\"0 0 1\"/>";
 }
 
-/// The attributes of a finger's geom: a ball, or a capsule along z.
+/// Return the attributes of a finger's geom: a sphere, or a capsule along z.
 std::string FormatTip(int dimension, const ReplaySettings& s) {
   if (dimension == 3) return "type=\"sphere\" size=\"" + Join({s.fingertip_radius_m}) + "\"";
   return "type=\"capsule\" size=\"" + Join({s.fingertip_radius_m, kCapsuleLength * s.thickness_m}) +
          "\"";
 }
 
-/// The attributes of what two geoms touch with. The engine's elliptic cone of four dimensions is
-/// the ellipsoid of soft fingers (grasp::Contact), its torsional friction the largest torque over
-/// the normal force.
+/// Return the friction attributes of two geoms.
+/// The engine's elliptic cone of four dimensions is the ellipsoid of soft fingers (grasp::Contact).
+/// Its torsional friction is the largest torque over the normal force.
 std::string FormatFriction(const ReplaySettings& s) {
   const double mu = s.friction_factor * s.mu;
   if (s.torsion_m == 0) return "condim=\"3\" friction=\"" + FormatDouble(mu) + " 1e-5 1e-5\"";
@@ -181,25 +184,28 @@ std::string Fill(const std::map<std::string, std::string>& values) {
   }
 }
 
-/// Of this version of the engine; later ones call them ccd_… and refuse these names.
+/// Return the collision options of this version of the engine.
+/// Later versions call them ccd_… and reject these names.
 std::string CollisionOptions(double tolerance_m) {
   return " mpr_iterations=\"500\" mpr_tolerance=\"" + FormatDouble(tolerance_m) + "\"";
 }
 
-/// What a scene that any version loads leaves out.
+/// Return a remark on what a scene for all versions omits.
 std::string CollisionRemark(const std::string& options) {
   return "Where a patch of contact is a mesh, not a box, the default collision tolerance misses "
          "most contacts 1e-7 m deep: add" +
          options + " to the option, from MuJoCo 3.2.3 on with ccd_ instead of mpr_.";
 }
 
-/// Of one finger: a capsule has two on a patch, and where patches meet a tip is on some of them.
+/// Largest number of contacts of one finger: a capsule has two on a patch, and at the border
+/// between patches a fingertip touches several.
 constexpr int kContactsPerFinger = 8;
-/// A contact has a normal, two tangential and at a soft finger a torsional one.
+/// A contact has one normal and two tangential constraints, and for a soft finger a torsional one.
 constexpr int kConstraintsPerContact = 4;
 
-/// Enough for all that fingers touch, so that no step fails for want of room (CheckState); the
-/// engine's memory, which it clears, grows with the square. Later versions size themselves.
+/// Return a memory size that is enough for all contacts of the fingers.
+/// No step then fails for lack of memory (CheckState). The engine clears its memory, which grows
+/// with the square. Later versions choose the size themselves.
 std::string EngineSize(std::size_t fingers) {
   const std::size_t contacts = kContactsPerFinger * fingers;
   return "  <size njmax=\"" + std::to_string(kConstraintsPerContact * contacts) + "\" nconmax=\"" +

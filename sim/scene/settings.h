@@ -10,79 +10,82 @@
 
 namespace regrasp::sim {
 
-/// How the fingers respond to the shake at a rest, and which response decides.
+/// Response of the fingers to the disturbance test, and the response that decides.
 enum class Protocol {
-  kAdapted,  ///< with forces planned for each direction: can the grasp resist?
-  kFixed,    ///< with the forces of the rest and the servos' stiffness: does this squeeze?
-  kBoth,     ///< both, from the same rest; the adapted one decides
+  kAdapted,  ///< forces planned for each direction
+  kFixed,    ///< the forces of the static grasp and the stiffness of the servos
+  kBoth,     ///< both, from the same static grasp; the adapted one decides
 };
 
-/// The physics engine that a replay by points runs in (sim/scene/engine.h).
+/// Physics engine of a replay by points (sim/scene/engine.h).
 enum class EngineChoice {
   kMujoco,  ///< soft contacts and elliptic cones (sim/scene/mujoco_engine.h)
   kOde,     ///< hard contacts and circular cones (sim/ode/ode_engine.h)
   kBoth,    ///< both, one after the other; MuJoCo decides
 };
 
-/// How the replay moves fingers along the surface where it can choose (sim/scene/align_script.h).
+/// Execution of sliding steps if both are possible (sim/scene/align_script.h).
 enum class AlignChoice {
-  kImitate,  ///< spare fingers take over
+  kImitate,  ///< finger handovers with free fingers
   kSlide,    ///< fingers slide while the others alone hold the object
 };
 
-/// Where the squeeze comes from.
+/// Source of the grasp force.
 enum class SqueezeSource {
-  kShake,  ///< such that the weight is a tenth of the shake (scaling.h)
-  kHand,   ///< what a hand applies (hand_squeeze.h)
-  kGiven,
-  kTorques,  ///< what the torques of a hand allow (sim/actuation/torque_squeeze.h)
+  kShake,    ///< the weight is a tenth of the disturbance force (scaling.h)
+  kHand,     ///< the force of a human hand (hand_squeeze.h)
+  kGiven,    ///< ReplayConditions::squeeze_N
+  kTorques,  ///< the torque limits of the hand (sim/actuation/torque_squeeze.h)
 };
 
-/// How the replay is set up. What is left out is derived from the body (sim/scene/scaling.h).
-struct ReplayOptions {
-  std::optional<double> half_angle;  ///< friction, radians; the plan's where left out
-  std::optional<double> mass_kg;     ///< instead of density
-  double density_kg_m3 = 1000;       ///< ρ of the homogeneous solid
-  std::optional<double> thickness;   ///< of a polygon's prism, in the object's own units
-  /// Fingertips are balls of this radius, in the object's own units; derived where neither this nor
-  /// the plan says.
+/// Options of every replay: the object's mass, the grasp force and the disturbance test. Optional
+/// values without a value are derived from the object, the grasps or the hand.
+struct ReplayConditions {
+  std::optional<double> mass_kg;    ///< mass of the object, instead of density
+  double density_kg_m3 = 1000;      ///< density of the homogeneous solid
+  std::optional<double> thickness;  ///< thickness of a polygon's prism, unit of the object
+  std::optional<double> squeeze_N;  ///< grasp force: sum of the normal forces of a static grasp
+  double shake = 0.01;         ///< ρ: disturbance force over grasp force; a torque also over R
+  double friction_factor = 1;  ///< friction of the world over the one that the hand assumes
+  double mass_factor = 1;      ///< mass of the object over the one that the hand assumes
+};
+
+/// Options of a replay by point fingers. The friction is the plan's. Optional values without a
+/// value are derived from the object (sim/scene/scaling.h).
+struct ReplayOptions : ReplayConditions {
+  /// Radius of the spherical fingertips, unit of the object; default: the plan's, if it has one.
   std::optional<double> finger_radius;
-  std::optional<double> squeeze_N;  ///< total normal force of a grasp at rest
-  /// Where `squeeze_N` is left out: that of a hand (hand_squeeze.h) instead of one for the shake.
+  /// Whether a derived grasp force is that of a human hand (hand_squeeze.h).
   bool hand_squeeze = false;
-  double shake = 0.01;  ///< ρ: shake force over squeeze, and torque over squeeze·R
   Protocol protocol = Protocol::kAdapted;
-  bool stress = false;  ///< also look for the largest push in each direction (sim/measure/shake.h)
+  bool stress = false;      ///< measure the resisted wrench in each direction (sim/measure/shake.h)
   double tolerance = 1e-3;  ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
   AlignChoice align = AlignChoice::kImitate;
-  double stiffness_factor = 1;  ///< of the fingers, times what is derived
-  double timestep_factor = 1;   ///< times what is derived
-  double friction_factor = 1;   ///< the world's friction over the one that the hand believes
-  double mass_factor = 1;       ///< the object's true mass over the one that the hand believes
+  double stiffness_factor = 1;  ///< factor on the derived stiffness of the fingers
+  double timestep_factor = 1;   ///< factor on the derived time step
   EngineChoice engine = EngineChoice::kMujoco;
-  bool gravity = true;  ///< 9.81 m/s² along −z of the object's own frame; none of
-                        ///< it in the plane, which carries a planar object's weight
+  bool gravity = true;  ///< 9.81 m/s² along −z of the object's frame, except for planar objects
 };
 
-/// What of a fingertip touches the object in a replay by a hand.
+/// Geometry of a fingertip that touches the object in a replay by a hand.
 enum class TipShape {
-  kBall,      ///< of the hand's file, which plans are made for
-  kGeometry,  ///< what the hand's own model has at the tip for collisions
+  kBall,      ///< the sphere of the hand's file, for which plans are made
+  kGeometry,  ///< the collision geometry of the fingertip in the hand's model
 };
 
-/// What a replay by a hand may be off.
+/// Limits on deviations in a replay by a hand.
 struct HandTolerance {
-  double length_m = 2e-3;     ///< of the object's centroid from its planned place
+  double length_m = 2e-3;     ///< of the object's centroid from the plan
   double angle_rad = 0.0873;  ///< of its orientation: 5°
-  double at_rest = 0.5;       ///< share of both that is allowed at rest
-  double slip_m = 1e-3;       ///< of a holding tip along the surface
-  double lost_s = 0.02;       ///< of a holding tip without a force
+  double at_rest = 0.5;       ///< share of both that is allowed in a static grasp
+  double slip_m = 1e-3;       ///< of a holding fingertip along the surface
+  double lost_s = 0.02;       ///< of a holding fingertip without a force
   double limit_s = 0.05;      ///< of an actuator at the limit of its force
   double joint_rad = 0.0175;  ///< of a joint outside its range, or off its coupling: 1°
   double depth_m = 5e-4;      ///< of a fingertip in the object
 };
 
-/// The limits of the hand's model that a verdict relies on, for one independent joint.
+/// Limits of the hand model for one independent joint, on which a verdict depends.
 struct DriveLimits {
   FingerIndex finger = {};
   std::string joint;
@@ -94,21 +97,23 @@ struct DriveLimits {
   double upper_rad = 0;
 };
 
-/// What a replay by a hand ran with beside the rest.
+/// Settings of a replay by a hand in addition to ReplaySettings.
 struct HandReplaySettings {
   HandTolerance tolerance;
-  bool feedback = true;  ///< joint targets are corrected by the object's measured offset
+  /// Whether the measured deviation of the object corrects the joint targets.
+  bool feedback = true;
   TipShape tip = TipShape::kBall;
-  double least_stiffness = 0;    ///< of the servos of joints, N m / rad
-  double largest_stiffness = 0;  ///< the same
-  bool derived_servos = false;   ///< some actuators of the model are no servos: they are made so
+  double least_stiffness = 0;            ///< of the servos of joints, N m / rad
+  double largest_stiffness = 0;          ///< the same
+  bool derived_servos = false;           ///< whether some actuators were converted to servos
   std::vector<DriveLimits> limits = {};  ///< by finger and independent joint
 };
 
-/// The values that the replay ran with.
+/// Values with which the replay ran.
 struct ReplaySettings {
   double mu = 0;
-  double torsion_m = 0;  ///< of all contacts (grasp::Contact::torsion); 0: hard points
+  /// Torsional friction length of all contacts (grasp::Contact::torsion); 0: hard-finger contacts.
+  double torsion_m = 0;
   double mass_kg = 0;
   double squeeze_N = 0;
   SqueezeSource squeeze_source = SqueezeSource::kShake;
@@ -118,20 +123,21 @@ struct ReplaySettings {
   bool stress = false;
   double tolerance = 0;
   AlignChoice align = AlignChoice::kImitate;
-  double gravity_m_s2 = 0;  ///< 0 for a planar object: the plane carries it
-  double thickness_m = 0;   ///< of the prism of a planar object, 0 for a solid
-  double diameter_m = 0;    ///< D, the object's; R is half of it
+  double gravity_m_s2 = 0;  ///< 0 for a planar object, which the plane supports
+  double thickness_m = 0;   ///< thickness of the prism of a planar object, 0 for a solid
+  double diameter_m = 0;    ///< diameter D of the object; R is half of it
   double fingertip_radius_m = 0;
   double finger_mass_kg = 0;
   double finger_stiffness_N_m = 0;
   double finger_damping_Ns_m = 0;
   double timestep_s = 0;
-  double natural_time_s = 0;     ///< √(M D / F): what durations of the replay are counted in
-  double friction_factor = 1;    ///< the world's friction over `mu`
-  double mass_factor = 1;        ///< the object's true mass over `mass_kg`
+  /// Characteristic time √(M D / F), the unit of durations of the replay.
+  double natural_time_s = 0;
+  double friction_factor = 1;    ///< simulated friction over `mu`
+  double mass_factor = 1;        ///< simulated mass of the object over `mass_kg`
   double patch_size_m = 0;       ///< half the side of a contact patch
   double patch_thickness_m = 0;  ///< of the prism under a contact patch
-  /// Of a replay by a hand; what is of ideal fingers alone is then 0.
+  /// Set for a replay by a hand; values of point fingers are then 0.
   std::optional<HandReplaySettings> hand = std::nullopt;
 };
 

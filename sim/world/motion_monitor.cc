@@ -34,12 +34,13 @@ FingerIndex FingerOfSmallestMargin(const FingerMargins& margins) {
 
 namespace {
 
-/// Below this sine of half a turn its series is exact to rounding: the next term, 15/336 of its
-/// sixth power, is left out.
+/// Sine of half a rotation below which the series is exact to rounding: the first omitted term is
+/// 15/336 of its sixth power.
 constexpr double kSmallSine = 0.01;
 
 double RotationAngle(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  // |R' − R| = 2 √2 sin(θ/2). It is asked after every step, and the object hardly ever turns.
+  // |R' − R| = 2 √2 sin(θ/2). Fast, because it is evaluated after every step, and the object rarely
+  // rotates.
   const double sine = (to.linear() - from.linear()).norm() / (2 * std::numbers::sqrt2);
   if (sine < kSmallSine) {
     const double square = sine * sine;
@@ -48,10 +49,10 @@ double RotationAngle(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to)
   return Eigen::Quaterniond(from.linear()).angularDistance(Eigen::Quaterniond(to.linear()));
 }
 
-/// In place of the slope of a finger that has not pressed yet.
+/// Placeholder for the slope of a finger without a contact force so far.
 constexpr double kNoSlope = -1;
 
-/// A turn may be a thousandth of a degree.
+/// Number of digits of angles, because a rotation may be a thousandth of a degree.
 constexpr int kAngleDigits = 3;
 
 std::string Name(FingerIndex finger) { return "finger " + std::to_string(finger); }
@@ -69,7 +70,7 @@ void MotionMonitor::Start(const Eigen::Isometry3d& X_SB) {
 }
 
 void MotionMonitor::AddPose(const Eigen::Isometry3d& X_SB) {
-  // As MeasureMotion; both parts are wanted after every step.
+  // As MeasureMotion, but both parts are required after every step.
   const double displacement = (X_SB.translation() - start_.translation()).norm();
   const double rotation = RotationAngle(start_, X_SB);
   const double moved = displacement + settings_.diameter_m / 2 * rotation;
@@ -117,7 +118,7 @@ void MotionMonitor::AddForce(FingerIndex finger, const Eigen::Vector3d& force,
                              const Eigen::Vector3d& normal, double twist) {
   const double pressing = force.dot(normal);
   if (pressing < kPressing * settings_.squeeze_N) return;
-  // It is asked of every finger in every time step: the angle is worked out when it is read.
+  // Evaluated for every finger in every time step, so the angle is computed only when it is read.
   if (finger >= std::ssize(slope_squares_)) slope_squares_.resize(finger + 1, kNoSlope);
   const double square = TangentialSquare(force, normal, twist);
   const double normal_square = pressing * pressing;
@@ -162,7 +163,7 @@ std::string MotionMonitor::MotionText() const {
 std::string MotionMonitor::detail() const {
   switch (reason()) {
     case plan::Reason::kContactLost:
-      return Name(lost_finger_) + " came " +
+      return Name(lost_finger_) + " moved " +
              FormatLengthWithLimit(gap_now_, kLostGap * settings_.diameter_m).value +
              " off the surface " + *lost_;
     case plan::Reason::kSlipped:

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Where the plan first puts a finger; on no face where it never does.
+/// Return the first contact of a finger in the plan; without a face if there is none.
 grasp::Contact FirstContact(const object::Object& body, const Scene& scene, FingerIndex finger) {
   const SiteIndex first = scene.fingers[finger].first_site;
   if (!first.valid()) return {};
@@ -123,7 +123,7 @@ void ReplayWorld::StartMonitoring() {
 }
 
 void ReplayWorld::MonitorMotion() {
-  // After every step, so that it is worked out in the frame of the scene, where positions are.
+  // Computed after every step, hence in the frame of the scene, in which positions are given.
   const Isometry3d X_SB = this->X_SB();
   monitor_.AddPose(X_SB);
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {

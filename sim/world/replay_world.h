@@ -13,23 +13,24 @@
 
 namespace regrasp::sim {
 
-/// A finger in the world. B is the body's frame: metres about the centroid, fixed to the object.
+/// Finger in the simulated world. B is the body frame: metres about the centroid, fixed to the
+/// object.
 struct WorldFinger {
   plan::FingerRole role = plan::FingerRole::kFree;
   bool holding = false;
-  bool sliding = false;                                ///< moves along the surface on purpose
-  grasp::Contact contact;                              ///< planned, in B
-  std::vector<Eigen::Vector3d> path_B = {};            ///< planned, of a finger that moved
-  Eigen::Vector3d touch_B = Eigen::Vector3d::Zero();   ///< where its slide counts from
-  Eigen::Vector3d anchor_S = Eigen::Vector3d::Zero();  ///< tip at which the servo pushes nothing
-  Eigen::Vector3d force_S = Eigen::Vector3d::Zero();   ///< feed-forward, on the object
+  bool sliding = false;                      ///< whether it moves along the surface intentionally
+  grasp::Contact contact;                    ///< planned contact, in B
+  std::vector<Eigen::Vector3d> path_B = {};  ///< planned path of a finger that moved
+  Eigen::Vector3d touch_B = Eigen::Vector3d::Zero();   ///< reference point of its slip
+  Eigen::Vector3d anchor_S = Eigen::Vector3d::Zero();  ///< fingertip position without servo force
+  Eigen::Vector3d force_S = Eigen::Vector3d::Zero();   ///< feed-forward force on the object
 };
 
-/// The object, the hand and the engine between them.
+/// Object, fingers and physics engine during a replay.
 ///
-/// A finger is a ball on servos without friction along each axis: the force on it is
-/// k (anchor − tip) + force − damping · velocity, so a holding finger presses with `force` and
-/// resists with stiffness k. Constant forces without stiffness lose every grasp.
+/// A finger is a sphere on servos without friction along each axis. The force on it is k (anchor −
+/// fingertip) + force − damping · velocity. A holding finger thus applies `force` and resists with
+/// stiffness k. Constant forces without stiffness lose every grasp.
 class ReplayWorld {
  public:
   ReplayWorld(const object::Object& body, const plan::Plan& plan, Scene scene,
@@ -41,37 +42,41 @@ class ReplayWorld {
   [[nodiscard]] double half_angle() const;
   [[nodiscard]] std::vector<WorldFinger>& fingers() { return fingers_; }
   [[nodiscard]] const std::vector<WorldFinger>& fingers() const { return fingers_; }
-  /// The fingers that hold, in ascending order.
+  /// Return the fingers in contact, in ascending order.
   [[nodiscard]] std::vector<FingerIndex> HoldingFingers() const;
   [[nodiscard]] Engine& engine() { return *engine_; }
   [[nodiscard]] const Engine& engine() const { return *engine_; }
 
   [[nodiscard]] Eigen::Isometry3d X_SB() const { return engine_->object_pose(); }
-  /// Where the fingertip meets the surface, from the measured tip and the planned normal.
+  /// Return the contact point on the surface from the measured fingertip and the planned normal.
   [[nodiscard]] Eigen::Vector3d ContactPoint_B(FingerIndex finger) const;
-  /// The torque of a finger about its normal over its torsion (ConeMargin); 0 of hard points.
+  /// Return the torque of a finger about its normal over its torsion (ConeMargin).
+  /// 0 for hard-finger contacts.
   [[nodiscard]] double Twist(FingerIndex finger) const;
-  /// The tip of a finger that would touch the object as it lies now at `contact_B`, `gap` away.
+  /// Return the fingertip position at a distance `gap` from `contact_B`.
+  /// The object is in its current pose.
   [[nodiscard]] Eigen::Vector3d TipAt_S(const grasp::Contact& contact_B, double gap) const;
-  /// The object's weight now, newtons along −z of S.
+  /// Current weight of the object, newtons along −z of S.
   [[nodiscard]] Eigen::Vector3d weight_S() const;
 
   void SetGravity(double gravity);
   void Step();
-  /// How many steps a duration in natural times (ReplaySettings) takes, at least one.
+  /// Return the number of steps of a duration, at least one.
+  /// @param duration  duration in characteristic times (ReplaySettings).
   [[nodiscard]] int StepsIn(double duration) const;
-  /// Runs for `duration` natural times; before each step calls `drive` with the share of the motion
-  /// done after it.
+  /// Simulate for `duration` characteristic times.
+  /// @param drive  callback before each step with the share of the duration after the step.
   void Run(double duration, const std::function<void(double)>& drive);
 
-  /// What happens from now on is measured against the object's pose as it is now.
+  /// Start measurements relative to the current object pose.
   void StartMonitoring();
-  /// Looks whether every holding finger still touches.
+  /// Measure whether every holding finger still touches the object.
   void MonitorRest();
   MotionMonitor& monitor() { return monitor_; }
   [[nodiscard]] const MotionMonitor& monitor() const { return monitor_; }
 
-  /// Samples go to the observer unless this is off (shakes are not part of the motion).
+  /// Set whether samples go to the observer.
+  /// Off during disturbance tests, which are not part of the motion.
   void SetSampling(bool on) { sampling_ = on; }
   [[nodiscard]] plan::Snapshot TakeSnapshot() const;
 
@@ -79,7 +84,7 @@ class ReplayWorld {
   void MonitorMotion();
   void Sample();
 
-  Eigen::Vector3d p_WS_;  ///< the centroid in W
+  Eigen::Vector3d p_WS_;  ///< centroid in W
   Scene scene_;
   const ReplayObserver& observer_;
   std::unique_ptr<Engine> engine_;

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Where the object and the fingers that hold it are.
+/// Poses of the object and of the fingers in contact.
 struct Posture {
   Eigen::Isometry3d X_SB;
   std::vector<FingerIndex> fingers;
@@ -22,7 +22,7 @@ Posture TakePosture(const ReplayWorld& world) {
   return posture;
 }
 
-/// How far the body's points move in a turn, over the angle: metres, at most its radius.
+/// Return the motion of the object's points per angle of a rotation: metres, at most its radius.
 double ArmOf(const Eigen::AngleAxisd& turn_B, const ReplayWorld& world) {
   const ReplaySettings& s = world.settings();
   const Vector3d& axis = turn_B.axis();
@@ -31,13 +31,13 @@ double ArmOf(const Eigen::AngleAxisd& turn_B, const ReplayWorld& world) {
   return std::min(s.diameter_m / 2, kArmOfGyration * gyration);
 }
 
-/// Whether any of them has travelled farther than this, metres.
+/// Return whether any of them has moved by more than a limit, metres.
 bool HasTravelled(const Posture& from, double limit, const ReplayWorld& world) {
   const Eigen::Isometry3d X_SB = world.X_SB();
   for (std::size_t i = 0; i < from.fingers.size(); ++i) {
     if ((world.engine().tip(from.fingers[i]) - from.tips_S[i]).norm() > limit) return true;
   }
-  // With the longest arm first, which needs no axis.
+  // The longest arm first, because it requires no axis.
   if (MeasureMotion(from.X_SB, X_SB, world.settings().diameter_m / 2) <= limit) return false;
   const Eigen::AngleAxisd turn_B(
       Eigen::Quaterniond(from.X_SB.linear().transpose() * X_SB.linear()));

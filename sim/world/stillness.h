@@ -4,39 +4,41 @@
 
 namespace regrasp::sim {
 
-/// Waits until the object and the fingers that hold it are still: until none of them has moved by
-/// more than kStill · D in kStillTime. Gives up after kLongestWait, and once the object is lost
-/// (MotionMonitor::lost).
-/// @return whether they came to rest.
-/// @throws UnstableError
+/// Wait until the object and the fingers in contact are still.
+/// They are still if none of them has moved by more than kStill · D in kStillTime. The wait ends
+/// after kLongestWait, or when the object is lost (MotionMonitor::lost).
+/// @return whether they became still.
+/// @throws UnstableError  if the simulation becomes unstable.
 bool WaitUntilStill(ReplayWorld& world);
 
-/// The same at a place where the object has to come to rest: the monitor is told where it does not,
-/// and looks at the contacts.
-/// @throws UnstableError
+/// Wait until everything is still when a static grasp is required.
+/// The monitor records a failure to become still, and measures the contacts.
+/// @throws UnstableError  if the simulation becomes unstable.
 void ComeToRest(ReplayWorld& world);
 
-/// How far a push of ρ F moves a body that nothing holds while a grasp has time to come to rest,
-/// over ρ D: the force grows evenly in `ramp` and stays for kLongestWait, both in natural times.
-/// The acceleration is ρ F / M = ρ D over the natural time squared, so that mass and squeeze drop
-/// out.
+/// Return the motion of an unsupported object under a disturbance of ρ F in a hold phase, over ρ D.
+/// The force grows linearly during `ramp` and then acts for kLongestWait, both in characteristic
+/// times. The acceleration is ρ F / M = ρ D over the characteristic time squared, so mass and grasp
+/// force cancel.
 [[nodiscard]] double FreeMotion(double ramp);
 
-/// Natural times √(M D / F) (ReplaySettings::natural_time_s). A finger's servo settles in a tenth,
-/// the object swings on the servos once in about one, well damped; once in ten where two fingers
-/// stand close together, and then it takes twenty until it is still.
+/// Duration of stillness in characteristic times √(M D / F) (ReplaySettings::natural_time_s). A
+/// finger's servo settles in a tenth. The object oscillates on the servos with a period of about
+/// one, well damped. If two fingers are close together the period is ten, and it takes twenty to
+/// become still.
 inline constexpr double kStillTime = 0.4;
-/// A body that slides because a push exceeds what the grasp resists, by a part in 800,000 of
-/// the squeeze, has moved by the default tolerance by then.
+/// Longest wait in characteristic times. An object slides if a disturbance exceeds the resisted
+/// wrench by 1 / 800,000 of the grasp force; in this time it has moved by the default tolerance.
 inline constexpr double kLongestWait = 40;
-/// Over D. Contacts creep in kStillTime by less than 5e-8: the engine softens friction so that it
-/// gives by (1 − solimp) / impratio = 1e-6 of (1 / m + 1 / M) f, half the contacts' time constant
-/// of two time steps long. A body that nothing holds moves 8e-4 in it under the default shake, and
-/// one that the grasp holds but for a thousandth of the push nearly 1e-6.
+/// Limit of still motion over D. Contacts creep by less than 5e-8 in kStillTime. The engine softens
+/// friction so that it yields by (1 − solimp) / impratio = 1e-6 of (1 / m + 1 / M) f. Its time
+/// constant is half that of the contacts, which is two time steps. An unsupported object moves 8e-4
+/// in this time under the default disturbance. An object that the grasp holds except for a
+/// thousandth of the disturbance moves nearly 1e-6.
 inline constexpr double kStill = 1e-6;
-/// How far the body reaches from an axis, over its radius of gyration about that axis: 1.4 for a
-/// rod's own axis, 2 for a cube's diagonal. Contacts that creep turn a needle about its long axis
-/// by much, and none of its points goes far.
+/// Upper bound on the extent of the object from an axis over its radius of gyration about that
+/// axis: 1.4 for a rod's own axis, 2 for a cube's diagonal. Creeping contacts rotate a needle about
+/// its long axis by a large angle, but none of its points moves far.
 inline constexpr double kArmOfGyration = 3;
 
 }  // namespace regrasp::sim

@@ -82,7 +82,7 @@ class Cloud(ProgramCase):
         self.assertIn("points of egg.xyz", done.stderr)
 
     def test_only_planners_of_contact_points_keep_to_given_ones(self):
-        self.assert_refused(2, "--contacts given: the planner general has no such option",
+        self.assert_refused(2, "--contacts given: not supported by planner general",
                             "--object", "egg.xyz", "--repair", "--mu", "0.6", "--start", "random",
                             "--goal", "random", "--planner", "general", "--contacts", "given",
                             "--output", "p.json", "--quiet")

@@ -13,7 +13,7 @@ from program_case import ProgramCase
 
 SVG = "{http://www.w3.org/2000/svg}"
 
-# Colours of fingers 0 to 3 (render/picture/color_table.h), as Cairo writes them in an SVG.
+# Colours of fingers 0 to 3 (render/picture/image.cc), as Cairo writes them in an SVG.
 COLOURS = ("rgb(0%,39.607843%,64.705882%)", "rgb(94.117647%,69.019608%,0%)",
            "rgb(23.921569%,70.196078%,61.960784%)", "rgb(53.333333%,13.333333%,33.333333%)")
 

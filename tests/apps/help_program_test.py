@@ -50,22 +50,31 @@ class Help(ProgramCase):
             text = texts[80]
             self.assertEqual(text.split("Examples:\n")[1].count("  " + program + " --"), 2)
 
-    def test_the_documents_list_every_option_as_help_does_and_no_other(self):
-        path = os.path.join(program_case.ARGUMENTS.source, "docs", "options.md")
-        with open(path, encoding="utf-8") as file:
-            pages = dict(re.findall(r"^## (\S+)\n(.*?)(?=^## |\Z)", file.read(), re.DOTALL | re.M))
-        # regrasp-convert is a Python program, tested in tests/python.
-        self.assertEqual(sorted(pages), sorted([*PROGRAMS, "regrasp-convert"]))
+    def page(self, name):
+        with open(os.path.join(program_case.ARGUMENTS.source, "docs", name + ".md"), encoding="utf-8") as file:
+            return file.read()
+
+    def test_each_command_has_a_page_that_lists_every_option_and_no_other(self):
         for program in PROGRAMS:
-            page = pages[program]
+            page = self.page("command_" + program)
             listed = re.findall(r"^- `(--[a-z-]+)", page, re.M)
             self.assertEqual(listed, options_in(self.help(program)))
-            made = self.help_as("markdown", program)
-            self.assertEqual(f"## {program}\n{page}".rstrip(), made.rstrip(),
-                             "docs/options.md is out of date: docs/developing.md says how it is made")
-            # Negative controls: one option left out, and one that does not exist any more.
+            self.assertEqual(page, self.help_as("markdown", program),
+                             f"command_{program}.md is out of date: run scripts/command-pages")
+            self.assertTrue(page.startswith(f"# regrasp {program}\n"))
+            # Negative controls: a missing option, and one that the program does not have.
             self.assertNotEqual(listed[1:], options_in(self.help(program)))
             self.assertNotEqual(["--gone", *listed], options_in(self.help(program)))
+
+    def test_the_page_of_commands_links_to_all_of_them(self):
+        page = self.page("commands")
+        self.assertEqual(page, self.help_as("markdown", "regrasp"),
+                         "commands.md is out of date: run scripts/command-pages")
+        # regrasp-convert is a Python program, tested in tests/python.
+        self.assertEqual(re.findall(r"\]\(command_(\w+)\.md\)", page), [*PROGRAMS, "convert"])
+        pages = os.listdir(os.path.join(program_case.ARGUMENTS.source, "docs"))
+        self.assertEqual(sorted(name[8:-3] for name in pages if name.startswith("command_")),
+                         sorted([*PROGRAMS, "convert"]))
 
     def test_a_mistyped_option_is_told_before_a_missing_one(self):
         for self.program in PROGRAMS:

@@ -25,6 +25,31 @@ TURN = """plan --quiet --hand models/hands/ring4.json --object models/cube.obj -
 --output turn.json
 """
 
+# Reference pages of the commands, with the files that their examples must create.
+COMMANDS = {
+    "commands": [],
+    "command_plan": ["plan.json"],
+    "command_validate": ["out/plan/report.html", "junit.xml"],
+    "command_graph": ["graph.json"],
+    "command_figure": ["figures/sheet.pdf"],
+    "command_repair": ["solid.obj", "repair.json"],
+    "command_merge": ["plans.jsonl", "reports.jsonl"],
+    "command_hand": ["hand.json", "hand.png"],
+}
+
+# Files that the examples of the commands assume.
+EXAMPLES = ("cp models/*.obj models/*.wkt .; cp models/cube.start.json start.json; "
+            "cp models/cube.goal.json goal.json; cp models/cube.obj part.obj; mkdir plans\n"
+            + CUBE + "cp plan.json plans; cp plan.json cube.json; mkdir -p shards/1\n"
+            "echo '{\"object\": {\"file\": \"cube.obj\"}}' > queries.jsonl\n"
+            "plan --quiet --object . --batch queries.jsonl --mu 0.5 --start random --goal random "
+            "--output shards/plans.1.jsonl\n"
+            "validate --quiet --object . --plan shards/plans.1.jsonl --out shards/1\n"
+            "cp models/hands/ring4.xml "
+            "right_hand.xml\nplan --quiet --object models/polygon15.wkt --friction-angle 20 --planner "
+            "polygon --start models/polygon15.start.json --goal models/polygon15.goal.json "
+            "--output polygon15.json\n")
+
 # Commands that create the user's files of a page.
 GIVEN = {
     "analytic_check": CUBE,
@@ -32,19 +57,9 @@ GIVEN = {
     "figures": "cp models/mug1000.obj .\n",
     "hand_replay": TURN,
     "make_a_figure": CUBE,
-    "options": "cp models/*.obj models/*.wkt .; cp models/cube.start.json start.json; "
-               "cp models/cube.goal.json goal.json; cp models/cube.obj part.obj; mkdir plans\n"
-               + CUBE + "cp plan.json plans; cp plan.json cube.json; mkdir -p shards/1\n"
-               "echo '{\"object\": {\"file\": \"cube.obj\"}}' > queries.jsonl\n"
-               "plan --quiet --object . --batch queries.jsonl --mu 0.5 --start random --goal random "
-               "--output shards/plans.1.jsonl\n"
-               "validate --quiet --object . --plan shards/plans.1.jsonl --out shards/1\n"
-               "cp models/hands/ring4.xml "
-               "right_hand.xml\nplan --quiet --object models/polygon15.wkt --friction-angle 20 --planner "
-               "polygon --start models/polygon15.start.json --goal models/polygon15.goal.json "
-               "--output polygon15.json\n",
     "protocols_and_engines": CUBE,
     "robustness_trials": CUBE,
+    **{name: EXAMPLES for name in COMMANDS},
 }
 
 # Files that a page must create.
@@ -58,11 +73,12 @@ LEFT = {
     "interchange": ["grasps.npz", "turn.mcap", "hidex.json"],
     "figures": ["figures/sheet.pdf", "figures/contact_space.png"],
     "objects": ["solid.obj", "repair.json"],
-    "options": ["solid.obj", "graph.json", "hand.json", "junit.xml", "reports.jsonl"],
+    **COMMANDS,
     "analytic_check": ["out/plan/report.json"],
     "diagnose_a_failure": ["out/cube.start/report.html"],
     "export_hand_plan": ["turn.npz", "scene/scene.xml"],
     "hand_replay": ["out/turn/report.html"],
+    "rotate_a_cube": ["out/half/report.html", "out/slippery/report.json"],
     "robustness_trials": ["out/plan/report.json"],
     "protocols_and_engines": ["out/plan/report.json"],
     "reset_states": ["states/states.npz", "scene/scene.xml"],

@@ -191,8 +191,8 @@ class Plan(ProgramCase):
                                  ("polygon15.wkt", self.polygon_arguments(planner="polygon"))):
             with self.subTest(model=model):
                 said = self.assert_done(*arguments).stderr
-                told = re.search(r"weakest: (step (\d+) \((\w+)\), which needs a friction "
-                                 r"half-angle of (\S+) of 20\.00 degrees); ", said)
+                told = re.search(r"weakest: (step (\d+) \((\w+)\), which requires a friction "
+                                 r"angle of (\S+) of 20\.00 degrees); ", said)
                 checked = self.assert_done(
                     "--object", self.model(model), "--plan", "plan.json", "--out", "result",
                     "--no-frames", program="validate").stdout
@@ -454,7 +454,7 @@ class Plan(ProgramCase):
         contacts = [{"point": [side * 0.03, y, side * 0.012], "normal": [-side, 0, 0]}
                     for side in (-1, 1) for y in (-0.01, 0.01)]
         start = self.write_json("start.json", self.grasp(contacts))
-        self.refuse([start, "needs a friction half-angle of 21.81°, given 20.00°"], start=start)
+        self.refuse([start, "requires a friction angle of 21.81°, found 20.00°"], start=start)
         self.assert_done(*self.arguments(start=start, friction_angle="21.81"))
 
     def test_refuses_a_start_of_three_or_five_contacts(self):
@@ -531,7 +531,7 @@ class Plan(ProgramCase):
                 object=self.model("square.wkt"), start=start,
                 goal=self.model("square.goal.json"), friction_angle="10"))
         # The inclination is atan(2 / 6) = 18.43°.
-        refuse("needs a friction half-angle of 18.44°, given 10.00°", pair)
+        refuse("requires a friction angle of 18.44°, found 10.00°", pair)
         refuse("needs 2 to 4 contacts, found 1", pair[:1])
         refuse("needs 2 to 4 contacts, found 5",
                [{"point": [x, 0.03]} for x in (-0.02, -0.01, 0, 0.01, 0.02)])

@@ -103,8 +103,8 @@ class Reach(ProgramCase):
         # Fingers as thick as the object obstruct each other.
         for model, planner, random, words in (
                 ("polygon15.wkt", "polygon", "random-any",
-                 ["the planner polygon found no sequence for fingers of radius 0.08", "overlap"]),
-                ("flask500.obj", "roadmap", "random", ["no sequence of finger switches was found"])):
+                 ["planner polygon: no sequence for fingers of radius 0.08", "overlap"]),
+                ("flask500.obj", "roadmap", "random", ["planner roadmap connects no path over"])):
             with self.subTest(model=model, planner=planner):
                 self.assert_refused(1, words, "--object", self.model(model), *FRICTION, "--planner",
                                     planner, "--start", random, "--goal", random, "--seed", "0",
@@ -135,7 +135,7 @@ class Reach(ProgramCase):
             self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         entry = json.loads(self.read("inside/report.json"))["steps"][0]
         self.assertEqual(entry["reason"], "unreachable")
-        self.assertIn("finger 0: its contact lies in a sealed cavity", entry["detail"])
+        self.assertIn("finger 0: its contact is in a sealed cavity", entry["detail"])
         for planner in ("auto", "general", "polyhedron", "roadmap"):
             with self.subTest(planner=planner):
                 self.assert_refused(
@@ -166,7 +166,7 @@ class Reach(ProgramCase):
         for radius in ("0", "-1", "nan", "1e999", "wide"):
             with self.subTest(radius=radius):
                 self.assert_refused(2, "--finger-radius", *cube, "--finger-radius", radius)
-        self.assert_refused(2, ["--finger-radius: 4 is more than the object's diameter of 0.10"],
+        self.assert_refused(2, ["--finger-radius: 4 must be at most the object's diameter of 0.10"],
                             *cube, "--finger-radius", "4")
 
 

@@ -80,7 +80,7 @@ class SoftFingers(ProgramCase):
         report = self.report()
         self.assertEqual(len(report["steps"][0]["proof"]["rest"]["torques"]), 2)
         verify = [*plan, "--verify", "result/report.json"]
-        self.assertIn("force closure all the way", self.assert_done(*verify).stdout)
+        self.assertIn("force closure at every instant", self.assert_done(*verify).stdout)
         # The proofs are invalid for hard contacts, and with a torque beyond the torsional friction.
         self.assert_refused(2, ["report.json", "torsion"], *verify, "--contact", "hard")
         report["steps"][0]["proof"]["rest"]["torques"] = [1, 1]

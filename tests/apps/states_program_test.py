@@ -9,7 +9,7 @@ from program_case import ProgramCase
 
 GRAVITY = 9.81
 PER_STATE = {"joints": 20, "controls": 20, "qpos": 27, "object_position": 3,
-             "object_quaternion": 4, "holds": 5, "contact_points": 5, "contact_forces": 5}
+             "object_quaternion": 4, "active": 5, "contact_points": 5, "contact_forces": 5}
 
 
 class States(ProgramCase):
@@ -30,6 +30,7 @@ class States(ProgramCase):
         self.assertEqual(states["joint_names"][:2], ["finger0_joint0", "finger0_joint1"])
         self.assertEqual(states["control_names"][:2], ["finger0_motor0", "finger0_motor1"])
         self.assertEqual(states["finger_names"], [f"finger{i}" for i in range(5)])
+        self.assertEqual(states["format_version"], 2)
         self.assertEqual((states["object"], states["hand"]), ("cube.obj", "ring5.json"))
         self.assertAlmostEqual(states["mu"], 0.8)
         self.assertEqual((states["scale"], states["seed"], states["held_s"]), (0.8333, "3", 1))
@@ -44,14 +45,14 @@ class States(ProgramCase):
     def check_state(self, state, states):
         """Check the units: contacts are on the cube, and forces support its weight."""
         self.assertAlmostEqual(math.hypot(*state["object_quaternion"]), 1)
-        self.assertGreaterEqual(sum(state["holds"]), 3)
+        self.assertGreaterEqual(sum(state["active"]), 3)
         half = 0.03 * states["scale"]  # half of the cube's edge
         total = [0, 0, 0]
-        for holds, point, force in zip(state["holds"], state["contact_points"],
+        for active, point, force in zip(state["active"], state["contact_points"],
                                        state["contact_forces"]):
-            self.assertEqual(holds, not math.isnan(point[0]))
-            self.assertEqual(holds, not math.isnan(force[0]))
-            if not holds:
+            self.assertEqual(active, not math.isnan(point[0]))
+            self.assertEqual(active, not math.isnan(force[0]))
+            if not active:
                 continue
             self.assertAlmostEqual(max(map(abs, point)), half, places=6)
             total = [a + b for a, b in zip(total, force)]
@@ -79,7 +80,7 @@ class States(ProgramCase):
     def test_what_cannot_be_held_ends_with_one_line(self):
         self.assert_refused(1, ["no states", "cube.obj", "no random grasp"],
                             *self.arguments("--export-states", "2", scale="10"))
-        self.assert_refused(1, ["no states", "1000", "carry the weight"],
+        self.assert_refused(1, ["no states", "1000", "support the weight"],
                             *self.arguments("--export-states", "2", "--mass", "50"))
 
     def test_bad_usage_is_told(self):

@@ -172,8 +172,8 @@ class Validate(ProgramCase):
 
     def test_stress_finds_the_largest_push_by_two_routes(self):
         done, report = self.assert_passes("--no-frames", "--stress")
-        self.assertIn("largest push", done.stdout)
-        self.assertIn("The largest push", self.page_text())
+        self.assertIn("largest resisted disturbance", done.stdout)
+        self.assertIn("Largest disturbance", self.page_text())
         checked = 0
         for step in report["steps"]:
             self.assertEqual(len({push["direction"] for push in step["stress"]}), 12)
@@ -191,7 +191,7 @@ class Validate(ProgramCase):
         done, _ = self.assert_passes("--quiet", "--no-frames")
         self.assertEqual(done.stdout + done.stderr, "")
 
-    def test_a_failed_plan_says_first_what_failed_why_and_what_would_mend_it(self):
+    def test_a_failed_plan_prints_first_what_failed_why_and_help(self):
         contact = self.plan["initial"]["contacts"][0]
         contact["point"][0] += 0.004
         self.write_plan()
@@ -199,8 +199,9 @@ class Validate(ProgramCase):
         said = done.stdout.splitlines()
         self.assertRegex(said[0], r"^step 0 \(hold\) fails: off-surface: finger \d is 4 mm off the "
                                   r"surface$")
-        self.assertRegex(said[1], r"^  why: a contact lies on the surface to within 1e-06 of ")
-        self.assertRegex(said[2], r"^  what would mend it: .*surface")
+        self.assertRegex(said[1], r"^  why: a contact must be on the surface to within 1e-06 of ")
+        self.assertRegex(said[2], r"^  help: .*surface")
+        self.assertEqual(said[3], "  more: regrasp validate --explain off-surface")
         self.assertEqual(said[-1], "verdict: fail, " + said[0])
         self.assertEqual(said[-2], "files: result/report.html, report.json")
         self.assertNotIn("weakest", done.stdout)
@@ -212,18 +213,18 @@ class Validate(ProgramCase):
     def test_terminal_quiet_page_report_and_junit_say_a_failure_in_the_same_words(self):
         arguments = self.arguments("--no-frames", "--junit", "junit.xml", tolerance="1e-12")
         headline, why, mend = self.run_program(*arguments).stdout.splitlines()[:3]
-        why, mend = why.removeprefix("  why: "), mend.removeprefix("  what would mend it: ")
+        why, mend = why.removeprefix("  why: "), mend.removeprefix("  help: ")
         self.assertRegex(headline, r"slipped: finger \d slipped by [\d.]+ .m ")
         failed = self.report()["steps"][0]
         self.assertTrue(headline.endswith(": slipped: " + failed["detail"]), headline)
         self.assertEqual((failed["why"], failed["mend"]), (why, mend))
         self.assertNotIn("why", self.report()["steps"][1])
         case = ElementTree.fromstring(self.read("junit.xml")).find("testsuite/testcase/failure")
-        self.assertEqual(case.text, f"{failed['detail']}\nwhy: {why}\nwhat would mend it: {mend}")
+        self.assertEqual(case.text, f"{failed['detail']}\nwhy: {why}\nhelp: {mend}")
         for words in (failed["detail"][1:], why, mend):
             self.assertIn(words, self.page_text())
         quiet = self.run_program(*arguments, "--quiet").stderr
-        self.assertEqual(quiet, f"validate: {headline}; why: {why}; what would mend it: {mend}\n")
+        self.assertEqual(quiet, f"validate: {headline}; why: {why}; help: {mend}\n")
 
     def test_the_friction_that_a_failed_plan_asks_for_passes_the_analytic_check(self):
         done = self.run_program(*self.arguments("--no-frames", friction_angle="2"))
@@ -241,7 +242,7 @@ class Validate(ProgramCase):
         self.assertEqual(report["settings"]["squeeze_source"], "hand")
         self.assertLess(weight, report["settings"]["squeeze_N"])
         self.assertLess(report["settings"]["squeeze_N"], 50 * weight)
-        self.assertIn("as a hand grips", done.stdout)
+        self.assertIn("times the force that supports the weight", done.stdout)
         report = self.assert_passes("--no-frames")[1]
         self.assertEqual(report["settings"]["squeeze_source"], "shake")
         self.assertAlmostEqual(report["settings"]["squeeze_N"], 1000 * weight, places=6)
@@ -252,7 +253,7 @@ class Validate(ProgramCase):
         done = self.run_program(*self.arguments(*heavy))
         self.assertEqual((done.returncode, self.report()["settings"]["squeeze_N"]), (1, 200))
         self.assertEqual(self.report()["steps"][0]["cause"]["cause"], "weight")
-        self.assertIn("200 N, 0.4077 times the weight: the most that a hand applies", done.stdout)
+        self.assertIn("200 N, 0.4077 times the weight: largest grasp force of a hand", done.stdout)
 
     def test_says_how_large_and_heavy_the_object_is_and_warns_of_what_no_hand_holds(self):
         done, _ = self.assert_passes("--no-frames")
@@ -301,7 +302,7 @@ class Validate(ProgramCase):
         self.assertEqual(json.loads(done.stdout)["verdict"], "pass")
         self.assertEqual(done.stdout.encode(), self.read("out/plan/report.json"))
         # No plan on standard input, and two plans.
-        self.refuse("validate: error: -: not JSON", plan="-", out="none")
+        self.refuse("validate: error: -: not valid JSON", plan="-", out="none")
         self.refuse("--plan - goes with a single plan", "--plan", "plan.json", plan="-")
 
     def test_a_failed_plan_is_on_standard_output_too_and_json_goes_to_files(self):
@@ -517,7 +518,7 @@ class Validate(ProgramCase):
         step = report["steps"][1]
         self.assertEqual(step["force_closure"], {"holds": False, "required_half_angle_deg": None})
         self.assertGreater(step["undecided"], 0)
-        self.assertIn("force closure is not proved near 0.4286 of the way", step["detail"])
+        self.assertIn("force closure is not proved near 0.4286 of the path", step["detail"])
         suite = ElementTree.fromstring(self.read("junit.xml")).find("testsuite")
         self.assertEqual(suite.find("testcase/failure").get("message"), "not-proved")
         self.assertIn("not-proved", self.page_text())
@@ -742,16 +743,16 @@ class Validate(ProgramCase):
     def test_proofs_at_another_friction_prove_nothing_about_the_plan(self):
         _, report = self.assert_passes("--certificates", "--no-frames", friction_angle="40")
         at_40 = self.arguments(verify="result/report.json", out=None)
-        self.refuse(["report.json: /settings/friction_half_angle_deg", "half-angle 40°",
-                     "of the plan or of --friction-angle, 20°"], verify="result/report.json")
-        self.refuse(["half-angle 40°", "--friction-angle, 30°"], verify="result/report.json",
+        self.refuse(["report.json: /settings/friction_half_angle_deg: expected 20° as of the plan", "found 40°"],
+                    verify="result/report.json")
+        self.refuse(["expected 30°", "found 40°"], verify="result/report.json",
                     friction_angle="30")
         done = self.assert_done(*at_40, "--friction-angle", "40")
-        self.assertIn("friction half-angle 40°", done.stdout)
+        self.assertIn("friction angle 40°", done.stdout)
         # Lower the plan's own friction, and change the report accordingly.
         self.plan["friction"]["half_angle_deg"] = 1
         self.forge(report)
-        self.refuse("half-angle 40°", verify="forged.json")
+        self.refuse("found 40°", verify="forged.json")
         report["settings"]["friction_half_angle_deg"] = 1
         self.forge(report)
         done = self.run_program(*self.arguments(verify="forged.json", out=None))
@@ -773,7 +774,7 @@ class Validate(ProgramCase):
         line = done.stdout.splitlines()[entry]
         self.assertTrue(line.startswith(f"{entry} "), done.stdout)
         self.assertIn("at fault: " + words, line)
-        self.assertIn(f"\nnot proved: the plan is at fault in entry {entry}\n", done.stdout)
+        self.assertIn(f"\nnot proved: the plan fails the analytic check in entry {entry}\n", done.stdout)
 
     def test_proofs_do_not_make_up_for_a_plan_that_is_none(self):
         _, report = self.assert_passes("--certificates", "--no-frames")
@@ -837,7 +838,7 @@ class Validate(ProgramCase):
         self.write_json("tampered.json", report)
         done = self.run_program(*self.arguments(verify="tampered.json", out=None))
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("1 switch  not proved: the report holds no proof", done.stdout)
+        self.assertIn("1 switch  not proved: the report has no proof", done.stdout)
 
     def test_a_lost_object_is_refuted(self):
         report = self.assert_fails(0, "not-force-closure", "--certificates", friction_angle="2")
@@ -884,7 +885,7 @@ class Validate(ProgramCase):
         done, report = self.assert_passes("--certificates", "--no-frames", object=solid)
         self.assertEqual(report["steps"][index + 1]["certificate"], "does-not-hold")
         self.assertEqual(len(done.stderr.splitlines()), 1)
-        self.assertIn(f"warning: step {index + 1}: the plan's certificate does not hold: from "
+        self.assertIn(f"warning: step {index + 1}: the plan's certificate is not valid: from "
                       "waypoint 0 on, the force at contact", done.stderr)
         # The report has its own proof.
         self.assert_done(*self.arguments(object=solid, verify="result/report.json", out=None))
@@ -901,7 +902,7 @@ class Validate(ProgramCase):
 
     def test_refuses_reports_that_cannot_be_verified(self):
         _, report = self.assert_passes("--no-frames")
-        self.refuse("holds no proofs", verify="result/report.json")
+        self.refuse("proofs not found", verify="result/report.json")
         self.refuse("no such file", verify="nothing.json")
         report["plan"]["sha256"] = "0" * 64
         self.write_json("other.json", report)

@@ -1,4 +1,4 @@
-"""Every constant of planner/gait is in a table of docs/gait.md, and the tables have no others.
+"""Every constant of planner/gait is in a table of docs/gait_constants.md, and the tables have no others.
 
 usage: constants_test.py SOURCE_FOLDER [unittest's own arguments]
 """
@@ -30,7 +30,7 @@ class Constants(unittest.TestCase):
         for file in (SOURCE / "planner" / "gait").glob("*.*"):
             names |= defined(file.read_text())
         self.assertGreater(len(names), 50)
-        self.assertEqual(documented((SOURCE / "docs" / "gait.md").read_text()),
+        self.assertEqual(documented((SOURCE / "docs" / "gait_constants.md").read_text()),
                          names - NO_PARAMETERS)
 
     def test_a_constant_that_is_missing_on_one_side_is_found(self):

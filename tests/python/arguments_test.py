@@ -77,7 +77,7 @@ class ArgumentsTest(RegraspCase):
         self.check(regrasp.force_closure, points=points, normals=normals, object=self.cube, mu=0.5,
                    quality=True, required_angle=False, threads=1, progress=None)
         self.check(regrasp.force_closure, points=points, normals=normals, friction_angle_deg=20,
-                   touching=np.ones((3, 4), bool))
+                   active=np.ones((3, 4), bool))
 
     def test_of_objects(self):
         self.check(regrasp.Object.read, path="models/cube.obj", scale=1, repair=False, shells=None,
@@ -165,9 +165,9 @@ class ArgumentsTest(RegraspCase):
                  {"points": masked(points, 0), "normals": normals, "mu": 0.5}),
                 (["normals[2, 0, 1]"], regrasp.force_closure,
                  {"points": points, "normals": masked(normals, (2, 0, 1)), "mu": 0.5}),
-                (["touching[0, 1]"], regrasp.force_closure,
+                (["active[0, 1]"], regrasp.force_closure,
                  {"points": points, "normals": normals, "mu": 0.5,
-                  "touching": masked(np.ones((3, 4), bool), (0, 1))}),
+                  "active": masked(np.ones((3, 4), bool), (0, 1))}),
                 (["points[1][2, 0]"], regrasp.force_closure,
                  {"points": [points[0], masked(points[1], (2, 0))], "normals": normals[:2], "mu": 0.5}),
                 (["points[0][1][2]"], regrasp.force_closure,

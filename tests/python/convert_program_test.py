@@ -62,9 +62,10 @@ class ConvertProgramTest(RegraspCase):
         self.assertEqual(complete("regrasp-convert", "--mu", "a"), [])
 
     def test_the_documents_have_its_options(self):
-        with open("docs/options.md", encoding="utf-8") as file:
+        with open("docs/command_convert.md", encoding="utf-8") as file:
             page = file.read()
-        self.assertIn(run("--help-as", "markdown").stdout.strip(), page)
+        self.assertEqual(run("--help-as", "markdown").stdout, page,
+                         "command_convert.md is out of date: run scripts/command-pages")
 
     def test_bad_usage_is_one_line(self):
         for arguments, words in [((), ["required"]), (("a.yaml", "--output"), ["--output"]),
@@ -73,7 +74,7 @@ class ConvertProgramTest(RegraspCase):
                                  (("a.yaml", "--output", "b.yaml", "--mu", "x"), ["--mu", "'x'"])]:
             said = run(*arguments, code=2).stderr
             self.assertEqual(said.count("\n"), 1, said)
-            self.assertTrue(said.startswith("regrasp-convert: "))
+            self.assertTrue(said.startswith("regrasp-convert: error: "))
             for word in words:
                 self.assertIn(word, said)
 
@@ -88,7 +89,7 @@ class ConvertProgramTest(RegraspCase):
                 self.assertEqual(convert.main([path, "--output", output]), code)
             return stderr.getvalue()
         for output in (path, linked):
-            self.assertIn("is an input", said(output, 2))
+            self.assertIn("must not be an input", said(output, 2))
         with open(path, encoding="utf-8") as file:
             self.assertEqual(file.read(), ISAAC)
         self.assertIn("none", said(self.path("none/b.yaml"), 3))

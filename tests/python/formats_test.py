@@ -66,7 +66,7 @@ class FormatsTest(RegraspCase):
     def test_a_notebook_shows_grasps_of_hands(self):
         page = self.grasps._repr_html_()
         self.assertEqual(page.count("<tr>"), 1 + len(self.grasps))
-        self.assertIn("not carried over: contacts", page)
+        self.assertIn("not converted: contacts", page)
 
     def test_isaac_grasp_comes_back_bit_for_bit(self):
         path = self.path("grasps.yaml")
@@ -95,12 +95,12 @@ class FormatsTest(RegraspCase):
                 (("1.0", "2.0"), ["format_version", "2.0"]),
                 (("[1, 2, 3]", "[1, 2]"), ["grasps: second: position", "3 numbers"]),
                 (("[1, 2, 3]", "[1, 2, x]"), ["grasps: second: position"]),
-                (("[1, 2, 3]", "[1, 2, .nan]"), ["grasps: second: position", "not finite"]),
-                (("xyz: [0, 0, 0]", "xyz: [0, 0, 2]"), ["grasps: second: orientation", "length 1"]),
-                (("w: 1.0, ", ""), ["grasps: second: orientation", "no w"]),
+                (("[1, 2, 3]", "[1, 2, .nan]"), ["grasps: second: position", "must be finite"]),
+                (("xyz: [0, 0, 0]", "xyz: [0, 0, 2]"), ["grasps: second: orientation must be a unit quaternion", "2.236"]),
+                (("w: 1.0, ", ""), ["grasps: second: orientation", "w not found"]),
                 (("{a: 4, b: 5}", "{a: 4}"), ["grasps: second: cspace_position"]),
-                (("{a: 4, b: 5}", "{a: 4"), ["no YAML"]),
-                (("  second:", "  !!python/object/apply:os.getcwd []\n  second:"), ["no YAML"])]:
+                (("{a: 4, b: 5}", "{a: 4"), ["not a YAML file"]),
+                (("  second:", "  !!python/object/apply:os.getcwd []\n  second:"), ["not a YAML file"])]:
             with self.subTest(change=change):
                 self.assertIn(change[0], ISAAC)
                 path = self.path("bad.yaml", ISAAC.replace(*change))
@@ -189,10 +189,10 @@ class FormatsTest(RegraspCase):
         self.assert_same(found)
         self.assertEqual(found.scales[0], 0.5)
         for change, words in [
-                ({"interest_obj_name": "cup"}, ["scene_cfg: scene", "no cup"]),
+                ({"interest_obj_name": "cup"}, ["scene_cfg: scene", "cup not found"]),
                 ({"interest_obj_name": 3}, ["interest_obj_name", "3"]),
                 ({"scene": {"cube": {**cube, "pose": [1, 2]}}}, ["scene_cfg: pose", "7"]),
-                ({"scene": {"cube": {**cube, "pose": np.zeros(7)}}}, ["scene_cfg: pose", "length 1"]),
+                ({"scene": {"cube": {**cube, "pose": np.zeros(7)}}}, ["scene_cfg: pose must be a unit quaternion"]),
                 ({"scene": {"cube": {**cube, "scale": [1, 1, 2.]}}}, ["scene_cfg: scale", "2.0"]),
                 ({"scene": {"cube": {**cube, "scale": 0}}}, ["scene_cfg: scale", "0"]),
                 ({"scene": [cube]}, ["scene_cfg: scene", "list"]),
@@ -223,7 +223,7 @@ class FormatsTest(RegraspCase):
         # A meaningless option is rejected, not ignored.
         for other in (output, self.plan):
             said = self.convert(other, option, "--hand", HAND, "--output", self.path("b.yaml"), code=2)
-            self.assertIn("--object-pose: cannot be used with", said)
+            self.assertIn("--object-pose cannot be used with", said)
 
     def dexgraspnet(self, scales):
         """Return the list that DexGraspNet saves of the plan's grasps, on a scaled cube of edge 1.
@@ -274,11 +274,11 @@ class FormatsTest(RegraspCase):
         self.assertIn("0.06 of 1, 0.12 of 1", said)
         with np.load(output) as arrays:
             np.testing.assert_array_equal(arrays["grasps"], [0])
-            places = unit.nearest(arrays["points"][arrays["holds"]])[0]
-            np.testing.assert_allclose(places, arrays["points"][arrays["holds"]], atol=1e-12)
+            places = unit.nearest(arrays["points"][arrays["active"]])[0]
+            np.testing.assert_allclose(places, arrays["points"][arrays["active"]], atol=1e-12)
         # An object with a different size is rejected, one with the same size is accepted.
         large = regrasp.Object.read(self.path("unit.obj"), scale=0.06)
-        self.refuses(["object", "scale 0.06", "0.12", "unit_1"], found.touching, self.hand, large)
+        self.refuses(["object", "found 0.06", "0.12", "unit_1"], found.touching, self.hand, large)
         np.save(path, self.dexgraspnet([0.06, 0.06]))
         same = formats.read_dexgraspnet(path).touching(self.hand, large)[2]
         self.assertTrue(same.any(axis=1).all())
@@ -291,9 +291,9 @@ class FormatsTest(RegraspCase):
             return [good[0], {**good[1], "qpos": {**good[1]["qpos"], **more}}]
         without = {key: value for key, value in good[1]["qpos"].items() if key != "WRJTy"}
         for entries, words in [
-                ([good[0], {"qpos": good[1]["qpos"]}], ["[1]", "no scale"]),
-                ([good[0], {"scale": 1}], ["[1]", "no qpos"]),
-                ([good[0], {"scale": 1, "qpos": without}], ["[1]: qpos", "no WRJTy"]),
+                ([good[0], {"qpos": good[1]["qpos"]}], ["[1]", "scale not found"]),
+                ([good[0], {"scale": 1}], ["[1]", "qpos not found"]),
+                ([good[0], {"scale": 1, "qpos": without}], ["[1]: qpos", "WRJTy not found"]),
                 ([good[0], {"scale": -1, "qpos": good[1]["qpos"]}], ["[1]: scale", "-1"]),
                 ([good[0], {"scale": 1, "qpos": [1, 2]}], ["[1]: qpos", "list"]),
                 (changed(extra=1), ["[1]: qpos", "extra"]),
@@ -354,7 +354,7 @@ class FormatsTest(RegraspCase):
         path = self.path("0.npy")
         pose = np.array([0, 0, 0, 1, 0, 0, 0.])
         for data, words in [
-                ({"obj_pose": pose}, ["no grasp_qpos"]),
+                ({"obj_pose": pose}, ["grasp_qpos not found"]),
                 ({"grasp_qpos": np.ones(20)}, ["no obj_pose"]),
                 ({"grasp_qpos": np.ones(5), "obj_pose": pose}, ["grasp_qpos", "(1, 5)"]),
                 ({"grasp_qpos": np.ones(20), "obj_pose": pose}, ["grasp_qpos", "quaternion"]),
@@ -370,7 +370,7 @@ class FormatsTest(RegraspCase):
             self.refuses([path], formats.read_dexgraspbench, path)
         with open(path, "wb") as file:
             pickle.dump({}, file)
-        self.refuses([path, "not a dictionary of NumPy"], formats.read_dexgraspbench, path)
+        self.refuses([path, "not a NumPy dictionary file"], formats.read_dexgraspbench, path)
 
     def graspit(self, palm):
         def pose(p):
@@ -392,8 +392,8 @@ class FormatsTest(RegraspCase):
         self.assertEqual(found.lost, ["1 obstacle"])
         contacts = self.path("contacts.xml", "<virtual_contacts><robot_name>a</robot_name></virtual_contacts>")
         self.refuses([contacts, "save the world"], formats.read_graspit, contacts)
-        for change, words in [(("<world>", "<worlds>"), ["no XML"]),
-                              (("<robot>", "<robots>"), ["no XML"]),
+        for change, words in [(("<world>", "<worlds>"), ["not an XML file"]),
+                              (("<robot>", "<robots>"), ["not an XML file"]),
                               (("graspableBody", "body"), ["0 and 1"]),
                               (("fullTransform", "transform"), ["graspableBody: transform"]),
                               (("<dofValues>", "<dofValues>x "), ["dofValues"])]:
@@ -410,12 +410,12 @@ class FormatsTest(RegraspCase):
 
     def test_the_program_goes_from_a_plan_to_verdicts(self):
         said = self.convert(self.plan, "--hand", HAND, "--output", self.path("a.yaml"))
-        self.assertIn("not carried over: which fingers hold", said)
+        self.assertIn("not converted: which fingers hold", said)
         held = [str(c["finger"]) for c in regrasp.Plan.read(self.plan).data["initial"]["contacts"]]
         fingers = ",".join("finger" + finger for finger in held)
         said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--fingers",
                             fingers, "--output", self.path("a.npz"))
-        self.assertEqual(said, "regrasp-convert: not carried over: palm and joints\n")
+        self.assertEqual(said, "regrasp-convert: note: not converted: palm and joints\n")
         done = subprocess.run([f"{PROGRAMS}/validate", "--object", CUBE, "--grasps",
                                self.path("a.npz"), "--mu", "0.8", "--out", self.path("out")],
                               capture_output=True, text=True, check=False)
@@ -434,7 +434,7 @@ class FormatsTest(RegraspCase):
         np.testing.assert_array_equal(*margins)
         with np.load(self.path("b.npz")) as arrays:
             self.assertEqual(arrays["points"].shape, (len(self.grasps), 4, 3))
-            self.assertFalse(arrays["holds"][:, int(idle)].any())
+            self.assertFalse(arrays["active"][:, int(idle)].any())
         # If a required finger is not in contact, no grasp remains and no file is written.
         said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--fingers",
                             "finger" + idle, "--output", self.path("c.npz"), code=1)
@@ -478,7 +478,7 @@ class FormatsTest(RegraspCase):
                 (["--hand"], [self.plan, "--output", "x.yaml"]),
                 (["--hand"], [good, "--output", "x.npz"]),
                 (["--object"], [good, "--hand", HAND, "--output", "x.npz"]),
-                (["joints", "finger0_joint0"], [good, "--hand", HAND, "--object", CUBE, "--output",
+                (["joint finger0_joint0"], [good, "--hand", HAND, "--object", CUBE, "--output",
                                                 "x.npz"])]:
             said = self.convert(*arguments, code=2)
             for word in words:

@@ -49,49 +49,80 @@ class GraspFilesTest(RegraspCase):
         found = self.judge("--mu", "0.5", "--required-angle", code=1, points=self.points,
                            normals=self.normals)
         expected = regrasp.force_closure(self.points, self.normals, mu=0.5, required_angle=True)
-        self.assertEqual(found["holds"].dtype, bool)
-        self.assertTrue(expected.holds.any() and not expected.holds.all())
-        np.testing.assert_array_equal(found["holds"], expected.holds)
+        self.assertEqual(found["valid"].dtype, bool)
+        self.assertTrue(expected.is_force_closure.any() and not expected.is_force_closure.all())
+        np.testing.assert_array_equal(found["valid"], expected.is_force_closure)
         np.testing.assert_array_equal(found["required_angle_deg"], expected.required_angle_deg)
         self.assertNotIn("quality", found)
-        self.assertIn(f"pass                     {expected.holds.sum()}\n", self.said)
+        self.assertIn(f"pass                     {expected.is_force_closure.sum()}\n", self.said)
         words = found["reasons"][found["reason"].astype(int)]
-        np.testing.assert_array_equal(words == "", found["holds"])
-        self.assertEqual(set(words[~found["holds"]]), {"not-force-closure"})
+        np.testing.assert_array_equal(words == "", found["valid"])
+        self.assertEqual(set(words[~found["valid"]]), {"not-force-closure"})
 
     def test_verdicts_are_those_on_single_grasps(self):
         found = self.judge("--mu", "0.5", "--quality", code=1, points=self.points[:12],
                            normals=self.normals[:12])
         for i in range(12):
             report = self.report_of(self.points[i], self.normals[i], "--mu", "0.5")
-            self.assertEqual(report["steps"][0]["force_closure"]["holds"], found["holds"][i])
-            if found["holds"][i]:
+            self.assertEqual(report["steps"][0]["force_closure"]["holds"], found["valid"][i])
+            if found["valid"][i]:
                 self.assertEqual(report["grasp"]["quality"], found["quality"][i])
 
-    def test_contacts_that_do_not_hold_do_not_count(self):
-        holds = np.random.default_rng(2).uniform(size=(400, 4)) < 0.8
-        holds[5] = False
-        found = self.judge("--mu", "0.9", code=1, points=self.points, normals=self.normals, holds=holds)
-        counts = holds.sum(axis=1)
+    def test_verdicts_have_the_format_version_and_tell_force_closure_from_the_verdict(self):
+        points, normals = self.points[:40], self.normals[:40]
+        found = self.judge("--mu", "0.4", code=1, points=points, normals=normals)
+        self.assertEqual(found["format_version"], 2)
+        self.assertNotIn("holds", found)
+        np.testing.assert_array_equal(found["valid"], found["is_force_closure"])
+        replayed = self.judge("--mu", "0.4", "--shake", "0.02", "--replay", "points", code=1, points=points,
+                              normals=normals)
+        np.testing.assert_array_equal(replayed["is_force_closure"], found["is_force_closure"])
+        lost = replayed["is_force_closure"] & ~replayed["valid"]
+        self.assertTrue(lost.any() and replayed["valid"].any())
+        self.assertFalse((replayed["valid"] & ~replayed["is_force_closure"]).any())
+
+    def test_a_mask_of_version_1_is_read(self):
+        mask = np.random.default_rng(2).uniform(size=(400, 4)) < 0.8
+        arrays = {"points": self.points, "normals": self.normals}
+        margin = self.judge("--mu", "0.9", code=1, active=mask, **arrays)["margin"]
+        for old in ({"holds": mask}, {"holds": mask, "format_version": np.array(1)},
+                    {"active": mask, "format_version": np.array(2)},
+                    # In version 2 an array named holds is ignored.
+                    {"active": mask, "holds": ~mask, "format_version": np.array(2)}):
+            np.testing.assert_array_equal(self.judge("--mu", "0.9", code=1, **old, **arrays)["margin"], margin)
+        # Negative controls: without the mask the margins differ, and also if the mask is ignored.
+        for other in ({}, {"holds": mask, "format_version": np.array(2)}):
+            again = self.judge("--mu", "0.9", code=1, **other, **arrays)["margin"]
+            self.assertFalse(np.array_equal(again, margin))
+        for wrong, words in (({"active": mask, "holds": mask}, "active: cannot be used with holds"),
+                             ({"format_version": np.array(3)}, "format_version: not supported, expected 1 or 2, found 3"),
+                             ({"format_version": np.array([1, 2])}, "found an array of shape (2)")):
+            self.assertIn(words, self.judge("--mu", "0.9", code=2, **wrong, **arrays))
+
+    def test_contacts_that_are_not_active_do_not_count(self):
+        active = np.random.default_rng(2).uniform(size=(400, 4)) < 0.8
+        active[5] = False
+        found = self.judge("--mu", "0.9", code=1, points=self.points, normals=self.normals, active=active)
+        counts = active.sum(axis=1)
         self.assertTrue({0, 2, 3, 4} <= set(counts))
         for k in (1, 2, 3, 4):
             chosen = np.flatnonzero(counts == k)
-            kept = holds[chosen]
+            kept = active[chosen]
             alone = self.judge("--mu", "0.9", code=1, points=self.points[chosen][kept].reshape(-1, k, 3),
                                normals=self.normals[chosen][kept].reshape(-1, k, 3))
-            for name in ("holds", "margin", "reason"):
+            for name in ("valid", "is_force_closure", "margin", "reason"):
                 np.testing.assert_array_equal(found[name][chosen], alone[name])
-        self.assertTrue(found["holds"][counts == 3].any())
-        self.assertFalse(found["holds"][counts == 0].any())
+        self.assertTrue(found["valid"][counts == 3].any())
+        self.assertFalse(found["valid"][counts == 0].any())
         words = found["reasons"][found["reason"].astype(int)]
         self.assertEqual(set(words[counts == 0]), {"not-force-closure"})
         # The point of an inactive contact is ignored, if it is a number.
-        points = np.where(holds[..., None], self.points, 7)
-        again = self.judge("--mu", "0.9", code=1, points=points, normals=self.normals, holds=holds)
+        points = np.where(active[..., None], self.points, 7)
+        again = self.judge("--mu", "0.9", code=1, points=points, normals=self.normals, active=active)
         np.testing.assert_array_equal(again["margin"], found["margin"])
-        all_hold = self.judge("--mu", "0.9", code=1, points=self.points, normals=self.normals,
-                              holds=np.ones((400, 4), bool))
-        self.assertFalse(np.array_equal(all_hold["holds"], found["holds"]))
+        all_active = self.judge("--mu", "0.9", code=1, points=self.points, normals=self.normals,
+                              active=np.ones((400, 4), bool))
+        self.assertFalse(np.array_equal(all_active["valid"], found["valid"]))
 
     def test_a_contact_off_the_surface_is_named_with_its_distance_and_the_tolerance(self):
         points = self.points.copy()
@@ -104,9 +135,9 @@ class GraspFilesTest(RegraspCase):
         self.assertIn("grasp 3, contact 1 (the first): 1.2e-06 of the object file's units", line)
         self.assertIn("1e-06 of it counts as on it", line)
         # The index is that in the file, regardless of inactive contacts.
-        holds = np.ones((400, 4), bool)
-        holds[3, 1] = holds[7, 0] = holds[7, 2] = False
-        self.judge("--mu", "0.5", code=1, holds=holds, **arrays)
+        active = np.ones((400, 4), bool)
+        active[3, 1] = active[7, 0] = active[7, 2] = False
+        self.judge("--mu", "0.5", code=1, active=active, **arrays)
         self.assertIn("grasp 7, contact 3 (the first): 2.4e-06", self.said)
         # Negative control: on the surface there is no such line.
         self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
@@ -122,7 +153,7 @@ class GraspFilesTest(RegraspCase):
                            normals=self.normals.astype(np.float32))
         near = self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
         self.assertNotIn("off-surface", found["reasons"][found["reason"].astype(int)])
-        np.testing.assert_array_equal(found["holds"], near["holds"])
+        np.testing.assert_array_equal(found["valid"], near["valid"])
         # Negative control: a point 0.1 mm off is rejected, with the reason for the tolerance.
         points[5, 1] += 1e-4 * -self.normals[5, 1].astype(np.float32)
         self.judge("--mu", "0.5", code=1, object=far, points=points, normals=self.normals)
@@ -130,7 +161,7 @@ class GraspFilesTest(RegraspCase):
         self.assertIn("float32", self.said)
 
     def test_replays_are_those_of_single_grasps(self):
-        chosen = np.flatnonzero(self.judge("--mu", "0.4", code=1, points=self.points)["holds"])[:12]
+        chosen = np.flatnonzero(self.judge("--mu", "0.4", code=1, points=self.points)["valid"])[:12]
         points, normals = self.points[chosen], self.normals[chosen]
         points[3, 1] += 1
         options = ["--mu", "0.4", "--shake", "0.02"]
@@ -138,13 +169,13 @@ class GraspFilesTest(RegraspCase):
         words = found["reasons"][found["reason"].astype(int)]
         self.assertEqual(words[3], "off-surface")
         np.testing.assert_array_equal(found["replayed"], np.arange(12) != 3)
-        self.assertEqual(set(found["holds"]), {True, False})
+        self.assertEqual(set(found["valid"]), {True, False})
         for i in np.flatnonzero(found["replayed"])[:6]:
             report = self.report_of(points[i], normals[i], *options)
-            self.assertEqual(report["verdict"] == "pass", found["holds"][i])
+            self.assertEqual(report["verdict"] == "pass", found["valid"][i])
             self.assertEqual(report["steps"][0]["reason"] or "", words[i])
         # All grasps on the object pass if there is only the analysis.
-        self.assertEqual(self.judge("--mu", "0.4", code=1, points=points)["holds"].sum(), 11)
+        self.assertEqual(self.judge("--mu", "0.4", code=1, points=points)["valid"].sum(), 11)
 
     def report_of(self, points, normals, *options):
         contacts = [{"point": p, "normal": n} for p, n in zip(points.tolist(), normals.tolist())]
@@ -166,7 +197,7 @@ class GraspFilesTest(RegraspCase):
         self.assertEqual(list(words[[3, 5, 7]]),
                          ["off-surface", "wrong-normal", "coincident-fingers"])
         self.assertTrue(np.isnan(found["margin"][[3, 5, 7]]).all())
-        self.assertFalse(found["holds"][[3, 5, 7]].any())
+        self.assertFalse(found["valid"][[3, 5, 7]].any())
 
     def test_normals_may_be_left_out_and_files_be_packed(self):
         found = self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
@@ -179,16 +210,16 @@ class GraspFilesTest(RegraspCase):
             np.testing.assert_array_equal(again["margin"], found["margin"])
 
     def test_all_that_pass_are_a_pass(self):
-        holds = self.judge("--mu", "0.5", code=1, points=self.points)["holds"]
-        self.judge("--friction-angle", "26.6", code=0, points=self.points[holds])
+        valid = self.judge("--mu", "0.5", code=1, points=self.points)["valid"]
+        self.judge("--friction-angle", "26.6", code=0, points=self.points[valid])
         self.assertTrue(self.said.endswith("verdict: pass\n"))
         # A file without grasps does not pass.
-        self.assertIn("no grasp", self.judge("--mu", "0.5", code=2, points=np.zeros((0, 4, 3))))
+        self.assertIn("at least one grasp", self.judge("--mu", "0.5", code=2, points=np.zeros((0, 4, 3))))
 
     def test_grasps_in_the_plane(self):
         points = np.array([[[-1, 0.], [1, 0.]], [[-1, 0.9], [1, -0.9]]])
         found = self.judge("--mu", "0.5", code=1, object=self.square(), points=points)
-        self.assertEqual(list(found["holds"]), [True, False])
+        self.assertEqual(list(found["valid"]), [True, False])
 
     def square(self):
         with open(self.path("square.wkt"), "w", encoding="utf-8") as file:
@@ -206,8 +237,8 @@ class GraspFilesTest(RegraspCase):
                 (["points[2, 1, 0]", "not finite"], [], {"points": broken}),
                 (["points", "objects"], [], {"points": np.array([None])}),
                 (["points", "U1"], [], {"points": np.array(["x"])}),
-                (["holds", "(400, 4)", "(400, 3)"], [],
-                 {"points": self.points, "holds": np.ones((400, 3), bool)}),
+                (["active", "(400, 4)", "(400, 3)"], [],
+                 {"points": self.points, "active": np.ones((400, 3), bool)}),
                 (["--replay hand", "plan"], ["--replay", "hand"], {"points": self.points}),
                 (["--shake", "--replay points"], ["--shake", "0.1"], {"points": self.points}),
                 (["--trajectory", "--grasps"], ["--trajectory", self.path("t.csv")],

@@ -109,20 +109,20 @@ class HandsTest(RegraspCase):
         plan("gear128.wkt", "polygon", object=gear, turn=("z", 90))
         plan("turn", "axis and degrees", turn="z90 now")
         plan("turn[0]", "'w'", turn=("w", 90))
-        plan("turn[1]", "other than 0", turn=("z", 0))
+        plan("turn[1]", "must not be 0", turn=("z", 0))
         plan("turn[1]", "3600", turn=("z", 1e9))
         plan("goal_pose", "7 numbers", goal_pose=[0, 0, 0])
-        plan("start_pose", "length must be 1", start_pose=[0, 0, 0, 2, 0, 0, 0], turn=("z", 9))
+        plan("start_pose", "unit quaternion", start_pose=[0, 0, 0, 2, 0, 0, 0], turn=("z", 9))
         plan("turn", "already", goal_pose=[0, 0, 0.1, 1, 0, 0, 0], turn=("z", 9))
-        plan("start", "no file random", start="random", turn=("z", 9))
+        plan("start", "file random not found", start="random", turn=("z", 9))
         plan("start", "3 to 4 contacts", "found 2", turn=("z", 9),
              start=[[.03, 0, 0], [-.03, 0, 0]])
         plan("reserve", "'preferred'", reserve="prefered", turn=("z", 9))
         plan("clearance", "0.05", clearance=1, turn=("z", 9))
         plan("jobs", "from 1 to 1024", jobs=0, turn=("z", 9))
-        self.refuses(["hand", "fingers without a hand"], lambda: regrasp.validate(
+        self.refuses(["hand", "not a plan for a hand"], lambda: regrasp.validate(
             self.cube, self.points_plan, hand=self.hand))
-        self.refuses(["hand", "needed"], lambda: regrasp.validate(
+        self.refuses(["hand", "required"], lambda: regrasp.validate(
             self.cube, self.points_plan, replay="hand"))
         self.refuses(["tip", "'box'", "geometry"], lambda: regrasp.validate(
             self.cube, self.points_plan, tip="box"))

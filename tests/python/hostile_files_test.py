@@ -61,8 +61,8 @@ class HostileFilesTest(RegraspCase):
         for text, words in [
                 ("[" * 20000, ["nested"]), (nested_yaml(12) + ISAAC, ["more than"]),
                 ("&a {format: isaac_grasp, grasps: *a}", ["nested"]), (ISAAC + "x: 2001-99-99\n", ["month"]),
-                (ISAAC + "x: 0x_\n", ["no YAML"]), (ISAAC + "x: !!int q\n", ["no YAML"]),
-                (ISAAC + "x: !!timestamp q\n", ["no YAML"]), (ISAAC + "x: " + "9" * 5000, ["no YAML"]),
+                (ISAAC + "x: 0x_\n", ["not a YAML file"]), (ISAAC + "x: !!int q\n", ["not a YAML file"]),
+                (ISAAC + "x: !!timestamp q\n", ["not a YAML file"]), (ISAAC + "x: " + "9" * 5000, ["not a YAML file"]),
                 (ISAAC + "format: isaac_grasp\n", ["'format'", "repeated", "line"]),
                 ("format: " + "x" * 100000, ["xxx..."])]:
             self.refuses(["a.yaml", *words], formats.read_isaac_grasp, self.file("a.yaml", text))
@@ -97,7 +97,7 @@ class HostileFilesTest(RegraspCase):
     def test_xml_in_an_encoding_that_is_none(self):
         for encoding in ("foo", "utf-7"):
             path = self.file("a.xml", f"<?xml version='1.0' encoding='{encoding}'?><world/>")
-            self.refuses(["a.xml", "no XML"], formats.read_graspit, path)
+            self.refuses(["a.xml", "not an XML file"], formats.read_graspit, path)
 
     def test_csv(self):
         self.assertEqual(len(formats.read_hidex(self.file("a.csv", ROW))), 1)

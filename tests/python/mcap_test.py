@@ -290,10 +290,10 @@ class McapTest(RegraspCase):
     def test_wrong_motions_are_named(self):
         motion = self.motion
         given = [motion.times, motion.joint_names, motion.joints, motion.object_poses]
-        self.refuses(["times", "grow"], formats.HandMotion, motion.times[::-1], *given[1:])
+        self.refuses(["times must be increasing"], formats.HandMotion, motion.times[::-1], *given[1:])
         self.refuses(["joints", "(4, 17)", "(4, 16)"], formats.HandMotion, *given[:2],
                      motion.joints[:, 1:], given[3])
-        self.refuses(["object_poses", "length 1"], formats.HandMotion, *given[:3], np.ones((4, 7)))
+        self.refuses(["object_poses must be a unit quaternion"], formats.HandMotion, *given[:3], np.ones((4, 7)))
         self.refuses(["controls", "(4, 1)"], formats.HandMotion, *given, ["a"], motion.controls)
         self.refuses(["palm_frame", "different"], formats.write_mcap, self.path("a.mcap"), motion,
                      palm_frame="object")
@@ -322,7 +322,7 @@ class McapTest(RegraspCase):
         ends = formats.of_plan(plan, self.hand).joints
         self.assertEqual((states[0], states[-1]), (ends[0].tolist(), ends[-1].tolist()))
         for words, arguments in [(["--hand"], [plan, "--output", "x.mcap"]),
-                                 (["a.yaml", ".mcap is made"], ["a.yaml", "--output", "x.mcap"]),
+                                 (["a.yaml", ".mcap requires"], ["a.yaml", "--output", "x.mcap"]),
                                  (["NPZ"], [plan.replace("json", "npz"), "--output", "x.mcap"])]:
             if words == ["NPZ"]:
                 with open(plan.replace("json", "npz"), "w", encoding="utf-8") as file:
@@ -331,7 +331,7 @@ class McapTest(RegraspCase):
             for word in words:
                 self.assertIn(word, said)
         np.savez(self.path("few.npz"), time_s=np.zeros(2))
-        self.assertIn("no joint_names", self.convert(self.path("few.npz"), "--output", "x.mcap", code=2))
+        self.assertIn("joint_names not found", self.convert(self.path("few.npz"), "--output", "x.mcap", code=2))
 
     def convert(self, *arguments, code=0):
         said = io.StringIO()

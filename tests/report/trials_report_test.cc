@@ -53,10 +53,10 @@ TEST(TrialsReportTest, TheVerdictNamesTheRate) {
   summary.passed = 14;
   EXPECT_EQ(TrialsPassText(summary), "in 14 of 20 trials");
   EXPECT_EQ(TrialsRequiredText(summary),
-            "14 of 20 trials pass (70 %), and --min-pass-rate requires 100 %");
+            "14 of 20 trials pass (70 %), --min-pass-rate requires 100 %");
   summary.options.min_pass_rate = 0.7001;
   EXPECT_EQ(TrialsRequiredText(summary),
-            "14 of 20 trials pass (70 %), and --min-pass-rate requires 70.01 %");
+            "14 of 20 trials pass (70 %), --min-pass-rate requires 70.01 %");
 }
 
 }  // namespace trials_report_test

@@ -14,32 +14,33 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// The path is pulled straight inside this share of each passage, about its middle, in so many
-/// rounds; more move it by less than a hundredth of a passage.
+/// Straightening of the path: usable fraction of each passage about its middle, and number of
+/// rounds. More rounds move the path by less than a hundredth of a passage.
 constexpr double kUsedShare = 0.5;
 constexpr int kPullRounds = 30;
 
-/// Passages at least this share as wide as the narrowest one of the widest path are admitted.
+/// Smallest width of an admitted passage, divided by that of the narrowest passage of the widest
+/// path.
 constexpr double kWideShare = 0.5;
 
-/// The least margin that lengths are divided by, radians.
+/// Smallest margin by which lengths are divided, rad.
 constexpr double kLeastMargin = 1e-6;
 
-/// A step through a passage.
+/// Step through a passage.
 struct Crossing {
   PassageIndex passage;
   bool forward;  ///< from the first piece to the second
   PlaceRange range;
-  double place;  ///< of the contact that stays
+  double place;  ///< place of the fixed contact
 };
 
-/// What the search for the cheapest path knows of a passage.
+/// Search state of a passage.
 struct Reached {
   double cost = std::numeric_limits<double>::infinity();
-  PassageIndex previous;  ///< not valid: the start
+  PassageIndex previous;  ///< invalid at the start
   bool forward = true;
-  double hurry = 0;   ///< one over its width; 0: not known yet
-  bool done = false;  ///< the cheapest path to it is known, or it is too narrow
+  double hurry = 0;   ///< 1 / width; 0 if it is not computed yet
+  bool done = false;  ///< its cheapest path is known, or it is too narrow
 };
 
 class Router {
@@ -64,13 +65,13 @@ class Router {
     return graph_.passages()[c.passage].pieces[before == c.forward ? 0 : 1];
   }
 
-  /// Which contact of the piece on that side goes around the vertex.
+  /// Return the index of the contact that passes the vertex, in the piece on that side.
   [[nodiscard]] int TurningOf(const Crossing& c, bool before) const {
     return graph_.pieces()[PieceOf(c, before)].edges[0] == graph_.passages()[c.passage].other ? 1
                                                                                               : 0;
   }
 
-  /// The grasp at a crossing, before the vertex or after it.
+  /// Return the grasp at a crossing, before or after the vertex.
   [[nodiscard]] PlacedGrasp Side(const Crossing& c, bool before) const {
     const PiecePassage& passage = graph_.passages()[c.passage];
     const Boundary& boundary = graph_.boundary();
@@ -87,15 +88,15 @@ class Router {
     return {passage, forward, range, (range.low + range.high) / 2};
   }
 
-  /// How wide the middle of a passage is, by the normals of both of its sides, radians.
+  /// Return the angle margin in the middle of a passage, for the normals of both sides, rad.
   [[nodiscard]] double WidthOf(PassageIndex passage) const {
     const Crossing crossing = MakeCrossing(passage, true);
     return std::min(geometry_.AngleMarginOf(Side(crossing, true)),
                     geometry_.AngleMarginOf(Side(crossing, false)));
   }
 
-  /// The width of the narrowest passage of the widest path: passages are opened from the widest on,
-  /// until start and goal are joined.
+  /// Return the width of the narrowest passage of the widest path. Passages are added from the
+  /// widest on until start and goal are connected.
   [[nodiscard]] double WidestWidth() const {
     std::vector<std::pair<double, PassageIndex>> passages;
     for (const PieceIndex piece : graph_.pieces_of(graph_.set_of(from_.piece))) {
@@ -114,12 +115,12 @@ class Router {
     return 0;
   }
 
-  /// One over the margin of a grasp.
+  /// Return 1 / margin of a grasp.
   [[nodiscard]] double Hurry(const PlacedGrasp& grasp) const {
     return 1 / std::max(geometry_.AngleMarginOf(grasp), kLeastMargin);
   }
 
-  /// The crossings of the cheapest path, in their order.
+  /// Find the crossings of the cheapest path, in order.
   std::vector<Crossing> FindCrossings() {
     if (from_.piece == to_.piece) return {};
     const double widest = WidestWidth();
@@ -134,7 +135,7 @@ class Router {
     return crossings;
   }
 
-  /// The last passage of the cheapest path: the goal is behind it.
+  /// Find the last passage of the cheapest path, which ends in the goal's piece.
   PassageIndex FindLastPassage() {
     const double goal_hurry = Hurry(to_);
     double best = std::numeric_limits<double>::infinity();
@@ -159,7 +160,7 @@ class Router {
     return last;
   }
 
-  /// Looks at all passages from a grasp's piece but the one that led there.
+  /// Update the costs of all passages from a grasp's piece, except the previous one.
   void Relax(const PlacedGrasp& at, double hurry, double cost, PassageIndex previous) {
     for (const PassageIndex next : graph_.passages_at(at.piece)) {
       if (next == previous) continue;
@@ -174,7 +175,7 @@ class Router {
     }
   }
 
-  /// Whether a passage is wide enough, and the cheapest path to it not yet known.
+  /// Return whether a passage is wide enough and its cheapest path is not known yet.
   [[nodiscard]] bool IsOpen(PassageIndex passage, Reached& entry) const {
     if (!entry.done && entry.hurry == 0) {
       const double width = WidthOf(passage);
@@ -184,13 +185,13 @@ class Router {
     return !entry.done;
   }
 
-  /// The length between two grasps over their margins.
+  /// Return the length between two grasps divided by their margins.
   [[nodiscard]] static double Cost(const PlacedGrasp& a, double hurry_a, const PlacedGrasp& b,
                                    double hurry_b) {
     return (b.places - a.places).norm() * (hurry_a + hurry_b) / 2;
   }
 
-  /// Moves every crossing towards the straight line between its neighbours.
+  /// Move every crossing towards the straight line between its neighbours.
   void Pull(std::vector<Crossing>& crossings) const {
     for (std::size_t i = 0; i < crossings.size(); ++i) {
       Crossing& c = crossings[i];
@@ -215,10 +216,10 @@ class Router {
   const ContourGraph& graph_;
   const PlacedGrasp& from_;
   const PlacedGrasp& to_;
-  double least_width_ = 0;  ///< of passages that are admitted
+  double least_width_ = 0;  ///< smallest width of admitted passages
   std::map<PassageIndex, Reached> reached_;
   using Entry = std::tuple<double, PassageIndex>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;  ///< by costs
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;  ///< passages by cost
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ double Boundary::PlaceOf(const grasp::Contact& contact) const {
 
 grasp::Contact Boundary::ContactAt(FaceIndex edge, double place) const {
   const auto [from, to] = polygon_.edge(edge);
-  // Divided by this difference, the end of an edge is its vertex to the last bit.
+  // Divided by this difference, the end of an edge is bit-identical to its vertex.
   const double share = std::clamp((place - begin(edge)) / (end(edge) - begin(edge)), 0.0, 1.0);
   return {(1 - share) * from + share * to, polygon_.inward_normal(edge), edge};
 }

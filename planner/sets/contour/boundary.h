@@ -8,15 +8,16 @@
 
 namespace regrasp::contour {
 
-/// A ring of a polygon: the outline, 0, or a hole.
+/// Index of a ring of a polygon: 0 for the outline, otherwise a hole.
 using RingIndex = Index<struct RingTag>;
 
-/// The boundary of a polygon by its length: a place on a ring is the length of the ring from its
-/// first vertex to there, along its edges (material on the left), periodic in the ring's perimeter.
-/// Lengths are the object's own units.
+/// Parametrization of a polygon's boundary by length.
+///
+/// A place on a ring is the length along the ring's edges (material on the left) from its first
+/// vertex. It is periodic in the ring's perimeter. Lengths are in object units.
 class Boundary {
  public:
-  /// `polygon` must outlive this object.
+  /// @param polygon  must outlive this object.
   explicit Boundary(const object::Polygon& polygon);
 
   [[nodiscard]] const object::Polygon& polygon() const { return polygon_; }
@@ -24,22 +25,22 @@ class Boundary {
   [[nodiscard]] int edge_count() const { return static_cast<int>(ring_of_.size()); }
   [[nodiscard]] int ring_count() const { return static_cast<int>(perimeters_.size()); }
   [[nodiscard]] RingIndex ring_of(FaceIndex edge) const { return ring_of_[edge]; }
-  /// The edges of a ring are first_edge(ring) to end_edge(ring), which is not among them.
+  /// Range of the edges of a ring: first_edge(ring), inclusive, to end_edge(ring), exclusive.
   [[nodiscard]] FaceIndex first_edge(RingIndex ring) const { return first_edges_[ring]; }
   [[nodiscard]] FaceIndex end_edge(RingIndex ring) const { return first_edges_[ring + 1]; }
   [[nodiscard]] double perimeter(RingIndex ring) const { return perimeters_[ring]; }
 
-  /// The edge that begins where this one ends.
+  /// Edge that starts at the end of this one.
   [[nodiscard]] FaceIndex next(FaceIndex edge) const { return next_[edge]; }
 
-  /// Where an edge begins and ends on its ring; end > begin.
+  /// Places of the start and the end of an edge on its ring; end > begin.
   [[nodiscard]] double begin(FaceIndex edge) const { return begins_[edge]; }
   [[nodiscard]] double end(FaceIndex edge) const { return ends_[edge]; }
 
-  /// The place of a contact that knows its edge.
+  /// Return the place of a contact whose face is set.
   [[nodiscard]] double PlaceOf(const grasp::Contact& contact) const;
 
-  /// The contact on an edge at a place within begin(edge) to end(edge); rounding is cut off.
+  /// Return the contact on an edge at a place, which is clamped to begin(edge) … end(edge).
   [[nodiscard]] grasp::Contact ContactAt(FaceIndex edge, double place) const;
 
  private:

@@ -11,10 +11,10 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Parts of a border shorter than this, over the boundary's length, are rounding.
+/// Length below which a part of a border is rounding, divided by the boundary's length.
 constexpr double kRounding = 1e-12;
 
-/// A function at + dx · x + dy · y of the places on two edges, counted from where these begin.
+/// Function at + dx · x + dy · y of the places on two edges, relative to the starts of the edges.
 struct LinearForm {
   double at = 0;
   double dx = 0;
@@ -25,14 +25,15 @@ struct LinearForm {
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The four forms that are positive on a piece: how far one contact is inside the border of the
-/// other's cone. They rise with both places or fall with both, so their lines fall.
+/// Return the four forms that are positive on a piece: distances of a contact from the borders of
+/// the other contact's cone. A form increases in both places or decreases in both, so its zero line
+/// has dy/dx < 0.
 std::array<LinearForm, 4> PieceForms(const ContourGraph& graph, const GraspPiece& piece) {
   const object::Polygon& polygon = graph.boundary().polygon();
   const double angle = std::atan(graph.tangent());
   const double sign = piece.stretching ? -1 : 1;
   std::array<Vector2d, 2> starts, along;
-  std::array<Vector2d, 4> borders;  // turning left from the right ones
+  std::array<Vector2d, 4> borders;  // the right borders, and the reversed left ones
   for (int k = 0; k < 2; ++k) {
     const auto [from, to] = polygon.edge(piece.edges[k]);
     starts[k] = from.head<2>();
@@ -50,21 +51,21 @@ std::array<LinearForm, 4> PieceForms(const ContourGraph& graph, const GraspPiece
   return forms;
 }
 
-/// Lengths below this are rounding where the piece is.
+/// Return the length below which differences are rounding, at a piece.
 double Rounding(const ContourGraph& graph, const GraspPiece& piece) {
   const Boundary& boundary = graph.boundary();
   return kRounding * std::max(boundary.perimeter(boundary.ring_of(piece.edges[0])),
                               boundary.perimeter(boundary.ring_of(piece.edges[1])));
 }
 
-/// A corner of an outline and whether the side that begins there is a line that cuts the piece.
+/// Corner of an outline, and whether the side after it is a line that cuts the piece.
 struct TaggedCorner {
   Vector2d p;
   bool cut_after = false;
 };
 
-/// The part of a convex outline where a form is positive. Corners that are outside by rounding
-/// stay: between parallel edges two lines are one, and the second must not cut anew.
+/// Return the part of a convex outline with a positive form. Corners that are outside only by
+/// rounding are kept: for parallel edges two lines coincide, and the second one must not cut again.
 std::vector<TaggedCorner> Clip(const std::vector<TaggedCorner>& outline, const LinearForm& form,
                                double rounding) {
   std::vector<TaggedCorner> clipped;
@@ -83,7 +84,7 @@ std::vector<TaggedCorner> Clip(const std::vector<TaggedCorner>& outline, const L
   return clipped;
 }
 
-/// Drops the sides that have no length but rounding: their directions mean nothing.
+/// Drop sides whose length is rounding, because their directions are meaningless.
 void DropShortSides(std::vector<TaggedCorner>& outline, double rounding) {
   std::vector<TaggedCorner> kept;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -93,7 +94,7 @@ void DropShortSides(std::vector<TaggedCorner>& outline, double rounding) {
   outline = std::move(kept);
 }
 
-/// In places counted from where the edges begin.
+/// Return the outline of a piece in places relative to the starts of its edges.
 std::vector<TaggedCorner> LocalOutline(const ContourGraph& graph, const GraspPiece& piece) {
   const object::Polygon& polygon = graph.boundary().polygon();
   const double width = polygon.face_measure(piece.edges[0]);
@@ -110,8 +111,8 @@ Vector2d Origin(const ContourGraph& graph, const GraspPiece& piece) {
   return {graph.boundary().begin(piece.edges[0]), graph.boundary().begin(piece.edges[1])};
 }
 
-/// The places of the other contact with which the contact on the k-th edge, at its begin or end,
-/// makes a grasp of the piece; nullopt where doubles know none.
+/// Return the places of the other contact if the contact on the k-th edge is at its start or end;
+/// nullopt if doubles find none.
 std::optional<PlaceRange> SideRange(const ContourGraph& graph, const GraspPiece& piece, int k,
                                     bool at_end) {
   const object::Polygon& polygon = graph.boundary().polygon();
@@ -137,7 +138,7 @@ std::optional<PlaceRange> SideRange(const ContourGraph& graph, const GraspPiece&
   return PlaceRange{begin + range.low, begin + range.high};
 }
 
-/// Finds the border of one set.
+/// Computes the border of one set.
 class BorderFinder {
  public:
   BorderFinder(const ContourGraph& graph, sets::SetIndex set)
@@ -155,7 +156,7 @@ class BorderFinder {
   [[nodiscard]] std::vector<BorderSegment> Take() { return std::move(border_); }
 
  private:
-  /// A line that sides of pieces lie on: where the edge of the k-th contact begins or ends.
+  /// Line that contains sides of pieces: the start or end of the edge of the k-th contact.
   struct Line {
     FaceIndex edge;
     int k;
@@ -179,7 +180,7 @@ class BorderFinder {
     }
   }
 
-  /// What a side of a piece has beyond what the next piece has.
+  /// Add the part of a piece's side that is not a side of the adjacent piece.
   void AddSide(PieceIndex piece, int k, bool at_end) {
     const GraspPiece& p = graph_.pieces()[piece];
     const auto range = SideRange(graph_, p, k, at_end);
@@ -194,7 +195,7 @@ class BorderFinder {
     add(std::max(range->low, beyond->high), range->high);
   }
 
-  /// The same side as the piece beyond it has it; nullopt where the two don't meet.
+  /// Return the same side of the adjacent piece; nullopt if the two do not meet.
   [[nodiscard]] std::optional<PlaceRange> RangeBeyond(PieceIndex piece, int k, bool at_end) const {
     const FaceIndex edge = graph_.pieces()[piece].edges[k];
     for (const PassageIndex i : graph_.passages_at(piece)) {
@@ -208,7 +209,7 @@ class BorderFinder {
     return std::nullopt;
   }
 
-  /// Parts that follow each other are one.
+  /// Add the parts on a line; consecutive parts are joined.
   void AddLine(const Line& line, std::vector<Part>& parts) {
     std::ranges::sort(parts, {}, [](const Part& part) { return part.range.low; });
     const Boundary& boundary = graph_.boundary();

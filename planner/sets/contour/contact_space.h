@@ -7,29 +7,34 @@
 
 namespace regrasp::contour {
 
-/// Geometry of graspable sets in contact space, in doubles: x is the place of the contact on the
-/// first edge of a piece (the lower number), y that on the second, both as Boundary has them. The
-/// space is periodic, and symmetric where both are on one ring; only pieces in ascending order of
-/// their edges are listed.
+/// Geometry of graspable sets in contact space, in doubles. x is the place of the contact on the
+/// first edge of a piece (the one with the lower index), y the place on the second edge; see
+/// Boundary. The space is periodic, and symmetric if both edges are on one ring. Only pieces with
+/// ascending edges are listed.
 
-/// A convex polygon, counter-clockwise; empty where the piece is too thin for doubles.
+/// Compute the outline of a piece: a convex counter-clockwise polygon; empty if the piece is too
+/// thin for doubles.
 [[nodiscard]] std::vector<Eigen::Vector2d> PieceOutline(const ContourGraph& graph,
                                                         PieceIndex piece);
 
-/// A straight part of the border of a set. Lines that cut a piece fall (dy/dx < 0), all others are
-/// parallel to an axis and lie on the polygon's vertices.
+/// Straight part of the border of a set.
+///
+/// Lines that cut a piece have dy/dx < 0. All other parts are parallel to an axis and pass a vertex
+/// of the polygon.
 struct BorderSegment {
   Eigen::Vector2d from;
   Eigen::Vector2d to;
-  PieceIndex piece;  ///< a piece that it bounds
+  PieceIndex piece;  ///< one of the pieces that it bounds
 };
 
-/// The border of a set: what bounds its pieces and is not inside the set. Segments on one line
-/// that follow each other are one. Each is listed once, as the piece's rectangle has it.
+/// Compute the border of a set: the borders of its pieces except those inside the set.
+///
+/// Consecutive segments on one line are joined. Each segment is listed once, at its position in the
+/// piece's rectangle.
 [[nodiscard]] std::vector<BorderSegment> SetBorder(const ContourGraph& graph, sets::SetIndex set);
 
-/// The places of the staying contact at a passage: (low, high), low < high; low = high = their
-/// middle where doubles cannot tell.
+/// Places of the fixed contact at a passage: (low, high) with low < high. If doubles cannot
+/// separate them, low = high = their mean.
 struct PlaceRange {
   double low = 0;
   double high = 0;

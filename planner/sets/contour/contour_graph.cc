@@ -10,7 +10,8 @@ namespace regrasp::contour {
 
 namespace {
 
-/// @param owner_of  the owner of the i-th entry, whose member is member_of(i).
+/// Group entries by owner.
+/// @param owner_of  function that returns the owner of the i-th entry; member_of(i) is its member.
 template <class Owner, class Member, class OwnerOf, class MemberOf>
 Grouping<Owner, Member> Group(int owners, int entries, const OwnerOf& owner_of,
                               const MemberOf& member_of) {

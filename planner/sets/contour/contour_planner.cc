@@ -18,8 +18,8 @@ namespace regrasp::contour {
 
 namespace {
 
-/// Half-widths of regions in plans are smaller than computed by this share of them, and by this one
-/// of the boundary's length: rounding.
+/// Reduction of regions' half-widths in plans because of rounding: fraction of the half-width, and
+/// fraction of the boundary's length.
 constexpr double kRegionRounding = 1e-9;
 constexpr double kBoundaryRounding = 1e-11;
 
@@ -86,22 +86,23 @@ bool ContourModel::IsGood(const Switch& change) const {
 
 namespace {
 
-/// Of the candidates; a share of a hundredth is then known to 10 %.
+/// Number of sampled candidates. A fraction of 1 % is then accurate to 10 %.
 constexpr int kTestedCandidates = 10'000;
 
-/// Counted in a tenth of a second. Pieces are joined to sets along neighbouring edges: of runs that
-/// are this long the sets that go on beyond them count for less than the pieces.
+/// Edges on which pieces and switches are counted, in a tenth of a second. Pieces are connected to
+/// sets along adjacent edges. In runs of this length, sets that continue beyond a run matter less
+/// than the pieces.
 constexpr int kEdgesOfRun = 20;
 constexpr int kRuns = 20;
 
-/// Measured on outlines of 300 to 10,000 edges at 2° to 40°, as the peak of resident memory: a
-/// piece of a set with its passages and its places in the lists of sets; a switch with its two
-/// entries in the lists of neighbours.
+/// Bytes per element, measured as the peak of resident memory on outlines of 300 to 10,000 edges at
+/// 2° to 40°. They include for a piece its passages and its entries in the lists of sets. They
+/// include for a switch its two entries in the lists of neighbours.
 constexpr sets::GraphSize kBytes = {.candidates = 12, .sets = 80, .switches = 17};
-/// The outline of a piece in contact space. Of 20 to 210 bytes for each piece of the graph, from a
-/// given start and goal to ones that are drawn from one set of all pieces.
+/// Bytes per piece of the graph for outlines in contact space. Measured: 20 for a given start and
+/// goal, up to 210 for random ones from one set that contains all pieces.
 constexpr double kBytesOfOutline = 120;
-/// The edges as exact predicates see them.
+/// Bytes per edge in EdgeTable.
 constexpr double kBytesOfEdge = 500;
 
 std::vector<FaceIndex> DrawEdges(int count, RandomStream& random) {
@@ -117,7 +118,7 @@ std::vector<FaceIndex> DrawEdges(int count, RandomStream& random) {
   return edges;
 }
 
-/// Candidates and switches among some of the edges.
+/// Count candidates and switches on some of the edges.
 sets::GraphSize CountOn(const std::vector<FaceIndex>& drawn, const polygon::EdgeTable& edges,
                         const Boundary& boundary) {
   std::vector<polygon::TwoFingerCandidate> candidates =
@@ -154,7 +155,7 @@ MemoryNeed Estimate(const object::Polygon& polygon, double half_angle,
   const std::vector<FaceIndex> drawn = DrawEdges(polygon.face_count(), random);
   const sets::GraphSize counted = CountOn(drawn, edges, Boundary(polygon));
   const double count = polygon.face_count();
-  // At a place of the boundary there are so many more sets, and so many more places.
+  // The number of sets is proportional to the candidates, that of switches to sets² / edges.
   const double more_sets = counted.candidates > 0 ? candidates / counted.candidates : 0;
   const double more_places = static_cast<double>(drawn.size()) / count;
   const double switches = counted.switches * more_sets * more_sets * more_places;
@@ -200,7 +201,7 @@ ContourPlanner::ContourPlanner()
 
 std::optional<MemoryNeed> ContourPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {
-  // A graph alone takes less than planning on it.
+  // Building a graph takes less memory than planning on it.
   const auto estimate = request.graph ? EstimateContourGraph : EstimateContourPlan;
   return estimate(PolygonOf(request), request.criteria.half_angle);
 }

@@ -15,10 +15,11 @@
 
 namespace regrasp::contour {
 
-/// The sets of 2-finger grasps of a contour's switching graph, as planning over sets sees them.
+/// Model of the sets of 2-finger grasps of a contour's switching graph (GraspSetModel).
 class ContourModel : public sets::EvaluatedModel<PlacedGrasp> {
  public:
-  /// @param graph  outlives this object. @param request  its objective and deadline count too.
+  /// @param graph  must outlive this object.
+  /// @param request  query, also with objective and deadline.
   ContourModel(const ContourGraph& graph, const planning::PlanRequest& request)
       : EvaluatedModel(request),
         geometry_(graph, request.deadline),
@@ -34,11 +35,13 @@ class ContourModel : public sets::EvaluatedModel<PlacedGrasp> {
   [[nodiscard]] Attachments Attach(const grasp::Grasp& grasp) const;
   [[nodiscard]] std::string WhyUnattached(const grasp::Grasp& grasp) const;
 
-  /// Well inside both sets; where that is not good, the best by its score.
+  /// Find a switch well inside both sets. If it does not meet the criteria, find the one with the
+  /// best score.
   [[nodiscard]] std::optional<Switch> FindSwitch(const Ends& ends);
-  /// Under Objective::kRegions the switch with the largest regions whose grasps are good, where
-  /// there is one with larger regions than this one.
-  /// @returns the half-width of the smaller contact region of its two grasps, rounded down.
+  /// With Objective::kRegions, replace a switch by the one with the largest contact regions.
+  ///
+  /// The replacement must meet the criteria, or the given switch must not meet them either.
+  /// @returns half-width of the smaller contact region of its two grasps, rounded down.
   [[nodiscard]] std::optional<double> Refine(Switch& change);
   [[nodiscard]] std::vector<Place> FindRoute(const Place& from, const Place& to);
 
@@ -48,30 +51,31 @@ class ContourModel : public sets::EvaluatedModel<PlacedGrasp> {
 
   SetGeometry geometry_;
   planning::Objective objective_;
-  /// Of the largest regions, found once for all paths, by the sets before and after.
+  /// Switches with the largest regions by the sets before and after, shared by all paths.
   std::map<std::pair<sets::SetIndex, sets::SetIndex>, std::optional<Switch>> largest_;
 };
 
-/// What a ContourGraph takes at most while it is built, within a factor of two.
+/// Estimate the peak memory for building a ContourGraph, within a factor of two.
 ///
-/// The pairs of edges that are opposite but for 2θ are counted; how many have pieces is tested on
-/// ten thousand of them, how many sets of pieces are joined on at most four hundred edges, drawn
-/// from all of them in runs. Pieces go with the square of how many edges there are, joins with the
-/// third power. What a piece and a join take was measured.
+/// The number of nearly opposite pairs of edges (within 2θ) is counted exactly. The fraction of
+/// pairs with pieces is estimated from ten thousand of them. The number of connected sets is
+/// counted on at most four hundred edges, drawn in runs. The number of pieces is quadratic in the
+/// number of edges, the number of switches cubic. The memory per piece and per switch is measured.
 ///
-/// Law: the same polygon gives the same number.
+/// Law: the result is deterministic.
 [[nodiscard]] MemoryNeed EstimateContourGraph(const object::Polygon& polygon, double half_angle);
 
-/// The same for what PlanOnContour takes: also the geometry of the sets that it looks at.
+/// Estimate the peak memory for planning: the graph and the geometry of the sets that the search
+/// evaluates.
 [[nodiscard]] MemoryNeed EstimateContourPlan(const object::Polygon& polygon, double half_angle);
 
-/// Plans between 2-finger grasps on the switching graph of a polygon's whole boundary (Phoka 2010,
-/// chapter IV), with a hand of three, of which one is placed in a switch: of these grasps it finds
-/// every one and every switch, on polygons of thousands of edges.
+/// Planner between 2-finger grasps on the switching graph of a polygon's whole boundary (Phoka
+/// 2010, chapter IV), for a hand of three fingers.
 ///
-/// Contacts that a switch places carry the half-width of the smaller contact region of its two
-/// grasps, rounded down. Law: along the same path of sets Objective::kRegions gives every switch a
-/// region at least as large as it has otherwise.
+/// A switch places one finger. The planner finds every such grasp and every switch, on polygons of
+/// thousands of edges. New contacts of a switch have the half-width of the smaller contact region
+/// of its two grasps, rounded down. Law: along the same path of sets, the region of each switch
+/// with Objective::kRegions is at least as large as without.
 class ContourPlanner final : public planning::Planner {
  public:
   ContourPlanner();

@@ -12,20 +12,20 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Where between the ends of a range grasps are tried.
+/// Positions between the ends of a range at which grasps are evaluated.
 constexpr std::array kShares = {0.5, 0.2, 0.8};
 
 double At(const PlaceRange& range, double share) {
   return range.low + share * (range.high - range.low);
 }
 
-/// A piece as one of its edges sees it.
+/// A piece with one of its edges.
 struct OnEdge {
   PieceIndex piece;
   int k;
 };
 
-/// The pieces of a set by their edges.
+/// Return the pieces of a set by edge.
 std::map<FaceIndex, std::vector<OnEdge>> ByEdges(const ContourGraph& graph, sets::SetIndex set) {
   std::map<FaceIndex, std::vector<OnEdge>> by_edges;
   for (const PieceIndex piece : graph.pieces_of(set)) {
@@ -46,7 +46,7 @@ struct Scored {
   double score = -std::numeric_limits<double>::infinity();
 };
 
-/// The best of some grasps of a piece with the contact on its k-th edge held.
+/// Return the best of some grasps of a piece with a fixed contact on its k-th edge.
 std::optional<Scored> BestOfSlice(SetGeometry& geometry, const OnEdge& on, double place,
                                   const PlacedScore& score) {
   const auto slice = geometry.SliceOf(on.piece, on.k, place);
@@ -70,7 +70,7 @@ std::optional<PlaceRange> CommonRange(SetGeometry& geometry, const OnEdge& a, co
   return common;
 }
 
-/// An edge of a diagram as a contact's place on one polygon edge sees it: sizes over places.
+/// Sizes along an edge of a diagram as a function of a contact's place on one polygon edge.
 struct Profile {
   const DiagramEdge* edge;
   int k;
@@ -108,13 +108,15 @@ std::map<FaceIndex, std::vector<Profile>> Profiles(SetGeometry& geometry, sets::
   return profiles;
 }
 
-/// The smaller and the larger half-width of a switch's two regions.
+/// Half-widths of a switch's two regions, smaller one first.
 using Sizes = std::pair<double, double>;
 
-/// Switches that are asked whether they are accepted before the largest one is taken as it is.
+/// Maximum number of calls of `accepts`. If it accepts none of them, the largest switch is
+/// returned.
 constexpr std::size_t kMostAsked = 2000;
 
-/// At the end of an edge of a diagram one of the half-widths may be nothing but rounding.
+/// Smallest ratio of the half-widths. At the end of a diagram edge, one of them may be rounding
+/// only.
 constexpr double kLeastShare = 1e-9;
 
 class LargestSwitch {
@@ -123,15 +125,15 @@ class LargestSwitch {
     const double low = std::max(a.low_place, b.low_place);
     const double high = std::min(a.high_place, b.high_place);
     if (low > high) return;
-    // Where the smaller of two lines is largest: at an end, or where they cross; between them for
-    // those who don't accept that.
+    // The minimum of two lines is largest at an end or at their intersection. Points between serve
+    // predicates that do not accept it.
     for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) Add(a, b, low + share * (high - low));
     const double at_low = a.SizeAt(low) - b.SizeAt(low);
     const double at_high = a.SizeAt(high) - b.SizeAt(high);
     if (at_low * at_high < 0) Add(a, b, low + at_low / (at_low - at_high) * (high - low));
   }
 
-  /// nullopt where no place is common to two edges.
+  /// Return the largest accepted switch; nullopt if no two edges have a common place.
   [[nodiscard]] std::optional<ContourSwitch> Best(
       const std::function<bool(const ContourSwitch&)>& accepts) {
     if (found_.empty()) return std::nullopt;

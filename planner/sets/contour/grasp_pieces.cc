@@ -11,11 +11,11 @@ namespace regrasp::contour {
 
 namespace {
 
-/// What doubles can tell of a pair.
+/// Result of a decision in doubles.
 enum class Verdict { kNone, kAll, kUnknown };
 
-/// Classifies pairs by the signs of their cones' four borders at the four corners of the
-/// parallelogram of differences, where doubles are sure of them.
+/// Classifies pairs in doubles by the signs of the four borders of their cones at the four corners
+/// of the parallelogram of differences.
 class CornerFilter {
  public:
   explicit CornerFilter(const polygon::EdgeTable& edges) {
@@ -28,15 +28,15 @@ class CornerFilter {
       low = {std::min(low.x, frame.a.x), std::min(low.y, frame.a.y)};
       high = {std::max(high.x, frame.a.x), std::max(high.y, frame.a.y)};
     }
-    // Differences of coordinates are at most M, borders of cones (1 + tan θ) M; a cross product of
-    // the two is off by at most a dozen roundings of a value of 2 (1 + tan θ) M².
+    // Differences of coordinates are at most M, borders of cones at most (1 + tan θ) M. A cross
+    // product of both has an error of at most a dozen roundings of 2 (1 + tan θ) M².
     constexpr double kRoundings = 32 * std::numeric_limits<double>::epsilon();
     const double extent = std::max(high.x - low.x, high.y - low.y);
     bound_ =
         kRoundings * (1 + edges.tangent()) * extent * extent + std::numeric_limits<double>::min();
   }
 
-  /// For squeezing and for stretching.
+  /// Classify a pair, first from outside, then stretching.
   [[nodiscard]] std::array<Verdict, 2> Classify(FaceIndex a, FaceIndex b) const {
     const polygon::EdgeFrame<double>& from = frames_[a];
     const polygon::EdgeFrame<double>& to = frames_[b];
@@ -70,7 +70,7 @@ class CornerFilter {
   double bound_ = 0;
 };
 
-/// The directions from a point to an edge; nullopt where it is on the edge's line.
+/// Return the directions from a point to an edge; nullopt if the point is on the edge's line.
 template <class NT>
 std::optional<polygon::DirectionCone<NT>> ViewOf(const polygon::Vector2<NT>& point,
                                                  const polygon::EdgeFrame<NT>& edge) {
@@ -82,7 +82,7 @@ std::optional<polygon::DirectionCone<NT>> ViewOf(const polygon::Vector2<NT>& poi
   return polygon::DirectionCone<NT>{b, a};
 }
 
-/// The directions from a contact on one edge to a contact on another that make a grasp.
+/// Return the directions from a contact on one edge to a contact on another edge that form a grasp.
 template <class NT>
 std::optional<polygon::DirectionCone<NT>> GraspCone(const polygon::EdgeFrame<NT>& from,
                                                     const polygon::EdgeFrame<NT>& to,
@@ -91,7 +91,7 @@ std::optional<polygon::DirectionCone<NT>> GraspCone(const polygon::EdgeFrame<NT>
   return squeezing && stretching ? -*squeezing : squeezing;
 }
 
-/// Whether the contacts on `other` that make a grasp with the end of `edge` are more than a point.
+/// Return whether more than one contact on `other` forms a grasp with an end of `edge`.
 template <class NT>
 bool Reaches(const polygon::EdgeFrame<NT>& edge, bool at_end, const polygon::EdgeFrame<NT>& other,
              bool stretching) {
@@ -101,7 +101,7 @@ bool Reaches(const polygon::EdgeFrame<NT>& edge, bool at_end, const polygon::Edg
   return view && polygon::Intersect(*cone, *view);
 }
 
-/// The sides that a piece reaches, as GraspPiece::reaches.
+/// Return the sides that a piece reaches (GraspPiece::reaches).
 std::array<bool, 4> FindReachedSides(const polygon::EdgeTable& edges, FaceIndex a, FaceIndex b,
                                      bool stretching) {
   std::array<bool, 4> reaches;
@@ -116,7 +116,7 @@ std::array<bool, 4> FindReachedSides(const polygon::EdgeTable& edges, FaceIndex 
   return reaches;
 }
 
-/// The edge of the piece that is not `edge`.
+/// Return the edge of the piece that differs from `edge`.
 FaceIndex OtherEdge(const GraspPiece& piece, FaceIndex edge) {
   return piece.edges[0] == edge ? piece.edges[1] : piece.edges[0];
 }
@@ -125,7 +125,7 @@ bool ReachesEnd(const GraspPiece& piece, FaceIndex edge, bool at_end) {
   return piece.reaches[(piece.edges[0] == edge ? 0 : 2) + (at_end ? 1 : 0)];
 }
 
-/// Whether two pieces meet in more than a point where `edge` ends and `next` begins.
+/// Return whether two pieces meet in more than a point at the end of `edge`, the start of `next`.
 bool Meet(const polygon::EdgeTable& edges, const GraspPiece& before, FaceIndex edge,
           const GraspPiece& after, FaceIndex next) {
   if (!ReachesEnd(before, edge, true) || !ReachesEnd(after, next, false)) return false;
@@ -145,7 +145,7 @@ bool Meet(const polygon::EdgeTable& edges, const GraspPiece& before, FaceIndex e
   });
 }
 
-/// Finds pieces by their edges.
+/// Index of pieces by their edges.
 class PieceFinder {
  public:
   PieceFinder(const std::vector<GraspPiece>& pieces, int edge_count)
@@ -154,7 +154,7 @@ class PieceFinder {
     for (int e = 0; e < edge_count; ++e) first_[e + 1] += first_[e];
   }
 
-  /// nullopt where there is none.
+  /// Return the piece on two edges; nullopt if there is none.
   [[nodiscard]] std::optional<PieceIndex> Find(FaceIndex edge, FaceIndex other,
                                                bool stretching) const {
     const auto [a, b] = std::minmax(edge, other);

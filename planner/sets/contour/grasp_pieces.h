@@ -10,34 +10,35 @@
 
 namespace regrasp::contour {
 
-/// The pieces of the candidate pairs, in the order of the candidates, squeezing before stretching.
+/// Find the pieces of candidate pairs, in the order of the candidates, stretching pieces last.
 ///
-/// A piece is empty iff it reaches no side of its rectangle: the differences p_b − p_a of two edges
-/// fill an open parallelogram that does not contain the origin, as edges don't cross, so that a
-/// cone of directions which meets it meets its border. What a side sees is a cone of directions
-/// too, from a vertex to an edge, so that all of this is decided by signs of cross products: with
-/// doubles and an error bound for pairs that are full or that one border of a cone excludes,
-/// otherwise by intervals, then exactly. Inside an IntervalScope.
-/// @throws TimeUp  the deadline came.
+/// A piece is empty iff it reaches no side of its rectangle. The differences p_b − p_a of two edges
+/// fill an open parallelogram. It does not contain the origin, because edges do not cross. A cone
+/// of directions that meets it therefore meets its border. The directions from a vertex to the
+/// points of an edge form a cone, too. Signs of cross products therefore decide everything. Doubles
+/// with an error bound suffice for full pairs, and for pairs that one border of a cone excludes.
+/// Otherwise, intervals and then exact numbers decide. Call it in an IntervalScope.
+/// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] std::vector<GraspPiece> FindPieces(
     const polygon::EdgeTable& edges, const std::vector<polygon::TwoFingerCandidate>& candidates,
     const Deadline& deadline = {}, const Tell& tell = {});
 
-/// The passages between pieces, which are in ascending order of their edges. Inside an
-/// IntervalScope.
-/// @throws TimeUp  the deadline came.
+/// Find the passages between pieces. Call it in an IntervalScope.
+///
+/// The pieces must be in ascending order of their edges.
+/// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] std::vector<PiecePassage> FindPassages(const polygon::EdgeTable& edges,
                                                      const Boundary& boundary,
                                                      const std::vector<GraspPiece>& pieces,
                                                      const Deadline& deadline = {},
                                                      const Tell& tell = {});
 
-/// The sets that pieces are by their passages.
+/// Return the connected sets of pieces.
 [[nodiscard]] search::Components FindSets(int piece_count,
                                           const std::vector<PiecePassage>& passages);
 
-/// The contacts of a piece on its k-th edge. `edges` must outlive the result; inside an
-/// IntervalScope.
+/// Return the contacts of a piece on its k-th edge. Call it in an IntervalScope; `edges` must
+/// outlive the result.
 [[nodiscard]] polygon::FilteredRange PieceRange(const polygon::EdgeTable& edges,
                                                 const GraspPiece& piece, int k);
 

@@ -10,19 +10,19 @@ namespace regrasp::contour {
 
 namespace {
 
-/// Where a projection begins or ends.
+/// Start or end of a projection.
 struct Event {
-  /// At the edge's first end, inside it, at its second end.
+  /// Position on the edge: at its start, inside it, or at its end.
   enum class Where { kBegin, kInside, kEnd };
 
   FaceIndex edge;
   Where where = Where::kBegin;
-  const polygon::FilteredRange* range = nullptr;  ///< inside: this is one end of it
+  const polygon::FilteredRange* range = nullptr;  ///< if inside: the event is one end of this range
   bool opens = false;
   sets::SetIndex set;
 };
 
-/// Of two events inside one edge.
+/// Compare two events inside one edge.
 int CompareInside(const Event& a, const Event& b) {
   const auto compare = [&](const auto& of_a, const auto& of_b) {
     const auto& x = a.opens ? of_a.low : of_a.high;
@@ -37,7 +37,7 @@ int CompareInside(const Event& a, const Event& b) {
   return compare(a.range->exact(), b.range->exact());
 }
 
-/// Intervals are open: at one place those that end come before those that begin.
+/// Return the order of two events. Intervals are open, so at one place ends come before starts.
 bool IsBefore(const Event& a, const Event& b) {
   if (a.edge != b.edge) return a.edge < b.edge;
   if (a.where != b.where) return a.where < b.where;
@@ -68,7 +68,7 @@ class Sweep {
     CountedProgress progress(tell, "joining sets along the boundary", std::ssize(events_));
     std::vector<sets::SetPair> pairs;
     std::vector<sets::SetIndex> active;
-    std::vector<int> times(set_count);  // that a set is active
+    std::vector<int> times(set_count);  // number of active projections of each set
     for (const Event& event : events_) {
       deadline.Check();
       progress.Add();
@@ -89,8 +89,8 @@ class Sweep {
   }
 
  private:
-  /// The edges on which a piece projects on every place, in runs of edges that follow each other:
-  /// most of a large set.
+  /// Add runs of consecutive edges that a projection covers completely. A large set mainly consists
+  /// of them.
   void AddCovered(sets::SetIndex set, std::span<const PieceIndex> pieces) {
     covered_edges_.clear();
     for (const PieceIndex i : pieces) {
@@ -132,7 +132,7 @@ class Sweep {
   const polygon::EdgeTable& edges_;
   const Boundary& boundary_;
   const std::vector<GraspPiece>& pieces_;
-  std::vector<char> covered_;  ///< edges of the set at hand
+  std::vector<char> covered_;  ///< whether the current set covers each edge
   std::vector<FaceIndex> covered_edges_;
   std::deque<polygon::FilteredRange> ranges_;
   std::vector<Event> events_;

@@ -12,13 +12,14 @@
 
 namespace regrasp::contour {
 
-/// Pairs of sets whose projections on the boundary overlap (Phoka 2010, section 4.5), ascending.
+/// Find the pairs of sets whose projections on the boundary overlap (Phoka 2010, section 4.5), in
+/// ascending order.
 ///
-/// A sweep along the boundary, over where the projections begin and end, in the exact order of
-/// these places: by edge, then by contact parameter. O(m log m + k), k being the number of overlaps
-/// of m intervals. Inside an IntervalScope.
-/// @param pieces_of  the pieces of a set.
-/// @throws TimeUp  the deadline came.
+/// The method is a sweep along the boundary over the ends of the projections. Their order is exact:
+/// by edge, then by contact parameter. It takes O(m log m + k) for m intervals with k overlaps.
+/// Call it in an IntervalScope.
+/// @param pieces_of  function that returns the pieces of a set.
+/// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] std::vector<sets::SetPair> FindOverlaps(
     const polygon::EdgeTable& edges, const Boundary& boundary,
     const std::vector<GraspPiece>& pieces, int set_count,

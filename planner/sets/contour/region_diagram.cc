@@ -12,15 +12,16 @@ namespace {
 
 using Site = RegionMetric::Site;
 
-/// Lengths and sizes that differ by less than this, over the boundary's length, are equal.
+/// Difference below which lengths and sizes are equal, divided by the boundary's length.
 constexpr double kDiagramRounding = 1e-12;
 
-/// Boxes are halved until so few sites can be nearest in them, or until that many halvings in a row
-/// spared none: at a vertex of the diagram where more sites meet they never do.
+/// Limits of subdivision: a box is split until only a few sites can be nearest in it, or until
+/// several splits in a row have excluded none. The latter happens at a vertex of the diagram at
+/// which more sites meet.
 constexpr std::size_t kFewSites = 6;
 constexpr int kVainHalvings = 4;
 
-/// A linear function g · x + c.
+/// Linear function g · x + c.
 struct Term {
   Vector2d g = Vector2d::Zero();
   double c = 0;
@@ -28,8 +29,8 @@ struct Term {
   [[nodiscard]] double operator()(const Vector2d& x) const { return g.dot(x) + c; }
 };
 
-/// The distance to a site is the largest of its terms: a centred square of that half-width touches
-/// the site's hexagon-shaped neighbourhood.
+/// Return the distance to a site: the largest of its terms. A centred square of this half-width
+/// touches the site.
 double Distance(const Site& site, const Vector2d& x) {
   const Vector2d beyond = (x - site.high).cwiseMax(site.low - x);
   const double box = beyond.maxCoeff();
@@ -67,7 +68,7 @@ Box BoxOf(const std::vector<Vector2d>& outline) {
   return box;
 }
 
-/// A part of a line, from + t · direction for t in [low, high].
+/// Part of a line: from + t · direction for t in [low, high].
 struct LinePart {
   Vector2d from;
   Vector2d direction;
@@ -76,7 +77,7 @@ struct LinePart {
 
   [[nodiscard]] Vector2d At(double t) const { return from + t * direction; }
 
-  /// Keeps where a term is not negative.
+  /// Keep the part with a non-negative term.
   void Clip(const Term& term) {
     const double at = term(from);
     const double slope = term.g.dot(direction);
@@ -98,7 +99,7 @@ Term Raise(Term term, double by) {
   return term;
 }
 
-/// The terms of a site that are its distance somewhere in a box.
+/// Return the terms of a site that are its distance somewhere in a box.
 std::vector<Term> ActiveTerms(const Site& site, const Box& box) {
   const std::vector<Term> terms = TermsOf(site);
   const Vector2d centre = box.centre();
@@ -114,10 +115,10 @@ std::vector<Term> ActiveTerms(const Site& site, const Box& box) {
   return active;
 }
 
-/// Makes the diagram of one set, piece by piece.
+/// Computes the diagram of one set, piece by piece.
 class DiagramMaker {
  public:
-  /// @param deadline  outlives this object.
+  /// @param deadline  must outlive this object.
   DiagramMaker(const ContourGraph& graph, const std::vector<Site>& sites, double rounding,
                const Deadline& deadline)
       : graph_(graph), sites_(sites), rounding_(rounding), deadline_(deadline) {}
@@ -144,8 +145,8 @@ class DiagramMaker {
     Box box;
   };
 
-  /// The sites that can be nearest somewhere in a box: distances change by no more than the
-  /// point is moved.
+  /// Return the sites that can be nearest somewhere in a box. A distance changes at most by the
+  /// displacement of the point.
   [[nodiscard]] std::vector<int> NearIn(const Box& box, const std::vector<int>& sites) {
     deadline_.Check();
     const Vector2d centre = box.centre();
@@ -188,9 +189,10 @@ class DiagramMaker {
     SplitBox(part, upper, near, vain);
   }
 
-  /// The edges of the diagram in a box where no other sites can be nearest: for each two terms of
-  /// different sites the part of the line where they are equal on which both are their sites'
-  /// distances and no other site is nearer.
+  /// Add the edges of the diagram in a box in which only the given sites can be nearest.
+  ///
+  /// For two terms of different sites, an edge is a part of the line on which they are equal.
+  /// There, both are the distances of their sites, and no other site is nearer.
   void AddEdges(const Part& part, const Box& box, const std::vector<int>& sites) {
     std::vector<std::vector<Term>> active;
     for (const int site : sites) active.push_back(ActiveTerms(sites_[site], box));
@@ -240,7 +242,7 @@ class DiagramMaker {
     }
   }
 
-  /// Cuts out where another site, with these terms, is nearer than `term` says.
+  /// Remove the parts on which another site with these terms is nearer than `term`.
   void RemoveNearer(const std::vector<Term>& site, const Term& term,
                     std::vector<LinePart>& parts) const {
     std::vector<LinePart> kept;
@@ -260,7 +262,8 @@ class DiagramMaker {
     parts = std::move(kept);
   }
 
-  /// Where more than two sites are equally near, several pairs have the same edge: it is kept once.
+  /// Add an edge unless it is known: if more than two sites are equally near, several pairs have
+  /// the same edge.
   void AddEdge(PieceIndex piece, const LinePart& line, const Term& size, std::size_t first) {
     const DiagramEdge edge = {piece, line.At(line.low), line.At(line.high), size(line.At(line.low)),
                               size(line.At(line.high))};
@@ -275,9 +278,9 @@ class DiagramMaker {
     if (!known) edges_.push_back(edge);
   }
 
-  /// Slopes this close, squared, are one: their terms differ by a constant.
+  /// Squared difference below which slopes are equal; the terms then differ by a constant.
   static constexpr double kSameSlope = 1e-20;
-  /// Ends of one edge that are found twice agree to so many roundings.
+  /// Largest distance between equal ends of an edge that was found twice, in roundings.
   static constexpr double kSameEnd = 100;
 
   const ContourGraph& graph_;
@@ -304,8 +307,8 @@ Site Shift(Site site, const Vector2d& by) {
   return site;
 }
 
-/// No square inside a set is wider than the set is along one contact's place, wherever the other
-/// contact is: half of that.
+/// Return an upper bound on the half-width of squares inside a set: half of the set's largest
+/// extent in one contact's place for a fixed place of the other contact.
 double LargestSize(const ContourGraph& graph, sets::SetIndex set) {
   std::vector<double> widths(graph.boundary().edge_count());
   const object::Polygon& polygon = graph.boundary().polygon();

@@ -8,48 +8,54 @@
 
 namespace regrasp::contour {
 
-/// A part of an edge of the L-infinity Voronoi diagram of a set's border, inside one piece. The
-/// half-width of the largest square about a point of it that lies in the set changes evenly from
-/// one end to the other.
+/// Part of an edge of the L∞ Voronoi diagram of a set's border, inside one piece.
+///
+/// The half-width of the largest square in the set about a point of the edge is linear along the
+/// edge.
 struct DiagramEdge {
   PieceIndex piece;
-  Eigen::Vector2d from;  ///< in contact space, as PieceOutline has it
+  Eigen::Vector2d from;  ///< point of contact space (PieceOutline)
   Eigen::Vector2d to;
   double from_size = 0;  ///< half-width of the largest centred square
   double to_size = 0;
 };
 
-/// The border of a set as centred squares see it: copies of its segments under the symmetry of the
-/// space (x, y) → (y, x) and its periods, as far as they can touch a square inside the set.
+/// L∞ distance to the border of a set. The border includes copies under the symmetry (x, y) → (y,
+/// x) and the periods of contact space, if they can touch a square inside the set.
 class RegionMetric {
  public:
-  /// `graph` must outlive this object.
+  /// @param graph  must outlive this object.
   RegionMetric(const ContourGraph& graph, sets::SetIndex set);
 
-  /// Half-width of the largest square (in the L-infinity metric: the distance to the border) about
-  /// a point of the set: the two contacts may be anywhere within that length along the boundary,
-  /// independently, and the grasp stays in the set.
+  /// Compute the half-width of the largest square in the set about a point: the L∞ distance to the
+  /// border.
+  ///
+  /// Both contacts can move by this length along the boundary, independently, and the grasp stays
+  /// in the set.
   [[nodiscard]] double SizeAt(const Eigen::Vector2d& point) const;
 
-  /// The diagram (Papadopoulou and Lee 2001; Phoka 2010, section 4.6.2) inside the set, cut where
-  /// pieces end. When one contact is held, the largest centred square is centred on it.
-  /// @throws TimeUp  the deadline came.
+  /// Compute the diagram inside the set (Papadopoulou and Lee 2001; Phoka 2010, section 4.6.2),
+  /// split at the borders of pieces.
+  ///
+  /// If one contact is fixed, the largest centred square is centred on the diagram.
+  /// @throws TimeUp  if the deadline is reached.
   [[nodiscard]] std::vector<DiagramEdge> MakeDiagram(const Deadline& deadline = {}) const;
 
-  /// A segment, rising nowhere: its box, and for a falling one its normal.
+  /// Border segment, parallel to an axis or with dy/dx < 0: its box, and its normal if it is not
+  /// parallel to an axis.
   struct Site {
-    Eigen::Vector2d low;  ///< of its bounding box
+    Eigen::Vector2d low;  ///< lower corner of the bounding box
     Eigen::Vector2d high;
     Eigen::Vector2d normal =
-        Eigen::Vector2d::Zero();  ///< over |nx| + |ny|; zero if parallel to an axis
-    double offset = 0;            ///< of the points x on its line, normal · x = offset
+        Eigen::Vector2d::Zero();  ///< with |nx| + |ny| = 1; zero if parallel to an axis
+    double offset = 0;            ///< normal · x for the points x of its line
   };
 
  private:
   const ContourGraph& graph_;
   sets::SetIndex set_;
   std::vector<Site> sites_;
-  double rounding_ = 0;  ///< lengths this close are equal
+  double rounding_ = 0;  ///< lengths that differ by less are equal
 };
 
 }  // namespace regrasp::contour

@@ -13,7 +13,7 @@ namespace {
 
 double CrossProduct(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Twice the area of a convex outline.
+/// Compute twice the area of a convex outline.
 double DoubleArea(const std::vector<Vector2d>& outline) {
   double area = 0;
   for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
@@ -22,7 +22,7 @@ double DoubleArea(const std::vector<Vector2d>& outline) {
   return area;
 }
 
-/// The point of a triangle that two numbers in [0, 1) stand for, evenly.
+/// Map two uniform numbers in [0, 1) to a uniform point of a triangle.
 Vector2d PointOfTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, double s,
                          double t) {
   if (s + t > 1) return a + (1 - s) * (b - a) + (1 - t) * (c - a);

@@ -11,19 +11,19 @@
 
 namespace regrasp::contour {
 
-/// A grasp of two contacts as a point of contact space.
+/// A 2-finger grasp as a point of contact space.
 struct PlacedGrasp {
   PieceIndex piece;
-  Eigen::Vector2d places = Eigen::Vector2d::Zero();  ///< on the piece's edges, as Boundary has them
+  Eigen::Vector2d places = Eigen::Vector2d::Zero();  ///< places on the piece's edges (Boundary)
 
   friend bool operator==(const PlacedGrasp&, const PlacedGrasp&) = default;
 };
 
-/// The geometry of a graph's sets, made when first asked for.
+/// Geometry of a graph's sets, computed on first use.
 class SetGeometry {
  public:
-  /// @param graph  outlives this object.
-  /// @param deadline  when whatever asks for geometry makes an end, by TimeUp.
+  /// @param graph  must outlive this object.
+  /// @param deadline  deadline after which computations of geometry throw TimeUp.
   explicit SetGeometry(const ContourGraph& graph, Deadline deadline = {})
       : graph_(graph), deadline_(std::move(deadline)) {}
 
@@ -33,25 +33,26 @@ class SetGeometry {
   [[nodiscard]] const RegionMetric& MetricOf(sets::SetIndex set);
   [[nodiscard]] const std::vector<DiagramEdge>& DiagramOf(sets::SetIndex set);
 
-  /// Half-width of the largest square in a set.
+  /// Return the half-width of the largest square in a set.
   [[nodiscard]] double WidthOf(sets::SetIndex set);
-  /// Half-width of the largest square about a grasp that lies in its set.
+  /// Return the half-width of the largest square about a grasp that is inside its set.
   [[nodiscard]] double SizeAt(const PlacedGrasp& grasp);
 
-  /// How far the line through the contacts is inside both friction cones, radians; negative
-  /// outside.
+  /// Return the angle by which the line through the contacts is inside both friction cones, rad;
+  /// negative outside.
   [[nodiscard]] double AngleMarginOf(const PlacedGrasp& grasp) const;
 
-  /// The places of the contact on the k-th edge that a piece's grasps have, and for one of them the
-  /// places of the other contact; nullopt where doubles know none.
+  /// Return the places of the contact on the k-th edge in a piece; SliceOf returns those of the
+  /// other contact for one such place. nullopt if doubles find none.
   [[nodiscard]] std::optional<PlaceRange> RangeOf(PieceIndex piece, int k);
   [[nodiscard]] std::optional<PlaceRange> SliceOf(PieceIndex piece, int k, double place);
 
-  /// A grasp anywhere in a set, evenly by lengths; nullopt where it is too thin for doubles.
+  /// Draw a grasp of a set, uniformly by area of contact space; nullopt if it is too thin for
+  /// doubles.
   [[nodiscard]] std::optional<PlacedGrasp> Draw(sets::SetIndex set, RandomStream& random);
 
-  /// The point of contact space of a grasp whose contacts know their edges; nullopt where the exact
-  /// decision knows no such grasp.
+  /// Return the point of contact space of a grasp whose faces are set; nullopt if, by the exact
+  /// decision, there is no piece for it.
   [[nodiscard]] std::optional<PlacedGrasp> Locate(const grasp::Grasp& grasp) const;
 
   [[nodiscard]] grasp::Grasp GraspOf(const PlacedGrasp& grasp) const;

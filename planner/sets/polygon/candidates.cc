@@ -34,7 +34,7 @@ EdgeTable EdgeTable::Of(const std::vector<FaceIndex>& edges) const {
 
 namespace {
 
-/// 0 for directions with angles in [0, π), 1 for the others.
+/// Return 0 for directions with angles in [0, π), otherwise 1.
 template <class NT>
 int HalfTurn(const Vector2<NT>& v) {
   const int y = Sign(v.y);
@@ -46,7 +46,7 @@ Vector2<NT> Normal(const EdgeFrame<NT>& frame) {
   return {-frame.along.y, frame.along.x};
 }
 
-/// Sorts edges by the angles of their normals in [0, 2π), equal ones by index.
+/// Sort edges by the angles of their normals in [0, 2π), ties by index.
 std::vector<FaceIndex> SortByAngle(const EdgeTable& edges) {
   std::vector<int> half(edges.size());
   std::vector<FaceIndex> order(edges.size());
@@ -67,8 +67,8 @@ std::vector<FaceIndex> SortByAngle(const EdgeTable& edges) {
   return order;
 }
 
-/// True iff the turn from the normal of `a` counter-clockwise to that of `b` is positive and below
-/// π, or below π − 2θ.
+/// Return whether the counter-clockwise angle from the normal of `a` to that of `b` is a gap:
+/// positive and below π, or for `uniform` below π − 2θ.
 bool IsGap(const EdgeTable& edges, FaceIndex a, FaceIndex b, planning::Spanning spanning) {
   return DecideFiltered([&](auto zero) {
     using NT = decltype(zero);
@@ -79,18 +79,18 @@ bool IsGap(const EdgeTable& edges, FaceIndex a, FaceIndex b, planning::Spanning 
   });
 }
 
-/// tan((π − γ) / 2), γ in (0, π) being the turn from the normal of `a` to that of `b`.
+/// Compute tan((π − γ) / 2), with γ in (0, π) the angle from the normal of `a` to that of `b`.
 template <class Number>
 Interval HalfTangent(const Number& cross, const Number& dot, const Interval& lengths) {
-  // One of the two forms of the half-angle has no cancellation.
+  // One of the two forms of the tangent has no cancellation.
   const Interval c(CGAL::to_interval(cross));
   const Interval d(CGAL::to_interval(dot));
   return d.inf() > 0 ? (lengths + d) / c : c / (lengths - d);
 }
 
-/// tan φ* of a gap, rounded down by no more than 1e-13 of the larger of it and 1.
+/// Compute tan φ* of a gap, rounded down by at most 1e-13 · max(tan φ*, 1).
 double SpanningTangent(const EdgeTable& edges, FaceIndex a, FaceIndex b) {
-  /// Intervals wider than this are computed anew from exact products.
+  /// Largest relative width of an interval; wider ones are recomputed from exact products.
   constexpr double kTightEnough = 1e-13;
   const auto bound = [&](auto zero) {
     using NT = decltype(zero);
@@ -103,14 +103,14 @@ double SpanningTangent(const EdgeTable& edges, FaceIndex a, FaceIndex b) {
   if (!(tangent.inf() > 0) || tangent.sup() - tangent.inf() > kTightEnough * tangent.sup()) {
     tangent = bound(Exact());
   }
-  // At φ* two borders of the cones are opposite. Rounded down by this much, intervals of doubles
-  // can tell that they are not, and the exact type is hardly ever needed.
+  // At φ* two borders of the cones are opposite. After rounding down by this amount, intervals of
+  // doubles can decide that they are not, and exact numbers are rarely necessary.
   constexpr double kTold = 0x1p-44;
   const double lowered = tangent.inf() - kTold * std::max(1.0, tangent.inf());
   return lowered > 0 ? lowered : tangent.inf();
 }
 
-/// True iff two cones of half-angle θ have a common interior.
+/// Return whether two cones of angle θ have a common interior.
 bool ConesMeet(const EdgeTable& edges, FaceIndex a, FaceIndex b, bool opposite) {
   return DecideFiltered([&](auto zero) {
     using NT = decltype(zero);
@@ -120,8 +120,8 @@ bool ConesMeet(const EdgeTable& edges, FaceIndex a, FaceIndex b, bool opposite) 
   });
 }
 
-/// True iff the turn from the normal of `a` counter-clockwise to that of `b` is in (0, π), or 0 and
-/// `b` comes after `a` among equal ones.
+/// Return whether the counter-clockwise angle from the normal of `a` to that of `b` is in (0, π),
+/// or 0 with `b` after `a` among equal normals.
 bool TurnsLeft(const EdgeTable& edges, FaceIndex a, FaceIndex b) {
   return DecideFiltered([&](auto zero) {
     using NT = decltype(zero);
@@ -132,7 +132,8 @@ bool TurnsLeft(const EdgeTable& edges, FaceIndex a, FaceIndex b) {
   });
 }
 
-/// The first number in [begin, end) of which a predicate holds that holds of all later ones too.
+/// Return the first number in [begin, end) that satisfies a monotone predicate; `end` if there is
+/// none.
 template <class Predicate>
 int FirstStep(int begin, int end, const Predicate& holds) {
   const auto steps = std::views::iota(begin, end);
@@ -141,8 +142,8 @@ int FirstStep(int begin, int end, const Predicate& holds) {
                           steps.begin());
 }
 
-/// Of each edge those whose normals are within 2θ of being opposite: neighbours in the order of
-/// angles.
+/// For each edge, the edges whose normals are within 2θ of opposite. They are consecutive in the
+/// order of angles.
 class OpposedEdges {
  public:
   OpposedEdges(const EdgeTable& edges, const Deadline& deadline)
@@ -152,10 +153,11 @@ class OpposedEdges {
       deadline.Check();
       const FaceIndex edge = order_[rank];
       const auto at = [&](int steps) { return order_[(rank + steps) % n]; };
-      // Steps counter-clockwise to the first normal that is opposite, or beyond it.
+      // Counter-clockwise steps to the first normal that is opposite or beyond.
       const int opposite =
           FirstStep(1, n, [&](int steps) { return !TurnsLeft(edges, edge, at(steps)); });
-      // Towards both sides of there cones meet up to some normal, and not beyond it.
+      // On either side of the opposite direction, the cones meet up to some normal and not beyond
+      // it.
       const auto meet = [&](int steps) { return ConesMeet(edges, edge, at(steps), true); };
       const int first = FirstStep(1, opposite, meet);
       const int end = FirstStep(opposite, n, [&](int steps) { return !meet(steps); });
@@ -175,7 +177,7 @@ class OpposedEdges {
   };
 
   std::vector<FaceIndex> order_;
-  std::vector<Run> runs_;  ///< by edge
+  std::vector<Run> runs_;  ///< run of each edge
 };
 
 }  // namespace
@@ -185,7 +187,7 @@ std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges
                                                           const Deadline& deadline) {
   const std::vector<FaceIndex> order = SortByAngle(edges);
   const int n = edges.size();
-  // By rank in `order`; a triple that spans has three gaps around the circle.
+  // Indexed by rank in `order`; a spanning triple has three gaps around the circle.
   std::vector<std::vector<char>> gap(n, std::vector<char>(n, 0));
   std::vector<std::vector<double>> limit(n, std::vector<double>(n, edges.tangent()));
   for (int r = 0; r < n; ++r) {
@@ -240,7 +242,7 @@ std::vector<TwoFingerCandidate> FindTwoFingerCandidates(const EdgeTable& edges,
 
 CandidateSample DrawTwoFingerCandidates(const EdgeTable& edges, int count, RandomStream& random) {
   const OpposedEdges opposed(edges, {});
-  std::vector<std::int64_t> up_to;  // pairs of the edges so far, in both orders
+  std::vector<std::int64_t> up_to;  // cumulative number of pairs by edge, in both orders
   std::int64_t pairs = 0;
   for (FaceIndex edge{0}; edge < edges.size(); ++edge)
     up_to.push_back(pairs += opposed.count(edge));
@@ -257,7 +259,7 @@ CandidateSample DrawTwoFingerCandidates(const EdgeTable& edges, int count, Rando
 
 std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges,
                                                       const Deadline& deadline) {
-  std::vector<std::pair<EdgeTriple, int>> centred;  // triples with one centre's position
+  std::vector<std::pair<EdgeTriple, int>> centred;  // triples with the position of one centre
   for (FaceIndex centre{0}; centre < edges.size(); ++centre) {
     std::vector<FaceIndex> opposite;
     for (FaceIndex e{0}; e < edges.size(); ++e) {

@@ -8,7 +8,7 @@ namespace regrasp::polygon {
 
 namespace {
 
-/// Cuts a region to the square of half-side `reach` about a point.
+/// Clip a region to a square of side 2 · `reach` about a point.
 void ClipToSquare(const Eigen::Vector2d& centre, double reach, ConvexRegion<Exact>& region) {
   const Exact x(centre.x());
   const Exact y(centre.y());
@@ -61,9 +61,10 @@ std::vector<std::vector<Eigen::Vector2d>> FocusCell(const object::Polygon& polyg
 
 namespace {
 
-/// The half-planes of what sees an edge from one side, counter-clockwise: the edge's line, then,
-/// the line at infinity between them, the two rays. Tags have the polygon's vertices that they
-/// pass; the edge's line has the id `id`.
+/// Half-planes of the region that sees an edge from one side, counter-clockwise.
+///
+/// The order is the edge's line, the first ray, the line at infinity (omitted), the second ray.
+/// Tags contain the polygon's vertices on each border; the edge's line has the id `id`.
 template <class NT>
 struct SightRegion {
   std::array<HalfPlane<NT>, 3> half_planes;
@@ -115,7 +116,7 @@ ConvexRegion<NT> MakeFocusPart(const EdgeTable& edges, const ConcurrentCandidate
   return part;
 }
 
-/// A half-plane whose border moves with contacts: constant + Σ rate · u is its third coefficient.
+/// Half-plane whose border moves with contacts. Its third coefficient is constant + Σ rate · u.
 template <class NT>
 struct MovingHalfPlane {
   Vector2<NT> normal;
@@ -123,7 +124,7 @@ struct MovingHalfPlane {
   std::array<NT, 2> rate = {NT(0), NT(0)};
 };
 
-/// What a contact that moves along its edge sees inside its cone, on the inner side or the outer.
+/// Return the cone of a contact that moves along its edge, on the inner or outer side.
 template <class NT>
 std::array<MovingHalfPlane<NT>, 2> MakeMovingCone(const EdgeFrame<NT>& e, bool outer,
                                                   int parameter) {
@@ -138,7 +139,7 @@ std::array<MovingHalfPlane<NT>, 2> MakeMovingCone(const EdgeFrame<NT>& e, bool o
                : std::array{left_of(e.right), left_of(-e.left)};
 }
 
-/// λ · h added to a half-plane of the parameters.
+/// Add λ · h to a half-plane of the parameters.
 template <class NT>
 void AddWeighted(const NT& weight, const MovingHalfPlane<NT>& h, HalfPlane<NT>& sum) {
   sum.a = sum.a + weight * h.rate[0];
@@ -146,7 +147,7 @@ void AddWeighted(const NT& weight, const MovingHalfPlane<NT>& h, HalfPlane<NT>& 
   sum.c = sum.c + weight * h.constant;
 }
 
-/// Cuts `region` to parameters for which every two and every three of the half-planes meet.
+/// Clip `region` to parameters for which every two and every three of the half-planes intersect.
 template <class NT>
 void ClipToCommonPoints(const std::vector<MovingHalfPlane<NT>>& h, ConvexRegion<NT>& region) {
   const int n = static_cast<int>(h.size());
@@ -168,7 +169,7 @@ void ClipToCommonPoints(const std::vector<MovingHalfPlane<NT>>& h, ConvexRegion<
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
       for (int k = j + 1; k < n; ++k) {
-        // Three normals balance iff they turn the same way around the circle.
+        // Three normals balance iff consecutive ones turn in the same direction.
         if (turn[i][j] == 0 || turn[i][j] != turn[j][k] || turn[j][k] != turn[k][i]) continue;
         HalfPlane<NT> sum;
         const bool positive = turn[i][j] > 0;
@@ -201,12 +202,12 @@ ConvexRegion<NT> MakeContactPairs(const EdgeTable& edges, const ConcurrentCandid
   return region;
 }
 
-/// The contacts on edge k that are seen from a part whose corners are known.
+/// Return the contacts on an edge that a part with known corners sees.
 template <class NT>
 ContactRange<NT> MakeContactRange(const EdgeFrame<NT>& e, const ConvexRegion<NT>& part,
                                   bool outer) {
-  // A focus point x sees the contacts between the feet of two rays through it, and the foot of the
-  // ray of direction v is cross(x − a, v) / |b − a|² for either border v of the cone.
+  // A focus point x sees the contacts between the feet of two rays through it. The foot of the ray
+  // along a border v of the cone is cross(x − a, v) / |b − a|².
   const NT squared = Dot(e.along, e.along);
   const auto foot = [&](const HomogeneousPoint<NT>& x, const Vector2<NT>& v) {
     const Vector2<NT> from_a = {x.x - x.w * e.a.x, x.y - x.w * e.a.y};
@@ -221,7 +222,7 @@ ContactRange<NT> MakeContactRange(const EdgeFrame<NT>& e, const ConvexRegion<NT>
   return ContactRange<NT>::OnEdge(range->low, range->high);
 }
 
-/// Of each part the lowest one that it is joined to, over others.
+/// Return for each part the lowest part of its connected component.
 template <class Parts>
 std::array<int, kSidePatterns> JoinParts(const Parts& parts) {
   std::array<int, kSidePatterns> component;
@@ -229,7 +230,8 @@ std::array<int, kSidePatterns> JoinParts(const Parts& parts) {
   for (int sides = 0; sides < kSidePatterns; ++sides) {
     if (!parts[sides]) continue;
     for (int k = 0; k < 3; ++k) {
-      // Where a segment of the edge borders the part on one side, the other side begins there.
+      // If a segment of the edge borders the part on one side, the part on the other side borders
+      // it, too.
       if (!parts[sides]->region().HasSide(k)) continue;
       const int from = component[sides];
       const int to = component[sides ^ (1 << k)];

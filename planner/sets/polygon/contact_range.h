@@ -9,7 +9,7 @@
 
 namespace regrasp::polygon {
 
-/// A quotient, known as an interval or exactly.
+/// A quotient, represented by an interval or exactly.
 template <class NT>
 struct Ratio;
 
@@ -28,7 +28,7 @@ struct Ratio<Interval> {
 template <>
 struct Ratio<Exact> {
   Exact numerator;
-  Exact denominator;  ///< >= 0; 0 where the value is infinite
+  Exact denominator;  ///< >= 0; 0 for an infinite value
 
   static Ratio Make(const Exact& numerator, const Exact& denominator) {
     return {numerator, denominator};
@@ -38,7 +38,7 @@ struct Ratio<Exact> {
   }
 };
 
-/// Of intervals, the interval that the smaller value lies in: no decision is needed.
+/// For intervals, return an interval that contains the smaller value, without a decision.
 inline Ratio<Interval> Smaller(const Ratio<Interval>& a, const Ratio<Interval>& b) {
   return {{std::min(a.value.inf(), b.value.inf()), std::min(a.value.sup(), b.value.sup())}};
 }
@@ -48,14 +48,14 @@ inline Ratio<Interval> Larger(const Ratio<Interval>& a, const Ratio<Interval>& b
 inline Ratio<Exact> Smaller(const Ratio<Exact>& a, const Ratio<Exact>& b) { return b < a ? b : a; }
 inline Ratio<Exact> Larger(const Ratio<Exact>& a, const Ratio<Exact>& b) { return a < b ? b : a; }
 
-/// The parameters of an edge, 0 to 1 from its first end to its second, at which a contact of some
-/// grasps of a set lies: an open interval.
+/// Open interval of an edge's parameter, 0 to 1, that contains the possible contacts of a grasp
+/// set.
 template <class NT>
 struct ContactRange {
   Ratio<NT> low;
   Ratio<NT> high;
 
-  /// @returns the part of [low, high] on the edge.
+  /// Return the part of [low, high] on the edge.
   static ContactRange OnEdge(const Ratio<NT>& low, const Ratio<NT>& high) {
     return {Larger(low, Ratio<NT>::Make(NT(0), NT(1))),
             Smaller(high, Ratio<NT>::Make(NT(1), NT(1)))};
@@ -68,19 +68,19 @@ struct ContactRange {
   }
 };
 
-/// A range whose exact ends are computed when a decision needs them; inside an IntervalScope.
+/// Range whose exact ends are computed only if a decision needs them. Use it in an IntervalScope.
 class FilteredRange {
  public:
-  /// @param recipe  for a zero of either number type, NT, gives a ContactRange<NT>.
+  /// @param recipe  function of a zero of either number type NT that returns a ContactRange<NT>.
   template <class Recipe>
   explicit FilteredRange(Recipe recipe)
       : range_(ByIntervals(recipe)), exactly_([recipe] { return recipe(Exact(0)); }) {}
 
   [[nodiscard]] const ContactRange<Interval>& by_intervals() const { return range_; }
-  /// Inside an ExactScope.
+  /// Return the exact range. Call it in an ExactScope.
   [[nodiscard]] ContactRange<Exact> exact() const { return exactly_(); }
 
-  /// True iff two ranges of one edge have a contact in common.
+  /// Return whether two ranges of one edge have a common contact.
   [[nodiscard]] static bool Overlap(const FilteredRange& a, const FilteredRange& b) {
     try {
       return a.range_.Overlaps(b.range_);

@@ -10,11 +10,11 @@
 
 namespace regrasp::polygon {
 
-/// What is known of a half-plane without computing.
+/// Known properties of a half-plane that avoid computations.
 struct SideTag {
-  int id = -1;  ///< given by the caller, to find the side again
-  /// Points that the border passes by construction, −1 for none. Where two sides meet in such a
-  /// point and a third passes it too, its sign there is 0 without a computation: edges that share a
+  int id = -1;  ///< identifier of the side, set by the caller
+  /// Points on the border by construction, −1 for none. If two sides meet in such a point that is
+  /// also on the border of a third, its sign there is 0 without a computation. Edges that share a
   /// vertex are the one degeneracy that every polygon has.
   std::array<int, 2> through = {-1, -1};
 
@@ -27,23 +27,23 @@ struct SideTag {
   }
 };
 
-/// The intersection of half-planes with a non-empty interior, or nothing; it may be unbounded.
+/// Intersection of half-planes: a convex region with interior, possibly unbounded, or empty.
 ///
-/// Kept as the border's half-planes counter-clockwise, none of them redundant, each with the corner
-/// where it begins. In homogeneous coordinates the region is a pointed cone between planes through
-/// the origin, so that corners at infinity need no special care, and every decision is the sign of
-/// a half-plane at a corner: a 3 × 3 determinant.
+/// The representation lists the half-planes of the border counter-clockwise, without redundant
+/// ones, each with the corner at its start. In homogeneous coordinates the region is a pointed cone
+/// between planes through the origin. Corners at infinity therefore need no special case, and every
+/// decision is the sign of a half-plane at a corner: a 3 × 3 determinant.
 template <class NT>
 class ConvexRegion {
  public:
   struct Side {
     HalfPlane<NT> half_plane;
     SideTag tag;
-    HomogeneousPoint<NT> from;  ///< where the side begins
+    HomogeneousPoint<NT> from;  ///< start of the side
   };
 
-  /// The part of the plane inside four half-planes that bound a convex quadrilateral in this order,
-  /// counter-clockwise; the line at infinity {0, 0, 1} may be one of them.
+  /// Make the intersection of four half-planes that bound a convex quadrilateral in this order,
+  /// counter-clockwise. One of them may be the line at infinity {0, 0, 1}.
   ConvexRegion(const std::array<HalfPlane<NT>, 4>& half_planes,
                const std::array<SideTag, 4>& tags) {
     sides_.reserve(kUsualSides);
@@ -52,7 +52,7 @@ class ConvexRegion {
     }
   }
 
-  /// [0, 1] × [0, 1].
+  /// Return [0, 1] × [0, 1].
   static ConvexRegion UnitSquare() {
     const NT zero(0);
     const NT one(1);
@@ -61,10 +61,10 @@ class ConvexRegion {
         {});
   }
 
-  /// No region.
+  /// Make an empty region.
   ConvexRegion() = default;
 
-  /// The same region over another number type.
+  /// Convert the region to another number type.
   template <class To, class Map>
   [[nodiscard]] ConvexRegion<To> Convert(const Map& map) const {
     std::vector<typename ConvexRegion<To>::Side> sides;
@@ -82,7 +82,7 @@ class ConvexRegion {
     return std::any_of(sides_.begin(), sides_.end(), [&](const Side& s) { return s.tag.id == id; });
   }
 
-  /// Cuts away what is outside the half-plane; the region is empty where no interior remains.
+  /// Intersect the region with a half-plane; the result is empty if no interior remains.
   void Clip(const HalfPlane<NT>& half_plane, const SideTag& tag = {}) {
     const int n = static_cast<int>(sides_.size());
     if (n == 0) return;
@@ -101,8 +101,8 @@ class ConvexRegion {
       sides_.clear();
       return;
     }
-    // A side stays iff one of its ends is strictly inside. Those that stay follow each other, and
-    // the new side closes the border between the last and the first.
+    // A side remains iff one of its ends is strictly inside. The remaining sides are consecutive,
+    // and the new side closes the border between the last and the first.
     const auto is_inside = [&](int k) { return signs[k % n] > 0; };
     int first = 0;
     while (is_inside(first) || !is_inside(first + 1)) ++first;

@@ -11,7 +11,8 @@ bool CertainlyNotPositive(const Exact& x) { return !CertainlyPositive(x); }
 
 enum class Answer { kNo, kUncertain, kYes };
 
-/// Whether no point of `region` is strictly inside the half-plane of a side of another region.
+/// Return whether no point of `region` is strictly inside the half-plane of a side of another
+/// region.
 template <class NT>
 Answer LiesOutside(const ConvexRegion<NT>& region,
                    const typename ConvexRegion<NT>::Side& separating) {
@@ -28,8 +29,8 @@ Answer LiesOutside(const ConvexRegion<NT>& region,
   return answer;
 }
 
-/// Two convex regions of the plane have no common interior iff a side of one has all of the other
-/// outside.
+/// Return whether two convex regions have a common interior.
+/// They have none iff a side of one region has all of the second region outside.
 template <class NT>
 Answer Overlap(const ConvexRegion<NT>& a, const ConvexRegion<NT>& b) {
   Answer answer = Answer::kYes;

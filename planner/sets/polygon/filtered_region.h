@@ -11,19 +11,21 @@
 
 namespace regrasp::polygon {
 
-/// A convex region whose combinatorics are exact and whose coordinates are intervals; its exact
-/// coordinates are computed when a decision needs them. Everything here inside an IntervalScope.
+/// Convex region with exact combinatorics and interval coordinates.
+///
+/// Exact coordinates are computed only if a decision needs them. Use it in an IntervalScope.
 class FilteredRegion {
  public:
-  /// @param recipe  for a zero of either number type, NT, gives a ConvexRegion<NT>; it may throw as
-  ///                Sign does. What it captures must live as long as the region.
-  /// @returns nullopt where the region is empty.
+  /// Make a region by intervals, or exactly if they cannot decide.
+  /// @param recipe  function of a zero of either number type NT that returns a ConvexRegion<NT>. It
+  ///     may throw the same exceptions as Sign. Its captures must outlive the region.
+  /// @returns nullopt if the region is empty.
   template <class Recipe>
   static std::optional<FilteredRegion> Make(const Recipe& recipe) {
     return Make(recipe, [&] { return recipe(Interval(0)); });
   }
 
-  /// The same, `by_intervals` giving what recipe(Interval(0)) does, but faster.
+  /// The same, with `by_intervals` as a faster equivalent of recipe(Interval(0)).
   template <class Recipe, class ByIntervals>
   static std::optional<FilteredRegion> Make(const Recipe& recipe, const ByIntervals& by_intervals) {
     try {
@@ -51,7 +53,7 @@ class FilteredRegion {
     }
   }
 
-  /// True iff two regions have a common interior.
+  /// Return whether two regions have a common interior.
   [[nodiscard]] static bool Overlap(const FilteredRegion& a, const FilteredRegion& b);
 
  private:
@@ -67,7 +69,7 @@ class FilteredRegion {
   };
 
   ConvexRegion<Interval> region_;
-  Box box_;  ///< contains the region; it spares most tests
+  Box box_;  ///< bounding box, which avoids most tests
   std::function<ConvexRegion<Exact>()> recipe_;
   mutable std::shared_ptr<const ConvexRegion<Exact>> exact_;
 };

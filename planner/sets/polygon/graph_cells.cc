@@ -13,10 +13,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Steps after which a walk inside a cell of at most five dimensions has forgotten where it began.
+/// Number of steps after which a walk in a cell of at most five dimensions is independent of its
+/// start.
 constexpr int kWalkSteps = 32;
 
-/// Hit and run (Smith 1984): a uniform point of a chord in a random direction, again and again.
+/// Sample a cell by hit and run (Smith 1984): move to a uniform point of a chord in a random
+/// direction.
 VectorXd WalkInside(const GraspCell& cell, RandomStream& random) {
   const Inequalities& set = cell.inequalities;
   VectorXd z = cell.centre.z;
@@ -37,7 +39,7 @@ VectorXd WalkInside(const GraspCell& cell, RandomStream& random) {
   return z;
 }
 
-/// All subsets of 2 and 3 of `count` things, the larger ones first.
+/// Return all subsets of size 3, then of size 2, of `count` elements.
 std::vector<std::vector<int>> SubsetsOf(int count) {
   std::vector<std::vector<int>> subsets;
   for (const std::size_t size : {3, 2}) {
@@ -52,11 +54,10 @@ std::vector<std::vector<int>> SubsetsOf(int count) {
   return subsets;
 }
 
-/// The parameters of a set's contacts that are given, in the order of its edges.
+/// Given parameters of a set's contacts, in the order of its edges.
 using FixedParameters = std::vector<std::optional<double>>;
 
-/// All choices of a grasp's contacts to keep in a set on these edges, none of them among the
-/// choices.
+/// Return all choices of a grasp's contacts to keep in a set on these edges, including none.
 std::vector<FixedParameters> ChooseKept(const object::Polygon& polygon, const grasp::Grasp& grasp,
                                         const std::vector<FaceIndex>& edges) {
   std::vector<FixedParameters> choices = {FixedParameters()};
@@ -76,7 +77,7 @@ std::vector<FixedParameters> ChooseKept(const object::Polygon& polygon, const gr
   return choices;
 }
 
-/// The point of a cell of largest slack whose first variables are those that are given.
+/// Find the point of largest slack of a cell with given values of its first variables.
 SlackSolution MaximizeSlackWith(const Inequalities& cell, const FixedParameters& fixed) {
   Substitution given(cell.rows.cols());
   for (std::size_t v = 0; v < fixed.size(); ++v) {

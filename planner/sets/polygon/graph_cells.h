@@ -10,16 +10,17 @@
 
 namespace regrasp::polygon {
 
-/// A grasp of a set, by the parameters of its contacts in the order of the set's edges.
+/// Grasp of a set: parameters of its contacts, in the order of the set's edges.
 struct PolygonPlace {
   sets::SetIndex set;
   Eigen::VectorXd parameters;
 };
 
-/// The cells of a graph's sets, made when first asked for.
+/// Cells of a graph's sets, computed on first use.
 class GraphCells {
  public:
-  /// @param deadline  when whatever asks for cells makes an end, by TimeUp.
+  /// @param polygon, graph  must outlive this object.
+  /// @param deadline  deadline after which every function throws TimeUp.
   GraphCells(const object::Polygon& polygon, const PolygonGraph& graph, Deadline deadline = {})
       : polygon_(polygon),
         graph_(graph),
@@ -29,21 +30,23 @@ class GraphCells {
 
   [[nodiscard]] const SetCells& of(sets::SetIndex set);
 
-  /// The largest slack of a grasp in the set; of a parallel one ClearWidth, which is cheaper.
+  /// Return the largest slack of a grasp in the set; for a parallel set the cheaper ClearWidth.
   [[nodiscard]] double WidthOf(sets::SetIndex set);
 
-  /// The sets that contain the grasp, or two or three of its contacts; those with more contacts
-  /// first.
+  /// Find the sets that contain the grasp, or two or three of its contacts. Sets with more contacts
+  /// come first.
   [[nodiscard]] std::vector<sets::Attachment<PolygonPlace>> FindAttachments(
       const grasp::Grasp& grasp);
 
-  /// The grasps of sets that a hand of `fingers` fingers comes to by placing fingers too: of each
-  /// set and each choice of contacts that stay, the one with the most slack. For grasps that belong
-  /// to no set.
+  /// Find grasps that a hand reaches by a switch that also places fingers.
+  ///
+  /// For each set and each choice of kept contacts, the result contains the grasp with the largest
+  /// slack. It serves grasps that belong to no set.
+  /// @param fingers  number of fingers of the hand.
   [[nodiscard]] std::vector<sets::Attachment<PolygonPlace>> FindSwitches(const grasp::Grasp& grasp,
                                                                          int fingers);
 
-  /// A grasp of the set, anywhere in it; nullopt where it is too thin for doubles.
+  /// Draw a random grasp of the set; nullopt if it is too thin for doubles.
   [[nodiscard]] std::optional<PolygonPlace> Draw(sets::SetIndex set, RandomStream& random);
 
   [[nodiscard]] grasp::Grasp GraspOf(const PolygonPlace& place) const;

@@ -9,7 +9,7 @@ namespace regrasp::polygon {
 
 namespace {
 
-/// f(u_a, u_x) = constant + rate_a u_a + rate_x u_x, both rates negative.
+/// Function f(u_a, u_x) = constant + rate_a u_a + rate_x u_x, with negative rates.
 template <class NT>
 struct SideOfCone {
   NT constant;
@@ -24,15 +24,15 @@ struct SideOfCone {
   }
 };
 
-/// f_0 and f_1 of one of the two outer contacts.
+/// The functions f_0 and f_1 of one outer contact.
 template <class NT>
 using Sides = std::array<SideOfCone<NT>, 2>;
 
-/// The parallel grasps of one centre, over either number type.
+/// Parallel grasps of one centre, over either number type.
 template <class NT>
 struct CentredSet {
   std::array<int, 2> outer;        ///< positions of b and c, ascending
-  std::array<Sides<NT>, 2> sides;  ///< of b and c
+  std::array<Sides<NT>, 2> sides;  ///< functions of b and c
 };
 
 template <class NT>
@@ -56,8 +56,8 @@ CentredSet<NT> MakeCentredSet(const EdgeTable& edges, const EdgeTriple& triple, 
   return set;
 }
 
-/// Whether both f of a contact, at the end of its edge and of the centre's, are >= 0 (sign 1) or
-/// <= 0 (sign −1).
+/// Return whether both f of a contact are >= 0 (sign 1) or <= 0 (sign −1), for a contact and a
+/// centre at ends of their edges.
 template <class NT>
 bool BothAt(const Sides<NT>& sides, int u_a, int u_x, int sign) {
   return std::all_of(sides.begin(), sides.end(),
@@ -72,7 +72,7 @@ bool IsEmpty(const CentredSet<NT>& set) {
   return all(1, 1) || all(0, -1);
 }
 
-/// Where f falls through 0 as one parameter grows, the other being 0 or 1.
+/// Return the root of f in one parameter; the second parameter is 0 or 1.
 template <class NT>
 Ratio<NT> RootOverCentre(const SideOfCone<NT>& f, int u_x) {
   return Ratio<NT>::Make(f.At(0, u_x), -f.rate_a);
@@ -82,8 +82,7 @@ Ratio<NT> RootOverOuter(const SideOfCone<NT>& f, int u_a) {
   return Ratio<NT>::Make(f.At(u_a, 0), -f.rate_x);
 }
 
-/// The centre's parameters: above those with which b and c are in L wherever they are, and below
-/// those with which they are in R.
+/// Return the parameters of the centre for which some b and c are outside L, and some outside R.
 template <class NT>
 ContactRange<NT> CentreRange(const CentredSet<NT>& set) {
   const auto& [b, c] = set.sides;
@@ -96,15 +95,15 @@ ContactRange<NT> CentreRange(const CentredSet<NT>& set) {
   return ContactRange<NT>::OnEdge(Smaller(low(b), low(c)), Larger(high(b), high(c)));
 }
 
-/// The parameters of an outer contact that is not in L with the centre at its far end, and not in R
-/// with the centre at its near end.
+/// Return the parameters of an outer contact outside L for the centre at its far end, and outside R
+/// for the centre at its near end.
 template <class NT>
 ContactRange<NT> BetweenCorners(const Sides<NT>& x) {
   return {Smaller(RootOverOuter(x[0], 1), RootOverOuter(x[1], 1)),
           Larger(RootOverOuter(x[0], 0), RootOverOuter(x[1], 0))};
 }
 
-/// The parameters of one outer contact, `other` being the second.
+/// Return the parameters of one outer contact; `other` belongs to the second one.
 template <class NT>
 ContactRange<NT> OuterRange(const Sides<NT>& x, const Sides<NT>& other) {
   const ContactRange<NT> between = BetweenCorners(x);
@@ -121,7 +120,7 @@ ContactRange<NT> RangeOf(const CentredSet<NT>& set, int centre, int k) {
   return OuterRange(set.sides[first ? 0 : 1], set.sides[first ? 1 : 0]);
 }
 
-/// Parameters above or below a ratio, as a half-plane of the parameter that `axis` names.
+/// Return the half-plane of parameters above or below a ratio on an axis.
 HalfPlane<Interval> Beyond(const Ratio<Interval>& bound, int axis, bool above) {
   const Interval side(above ? 1 : -1);
   HalfPlane<Interval> h;
@@ -137,7 +136,7 @@ HalfPlane<Exact> Beyond(const Ratio<Exact>& bound, int axis, bool above) {
   return h;
 }
 
-/// f as a half-plane of two parameters, that of the centre on the axis `centre_axis`.
+/// Return f as a half-plane of two parameters, with the centre on the axis `centre_axis`.
 template <class NT>
 HalfPlane<NT> AsHalfPlane(const SideOfCone<NT>& f, int centre_axis) {
   return centre_axis == 0 ? HalfPlane<NT>{f.rate_a, f.rate_x, f.constant}
@@ -149,8 +148,11 @@ using Cuts = std::array<HalfPlane<NT>, 2>;
 
 constexpr int kCentrePairRegions = 6;
 
-/// Pairs of the centre and an outer contact x: x inside the common cone, or not in L while the
-/// centre is beyond where the other outer contact must be in R, or the mirror image.
+/// Return the cuts of one region of pairs of the centre and an outer contact x.
+///
+/// Either x is inside the common cone. Or x is not in R, and the centre is beyond the bound up to
+/// which the other outer contact must be in L. Or x is not in L, and the centre is before the bound
+/// beyond which the other outer contact must be in R.
 template <class NT>
 Cuts<NT> CutsOfCentrePair(const CentredSet<NT>& set, int x, int centre_axis, int region) {
   const HalfPlane<NT> f0 = AsHalfPlane(set.sides[x][0], centre_axis);
@@ -182,7 +184,8 @@ Cuts<NT> CutsOfCentrePair(const CentredSet<NT>& set, int x, int centre_axis, int
 
 constexpr int kOuterPairRegions = 4;
 
-/// Pairs of the two outer contacts: the unit square without a rectangle at either end.
+/// Return the cuts of one region of pairs of outer contacts: the unit square without a rectangle at
+/// either end.
 template <class NT>
 Cuts<NT> CutsOfOuterPair(const CentredSet<NT>& set, int region) {
   const ContactRange<NT> b = BetweenCorners(set.sides[0]);
@@ -217,7 +220,7 @@ void AddContactPairs(const EdgeTable& edges, const EdgeTriple& triple, int centr
   try {
     by_intervals = MakeCentredSet<Interval>(edges, triple, centre);
   } catch (const CGAL::Uncertain_conversion_exception&) {
-    // Each region is then made exactly.
+    // Each region is then computed exactly.
   }
   const int count = k == centre || l == centre ? kCentrePairRegions : kOuterPairRegions;
   for (int region = 0; region < count; ++region) {
@@ -234,7 +237,7 @@ void AddContactPairs(const EdgeTable& edges, const EdgeTriple& triple, int centr
   }
 }
 
-/// Whether f >= 0 (sign 1) or f <= 0 (sign −1) on all of a union of regions.
+/// Return whether f >= 0 (sign 1) or f <= 0 (sign −1) on a union of regions.
 bool HasSignOn(const EdgeTable& edges, const EdgeTriple& triple, int centre, int x, int i, int sign,
                const std::vector<FilteredRegion>& regions) {
   return std::all_of(regions.begin(), regions.end(), [&](const FilteredRegion& region) {
@@ -260,7 +263,7 @@ PairProjections ProjectOnPairs(const EdgeTable& edges, const EdgeTriple& triple,
   return projections;
 }
 
-/// Joins the sets of single centres that share grasps.
+/// Join the sets of single centres that share grasps.
 std::vector<ParallelComponent> JoinMeeting(const EdgeTable& edges, const EdgeTriple& triple,
                                            const std::vector<ParallelComponent>& single) {
   std::vector<ParallelComponent> joined;

@@ -9,19 +9,19 @@
 
 namespace regrasp::polygon {
 
-/// Predicates are written once, as templates over the number type, and evaluated with intervals of
-/// doubles first. Where an interval cannot tell the sign, CGAL throws, and the exact type decides.
-/// All of them are polynomials in doubles, so no division is needed.
+/// Predicates are templates over the number type. They are evaluated with intervals of doubles
+/// first. If an interval does not determine the sign, CGAL throws, and the exact type decides. All
+/// predicates are polynomials in doubles, so no division is required.
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Mpzf;
 
-/// While one of these lives, the processor rounds upward, as Interval needs.
+/// Scope in which the processor rounds upward, as Interval requires.
 class IntervalScope {
  private:
   CGAL::Protect_FPU_rounding<true> upward_;
 };
 
-/// While one of these lives inside an IntervalScope, the processor rounds to nearest again.
+/// Scope inside an IntervalScope in which the processor rounds to nearest again.
 class ExactScope {
  public:
   ExactScope() : nearest_(CGAL_FE_TONEAREST) {}
@@ -30,14 +30,15 @@ class ExactScope {
   CGAL::Protect_FPU_rounding<true> nearest_;
 };
 
-/// The sign of a number: −1, 0 or 1.
-/// @throws CGAL::Uncertain_conversion_exception  an interval about 0.
+/// Return the sign of a number: −1, 0 or 1.
+/// @throws CGAL::Uncertain_conversion_exception  if an interval contains 0.
 template <class NT>
 int Sign(const NT& x) {
   return static_cast<int>(static_cast<CGAL::Sign>(CGAL::sign(x)));
 }
 
-/// `predicate(NT())` by intervals, or exactly where they cannot tell. Inside an IntervalScope.
+/// Return `predicate(NT())` by intervals, or exactly if they cannot decide. Call it in an
+/// IntervalScope.
 template <class Predicate>
 auto DecideFiltered(const Predicate& predicate) {
   try {
@@ -48,7 +49,7 @@ auto DecideFiltered(const Predicate& predicate) {
   return predicate(Exact());
 }
 
-/// A vector of the plane over any number type.
+/// Vector of the plane over any number type.
 template <class NT>
 struct Vector2 {
   NT x = NT(0);
@@ -70,8 +71,8 @@ NT Dot(const Vector2<NT>& a, const Vector2<NT>& b) {
   return a.x * b.x + a.y * b.y;
 }
 
-/// A point (x/w, y/w) of the plane, or for w = 0 the direction (x, y) in which a region is
-/// unbounded; w >= 0.
+/// Point (x/w, y/w) of the plane with w >= 0. For w = 0, it is the direction (x, y) in which a
+/// region is unbounded.
 template <class NT>
 struct HomogeneousPoint {
   NT x = NT(0);
@@ -79,7 +80,7 @@ struct HomogeneousPoint {
   NT w = NT(0);
 };
 
-/// The open half-plane a x + b y + c > 0 (a x + b y + c w > 0 of a homogeneous point).
+/// Open half-plane a x + b y + c > 0; for a homogeneous point, a x + b y + c w > 0.
 template <class NT>
 struct HalfPlane {
   NT a = NT(0);
@@ -94,20 +95,20 @@ NT Evaluate(const HalfPlane<NT>& h, const HomogeneousPoint<NT>& p) {
   return h.a * p.x + h.b * p.y + h.c * p.w;
 }
 
-/// Where the border of a convex region that turns left from `h` to `k` turns.
+/// Return the corner at which the border of a convex region turns left from `h` to `k`.
 template <class NT>
 HomogeneousPoint<NT> Corner(const HalfPlane<NT>& h, const HalfPlane<NT>& k) {
   return {h.b * k.c - h.c * k.b, h.c * k.a - h.a * k.c, h.a * k.b - h.b * k.a};
 }
 
-/// The points on the left of the line through `p` along `direction`.
+/// Return the half-plane on the left of the line through `p` along `direction`.
 template <class NT>
 HalfPlane<NT> LeftOf(const Vector2<NT>& direction, const Vector2<NT>& p) {
   return {-direction.y, direction.x, direction.y * p.x - direction.x * p.y};
 }
 
-/// An edge of a polygon with the cone of friction at its points, over any number type. Lengths
-/// of vectors carry no meaning: normals and directions are not unit.
+/// Edge of a polygon with the friction cone at its points, over any number type. Normals and
+/// directions are not unit vectors.
 template <class NT>
 struct EdgeFrame {
   Vector2<NT> a;      ///< first end; material on the left
@@ -117,7 +118,7 @@ struct EdgeFrame {
   Vector2<NT> left;   ///< left border, normal − tan · along
 };
 
-/// An edge by its ends, doubles that stand for themselves.
+/// Ends of an edge as doubles, which are taken as exact.
 struct EdgeEnds {
   Vector2<double> a;
   Vector2<double> b;
@@ -141,7 +142,7 @@ EdgeFrame<NT> MakeEdgeFrame(const EdgeEnds& ends, double tangent) {
   return frame;
 }
 
-/// A convex cone of directions, less than π wide: those left of `right` and right of `left`.
+/// Convex cone of directions, narrower than π: left of `right` and right of `left`.
 template <class NT>
 struct DirectionCone {
   Vector2<NT> right;
@@ -150,16 +151,16 @@ struct DirectionCone {
   friend DirectionCone operator-(const DirectionCone& c) { return {-c.right, -c.left}; }
 };
 
-/// The cone about an edge's inward normal.
+/// Return the cone about an edge's inward normal.
 template <class NT>
 DirectionCone<NT> ConeOf(const EdgeFrame<NT>& frame) {
   return {frame.right, frame.left};
 }
 
-/// The intersection of two cones; nullopt where they have no common interior.
+/// Return the intersection of two cones; nullopt if they have no common interior.
 template <class NT>
 std::optional<DirectionCone<NT>> Intersect(const DirectionCone<NT>& a, const DirectionCone<NT>& b) {
-  // A border of the intersection is a border of one that lies in the other.
+  // A border of the intersection is a border of one cone that is inside the other.
   const auto begins_in = [](const Vector2<NT>& v, const DirectionCone<NT>& cone) {
     return Sign(Cross(cone.right, v)) >= 0 && Sign(Cross(v, cone.left)) > 0;
   };
@@ -178,8 +179,8 @@ std::optional<DirectionCone<NT>> Intersect(const DirectionCone<NT>& a, const Dir
   return common;
 }
 
-/// The common cone of parallel grasps: directions in the cones of `b` and `c` and against that of
-/// the centre.
+/// Return the common cone of parallel grasps: directions in the cones of `b` and `c` and opposite
+/// to the cone of the centre.
 template <class NT>
 std::optional<DirectionCone<NT>> CommonCone(const EdgeFrame<NT>& centre, const EdgeFrame<NT>& b,
                                             const EdgeFrame<NT>& c) {

@@ -23,7 +23,7 @@ bool Overlap(const std::vector<FilteredRegion>& a, const std::vector<FilteredReg
   });
 }
 
-/// Contact pairs of a vertex, made when first asked for.
+/// Contact pairs of a vertex, computed on first use.
 class PairCache {
  public:
   template <class Make>
@@ -34,7 +34,7 @@ class PairCache {
   }
 
  private:
-  std::array<std::optional<std::vector<FilteredRegion>>, 3> pairs_;  ///< (0,1), (0,2), (1,2)
+  std::array<std::optional<std::vector<FilteredRegion>>, 3> pairs_;  ///< pairs (0,1), (0,2), (1,2)
 };
 
 std::vector<GraspSet> MakeSets(const PolygonVertices& vertices, double tangent) {
@@ -60,10 +60,10 @@ std::vector<GraspSet> MakeSets(const PolygonVertices& vertices, double tangent) 
   return sets;
 }
 
-/// Finds the switches between vertices, which are numbered as in MakeSets. Inside an IntervalScope.
+/// Finds the switches between vertices, numbered as in MakeSets. Use it in an IntervalScope.
 class SwitchFinder {
  public:
-  /// All outlive this object.
+  /// All arguments must outlive this object.
   SwitchFinder(const EdgeTable& edges, const PolygonVertices& vertices, planning::Spanning spanning,
                const Deadline& deadline, const Tell& tell)
       : spanning_(spanning),
@@ -75,7 +75,7 @@ class SwitchFinder {
         first_parallel_(first_two_finger_ + static_cast<int>(vertices.two_finger.size())),
         pairs_(first_parallel_ + vertices.parallel.size()) {}
 
-  /// All but those between two-finger vertices.
+  /// Find all switches, except those between two-finger vertices.
   std::vector<SetPair> Find() {
     ListByEdges();
     JoinByPairs();
@@ -103,7 +103,7 @@ class SwitchFinder {
     return TwoFinger(vertex).candidate;
   }
 
-  /// Three-finger vertices by pairs of edges, all vertices by edges, with their ranges there.
+  /// Index three-finger vertices by pairs of edges, and all vertices by edges with their ranges.
   void ListByEdges() {
     const int n = edges_.size();
     by_pair_.resize(static_cast<std::size_t>(n) * n);
@@ -155,7 +155,7 @@ class SwitchFinder {
     }
   }
 
-  /// Whether two three-finger vertices with two edges in common, or more, can switch over them.
+  /// Return whether two three-finger vertices can switch over their two common edges.
   bool CanSwitch(SetIndex v, SetIndex w) {
     if (IsConcurrent(v) != IsConcurrent(w) && spanning_ == planning::Spanning::kUniform)
       return false;
@@ -193,7 +193,7 @@ class SwitchFinder {
     }
   }
 
-  /// Concurrent and parallel grasps of the same three edges.
+  /// Connect concurrent and parallel sets on the same three edges that share grasps.
   void JoinSameTriples() {
     SetIndex first = first_parallel_;
     CountedProgress progress(tell_, "joining sets of grasps on the same edges", first_two_finger_);
@@ -238,7 +238,7 @@ class SwitchFinder {
 PolygonGraph::PolygonGraph(const object::Polygon& polygon, double half_angle,
                            planning::Spanning spanning, const Deadline& deadline,
                            const Tell& tell) {
-  // Before the processor rounds upward.
+  // Computed before the processor rounds upward.
   const double tangent = CheckedTangent(half_angle);
   const IntervalScope scope;
   BeginVertices();
@@ -276,7 +276,7 @@ std::int64_t PolygonGraph::CountComponents(GraspType type) const {
     return sets_[pair[0]].type == type && sets_[pair[1]].type == type;
   });
   const search::Components all = search::ComponentsOfEdges(vertex_count(), inside);
-  // Vertices of other types are components of their own.
+  // Each vertex of another type is a component here.
   return all.count() - (vertex_count() - counts(type).vertices);
 }
 

@@ -44,16 +44,16 @@ std::vector<VectorXd> FindAlignPath(const SetCells& set, const VectorXd& from, c
 
 namespace {
 
-/// Counted in a tenth of a second.
+/// Number of edges on which vertices are counted, in a tenth of a second.
 constexpr int kCountedEdges = 40;
 
-/// Measured on polygons of 30 to 256 edges at 10° to 30°, as the peak of resident memory: 4 to 12
-/// kB a set, most of it the pairs of contacts that it can have; 8 bytes a switch, and two entries
-/// in the lists of neighbours. Of the switches 15 to 20 on the same.
+/// Memory per element, measured as the peak of resident memory on polygons of 30 to 256 edges at
+/// 10° to 30°. A set takes 4 to 12 kB, mainly for its possible contact pairs. A switch takes 8
+/// bytes and two entries in lists of neighbours. The constant `switches` was 15 to 20.
 constexpr sets::JoinedGraph kMeasured = {
     .bytes = {.candidates = 48, .sets = 7000, .switches = 28}, .common_faces = 2, .switches = 18};
 
-/// Bytes for each pair of edges: the list of the sets on it.
+/// Bytes per pair of edges, for the list of its sets.
 constexpr double kBytesOfPair = 24;
 
 }  // namespace
@@ -80,8 +80,8 @@ MemoryNeed EstimatePolygonGraph(const object::Polygon& polygon, double half_angl
 
 namespace {
 
-/// Of the switches with at least a good share of the best score, the one that keeps the most
-/// contacts.
+/// Return the switch that keeps the most contacts, among those with at least kGoodShare of the best
+/// score.
 std::optional<SwitchPoint> BestOf(std::vector<SwitchPoint> points, const SwitchSide& from,
                                   const SwitchSide& to, const GraspScore& score) {
   std::vector<double> scores;
@@ -105,7 +105,7 @@ PolygonModel::Attachments PolygonModel::Attach(const grasp::Grasp& grasp) {
   std::vector<Scored> scored;
   const auto add = [&](Attachments attachments) {
     for (sets::Attachment<Place>& a : attachments) {
-      // The grasp itself is there anyway, good or not.
+      // The sequence contains the grasp itself in any case, so its score does not matter.
       const double score = a.whole ? evaluator().half_angle() : evaluator().Score(GraspOf(a.place));
       scored.emplace_back(score, std::move(a));
     }
@@ -122,15 +122,16 @@ PolygonModel::Attachments PolygonModel::Attach(const grasp::Grasp& grasp) {
   return attachments;
 }
 
-/// Sets are open: no grasp in them has a contact at the end of an edge.
+/// Sets are open, so they contain no grasp with a contact at the end of an edge.
 std::string PolygonModel::WhyUnattached(const grasp::Grasp& grasp) const {
-  std::string why = "in none of the " + std::to_string(graph_.vertex_count()) +
-                    " sets of concurrent, 2-finger and parallel grasps that the planner polygon "
-                    "switches between, nor one switch away";
+  std::string why =
+      "in none of the " + std::to_string(graph_.vertex_count()) +
+      " sets of concurrent, 2-finger and parallel grasps of the planner polygon, and not "
+      "one switch away from them";
   for (std::size_t i = 0; i < grasp.size(); ++i) {
     const double to_corner = polygon_.DistanceToBorder(grasp[i].face, grasp[i].p);
     if (to_corner > kNoSlack * polygon_.diameter()) continue;
-    return why + "; contact " + std::to_string(i) + " is at a corner, which none of them reaches";
+    return why + "; contact " + std::to_string(i) + " is at a corner, which is outside all sets";
   }
   return why;
 }
@@ -176,7 +177,7 @@ std::string NameOf(GraspType type) {
   return kNames[static_cast<int>(type)];
 }
 
-/// The pairs of types that can switch, in the order of the graph file.
+/// Return the pairs of types that can switch, in the order of the graph file.
 std::vector<std::pair<GraspType, GraspType>> JoinedTypes(planning::Spanning spanning) {
   using enum GraspType;
   std::vector<std::pair<GraspType, GraspType>> joined = {{kConcurrent, kConcurrent},

@@ -15,30 +15,30 @@
 
 namespace regrasp::polygon {
 
-/// The contacts' parameters that an align passes from one grasp of a set to another, both ends
-/// included: straight lines inside cells, through passages where it leaves one. Fewest passages
-/// first. On a straight line all contacts move at the same rate, and every grasp on it is in the
-/// set.
-/// @returns an empty vector where no chain of cells that doubles can tell joins the two.
+/// Find the waypoints of a sliding step between two grasps of a set, including both.
+///
+/// The path is straight inside cells and leaves a cell through a passage. It has as few passages as
+/// possible. On a straight line all contacts move at the same rate, and every grasp is in the set.
+/// @returns contact parameters of each waypoint; empty if no chain of cells, computed in doubles,
+///     connects the two grasps.
 [[nodiscard]] std::vector<Eigen::VectorXd> FindAlignPath(const SetCells& set,
                                                          const Eigen::VectorXd& from,
                                                          const Eigen::VectorXd& to);
 
-/// What a PolygonGraph takes at most while it is built, within a factor of two.
+/// Estimate the peak memory for building a PolygonGraph, within a factor of two.
 ///
-/// The vertices on at most forty edges, drawn from all of them, are counted; vertices on three
-/// edges go with the third power of how many edges there are, the joins with the square of the
-/// vertices over that of the edges. What a vertex and a join take was measured.
+/// The vertices on at most forty randomly drawn edges are counted. The number of vertices on three
+/// edges is cubic in the number of edges. The number of switches is proportional to (vertices /
+/// edges)². The memory per vertex and per switch is measured.
 ///
-/// Laws: the same polygon gives the same number; a polygon of forty edges or fewer is counted
-/// whole.
+/// Laws: the result is deterministic; all edges are counted if there are at most forty.
 [[nodiscard]] MemoryNeed EstimatePolygonGraph(const object::Polygon& polygon, double half_angle,
                                               planning::Spanning spanning);
 
-/// The grasp sets of a polygon's switching graph, as planning over sets sees them.
+/// Model of the grasp sets of a polygon's switching graph (GraspSetModel).
 class PolygonModel : public sets::EvaluatedModel<PolygonPlace> {
  public:
-  /// All outlive this object. @param request  its deadline counts too.
+  /// All arguments must outlive this object. @param request  query, also with the deadline.
   PolygonModel(const object::Polygon& polygon, const PolygonGraph& graph,
                const planning::PlanRequest& request)
       : EvaluatedModel(request),
@@ -53,12 +53,15 @@ class PolygonModel : public sets::EvaluatedModel<PolygonPlace> {
     return cells_.Draw(set, random);
   }
   [[nodiscard]] grasp::Grasp GraspOf(const Place& place) const { return cells_.GraspOf(place); }
-  /// The sets that a grasp is in, or else comes to by a switch after which, or for a goal before
-  /// which, the hand rests well.
+  /// Find the sets that contain a grasp or some of its contacts.
+  ///
+  /// If no grasp there meets the acceptance criteria, sets one switch away are added. Places that
+  /// fail the criteria are dropped if another one meets them.
   [[nodiscard]] Attachments Attach(const grasp::Grasp& grasp);
   [[nodiscard]] std::string WhyUnattached(const grasp::Grasp& grasp) const;
 
-  /// Of the switches with at least half of the best score the one that keeps the most contacts.
+  /// Return the switch that keeps the most contacts, among those with at least half of the best
+  /// score.
   [[nodiscard]] std::optional<Switch> FindSwitch(const Ends& ends);
   [[nodiscard]] std::vector<Place> FindRoute(const Place& from, const Place& to);
 
@@ -68,13 +71,15 @@ class PolygonModel : public sets::EvaluatedModel<PolygonPlace> {
   GraphCells cells_;
 };
 
-/// Plans on the switching graph of a polygon (Phoka 2010, section 3.4), with a hand of four
-/// fingers (at most three hold, and between 2-finger grasps two are placed at once): over all its
-/// concurrent, 2-finger and parallel grasps, on edges that need not be convex. Of the grasps of
-/// these types it finds every one and every switch, decided exactly.
+/// Planner on the switching graph of a polygon (Phoka 2010, section 3.4), for a hand of four
+/// fingers.
 ///
-/// A grasp is joined to the sets that contain it, or contain two or three of its contacts: the
-/// others are then released first or placed last.
+/// It plans over all concurrent, 2-finger and parallel grasps of edges; the polygon need not be
+/// convex. It finds every grasp of these types and every switch, decided exactly. At most three
+/// fingers hold the object, and a switch between 2-finger grasps places two.
+///
+/// A grasp is connected with the sets that contain it, or that contain two or three of its
+/// contacts. The other contacts are then released first or placed last.
 class PolygonPlanner final : public planning::Planner {
  public:
   PolygonPlanner();

@@ -27,7 +27,8 @@ FilteredRange TwoFingerContactRange(const TwoFingerPart& part, int k) {
 
 namespace {
 
-/// @param find  gives the sets on a candidate's edges.
+/// Find the sets of all candidates and count them.
+/// @param find  function that returns the sets on a candidate's edges.
 template <class Candidate, class Component, class Find>
 GraspTypeCounts FindOnCandidates(const std::vector<Candidate>& candidates, const Deadline& deadline,
                                  CountedProgress& progress, const Find& find,

@@ -12,7 +12,7 @@
 
 namespace regrasp::polygon {
 
-/// The grasps on two edges, in their contact parameters; it may be empty.
+/// Return the grasps on two edges as a region of their contact parameters, which may be empty.
 template <class NT>
 ConvexRegion<NT> MakeTwoFingerRegion(const EdgeFrame<NT>& a, const EdgeFrame<NT>& b,
                                      bool stretching) {
@@ -32,7 +32,7 @@ ConvexRegion<NT> MakeTwoFingerRegion(const EdgeFrame<NT>& a, const EdgeFrame<NT>
   return region;
 }
 
-/// The parameters of the k-th contact in such a region, which is not empty.
+/// Return the parameters of the k-th contact in such a region, which must not be empty.
 template <class NT>
 ContactRange<NT> TwoFingerRange(const ConvexRegion<NT>& region, int k) {
   const auto parameter = [&](const HomogeneousPoint<NT>& p) {
@@ -47,41 +47,45 @@ ContactRange<NT> TwoFingerRange(const ConvexRegion<NT>& region, int k) {
   return {low, high};
 }
 
-/// The 2-finger grasps of a pair of edges that squeeze or that stretch the object.
+/// 2-finger grasps of a pair of edges, either from outside or stretching from inside.
 struct TwoFingerPart {
   bool stretching;
-  FilteredRegion region;  ///< in the parameters of the two edges
+  FilteredRegion region;  ///< region of the parameters of the two edges
 };
 
-/// The graspable sets of a pair: with v = p_b − p_a, squeezing is v ∈ C(n_a) ∩ −C(n_b), stretching
-/// −v. Each is a convex polygon in the two contact parameters, and they never have a grasp in
-/// common: each is a component of its own. Seeing both contacts in the double-sided cones from one
-/// point, as Phoka 2010, section 3.3.1.2, has it, is not enough, since both may lie on one side.
-/// Inside an IntervalScope; `edges` must outlive the result.
+/// Find the graspable sets of a pair of edges.
+///
+/// With v = p_b − p_a, a grasp from outside has v ∈ C(n_a) ∩ −C(n_b), a stretching one −v. Each set
+/// is a convex polygon in the two contact parameters. The two sets are disjoint, so each is a
+/// component. The condition of Phoka 2010, section 3.3.1.2, that one point sees both contacts in
+/// the double-sided cones, is not sufficient: both contacts may be on the same side of the point.
+/// Call it in an IntervalScope; `edges` must outlive the result.
 [[nodiscard]] std::vector<TwoFingerPart> FindTwoFingerSets(const EdgeTable& edges,
                                                            const TwoFingerCandidate& candidate);
 
-/// The contacts on the k-th edge. `part` must outlive the result.
+/// Return the contacts on the k-th edge. `part` must outlive the result.
 [[nodiscard]] FilteredRange TwoFingerContactRange(const TwoFingerPart& part, int k);
 
-/// A set of grasps and the edges that it was found on.
+/// A set of grasps with the edges on which it was found.
 template <class Candidate, class Component>
 struct PolygonVertex {
   Candidate candidate;
   Component component;
 };
 
-/// The sets of grasps that are the vertices of a polygon's switching graph, of each type by their
-/// edges, as exact predicates see them.
+/// Grasp sets that are the vertices of a polygon's switching graph, in the form that exact
+/// predicates require; of each type sorted by edges.
 struct PolygonVertices {
   std::vector<PolygonVertex<ConcurrentCandidate, FocusComponent>> concurrent;
   std::vector<PolygonVertex<TwoFingerCandidate, TwoFingerPart>> two_finger;
   std::vector<PolygonVertex<ParallelCandidate, ParallelComponent>> parallel;
-  std::array<GraspTypeCounts, kGraspTypes> counts;  ///< by GraspType, without components
+  std::array<GraspTypeCounts, kGraspTypes> counts;  ///< counts by GraspType, without `components`
 };
 
-/// Inside an IntervalScope. @param edges  outlives the result. @param tell  told how much is done.
-/// @throws TimeUp  the deadline came.
+/// Find the vertices of the switching graph; `tell` receives the progress.
+/// Call it in an IntervalScope.
+/// @param edges  must outlive the result.
+/// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] PolygonVertices FindVertices(const EdgeTable& edges, planning::Spanning spanning,
                                            const Deadline& deadline = {}, const Tell& tell = {});
 

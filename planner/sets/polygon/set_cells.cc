@@ -26,13 +26,13 @@ namespace {
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// An affine function of the variables, made term by term.
+/// Affine function of the variables, built term by term.
 struct Affine {
   VectorXd rates;
   double constant = 0;
 };
 
-/// An edge in units of D about the centroid, with unit borders of its cone.
+/// Edge relative to the centroid, divided by D, with unit vectors along the borders of its cone.
 struct Edge {
   Vector2d a;
   Vector2d along;
@@ -40,7 +40,7 @@ struct Edge {
   Vector2d left;
 };
 
-/// What makes the cells of one set.
+/// Computes the cells of one set.
 class CellMaker {
  public:
   CellMaker(const object::Polygon& polygon, const GraspSet& set) : set_(set) {
@@ -92,15 +92,16 @@ class CellMaker {
     return width;
   }
 
-  /// The grasp of largest slack where the focus point crosses the line of edge k, at the contact
-  /// there: the only point that the cones on both sides have in common.
+  /// Find the grasp of largest slack with the focus point on the line of edge k.
+  ///
+  /// The focus point is then at the contact, the only common point of the cones on both sides.
   [[nodiscard]] SlackSolution FocusAtContact(int part, int k) const {
     std::vector<Affine> list = InsideEdges();
     for (int j = 0; j < 3; ++j) {
       if (j != k) AddCone(j, IsOuter(part, j), list);
     }
     Inequalities set = Stack(list);
-    // x = p_k takes the place of the focus point's variables.
+    // Substitute x = p_k for the focus point.
     Eigen::MatrixXd substitution = Eigen::MatrixXd::Zero(variables(), contacts());
     substitution.topRows(contacts()).setIdentity();
     substitution.col(k).tail(2) = edges_[k].along;
@@ -119,18 +120,18 @@ class CellMaker {
 
   [[nodiscard]] Affine Zero() const { return {VectorXd::Zero(variables()), 0}; }
 
-  /// sign · cross(direction, p_k).
+  /// Add sign · cross(direction, p_k).
   void AddContact(const Vector2d& direction, int k, double sign, Affine& f) const {
     f.constant += sign * Cross(direction, edges_[k].a);
     f.rates[k] += sign * Cross(direction, edges_[k].along);
   }
-  /// sign · cross(direction, x), x the focus point.
+  /// Add sign · cross(direction, x), with x the focus point.
   void AddFocus(const Vector2d& direction, double sign, Affine& f) const {
     f.rates[contacts()] += sign * -direction.y();
     f.rates[contacts() + 1] += sign * direction.x();
   }
 
-  /// The contacts stay away from the ends of their edges.
+  /// Return the inequalities that keep contacts away from the ends of their edges.
   [[nodiscard]] std::vector<Affine> InsideEdges() const {
     std::vector<Affine> list;
     for (int k = 0; k < contacts(); ++k) {
@@ -165,7 +166,7 @@ class CellMaker {
     }
   }
 
-  /// The focus point inside the cone at contact k.
+  /// Add the inequalities of a focus point inside the cone at contact k.
   void AddCone(int k, bool outer, std::vector<Affine>& list) const {
     const double side = outer ? -1 : 1;
     for (const auto& [border, sign] : {std::pair(edges_[k].right, 1.0), {edges_[k].left, -1.0}}) {
@@ -185,7 +186,8 @@ class CellMaker {
   void MakeTwoFinger(int part) {
     std::vector<Affine> list = InsideEdges();
     const double sign = part == 0 ? 1 : -1;
-    // v = p_1 − p_0 inside the cone at 0 and −v inside the cone at 1, or both mirrored.
+    // v = p_1 − p_0 is inside the cone at 0 and −v inside the cone at 1, or both with reversed
+    // sign.
     const auto add = [&](const Vector2d& border, double side) {
       Affine f = Zero();
       AddContact(border, 1, sign * side, f);
@@ -199,9 +201,11 @@ class CellMaker {
     AddCell(part, list);
   }
 
-  /// Grasps of the centre a: f of b on one side and f of c on the other, for one border of the
-  /// common cone each (the f are those of planner/sets/polygon/parallel.h). These eight cells
-  /// overlap and leave out nothing but grasps with two contacts at one point.
+  /// Make the eight cells of parallel grasps with centre a.
+  ///
+  /// In a cell, f of b is positive and f of c is negative or vice versa, each for one border of the
+  /// common cone (see planner/sets/polygon/parallel.h for f). The cells overlap and omit only
+  /// grasps with two contacts at one point.
   void MakeParallel(int a) {
     const auto [b, c] = OuterOf(a);
     const auto [right, left] = CommonConeOf(a, b, c);
@@ -218,7 +222,7 @@ class CellMaker {
     }
   }
 
-  /// sign · cross(border, p_x − p_a) > 0.
+  /// Add the inequality sign · cross(border, p_x − p_a) > 0.
   void AddSide(const Vector2d& border, int x, int a, double sign, std::vector<Affine>& list) const {
     Affine f = Zero();
     AddContact(border, x, sign, f);
@@ -226,8 +230,8 @@ class CellMaker {
     list.push_back(f);
   }
 
-  /// The borders of the intersection of the cones of b and c and the mirrored one of a; they lie
-  /// within π of each other, so the innermost borders are theirs.
+  /// Return the borders of the intersection of the cones of b and c and the reversed cone of a. All
+  /// borders are within π of each other, so the innermost ones bound the intersection.
   [[nodiscard]] std::pair<Vector2d, Vector2d> CommonConeOf(int a, int b, int c) const {
     const auto is_inside = [&](const Vector2d& w, int k, double side) {
       return Cross(side * edges_[k].right, w) >= -kNoSlack &&
@@ -238,7 +242,7 @@ class CellMaker {
         const Vector2d w = side * border(edges_[k]);
         if (is_inside(w, a, -1) && is_inside(w, b, 1) && is_inside(w, c, 1)) return w;
       }
-      // Only a cone that is too narrow for doubles has none.
+      // No border is inside only if the common cone is too narrow for doubles.
       return Vector2d(-border(edges_[a]));
     };
     return {innermost([](const Edge& e) { return e.right; }),

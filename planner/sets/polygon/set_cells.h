@@ -19,87 +19,92 @@
 
 namespace regrasp::polygon {
 
-/// The kinds of force-closure grasps of a polygon (Phoka 2010, section 3.2).
+/// Types of force-closure grasps of a polygon (Phoka 2010, section 3.2).
 enum class GraspType {
   kConcurrent,  ///< three contacts whose cones see one focus point, normals φ-positively spanning
   kTwoFinger,   ///< two contacts, the line through them inside both cones
-  kParallel,    ///< three contacts with parallel forces, the middle one opposing the others
+  kParallel,    ///< three contacts with parallel forces, the middle one opposing the two others
 };
 
-/// A vertex of the switching graph: a connected component of the grasps of one type on distinct
-/// edges. Contacts are a + u (b − a), 0 < u < 1, on an edge from a to b, material on the left.
+/// Vertex of the switching graph: a connected component of the grasps of one type on distinct
+/// edges.
 ///
-/// A set is a union of convex parts, each given by linear inequalities once `part` is fixed:
-/// - concurrent: bit k of a part is set iff the focus point lies on the outer side of the line of
-///   edges[k]. A part holds the focus points x and contacts p_k with ±(x − p_k) in the cone of
-///   half-angle φ about the inward normal (+ on the inner side);
-/// - two-finger: part 0 squeezes, p_1 − p_0 in the cone at p_0 and p_0 − p_1 in the one at p_1;
-///   part 1 stretches, the mirror image;
-/// - parallel: a part is the position in `edges` of the centre contact, whose force opposes the
-///   other two (more than one only where θ ≥ 45°). It is a union of convex polytopes itself
-///   (planner/sets/polygon/parallel.h), always connected.
+/// A contact is a + u (b − a), 0 < u < 1, on an edge from a to b with the material on the left. A
+/// set is a union of convex parts. A part is given by linear inequalities:
+/// - concurrent: bit k of a part is set iff the focus point is on the outer side of the line of
+///   edges[k]. A part contains the focus points x and contacts p_k with ±(x − p_k) in the cone of
+///   angle φ about the inward normal (+ on the inner side).
+/// - two-finger: part 0 is the grasps from outside, p_1 − p_0 in the cone at p_0 and p_0 − p_1 in
+///   the cone at p_1. Part 1 is the stretching grasps, with both signs reversed.
+/// - parallel: a part is the position in `edges` of the centre contact, whose force opposes the two
+///   others (more than one only for θ ≥ 45°). It is itself a union of convex polytopes
+///   (planner/sets/polygon/parallel.h), and always connected.
 struct GraspSet {
   GraspType type = GraspType::kConcurrent;
-  std::vector<FaceIndex> edges;  ///< ascending; three, or two of a two-finger set
-  double tangent = 0;      ///< tan φ of a concurrent set, tan θ of the others; exact as it stands
-  std::vector<int> parts;  ///< ascending
+  std::vector<FaceIndex> edges;  ///< three in ascending order, or two for a two-finger set
+  double tangent = 0;            ///< tan φ of a concurrent set, otherwise tan θ; taken as exact
+  std::vector<int> parts;        ///< parts in ascending order
 };
 
-/// Whether a part of a concurrent set has its focus points on the outer side of the k-th edge.
+/// Return whether the focus points of a part of a concurrent set are on the outer side of the k-th
+/// edge.
 [[nodiscard]] inline bool IsOuter(int part, int k) { return (part >> k & 1) != 0; }
 
-/// The positions of the contacts of a parallel grasp that are not its centre, ascending.
+/// Return the positions of the two other contacts of a parallel grasp, in ascending order.
 [[nodiscard]] inline std::array<int, 2> OuterOf(int centre) {
   return {centre == 0 ? 1 : 0, centre == 2 ? 1 : 2};
 }
 
 inline constexpr int kGraspTypes = 3;
 
-/// How many of a type, as tables 3.1 and 3.2 of Phoka 2010 count them.
+/// Counts for one grasp type, as in tables 3.1 and 3.2 of Phoka 2010.
 struct GraspTypeCounts {
-  std::int64_t candidates = 0;    ///< combinations of edges that pass the test on normals alone
-  std::int64_t combinations = 0;  ///< those with a set whose interior is not empty
+  std::int64_t candidates = 0;    ///< combinations of edges permitted by their normals
+  std::int64_t combinations = 0;  ///< combinations of edges with a set that has interior
   std::int64_t vertices = 0;      ///< connected components of these interiors
-  std::int64_t components = 0;    ///< of the graph, were there only this type
+  std::int64_t components = 0;    ///< components of the graph of this type alone
 };
 
-/// Edges of a polygon that two sets have in common, by their positions in the first and in the
-/// second.
+/// Common edges of two sets, by their positions in the first and in the second.
 using CommonEdges = boost::container::static_vector<std::pair<int, int>, 3>;
-/// @param a, b  ascending.
+/// Find the common edges of two sets.
+/// @param a, b  edges in ascending order.
 [[nodiscard]] CommonEdges FindCommonEdges(std::span<const FaceIndex> a,
                                           std::span<const FaceIndex> b);
 
-/// A convex set of grasps, given by linear inequalities. The variables are the contacts' parameters
-/// (0 to 1 along their edges), one for each edge of the set in its order, and after them, of a
-/// concurrent set, the focus point about the centroid over D. Slacks are lengths over D: the focus
-/// point's or the contact's distance to the border of a cone, a contact's distance to the ends of
-/// its edge. Straight lines between points of a cell are aligns that stay inside it.
+/// Convex set of grasps, given by linear inequalities.
+///
+/// Variables: the contact parameters (0 to 1 along the edges), in the order of the set's edges. For
+/// a concurrent set, the focus point relative to the centroid, divided by D, follows. A slack is a
+/// length divided by D: the distance of the focus point or a contact from the border of a cone, or
+/// of a contact from the ends of its edge. Straight lines between points of a cell are sliding
+/// steps inside the set.
 struct GraspCell {
-  int part = 0;  ///< of the set, see GraspSet::parts
+  int part = 0;  ///< part of the set (GraspSet::parts)
   Inequalities inequalities;
-  SlackSolution centre;  ///< of largest slack
+  SlackSolution centre;  ///< point of largest slack
 };
 
-/// A grasp set as cells, all with an interior.
+/// Grasp set as a union of cells, all with interior.
 class SetCells {
  public:
-  /// In doubles: existence was decided when the set was found, and what is too thin for doubles is
-  /// left out here. Polygon and set must outlive the cells.
+  /// Compute the cells in doubles. Existence was decided exactly when the set was found; cells that
+  /// are too thin for doubles are dropped. Polygon and set must outlive this object.
   SetCells(const object::Polygon& polygon, const GraspSet& set);
 
   [[nodiscard]] const std::vector<GraspCell>& cells() const { return cells_; }
 
-  /// The grasp of largest slack where an align can pass from one cell to another: in what the cells
-  /// have in common, or with the focus point on the edge that parts them.
-  /// @returns its contacts' parameters; nullopt where the cells don't meet.
+  /// Find the grasp of largest slack at which a sliding step can pass from one cell to another.
+  ///
+  /// It is in the intersection of the cells, or its focus point is on the edge that separates them.
+  /// @returns its contact parameters; nullopt if the cells do not meet.
   [[nodiscard]] std::optional<Eigen::VectorXd> Passage(sets::PieceIndex from,
                                                        sets::PieceIndex to) const;
 
-  /// The largest slack of a grasp in the set.
+  /// Largest slack of a grasp in the set.
   [[nodiscard]] double width() const;
 
-  /// The length of the set's k-th edge over D.
+  /// Length of the set's k-th edge, divided by D.
   [[nodiscard]] double edge_length(int k) const {
     return polygon_.face_measure(set_.edges[k]) / polygon_.diameter();
   }
@@ -110,18 +115,20 @@ class SetCells {
   std::vector<GraspCell> cells_;
 };
 
-/// The largest slack of a parallel set's grasps whose outer contacts are on different sides of the
-/// whole common cone; 0 where there are none. Two linear programs a centre instead of eight.
+/// Return the largest slack of the grasps of a parallel set with outer contacts on different sides
+/// of the whole common cone.
+///
+/// It is 0 if there are none. This takes two linear programs per centre instead of eight.
 [[nodiscard]] double ClearWidth(const object::Polygon& polygon, const GraspSet& parallel);
 
-/// Slacks up to this, over D, count as none: a few hundred roundings of the inequalities.
+/// Largest slack, divided by D, that counts as zero: a few hundred roundings of the inequalities.
 inline constexpr double kNoSlack = 1e-12;
 
-/// The slack of a grasp in a cell, with the best focus point where there is one.
-/// @param parameters  of the contacts, in the order of the set's edges.
+/// Return the slack of a grasp in a cell, with the best focus point if the set is concurrent.
+/// @param parameters  contact parameters, in the order of the set's edges.
 [[nodiscard]] double SlackInCell(const GraspCell& cell, const Eigen::VectorXd& parameters);
 
-/// True iff a grasp has more than `slack` in one of the cells.
+/// Return whether the slack of a grasp exceeds `slack` in one of the cells.
 [[nodiscard]] bool IsInSet(const SetCells& set, const Eigen::VectorXd& parameters,
                            double slack = kNoSlack);
 

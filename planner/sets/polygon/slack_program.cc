@@ -57,8 +57,10 @@ struct DeleteProgram {
 };
 using Program = std::unique_ptr<glp_prob, DeleteProgram>;
 
-/// The dual of: maximize t, rows · z + offsets ≥ t, t ≤ enough. It has one row a variable and one
-/// for t, instead of one an inequality, and GLPK's time goes with the square of the rows:
+/// Make the dual of: maximize t subject to rows · z + offsets ≥ t, t ≤ enough.
+///
+/// It has one row per variable and one for t, instead of one per inequality; GLPK's time is
+/// quadratic in the number of rows:
 ///
 ///     minimize offsets · y + enough · y_t   over y, y_t ≥ 0 with rowsᵀ y = 0, Σ y + y_t = 1.
 ///
@@ -70,7 +72,7 @@ Program MakeDual(const Inequalities& set, double enough) {
   glp_set_obj_dir(program.get(), GLP_MIN);
   glp_add_rows(program.get(), variables + 1);
   glp_add_cols(program.get(), inequalities + 1);
-  // GLPK counts from 1.
+  // GLPK indices start at 1.
   std::vector<int> row_of = {0};
   std::vector<int> column_of = {0};
   std::vector<double> values = {0};
@@ -105,7 +107,7 @@ SlackSolution MaximizeSlack(const Inequalities& set, double enough) {
   if (glp_simplex(dual.get(), &options) != 0 || glp_get_status(dual.get()) != GLP_OPT) {
     throw std::runtime_error("a linear program of grasps could not be solved");
   }
-  // The multipliers of the dual's rows are the point that is looked for.
+  // The multipliers of the dual's rows are the solution of the primal program.
   SlackSolution solution;
   solution.z.resize(set.rows.cols());
   for (int j = 0; j < solution.z.size(); ++j) solution.z[j] = -glp_get_row_dual(dual.get(), j + 1);

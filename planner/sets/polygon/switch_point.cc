@@ -12,14 +12,14 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Moves that raise the score by less are not worth their time: 0.006° of margin.
+/// Smallest increase of the score that justifies a move: 0.006° of margin.
 constexpr double kLeastGain = 1e-4;
 
-/// Of the most slack that a switch can have, so much stays when it is improved: contacts keep clear
-/// of corners, and aligns of the set's border.
+/// Fraction of the largest slack that an improved switch keeps, so that contacts stay away from
+/// corners and sliding steps from the set's border.
 constexpr double kKeptShare = 0.25;
 
-/// The cells of a side; those that contain its grasp, where it has one.
+/// Return the cells of a set; if the grasp is given, only those that contain it.
 std::vector<const GraspCell*> CellsOf(const SwitchSide& side) {
   std::vector<const GraspCell*> cells;
   for (const GraspCell& cell : side.cells->cells()) {
@@ -28,7 +28,7 @@ std::vector<const GraspCell*> CellsOf(const SwitchSide& side) {
   return cells;
 }
 
-/// The inequalities of two cells, the first one's variables before the second's.
+/// Concatenate the inequalities of two cells, with the variables of the first one first.
 Inequalities Join(const Inequalities& a, const Inequalities& b) {
   Inequalities both;
   both.rows = Eigen::MatrixXd::Zero(a.rows.rows() + b.rows.rows(), a.rows.cols() + b.rows.cols());
@@ -59,12 +59,12 @@ std::optional<SwitchPoint> FindInCells(const SwitchSide& from, const Inequalitie
   return point;
 }
 
-/// The parameters that a search may move: of a contact of the first grasp, of one of the second, or
-/// of one that both have (positions; −1 for none).
+/// Movable contact: positions in the first grasp, in the second one, or in both if it is kept (−1:
+/// none).
 struct FreeContact {
   Index in_from = -1;
   Index in_to = -1;
-  double length = 1;  ///< of its edge over D
+  double length = 1;  ///< length of its edge divided by D
 };
 
 std::vector<FreeContact> FindFreeContacts(const SwitchSide& from, const SwitchSide& to,
@@ -85,8 +85,8 @@ std::vector<FreeContact> FindFreeContacts(const SwitchSide& from, const SwitchSi
   return contacts;
 }
 
-/// A switch's two scores, the lower one first: where it stays the same, the other may rise, or the
-/// search would end wherever both are equal.
+/// Scores of a switch's two grasps, lower one first. If the lower score stays the same, a higher
+/// second score is an improvement; otherwise the search would stop at equal scores.
 class SwitchRank {
  public:
   SwitchRank(double before, double after)
@@ -102,7 +102,7 @@ class SwitchRank {
   double higher_;
 };
 
-/// See ImproveSwitch.
+/// Compass search of ImproveSwitch.
 class CompassSearch {
  public:
   CompassSearch(const SwitchSide& from, const SwitchSide& to, const GraspScore& score,
@@ -129,13 +129,13 @@ class CompassSearch {
   static constexpr double kLastStep = 0.003;
   static constexpr int kMostRounds = 20;
 
-  /// @returns true where `point` is better after the move.
+  /// Move one contact. @returns whether the switch improves; `point` is then the new one.
   bool Move(const FreeContact& contact, double by, SwitchPoint& point) const {
     SwitchPoint next = point;
     if (contact.in_from >= 0) next.before[contact.in_from] += by;
     if (contact.in_to >= 0) next.after[contact.in_to] += by;
     if (!RankOf(next).IsBetterThan(RankOf(point))) return false;
-    // The costlier question comes last.
+    // The more expensive test is last.
     if (contact.in_from >= 0 && !IsInSet(*from_.cells, next.before, least_slack_)) return false;
     if (contact.in_to >= 0 && !IsInSet(*to_.cells, next.after, least_slack_)) return false;
     point = std::move(next);

@@ -8,38 +8,42 @@
 
 namespace regrasp::polygon {
 
-/// A set with its cells, as a search for a switch sees it.
+/// One set of a switch, with its cells.
 struct SwitchSide {
   const GraspSet* set = nullptr;
   const SetCells* cells = nullptr;
-  /// The contacts' parameters, where the grasp is given already.
+  /// Contact parameters, if the grasp is given.
   std::optional<Eigen::VectorXd> fixed;
 };
 
-/// Two grasps that a hand can switch between: the contacts on `kept` edges are the same.
+/// Finger switch between two grasps. The contacts on `kept` edges are equal.
 struct SwitchPoint {
-  Eigen::VectorXd before;       ///< parameters of the first set's contacts
-  Eigen::VectorXd after;        ///< of the second's
-  std::vector<FaceIndex> kept;  ///< edges, ascending
-  double slack = 0;             ///< the smaller of both grasps', see GraspCell
+  Eigen::VectorXd before;       ///< contact parameters in the first set
+  Eigen::VectorXd after;        ///< contact parameters in the second set
+  std::vector<FaceIndex> kept;  ///< edges of kept contacts, ascending
+  double slack = 0;             ///< smaller slack of the two grasps (GraspCell)
 };
 
-/// The switch of largest slack for every pair of cells and every choice of contacts that stay, as
-/// many as a hand of `fingers` fingers needs to keep or more. Empty where no switch has slack.
+/// Find the switch of largest slack for every pair of cells and every choice of kept contacts.
+///
+/// A choice keeps at least as many contacts as a hand of `fingers` fingers requires. The result is
+/// empty if no switch has slack.
 [[nodiscard]] std::vector<SwitchPoint> FindSwitchPoints(const SwitchSide& from,
                                                         const SwitchSide& to, int fingers);
 
-/// How good a grasp of one of the two sides is, the more the better.
+/// Score of a grasp of one of the two sets; higher is better.
 using GraspScore = std::function<double(const GraspSet& set, const Eigen::VectorXd& parameters)>;
 
-/// The smaller score of a switch's two grasps, without those that are fixed: they are in the
-/// sequence whatever is chosen. Infinite where both are.
+/// Return the smaller score of a switch's two grasps. Given grasps are ignored, because the
+/// sequence contains them anyway. Infinite if both are given.
 [[nodiscard]] double ScoreOf(const SwitchSide& from, const SwitchSide& to, const SwitchPoint& point,
                              const GraspScore& score);
 
-/// Moves the contacts of a switch to raise its score, by compass search (Kolda, Lewis and Torczon
-/// 2003) with steps from a tenth of D down; both grasps stay in their sets with a quarter of the
-/// slack, and contacts that are kept move together. Never lowers the score.
+/// Move the contacts of a switch to raise its score.
+///
+/// The method is compass search (Kolda, Lewis and Torczon 2003) with steps from D/10 downward. Both
+/// grasps stay in their sets with a quarter of the slack, and kept contacts stay equal. Law: the
+/// score never decreases.
 [[nodiscard]] SwitchPoint ImproveSwitch(const SwitchSide& from, const SwitchSide& to,
                                         const SwitchPoint& point, const GraspScore& score);
 

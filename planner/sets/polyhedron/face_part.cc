@@ -16,11 +16,11 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 namespace {
 
-/// A corner that turns to the wrong side by less than this sine is straight: rounding of the face's
-/// plane, far below kCoplanarAngle.
+/// Sine below which a concave corner counts as straight. It covers rounding of the face's plane and
+/// is far below kCoplanarAngle.
 constexpr double kStraight = 1e-9;
 
-/// The parts of one face as rings of vertices.
+/// Divides one face into parts, represented as rings of vertices.
 class FaceSplitter {
  public:
   FaceSplitter(const object::Polyhedron& solid, FaceIndex face) : solid_(solid) {
@@ -84,7 +84,7 @@ class FaceSplitter {
     return hull;
   }
 
-  /// The directed sides of all rings and the rings they belong to.
+  /// Return the directed sides of all rings, with their rings.
   [[nodiscard]] std::map<Side, int> Sides() const {
     std::map<Side, int> sides;
     for (std::size_t r = 0; r < rings_.size(); ++r) {
@@ -113,7 +113,7 @@ class FaceSplitter {
     }
   }
 
-  /// Two rings that share a side, as one; sides that the union has twice are dropped.
+  /// Join two rings with a common side; sides that the union contains twice are dropped.
   static Ring Join(const Ring& a, const Ring& b, const Side& side) {
     const auto from = [](const Ring& ring, int vertex) {
       Ring turned = ring;
@@ -124,7 +124,7 @@ class FaceSplitter {
     Ring ring = from(a, side[1]);
     const Ring rest = from(b, side[0]);
     ring.insert(ring.end(), rest.begin() + 1, rest.end() - 1);
-    // Where the two shared more than one side, vertices between them are passed back and forth.
+    // If the rings share more than one side, the joined ring visits the vertices between twice.
     for (bool spike = true; spike && ring.size() > 3;) {
       spike = false;
       for (std::size_t i = 0; i < ring.size(); ++i) {

@@ -8,31 +8,32 @@
 
 namespace regrasp::polyhedron {
 
-/// A FacePart of a solid; its number in FaceParts::parts.
+/// Index of a FacePart in FaceParts::parts.
 using PartIndex = Index<struct PartTag>;
 
-/// A convex part of a face, in coordinates of the face's plane: x = origin + y_0 u + y_1 v.
+/// Convex part of a face, in coordinates of the face's plane: x = origin + y_0 u + y_1 v.
 struct FacePart {
   struct Side {
     Eigen::Vector2d from;
-    Eigen::Vector2d along;    ///< unit
-    Eigen::Vector2d outward;  ///< unit
+    Eigen::Vector2d along;    ///< unit vector along the side
+    Eigen::Vector2d outward;  ///< unit vector out of the part
     double length;
   };
 
   FaceIndex face;
   Eigen::Vector3d origin;
-  Eigen::Vector3d normal;  ///< unit, into the object
-  Eigen::Vector3d u;       ///< unit, with v and −normal a right-handed frame
+  Eigen::Vector3d normal;  ///< unit normal into the object
+  Eigen::Vector3d u;       ///< unit vector; u, v and −normal are a right-handed frame
   Eigen::Vector3d v;
-  std::vector<Side> sides;   ///< counter-clockwise; two of a segment, none of a point at the origin
-  std::vector<int> corners;  ///< the solid's vertices of the outline
+  /// Counter-clockwise; two for a segment, none for a point at the origin.
+  std::vector<Side> sides;
+  std::vector<int> corners;  ///< vertices of the solid on the outline
 
-  /// Of a part with no sides yet.
+  /// Add the sides of an outline to a part without sides.
   void SetOutline(const std::vector<Eigen::Vector2d>& outline);
   [[nodiscard]] std::vector<Eigen::Vector2d> outline() const;
 
-  /// Where x is seen from above the plane, in the plane's coordinates; and back into space.
+  /// Projection of x onto the plane, in the plane's coordinates, and the inverse mapping to space.
   [[nodiscard]] Eigen::Vector2d FootOf(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d from_origin = x - origin;
     return {u.dot(from_origin), v.dot(from_origin)};
@@ -43,28 +44,29 @@ struct FacePart {
   [[nodiscard]] double HeightOf(const Eigen::Vector3d& x) const { return normal.dot(x - origin); }
 };
 
-/// A single contact on a part's plane as a part of its own.
+/// Make a part of a single contact on a part's plane.
 [[nodiscard]] FacePart PointPart(const FacePart& part, const Eigen::Vector3d& contact);
 
-/// Where two parts of one face meet: a segment that borders both.
+/// Common border of two parts of one face: a segment.
 struct PartJoint {
   std::array<PartIndex, 2> parts;
-  FacePart segment;  ///< of two points
+  FacePart segment;  ///< part with two corners
 };
 
-/// The faces of a solid as convex parts.
+/// Faces of a solid, divided into convex parts.
 struct FaceParts {
-  std::vector<FacePart> parts;    ///< by faces
-  std::vector<PartIndex> first;   ///< parts of face f: first[f] to first[f + 1] − 1
-  std::vector<PartJoint> joints;  ///< by faces
-  /// Of each face the smallest convex part that contains all of its parts; its corners are all that
-  /// they have.
+  std::vector<FacePart> parts;    ///< parts, sorted by face
+  std::vector<PartIndex> first;   ///< parts of face f are first[f] to first[f + 1] − 1
+  std::vector<PartJoint> joints;  ///< joints, sorted by face
+  /// Convex hull of each face. Its corners are all corners of the face's parts.
   std::vector<FacePart> hulls;
 };
 
-/// Cuts faces that are not convex, or have holes, into convex parts: the face's triangles, joined
-/// across their sides while the union stays convex (Hertel and Mehlhorn 1983): at most four times
-/// as many as needed, one where the face is convex.
+/// Divide faces that are not convex, or have holes, into convex parts.
+///
+/// The method joins the face's triangles across their sides while the union stays convex (Hertel
+/// and Mehlhorn 1983). The number of parts is at most four times the minimum, and 1 for a convex
+/// face.
 [[nodiscard]] FaceParts SplitFaces(const object::Polyhedron& solid);
 
 }  // namespace regrasp::polyhedron

@@ -12,16 +12,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Focus points are looked for within so many diameters of the centroid. Cells of normals that
-/// φ-positively span with little to spare reach far; what is beyond has contacts on a vanishing
-/// part of its faces.
+/// Radius of the search for focus points about the centroid, divided by the diameter. If normals
+/// φ-positively span with little margin, cells extend far. Their contacts beyond this radius are on
+/// a vanishing part of the faces.
 constexpr double kReach = 100;
 
-/// A point this near to a vertex or an edge, over the diameter, is at it: minima that are zero are
-/// found to about the square root of roundings.
+/// Distance below which a point is at a vertex or an edge, divided by the diameter. A minimum of
+/// zero is accurate to about the square root of rounding.
 constexpr double kAtBorder = 1e-6;
 
-/// The only position at which the halves of two pieces differ; nullopt where there are more.
+/// Return the position at which the halves of two pieces differ; nullopt if they differ at several.
 std::optional<std::size_t> ChangedHalf(const FocusPiece& a, const FocusPiece& b) {
   std::optional<std::size_t> changed;
   for (std::size_t k = 0; k < a.halves.size(); ++k) {
@@ -32,14 +32,14 @@ std::optional<std::size_t> ChangedHalf(const FocusPiece& a, const FocusPiece& b)
   return changed;
 }
 
-/// The largest cut of some volumes and of a flat part's sides, on the part's plane: none of them
-/// depends on the height over it.
+/// Return the largest cut of some volumes and of a part's sides, restricted to the part's plane. It
+/// does not depend on the height over the plane.
 Cut LargestOnPart(std::span<const UnionVolume> volumes, const FacePart& part, const Vector3d& x) {
   const Vector3d foot = x - part.HeightOf(x) * part.normal;
   Cut largest;
   largest.offset = -std::numeric_limits<double>::infinity();
   const auto consider = [&](Cut cut) {
-    // The same on the plane, and constant across it.
+    // Equal to the cut on the plane, and constant along its normal.
     const double value = cut.At(foot);
     cut.gradient -= cut.gradient.dot(part.normal) * part.normal;
     cut.offset = value - cut.gradient.dot(foot);
@@ -102,8 +102,8 @@ bool FocusCellFinder::IsAtSharedBorder(const Vector3d& point,
   return false;
 }
 
-/// False only where two halves of hulls, with cones of half-angle θ, certainly do not meet: a piece
-/// needs all six pairs. Two inner halves nearly always meet, and are not asked.
+/// Return false only if two halves of hulls, with cones of angle θ, certainly do not meet. A piece
+/// requires that all six pairs meet. Two inner halves nearly always meet and are not tested.
 bool FocusCellFinder::MayMeet(HalfIndex half, HalfIndex other) {
   if (IsInner(half) && IsInner(other)) return true;
   const std::size_t first = 2 * parts_.parts.size();
@@ -120,7 +120,7 @@ bool FocusCellFinder::MayMeet(HalfIndex half, HalfIndex other) {
   return known == Known::kYes;
 }
 
-/// The vertices that two parts have in common: the ends of a common edge, or a corner.
+/// Return the common vertices of two parts: the ends of a common edge, or a corner.
 std::vector<int> FocusCellFinder::SharedCorners(HalfIndex half, HalfIndex other) const {
   std::vector<int> shared;
   const std::vector<int>& corners = PartOf(half).corners;
@@ -140,7 +140,7 @@ std::vector<FocusCell> FocusCellFinder::Find(const QuadrupleCandidate& candidate
   }
   std::ranges::sort(pieces, {}, &FocusPiece::halves);
   const int count = static_cast<int>(pieces.size());
-  // By the first piece that each is joined to, over others.
+  // For each piece, the first piece of its connected component.
   std::vector<int> component(count);
   std::iota(component.begin(), component.end(), 0);
   for (int i = 0; i < count; ++i) {
@@ -164,7 +164,7 @@ std::vector<FocusCell> FocusCellFinder::Find(const QuadrupleCandidate& candidate
   return cells;
 }
 
-/// The pieces of whole faces first: hulls in place of parts, sixteen patterns of sides.
+/// Find pieces of whole faces first, with hulls instead of parts: sixteen combinations of sides.
 void FocusCellFinder::FindPieces(const QuadrupleCandidate& candidate, std::size_t depth,
                                  Halves& halves, std::vector<FocusPiece>& pieces) {
   if (depth < halves.size()) {
@@ -187,8 +187,8 @@ void FocusCellFinder::FindPieces(const QuadrupleCandidate& candidate, std::size_
   Refine(candidate, 0, {halves, result.point, min_max_.basis()}, pieces);
 }
 
-/// Puts parts in place of hulls, face by face. Parts see less than their hull: where it has nothing
-/// they have nothing, and what is known of it bounds them.
+/// Replace hulls by parts, face by face. The volume of a part is inside that of its hull. An empty
+/// intersection therefore stays empty, and the basis of the hulls stays valid.
 void FocusCellFinder::Refine(const QuadrupleCandidate& candidate, std::size_t position,
                              const FocusPiece& piece, std::vector<FocusPiece>& pieces) {
   if (position == piece.halves.size()) {
@@ -262,8 +262,8 @@ std::optional<FocusCellFinder::Junction> FocusCellFinder::FindJunction(double ta
   return std::nullopt;
 }
 
-/// A focus point of a piece that sees, in place of its part, the segment where that meets another
-/// one.
+/// Find a focus point of a piece that sees a given segment instead of its part; the segment is the
+/// joint with another part.
 std::optional<Vector3d> FocusCellFinder::MeetOverJoint(double tangent, const FocusPiece& a,
                                                        const FocusPiece& b, std::size_t changed,
                                                        const FacePart& segment,
@@ -275,7 +275,7 @@ std::optional<Vector3d> FocusCellFinder::MeetOverJoint(double tangent, const Foc
   }
   std::vector<UnionVolume> volumes = VolumesOf(a, tangent);
   volumes[changed] = seeing;
-  // A segment of a part sees less than the part.
+  // The volume of a segment is inside that of its part, so the basis is valid.
   min_max_.Resume(a.basis);
   const MinMaxResult result = min_max_.Solve(volumes, until);
   if (!Decide(result, a.halves)) return std::nullopt;
@@ -321,7 +321,8 @@ bool FocusCellFinder::Overlap(const FocusCell& a, const FocusCell& b) {
                                   VolumeOf(of_a.halves[common_a[0]], narrower),
                                   VolumeOf(of_a.halves[common_a[1]], narrower),
                                   VolumeOf(of_a.halves[common_a[2]], narrower)};
-      // What is known of the piece with the narrower cones holds: its volumes are among the five.
+      // All volumes of the piece with the narrower cones are among the five, so its point and basis
+      // are valid.
       if (a.tangent == narrower && volumes[0].At(of_a.point) < 0) return true;
       if (b.tangent == narrower && volumes[1].At(of_b.point) < 0) return true;
       min_max_.Resume(a.tangent == narrower ? of_a.basis : of_b.basis);

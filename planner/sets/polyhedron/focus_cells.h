@@ -12,8 +12,8 @@
 
 namespace regrasp::polyhedron {
 
-/// Half of the union volume of a convex part of a face, or of a face's hull: 2 · part, or
-/// 2 · part + 1 for the outer side. Hulls are numbered after all parts.
+/// Index of a half of the union volume of a face's part or hull: 2 · part, or 2 · part + 1 for the
+/// outer side. Hulls are numbered after all parts.
 using HalfIndex = Index<struct HalfTag>;
 [[nodiscard]] constexpr HalfIndex HalfOf(PartIndex part, bool inner) {
   return HalfIndex(2 * part + (inner ? 0 : 1));
@@ -21,70 +21,72 @@ using HalfIndex = Index<struct HalfTag>;
 [[nodiscard]] constexpr PartIndex PartNumber(HalfIndex half) { return PartIndex(half / 2); }
 [[nodiscard]] constexpr bool IsInner(HalfIndex half) { return half % 2 == 0; }
 
-/// One of each of four faces, in the faces' order.
+/// One half for each of four faces, in the order of the faces.
 using Halves = std::array<HalfIndex, 4>;
 
-/// A convex piece of a focus cell: focus points on a fixed side of each face that see a contact of
-/// a fixed convex part of it.
+/// Convex piece of a focus cell: focus points on a fixed side of each face that see a contact of a
+/// fixed convex part of it.
 struct FocusPiece {
-  Halves halves;          ///< of parts
-  Eigen::Vector3d point;  ///< a focus point inside
-  MinMax::Basis basis;    ///< to go on from
+  Halves halves;          ///< halves of parts
+  Eigen::Vector3d point;  ///< focus point inside the piece
+  MinMax::Basis basis;    ///< basis for a warm start
 };
 
-/// A vertex of the switching graph: a connected component of the focus points of four faces
-/// together with their contacts (Phoka 2010, definition 5.5).
+/// Vertex of the switching graph: a connected component of the focus points of four faces together
+/// with their contacts (Phoka 2010, definition 5.5).
 struct FocusCell {
   FaceQuadruple faces;
-  double tangent = 0;  ///< tan φ
+  double tangent = 0;  ///< tan φ of its cones
   std::vector<FocusPiece> pieces;
 };
 
-/// The position of a face among a cell's, 4 where it has another.
+/// Return the position of a face in a cell, 4 if the cell does not have it.
 [[nodiscard]] std::size_t PositionOf(const FocusCell& cell, FaceIndex face);
-/// That of the only face of a cell that the other one does not have.
+/// Return the position of the only face of a cell that a second cell does not have.
 [[nodiscard]] std::size_t OwnPosition(const FocusCell& cell, const FocusCell& other);
 
-/// Finds the focus cells of a solid, and which of them overlap.
+/// Finds the focus cells of a solid, and decides whether two of them overlap.
 class FocusCellFinder {
  public:
-  /// @param tangent  tan θ. `solid` must outlive this object.
+  /// @param solid  must outlive this object.
+  /// @param tangent  tan θ, with θ the friction angle.
   FocusCellFinder(const object::Polyhedron& solid, double tangent);
 
-  /// The components of the focus cell of a candidate; empty where it has no interior.
+  /// Find the components of the focus cell of a candidate; empty if the cell has no interior.
   [[nodiscard]] std::vector<FocusCell> Find(const QuadrupleCandidate& candidate);
 
-  /// Whether two cells with exactly three common faces have a focus point in common, with contacts
-  /// on the common faces in common.
+  /// Return whether two cells with exactly three common faces have a common focus point that sees
+  /// common contacts on these faces.
   [[nodiscard]] bool Overlap(const FocusCell& a, const FocusCell& b);
 
-  /// Decisions that doubles could not make; the sets then count as touching, which is not meeting.
-  /// Not those at a vertex or an edge of the solid that two of the faces share: there they touch by
-  /// construction.
+  /// Number of decisions that doubles could not make. Such sets count as touching, which is not
+  /// meeting. Decisions at a vertex or edge shared by two of the faces are not counted: the sets
+  /// touch there by construction.
   [[nodiscard]] std::int64_t unclear_count() const { return unclear_; }
 
-  /// Where two pieces of a cell that differ in one half meet: a grasp whose focus point lies on the
-  /// face that it passes, or whose contact lies on the joint between two parts.
+  /// Grasp at which two pieces of a cell that differ in one half meet. Its focus point is on the
+  /// face between them, or its contact is on the joint of two parts.
   struct Junction {
     Eigen::Vector3d focus;
-    std::size_t changed;      ///< the position of the face whose half differs
-    Eigen::Vector3d contact;  ///< on it
+    std::size_t changed;      ///< position of the face with different halves
+    Eigen::Vector3d contact;  ///< contact on that face
   };
-  /// @param until  kSign: any such grasp; otherwise the one whose focus point is deepest inside.
+  /// Find a junction of two pieces; nullopt if they do not meet.
+  /// @param until  kSign: any junction; kMinimum: the one with the focus point deepest inside.
   [[nodiscard]] std::optional<Junction> FindJunction(double tangent, const FocusPiece& a,
                                                      const FocusPiece& b,
                                                      MinMax::Until until = MinMax::Until::kMinimum);
 
-  /// The focus point deepest inside some volumes; nullopt where they have none in common.
-  /// @param from  a piece whose volumes are among them, to go on from what is known of it.
+  /// Find the focus point deepest inside some volumes; nullopt if they have no common interior.
+  /// @param from  a piece whose volumes are among them, for a warm start.
   [[nodiscard]] std::optional<MinMaxResult> FindDeepest(std::span<const UnionVolume> volumes,
                                                         const FocusPiece* from = nullptr);
 
-  /// Whether the largest of some convex functions is negative somewhere.
+  /// Return whether the maximum of some convex functions is negative at some point.
   [[nodiscard]] bool HasPoint(const MinMax::LargestCut& largest_cut);
 
   [[nodiscard]] const FaceParts& parts() const { return parts_; }
-  /// The part of a face, or its hull, that a half belongs to.
+  /// Part of a face, or its hull, to which a half belongs.
   [[nodiscard]] const FacePart& PartOf(HalfIndex half) const {
     const std::size_t part = PartNumber(half);
     const std::size_t parts = parts_.parts.size();
@@ -115,7 +117,7 @@ class FocusCellFinder {
   [[nodiscard]] bool IsAtSharedBorder(const Eigen::Vector3d& point,
                                       std::span<const HalfIndex> halves) const;
 
-  /// A joint as one of its parts sees it.
+  /// Joint of a part with another part.
   struct JoinedPart {
     PartIndex other;
     int joint;
@@ -123,10 +125,10 @@ class FocusCellFinder {
 
   const object::Polyhedron& solid_;
   FaceParts parts_;
-  std::vector<std::vector<JoinedPart>> joined_;  ///< by parts
+  std::vector<std::vector<JoinedPart>> joined_;  ///< joints of each part
   double tangent_;
   MinMax min_max_;
-  std::vector<Known> meet_;  ///< by pairs of halves of faces' hulls
+  std::vector<Known> meet_;  ///< results of MayMeet by pairs of halves of hulls
   std::int64_t unclear_ = 0;
 };
 

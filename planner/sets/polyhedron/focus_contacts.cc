@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Contacts are looked for at so many places on the path from the part's point nearest to the foot
-/// of the focus point towards the middle of the part, as far as the cone reaches.
+/// Number of candidate contacts on a path inside the cone: from the part's point nearest to the
+/// foot of the focus point towards the middle of the part.
 constexpr int kContactSteps = 16;
 
-/// Random contacts tried on a face before the one that suits the focus point best is taken.
+/// Number of random contacts on a face before the best one for the focus point is returned.
 constexpr int kContactDraws = 20;
 
 Vector2d MiddleOf(const FacePart& part) {
@@ -28,7 +28,7 @@ Vector2d MiddleOf(const FacePart& part) {
   return sum / static_cast<double>(part.sides.size());
 }
 
-/// The point of a part nearest to a point of its plane.
+/// Return the point of a part nearest to a point of its plane.
 Vector2d NearestOn(const FacePart& part, const Vector2d& y) {
   if (DepthIn(part, y) >= 0) return y;
   Vector2d nearest = y;
@@ -44,8 +44,8 @@ Vector2d NearestOn(const FacePart& part, const Vector2d& y) {
   return nearest;
 }
 
-/// The share of the path from a point to another, both of a part's plane, at which it leaves the
-/// circle about `centre`; at most 1, 0 from a point outside.
+/// Return the fraction of a path at which it leaves the circle about `centre`: at most 1, and 0 if
+/// it starts outside.
 double ShareInside(const Vector2d& from, const Vector2d& to, const Vector2d& centre,
                    double radius) {
   const double a = (to - from).squaredNorm();
@@ -54,11 +54,11 @@ double ShareInside(const Vector2d& from, const Vector2d& to, const Vector2d& cen
   if (c >= 0) return 0;
   const double root = std::sqrt(b * b - a * c);
   if (root - b >= a) return 1;
-  // Of the two forms of the larger root the one without cancellation.
+  // One of the two forms of the larger root has no cancellation.
   return b > 0 ? -c / (b + root) : (root - b) / a;
 }
 
-/// Of the circle that a focus point sees on a part's plane.
+/// Return the radius of the circle that a focus point sees on a part's plane.
 double RadiusOf(const FacePart& part, double tangent, const Vector3d& focus) {
   return std::abs(part.HeightOf(focus)) * tangent;
 }
@@ -109,7 +109,7 @@ namespace {
 constexpr int kCircleCorners = 72;
 constexpr int kContacts = 4;
 
-/// The part of a convex outline on the inner side of a part's side.
+/// Clip a convex outline at a side of a part.
 std::vector<Vector2d> Clip(const std::vector<Vector2d>& outline, const FacePart::Side& side) {
   std::vector<Vector2d> clipped;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -123,7 +123,7 @@ std::vector<Vector2d> Clip(const std::vector<Vector2d>& outline, const FacePart:
   return clipped;
 }
 
-/// The points of a part that a focus point sees inside its cone.
+/// Return the points of a part that a focus point sees inside its cone.
 std::vector<Vector3d> ContactRegion(const FacePart& part, const Vector3d& focus, double tangent) {
   const Vector2d foot = part.FootOf(focus);
   const double radius = std::abs(part.HeightOf(focus)) * tangent;

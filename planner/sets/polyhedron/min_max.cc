@@ -10,21 +10,20 @@ using Eigen::Vector4d;
 
 namespace {
 
-/// Values this small, over the reach, may be rounding.
+/// Bound on rounding of values, divided by the reach.
 constexpr double kRounding = 1e-14;
 
-/// A minimum is found when it is known to this share of its value.
+/// Relative accuracy at which a minimum counts as found.
 constexpr double kRelativeGap = 0.01;
 
-/// Solving four convex functions takes about ten pivots; far more happen only where roundings turn
-/// in circles.
+/// Four convex functions take about ten pivots. Far more occur only if rounding causes cycles.
 constexpr lp::Limits kLimits = {.pivots = 100, .refactor_after = 24};
 
 }  // namespace
 
 MinMax::MinMax(const Vector3d& centre, double reach)
     : centre_(centre), reach_(reach), rounding_(kRounding * reach) {
-  // A regular tetrahedron about the ball of the reach: its faces are cuts of value 0.
+  // The faces of a regular tetrahedron about the ball of radius `reach` are cuts of value 0.
   const double s = std::sqrt(1.0 / 3);
   Resume({{{Vector3d(s, s, s), -reach_},
            {Vector3d(s, -s, -s), -reach_},
@@ -43,8 +42,8 @@ MinMax::Basis MinMax::basis() const {
   return basis;
 }
 
-/// Whether the cuts at hand prove that their largest one is positive everywhere within reach: a
-/// convex combination of them, computed anew, is a positive constant up to a small slope.
+/// Return whether the current cuts prove that their maximum is positive everywhere within reach. A
+/// recomputed convex combination of them must be a positive constant up to a small slope.
 bool MinMax::IsSeparated() const {
   Vector3d slope = Vector3d::Zero();
   double constant = 0;
@@ -77,7 +76,7 @@ MinMaxResult MinMax::SolveWith(const Oracle& largest_cut, Until until) {
       if (value < -rounding_) best.overlap = Overlap::kSome;
     }
     if (until == Until::kSign && best.overlap == Overlap::kSome) return false;
-    // Nothing is decided where the gap is small beside a value that is smaller still.
+    // If the value is close to 0, a small gap decides nothing.
     const bool near = best.value - bound <= kRelativeGap * std::abs(best.value);
     if ((near && best.overlap == Overlap::kSome) || value - bound <= rounding_) return false;
     return true;

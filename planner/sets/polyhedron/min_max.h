@@ -10,11 +10,11 @@
 
 namespace regrasp::polyhedron {
 
-/// Whether some convex sets, each { x : g_i(x) < 0 }, have common points.
+/// Result of whether convex sets { x : g_i(x) < 0 } have common points.
 enum class Overlap {
   kNone,     ///< certain: max g_i is positive everywhere
   kSome,     ///< certain: `point` is inside all of them
-  kUnclear,  ///< doubles cannot tell: the sets touch, or nearly do
+  kUnclear,  ///< doubles cannot decide: the sets touch, or nearly do
 };
 
 struct MinMaxResult {
@@ -23,42 +23,44 @@ struct MinMaxResult {
   double value = 0;  ///< max g_i(point)
 };
 
-/// Minimises the largest of some convex functions over space by cutting planes (Kelley 1960), as
-/// the simplex method sees them (lp::Simplex): the lower bound is the value t of a basis of four
-/// cuts whose gradients have the origin in their hull,
+/// Minimizes the maximum of some convex functions over space by cutting planes (Kelley 1960).
 ///
-///     t = Σ λ_k offset_k  with  Σ λ_k gradient_k = 0, Σ λ_k = 1, λ ≥ 0,
+/// The solver is a simplex method (lp::Simplex). A basis consists of four cuts whose gradients have
+/// the origin in their hull. Its value t is a lower bound, and the method maximizes it:
 ///
-/// the largest there is; the dual solution is the point where the four are equal, with −t, and the
-/// cut of the function that is largest there enters next: its reduced cost is how far it is above
-/// t.
+///     t = Σ λ_k offset_k  with  Σ λ_k gradient_k = 0, Σ λ_k = 1, λ ≥ 0.
+///
+/// The dual solution is the point at which the four cuts are equal, with −t. The cut of the largest
+/// function at this point enters the basis next. Its reduced cost is its height above t.
 class MinMax {
  public:
-  /// @param centre, reach  the minimum is looked for within `reach` of `centre`, and not farther;
-  ///                       roundings are measured by it.
+  /// @param centre  centre of the search.
+  /// @param reach  radius of the search about `centre`; roundings are relative to it.
   MinMax(const Eigen::Vector3d& centre, double reach);
 
-  /// When to stop.
+  /// Stopping criterion.
   enum class Until {
     kSign,     ///< overlap is decided
-    kMinimum,  ///< and the minimum is found, to a hundredth of its value
+    kMinimum,  ///< the minimum is also found, to a hundredth of its value
   };
 
-  /// Gives the cut that is largest at a point, of the functions whose largest is minimised.
+  /// Function that returns the cut of the largest function at a point.
   using LargestCut = std::function<Cut(const Eigen::Vector3d& point)>;
 
-  /// Looks for the minimum from the current basis on: at first one that every set of functions has,
-  /// later that of the last call, which is valid as long as no function is taken away.
+  /// Find the minimum, starting from the current basis.
+  ///
+  /// The first basis is valid for every set of functions. The basis of the last call is valid as
+  /// long as no function is removed.
   [[nodiscard]] MinMaxResult Solve(std::span<const UnionVolume> volumes, Until until);
   [[nodiscard]] MinMaxResult Solve(const LargestCut& largest_cut, Until until);
 
-  /// Values this close to zero decide nothing.
+  /// Bound on roundings; values closer to zero decide nothing.
   [[nodiscard]] double rounding() const { return rounding_; }
 
-  /// Back to the first basis.
+  /// Return to the first basis.
   void Restart() { program_ = first_; }
 
-  /// To go on later from the basis at hand.
+  /// Four cuts from which a later call of Resume can continue.
   using Basis = std::array<Cut, 4>;
   [[nodiscard]] Basis basis() const;
   void Resume(const Basis& basis);
@@ -67,7 +69,7 @@ class MinMax {
   static constexpr int kRows = 4;
 
   struct Column {
-    Cut cut;  ///< about the centre
+    Cut cut;  ///< cut relative to the centre
 
     template <class Visit>
     void ForEachEntry(const Visit& visit) const {
@@ -86,7 +88,7 @@ class MinMax {
   double reach_;
   double rounding_;
   Program program_;
-  Program first_;  ///< with the first basis
+  Program first_;  ///< program with the first basis
 };
 
 }  // namespace regrasp::polyhedron

@@ -12,14 +12,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Three unit normals whose volume is smaller than this are coplanar: roundings of normals that
-/// would be, were they exact.
+/// Volume of three unit normals below which they are coplanar up to rounding.
 constexpr double kCoplanar = 1e-12;
 
-/// tan φ* is rounded down by this share.
+/// Fraction by which tan φ* is rounded down.
 constexpr double kRoundedDown = 1e-12;
 
-/// For each pair of normals a set of normals, as bits.
+/// Set of normals for each pair of normals, as bits.
 class PairRows {
  public:
   explicit PairRows(std::size_t count)
@@ -35,7 +34,7 @@ class PairRows {
   std::vector<std::uint64_t> bits_;
 };
 
-/// The distance from the origin to the plane through the ends of three vectors.
+/// Compute the distance from the origin to the plane through the ends of three vectors.
 double PlaneDistance(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d across = (b - a).cross(c - a);
   return std::abs(across.dot(a)) / across.norm();
@@ -43,7 +42,7 @@ double PlaneDistance(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 
 class QuadrupleFinder {
  public:
-  /// @param deadline  outlives this object.
+  /// @param deadline  must outlive this object.
   QuadrupleFinder(const std::vector<Vector3d>& normals, double tangent, planning::Spanning spanning,
                   const Deadline& deadline)
       : normals_(normals),
@@ -82,12 +81,13 @@ class QuadrupleFinder {
   }
 
  private:
-  /// Planes through two ends are no farther from the origin than the middle between them.
+  /// Return whether two normals can be in a quadruple. A plane through two ends is at most as far
+  /// from the origin as the midpoint between them.
   [[nodiscard]] bool MaySpan(int a, int b) const {
     return (normals_[a] + normals_[b]).squaredNorm() > 4 * least_ * least_;
   }
 
-  /// Normals inside the trihedron of the opposites of three, after the third.
+  /// Find the normals after c inside the trihedron of the opposites of a, b and c.
   void FindFourth(int a, int b, int c) {
     const auto has_c = [&](const std::uint64_t* row) { return (row[c / 64] >> (c % 64) & 1) != 0; };
     const bool turns_left = has_c(left_.Row(a, b));
@@ -95,7 +95,7 @@ class QuadrupleFinder {
     const std::uint64_t* of_ab = (turns_left ? right_ : left_).Row(a, b);
     const std::uint64_t* of_bc = (turns_left ? right_ : left_).Row(b, c);
     const std::uint64_t* of_ac = (turns_left ? left_ : right_).Row(a, c);
-    double height = -1;  // of the plane of the three, once it is needed
+    double height = -1;  // distance of the plane through the three; computed on demand
     for (std::size_t w = c / 64; w < left_.words(); ++w) {
       std::uint64_t bits = of_ab[w] & of_bc[w] & of_ac[w];
       if (w == static_cast<std::size_t>(c) / 64) bits &= ~std::uint64_t{0} << (c % 64);
@@ -125,9 +125,9 @@ class QuadrupleFinder {
   const std::vector<Vector3d>& normals_;
   double tangent_;
   const Deadline& deadline_;
-  double least_;    ///< that φ*'s sine must exceed
-  PairRows left_;   ///< for a < b: the normals on the left of the plane through both
-  PairRows right_;  ///< those on the right
+  double least_;    ///< lower bound on sin φ*
+  PairRows left_;   ///< for a < b: normals on the left of the plane through both
+  PairRows right_;  ///< normals on the right of it
   std::vector<QuadrupleCandidate> found_;
 };
 

@@ -12,37 +12,39 @@
 
 namespace regrasp::polyhedron {
 
-/// Four faces, ascending.
+/// Four faces in ascending order.
 using FaceQuadruple = std::array<FaceIndex, 4>;
 
-/// Four faces whose normals let them hold concurrent grasps.
+/// Four faces whose normals permit concurrent grasps.
 struct QuadrupleCandidate {
   FaceQuadruple faces;
-  double tangent = 0;  ///< tan φ
+  double tangent = 0;  ///< tan φ of its cones
 };
 
-/// The quadruples whose inward normals θ-positively span space (uniform), or positively span it
-/// (adaptive; φ = min(θ, φ*)). φ* = arcsin of the distance from the origin to the border of the
-/// hull of the four normals: to the nearest of the four planes through three of them (Phoka 2010,
-/// section 5.2, in closed form). In lexicographic order.
+/// Find the quadruples of faces whose inward normals span space, in lexicographic order.
 ///
-/// For each pair of normals one bit per normal says on which side of the plane through the pair it
-/// is; the fourth normals of a triple are where three rows of bits agree (the trihedron of its
-/// opposites), so the time goes with the triples and with what is found.
+/// With `uniform`, the normals must θ-positively span it. With `adaptive`, they must positively
+/// span it, and φ = min(θ, φ*). φ* is the arcsine of the distance from the origin to the nearest of
+/// the four planes through three of the normals (Phoka 2010, section 5.2, in closed form).
 ///
-/// @param normals  of the faces 0, 1, …; unit. Normals that are coplanar up to rounding do not
-/// span.
-/// @throws TimeUp  the deadline came.
+/// For each pair of normals, one bit per normal states on which side of the plane through the pair
+/// it is. The fourth normals of a triple are in the trihedron of its opposites: the positions at
+/// which three rows of bits agree. The time is therefore proportional to the number of triples and
+/// results.
+///
+/// @param normals  unit normals of the faces 0, 1, … Normals that are coplanar up to rounding do
+///     not span.
+/// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(
     const std::vector<Eigen::Vector3d>& normals, double tangent, planning::Spanning spanning,
     const Deadline& deadline = {});
 
-/// Those of the faces of a solid that a finger can come to: the walls of sealed cavities are not.
+/// Find the quadruples of a solid's faces on which planners place fingers (Object::TakesFingers).
 [[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(
     const object::Polyhedron& solid, double tangent, planning::Spanning spanning,
     const Deadline& deadline = {});
 
-/// A quadruple of faces, or what stands on it, by its number, as one of its triples sees it.
+/// Three faces of a quadruple, with the number of the quadruple or of an element related to it.
 template <class Quadruple>
 struct TripleOf {
   std::array<FaceIndex, 3> faces;
@@ -51,7 +53,7 @@ struct TripleOf {
   auto operator<=>(const TripleOf&) const = default;
 };
 
-/// Adds the four triples of ascending faces.
+/// Append the four triples of a quadruple with ascending faces.
 template <class Quadruple>
 void AddTriples(const FaceQuadruple& faces, Quadruple quadruple,
                 std::vector<TripleOf<Quadruple>>& triples) {
@@ -62,8 +64,7 @@ void AddTriples(const FaceQuadruple& faces, Quadruple quadruple,
   }
 }
 
-/// Sorts triples and calls visit(span<const TripleOf<Quadruple>>) for each run of those with the
-/// same faces.
+/// Sort triples and call visit(span<const TripleOf<Quadruple>>) for each run with equal faces.
 template <class Quadruple, class Visit>
 void ForEachCommonTriple(std::vector<TripleOf<Quadruple>>& triples, const Visit& visit) {
   std::ranges::sort(triples);

@@ -43,7 +43,7 @@ std::vector<sets::SetPair> PolyhedronGraph::FindSwitches(const Deadline& deadlin
       for (auto b = a + 1; b != common.end(); ++b) {
         const FocusCell& first = cells_[a->quadruple];
         const FocusCell& second = cells_[b->quadruple];
-        // Two components of one cell share all four faces.
+        // Two components of one cell have four common faces.
         if (first.faces == second.faces || !finder_.Overlap(first, second)) continue;
         switches.push_back({a->quadruple, b->quadruple});
       }

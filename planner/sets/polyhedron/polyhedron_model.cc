@@ -15,10 +15,11 @@ using sets::SetIndex;
 
 namespace {
 
-/// A contact this far outside a part, over the diameter, is on it.
+/// Largest distance of a contact from its part, divided by the diameter.
 constexpr double kOnPart = object::kPointTolerance;
 
-/// Random focus points: steps of a walk (Smith 1984), and halvings to find where a step must end.
+/// Random focus points: number of steps of a walk (Smith 1984), and of bisections for the end of a
+/// step.
 constexpr int kWalkSteps = 8;
 constexpr int kHalvings = 30;
 
@@ -75,8 +76,10 @@ std::string PolyhedronModel::WhyUnattached(const grasp::Grasp& /*grasp*/) const 
          "between concurrent grasps only";
 }
 
-/// The grasp of a cell with these contacts whose focus point is deepest inside their cones and the
-/// volumes of the other faces, which get contacts for that focus point.
+/// Find the grasp of a cell with the given contacts and the deepest focus point.
+///
+/// The focus point is deepest inside their cones and the volumes of the other faces, which get
+/// contacts for it.
 std::optional<FocusGrasp> PolyhedronModel::FindDeepest(SetIndex cell,
                                                        const GivenContacts& contacts) {
   const FocusCell& c = graph_.cells()[cell];
@@ -141,7 +144,7 @@ int PolyhedronModel::CountCommonContacts(const Place& a, const Place& b) const {
   return common;
 }
 
-/// A grasp of a cell that has the contacts of a given one on their common faces.
+/// Find a grasp of a cell that shares the contacts on common faces with a given grasp.
 std::optional<FocusGrasp> PolyhedronModel::Complete(const Place& given, SetIndex cell) {
   const FocusCell& a = graph_.cells()[given.cell];
   const FocusCell& b = graph_.cells()[cell];
@@ -176,7 +179,7 @@ std::optional<PolyhedronModel::Switch> PolyhedronModel::FindDeepestSwitch(SetInd
         volumes.push_back(finder.VolumeOf(of_a[k], narrower));
       }
       if (volumes.size() < 5) continue;
-      // The narrower cell's own volumes are all among the five.
+      // All volumes of the narrower cell are among the five, so its basis is valid.
       const FocusPiece& known = a.tangent == narrower ? a.pieces[p] : b.pieces[q];
       const auto deepest = finder.FindDeepest(volumes, &known);
       if (!deepest || deepest->value >= least) continue;
@@ -188,7 +191,8 @@ std::optional<PolyhedronModel::Switch> PolyhedronModel::FindDeepestSwitch(SetInd
   return best;
 }
 
-/// Those for its focus point; on common faces inside the cones of both cells.
+/// Place the contacts of a switch for its focus point; on common faces inside the cones of both
+/// cells.
 void PolyhedronModel::PlaceContacts(Switch& change) const {
   const FocusCell& a = graph_.cells()[change.before.cell];
   const FocusCell& b = graph_.cells()[change.after.cell];
@@ -244,7 +248,7 @@ std::optional<FocusGrasp> PolyhedronModel::Draw(SetIndex cell, RandomStream& ran
   return place;
 }
 
-/// By hit and run.
+/// Draw a focus point of a piece by hit and run.
 Vector3d PolyhedronModel::DrawFocus(const FocusCell& cell, const FocusPiece& piece,
                                     RandomStream& random) const {
   const auto volumes = graph_.finder().VolumesOf(piece, cell.tangent);

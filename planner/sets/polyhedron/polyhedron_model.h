@@ -12,46 +12,49 @@
 
 namespace regrasp::polyhedron {
 
-/// A concurrent grasp of a cell.
+/// Concurrent grasp in a cell.
 struct FocusGrasp {
   sets::SetIndex cell;
-  sets::PieceIndex piece;                           ///< of the cell
-  Eigen::Vector3d focus = Eigen::Vector3d::Zero();  ///< sees all contacts inside their cones
-  /// Contacts, by the cell's faces.
+  sets::PieceIndex piece;  ///< piece of the cell
+  /// Point that sees all contacts inside their cones.
+  Eigen::Vector3d focus = Eigen::Vector3d::Zero();
+  /// Contacts in the order of the cell's faces.
   std::array<Eigen::Vector3d, 4> points = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                            Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };
 
-/// The focus cells of a solid's switching graph, as planning over sets sees them.
+/// Model of the focus cells of a solid's switching graph (GraspSetModel).
 ///
-/// In a piece, focus point and contacts together form a convex set: any straight motion of all of
-/// them between two of its grasps is a motion through its grasps.
+/// In a piece, focus point and contacts together form a convex set. A simultaneous straight motion
+/// of all of them between two grasps of the piece therefore stays in the piece.
 class PolyhedronModel : public sets::EvaluatedModel<FocusGrasp> {
  public:
-  /// Solid and graph outlive this object.
+  /// @param solid, graph  must outlive this object.
   PolyhedronModel(const object::Polyhedron& solid, PolyhedronGraph& graph,
                   const planning::PlanRequest& request)
       : EvaluatedModel(request), solid_(solid), graph_(graph) {}
 
   [[nodiscard]] const PolyhedronGraph& graph() const { return graph_; }
   [[nodiscard]] static std::string sets_name() { return "focus cells"; }
-  /// How deep the deepest focus point of a cell is inside the volumes of its faces, a length.
+  /// Return the depth of the deepest focus point of a cell inside the volumes of its faces, a
+  /// length.
   [[nodiscard]] double WidthOf(sets::SetIndex cell);
   [[nodiscard]] std::optional<Place> Draw(sets::SetIndex cell, RandomStream& random);
   [[nodiscard]] grasp::Grasp GraspOf(const Place& place) const;
 
-  /// Each with the focus point deepest inside the contacts' cones.
-  /// @param grasp  four contacts that know their faces.
+  /// Find the cells of a grasp, each with the focus point deepest inside the contacts' cones.
+  /// @param grasp  four contacts whose faces are set.
   [[nodiscard]] Attachments Attach(const grasp::Grasp& grasp);
   [[nodiscard]] std::string WhyUnattached(const grasp::Grasp& grasp) const;
 
-  /// Where the focus point is deepest inside the volumes of all five faces.
+  /// Find the switch with the focus point deepest inside the volumes of all five faces.
   [[nodiscard]] std::optional<Switch> FindSwitch(const Ends& ends);
-  /// Straight inside pieces, from piece to piece through their junctions, fewest first.
+  /// Find the waypoints of a sliding step: straight inside pieces, through as few junctions as
+  /// possible.
   [[nodiscard]] std::vector<Place> FindRoute(const Place& from, const Place& to);
 
  private:
-  /// The contacts of a grasp that are given, by a cell's faces.
+  /// Given contacts of a grasp, in the order of a cell's faces.
   using GivenContacts = std::array<std::optional<Eigen::Vector3d>, 4>;
 
   [[nodiscard]] std::optional<Place> FindDeepest(sets::SetIndex cell,

@@ -17,16 +17,16 @@ namespace regrasp::polyhedron {
 
 namespace {
 
-/// Counted in some hundredths of a second.
+/// Number of faces on which candidates are counted, in a few hundredths of a second.
 constexpr int kCountedFaces = 60;
 
-/// Measured on bodies of 24 to 67 faces, as the peak of resident memory: a cell with its pieces and
-/// its triples; a switch with its two entries in the lists of neighbours. Of the switches 75 to 150
-/// on the same.
+/// Memory per element, measured as the peak of resident memory on objects of 24 to 67 faces. A cell
+/// includes its pieces and triples, a switch its two entries in the lists of neighbours. The
+/// constant `switches` was 75 to 150.
 constexpr sets::JoinedGraph kMeasured = {
     .bytes = {.candidates = 60, .sets = 840, .switches = 25}, .common_faces = 3, .switches = 100};
 
-/// Cells of a candidate: 0.5 to 1.1 on the same bodies.
+/// Number of cells per candidate; 0.5 to 1.1 on the same objects.
 constexpr double kCellsOfCandidate = 0.75;
 
 }  // namespace
@@ -43,8 +43,7 @@ MemoryNeed EstimatePolyhedronGraph(const object::Polyhedron& solid, double half_
   const double m = static_cast<double>(normals.size());
   return sets::NeedOfGraph("polyhedron", solid, [=](double n) {
     const double candidates = sets::ScaleUp(counted, 4, m, n);
-    // For each pair of faces two rows of bits, one for each face; and a byte for each pair of their
-    // halves.
+    // Each pair of faces has two rows with one bit per face, and one byte per pair of their halves.
     return kMeasured.BytesOf({candidates, kCellsOfCandidate * candidates}, n) + n * n * n / 4 +
            4 * n * n;
   });
@@ -56,7 +55,7 @@ const object::Polyhedron& SolidOf(const planning::PlanRequest& request) {
   return dynamic_cast<const object::Polyhedron&>(*request.object);
 }
 
-/// The summary of the graph that random focus points find, with the share of the direct one.
+/// Summarize the graph found by random focus points, with its share of the direct one.
 planning::GraphSummary SummarizeSampled(PolyhedronGraph& graph,
                                         const planning::PlanRequest& request,
                                         planning::GraphSummary summary) {

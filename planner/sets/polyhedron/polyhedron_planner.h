@@ -8,24 +8,25 @@
 
 namespace regrasp::polyhedron {
 
-/// What a PolyhedronGraph takes at most while it is built, within a factor of two.
+/// Estimate the peak memory for building a PolyhedronGraph, within a factor of two.
 ///
-/// The candidates among at most sixty faces, drawn from all of them, are counted; they go with the
-/// fourth power of how many faces there are. How many of them have a cell, how many cells are
-/// joined and what these take was measured.
+/// The candidates among at most sixty randomly drawn faces are counted. Their number grows with the
+/// fourth power of the number of faces. The fractions of candidates with cells and of connected
+/// cells are measured, and so is the memory per element.
 ///
-/// Laws: the same solid gives the same number; a solid of sixty faces or fewer has its candidates
-/// counted whole.
+/// Laws: the result is deterministic; all candidates are counted if there are at most sixty faces.
 [[nodiscard]] MemoryNeed EstimatePolyhedronGraph(const object::Polyhedron& solid, double half_angle,
                                                  planning::Spanning spanning);
 
-/// Plans between concurrent grasps of four fingers on four faces of a solid, on its switching graph
-/// (Phoka 2010, chapter V), with a hand of five, of which one switches: of these grasps it
-/// knows every set and every switch, but for what is too close to call.
+/// Planner between concurrent grasps of four fingers on four faces of a solid (Phoka 2010, chapter
+/// V), for a hand of five fingers.
+///
+/// It plans on the switching graph of these grasps; a switch places one finger. It finds every
+/// grasp set and every switch, except numerically undecidable ones.
 class PolyhedronPlanner final : public planning::Planner {
  public:
-  /// @param graph  that is built already, with the half-angle and the spanning of all requests that
-  ///               follow: many queries, one graph. nullptr: each builds its own.
+  /// @param graph  existing graph for the friction angle and spanning rule of all later requests,
+  ///     so that it serves many queries. nullptr: each request builds its own.
   explicit PolyhedronPlanner(PolyhedronGraph* graph = nullptr);
   [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(
       const planning::PlanRequest& request) const override;
@@ -34,7 +35,7 @@ class PolyhedronPlanner final : public planning::Planner {
       const planning::PlanRequest& request) const override;
 
  private:
-  /// The graph that is built already, or else the request's, made in `own`.
+  /// Return the existing graph; if there is none, build the request's graph in `own`.
   PolyhedronGraph& GraphFor(const planning::PlanRequest& request,
                             std::optional<PolyhedronGraph>& own) const;
 

@@ -15,10 +15,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The region is found to this share of its size.
+/// First step by which a side of the region moves, divided by the diameter. Steps double.
 constexpr double kRegionAccuracy = 1e-3;
 
-/// Moves one side of a box outwards until no focus point of a piece is beyond it.
+/// Enlarges a box until it contains all focus points of a piece.
 class RegionGrower {
  public:
   RegionGrower(const object::Polyhedron& solid, PolyhedronGraph& graph)
@@ -36,7 +36,7 @@ class RegionGrower {
   }
 
  private:
-  /// Raises `limit` until no point of the piece has a larger x · direction.
+  /// Increase `limit` until no point of the piece has a larger x · direction.
   void Grow(const Vector3d& direction, double& limit) {
     double step = step_;
     while (ReachesBeyond(direction, limit)) {
@@ -58,10 +58,10 @@ class RegionGrower {
   std::vector<UnionVolume> volumes_;
 };
 
-/// A QuadrupleCandidate, seen by points or not.
+/// Index of a QuadrupleCandidate, whether or not points see it.
 using CandidateIndex = Index<struct CandidateTag>;
 
-/// The quadruples that points see, with the halves of faces that they see them from.
+/// Collects the quadruples that points see.
 class Sampler {
  public:
   Sampler(const object::Polyhedron& solid, double half_angle, planning::Spanning spanning,
@@ -118,7 +118,8 @@ class Sampler {
   }
 
  private:
-  /// Cones of the candidate's own half-angle may be narrower than those of the friction.
+  /// Return whether a point sees the faces in the candidate's own cones, which can be narrower than
+  /// the friction cones.
   [[nodiscard]] bool SeesNarrowly(const QuadrupleCandidate& candidate, const Vector3d& x) const {
     if (candidate.tangent == tangent_) return true;
     return std::ranges::all_of(candidate.faces, [&](FaceIndex face) {
@@ -135,9 +136,9 @@ class Sampler {
   std::vector<QuadrupleCandidate> candidates_;
   std::vector<char> found_;
   std::vector<UnionVolume> volumes_;
-  std::vector<char> seen_;                         ///< faces that the point at hand sees
-  std::vector<TripleOf<CandidateIndex>> triples_;  ///< that the point at hand sees
-  std::unordered_set<std::uint64_t> links_;  ///< two candidates, the lower one in the upper half
+  std::vector<char> seen_;                         ///< whether the current point sees each face
+  std::vector<TripleOf<CandidateIndex>> triples_;  ///< triples that the current point sees
+  std::unordered_set<std::uint64_t> links_;  ///< two candidates; the lower one is in the upper half
 };
 
 }  // namespace

@@ -12,37 +12,42 @@
 
 namespace regrasp::polyhedron {
 
-/// A box that contains the focus points of all cells of a graph. Its sides are bounds by cutting
-/// planes of the cells' own intersections, within a thousandth of its size; empty where the graph
-/// is.
-/// @throws TimeUp  the deadline came.
+/// Compute a box that contains the focus points of all cells of a graph.
+///
+/// Its sides move outward until cutting planes prove that no focus point is beyond, in steps that
+/// start at 1/1000 of the object's diameter. The box is empty if the graph is empty.
+/// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] Eigen::AlignedBox3d FindSamplingRegion(const object::Polyhedron& solid,
                                                      PolyhedronGraph& graph,
                                                      const Deadline& deadline = {});
 
-/// A quadruple of a SampledGraph.
+/// Index of a quadruple in a SampledGraph.
 using QuadrupleIndex = Index<struct QuadrupleTag>;
 
-/// What random focus points find of the switching graph (Phoka 2010, section 5.3.4.2): a quadruple
-/// of faces where a point sees all four, and a link where it sees two quadruples with three common
-/// faces: the contacts on these belong to both. Where the cell of a quadruple falls apart, points
-/// do not tell its components from each other, and the quadruple is one vertex with the links of
-/// all.
+/// Part of the switching graph found by random focus points (Phoka 2010, section 5.3.4.2).
+///
+/// A point adds a quadruple of faces if it sees all four. It adds a link if it sees two quadruples
+/// with three common faces, because the contacts on these faces belong to both. Points do not
+/// distinguish the components of a cell. A quadruple is therefore one vertex with the links of all
+/// its components.
 struct SampledGraph {
-  std::vector<FaceQuadruple> quadruples;             ///< ascending
-  std::vector<std::array<QuadrupleIndex, 2>> links;  ///< ascending
+  std::vector<FaceQuadruple> quadruples;             ///< quadruples in ascending order
+  std::vector<std::array<QuadrupleIndex, 2>> links;  ///< links in ascending order
   int components = 0;
 };
 
-/// @param points  drawn evenly in `region`, the same for the same seed.
-/// @throws TimeUp  the deadline came.
+/// Sample the switching graph with random focus points.
+/// @param region  box in which points are drawn uniformly.
+/// @param points  number of points.
+/// @param seed  seed of the points; the result is deterministic.
+/// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle,
                                             planning::Spanning spanning,
                                             const Eigen::AlignedBox3d& region, int points,
                                             std::uint64_t seed, const Deadline& deadline = {},
                                             const Tell& tell = {});
 
-/// How much of the direct graph sampling found.
+/// Compute which share of the direct graph the sampling found.
 [[nodiscard]] planning::SamplingShare CompareSampling(const SampledGraph& sampled,
                                                       const PolyhedronGraph& graph);
 

@@ -9,8 +9,8 @@ Cut UnionVolume::CutAt(const Vector3d& x) const {
   const Vector2d foot = part_->FootOf(x);
   Cut cut;
   cut.gradient = -sin_ * part_->normal;
-  // Outside a convex part the nearest point is on the first side, in their order, that the foot is
-  // beyond and beside, or else the corner where the foot is past one side and before the next.
+  // If the foot is outside the part, the nearest point is on the first side whose outer strip
+  // contains the foot. If there is no such side, it is the nearest corner.
   Vector2d away = Vector2d::Zero();
   Vector2d nearest = Vector2d::Zero();
   double nearest_square = 0;

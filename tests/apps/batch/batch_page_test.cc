@@ -50,8 +50,8 @@ TEST(BatchPageTest, APlanThatFailsShowsWhatFailedAndOneThatPassesItsSheet) {
   EXPECT_EQ(Count(page, "<img"), 2u);
   EXPECT_EQ(Count(page, "href=\"weak/report.html\""), 2u);
   EXPECT_THAT(page, HasSubstr("<strong>Fail</strong> Step 1 (switch): slipped. Finger &lt;2&gt; "
-                              "slipped. Why: it stays. What would mend it: more friction.</p>"));
-  EXPECT_THAT(page, HasSubstr("<strong>Pass</strong> The hold and 1 step stand."));
+                              "slipped. Why: it stays. Help: more friction.</p>"));
+  EXPECT_THAT(page, HasSubstr("<strong>Pass</strong> The hold and 1 step pass."));
   EXPECT_THAT(page, HasSubstr("<dd>10.4 cm across, 216 g</dd>"));
 }
 
@@ -61,7 +61,7 @@ TEST(BatchPageTest, WhatIsToSpareIsNotToldOfAPlanThatFailsElsewhere) {
   const std::string page = FormatBatchPage({{Failed("slips"), lacking, Passed("good")}, {}});
   EXPECT_THAT(CardOf(page, "slips"), Not(HasSubstr("Weakest")));
   EXPECT_THAT(CardOf(page, "lacking"), HasSubstr("<dd>1.50° missing in step 1</dd>"));
-  EXPECT_THAT(CardOf(page, "good"), HasSubstr("<dd>2.75° to spare in step 1</dd>"));
+  EXPECT_THAT(CardOf(page, "good"), HasSubstr("<dd>2.75° margin in step 1</dd>"));
 }
 
 TEST(BatchPageTest, WithoutFramesOrReportThereIsNoPictureAndNoLinkThatLeadsNowhere) {

@@ -71,7 +71,7 @@ TEST(BatchSummaryTest, JunitHasASuiteForEachPlanAndAnErrorWhereThereIsNoReport) 
                         "skipped=\"1\" time=\"0.000\">"));
   EXPECT_THAT(xml,
               HasSubstr("<failure message=\"slipped\">finger &lt;2&gt; slipped\nwhy: it stays\n"
-                        "what would mend it: more friction\n"
+                        "help: more friction\n"
                         "picture: out/plans/weak/001_switch.png</failure>"));
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"crash.json\" tests=\"1\" failures=\"0\" "
                              "errors=\"1\" skipped=\"0\" time=\"0.000\">"));
@@ -121,11 +121,11 @@ TEST(BatchSummaryTest, TrialsThatFailAreNotHiddenByAPass) {
   EXPECT_TRUE(json["plans"][2]["failed_step"].is_null());
   const std::string xml = FormatSummaryJunit(summary, "out");
   EXPECT_THAT(xml, HasSubstr("<failure message=\"trials-failed\">18 of 20 trials with noise fail\n"
-                             "why: it is so\nwhat would mend it: more friction</failure>"));
+                             "why: it is so\nhelp: more friction</failure>"));
   const std::string page = FormatBatchPage(summary);
   EXPECT_THAT(page, HasSubstr("<strong>Pass in 14 of 20 trials</strong>"));
   EXPECT_THAT(page, HasSubstr("Trials: trials-failed. 18 of 20 trials with noise fail."));
-  EXPECT_THAT(page, HasSubstr("1 pass in a part of their trials only."));
+  EXPECT_THAT(page, HasSubstr("1 pass in only a part of their trials."));
 }
 
 }  // namespace batch_summary_test

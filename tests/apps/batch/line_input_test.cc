@@ -90,20 +90,21 @@ TEST_F(LineInputTest, AHeaderSaysWhichEntriesFollow) {
   // A whole file can be split, a shard cannot be split again.
   const std::string whole = FormatHeader({"plans", 2, {}, "run"}) + "a\nb\n";
   EXPECT_THAT(All(LinesInput(Write("b.jsonl", whole), {2, 2})), ElementsAre(std::pair(2, "b")));
-  EXPECT_THAT(Refusal(header + "c\nd\n", {1, 2}), HasSubstr("a.jsonl: is itself shard 2 of 3"));
+  EXPECT_THAT(Refusal(header + "c\nd\n", {1, 2}),
+              HasSubstr("a.jsonl: --shard cannot be used with a file that is shard 2 of 3"));
 }
 
 TEST_F(LineInputTest, AFileWithMoreOrFewerEntriesThanItsHeaderSaysIsRefused) {
   const std::string header = FormatHeader({"plans", 2, {}, "run"});
   EXPECT_EQ(Refusal(header + "a\nb\n"), "nothing was refused");
-  EXPECT_THAT(Refusal(header + "a\n"), HasSubstr("a.jsonl: line 2: the file ends behind it"));
-  EXPECT_THAT(Refusal(header + "a\nb"), HasSubstr("line 3: the file ends in the middle of it"));
+  EXPECT_THAT(Refusal(header + "a\n"), HasSubstr("a.jsonl: line 2: truncated after this line"));
+  EXPECT_THAT(Refusal(header + "a\nb"), HasSubstr("line 3: truncated inside this line"));
   EXPECT_THAT(Refusal(header + "a\nb\nc\n"), HasSubstr("line 4"));
 }
 
 TEST_F(LineInputTest, WhatIsNoFileIsRefused) {
   for (const auto& [path, why] :
-       {std::pair(folder_ / "gone", "no such file"), {folder_, "no regular file"}}) {
+       {std::pair(folder_ / "gone", "no such file"), {folder_, "expected a regular file"}}) {
     try {
       (void)LinesInput(path);
       ADD_FAILURE() << path;

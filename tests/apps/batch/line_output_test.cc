@@ -134,7 +134,8 @@ TEST_F(LineOutputTest, APartOfAnotherRunOrOfSomebodyElseIsNotTouched) {
     EXPECT_EQ(fresh.next(), 1);
   }
   WriteFile(part_, "my own notes\n");
-  EXPECT_THAT(Refusal<InputError>(header_), HasSubstr("no run of this program has left it"));
+  EXPECT_THAT(Refusal<InputError>(header_),
+              HasSubstr("cannot overwrite a file that regrasp did not write"));
   EXPECT_THROW(LinesOutput(path_, header_, true), InputError);
   EXPECT_EQ(ReadFile(part_), "my own notes\n");
 }

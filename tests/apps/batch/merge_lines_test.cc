@@ -70,7 +70,7 @@ TEST_F(MergeLinesTest, ShardsInAnyOrderGiveTheBytesOfOneRun) {
 TEST_F(MergeLinesTest, AShardThatIsMissingIsNamed) {
   std::vector<fs::path> files = WriteShards(4);
   files.erase(files.begin() + 3);
-  EXPECT_EQ(Refusal(files), "of 4 shards 1 is missing: 4");
+  EXPECT_EQ(Refusal(files), "--shards: 1 of 4 not found: 4");
   files.erase(files.begin());
   EXPECT_EQ(Refusal(files), "of 4 shards 2 are missing: 1, 4");
 }
@@ -89,11 +89,11 @@ TEST_F(MergeLinesTest, ShardsOfDifferentRunsDoNotMix) {
   LinesHeader other = HeaderOf({2, 2});
   other.run = "other";
   files[1] = Write("other", Text(other));
-  EXPECT_THAT(Refusal(files), HasSubstr("other: line 1: is of a run with other input"));
+  EXPECT_THAT(Refusal(files), HasSubstr("other: line 1: belongs to a run with different input"));
   other = HeaderOf({2, 2});
   other.entries = kEntries + 1;
   files[1] = Write("other", Text(other));
-  EXPECT_THAT(Refusal(files), HasSubstr("other: line 1: is of a run with other input"));
+  EXPECT_THAT(Refusal(files), HasSubstr("other: line 1: belongs to a run with different input"));
   other = HeaderOf({2, 2});
   other.content = "reports";
   files[1] = Write("other", Text(other));
@@ -109,14 +109,14 @@ TEST_F(MergeLinesTest, AShardThatWasCutOrEditedIsNamedWithItsLine) {
     return Refusal(files);
   };
   EXPECT_THAT(refusal_of(whole.substr(0, whole.size() - line)),
-              HasSubstr("shard1of2: line 6: is missing, of entry 5"));
+              HasSubstr("shard1of2: line 6: entry 5 not found"));
   EXPECT_THAT(refusal_of(whole.substr(0, whole.size() - 1)),
-              HasSubstr("shard1of2: line 6: ends in the middle"));
+              HasSubstr("shard1of2: line 6: truncated"));
   EXPECT_THAT(refusal_of(whole.substr(0, whole.size() - 4) + "\n"),
               HasSubstr("shard1of2: line 6: is not the result of entry 5"));
   EXPECT_THAT(refusal_of(whole + "\n"), HasSubstr("shard1of2: line 7: follows the last entry"));
   EXPECT_THAT(refusal_of(whole.substr(FormatHeader(HeaderOf({1, 2})).size())),
-              HasSubstr("shard1of2: line 1: is no header"));
+              HasSubstr("shard1of2: line 1: expected a header"));
   EXPECT_EQ(refusal_of(whole), "nothing was refused");
 }
 

@@ -79,7 +79,7 @@ TEST_F(ObjectFinderTest, TakesTheNameWhereItsDigestIsRightAndOtherwiseTheDigest)
       (void)finder.Find(name, Sha256("cc"), "q.jsonl: line 3");
       ADD_FAILURE() << name;
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("q.jsonl: line 3: /object/file: there is no file"));
+      EXPECT_THAT(error.what(), HasSubstr("q.jsonl: line 3: /object/file: \""));
     }
   }
   ObjectFinder one(a);

@@ -53,8 +53,8 @@ TEST_F(PlanLibraryTest, AFolderGivesItsPlansByNameAndSaysWhatItSkips) {
   ASSERT_EQ(library.skipped.size(), 4u);
   EXPECT_EQ(library.skipped[0].file, "c.json");
   EXPECT_EQ(library.skipped[0].why, "is a regrasp-grasp file");
-  EXPECT_EQ(library.skipped[1].why, "says no format");
-  EXPECT_EQ(library.skipped[2].why, "says no format");
+  EXPECT_EQ(library.skipped[1].why, "format not found");
+  EXPECT_EQ(library.skipped[2].why, "format not found");
   EXPECT_EQ(library.skipped[3].why, "is a folder");
 }
 
@@ -88,16 +88,18 @@ TEST_F(PlanLibraryTest, FilesThatAreNamedArePlansInTheirOrder) {
 TEST_F(PlanLibraryTest, TwoPlansOfOneNameAreRefused) {
   const std::string one = Write("x/same.json", kPlan);
   const std::string other = Write("y/same.json", kPlan);
-  EXPECT_THAT(Refusal({one, other}), HasSubstr("have the same name, \"same\""));
-  EXPECT_THAT(Refusal({one, one}), HasSubstr("have the same name"));
-  EXPECT_THAT(Refusal({(folder_ / "x").string(), other}), HasSubstr("have the same name"));
+  EXPECT_THAT(Refusal({one, other}), HasSubstr("must have different names, found \"same\""));
+  EXPECT_THAT(Refusal({one, one}), HasSubstr("must have different names"));
+  EXPECT_THAT(Refusal({(folder_ / "x").string(), other}), HasSubstr("must have different names"));
 }
 
 TEST_F(PlanLibraryTest, AFolderWithoutPlansAndNamesThatAreNoFoldersAreRefused) {
   Write("x/grasp.json", R"({"format": "regrasp-grasp"})");
   EXPECT_THAT(Refusal({(folder_ / "x").string()}), HasSubstr("x: no plan found, expected *.json"));
   for (const char* name : {"..json", "...json", "summary.json.json", ".regrasp-run.json"}) {
-    EXPECT_THAT(Refusal({Write(name, kPlan), "other.json"}), HasSubstr("names the folder")) << name;
+    EXPECT_THAT(Refusal({Write(name, kPlan), "other.json"}),
+                HasSubstr("must be usable as a folder name"))
+        << name;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "report/report.h"
+#include "sim/validation/validation.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
@@ -20,14 +21,16 @@ int main(int argc, char** argv) {
                                        {{0, -half, 0}, {0, 1, 0}},
                                        {{0, half, 0.0}, {0, -1, 0}}};
   const bool closed = regrasp::grasp::IsForceClosure(grasp, cube.wrench_frame(), half_angle);
-  regrasp::plan::Plan hold = regrasp::report::MakeHoldPlan(cube, grasp, half_angle, 1);
+  regrasp::plan::Plan hold = regrasp::validation::MakeHoldPlan(cube, grasp, half_angle, 1);
   hold.object_file = file.file;
   hold.object_sha256 = file.sha256;
   const regrasp::plan::Plan plan =
       regrasp::plan::ParsePlan(regrasp::plan::FormatPlan(hold), "hold.json");
   const bool scene =
       !regrasp::sim::SceneMjcf(cube, regrasp::plan::LocatePlan(cube, plan), {}).empty();
-  const bool passed = regrasp::report::Validate(cube, plan, {}, {}).passed();
+  const regrasp::report::Report report =
+      regrasp::validation::Validate({.object = cube, .plan = plan}).report;
+  const bool passed = report.passed();
   std::printf("force closure %d, scene %d, passed %d\n", closed, scene, passed);
   return closed && scene && passed ? 0 : 1;
 }

@@ -22,38 +22,38 @@ struct BadJson {
 
 TEST(ParseJson, RefusesWhatIsNotStrictJson) {
   const std::vector<BadJson> cases = {
-      {"", "not JSON"},
-      {" \n", "not JSON"},
-      {R"({"a": 1, "a": 2})", "the key \"a\" is repeated"},
-      {R"({"a": 1, "\u0061": 2})", "the key \"a\" is repeated"},
-      {R"([{"x": {"b": 1, "c": [], "b": 3}}])", "the key \"b\" is repeated"},
-      {R"({"a\nb": 1, "a\nb": 2})", R"(the key "a\nb" is repeated)"},
-      {R"({"a": 1} x)", "not JSON"},
-      {R"({"a": 1}{"a": 1})", "not JSON"},
-      {R"({"a": 1)", "not JSON"},
-      {R"({"a": 1,})", "not JSON"},
-      {R"({a: 1})", "not JSON"},
+      {"", "not valid JSON"},
+      {" \n", "not valid JSON"},
+      {R"({"a": 1, "a": 2})", "key \"a\": repeated"},
+      {R"({"a": 1, "\u0061": 2})", "key \"a\": repeated"},
+      {R"([{"x": {"b": 1, "c": [], "b": 3}}])", "key \"b\": repeated"},
+      {R"({"a\nb": 1, "a\nb": 2})", R"(key "a\nb": repeated)"},
+      {R"({"a": 1} x)", "not valid JSON"},
+      {R"({"a": 1}{"a": 1})", "not valid JSON"},
+      {R"({"a": 1)", "not valid JSON"},
+      {R"({"a": 1,})", "not valid JSON"},
+      {R"({a: 1})", "not valid JSON"},
       {"[1e999]", "number overflow"},
       {"[-1e999]", "number overflow"},
-      {"[NaN]", "not JSON"},
-      {"[nan]", "not JSON"},
-      {"[Infinity]", "not JSON"},
-      {"[-inf]", "not JSON"},
-      {"[01]", "not JSON"},
-      {"[0x10]", "not JSON"},
-      {"[1,5", "not JSON"},
-      {"[1] // comment", "not JSON"},
+      {"[NaN]", "not valid JSON"},
+      {"[nan]", "not valid JSON"},
+      {"[Infinity]", "not valid JSON"},
+      {"[-inf]", "not valid JSON"},
+      {"[01]", "not valid JSON"},
+      {"[0x10]", "not valid JSON"},
+      {"[1,5", "not valid JSON"},
+      {"[1] // comment", "not valid JSON"},
       {"\"\xff\xfe\"", "ill-formed UTF-8"},
       {"\"\xc3\"", "ill-formed UTF-8"},
       {"{\"\xed\xa0\x80\": 1}", "ill-formed UTF-8"},
-      {"\"line\nbreak\"", "not JSON"},
+      {"\"line\nbreak\"", "not valid JSON"},
       {std::string("[1]\0", 4), "a NUL byte"},
       {std::string("[1]\0{", 5), "a NUL byte"},
-      {"[\x7f]", "not JSON"},
-      {"{\"\x7f\": 1, \"\x7f\": 2}", "is repeated"},
-      {"{\"\xc2\x9b\": 1, \"\xc2\x9b\": 2}", "is repeated"},
-      {"\xEF\xBB\xBF", "not JSON"},
-      {"\xEF\xBB", "not JSON"},
+      {"[\x7f]", "not valid JSON"},
+      {"{\"\x7f\": 1, \"\x7f\": 2}", ": repeated"},
+      {"{\"\xc2\x9b\": 1, \"\xc2\x9b\": 2}", ": repeated"},
+      {"\xEF\xBB\xBF", "not valid JSON"},
+      {"\xEF\xBB", "not valid JSON"},
   };
   for (const auto& [text, words] : cases) {
     try {
@@ -116,7 +116,7 @@ TEST(ParseJson, ReadsTheLargestObjectAndRefusesALargerOneAnywhere) {
         static_cast<void>(ParseJson(text, "large.json"));
         ADD_FAILURE() << text.size() << " bytes were read";
       } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), "large.json: an object of more than 256 members");
+        EXPECT_STREQ(error.what(), "large.json: object with more than 256 members");
       }
     }
   }

@@ -46,10 +46,10 @@ TEST(Memory, WhatDoesNotFitIsRefusedWithWhatWould) {
   const MemoryNeed need{"the graph", 1000, "edges", [](double n) { return 8 * n * n * n; }};
   EXPECT_EQ(need.bytes(), 8e9);
   EXPECT_EQ(MemoryComplaint(need, 8e9), "");
-  EXPECT_THAT(MemoryComplaint(need, 1e9), HasSubstr("the graph takes about 8 GB for 1000 edges"));
-  EXPECT_THAT(MemoryComplaint(need, 1e9), HasSubstr("1 GB may be used"));
-  EXPECT_THAT(MemoryComplaint(need, 1e9), HasSubstr("some 500 edges would fit"));
-  EXPECT_THAT(MemoryComplaint(need, 1), HasSubstr("some 0 edges would fit"));
+  EXPECT_THAT(MemoryComplaint(need, 1e9), HasSubstr("the graph: 1000 edges require about 8 GB"));
+  EXPECT_THAT(MemoryComplaint(need, 1e9), HasSubstr("limit 1 GB"));
+  EXPECT_THAT(MemoryComplaint(need, 1e9), HasSubstr("about 500 edges fit"));
+  EXPECT_THAT(MemoryComplaint(need, 1), HasSubstr("about 0 edges fit"));
 }
 
 }  // namespace memory_test

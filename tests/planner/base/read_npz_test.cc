@@ -125,20 +125,21 @@ TEST(ReadNpzTest, WhatIsNoArrayIsNamed) {
   // The archive has a checksum of its contents.
   std::string spoilt = good;
   spoilt[spoilt.find("<f8")] = '|';
-  EXPECT_EQ(Complaint(spoilt), "file.npz: a.npy: its compressed data is spoilt");
+  EXPECT_EQ(Complaint(spoilt), "file.npz: a.npy: compressed data: corrupt");
   EXPECT_EQ(NpyComplaint("<f8", "<f8"), "");
   EXPECT_THAT(NpyComplaint("<f8", "|O8"), HasSubstr("a: Python objects"));
-  EXPECT_EQ(NpyComplaint("<f8", "<c8"), "a: numbers are needed, found the type c8");
-  EXPECT_EQ(NpyComplaint("(2,)", "(9,)"), "a: its shape needs 72 bytes, found 16");
-  EXPECT_EQ(NpyComplaint("(2,), }", "(9999,)"), "a: its shape needs more bytes than there are");
-  EXPECT_EQ(NpyComplaint("(2,)", "(-2)"), "a: its header says no type, order and shape of numbers");
-  EXPECT_EQ(NpyComplaint("NUMPY", "NUMPX"), "a: no NPY array");
+  EXPECT_EQ(NpyComplaint("<f8", "<c8"), "a: expected an array of numbers, found type c8");
+  EXPECT_EQ(NpyComplaint("(2,)", "(9,)"), "a: data: expected 72 bytes for the shape, found 16");
+  EXPECT_EQ(NpyComplaint("(2,), }", "(9999,)"),
+            "a: data: truncated, the shape requires more bytes than the array has");
+  EXPECT_EQ(NpyComplaint("(2,)", "(-2)"), "a: header: expected type, order and shape of numbers");
+  EXPECT_EQ(NpyComplaint("NUMPY", "NUMPX"), "a: not an NPY array");
   EXPECT_EQ(NpyComplaint("\n", "x"), "");  // the end of the header does not matter
 }
 
 TEST(ReadNpzTest, TextsAreRefused) {
   EXPECT_EQ(Complaint(FormatNpz({{"a", {2}, {}, {"x", "yz"}}})),
-            "file.npz: a: numbers are needed, found the type U2");
+            "file.npz: a: expected an array of numbers, found type U2");
 }
 
 }  // namespace read_npz_test

@@ -1,11 +1,10 @@
-#include "planner/collision/nearest_points.h"
-
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "planner/base/random.h"
 #include "planner/collision/convex_shape.h"
+#include "planner/collision/hull_distance.h"
 
 namespace regrasp::collision {
 namespace nearest_points_test {

@@ -103,7 +103,7 @@ TEST(Reach, NoFingerComesIntoASealedCavityHoweverThin) {
   for (const double radius : {0.0, 1e-9, 0.1}) {
     EXPECT_FALSE(CanReach(hollow, inside, radius));
     EXPECT_EQ(FindObstacle(hollow, inside, radius).value_or(""),
-              "its contact lies in a sealed cavity, where no finger comes from outside");
+              "its contact is in a sealed cavity, which no finger reaches from outside");
     EXPECT_TRUE(CanReach(hollow, outside, radius));
   }
   // A hole of a polygon is a hole through a prism, which a finger can enter from above.

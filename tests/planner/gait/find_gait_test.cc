@@ -154,7 +154,7 @@ TEST(FindGaitTest, ANonRobustStartGraspIsReported) {
   request.reserve = Reserve::kRequired;
   const GaitResult found = FindGait(request);
   EXPECT_FALSE(found.gait);
-  EXPECT_THAT(found.message, testing::HasSubstr("the start grasp has no reserve"));
+  EXPECT_THAT(found.message, testing::HasSubstr("the start grasp has no robustness margin"));
 }
 
 TEST_P(TurnTest, EqualRequestsGiveEqualGaits) {
@@ -434,9 +434,10 @@ TEST(ExplainGaitTest, ReportsTheSizeThatHelpsAndTheChangesThatDoNot) {
   large.most_expanded = 12;
   ASSERT_FALSE(FindGait(large).gait);
   const std::string text = ExplainGait(large);
-  EXPECT_THAT(text, testing::MatchesRegex("each change alone helps: the object 0\\.[0-9]+ times as "
-                                          "large \\(--scale [0-9.]+\\); not found to help: more "
-                                          "friction, a tilt of the palm"));
+  EXPECT_THAT(text, testing::MatchesRegex(
+                        "any one of these changes yields a plan: the object 0\\.[0-9]+ times as "
+                        "large \\(--scale [0-9.]+\\); no effect: more "
+                        "friction, a tilt of the palm"));
 }
 
 /// An object as large as a house, and one with almost no friction.

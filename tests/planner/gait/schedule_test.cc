@@ -95,7 +95,7 @@ TEST(ScheduleTest, ReportsThatRequiredRobustnessMayPreventAPlan) {
   request.most_expanded = 60;
   const GaitResult found = FindGait(request);
   EXPECT_FALSE(found.gait);
-  EXPECT_THAT(found.message, testing::HasSubstr("without reserve there may be a plan"));
+  EXPECT_THAT(found.message, testing::HasSubstr("--reserve none omits the robustness margins"));
 }
 
 /// Fails if there is no simulation result.

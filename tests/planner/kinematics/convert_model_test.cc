@@ -150,9 +150,9 @@ TEST_F(ConvertModelTest, WhatIsPartOfTheHandIsRefusedInOneLine) {
   EXPECT_THAT(Refusal("<sdf/>"), HasSubstr("expected a model as MJCF"));
   EXPECT_THAT(Refusal("<mujoco><include/></mujoco>"), HasSubstr("<include> names no file"));
   EXPECT_THAT(Refusal("<mujoco><include file=\"model.xml\"/></mujoco>"),
-              HasSubstr("is included twice, or by itself"));
+              HasSubstr("included twice, or recursively"));
   EXPECT_THAT(Refusal("<mujoco><worldbody><body><joint type=\"odd\"/></body></worldbody></mujoco>"),
-              HasSubstr("MuJoCo does not take the model"));
+              HasSubstr("rejected by MuJoCo"));
 }
 
 TEST_F(ConvertModelTest, IncludedFilesStandInTheirPlaces) {

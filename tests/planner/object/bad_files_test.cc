@@ -1,4 +1,4 @@
-// The corpus of files that must be refused, and what must never crash whatever it holds.
+// Corpus of files that must be rejected, and robustness of the readers against arbitrary bytes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ using ::testing::StartsWith;
 
 const std::filesystem::path kObjects = ProjectPath("tests/data/objects");
 
-/// File in tests/data/objects/bad, and words that the message must have behind the file's name.
+/// File in tests/data/objects/bad, and words that the message must contain after the file's name.
 const std::map<std::string, std::string> kBadFiles = {
     {"bad_format.ply", "line 2: \"ebcdic\" is not a format"},
     {"bad_type.ply", "line 6: \"quad\" is not a type"},
@@ -34,15 +34,15 @@ const std::map<std::string, std::string> kBadFiles = {
     {"beside.obj", "facet 4: several solids"},
     {"bow_tie.obj", "facet 0: self-intersecting"},
     {"comma.obj", "line 3: vertex 2: \"1,5\" is not a finite number"},
-    {"components_in_a_ring.3mf", "its components are too many, or contain each other"},
-    {"components_without_end.3mf", "its components are too many, or contain each other"},
+    {"components_in_a_ring.3mf", "components: too many, or recursive"},
+    {"components_without_end.3mf", "components: too many, or recursive"},
     {"control_character.ply", "element \"a?b\": not supported, expected the surface in"},
     {"corner_twice.obj", "facet 0: not closed: no other facet"},
     {"crossing.obj", "self-intersecting: meets facet"},
     {"edge_of_1e-162.obj", "facet 0: the edge from vertex 0 to vertex 1: shorter (1e-162) than"},
     {"edge_of_1e-162.wkt", "ring 0: edge 0: shorter (1e-162) than 1e-30 of the diameter"},
     {"edge_of_three.obj", "not manifold: 3 facets meet"},
-    {"empty.glb", "document: not JSON"},
+    {"empty.glb", "document: not valid JSON"},
     {"empty.obj", "empty: no facet"},
     {"empty.stl", "not an STL file"},
     {"far_away.obj", "too far from the origin"},
@@ -87,26 +87,26 @@ const std::map<std::string, std::string> kBadFiles = {
     {"negative_count.off", "line 2: a negative number"},
     {"negative_list.ply", "facet 0: a list of length -3"},
     {"no_area.obj", "empty: no facet has an area of its own"},
-    {"no_counts.off", "ends where the number of vertices"},
+    {"no_counts.off", "truncated, expected the number of vertices"},
     {"no_end.ply", "line 5: \"prope\" is not a statement"},
     {"no_format.ply", "no format"},
     {"no_format.unknown", "format: not supported, expected .obj"},
     {"word.xyz", "line 2: point 1: \"here\" is not a finite number"},
     {"two_coordinates.xyz", "line 1: point 0: fewer than three coordinates"},
-    {"no_data.pcd", "no line DATA"},
+    {"no_data.pcd", "line DATA not found"},
     {"compressed.pcd", "is not read; write it as ascii or binary"},
-    {"short.pcd", "100 points of 12 bytes were announced"},
+    {"short.pcd", "100 points of 12 bytes: truncated"},
     {"no_y.pcd", "no field y"},
     {"cloud.xyz", "no facet, but a cloud of 4 points, of which a repair may make"},
     {"no_header.ply", "line 1: not the start of a PLY file"},
     {"no_list.ply", "lacks an integer list"},
     {"no_model.3mf", "the archive has no 3D/3dmodel.model"},
-    {"no_object.3mf", "there is no object \"2\""},
+    {"no_object.3mf", "object \"2\" not found"},
     {"no_properties.ply", "element \"nothing\" has no properties"},
     {"no_xml.3mf", "3D/3dmodel.model: line 1: expected the element \"model\" of 3MF"},
     {"no_z.ply", "lacks x, y or z"},
     {"noise.3mf", "noise.3mf"},
-    {"noise.gltf", "document: not JSON"},
+    {"noise.gltf", "document: not valid JSON"},
     {"noise.obj", "line 1: \"0Uz????3X}????6[?????9^?…\" is not a statement"},
     {"only_vertices.obj", "empty: no facet"},
     {"open.obj", "facet 0: not closed: no other facet at the edge from vertex 2 (0, 1, 0)"},
@@ -114,14 +114,14 @@ const std::map<std::string, std::string> kBadFiles = {
     {"overflow.obj", "vertex 2: \"1e999\" is not a finite number"},
     {"property_first.ply", "line 3: a property before the first element"},
     {"short.stl", "not an STL file"},
-    {"solid_in_solid.obj", "facet 4: several solids: its shell lies inside another"},
+    {"solid_in_solid.obj", "facet 4: several solids: its shell is inside another"},
     {"solid_only.stl", "empty: no facet"},
     {"tiny.obj", "within 1e-15 of each other"},
-    {"too_many.off", "line 11: \"3\" behind the last of 4 facets"},
-    {"too_many.ply", "goes on behind the last element"},
+    {"too_many.off", "line 11: \"3\" after the last of 4 facets"},
+    {"too_many.ply", "unexpected data after the last element"},
     {"touching_edge.obj", "not manifold: 4 facets meet"},
     {"touching_vertex.obj", "vertex 3 (0, 0, 1): not manifold"},
-    {"trailing_binary.ply", "goes on behind the last element"},
+    {"trailing_binary.ply", "unexpected data after the last element"},
     {"trailing_binary.stl", "expected 284 bytes for 4 facets, found 286 bytes"},
     {"truncated.dae", "truncated.dae"},
     {"truncated.off", "ends where facet 3 should be"},
@@ -133,7 +133,7 @@ const std::map<std::string, std::string> kBadFiles = {
     {"unknown_statement.obj", "line 1: \"hello\" is not a statement"},
     {"unknown_unit.3mf", "its unit \"parsec\" is not one of 3MF"},
     {"vertex_on_facet.obj", "self-intersecting: meets facet"},
-    {"word.stl", "line 30: \"hello\" where a facet"},
+    {"word.stl", "line 30: \"hello\", expected a facet"},
     {"wrong_header.off", "\"ofg\" is not the start"},
 };
 
@@ -174,7 +174,7 @@ TEST(BadFiles, AFileThatIsMissingOrAFolderIsRefused) {
   EXPECT_THROW(static_cast<void>(ReadObject(kObjects)), InputError);
 }
 
-/// Reads bytes in this process as the format of `ending`. @returns whether they are an object.
+/// Read bytes in this process as the format of `ending`. @returns whether they are an object.
 bool IsObject(const std::string& ending, const std::string& bytes) {
   try {
     if (ending == ".wkt") {
@@ -192,7 +192,7 @@ bool IsObject(const std::string& ending, const std::string& bytes) {
   }
 }
 
-/// The sound files of formats that are read in this process.
+/// Return the valid files of formats that are read in this process.
 std::map<std::string, std::string> SoundFiles() {
   std::map<std::string, std::string> files;
   for (const auto& folder : {kObjects / "good", ProjectPath("models")}) {
@@ -206,7 +206,8 @@ std::map<std::string, std::string> SoundFiles() {
   return files;
 }
 
-/// A file of this many bytes is cut behind every one of them, a longer one at as many places.
+/// Maximum number of truncations per file. A file of at most this size is truncated after every
+/// byte.
 constexpr std::size_t kMostCuts = 5000;
 
 TEST(BadFiles, TruncatedAnywhereAFileIsReadOrRefused) {

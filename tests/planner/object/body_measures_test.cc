@@ -23,8 +23,8 @@ TEST(BodyMeasures, OfACubeOfSixCentimetresAreThoseOfWater) {
   EXPECT_NEAR(MeasureBody(*cube.object, 1, 2 * kUsualDensity).mass_kg, 0.432, 1e-9);
 }
 
-/// The same tetrahedron, 1 m along each axis, in files that name a unit; what is read is in
-/// metres.
+/// The files contain the same tetrahedron, 1 m along each axis, in named units. Coordinates are
+/// read in metres.
 TEST(BodyMeasures, FilesSayTheirUnit) {
   for (const auto& [name, unit] :
        {std::tuple("centimetres.dae", "centimetres"), {"millimetres.fbx", "millimetres"}}) {
@@ -71,9 +71,9 @@ TEST(BodyMeasures, TheWarningGuessesTheUnitInWhichAHandWouldGraspIt) {
   EXPECT_THAT(guess(19, 1), HasSubstr("centimetres? use --scale 0.01 (19 cm"));
   EXPECT_THAT(guess(400, 1), HasSubstr("millimetres?"));
   EXPECT_THAT(guess(0.1, 0.001), HasSubstr("metres? use --scale 1 (10 cm"));
-  EXPECT_THAT(guess(401, 1), HasSubstr("is that meant? --scale says"));
-  EXPECT_THAT(guess(0.001, 1), HasSubstr("is that meant? --scale says"));
-  // Millimetres would be 1 mm: it is no longer asked for inches where centimetres do.
+  EXPECT_THAT(guess(401, 1), HasSubstr("pass the length of a file unit in metres with --scale"));
+  EXPECT_THAT(guess(0.001, 1), HasSubstr("pass the length of a file unit in metres with --scale"));
+  // As millimetres it is only 3 mm; centimetres are suggested before inches.
   EXPECT_THAT(guess(3, 1), HasSubstr("centimetres? use --scale 0.01 (3 cm"));
 }
 

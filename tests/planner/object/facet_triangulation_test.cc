@@ -14,7 +14,7 @@ namespace facet_triangulation_test {
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
-/// Outlines in the plane, counter-clockwise: a square, an L, a comb of three teeth.
+/// Counter-clockwise outlines in the plane: a square, an L, a comb with three teeth.
 const std::vector<std::vector<Eigen::Vector2d>> kOutlines = {
     {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
     {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}},
@@ -32,7 +32,7 @@ const std::vector<std::vector<Eigen::Vector2d>> kOutlines = {
      {0, 3}}};
 constexpr double kAreas[] = {1, 5, 11};
 
-/// Facets side by side, each with corners of its own, turned in space.
+/// Make a soup of adjacent polygons without shared vertices, rotated in space.
 WeldedSoup FacetsOf(const std::vector<std::vector<Eigen::Vector2d>>& outlines,
                     const Eigen::Quaterniond& turn = Eigen::Quaterniond::Identity()) {
   WeldedSoup soup;
@@ -76,7 +76,7 @@ TEST(FacetTriangulation, TrianglesCoverTheirFacetAndFaceAsItDoesHoweverItLies) {
       for (const int v : mesh.triangles[t]) EXPECT_THAT(soup.facets[facet], ::testing::Contains(v));
     }
     for (int facet = 0; facet < 3; ++facet) {
-      // Overlaps would make them too large: no triangle faces the other way.
+      // Overlapping or reversed triangles would make the sum too large.
       EXPECT_NEAR(areas[facet], kAreas[facet], 1e-12);
       EXPECT_EQ(counts[facet], std::ssize(kOutlines[facet]) - 2);
     }
@@ -84,7 +84,7 @@ TEST(FacetTriangulation, TrianglesCoverTheirFacetAndFaceAsItDoesHoweverItLies) {
 }
 
 TEST(FacetTriangulation, ACornerMayLieOffThePlaneByAShareOfTheDiameter) {
-  // Lifting one corner of a square puts each a quarter of that off the plane between them.
+  // Lifting one corner of a square by d moves each corner d/4 off the mean plane.
   WeldedSoup soup = FacetsOf({kOutlines[0]});
   const double diameter = 100;
   const auto flat_parts = [&](double off_plane) {

@@ -24,14 +24,14 @@ inline std::string Base64(std::string_view bytes) {
   return text;
 }
 
-/// A glTF document whose parts a test may change before it is written.
+/// Document in glTF whose parts a test can change before writing it.
 struct KnownGltf {
   Json json = Json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
     "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0},
     "indices": 1}]}], "bufferViews": [], "accessors": []})");
   std::string buffer;
 
-  /// Vertices as floats, and the indices of the facets.
+  /// Make a document with vertices as floats and the indices of the triangles.
   KnownGltf() {
     std::string positions, indices;
     for (const auto& p : kKnownVertices) {
@@ -44,7 +44,7 @@ struct KnownGltf {
     AddAccessor(indices, {{"componentType", 5123}, {"count", 12}, {"type", "SCALAR"}});
   }
 
-  /// Appends bytes to the buffer with a view. @returns its index.
+  /// Append bytes to the buffer with a view. @returns index of the view.
   std::size_t AddView(const std::string& bytes) {
     buffer.resize((buffer.size() + 3) / 4 * 4, '\0');
     json["bufferViews"].push_back(
@@ -62,7 +62,7 @@ struct KnownGltf {
   Json& primitive() { return json["meshes"][0]["primitives"][0]; }
   Json& node() { return json["nodes"][0]; }
 
-  /// Indices of vertices instead of those of triangles.
+  /// Replace the indices of the triangles by indices of another primitive mode.
   void SetIndices(const std::vector<int>& indices, int mode) {
     std::string bytes;
     for (const int v : indices) bytes += static_cast<char>(v);

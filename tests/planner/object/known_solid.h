@@ -14,17 +14,17 @@
 
 namespace regrasp::object {
 
-// A solid whose volume, centroid, bounding box and vertices are known by construction, written in
-// each format. It has no symmetry and does not contain the origin: a turned, mirrored, moved or
-// scaled solid differs in its vertices. Metres.
+// A solid of known volume, centroid, bounding box and vertices, written in each format. It has no
+// symmetry and does not contain the origin. A rotated, mirrored, moved or scaled solid therefore
+// differs in its vertices. Lengths are in metres.
 
-/// The corner (1, 2, 3) cm of a box, and its neighbours at 10 cm along x, 6 cm along y and 4 cm
-/// along z.
+/// Corner (1, 2, 3) cm of a box, and its neighbours at 10 cm along x, 6 cm along y and 4 cm along
+/// z.
 inline const std::vector<Eigen::Vector3d> kKnownVertices = {
     {0.01, 0.02, 0.03}, {0.11, 0.02, 0.03}, {0.01, 0.08, 0.03}, {0.01, 0.02, 0.07}};
 inline const std::vector<std::array<int, 3>> kKnownFacets = {
     {0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-/// The same facets as a strip.
+/// The same triangles as a strip.
 inline const std::vector<int> kKnownStrip = {0, 2, 1, 3, 0, 2};
 inline constexpr double kKnownVolume = 0.1 * 0.06 * 0.04 / 6;
 inline const Eigen::Vector3d kKnownCentroid{0.035, 0.035, 0.04};
@@ -35,7 +35,7 @@ std::string BytesOf(T value) {
   return {bytes.data(), bytes.size()};
 }
 
-/// The vertices, a text each; multiplied with `factor`.
+/// Write one text per vertex, with coordinates multiplied by `factor`.
 inline std::string VertexText(const std::string& before, const std::string& behind,
                               double factor = 1) {
   std::string text;
@@ -46,7 +46,7 @@ inline std::string VertexText(const std::string& before, const std::string& behi
   return text;
 }
 
-/// The facets, a text each; indices begin at `first`.
+/// Write one text per triangle; indices begin at `first`.
 inline std::string FacetText(const std::string& before, const std::string& behind, int first = 0) {
   std::string text;
   for (const auto& [a, b, c] : kKnownFacets) {
@@ -71,14 +71,16 @@ inline std::string KnownPly() {
          VertexText("", "\n") + FacetText("3 ", "\n");
 }
 
-/// @param strips  rows of the element, each with its length in front.
+/// Write a PLY file with triangle strips.
+/// @param strips  rows of the element, each with its length first.
 /// @param count   number of rows.
 inline std::string StripPly(const std::string& strips, int count) {
   return "ply\nformat ascii 1.0\n" + kPlyVertices + "element tristrips " + std::to_string(count) +
          "\nproperty list int int vertex_indices\nend_header\n" + VertexText("", "\n") + strips;
 }
 
-/// @param glued  whether the names follow their keywords without a blank.
+/// Write an ASCII STL file.
+/// @param glued  whether names follow their keywords without a blank.
 inline std::string KnownTextStl(const std::string& name, bool glued) {
   const std::string blank = glued ? "" : " ";
   std::string text = "solid" + blank + name + "\n";
@@ -94,7 +96,8 @@ inline std::string KnownTextStl(const std::string& name, bool glued) {
   return text + "endsolid" + blank + name + "\n";
 }
 
-/// @param header  padded with zero bytes to the 80 bytes of a header.
+/// Write a binary STL file.
+/// @param header  text of the header, padded with zeros to 80 bytes.
 inline std::string KnownBinaryStl(std::string header) {
   header.resize(80, '\0');
   std::string bytes = header + LittleEndian(kKnownFacets.size(), 4);
@@ -110,16 +113,16 @@ inline std::string KnownBinaryStl(std::string header) {
   return bytes;
 }
 
-/// A COLLADA document.
+/// COLLADA document.
 struct KnownCollada {
   std::string up = "Y_UP";
   std::string unit = "meter=\"1\"";
-  double factor = 1;  ///< of the coordinates
+  double factor = 1;  ///< factor of the coordinates
   std::string primitives =
       "<triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#v\" "
       "offset=\"0\"/><p>" +
       FacetText("", " ") + "</p></triangles>";
-  std::string node = "";  ///< transformations of the node
+  std::string node = "";  ///< transformations of the node, as XML
   std::string instance = "<instance_geometry url=\"#g\"/>";
 
   [[nodiscard]] std::string Text() const {
@@ -143,7 +146,7 @@ struct KnownCollada {
   }
 };
 
-/// An FBX file in text, in metres, whose axes are as the settings say.
+/// Write an ASCII FBX file in metres with the given axes.
 inline std::string KnownFbx(const std::string& settings) {
   std::string vertices, indices;
   for (const auto& p : kKnownVertices) {
@@ -166,13 +169,13 @@ inline std::string KnownFbx(const std::string& settings) {
          "\"OO\",2000,0\n}\n";
 }
 
-// Packages of 3MF, in millimetres.
+// 3MF packages, in millimetres.
 
 inline const std::string kModelNamespaces =
     "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
     "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\"";
 
-/// A mesh of the solid. @param factor  of its coordinates: 1000 for millimetres.
+/// Write a mesh of the solid. @param factor  factor of its coordinates: 1000 for millimetres.
 inline std::string MeshOf3mf(double factor = 1000) {
   std::string text = "<mesh><vertices>";
   for (const auto& p : kKnownVertices) {
@@ -204,7 +207,7 @@ inline std::string RelationshipsTo(const std::vector<std::string>& targets) {
   return text + "</Relationships>";
 }
 
-/// A package of these parts whose root model is the first one.
+/// Make a package of parts; the first one is its root model.
 inline std::string Package(std::vector<std::pair<std::string, std::string>> parts) {
   parts.insert(parts.begin(), {"_rels/.rels", RelationshipsTo({"/" + parts.front().first})});
   return StoredZip(parts);

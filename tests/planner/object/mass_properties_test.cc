@@ -34,7 +34,7 @@ TEST(MassProperties, OfABoxAreTheClosedForm) {
 }
 
 TEST(MassProperties, OfACornerTetrahedronAreTheClosedForm) {
-  // ∫x² = 1/60, ∫xy = 1/120 over the tetrahedron; centroid 1/4; volume 1/6.
+  // Over the tetrahedron, ∫x² = 1/60 and ∫xy = 1/120. The centroid is at 1/4, the volume is 1/6.
   const MassProperties mass = MassOf(CornerTetrahedronSoup());
   EXPECT_NEAR(mass.volume, 1 / 6.0, kTight);
   EXPECT_NEAR((mass.centroid - Vector3d::Constant(0.25)).norm(), 0, kTight);
@@ -97,7 +97,7 @@ TEST(Diameter, IsTheLargestDistanceOfAllPairs) {
     }
     EXPECT_DOUBLE_EQ(ComputeDiameter(points), largest) << count;
   }
-  // Round, long, and away from the origin: nearly all, and nearly none, may be ends.
+  // Round, elongated, and far from the origin: nearly all or nearly no points can be ends.
   for (const double stretch : {1.0, 1.01, 5.0}) {
     std::vector<Vector3d> points;
     for (int i = 0; i < 2000; ++i) {

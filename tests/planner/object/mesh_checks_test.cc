@@ -1,4 +1,4 @@
-// Each MeshDefect with the surface that has it and nothing else, and what is sound beside it.
+// Each MeshDefect with a surface that has only this defect, and similar surfaces that are valid.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ struct Spoilt {
   std::function<void(PolygonSoup&)> spoil;
 };
 
-/// The unit cube's facets: 0 is z = −½ (corners 0 2 3 1), 1 is z = ½, then −y, x, y, −x.
+/// Faces of the unit cube: 0 is z = −½ (corners 0 2 3 1), 1 is z = ½, then −y, x, y, −x.
 std::vector<Spoilt> SpoiltCubes() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
@@ -108,7 +108,7 @@ std::vector<Spoilt> SpoiltCubes() {
          Turn(cavity);
          s = Join(Join(s, cavity), BoxSoup(Vector3d::Constant(-0.2), Vector3d::Constant(0.2)));
        }},
-      {"cavity in a cavity", MeshDefect::kSeveralSolids, "several solids: its shell lies inside a",
+      {"cavity in a cavity", MeshDefect::kSeveralSolids, "several solids: its shell is inside a",
        [](PolygonSoup& s) {
          PolygonSoup cavity = BoxSoup(Vector3d::Constant(-0.4), Vector3d::Constant(0.4));
          PolygonSoup inner = BoxSoup(Vector3d::Constant(-0.2), Vector3d::Constant(0.2));
@@ -145,7 +145,7 @@ TEST(MeshChecks, EachDefectIsNamedWithItsElement) {
 TEST(MeshChecks, EachDefectIsFoundUnderAnyMotion) {
   int checked = 0;
   for (const Spoilt& spoilt : SpoiltCubes()) {
-    // These depend on where the body is, or are exact in the axes alone.
+    // These defects depend on the position of the object, or are exact only along the axes.
     if (spoilt.what == "far away" || spoilt.what == "tiny" || spoilt.what == "bodies flush" ||
         spoilt.defect == MeshDefect::kNotFinite || spoilt.defect == MeshDefect::kEmpty) {
       continue;
@@ -167,7 +167,7 @@ TEST(MeshChecks, EachDefectIsFoundUnderAnyMotion) {
 TEST(MeshChecks, EqualVerticesAreOneAndUnusedOnesAreIgnored) {
   const PolygonSoup cube = UnitCubeSoup();
   PolygonSoup split;
-  split.vertices.push_back({50, 0, 0});  // unused: not part of the diameter
+  split.vertices.push_back({50, 0, 0});  // unused, so not part of the diameter
   for (const auto& facet : cube.facets) {
     auto& corners = split.facets.emplace_back();
     for (const int v : facet) {
@@ -195,7 +195,7 @@ TEST(MeshChecks, NegativeZeroIsZero) {
 TEST(MeshChecks, APolygonThatIsBentIsTwoFacesAndAFlatOneIsOne) {
   const auto lifted = [](double off_plane) {
     PolygonSoup soup = UnitCubeSoup();
-    // A corner lifted by d lies d/4 off the mean plane of a square.
+    // Lifting a corner of a square by d moves it d/4 off the mean plane.
     soup.vertices[7].z() += 4 * off_plane * std::sqrt(3);
     return Polyhedron::FromSoup(soup, "cube").face_count();
   };
@@ -211,15 +211,15 @@ TEST(MeshChecks, APolygonThatIsBentIsTwoFacesAndAFlatOneIsOne) {
   }
 }
 
-/// What is harmless, and the same a little beyond.
+/// A tolerated defect, and the same defect slightly beyond the tolerance.
 struct Harmless {
   std::string what;
   std::function<void(PolygonSoup&)> spoil;
   std::function<void(PolygonSoup&)> too_far;
-  MeshDefect defect;  ///< of the second
+  MeshDefect defect;  ///< defect of `too_far`
 };
 
-/// The facet −y of the cube with a corner of its own at a point near vertex 5.
+/// Give the face −y of the cube its own corner near vertex 5.
 void TakeApart(PolygonSoup& s, double by) {
   s.vertices.push_back(s.vertices[5] + by * Vector3d(0, 1, 0));
   s.facets[2][2] = 8;
@@ -263,7 +263,7 @@ std::vector<Harmless> HarmlessCubes() {
        MeshDefect::kNotManifold},
       {"triangles without area in a row",
        [](PolygonSoup& s) {
-         // Corners a quarter and three quarters along the edge 0 to 1, which one facet has.
+         // Corners at 1/4 and 3/4 of the edge from 0 to 1, in one polygon.
          s.vertices.push_back(0.75 * s.vertices[0] + 0.25 * s.vertices[1]);
          s.vertices.push_back(0.25 * s.vertices[0] + 0.75 * s.vertices[1]);
          s.facets[0] = {0, 2, 3, 1, 9, 8};
@@ -358,7 +358,7 @@ TEST(MeshChecks, ARoundBodyTakenApartInTheLastBitsIsWhole) {
 }
 
 TEST(MeshChecks, ASoundBodyWithVerticesNearEachOtherStaysAsItIs) {
-  // A needle's two long edges are nearer to each other than what is welded at borders.
+  // The two long edges of a needle are closer than the welding distance of borders.
   PolygonSoup soup = UnitCubeSoup();
   soup.vertices.push_back(soup.vertices[5] - Vector3d(1e-7, 0, 0));
   soup.facets[1] = {4, 8, 5, 7, 6};
@@ -399,17 +399,17 @@ TEST(MeshChecks, ARefusalNamesTheFirstDefectAndCountsAll) {
   }
   EXPECT_THAT(refusal(boxes), HasSubstr("crossing pairs, 3 closed shells (all of them overlap, "
                                         "with "));
-  // What counts say nothing of has none.
+  // A defect that is not counted has no counts in its message.
   EXPECT_EQ(refusal({}), "x.off: empty: no facet");
 }
 
 TEST(MeshChecks, FacetsJoinWithinTheCoplanarAngleOnly) {
-  // A roof of two triangles whose ridge is lifted, in place of the cube's upper facet.
+  // The upper face of the cube is replaced by two triangles that form a roof.
   const auto roof = [](double angle) {
     PolygonSoup soup = UnitCubeSoup();
     soup.facets[1] = {4, 5, 7};
     soup.facets.push_back({4, 7, 6});
-    // Lifting corner 7 by d turns each triangle by about d.
+    // Lifting corner 7 by d rotates each triangle by about d.
     soup.vertices[7].z() += angle / std::sqrt(2);
     return Polyhedron::FromSoup(soup, "roof").face_count();
   };
@@ -419,7 +419,7 @@ TEST(MeshChecks, FacetsJoinWithinTheCoplanarAngleOnly) {
 }
 
 TEST(MeshChecks, AFinelyCurvedSurfaceDoesNotBecomeOneFace) {
-  // A prism over a rectangle with one side bulging as an arc, in steps within the coplanar angle.
+  // A prism with an arc as one side, in steps below the coplanar angle.
   constexpr int kSteps = 1000;
   constexpr double kStep = 0.9 * kCoplanarAngle;
   const int corners = kSteps + 3;
@@ -439,20 +439,20 @@ TEST(MeshChecks, AFinelyCurvedSurfaceDoesNotBecomeOneFace) {
     soup.facets.push_back({i, j, j + corners, i + corners});
   }
   const Polyhedron body = Polyhedron::FromSoup(soup, "bulge");
-  // A face has the facet that it grew from and one to each side: the next is beyond the angle.
+  // A face contains its first polygon and one on each side; the next one is beyond the angle.
   const int flat = 5;
   EXPECT_GE(body.face_count() - flat, kSteps / 3);
   EXPECT_LT(body.face_count() - flat, kSteps) << "nothing was joined";
 }
 
 TEST(MeshChecks, SliversJoinTheirNeighbour) {
-  // A vertex a little off an edge of the cube's upper face makes a needle with a normal of its own.
+  // A vertex slightly off an edge of the cube's upper face makes a needle with a different normal.
   PolygonSoup soup = UnitCubeSoup();
   soup.vertices.push_back({0, -0.5, 0.5 - 1e-9});
   soup.facets[2] = {0, 1, 5, 8, 4};
   soup.facets.push_back({4, 8, 5});
   EXPECT_EQ(Polyhedron::FromSoup(soup, "needle").face_count(), 6);
-  soup.vertices.back().z() = 0.5 - 1e-3;  // the facet −y now has a notch that is visible
+  soup.vertices.back().z() = 0.5 - 1e-3;  // the face −y now has a notch
   soup.vertices.back().y() = -0.5 + 1e-3;
   soup.facets[2] = {0, 1, 5, 4};
   soup.facets.back() = {4, 5, 8};

@@ -74,7 +74,7 @@ TEST(MeshReaders, AllFormatsGiveTheSameBody) {
   EXPECT_EQ(compared, 19);
 }
 
-/// Writes 1.5 as 1,5 and 1000 as 1.000.
+/// Number format that writes 1.5 as 1,5 and 1000 as 1.000.
 class CommaNumbers : public std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
   char do_thousands_sep() const override { return '.'; }
@@ -86,7 +86,7 @@ TEST(MeshReaders, ReadTheSameUnderAnyLocale) {
       std::locale::global(std::locale(std::locale::classic(), new CommaNumbers));
   const std::string c_before = std::setlocale(LC_ALL, nullptr);
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
-    if (std::setlocale(LC_ALL, name) != nullptr) break;  // where the machine has one
+    if (std::setlocale(LC_ALL, name) != nullptr) break;  // if the machine has one
   }
   int read = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kGood)) {
@@ -106,7 +106,7 @@ constexpr ChildLimits kLimits{std::size_t{4} << 30, std::chrono::seconds(5),
                               std::chrono::milliseconds(20000)};
 
 TEST(LimitedChild, ReturnsWhatTheTaskReturns) {
-  const std::string large(1 << 20, 'x');  // more than a pipe holds
+  const std::string large(1 << 20, 'x');  // larger than the capacity of a pipe
   const ChildResult result = RunInLimitedChild([&] { return large; }, kLimits);
   EXPECT_EQ(result.end, ChildEnd::kDone);
   EXPECT_EQ(result.bytes, large);
@@ -119,7 +119,7 @@ TEST(LimitedChild, ReturnsTheMessageOfAnException) {
   EXPECT_EQ(result.bytes, "no");
 }
 
-#if !defined(__SANITIZE_ADDRESS__)  // which opens pipes
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer opens pipes
 TEST(LimitedChild, OpensNoFile) {
   const auto open_file = [] {
     const bool opened = std::ifstream(kGood / "plain.off").is_open();
@@ -155,7 +155,7 @@ TEST(LimitedChild, EndsATaskThatHangs) {
   EXPECT_EQ(busy.end, ChildEnd::kTookTooLong);
 }
 
-#if !defined(__SANITIZE_ADDRESS__)  // which reserves more address space than any limit
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer allocates more address space than any limit
 TEST(LimitedChild, EndsATaskThatTakesAllMemory) {
   const ChildResult result = RunInLimitedChild(
       []() -> std::string { return std::string(std::size_t{1} << 40, 'x'); }, kLimits);

@@ -39,15 +39,15 @@ TEST(MeshSurvey, CountsFacetsByWhatIsWrongWithThem) {
   PolygonSoup soup = UnitCubeSoup();
   soup.vertices.push_back({0, -0.5, -0.5});
   soup.vertices.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
-  soup.vertices[7].z() += 0.01;         // facet 1 is bent, 0.0025 off its plane
+  soup.vertices[7].z() += 0.01;         // polygon 1 is bent, 0.0025 off its plane
   soup.facets.push_back({0, 8, 1});     // no area
   soup.facets.push_back({3, 3, 1});     // fewer than three corners
-  soup.facets.push_back({2, 3, 1, 0});  // facet 0 again
-  soup.facets.push_back({6, 4, 0, 2});  // facet 5 turned
+  soup.facets.push_back({2, 3, 1, 0});  // polygon 0 again
+  soup.facets.push_back({6, 4, 0, 2});  // polygon 5 reversed
   soup.facets.push_back({0, 1, 2, 3});  // a bow tie
   soup.facets.push_back({0, 1, 9});     // NaN
-  soup.facets.push_back({0, 1, 10});    // no such vertex
-  soup.facets.push_back({0, -1, 2});    // nor this
+  soup.facets.push_back({0, 1, 10});    // vertex index out of range
+  soup.facets.push_back({0, -1, 2});    // vertex index out of range
   const MeshSurvey survey = SurveyMesh(soup);
   EXPECT_EQ(survey.facets, 14);
   EXPECT_EQ(survey.vertices, 9);
@@ -64,7 +64,7 @@ TEST(MeshSurvey, CountsEdgesAndTheirBorders) {
   PolygonSoup tube = UnitCubeSoup();
   tube.vertices[1].x() = tube.vertices[3].x() = tube.vertices[5].x() = tube.vertices[7].x() = 2.5;
   tube.facets.erase(tube.facets.begin() + 5);  // −x: 4 long
-  tube.facets.erase(tube.facets.begin() + 1);  // +z: of 3 × 1, beside it
+  tube.facets.erase(tube.facets.begin() + 1);  // +z: adjacent side of 3 × 1
   MeshSurvey survey = SurveyMesh(tube);
   EXPECT_EQ(survey.open_edges, 6);
   EXPECT_EQ(survey.borders, 1);
@@ -73,7 +73,7 @@ TEST(MeshSurvey, CountsEdgesAndTheirBorders) {
   EXPECT_TRUE(survey.shells.empty());
 
   PolygonSoup ends = HoleBlockSoup();
-  ends.facets.erase(ends.facets.begin());  // below: two triangles' worth of border beside the hole
+  ends.facets.erase(ends.facets.begin());  // a polygon of the bottom, next to the hole
   PolygonSoup apart = Join(ends, UnitCubeSoup());
   apart.facets.pop_back();
   survey = SurveyMesh(apart);
@@ -113,7 +113,7 @@ TEST(MeshSurvey, TellsShellsThatOverlapFromThoseInsideAndBeside) {
                                   "with 53.9 %, 39.3 %, 6.74 %, 0.0539 % of the volume)"));
 }
 
-/// Bodies that have an edge or a side in common are shells by themselves where that can be told.
+/// Objects with a common edge or side are separate shells if they can be distinguished.
 TEST(MeshSurvey, BodiesThatShareAnEdgeAreTwoShells) {
   const MeshSurvey survey =
       SurveyMesh(Join(UnitCubeSoup(), BoxSoup({0.5, 0.5, -0.5}, {1, 1, 0.5})));
@@ -122,7 +122,7 @@ TEST(MeshSurvey, BodiesThatShareAnEdgeAreTwoShells) {
   EXPECT_EQ(survey.open_parts, 0);
 }
 
-/// A deep heap of large triangles: all pairs cross.
+/// All pairs of the large random triangles cross.
 TEST(MeshSurvey, StopsCountingWhereThereIsTooMuch) {
   std::mt19937 random(5);
   std::normal_distribution<double> anywhere;
@@ -173,7 +173,7 @@ TEST(MeshSurvey, TheCountsDoNotDependOnTheOrderOfFacetsAndWhereTheyBegin) {
 
 TEST(MeshSurvey, WhatIsEmptyIsRefused) {
   EXPECT_THROW(static_cast<void>(SurveyMesh({})), MeshError);
-  // Facets of which nothing is left are counted.
+  // Invalid polygons are counted even if no valid one remains.
   EXPECT_EQ(SurveyMesh({{}, {{0, 1, 2}, {}}}).spoilt_facets, 1);
 }
 

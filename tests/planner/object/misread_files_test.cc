@@ -1,5 +1,5 @@
-// Files that cannot be read as their formats state are refused by name: none becomes another solid,
-// and no vertices of a surface become a cloud of points.
+// Files that violate their format are rejected with their name. None is read as a different solid,
+// and the vertices of a surface do not become a point cloud.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ using ::testing::StartsWith;
 
 class MisreadFilesTest : public FolderTest {
  protected:
-  /// The message of the reader that `plan` and `repair` call; empty if it reads the file.
+  /// Return the message of the reader that `plan` and `repair` call; empty if it reads the file.
   [[nodiscard]] std::string Refusal(const std::string& file, const std::string& bytes) const {
     const std::filesystem::path path = Write(file, bytes);
     try {
@@ -49,7 +49,7 @@ class MisreadFilesTest : public FolderTest {
   }
 };
 
-/// ASCII text as UTF-16 or UTF-32. @param place  of the ASCII byte among the zeros of `unit`.
+/// Encode ASCII text as UTF-16 or UTF-32. @param place  position of the ASCII byte in `unit`.
 std::string Widened(const std::string& text, const std::string& unit, std::size_t place) {
   std::string bytes;
   for (const char c : text) {
@@ -73,7 +73,7 @@ TEST_F(MisreadFilesTest, TextInOtherEncodings) {
       {".pwn", "0 0 0\n"},           {".wkt", "POLYGON((0 0,1 0,0 1,0 0))"},
       {".gltf", KnownGltf().Gltf()}, {".dae", KnownCollada().Text()}};
   for (const auto& [ending, text] : files) {
-    // Negative controls: ASCII, and UTF-8 with its mark.
+    // Negative controls: ASCII, and UTF-8 with a byte order mark.
     EXPECT_EQ(Refusal("plain" + ending, text), "");
     EXPECT_EQ(Refusal("mark" + ending, "\xEF\xBB\xBF" + text), "");
     const std::string utf16 = "expected UTF-8, found UTF-16; help: save the file as UTF-8";
@@ -130,8 +130,9 @@ TEST_F(MisreadFilesTest, SurfacesOfPlyInOtherElements) {
       "of_floats.ply",
       ply("element faces 4\nproperty list uchar float vertex_indices\n", FacetText("3 ", "\n")),
       "element \"faces\": not supported");
-  ExpectRefused("no_triangle.ply", StripPly("6 0 2 -1 1 1 1\n", 1), "there is no triangle in it");
-  // Negative controls: clouds, and elements that hold no surface.
+  ExpectRefused("no_triangle.ply", StripPly("6 0 2 -1 1 1 1\n", 1),
+                "expected at least one triangle");
+  // Negative controls: point clouds, and elements without a surface.
   EXPECT_EQ(Refusal("cloud.ply", ply("", "")), "");
   EXPECT_EQ(Refusal("no_faces.ply", ply("element face 0\n" + list, "")), "");
   EXPECT_EQ(
@@ -190,13 +191,13 @@ TEST_F(MisreadFilesTest, ColladaThatAssimpMisreads) {
                 "\"ph\"");
   ExpectRefused("elsewhere.dae",
                 with([](C& c) { c.instance = "<instance_geometry url=\"other.dae#g\"/>"; }),
-                "its surface comes from another file, \"other.dae#g\"");
+                "surface in another file, \"other.dae#g\"");
   ExpectRefused("lines.dae", with([](C& c) {
                   c.primitives =
                       "<lines count=\"2\"><input semantic=\"VERTEX\" source=\"#v\" "
                       "offset=\"0\"/><p>0 1 2 3</p></lines>";
                 }),
-                "its scene has no polygon");
+                "scene: expected at least one polygon");
   ExpectRefused("units.dae", with([](C& c) { c.node = "<asset><unit meter=\"0.01\"/></asset>"; }),
                 "unit: several");
   ExpectRefused("zero.dae", with([](C& c) { c.unit = "meter=\"0\""; }), "unit: meter");
@@ -321,7 +322,8 @@ TEST_F(MisreadFilesTest, PackagesOf3mfThatAreAmbiguous) {
   refused(solid, "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 0 0\"/>", "", "transform");
 }
 
-/// Bytes of each format that a child process reads, cut and changed: read or refused in one line.
+/// Truncated and changed files of the formats that a child process reads must be read or rejected
+/// in one line.
 TEST_F(MisreadFilesTest, CutAndChangedFilesAreReadOrRefused) {
   const std::string model =
       ModelOf3mf("<object id=\"1\">" + MeshOf3mf() + "</object>", "<item objectid=\"1\"/>");

@@ -25,8 +25,8 @@ using Eigen::Vector3d;
 struct Model {
   std::string file;
   int faces;
-  double diameter;  ///< metres
-  double volume;    ///< cubic metres, square metres in the plane; 0 where there is no closed form
+  double diameter;  ///< diameter, m
+  double volume;    ///< volume, m³, or area, m²; 0 if there is no closed form
 };
 
 const Model kModels[] = {
@@ -49,7 +49,7 @@ const Model kModels[] = {
     {"polygon_hole.wkt", 21, 0, 0},
 };
 
-/// Models of many faces or edges; their names say how many.
+/// Models with many faces or edges; their names contain the number.
 const Model kLargeModels[] = {
     {"body14.obj", 14, 0, 0},   {"body24.obj", 24, 0, 0},          {"body34.obj", 34, 0, 0},
     {"body36.obj", 36, 0, 0},   {"body38.obj", 38, 0, 0},          {"body40.obj", 40, 0, 0},
@@ -58,7 +58,7 @@ const Model kLargeModels[] = {
     {"leaf300.wkt", 300, 0, 0}, {"plate_holes160.wkt", 160, 0, 0},
 };
 
-/// Meshes of smooth bodies; the names end in the number of triangles.
+/// Meshes of smooth objects; their names end with the number of triangles.
 const std::array kMeshes = {"ellipsoid", "flask", "mug", "spanner", "star", "duck"};
 const std::array kMeshTriangles = {500, 1000};
 
@@ -66,7 +66,7 @@ bool IsSolid(const Model& model) { return model.file.ends_with(".obj"); }
 
 std::filesystem::path ModelPath(const std::string& file) { return ProjectPath("models") / file; }
 
-/// The contacts of a grasp file, on the faces that they name.
+/// Read the contacts of a grasp file, on the faces given there.
 grasp::Grasp ReadModelGrasp(const Model& model, const Object& object, const std::string& which) {
   const auto path = ModelPath(model.file).replace_extension(which + ".json");
   grasp::Grasp grasp;
@@ -123,7 +123,7 @@ TEST(Models, MeshesHaveAsManyTrianglesAsTheirNamesSay) {
       const ObjectFile read = ReadObject(ModelPath(file));
       const auto& solid = dynamic_cast<const Polyhedron&>(*read.object);
       EXPECT_EQ(std::ssize(solid.triangles()), triangles);
-      // Hardly any neighbours are coplanar.
+      // Nearly no neighbours are coplanar.
       EXPECT_GE(solid.face_count(), triangles - 5);
       EXPECT_GE(solid.diameter(), 0.08);
       EXPECT_LE(solid.diameter(), 0.16);
@@ -144,7 +144,7 @@ TEST(Models, EachSolidHasALineThatSaysWhatItIs) {
 TEST(Models, EveryModelIsInOneOfTheTables) {
   int found = 0;
   for (const auto& entry : std::filesystem::directory_iterator(ModelPath(""))) {
-    if (!entry.is_regular_file()) continue;  // models/hands
+    if (!entry.is_regular_file()) continue;  // the folder models/hands
     const auto ending = entry.path().extension();
     found += ending != ".json" && ending != ".md";
   }
@@ -155,7 +155,7 @@ TEST(Models, EveryModelIsInOneOfTheTables) {
 TEST(Models, GraspsLieInsideFacesWithTheirNormals) {
   int contacts = 0;
   for (const Model& model : kModels) {
-    const double from_border = IsSolid(model) ? 0.008 : 0.003;  // metres
+    const double from_border = IsSolid(model) ? 0.008 : 0.003;  // m
     const ObjectFile file = ReadObject(ModelPath(model.file));
     for (const std::string which : {"start", "goal"}) {
       SCOPED_TRACE(model.file + " " + which);
@@ -172,7 +172,7 @@ TEST(Models, GraspsLieInsideFacesWithTheirNormals) {
       }
     }
   }
-  // Of the planar grasps five hold with two contacts and thirteen with three.
+  // Five of the planar grasps have two contacts, thirteen have three.
   EXPECT_EQ(contacts, 2 * 8 * 4 + 5 * 2 + 13 * 3);
 }
 
@@ -194,7 +194,7 @@ TEST(Models, GraspsAreForceClosureAtTwentyDegreesWithAClearMargin) {
 }
 
 TEST(Models, StartAndGoalShareNoContact) {
-  constexpr double kApart = 0.005;  // metres
+  constexpr double kApart = 0.005;  // m
   int compared = 0;
   for (const Model& model : kModels) {
     const ObjectFile file = ReadObject(ModelPath(model.file));
@@ -210,7 +210,7 @@ TEST(Models, StartAndGoalShareNoContact) {
   EXPECT_GE(compared, 8 * 16 + 9 * 4);
 }
 
-/// Counts contacts that a line of sight from outside the body's hull would not reach.
+/// Count contacts at positions that are invisible from outside the object's convex hull.
 int ContactsIn(const std::string& file, bool (*inside)(const grasp::Contact&)) {
   const Model& model =
       *std::ranges::find_if(kModels, [&](const Model& m) { return m.file == file; });
@@ -224,7 +224,7 @@ int ContactsIn(const std::string& file, bool (*inside)(const grasp::Contact&)) {
 }
 
 TEST(Models, SomeContactsAreOnInnerFaces) {
-  // The two faces of the L's inner corner lie 4 cm from the axes.
+  // The two faces at the inner corner of the L are 4 cm from the axes.
   EXPECT_GE(
       ContactsIn("l_block.obj",
                  [](const grasp::Contact& c) { return std::abs(-c.n.dot(c.p) - 0.04) < 1e-9; }),
@@ -235,7 +235,7 @@ TEST(Models, SomeContactsAreOnInnerFaces) {
                                 c.p.head<2>().cwiseAbs().maxCoeff() < 0.03;
                        }),
             1);
-  // The walls of the channel face each other, its ground lies 2 cm up.
+  // The walls of the channel face each other; its floor is 2 cm above the bottom.
   EXPECT_GE(ContactsIn("u_channel.obj",
                        [](const grasp::Contact& c) {
                          return std::abs(c.n.z()) < 0.5 && c.p.y() > 0.019 &&

@@ -21,7 +21,8 @@ constexpr double kPi = std::numbers::pi;
 
 Polyhedron Solid(const PolygonSoup& soup) { return Polyhedron::FromSoup(soup, "soup"); }
 
-/// The mean normal at a point of the surface, on the face whose outward normal is nearest to one.
+/// Compute the patch normal at a surface point, on the face whose outward normal is nearest to
+/// `outward`.
 Vector3d NormalAt(const Polyhedron& solid, const Vector3d& point, const Vector3d& outward,
                   double radius) {
   FaceIndex best{0};
@@ -32,7 +33,7 @@ Vector3d NormalAt(const Polyhedron& solid, const Vector3d& point, const Vector3d
   return PatchNormal(solid, best, point, radius);
 }
 
-/// Of a circle what lies beyond a chord at a distance from its middle.
+/// Compute the area of a circle beyond a chord at a distance from its centre.
 double SegmentArea(double radius, double distance) {
   return radius * radius * std::acos(distance / radius) -
          distance * std::sqrt(radius * radius - distance * distance);
@@ -48,7 +49,7 @@ TEST(PatchNormal, BesideAnEdgeIsTheMeanOfTwoPiecesOfDiscs) {
   const double radius = 0.2;
   for (const double distance : {0.0, 0.05, 0.1, 0.19}) {
     const double own = kPi * radius * radius - SegmentArea(radius, distance);
-    // Half of the disc that the ball cuts out of the plane beyond the edge.
+    // Half of the disc in which the ball intersects the plane beyond the edge.
     const double beyond = kPi * (radius * radius - distance * distance) / 2;
     const Vector3d expected = -Vector3d(beyond, 0, own).normalized();
     const Vector3d mean = NormalAt(cube, {0.5 - distance, 0.1, 0.5}, {0, 0, 1}, radius);
@@ -91,11 +92,11 @@ TEST(PatchNormal, MovesAndScalesWithTheObject) {
 }
 
 TEST(PatchNormal, OfASphereIsTheRadius) {
-  // Facets are up to 6° off; the mean over many of them is not.
+  // Normals of triangles deviate by up to 6°; the mean over many of them does not.
   const Polyhedron sphere = Solid(SphereSoup(30));
   int tilted = 0;
   for (FaceIndex f{0}; f < sphere.face_count(); f = FaceIndex(f + 11)) {
-    // The corner of the facet that is farthest from the poles.
+    // The corner of the triangle farthest from the poles.
     const Vector3d at = sphere.BordersOf(f).front().a;
     const Vector3d mean = PatchNormal(sphere, f, at, 0.4);
     EXPECT_LT((mean + at.normalized()).norm(), 0.01);
@@ -107,12 +108,12 @@ TEST(PatchNormal, OfASphereIsTheRadius) {
 TEST(PatchNormal, TheFarSideOfAThinWallDoesNotCount) {
   const Polyhedron plate = Solid(BoxSoup({0, 0, 0}, {1, 1, 0.01}));
   EXPECT_EQ(NormalAt(plate, {0.5, 0.5, 0.01}, {0, 0, 1}, 0.4), Vector3d(0, 0, -1));
-  // Control: round the rim it is connected.
+  // Control: near the rim, the far side is connected.
   EXPECT_GT(std::abs(NormalAt(plate, {0.99, 0.5, 0.01}, {0, 0, 1}, 0.4).x()), 0.1);
 }
 
 TEST(PatchNormal, WhatIsConnectedOnlyOutsideOfTheBallDoesNotCount) {
-  // Two legs of a U: the inside of the other leg is near, the way there is long.
+  // Two legs of a U: the inside of the other leg is close, but the path along the surface is long.
   PolygonSoup soup;
   for (const double z : {0.0, 1.0}) {
     for (const auto& [x, y] : {std::pair{0.0, 0.0},
@@ -133,14 +134,14 @@ TEST(PatchNormal, WhatIsConnectedOnlyOutsideOfTheBallDoesNotCount) {
   }
   const Polyhedron channel = Solid(soup);
   const Vector3d at(0.5, 1.6, 0.5);
-  // Up to the rim at y = 2, not to the ground at y = 0.5.
+  // The ball reaches the rim at y = 2, but not the floor at y = 0.5.
   const Vector3d mean = NormalAt(channel, at, {1, 0, 0}, 0.45);
   EXPECT_LT(mean.x(), -0.9);
-  // Control: with a ball that holds the ground too the legs cancel, but for the rest.
+  // Control: with a ball that also contains the floor, the normals of the legs nearly cancel.
   EXPECT_GT(NormalAt(channel, at, {1, 0, 0}, 1.3).x(), mean.x() + 0.1);
 }
 
-/// A sphere of radius 1 whose vertices are drawn out and pushed in by turns.
+/// Make a sphere of radius 1 whose vertices are moved outward and inward alternately.
 PolygonSoup RoughSphere() {
   PolygonSoup sphere = SphereSoup(30);
   for (std::size_t v = 0; v < sphere.vertices.size(); ++v) {

@@ -57,7 +57,7 @@ TEST(Polygon, EdgesMeetAtTheirVerticesAndOnlyThoseOfTheHoleAreConcave) {
     EXPECT_FALSE(frame.AreNeighbours(f, f));
     EXPECT_FALSE(frame.AreNeighbours(f, FaceIndex((f + 4) % 8)));
   }
-  // Collinear edges are passed as well.
+  // Collinear edges are returned, too.
   const Polygon split = Polygon::FromWkt("POLYGON((0 0, 1 0, 2 0, 2 2, 0 2, 0 0))", "split");
   EXPECT_TRUE(split.BordersOf(FaceIndex(0)).back().convex);
 }
@@ -141,7 +141,7 @@ TEST(Polygon, WktIsReadInAnyCaseAndLayout) {
 
 struct BadWkt {
   std::string text;
-  std::string words;  ///< that the message must have
+  std::string words;  ///< words that the message must contain
 };
 
 TEST(Polygon, BadWktIsRefusedWithRingAndVertex) {
@@ -182,9 +182,9 @@ TEST(Polygon, BadWktIsRefusedWithRingAndVertex) {
       {"POLYGON((0 0,4 0,4 4,0 4,0 0),(1 1,2 1,2 2,1 1),(2 2,3 2,3 3,2 2))",
        "self-intersecting: meets ring 2"},
       {"POLYGON((0 0,1 0,1 1,0 0)", "ends where \")\""},
-      {"POLYGON((0 0,1 0,1 1,0 0)) x", "\"x\" behind the polygon"},
-      {"POLYGON((0 0,1 0,1 1,0 0)))", "behind the polygon"},
-      {std::string("POLYGON((0 0,1 0,1 1,0 0))\0", 27), "behind the polygon"},
+      {"POLYGON((0 0,1 0,1 1,0 0)) x", "\"x\" after the polygon"},
+      {"POLYGON((0 0,1 0,1 1,0 0)))", "after the polygon"},
+      {std::string("POLYGON((0 0,1 0,1 1,0 0))\0", 27), "after the polygon"},
       {"MULTIPOLYGON(((0 0,1 0,1 1,0 0)),((5 5,6 5,6 6,5 5)))", "more than one polygon"},
       {"POLYGON((0 0,1e-17 0,0 1e-17,0 0))", "within 1e-15"},
       {"POLYGON((1e9 0,1000000001 0,1e9 1,1e9 0))", "too far from the origin"},
@@ -201,7 +201,7 @@ TEST(Polygon, BadWktIsRefusedWithRingAndVertex) {
 }
 
 TEST(Polygon, PredicatesAreExact) {
-  // The third point is off the line through the others by less than an epsilon would see.
+  // The third point is off the line through the two others by less than a typical tolerance.
   const double up = std::nextafter(0.1, 1);
   const Polygon sliver = Polygon::FromRings({{{0, 0}, {1, 1}, {0.1, up}}}, "sliver");
   EXPECT_GT(sliver.mass_properties().volume, 0);

@@ -20,7 +20,7 @@ using namespace regrasp::soups;  // NOLINT: the meshes of this folder
 
 constexpr double kTight = 1e-12;
 
-/// The face whose outward normal is nearest to `outward`.
+/// Return the face whose outward normal is nearest to `outward`.
 FaceIndex FaceTowards(const Polyhedron& body, const Vector3d& outward) {
   FaceIndex best{0};
   for (FaceIndex f{1}; f < body.face_count(); ++f) {
@@ -43,7 +43,7 @@ TEST(Polyhedron, ACubeHasSixFacesWithInwardNormals) {
   }
 }
 
-/// Both faces of every border know it, and say the same of it. @returns how many are concave.
+/// Check that both faces of every border list it consistently. @returns number of concave ones.
 int CheckBorders(const Polyhedron& body) {
   int concave = 0;
   for (FaceIndex face{0}; face < body.face_count(); ++face) {
@@ -69,7 +69,7 @@ TEST(Polyhedron, FacesKnowTheirNeighboursAndWhichEdgesAreConcave) {
   EXPECT_EQ(cube.BordersOf(top).size(), 4u);
   EXPECT_FALSE(cube.AreNeighbours(top, FaceTowards(cube, -Vector3d::UnitZ())));
   EXPECT_FALSE(cube.AreNeighbours(top, top));
-  // Of an L one edge is concave, of a square hole four: each is counted from both sides.
+  // An L has one concave edge, a square hole four. Each is counted from both sides.
   EXPECT_EQ(CheckBorders(Polyhedron::FromSoup(LBlockSoup(), "ell")), 2);
   EXPECT_EQ(CheckBorders(Polyhedron::FromSoup(HoleBlockSoup(), "block")), 8);
   EXPECT_EQ(CheckBorders(Polyhedron::FromSoup(SphereSoup(8), "sphere")), 0);
@@ -104,7 +104,7 @@ TEST(Polyhedron, FacesBorderOnTheirOutlineAndHoles) {
   const FaceIndex top = FaceTowards(block, {0, 0, 1});
   EXPECT_NEAR(block.face_measure(top), 8, kTight);
   EXPECT_EQ(block.BordersOf(top).size(), 8u);
-  // Material on the left, seen from outside.
+  // Seen from outside, the material is on the left.
   for (const FaceBorder& border : block.BordersOf(top)) {
     const Vector3d left = Vector3d::UnitZ().cross(border.b - border.a).normalized();
     const Vector3d inside = (border.a + border.b) / 2 + 0.1 * left;
@@ -123,9 +123,10 @@ TEST(Polyhedron, ClosestPointsRespectHolesAndNonConvexOutlines) {
   EXPECT_NEAR((bent.ClosestPoint(end, {1.5, 1.2, 1}) - Vector3d(1.5, 1, 1)).norm(), 0, kTight);
 }
 
-/// A plate whose outline is an arc of so many corners, and the chord that closes it. Its top is cut
-/// into triangles; at the origin the chord has a corner that is off it by less than squares can
-/// tell.
+/// Make a plate whose outline is an arc with `arc` corners, closed by a chord.
+///
+/// Its top is cut into triangles. At the origin the chord has a corner whose distance from it
+/// underflows when squared.
 PolygonSoup PlateWithASliver(int arc) {
   PolygonSoup soup;
   for (const double z : {0.0, -1.0}) {
@@ -147,9 +148,9 @@ PolygonSoup PlateWithASliver(int arc) {
   return soup;
 }
 
-/// Projected on the plane of a triangle so thin, a point is nowhere.
+/// A point has no projection onto the plane of such a thin triangle.
 TEST(Polyhedron, ClosestPointsOnFacesWithSliversAreFinite) {
-  for (const int arc : {5, 40}) {  // searched one by one, and in a tree
+  for (const int arc : {5, 40}) {  // without and with a tree
     const Polyhedron plate = Polyhedron::FromSoup(PlateWithASliver(arc), "plate");
     const FaceIndex top = FaceTowards(plate, {0, 0, 1});
     ASSERT_EQ(plate.TrianglesOf(top).size(), static_cast<std::size_t>(arc - 1));
@@ -191,10 +192,10 @@ TEST(Polyhedron, SegmentsMustStayOnTheFaceAllTheWay) {
   EXPECT_TRUE(bent.ContainsSegment(end, {1.5, 0.5, 1}, {0.5, 1.5, 1}, within)) << "by the corner";
 }
 
-/// The same answers on every side of the comparison: many points, a face of many triangles, and a
-/// second route that measures the rectangle with its hole in closed form.
+/// Compares queries at many points of a face with many triangles with closed forms of the rectangle
+/// and its hole.
 TEST(Polyhedron, QueriesOnAFineFaceAgreeWithClosedForms) {
-  // The top of the block cut into 4 · 32 · 2 triangles, so that the trees of boxes are at work.
+  // The top of the block has 4 · 32 · 2 triangles, so that trees of boxes are used.
   constexpr int kCuts = 12;
   PolygonSoup soup;
   const auto grid = [&](int i, int j, int k) { return (k * (kCuts + 1) + j) * (kCuts + 1) + i; };
@@ -254,7 +255,7 @@ TEST(Polyhedron, QueriesOnAFineFaceAgreeWithClosedForms) {
     const auto near = block.FacesNear(p, 1e-9);
     EXPECT_EQ(std::ranges::count(near, top), expected == 0 ? 1 : 0);
 
-    // A segment is on the face iff none of many points on it is off.
+    // A segment is on the face iff each of many points on it is.
     const Vector3d q = p + Vector3d(within(random) - 1.5, within(random) - 1.5, 0);
     double worst = 0;
     for (int s = 0; s <= 1000; ++s) {

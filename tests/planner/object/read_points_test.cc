@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 const std::vector<Vector3d> kPoints = {{0.25, -1, 2}, {3, 4.5, -6}, {1e-3, 0, 7}};
 
-/// A PCD file of kPoints with a field between y and z.
+/// Write the header of a PCD file of kPoints with a field between y and z.
 std::string PcdHeaderOf(const std::string& data) {
   return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y rgb z\nSIZE 8 8 4 8\nTYPE F F U F\nCOUNT 1 1 2 1\n"
          "WIDTH 4\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 4\nDATA " +

@@ -34,7 +34,7 @@ PolygonSoup Read(const fs::path& path, const AssimpLimits& limits = {}) {
 TEST(ReadWithAssimp, PlacesMeshesByTheirNodesAndTurnsMirroredOnes) {
   const Polyhedron body = Polyhedron::FromSoup(Read(kGood / "placed.gltf"), "placed.gltf");
   EXPECT_EQ(body.face_count(), 4);
-  // Turned a quarter about z, then scaled by (2, 2, −2), then moved to x = 5.
+  // Rotated by 90° about z, then scaled by (2, 2, −2), then moved to x = 5.
   EXPECT_NEAR((body.mass_properties().centroid - Vector3d(4.5, 0.5, -0.5)).norm(), 0, 1e-6);
 }
 
@@ -44,14 +44,14 @@ TEST(ReadWithAssimp, GivesUpAtItsLimits) {
   EXPECT_THROW(static_cast<void>(Read(kGood / "placed.gltf", limits)), InputError);
 }
 
-/// A glTF that takes its numbers from `uri`.
+/// Write a glTF document with its numbers at `uri`.
 std::string GltfWithBuffer(const std::string& uri) {
   std::string text = ReadFile(kGood / "placed.gltf");
   const std::size_t first = text.find("data:");
   return text.replace(first, text.find('"', first) - first, uri);
 }
 
-/// What reading the bytes as a file of that name says; empty where they are read.
+/// Return the message of reading bytes as a file of that name; empty if they are read.
 std::string Complaint(const std::string& bytes, const fs::path& path) {
   try {
     static_cast<void>(ReadWithAssimp(bytes, path));
@@ -83,9 +83,8 @@ TEST_F(FilesBesideTest, ASurfaceThatComesFromAnotherFileIsRefused) {
       static_cast<void>(ReadObject(path));
       ADD_FAILURE() << name << " was read";
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(),
-                  AllOf(StartsWith(path.string() + ": "),
-                        HasSubstr("its surface comes from another file, \"" + other)));
+      EXPECT_THAT(error.what(), AllOf(StartsWith(path.string() + ": "),
+                                      HasSubstr("surface in another file, \"" + other)));
       EXPECT_THAT(error.what(), HasSubstr("convert it"));
     }
   }

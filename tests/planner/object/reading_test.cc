@@ -43,7 +43,7 @@ TEST(Reading, TellsItsStages) {
                                 HasSubstr("facets"), HasSubstr("6 faces")));
 }
 
-/// A block of `n` by `n` by 1 cells.
+/// Make a block of n × n × 1 cells.
 PolygonSoup Block(int n) {
   PolygonSoup soup;
   const auto vertex = [n](int x, int y, int z) { return (z * (n + 1) + y) * (n + 1) + x; };
@@ -79,7 +79,7 @@ TEST(Reading, LooksAtTheDeadlineWhileItLooksForIntersections) {
     EXPECT_EQ(Polyhedron::FromSoup(Block(n), "block", reading).face_count(), 6);
     return never.looks();
   };
-  EXPECT_GT(looks(60), looks(2) + 3);  // of some 14,400 triangles, each beside a dozen others
+  EXPECT_GT(looks(60), looks(2) + 3);  // about 14,400 triangles with a dozen neighbours each
 }
 
 TEST(Reading, EndsAtTheDeadlineInWhicheverStageItComes) {
@@ -89,7 +89,7 @@ TEST(Reading, EndsAtTheDeadlineInWhicheverStageItComes) {
     EXPECT_GE(never.looks(), 2) << path;
     for (int look = 1; look <= never.looks(); ++look) {
       EXPECT_THAT(WhatStops(path, CountedDeadline(look).deadline()),
-                  AllOf(StartsWith(path), HasSubstr("the time was up while it was read")))
+                  AllOf(StartsWith(path), HasSubstr("time limit reached while reading it")))
           << look;
     }
   }

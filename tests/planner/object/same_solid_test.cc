@@ -1,5 +1,6 @@
-// The same solid in every format and variant has the same vertices, volume, centroid and bounding
-// box: a reader that turns, mirrors, moves or scales it, or loses a part of it, fails here.
+// The same solid in every format and variant must have the same vertices, volume, centroid and
+// bounding box. A reader that rotates, mirrors, moves or scales it, or omits a part of it, fails
+// here.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,8 @@ constexpr double kRounding = 1e-7;
 
 class SameSolidTest : public FolderTest {
  protected:
-  /// The largest distance of a known vertex from the solid's, which has as many.
+  /// Return the largest distance of a known vertex from the solid's vertices, whose number must be
+  /// equal.
   static double FarthestVertex(const Polyhedron& solid) {
     if (solid.vertices().size() != kKnownVertices.size()) return INFINITY;
     double farthest = 0;
@@ -83,7 +85,7 @@ TEST_F(SameSolidTest, BinaryStl) {
 }
 
 TEST_F(SameSolidTest, StripsOfPly) {
-  // Strips that end with -1, in one row or in several; a repeated vertex leads to the next part.
+  // Strips that end with -1, in one row or in several. A repeated vertex connects two parts.
   ExpectKnown({{"strip.ply", StripPly("6 0 2 1 3 0 2\n", 1)},
                {"ended.ply", StripPly("7 0 2 1 3 0 2 -1\n", 1)},
                {"triangles.ply", StripPly("16 0 2 1 -1 0 1 3 -1 1 2 3 -1 0 3 2 -1\n", 1)},
@@ -148,13 +150,14 @@ TEST_F(SameSolidTest, FbxWhateverItsAxes) {
                                    "\"UpAxisSign\", \"int\", \"Integer\", \"\",1\n"));
 }
 
-/// The positions of the known solid as shares of the box from (0.01, 0.02, 0.03) that is 0.1 wide.
+/// Return the vertices of the known solid as fractions of the box from (0.01, 0.02, 0.03) of width
+/// 0.1.
 std::string QuantizedPositions(double most, const std::function<std::string(double)>& bytes_of) {
   std::string bytes;
   for (const Vector3d& p : kKnownVertices) {
     const Vector3d share = (p - kKnownVertices[0]) / 0.1;
     for (const double x : share) bytes += bytes_of(std::round(most * x));
-    bytes += bytes_of(0);  // aligns a vertex to four components
+    bytes += bytes_of(0);  // pads a vertex to four components
   }
   return bytes;
 }
@@ -175,7 +178,7 @@ TEST_F(SameSolidTest, GltfInItsVariants) {
              {{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
        }},
       {"matrix",
-       [](KnownGltf& g) {  // a half turn about z, undone by the child
+       [](KnownGltf& g) {  // a rotation by 180° about z, reversed by the child
          g.node() = {{"children", {1}},
                      {"matrix", {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}};
          g.json["nodes"].push_back(
@@ -188,7 +191,7 @@ TEST_F(SameSolidTest, GltfInItsVariants) {
          g.json["scene"] = 1;
        }},
       {"sparse",
-       [](KnownGltf& g) {  // the last vertex, which was elsewhere
+       [](KnownGltf& g) {  // the last vertex becomes a sparse value
          std::string moved = g.buffer.substr(36, 12);
          g.buffer.replace(36, 12, std::string(12, '\0'));
          g.json["accessors"][0]["sparse"] = {
@@ -222,7 +225,7 @@ TEST_F(SameSolidTest, QuantizedGltf) {
     double most, scale;
     int bytes;
   };
-  // Shares of 0, 0.4, 0.6 and 1 are whole numbers of steps.
+  // The fractions 0, 0.4, 0.6 and 1 are integer numbers of steps.
   for (const Kind& kind :
        {Kind{5121, true, 255, 0.1, 1}, Kind{5123, true, 65535, 0.1, 2},
         Kind{5120, false, 125, 0.1 / 125, 1}, Kind{5122, false, 100, 0.001, 2}}) {
@@ -293,7 +296,7 @@ TEST_F(SameSolidTest, PackagesOf3mf) {
   });
 }
 
-/// Negative control: the comparison sees each of the faults that it is for.
+/// Negative control: the comparison detects each of the errors listed above.
 TEST_F(SameSolidTest, TheComparisonFailsForTurnedMirroredAndScaledSolids) {
   const auto distance = [&](const std::function<Vector3d(const Vector3d&)>& change) {
     std::string text;

@@ -8,8 +8,7 @@
 namespace regrasp::object {
 namespace segment_coverage_test {
 
-/// Ends are this near to the exact ones: the last place of a parameter, magnified by a slope of
-/// one.
+/// Tolerance of interval ends: the last place of a parameter times a slope of one.
 constexpr double kNear = 1e-12;
 
 TEST(SublevelInterval, OfADistanceToAPointIsAboutIt) {
@@ -40,7 +39,7 @@ TEST(SublevelInterval, IsWithinTheThresholdAtBothEndsAndAsLongAsItCanBe) {
   int found = 0;
   int none = 0;
   for (int trial = 0; trial < 2000; ++trial) {
-    // A distance from a segment to a point, or two of them: convex.
+    // The maximum of the distances of a segment's point from one or two points is convex.
     const double a = 2 * uniform(engine) - 0.5, b = uniform(engine), height = uniform(engine);
     const auto distance = [&](double t) {
       return std::max(std::hypot(t - a, 0.3 * height), b * std::abs(t - 0.5));

@@ -1,4 +1,4 @@
-// What is made of several closed shells, by choice and without one.
+// Treatment of several closed shells, with and without a choice.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ Polyhedron Read(const PolygonSoup& soup, std::optional<Shells> shells,
   return Polyhedron::FromSoup(soup, "x.obj", reading);
 }
 
-/// The message of a refusal; empty where there is none.
+/// Return the message of a rejection; empty if there is none.
 std::string Refusal(const PolygonSoup& soup, std::optional<Shells> shells) {
   try {
     static_cast<void>(Read(soup, shells));
@@ -89,7 +89,7 @@ TEST(Shells, TheUnionOfSolidsInEachOtherIsTheOuterOne) {
   EXPECT_EQ(body.face_count(), 6);
   EXPECT_EQ(CountEnclosed(body), 0);
   EXPECT_THAT(text, HasSubstr("1 lies in its material"));
-  // A cavity of the inner one is filled by the outer one, and one that is about it is not.
+  // The outer solid fills a cavity of the inner solid, but not a cavity around it.
   EXPECT_NEAR(Read(Join(Join(Box(0.2, 0.8), InwardBox(0.3, 0.7)), Box(0, 1)), Shells::kUnion)
                   .mass_properties()
                   .volume,
@@ -113,8 +113,7 @@ TEST(Shells, EachOfSeveralSolidsIsTurnedByItself) {
   }
 }
 
-/// Laws: the choice does not matter to what is accepted without, and the order of shells not to
-/// the choice.
+/// Law: the choice does not change an object that is accepted without it.
 TEST(Shells, OneSolidIsTheSameWithAnyChoice) {
   const PolygonSoup hollow = Join(InwardBox(0.4, 0.6), Box(0, 1));
   PolygonSoup inside_out = hollow;
@@ -142,7 +141,8 @@ TEST(Shells, TheOrderOfShellsDoesNotMatter) {
     PolygonSoup all;
     for (const PolygonSoup& shell : shells) all = Join(all, shell);
     const Polyhedron body = Read(all, Shells::kUnion);
-    // What is oriented like the solid about it, or like nothing about it, is material.
+    // A shell with the orientation of the solid around it, or without a solid around it, is
+    // material.
     EXPECT_NEAR(body.mass_properties().volume, 1 - 0.216 + 0.008 + 8 + 1 - 0.001 + 0.125, 1e-12);
     EXPECT_NEAR(Read(all, Shells::kLargest).mass_properties().volume, 8, 1e-12);
   }

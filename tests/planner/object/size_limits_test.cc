@@ -30,7 +30,7 @@ TEST(EdgeComplaint, OfEdgesWhoseProductsWouldUnderflow) {
   EXPECT_THAT(EdgeComplaint(origin, {kMinEdge / 2, 0, 0}, 1), HasSubstr("make its ends one point"));
   EXPECT_THAT(EdgeComplaint(origin, {2 * kMinEdge, 0, 0}, 4), HasSubstr("shorter"));
   EXPECT_THAT(EdgeComplaint(origin, origin, 1), HasSubstr("shorter (0)"));
-  // The square of this length is no double.
+  // The square of this length underflows.
   EXPECT_EQ(EdgeComplaint(origin, {1e-180, 1e-180, 0}, 1e-160), "");
 }
 

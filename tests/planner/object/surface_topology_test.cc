@@ -14,7 +14,7 @@ namespace surface_topology_test {
 
 using ::testing::HasSubstr;
 
-/// A soup of triangles with the numbers that its "file" has.
+/// Make a soup of triangles with the numbers of its "file".
 TriangleMesh MeshOf(const PolygonSoup& soup) {
   TriangleMesh mesh;
   mesh.vertices = soup.vertices;
@@ -36,7 +36,7 @@ TriangleMesh Tetrahedra(const std::vector<Eigen::Vector3d>& offsets) {
   return MeshOf(all);
 }
 
-/// What is wrong, and the message; nullopt where nothing is.
+/// Return the defect with its message; nullopt if there is none.
 std::optional<std::pair<MeshDefect, std::string>> DefectOf(const TriangleMesh& mesh) {
   try {
     (void)ComputeTopology(mesh, "file.off");
@@ -101,7 +101,7 @@ TEST(SurfaceTopology, RefusesWhatIsNotOneClosedSheetAndNamesTheEdgeOrVertex) {
   EXPECT_EQ(defect->first, MeshDefect::kNotManifold);
   EXPECT_THAT(defect->second, HasSubstr("3 facets meet"));
 
-  // Two bodies that have a vertex in common: every edge is sound, the vertex has two fans.
+  // Two objects with a common vertex: every edge is valid, but the vertex has two fans.
   TriangleMesh pinched = Tetrahedra({{0, 0, 0}, {1, 0, 0}});
   for (auto& triangle : pinched.triangles) {
     for (int& v : triangle) v = v == 4 ? 1 : v - (v > 4 ? 1 : 0);

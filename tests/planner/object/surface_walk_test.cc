@@ -18,7 +18,7 @@ using namespace regrasp::soups;  // NOLINT: the meshes of objects
 
 Polyhedron Solid(const PolygonSoup& soup) { return Polyhedron::FromSoup(soup, "soup"); }
 
-/// The face of a cube or square whose outward normal is nearest to one.
+/// Return the face of a cube or square whose outward normal is nearest to `outward`.
 FaceIndex FaceTowards(const Object& object, const Vector3d& outward) {
   FaceIndex best{0};
   for (FaceIndex f{0}; f < object.face_count(); ++f) {
@@ -55,14 +55,14 @@ TEST(WalkStraight, InsideAFaceIsTheDisplacement) {
 
 TEST(WalkStraight, UnfoldsACubeAcrossItsEdges) {
   const Polyhedron cube = Solid(UnitCubeSoup());
-  // Across the edge at x = 0.5 and on downwards, keeping its direction along the edge.
+  // Across the edge at x = 0.5 and then downward, with the same direction along the edge.
   const auto legs = WalkStraight(cube, FaceTowards(cube, {0, 0, 1}), {0.4, 0, 0.5}, {0.3, 0.3, 0});
   ASSERT_TRUE(legs);
   ASSERT_EQ(legs->size(), 2U);
   EXPECT_EQ(legs->back().face, FaceTowards(cube, {1, 0, 0}));
   EXPECT_LT((legs->front().to - Vector3d(0.5, 0.1, 0.5)).norm(), 1e-12);
   EXPECT_LT((legs->back().to - Vector3d(0.5, 0.3, 0.3)).norm(), 1e-12);
-  // Once around, four edges.
+  // Once around, across four edges.
   const auto round = WalkStraight(cube, FaceTowards(cube, {0, 0, 1}), {0.4, 0.1, 0.5}, {4, 0, 0});
   ASSERT_TRUE(round);
   EXPECT_EQ(round->size(), 5U);
@@ -73,7 +73,7 @@ TEST(WalkStraight, OnAFlatFaceThatIsCutFinelyEndsWhereItDoesOnTheOneFace) {
   const Polyhedron whole = Solid(BoxSoup({0, 0, -1}, {1, 1, 0}));
   const Polyhedron flat = Solid(GriddedBoxSoup(40, 0));
   ASSERT_EQ(flat.face_count(), whole.face_count());
-  // Bent by some hundredths of a degree: facets are faces of their own, and lie in a plane all but.
+  // Bent by a few hundredths of a degree: each triangle is a face, and they are nearly coplanar.
   const Polyhedron cut = Solid(GriddedBoxSoup(40, 1e-5));
   ASSERT_GT(cut.face_count(), 1000);
   RandomStream random(2, RandomUse::kTrialContacts);
@@ -196,7 +196,7 @@ TEST(HeadFor, TakesTheShortWayAroundSharpCorners) {
 
 TEST(HeadFor, SaysWhereItFindsNone) {
   const Polyhedron cube = Solid(UnitCubeSoup());
-  // The other side of the cube: straight through it.
+  // The goal is on the opposite face of the cube, straight through the material.
   EXPECT_FALSE(HeadFor(cube, FaceTowards(cube, {0, 0, 1}), {0, 0, 0.5},
                        FaceTowards(cube, {0, 0, -1}), {0, 0, -0.5}));
 }

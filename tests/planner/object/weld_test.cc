@@ -16,7 +16,7 @@ namespace weld_test {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// Every facet with corners of its own, as STL has them.
+/// Give every polygon its own corners, as in STL.
 PolygonSoup TakenApart(const PolygonSoup& soup) {
   PolygonSoup apart;
   for (const auto& facet : soup.facets) {

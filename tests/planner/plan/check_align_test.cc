@@ -198,7 +198,7 @@ TEST(CheckAlign, DoesNotPassWhatItCannotProve) {
   EXPECT_FALSE(step.force_closure);
   EXPECT_FALSE(step.required);
   EXPECT_GT(step.undecided, 0);
-  EXPECT_THAT(step.detail, testing::HasSubstr("0.4286 of the way from waypoint 0 to waypoint 1"));
+  EXPECT_THAT(step.detail, testing::HasSubstr("0.4286 of the path from waypoint 0 to waypoint 1"));
   // If bisection hits this instant, force closure is lost.
   EXPECT_EQ(CheckPlan(cube, CollinearForAnInstant(-0.4, 0.4)).steps[1].reason,
             Reason::kNotForceClosure);

@@ -279,7 +279,7 @@ TEST(HostileFiles, RequiredFieldsCannotBeLeftOut) {
     ASSERT_TRUE(plan.contains(at)) << pointer;
     const Outcome outcome = TryPlan(Without(plan, at).dump());
     EXPECT_FALSE(outcome.read) << pointer;
-    EXPECT_NE(outcome.message.find("\"" + at.back() + "\" is missing"), std::string::npos)
+    EXPECT_NE(outcome.message.find("member \"" + at.back() + "\" not found"), std::string::npos)
         << outcome.message;
   }
 }

@@ -41,11 +41,11 @@ TEST(InventedContacts, FingersOnTheOriginalSurfaceAreNoneToWarnOf) {
 TEST(InventedContacts, TheFirstIsNamedAndAllAreCounted) {
   Plan plan;
   plan.initial = {kLeft, kRight};
-  EXPECT_THAT(WarningOf(plan), HasSubstr("1 contact lies on surface that a repair invented "
+  EXPECT_THAT(WarningOf(plan), HasSubstr("1 contact is on surface that the repair filled in "
                                          "(finger 1 in the initial grasp)"));
   plan.initial = {kLeft, kTop};
   plan.steps = {Switch{{kRight}, {}}, Align{{{kLeft, kTop, kRight}, {kLeft, kTop, kRight}}}};
-  EXPECT_THAT(WarningOf(plan), HasSubstr("2 contacts lie on surface that a repair invented "
+  EXPECT_THAT(WarningOf(plan), HasSubstr("2 contacts are on surface that the repair filled in "
                                          "(finger 1 in step 1)"));
 }
 

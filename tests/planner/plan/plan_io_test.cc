@@ -130,7 +130,7 @@ TEST(PlanIo, RefusesCertificatesThatDoNotFitTheAlign) {
       "plan.json: /steps/2/certificate: expected 2 lists of pieces, one for each waypoint but "
       "the last, found 1");
   EXPECT_EQ(complaint([](Json& ways) { ways[1][0]["end"].erase(0); }),
-            "plan.json: /steps/2/certificate/1/0/end: expected 4 forces, one a finger, found 3");
+            "plan.json: /steps/2/certificate/1/0/end: expected 4 forces, one per finger, found 3");
   for (const auto& change : std::vector<std::function<void(Json&)>>{
            [](Json& ways) { ways = nullptr; }, [](Json& ways) { ways[0] = "all"; },
            [](Json& ways) { ways[0][1].erase("from"); }, [](Json& ways) { ways[0][1]["to"] = "1"; },
@@ -185,7 +185,7 @@ TEST(PlanIo, KeepsTheRadiusOfPatchesOfSolids) {
   plan = SquarePlan();
   plan.patch_radius = 0.02;
   EXPECT_EQ(Complaint(FormatPlan(plan)),
-            "plan.json: /patch_radius: only solids have rough surfaces");
+            "plan.json: /patch_radius: cannot be used with a planar object");
 }
 
 TEST(PlanIo, KeepsWhereClusteredContactsAre) {
@@ -210,7 +210,8 @@ TEST(PlanIo, KeepsThatContactsAreAtGivenPointsOfASurface) {
   ExpectSamePlan(ParsePlan(FormatPlan(plan), "plan.json"), plan);
   plan = SquarePlan();
   plan.at_given_points = true;
-  EXPECT_EQ(Complaint(FormatPlan(plan)), "plan.json: /contacts: only surfaces give points");
+  EXPECT_EQ(Complaint(FormatPlan(plan)),
+            "plan.json: /contacts: cannot be used with a planar object");
 }
 
 TEST(PlanIo, WritesRoundHalfAnglesRound) {
@@ -239,7 +240,7 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
       {"/version", 2, "plan.json: /version: expected 1, found 2"},
       {"/version", "1", "plan.json: /version: expected a number, found \"1\""},
       {"/object/file", std::string("cube.obj\0.wkt", 13),
-       "plan.json: /object/file: a file name cannot hold a NUL character"},
+       "plan.json: /object/file: must not contain a NUL character"},
       {"/object/scale", 0, "plan.json: /object/scale: must be positive"},
       {"/finger_radius", 0, "plan.json: /finger_radius: must be positive, found 0"},
       {"/patch_radius", 0, "plan.json: /patch_radius: must be positive, found 0"},
@@ -252,7 +253,7 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
       {"/friction/half_angle_deg", 5e-324,
        "plan.json: /friction/half_angle_deg: too close to an end of (0, 90), found 5e-324"},
       {"/friction/half_angle_deg", 90,
-       "plan.json: /friction/half_angle_deg: must lie between 0 and 90, found 90"},
+       "plan.json: /friction/half_angle_deg: must be between 0 and 90, found 90"},
       {"/fingers", 0, "plan.json: /fingers: expected a whole number from 1 to 64, found 0"},
       {"/fingers", 4.5, "plan.json: /fingers: expected a whole number from 1 to 64, found 4.5"},
       {"/steps/0/place/0/normal",
@@ -261,7 +262,7 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
       {"/steps/0/place/0/point/1", "x",
        "plan.json: /steps/0/place/0/point/1: expected a number, found \"x\""},
       {"/steps/0/place/0/point/1", 1e300,
-       "plan.json: /steps/0/place/0/point/1: the number 1e+300 is too large"},
+       "plan.json: /steps/0/place/0/point/1: too large, found 1e+300"},
       {"/steps/0/kind", "jump",
        "plan.json: /steps/0/kind: expected \"switch\" or \"align\" or \"move\", found \"jump\""},
       {"/steps/1/release",
@@ -296,7 +297,8 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
   EXPECT_EQ(Complaint(idle.dump()), "plan.json: /steps/0: a switch must place or release a finger");
   Json without = good;
   without["initial"]["contacts"][1].erase("normal");
-  EXPECT_EQ(Complaint(without.dump()), "plan.json: /initial/contacts/1: \"normal\" is missing");
+  EXPECT_EQ(Complaint(without.dump()),
+            "plan.json: /initial/contacts/1: member \"normal\" not found");
 }
 
 TEST(PlanIo, LeavesFingersToTheChecker) {

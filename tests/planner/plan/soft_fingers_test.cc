@@ -146,7 +146,7 @@ TEST(SoftFingersFile, RefusesATorsionThatIsNone) {
   EXPECT_THAT(complaint(PairPlan(0.2), -1), HasSubstr("/torsion: must be positive, found -1"));
   EXPECT_THAT(complaint(PairPlan(0.2), "soft"), HasSubstr("/torsion"));
   EXPECT_THAT(complaint(SquarePlan(), 0.1),
-              HasSubstr("/torsion: only contacts of solids have torsion"));
+              HasSubstr("/torsion: cannot be used with a planar object"));
 }
 
 }  // namespace soft_fingers_test

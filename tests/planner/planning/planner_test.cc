@@ -76,7 +76,7 @@ TEST(WhyNotServed, AsksForOneOptionAndHasItOrNot) {
     EXPECT_EQ(WhyNotServed(Idle({.name = "idle", .in_space = scope, .options = {option}}), request),
               "");
     EXPECT_EQ(WhyNotServed(Idle({.name = "idle", .in_space = scope}), request),
-              OptionName(option) + ": the planner idle has no such option");
+              OptionName(option) + ": not supported by planner idle");
   }
 }
 
@@ -87,7 +87,7 @@ TEST(WhyNotServed, NamesTheDimensionAndTheFingersThatAreMissing) {
   PlanRequest request;
   request.object = &cube;
   EXPECT_EQ(WhyNotServed(planar, request),
-            "a solid, and the planner idle works on planar objects only");
+            "planner idle supports planar objects only, found a solid");
   request.object_name = "cube.obj";
   EXPECT_THAT(WhyNotServed(planar, request), testing::StartsWith("cube.obj: a solid"));
   request.object = &square;
@@ -96,8 +96,7 @@ TEST(WhyNotServed, NamesTheDimensionAndTheFingersThatAreMissing) {
     EXPECT_EQ(WhyNotServed(planar, request), "") << fingers;
   }
   request.hand.fingers = 3;
-  EXPECT_THAT(WhyNotServed(planar, request),
-              HasSubstr("needs a hand of 4 fingers, and this one has 3"));
+  EXPECT_THAT(WhyNotServed(planar, request), HasSubstr("requires a hand with 4 fingers, found 3"));
 }
 
 }  // namespace planner_test

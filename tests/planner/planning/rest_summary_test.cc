@@ -1,5 +1,3 @@
-#include "planner/planning/rest_summary.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +9,7 @@
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/object/polygon.h"
+#include "planner/planning/candidate_sequence.h"
 #include "tests/fixtures/polygons.h"
 
 namespace regrasp::planning {
@@ -46,7 +45,7 @@ TEST_F(RestSummary, OfTheGraspsBelowACriterionTheWeakestIsNamed) {
   const double quality =
       grasp::ComputeQuality(weaker_.grasp, square_.wrench_frame(), Radians(30)).lower;
   EXPECT_THAT(RestWarnings({good_, weak_, weaker_, weak_}, evaluator_),
-              ElementsAre(AllOf(HasSubstr("below the quality 0.04 that was asked for"),
+              ElementsAre(AllOf(HasSubstr("quality falls below the required 0.04"),
                                 HasSubstr("after step 2 of 3 with " + FormatShort(quality)))));
   EXPECT_THAT(RestWarnings({weak_, good_}, evaluator_),
               ElementsAre(HasSubstr("the start grasp (step 0)")));
@@ -60,7 +59,7 @@ TEST_F(RestSummary, AFingertipInACornerIsNamed) {
       {{{1.9999, 0, 0}, {0, 1, 0}, FaceIndex(0)}, {{1.9999, 1, 0}, {0, -1, 0}, FaceIndex(4)}},
       std::nullopt};
   EXPECT_THAT(RestWarnings({corner}, evaluator),
-              ElementsAre(HasSubstr("a fingertip has no clearance in the start grasp")));
+              ElementsAre(HasSubstr("no fingertip fits in the start grasp")));
 }
 
 TEST_F(RestSummary, TheSmallestMarginIsThatOfTheWeakestGrasp) {

@@ -87,15 +87,14 @@ TEST(ChoosePlanner, TakesTheOneThatHasTheOption) {
 
 TEST(ChoosePlanner, TakesGaitForAHandAndSaysWhatNoPlannerJoinsWithIt) {
   planning::PlanRequest request = On(Solid());
-  EXPECT_THAT(
-      [&] { (void)PlannerFor("gait", request); },
-      ThrowsMessage<InputError>(StrEq("the planner gait plans for a hand, and none is given "
-                                      "(--hand); use --planner general")));
+  EXPECT_THAT([&] { (void)PlannerFor("gait", request); },
+              ThrowsMessage<InputError>(StrEq("planner gait requires a hand "
+                                              "(--hand); use --planner general")));
   request.in_hand = std::make_shared<planning::InHandTask>();
   EXPECT_EQ(ChoosePlanner(request).name(), "gait");
   EXPECT_THAT([&] { (void)PlannerFor("general", request); },
               ThrowsMessage<InputError>(
-                  StrEq("--hand: the planner general has no such option; use --planner gait")));
+                  StrEq("--hand: not supported by planner general; help: use --planner gait")));
   request.objective = planning::Objective::kTravel;
   EXPECT_THAT([&] { (void)ChoosePlanner(request); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("--optimize travel (general)"),
@@ -113,9 +112,9 @@ TEST(ChoosePlanner, TakesForAGraphTheFirstThatHasOneWithTheOption) {
   EXPECT_EQ(ChoosePlanner(request).name(), "polyhedron");
   request.graph = planning::GraphTasks{.queries = 5};
   EXPECT_EQ(ChoosePlanner(request).name(), "roadmap");
-  EXPECT_THAT(
-      [&] { (void)PlannerFor("general", request); },
-      ThrowsMessage<InputError>(StrEq("the planner general has no graph; use --planner roadmap")));
+  EXPECT_THAT([&] { (void)PlannerFor("general", request); },
+              ThrowsMessage<InputError>(
+                  StrEq("planner general: graph not supported; help: use --planner roadmap")));
 }
 
 TEST(ChoosePlanner, SaysWhichOptionsNoPlannerJoins) {
@@ -135,13 +134,12 @@ TEST(PlannerFor, RefusesWhatThePlannerDoesNotServeAndNamesOneThatDoes) {
   planning::PlanRequest request = On(Planar());
   request.effort = 5;
   EXPECT_EQ(PlannerFor("general", request).name(), "general");
-  EXPECT_THAT(
-      [&] { (void)PlannerFor("polygon", request); },
-      ThrowsMessage<InputError>(AllOf(
-          StartsWith("--effort: the planner polygon has no such option"), HasSubstr("general"))));
+  EXPECT_THAT([&] { (void)PlannerFor("polygon", request); },
+              ThrowsMessage<InputError>(AllOf(
+                  StartsWith("--effort: not supported by planner polygon"), HasSubstr("general"))));
   EXPECT_THAT([&] { (void)PlannerFor("roadmap", On(Planar())); },
               ThrowsMessage<InputError>(StartsWith(
-                  "file.obj: a planar object, and the planner roadmap works on solids only")));
+                  "file.obj: planner roadmap supports solids only, found a planar object")));
   EXPECT_THAT([&] { (void)PlannerFor("genral", On(Planar())); },
               ThrowsMessage<InputError>(HasSubstr("there are auto, general, polygon")));
 }
@@ -150,7 +148,7 @@ TEST(PlannerFor, RefusesAHandOfTooFewFingers) {
   planning::PlanRequest request = On(Solid());
   request.hand.fingers = 4;
   EXPECT_THAT([&] { (void)PlannerFor("polyhedron", request); },
-              ThrowsMessage<InputError>(HasSubstr("needs a hand of 5 fingers")));
+              ThrowsMessage<InputError>(HasSubstr("requires a hand with 5 fingers")));
   request.hand.fingers = 5;
   EXPECT_EQ(PlannerFor("polyhedron", request).name(), "polyhedron");
 }

@@ -277,7 +277,7 @@ std::string EndsAtItsDeadline(const Planner& planner, const object::Object& obje
     const PlanResult result = PlanWith(planner, object, Random(), Random(), request);
     if (look == 1 && result.plan) return "a plan, and there was no time";
     if (counted.looks() < look) return "came to another end";
-    const std::string up = "the planner " + planner.name() + " when the time was up";
+    const std::string up = "planner " + planner.name() + ": time limit reached";
     if (!result.plan && result.message.find(up) == std::string::npos) {
       return "at look " + std::to_string(look) + ": " + result.message;
     }

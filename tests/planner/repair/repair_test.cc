@@ -264,7 +264,7 @@ TEST(Repair, FacetsThatAreTurnedTheWrongWayAreTurned) {
 
 TEST(Repair, SolidsBesideEachOtherAreRefusedUnlessOneIsChosen) {
   const PolygonSoup two = Join(BoxSoup({0, 0, 0}, {2, 1, 1}), BoxSoup({5, 0, 0}, {6, 1, 1}));
-  EXPECT_THAT(Refusal(two), AllOf(HasSubstr("2 solids beside each other"), HasSubstr("66.7 %"),
+  EXPECT_THAT(Refusal(two), AllOf(HasSubstr("2 separate solids"), HasSubstr("66.7 %"),
                                   HasSubstr("33.3 %"), HasSubstr("--part")));
   RepairOptions options;
   options.part = 1;
@@ -341,7 +341,7 @@ TEST(Repair, AThinSolidIsNoSheet) {
 
 TEST(Repair, AScanOfOneSideIsRefusedWithTheShareThatIsMissing) {
   EXPECT_THAT(Refusal(SphereAbove(-0.01)),
-              AllOf(HasSubstr("not all there"), HasSubstr("invented"), HasSubstr("25 %")));
+              AllOf(HasSubstr("surface incomplete"), HasSubstr("filled in"), HasSubstr("25 %")));
   // Control: most of the sphere suffices.
   const Repaired most = Repair(SphereAbove(-0.75), "most", {});
   EXPECT_GT(most.comparison.invented_share, 0.05);
@@ -409,7 +409,7 @@ TEST(Repair, ACloudOfPointsOfAllSidesBecomesABodyAndOneOfOneSideIsRefused) {
   EXPECT_NEAR(repaired.volume, 4.0 / 3 * 3.14159265, 0.05);
   EXPECT_LT(repaired.comparison.invented_share, 0.01);
   std::erase_if(cloud.vertices, [](const Vector3d& v) { return v.z() < 0; });
-  EXPECT_THAT(Refusal(cloud), HasSubstr("not all there"));
+  EXPECT_THAT(Refusal(cloud), HasSubstr("surface incomplete"));
 }
 
 TEST(Repair, ACloudWhosePointsScatterIsRefusedForThat) {

@@ -32,7 +32,7 @@ TEST(RunStage, AStageThatCannotGoOnSaysWhy) {
 TEST(RunStage, AStageThatCrashesTakesNothingWithIt) {
   const StageRun run = RunStage([]() -> StageResult { std::abort(); }, {});
   EXPECT_FALSE(run.result);
-  EXPECT_EQ(run.failure, "it crashed or ran out of memory");
+  EXPECT_EQ(run.failure, "crashed or ran out of memory");
 }
 
 }  // namespace run_stage_test

@@ -173,7 +173,10 @@ TEST(PlanOnClusters, SaysThatAllWasSearchedWhereAGraspIsIsolated) {
                Given(isolated.Pinwheel(1)), options);
   ASSERT_EQ(result.status, Status::kNoSequence);
   EXPECT_FALSE(result.plan.has_value());
-  EXPECT_THAT(result.message, HasSubstr("there is none: the last resort reached all of 1 grasps"));
+  EXPECT_THAT(
+      result.message,
+      HasSubstr(
+          "no sequence exists over these points: the fallback search reached all of 1 grasps"));
   options.last_resort = false;
   const planning::PlanResult without =
       PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),

@@ -93,7 +93,7 @@ TEST(RoadmapDeadline, EndsAPlanWhereverItComes) {
       const planning::PlanResult result =
           PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options);
       EXPECT_FALSE(result.plan.has_value()) << look;
-      EXPECT_THAT(result.message, HasSubstr("the planner roadmap when the time was up"));
+      EXPECT_THAT(result.message, HasSubstr("planner roadmap: time limit reached"));
     }
   }
 }

@@ -14,11 +14,13 @@ using search::VertexPair;
 const object::Polygon kSquare = Square(1);
 const grasp::Grasp kStart = MakeGrasp(kSquare, {{0, 0.5}, {2, 0.5}});
 const grasp::Grasp kGood = MakeGrasp(kSquare, {{0, 0.4}, {2, 0.4}});
-/// Force closure at 30° (tan 0.577), below a quality of 0.01: 0.57 and 0.576 aslant.
+/// Grasps at 30° (tan 0.577) with force closure and a quality below 0.01: tangents of 0.57 and
+/// 0.576.
 const grasp::Grasp kWeak = MakeGrasp(kSquare, {{0, 0.22}, {2, 0.21}});
 const grasp::Grasp kWeaker = MakeGrasp(kSquare, {{0, 0.22}, {2, 0.204}});
 
-/// Vertices 0 and 3 joined by 1 and by 2, and with a detour over 4 and 5 by the widest.
+/// Graph with two short paths from vertex 0 to 3, over 1 and over 2, and a wider detour over 4 and
+/// 5.
 class TwoPaths final : public search::SwitchingGraph {
  public:
   [[nodiscard]] int vertex_count() const override { return 6; }
@@ -39,8 +41,7 @@ TEST(FindWidePath, OfTheShortestPathsTheWidest) {
   EXPECT_EQ(path_by(2, 1), (std::vector<int>{0, 1, 3}));
 }
 
-/// Paths that each have one switch of their own, and what stands behind it; each is offered until
-/// its switch is banned.
+/// Paths with one switch each to a given grasp. A path is available until its switch is banned.
 class Offers {
  public:
   explicit Offers(std::vector<grasp::Grasp> grasps) : grasps_(std::move(grasps)) {}

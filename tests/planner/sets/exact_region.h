@@ -5,8 +5,8 @@
 
 #include "planner/object/polygon.h"
 
-// The 2-finger grasps of two edges by clipping with exact numbers, a second route to what planners
-// find with filtered doubles.
+// 2-finger grasps of two edges by clipping with exact numbers: a second method to compare with the
+// filtered doubles of the planners.
 namespace regrasp::exact {
 
 template <class Number>
@@ -47,14 +47,14 @@ Edge<Number> MakeEdge(const object::Polygon& polygon, int edge, double tangent) 
   return {a, along, normal + t * along, normal - t * along};
 }
 
-/// v lies in the interior of the edge's cone.
+/// Return whether v is in the interior of the edge's cone.
 template <class Number>
 bool InCone(const Edge<Number>& e, const Vec<Number>& v) {
   return Cross(e.right, v) > 0 && Cross(v, e.left) > 0;
 }
 
-/// C(n_a) and −C(n_b) have a common interior: of two open cones of less than π that meet, one has a
-/// border or the middle of the other inside.
+/// Return whether C(n_a) and −C(n_b) have a common interior. If two open cones narrower than π
+/// intersect, a border or the middle of one is inside the other cone.
 template <class Number>
 bool ConesOppose(const Edge<Number>& a, const Edge<Number>& b) {
   const auto meets = [](const Edge<Number>& e, const Edge<Number>& f) {
@@ -68,11 +68,11 @@ bool ConesOppose(const Edge<Number>& a, const Edge<Number>& b) {
 template <class Number>
 using Corner = std::array<Number, 2>;
 
-/// A convex polygon of parameters (u_a, u_b) in [0, 1]².
+/// Convex polygon of parameters (u_a, u_b) in [0, 1]².
 template <class Number>
 using Region = std::vector<Corner<Number>>;
 
-/// The part where sign · cross(border, p_b(u_b) − p_a(u_a)) >= 0.
+/// Return the part with sign · cross(border, p_b(u_b) − p_a(u_a)) >= 0.
 template <class Number>
 Region<Number> Clip(const Region<Number>& region, const Edge<Number>& a, const Edge<Number>& b,
                     const Vec<Number>& border, int sign) {
@@ -94,7 +94,7 @@ Region<Number> Clip(const Region<Number>& region, const Edge<Number>& a, const E
   return clipped;
 }
 
-/// The grasps that squeeze (sign 1) or stretch (−1), border included.
+/// Return the grasps from outside (sign 1) or stretching (−1), including the border.
 template <class Number>
 Region<Number> TwoFingerRegion(const Edge<Number>& a, const Edge<Number>& b, int sign) {
   Region<Number> region = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

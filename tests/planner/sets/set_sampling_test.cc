@@ -17,7 +17,8 @@ std::vector<SetIndex> Sets(const std::vector<int>& numbers) {
 
 class DrawFromSetsOfASquare : public testing::Test {
  protected:
-  /// Draws what set 3 has, a good grasp; the others have none, or one that nothing holds.
+  /// Draw from sets of which only set 3 has a good grasp. The others have none, or one without
+  /// force closure.
   grasp::Grasp Draw(SamplingPools pools) {
     return DrawFromSets(
         "goal", std::move(pools),

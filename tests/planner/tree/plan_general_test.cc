@@ -139,14 +139,14 @@ TEST(PlanGeneralTest, AnEffortTooSmallSaysWhatWasReachedAndExplainFindsTheFricti
     if (result.status == Status::kFound) continue;
     ++none;
     EXPECT_EQ(result.status, Status::kNoSequence);
-    EXPECT_THAT(result.message, HasSubstr("were reached from the start"));
-    EXPECT_THAT(result.message, HasSubstr("failure is not a proof of infeasibility"));
+    EXPECT_THAT(result.message, HasSubstr(" from the start and "));
+    EXPECT_THAT(result.message, HasSubstr("this does not prove that there is no sequence"));
     options.effort = 40'000;
     options.explain = true;
     const planning::PlanResult more =
         PlanWith(TreePlanner(), *file.object, Random(), Random(), options);
     if (more.status != Status::kFound) {
-      EXPECT_THAT(more.message, HasSubstr("upper bound by search"));
+      EXPECT_THAT(more.message, HasSubstr("upper bound on the required one"));
     }
   }
   EXPECT_EQ(none, 1);
@@ -170,7 +170,7 @@ TEST(PlanGeneralTest, ObjectivesAreWhatTheySay) {
     wider += margin.margin - steps.margin;
     EXPECT_THAT(steps.notes, testing::IsEmpty());
     EXPECT_THAT(margin.notes, ElementsAre(HasSubstr("a margin of ")));
-    EXPECT_THAT(travel.notes, ElementsAre(HasSubstr("travel of all fingers")));
+    EXPECT_THAT(travel.notes, ElementsAre(HasSubstr("total finger travel")));
     EXPECT_TRUE(plan::CheckPlan(*file.object, *travel.plan).passed());
     EXPECT_TRUE(plan::CheckPlan(*file.object, *margin.plan).passed());
   }

@@ -123,9 +123,8 @@ TEST_P(SealedCavity, AGraspThereIsBadInputForPointsToo) {
     }
   }
   ASSERT_EQ(choice.grasp.size(), 4u);
-  EXPECT_THAT(
-      [&] { (void)PlanWith(TreePlanner(), hollow_, choice, choice, RequestAt(20)); },
-      ThrowsMessage<InputError>(HasSubstr("finger 0: its contact lies in a sealed cavity")));
+  EXPECT_THAT([&] { (void)PlanWith(TreePlanner(), hollow_, choice, choice, RequestAt(20)); },
+              ThrowsMessage<InputError>(HasSubstr("finger 0: its contact is in a sealed cavity")));
 }
 
 }  // namespace sealed_cavity_test

@@ -109,7 +109,7 @@ TEST(SoftFingersPlan, HardPointsPlannersAndThePlaneRefuse) {
   };
   EXPECT_THAT(complaint(*file.object, "general", RequestAt(25)), HasSubstr("found 2"));
   EXPECT_THAT(complaint(*file.object, "polyhedron", SoftAt(25)),
-              HasSubstr("--contact soft: the planner polyhedron has no such option"));
+              HasSubstr("--contact soft: not supported by planner polyhedron"));
   EXPECT_THAT(complaint(*ReadModel("polygon15.wkt").object, "auto", SoftAt(25)),
               HasSubstr("--contact soft"));
   // The offset from the line is too large for 10°.
@@ -117,8 +117,9 @@ TEST(SoftFingersPlan, HardPointsPlannersAndThePlaneRefuse) {
   planning::PlanRequest request = SoftAt(10);
   request.object = file.object.get();
   request.start = request.goal = Given(off);
-  EXPECT_THAT([&] { static_cast<void>(planning::Solve(TreePlanner(), request)); },
-              testing::ThrowsMessage<InputError>(HasSubstr("not force closure: needs a friction")));
+  EXPECT_THAT(
+      [&] { static_cast<void>(planning::Solve(TreePlanner(), request)); },
+      testing::ThrowsMessage<InputError>(HasSubstr("not force closure: requires a friction")));
 }
 
 }  // namespace soft_fingers_test

@@ -87,7 +87,7 @@ TEST(ContactSpaceAxisTest, LabelsKeepTheirDistanceAndDiffer) {
   EXPECT_GT(checked, 30);
 }
 
-TEST(ContactSpaceAxisTest, TitlesNameTheRingWhereThereAreSeveral) {
+TEST(ContactSpaceAxisTest, TitlesNameTheRingOfSeveralRings) {
   const object::Polygon square = MakeSquare();
   EXPECT_EQ(AxisTitle(contour::Boundary(square), "u", kOuter), "u");
   const object::Polygon ring = MakeRing(8);
@@ -115,12 +115,12 @@ TEST(ContactSpaceAxisTest, TheUnitSuitsTheObjectAndTicksAreRoundInIt) {
     }
     return text;
   };
-  // Few vertices: their lengths.
+  // Few vertices are labelled with their lengths.
   EXPECT_EQ(labels(1, 28), "m: 0 2 4 6 8");
   EXPECT_EQ(labels(0.01, 28), "cm: 0 2 4 6 8");
   EXPECT_EQ(labels(0.001, 28), "mm: 0 2 4 6 8");
   EXPECT_EQ(labels(0.0254, 28), "cm: 0 5.08 10.2 15.2 20.3");
-  // Round ones where vertices are too near to each other for labels, in the unit of the axis.
+  // If vertices are too close for labels, round lengths in the unit of the axis are labelled.
   EXPECT_EQ(labels(0.0254, 51), "cm: 0 10 20.3");
 }
 

@@ -7,7 +7,7 @@
 #include <regex>
 #include <string>
 
-#include "render/figures/contact_space_overview.h"
+#include "render/figures/contact_space_map.h"
 #include "tests/render/figures/contact_space_scenes.h"
 #include "tests/render/figures/planar_scenes.h"
 
@@ -16,7 +16,7 @@ namespace contact_space_figure_test {
 
 constexpr FigureFormat kFormats[] = {FigureFormat::kSvg, FigureFormat::kPdf, FigureFormat::kPng};
 
-/// How often an SVG paints with a colour: "fill" or "stroke".
+/// Return how often an SVG paints with a colour: "fill" or "stroke".
 int Count(const std::string& svg, const std::string& how, Color color) {
   const auto percent = [](int channel) { return std::to_string(channel * 100 / 255); };
   const std::string rgb = "rgb\\(" + percent(color.r) + "(\\.\\d+)?%,\\s*" + percent(color.g) +
@@ -86,7 +86,7 @@ TEST(ContactSpaceFigureTest, OnlySwitchesThatKeepAContactHaveAFigure) {
 }
 
 TEST(ContactSpaceFigureTest, TheSamePlanHasTheSameBytesAndAnotherHasOthers) {
-  // Compared as a whole, not with EXPECT_EQ: a failure would print megabytes.
+  // Files are compared as a whole: EXPECT_EQ would print megabytes.
   for (const FigureFormat format : kFormats) {
     Fork first, second;
     EXPECT_TRUE(first.figures.DrawOverview(format) == second.figures.DrawOverview(format));
@@ -97,7 +97,7 @@ TEST(ContactSpaceFigureTest, TheSamePlanHasTheSameBytesAndAnotherHasOthers) {
   }
 }
 
-TEST(ContactSpaceFigureTest, AnOverviewIsAColumnWideOrTwoWhereThereIsMuchToShow) {
+TEST(ContactSpaceFigureTest, ALargeOverviewIsTwoColumnsWide) {
   Fork fork;
   EXPECT_EQ(PngWidth(fork.figures.DrawOverview(FigureFormat::kPng)), 1004);
   EXPECT_EQ(PngWidth(*fork.figures.DrawSwitch(plan::EntryIndex(1), FigureFormat::kPng)), 2055);

@@ -59,12 +59,12 @@ TEST(ContactSpaceMapTest, ASwitchThatKeepsAContactMovesAlongOneAxis) {
   EXPECT_NE(step.from.places.y(), step.to.places.y());
 }
 
-TEST(ContactSpaceMapTest, RestsLieInTheSetsThatAreNamedAfterThem) {
+TEST(ContactSpaceMapTest, StaticGraspsAreInTheSetsNamedAfterThem) {
   const Scene fork(MakeFork(), MakeForkPlan());
-  ASSERT_THAT(fork.map.rests, SizeIs(3));
+  ASSERT_THAT(fork.map.grasps, SizeIs(3));
   for (int i = 0; i < 3; ++i) {
     for (int name = 0; name < 3; ++name) {
-      EXPECT_EQ(IsInside(fork.SetNamed(name), fork.map.rests[i]), i == name) << i << " " << name;
+      EXPECT_EQ(IsInside(fork.SetNamed(name), fork.map.grasps[i]), i == name) << i << " " << name;
     }
   }
 }
@@ -108,7 +108,7 @@ TEST(ContactSpaceMapTest, BothHalvesAreDrawn) {
   EXPECT_GE(checked, 6);
 }
 
-TEST(ContactSpaceMapTest, TheNameStandsAtTheCentreOfTheLargestSquare) {
+TEST(ContactSpaceMapTest, TheNameIsAtTheCentreOfTheLargestSquare) {
   Scene fork(MakeFork(), MakeForkPlan());
   std::mt19937_64 engine(11);
   int checked = 0;
@@ -133,18 +133,19 @@ TEST(ContactSpaceMapTest, TheNameStandsAtTheCentreOfTheLargestSquare) {
   }
 }
 
-TEST(ContactSpaceMapTest, AWayBreaksWhereTheRingBeginsAgain) {
+TEST(ContactSpaceMapTest, APathIsSplitAtTheEndOfTheRing) {
   const object::Polygon disc = MakeDisc(12);
   const Scene scene(disc, MakeDiscPlan(disc));
   const double perimeter = scene.graph.boundary().perimeter(contour::RingIndex(0));
   ASSERT_THAT(scene.map.paths, SizeIs(2));
-  // The contact on the lower edge, here the other one, is across.
+  // The contact on the edge with the lower index is on the horizontal axis. Here it is the second
+  // contact.
   EXPECT_NEAR(scene.map.paths[0].points.back().y(), perimeter, 1e-12);
   EXPECT_NEAR(scene.map.paths[1].points.front().y(), 0, 1e-12);
   EXPECT_NEAR(scene.map.paths[1].points.front().x(), perimeter / 2, 1e-12);
 }
 
-TEST(ContactSpaceMapTest, AWayThatTurnsElsewhereIsOne) {
+TEST(ContactSpaceMapTest, APathWithOtherTurnsIsNotSplit) {
   const object::Polygon disc = MakeDisc(12);
   plan::Plan plan = MakeDiscPlan(disc);
   const auto at = [&](int edge, double u) {
@@ -159,7 +160,7 @@ TEST(ContactSpaceMapTest, OnlyRingsThatThePlanUsesAreShown) {
   const object::Polygon ring = MakeRing(12);
   plan::Plan plan = MakeForkPlan();
   plan.steps.clear();
-  // The wall between the outer ring and the hole, near the first vertex; holes run clockwise.
+  // The wall between the outer ring and the hole, near the first vertex. Holes are clockwise.
   plan.initial = {FingerAt(ring, 0, 0, 0.5), FingerAt(ring, 1, 23, 0.5)};
   const auto located = [&](const plan::Plan& p) { return Scene(ring, p); };
   EXPECT_THAT(located(plan).map.rings, ElementsAre(contour::RingIndex(0), contour::RingIndex(1)));

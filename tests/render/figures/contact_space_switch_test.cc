@@ -4,8 +4,8 @@
 
 #include "planner/sets/contour/contour_planner.h"
 #include "render/figures/contact_space_map.h"
+#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
-#include "render/figures/print_size.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/render/figures/contact_space_scenes.h"
 
@@ -15,7 +15,7 @@ namespace contact_space_switch_test {
 using Eigen::Vector2d;
 using testing::SizeIs;
 
-/// All switches of a plan.
+/// Return all switches of a plan.
 std::vector<ContactSwitch> SwitchesOf(const object::Polygon& polygon, const plan::Plan& plan) {
   const contour::ContourGraph graph(polygon, plan.half_angle);
   contour::SetGeometry geometry(graph);
@@ -28,7 +28,7 @@ std::vector<ContactSwitch> SwitchesOf(const object::Polygon& polygon, const plan
   return switches;
 }
 
-/// Switches of random plans on a fork and on a ring.
+/// Return the switches of random plans on a fork and on a ring.
 std::vector<ContactSwitch> ManySwitches() {
   std::vector<ContactSwitch> all;
   for (const object::Polygon& polygon : {MakeFork(), MakeRing(20)}) {
@@ -47,8 +47,8 @@ std::vector<ContactSwitch> ManySwitches() {
   return all;
 }
 
-/// True iff a square about the grasp, of this share of the one that the figure shows, is inside the
-/// set as it is drawn, as far as points along its border tell.
+/// Return whether a square around the grasp is inside the drawn set, at sampled points of its
+/// border. The size is a share of the square in the figure.
 bool SquareFits(const ContactSwitchSide& side, double share) {
   constexpr int kSteps = 200;
   const double half = share * side.size;
@@ -103,8 +103,8 @@ TEST(ContactSpaceSwitchTest, SquaresFitTheSetAsDrawnAndLargerOnesDoNot) {
   int checked = 0;
   for (const ContactSwitch& step : ManySwitches()) {
     for (const ContactSwitchSide& side : step.sides) {
-      if (side.size < 1e-3) continue;  // too small for the steps along the square
-      // A set that comes back to itself is cut somewhere, and a square may reach over the cut.
+      if (side.size < 1e-3) continue;  // too small for the sampling distance
+      // A set that continues around the object is cut, and a square can extend over the cut.
       if (!side.set.cuts.empty()) continue;
       EXPECT_TRUE(SquareFits(side, 0.999));
       EXPECT_FALSE(SquareFits(side, 1.02));
@@ -121,15 +121,14 @@ TEST(ContactSpaceSwitchTest, KnowsTheAnswerOnAFork) {
   EXPECT_NEAR(both_sides.grasp.x(), 46, 1e-12);
   EXPECT_NEAR(prong.grasp.x(), 25, 1e-12);
   EXPECT_NEAR(prong.grasp.y(), 18, 1e-12);
-  // The prong is squeezed where its inner side is opposite, or aside by at most 3 tan 20°.
+  // The prong is held where its inner side is opposite or offset by at most 3 tan 20°.
   EXPECT_NEAR(switches[0].sides[1].projection.low, 13 - 3 * std::tan(0.349065850398866), 1e-9);
   EXPECT_NEAR(switches[0].sides[1].projection.high, 20, 1e-12);
   EXPECT_NEAR(switches[0].overlap.high, 20, 1e-12);
   EXPECT_FALSE(switches[1].sides[0].stretching);
   EXPECT_TRUE(switches[1].sides[1].stretching);
-  // 2 below the tips the nearest border of the prong's set, by both contacts at once, is the
-  // cone's: heights h and h' with |h − h'| < 3 tan 20°, which a square of half-width 3/2 tan 20°
-  // touches.
+  // Two below the ends, the nearest border of the prong's set involves both contacts: it consists
+  // of heights h and h' with |h − h'| = 3 tan 20°. A square of half-width 3/2 tan 20° touches it.
   EXPECT_NEAR(prong.size, 1.5 * std::tan(0.349065850398866), 1e-9);
 }
 
@@ -140,7 +139,7 @@ TEST(ContactSpaceSwitchTest, AnExchangeOfBothContactsHasNoFigure) {
       SizeIs(0));
 }
 
-TEST(ContactSpaceSwitchPageTest, BothSetsHaveOneScaleAndOneAxisAndLieOnThePage) {
+TEST(ContactSpaceSwitchFigureTest, BothSetsHaveOneScaleAndOneAxisAndAreOnThePage) {
   int checked = 0;
   for (const ContactSwitch& step : ManySwitches()) {
     const SwitchLayout layout = LayOutSwitch(step);

@@ -36,7 +36,7 @@ TEST(ContactSpaceTrackTest, AWaypointHasTheAxesOfTheGraspBefore) {
   const object::Polygon disc = MakeDisc(12);
   plan::Plan plan = MakeDiscPlan(disc);
   auto& waypoints = std::get<plan::Align>(plan.steps[0]).waypoints;
-  std::swap(waypoints[2][0], waypoints[2][1]);  // the order in a file means nothing
+  std::swap(waypoints[2][0], waypoints[2][1]);  // the order in a file is arbitrary
   const std::vector<TrackEntry> track = TrackPlan(plan);
   ASSERT_THAT(track, SizeIs(2));
   ASSERT_THAT(track[1].path, SizeIs(4));
@@ -46,7 +46,7 @@ TEST(ContactSpaceTrackTest, AWaypointHasTheAxesOfTheGraspBefore) {
   }
 }
 
-TEST(ContactSpaceTrackTest, WhereBothContactsAreExchangedNoneStays) {
+TEST(ContactSpaceTrackTest, NoContactStaysIfBothAreExchanged) {
   const std::vector<TrackEntry> track = TrackPlan(MakeExchangePlan());
   ASSERT_THAT(track, SizeIs(2));
   EXPECT_EQ(track[1].shared_axis, std::nullopt);
@@ -54,12 +54,12 @@ TEST(ContactSpaceTrackTest, WhereBothContactsAreExchangedNoneStays) {
 }
 
 TEST(ContactSpaceTrackTest, FindsTheFirstGraspOfOtherThanTwoContacts) {
-  EXPECT_EQ(FindOtherThanTwoFingers(MakeForkPlan()), std::nullopt);
-  EXPECT_EQ(FindOtherThanTwoFingers(MakeExchangePlan()), std::nullopt);
-  EXPECT_EQ(FindOtherThanTwoFingers(MakeSquarePlan()), (RestSize{plan::EntryIndex(0), 3}));
+  EXPECT_EQ(FindOtherThanTwoContacts(MakeForkPlan()), std::nullopt);
+  EXPECT_EQ(FindOtherThanTwoContacts(MakeExchangePlan()), std::nullopt);
+  EXPECT_EQ(FindOtherThanTwoContacts(MakeSquarePlan()), (StaticGraspSize{plan::EntryIndex(0), 3}));
   plan::Plan plan = MakeForkPlan();
   std::get<plan::Switch>(plan.steps[1]).release.clear();
-  EXPECT_EQ(FindOtherThanTwoFingers(plan), (RestSize{plan::EntryIndex(2), 3}));
+  EXPECT_EQ(FindOtherThanTwoContacts(plan), (StaticGraspSize{plan::EntryIndex(2), 3}));
 }
 
 }  // namespace contact_space_track_test

@@ -15,7 +15,7 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
 
-/// A little aside, over lengths of about one.
+/// A small offset relative to lengths of about 1.
 constexpr double kAside = 1e-7;
 
 struct Case {
@@ -31,7 +31,7 @@ std::vector<Case> Cases() {
           {"ring", MakeRing(16)}};
 }
 
-/// Any grasp of a set, and the set unfolded from there.
+/// Return a set unfolded from one of its grasps.
 UnfoldedSet Unfold(contour::SetGeometry& geometry, sets::SetIndex set, int upright) {
   const contour::PieceIndex piece = geometry.graph().pieces_of(set).front();
   const std::vector<Vector2d>& outline = geometry.OutlineOf(piece);
@@ -50,11 +50,11 @@ bool IsOn(const Vector2d& p, const std::vector<Segment>& segments) {
 
 struct Sides {
   int checked = 0;
-  int open = 0;  ///< nothing beyond, and no border there
+  int open = 0;  ///< sides without neighbour and without border
 };
 
-/// Walks along the sides of all pieces: beyond each point there is another piece or there is a
-/// line.
+/// Count the points along the sides of all pieces that have neither a neighbouring piece nor a line
+/// beyond them.
 Sides CountOpenSides(const UnfoldedSet& set) {
   constexpr int kSteps = 7;
   Sides sides;
@@ -91,7 +91,7 @@ TEST(ContactSpaceUnfoldingTest, ASideOfAPieceIsBorderOrAnotherPieceFollows) {
   EXPECT_GT(checked, 5000);
 }
 
-TEST(ContactSpaceUnfoldingTest, WithoutUnfoldingASetEndsAtTheFrameWhereItHasNoBorder) {
+TEST(ContactSpaceUnfoldingTest, WithoutUnfoldingASetEndsAtTheFrameWithoutABorder) {
   const object::Polygon disc = MakeDisc(24);
   const contour::ContourGraph graph(disc, Radians(20));
   contour::SetGeometry geometry(graph);
@@ -149,7 +149,7 @@ TEST(ContactSpaceUnfoldingTest, PiecesKeepTheirAreaAndDoNotOverlap) {
   EXPECT_GT(checked, 100);
 }
 
-TEST(ContactSpaceUnfoldingTest, TheFirstGraspStaysWhereItIs) {
+TEST(ContactSpaceUnfoldingTest, TheFirstGraspIsNotMoved) {
   const object::Polygon disc = MakeDisc(24);
   const contour::ContourGraph graph(disc, Radians(20));
   contour::SetGeometry geometry(graph);
@@ -162,7 +162,7 @@ TEST(ContactSpaceUnfoldingTest, TheFirstGraspStaysWhereItIs) {
   EXPECT_EQ(CountContaining(UnfoldSet(geometry, grasp, 1).pieces, swapped), 0);
 }
 
-TEST(ContactSpaceUnfoldingTest, OnlyASetThatComesBackToItselfIsCut) {
+TEST(ContactSpaceUnfoldingTest, OnlyASetAroundTheObjectIsCut) {
   const object::Polygon square = MakeSquare();
   const contour::ContourGraph simple(square, Radians(20));
   contour::SetGeometry simple_geometry(simple);

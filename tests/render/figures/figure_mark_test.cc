@@ -1,11 +1,10 @@
-#include "render/figures/figure_mark.h"
-
 #include <gtest/gtest.h>
 #include <png.h>
 
 #include <string>
 #include <vector>
 
+#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
 
 namespace regrasp::render {
@@ -13,7 +12,7 @@ namespace figure_mark_test {
 
 constexpr FigureFormat kFormats[] = {FigureFormat::kSvg, FigureFormat::kPdf, FigureFormat::kPng};
 
-TEST(FigureMarkTest, EveryFormatSaysWhoMadeIt) {
+TEST(FigureMarkTest, EveryFormatNamesItsProgram) {
   for (const FigureFormat format : kFormats) {
     std::string bytes = FigurePage(format, 20, 10).Finish();
     EXPECT_TRUE(IsMarkedFigure(bytes));

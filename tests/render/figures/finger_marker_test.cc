@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
-#include "render/figures/print_size.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
@@ -13,16 +13,17 @@ namespace finger_marker_test {
 
 using Eigen::Vector2d;
 
-constexpr int kSide = 40;             ///< of the picture, points
-constexpr int kPixels = 8;            ///< a point
-constexpr int kShapes = 5;            ///< after these they repeat
-constexpr double kLeastArea = 6;      ///< of a marker that is seen, square points
-constexpr double kLeastOutline = 10;  ///< of a hollow one, of its outline 0.9 points wide
+constexpr int kSide = 40;         ///< side of the image, points
+constexpr int kPixels = 8;        ///< pixels per point
+constexpr int kShapes = 5;        ///< number of shapes before they repeat
+constexpr double kLeastArea = 6;  ///< minimum visible area of a marker, square points
+/// Minimum visible area of a hollow marker's outline of width 0.9 points, square points.
+constexpr double kLeastOutline = 10;
 
-/// Between contacts on an object of 100 mm on a column of 85 mm.
+/// Convert a distance on an object of 100 mm in a column of 85 mm to points.
 double PointsOf(double mm) { return mm / 100 * kColumnWidth; }
 
-/// How much is seen of the finger's own colour, square points.
+/// Return the visible area in the finger's own colour, square points.
 double AreaOf(FingerIndex finger, const std::vector<FingerMarker>& markers) {
   const CairoSurface surface(
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, kSide * kPixels, kSide * kPixels));
@@ -49,7 +50,7 @@ std::vector<FingerMarker> SideBySide(int first, int second, double distance, boo
           {FingerIndex(second), middle + Vector2d(distance, 0), MarkerStyle::kFilled, ring}};
 }
 
-TEST(FingerMarkerTest, OfMarkersThatLieOnEachOtherEachIsSeen) {
+TEST(FingerMarkerTest, OverlappingMarkersAreAllVisible) {
   int checked = 0;
   for (const double mm : {0.0, 0.1, 1.0}) {
     for (int first = 0; first < kShapes; ++first) {
@@ -57,7 +58,7 @@ TEST(FingerMarkerTest, OfMarkersThatLieOnEachOtherEachIsSeen) {
         if (first == second) continue;
         for (const bool ring : {false, true}) {
           auto markers = SideBySide(first, second, PointsOf(mm), ring);
-          // Negative control: next to nothing of the one below.
+          // Negative control: the lower marker is almost hidden.
           if (mm < 1) {
             EXPECT_LT(AreaOf(FingerIndex(first), markers), kLeastArea);
           }
@@ -83,7 +84,7 @@ TEST(FingerMarkerTest, ThreeOnEachOtherAreNested) {
   EXPECT_EQ(markers.back().radius, kMarkerRadius);
 }
 
-TEST(FingerMarkerTest, AReleasedFingerIsSeenBelowTheOneThatTakesItsPlaceAndOnIt) {
+TEST(FingerMarkerTest, AReleasedFingerIsVisibleBelowAndAboveItsReplacement) {
   for (const bool below : {false, true}) {
     std::vector<FingerMarker> markers = SideBySide(0, 1, 0, /*ring=*/below);
     markers[below ? 0 : 1].style = MarkerStyle::kHollow;

@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
-#include "render/figures/panel_text.h"
-#include "render/figures/print_size.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
@@ -10,7 +9,7 @@ namespace finger_numbers_test {
 
 using Eigen::Vector2d;
 
-/// The numbers of fingers side by side on an upright edge, `gap` points from each other.
+/// Return the positions of the numbers of fingers on a vertical edge at distances of `gap` points.
 std::vector<Vector2d> NumbersOf(int count, double gap) {
   const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
   const CairoContext context(cairo_create(surface.get()));
@@ -35,7 +34,7 @@ double LeastDistance(const std::vector<Vector2d>& points) {
 }
 
 TEST(FingerNumbers, OfContactsATenthOfAMillimetreApartDoNotOverlap) {
-  // An object of 100 mm on a column of 85 mm.
+  // An object of 100 mm in a column of 85 mm.
   const double gap = 0.1 / 100 * kColumnWidth;
   for (const int count : {2, 3, 4}) {
     const auto centres = NumbersOf(count, gap);
@@ -43,7 +42,7 @@ TEST(FingerNumbers, OfContactsATenthOfAMillimetreApartDoNotOverlap) {
     EXPECT_GE(LeastDistance(centres), 2 * kNumberRadius) << count;
     for (const Vector2d& centre : centres) EXPECT_LT((centre - Vector2d(120, 100)).norm(), 60);
   }
-  // Negative control: beside their contacts they would lie on each other.
+  // Negative control: next to their contacts the numbers would overlap.
   EXPECT_LT(gap, kNumberRadius / 10);
 }
 

@@ -18,9 +18,10 @@ namespace grasp_diagram_test {
 
 using Eigen::Vector2d;
 
-/// Coordinates of objects of size 1 agree this well: 1e-9 is far below a page, far above rounding.
+/// Tolerance of coordinates of objects of size 1: invisible on a page and far above rounding
+/// errors.
 constexpr double kClose = 1e-9;
-/// Where cones are drawn at φ* what is computed is for cones 1e-9 narrower.
+/// Tolerance if cones are drawn at φ*, since the computation uses cones that are narrower by 1e-9.
 constexpr double kCloseAtLimit = 1e-6;
 
 const double kHeight = std::sqrt(3.0) / 2;
@@ -45,7 +46,7 @@ bool IsInside(const Outline& outline, const Vector2d& p) {
   return true;
 }
 
-/// The part that holds `p`; nullptr where none does.
+/// Return the part that contains `p`; nullptr if there is none.
 const Outline* PartWith(const std::vector<Outline>& cell, const Vector2d& p) {
   const auto part =
       std::find_if(cell.begin(), cell.end(), [&](const Outline& o) { return IsInside(o, p); });
@@ -95,10 +96,10 @@ TEST(GraspDiagramTest, TheFocusLiesInEveryConeAndInTheCell) {
   EXPECT_EQ(PartWith(diagram.focus_cell, Vector2d(3, 3)), nullptr);
 }
 
-TEST(GraspDiagramTest, TheFocusCellOfATriangleHasTheCornersThatGeometrySays) {
-  // From inside every edge is seen from everywhere. A point below the bottom edge sees it between
-  // lines from its ends at θ to its normal, and the other two edges from their inner side between
-  // lines at θ to theirs: the lines at θ meet on the axis of symmetry.
+TEST(GraspDiagramTest, TheFocusCellOfATriangleHasTheExpectedCorners) {
+  // Each edge is visible from every interior point. A point below the bottom edge sees this edge
+  // between lines from its ends at θ to its normal. It sees the inner sides of the other two edges
+  // between lines at θ to their normals. The lines at θ intersect on the axis of symmetry.
   const double theta = Radians(20);
   const GraspDiagram diagram = DescribeGrasp(MakeTriangle(), MiddleOfTriangle(), theta);
   const Outline* inner = PartWith(diagram.focus_cell, {0.5, kHeight / 3});
@@ -112,11 +113,11 @@ TEST(GraspDiagramTest, TheFocusCellOfATriangleHasTheCornersThatGeometrySays) {
   ASSERT_NE(below, nullptr);
   double lowest = 0;
   for (const Vector2d& p : *below) lowest = std::min(lowest, p.y());
-  // From (0, 0) the border of the left edge's cones goes down at 30° + θ below the x axis.
+  // At (0, 0) the border of the left edge's cones descends at 30° + θ below the x axis.
   EXPECT_NEAR(lowest, -0.5 * std::tan(Radians(30) + theta), kClose);
 }
 
-TEST(GraspDiagramTest, ContactsThatSeeNoCommonPointAreNotConcurrent) {
+TEST(GraspDiagramTest, ContactsWithoutACommonPointAreNotConcurrent) {
   const object::Polygon triangle = MakeTriangle();
   const grasp::Grasp apart = {OnEdge(triangle, 0, 0.05), OnEdge(triangle, 1, 0.05),
                               OnEdge(triangle, 2, 0.05)};
@@ -128,7 +129,7 @@ TEST(GraspDiagramTest, ContactsThatSeeNoCommonPointAreNotConcurrent) {
 }
 
 TEST(GraspDiagramTest, NormalsThatDoNotSpanThePlaneAreNotConcurrent) {
-  // Left, right and bottom of the square: nothing presses down.
+  // Left, right and bottom of the square: no contact force points down.
   const GraspDiagram diagram =
       DescribeGrasp(MakeSquare(), OnSquare({{3, 0.5}, {1, 0.5}, {0, 0.5}}), Radians(10));
   EXPECT_NE(diagram.kind, DiagramKind::kConcurrent);
@@ -149,9 +150,9 @@ TEST(GraspDiagramTest, AParallelGraspOnParallelEdgesHasTheWholeConeInCommon) {
   EXPECT_NEAR(diagram.force_direction->x(), 0, kClose);
 }
 
-TEST(GraspDiagramTest, ACommonConeIsNarrowerWhereTheEdgesLean) {
-  // The two upper edges lean to one side, by 4° and 10°. With the bottom's cone theirs share what
-  // is between 10° − θ and θ from the vertical, and the three normals do not span the plane.
+TEST(GraspDiagramTest, ACommonConeIsNarrowerForInclinedEdges) {
+  // The two upper edges are inclined to one side by 4° and 10°. Their common cone with the bottom
+  // is the range from 10° − θ to θ from the vertical, and the three normals do not span the plane.
   const double first = std::tan(Radians(4));
   const double second = std::tan(Radians(10));
   const object::Polygon wedge = object::Polygon::FromRings(
@@ -186,8 +187,8 @@ TEST(GraspDiagramTest, OuterContactsOnOneSideOfTheCommonConeAreNotParallel) {
   EXPECT_FALSE(diagram.force_direction);
 }
 
-TEST(GraspDiagramTest, TwoContactsAreATwoFingerGraspWhereTheirLineIsInBothCones) {
-  // Over a height of 2 a shift of 2 · tan 20° = 0.73 is the limit.
+TEST(GraspDiagramTest, TwoContactsAreATwoFingerGraspIfTheirLineIsInBothCones) {
+  // Over a height of 2, the limit of the offset is 2 · tan 20° = 0.73.
   const auto kind = [](double shift) {
     return DescribeGrasp(MakeSquare(), OnSquare({{0, 0.5}, {2, 0.5 + shift / 2}}), Radians(20))
         .kind;
@@ -231,8 +232,8 @@ TEST(GraspDiagramTest, TheOrderOfContactsChangesNothingButTheOrderOfCones) {
 }
 
 TEST(GraspDiagramTest, RandomGraspsOfAKindAreForceClosure) {
-  // Another route: what is drawn as one of the three kinds is force closure, and what is drawn as
-  // none may or may not be.
+  // Independent check: a grasp drawn as one of the three types is force closure. Other grasps can
+  // be either.
   const object::Polygon polygon = object::Polygon::FromRings(
       {{{0, 0}, {5, -1}, {6, 1}, {9, 0.5}, {10, 4}, {7, 4.5}, {8, 7}, {4, 8}, {3, 5}, {0, 6}}},
       "blob");

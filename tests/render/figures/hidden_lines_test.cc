@@ -1,10 +1,9 @@
-#include "render/figures/hidden_lines.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <numeric>
 
+#include "render/figures/solid_figure.h"
 #include "render/frames/body_shape.h"
 #include "tests/fixtures/solids.h"
 
@@ -15,9 +14,9 @@ using Eigen::Vector3d;
 
 const Vector3d kUp = Vector3d::UnitZ();
 
-/// [−0.2, 0.2]² at height z.
+/// Return the square [−0.2, 0.2]² at height z.
 RayTree Square(double z) {
-  FacetMesh mesh;
+  ShadedMesh mesh;
   mesh.AddFlat({-0.2, -0.2, z}, {0.2, -0.2, z}, {0.2, 0.2, z});
   mesh.AddFlat({-0.2, -0.2, z}, {0.2, 0.2, z}, {-0.2, 0.2, z});
   return RayTree(mesh);
@@ -29,7 +28,7 @@ double LengthOf(const std::vector<LineSegment>& segments) {
       [](double sum, const LineSegment& s) { return sum + (s[1] - s[0]).norm(); });
 }
 
-TEST(HiddenLinesTest, ALineIsCutWhereItPassesBehindASurfaceAndWhereItComesOut) {
+TEST(HiddenLinesTest, ALineIsSplitAtTheBordersOfASurface) {
   const LineSegment line = {Vector3d(-0.5, 0.03, 0), Vector3d(0.5, 0.03, 0)};
   const LineParts parts = SplitByVisibility(Square(0.3), {&line, 1}, kUp);
   ASSERT_EQ(parts.visible.size(), 2U);
@@ -46,12 +45,12 @@ TEST(HiddenLinesTest, ASurfaceBehindALineOrBesideItHidesNothing) {
   EXPECT_TRUE(SplitByVisibility(Square(0.3), {&beside, 1}, kUp).hidden.empty());
 }
 
-TEST(HiddenLinesTest, ALineOnASurfaceIsSeen) {
+TEST(HiddenLinesTest, ALineOnASurfaceIsVisible) {
   const LineSegment line = {Vector3d(-0.1, -0.1, 0), Vector3d(0.1, 0.1, 0)};
   EXPECT_TRUE(SplitByVisibility(Square(0), {&line, 1}, kUp).hidden.empty());
 }
 
-TEST(HiddenLinesTest, OfTheTwelveEdgesOfACubeThreeAreHiddenWhereverOneStands) {
+TEST(HiddenLinesTest, ThreeOfTheTwelveEdgesOfACubeAreHiddenFromEveryDirection) {
   const BodyShape cube = MakeBodyShape(MakeCube(0.03));
   const double edge = 1 / std::sqrt(3.0);
   int views = 0;
@@ -67,7 +66,7 @@ TEST(HiddenLinesTest, OfTheTwelveEdgesOfACubeThreeAreHiddenWhereverOneStands) {
   EXPECT_EQ(views, 6);
 }
 
-TEST(HiddenLinesTest, APointIsHiddenWhereASurfaceStandsBeforeIt) {
+TEST(HiddenLinesTest, ASurfaceInFrontHidesAPoint) {
   EXPECT_TRUE(IsHidden(Square(0.3), {0, 0.01, 0}, kUp));
   EXPECT_FALSE(IsHidden(Square(0.3), {0, 0.01, 0.5}, kUp));
   EXPECT_FALSE(IsHidden(Square(0.3), {0, 0.01, 0}, -kUp));

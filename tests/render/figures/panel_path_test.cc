@@ -1,11 +1,10 @@
-#include "render/figures/panel_path.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "render/figures/panel_sheet.h"
+#include "render/figures/planar_panel.h"
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
@@ -17,7 +16,7 @@ using testing::SizeIs;
 
 constexpr double kDistance = 4;
 
-/// One point to a unit, so that the panel has the polygon's lengths, upside down.
+/// Return a view with one point per unit: the panel has the lengths of the polygon, upside down.
 PanelView UnitView() { return {.width = 100, .height = 100}; }
 
 TEST(PanelPathTest, GoesAroundAVertexThroughTheMiddleOfItsNormals) {
@@ -33,7 +32,7 @@ TEST(PanelPathTest, GoesAroundAVertexThroughTheMiddleOfItsNormals) {
   EXPECT_LT((beside.ticks[0].across - Vector2d(half, -half)).norm(), 1e-12);
 }
 
-/// A path across a notch with upright sides, this wide and 20 deep.
+/// Return a path across a notch with vertical sides, `width` wide and 20 deep.
 std::vector<BorderPoint> AcrossNotch(double width) {
   return {{{-30, 0}, {0, 1}},       {{0, 0}, {0, 1}},      {{0, 0}, {1, 0}},
           {{0, -20}, {1, 0}},       {{0, -20}, {0, 1}},    {{width, -20}, {0, 1}},
@@ -41,7 +40,7 @@ std::vector<BorderPoint> AcrossNotch(double width) {
           {{width + 30, 0}, {0, 1}}};
 }
 
-TEST(PanelPathTest, LeavesOutWhatWouldGoBackwardsInANarrowNotch) {
+TEST(PanelPathTest, OmitsBackwardPartsInANarrowNotch) {
   const PanelView view = UnitView();
   const PanelPath wide = PathBeside(AcrossNotch(20), view, kDistance);
   EXPECT_THAT(wide.points, SizeIs(6));

@@ -25,7 +25,7 @@ std::vector<StepDiagram> DescribeSquarePlan() {
   return DescribePlan(MakeSquare(), MakeSquarePlan());
 }
 
-TEST(PlanDiagramTest, HasTheHoldAndThenAFigureForEachStep) {
+TEST(PlanDiagramTest, HasTheInitialGraspAndThenAFigurePerStep) {
   const std::vector<StepDiagram> diagrams = DescribeSquarePlan();
   ASSERT_EQ(diagrams.size(), 4U);
   EXPECT_EQ(diagrams[0].kind, "hold");
@@ -34,7 +34,7 @@ TEST(PlanDiagramTest, HasTheHoldAndThenAFigureForEachStep) {
   EXPECT_EQ(diagrams[3].kind, "switch");
 }
 
-TEST(PlanDiagramTest, SaysWhatEachFingerDoes) {
+TEST(PlanDiagramTest, DescribesTheActionOfEachFinger) {
   const std::vector<StepDiagram> diagrams = DescribeSquarePlan();
   ASSERT_EQ(diagrams.size(), 4U);
   EXPECT_THAT(FingersOf(diagrams[0], plan::FingerRole::kHolding), ElementsAre(0, 1, 2));
@@ -58,7 +58,7 @@ TEST(PlanDiagramTest, EveryConeBelongsToTheFingerAtItsPlaceInTheList) {
   EXPECT_EQ(checked, 3 + 3 + 3 + 2);
 }
 
-TEST(PlanDiagramTest, AReleasedFingerIsWhereItHeld) {
+TEST(PlanDiagramTest, AReleasedFingerIsAtItsFormerContact) {
   const StepDiagram diagram = DescribeSquarePlan()[2];
   const DiagramFinger& released = diagram.fingers.back();
   ASSERT_EQ(released.role, plan::FingerRole::kReleased);
@@ -92,10 +92,10 @@ TEST(PlanDiagramTest, CaptionsNameStepAndTypeOfGrasp) {
   EXPECT_EQ(diagrams[3].caption, "(d) switch: place 0, release 1, 2; 2-finger grasp");
 }
 
-TEST(PlanDiagramTest, ACaptionSaysWhereConesAreNarrowerThanTheFriction) {
+TEST(PlanDiagramTest, ACaptionStatesConesNarrowerThanTheFriction) {
   plan::Plan plan = MakeTrianglePlan();
   EXPECT_THAT(DescribePlan(MakeTriangle(), plan)[0].caption, Not(HasSubstr("φ")));
-  plan.half_angle = Radians(30);  // just φ*
+  plan.half_angle = Radians(30);  // exactly φ*
   EXPECT_THAT(DescribePlan(MakeTriangle(), plan)[0].caption, Not(HasSubstr("φ")));
   plan.half_angle = Radians(40);
   EXPECT_THAT(DescribePlan(MakeTriangle(), plan)[0].caption,

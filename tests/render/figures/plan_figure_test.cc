@@ -10,12 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "render/figures/panel_fingers.h"
-#include "render/figures/panel_grasp.h"
+#include "render/figures/figure_page.h"
 #include "render/figures/panel_sheet.h"
-#include "render/figures/panel_text.h"
-#include "render/figures/panel_view.h"
-#include "render/picture/color_table.h"
+#include "render/figures/planar_panel.h"
+#include "render/picture/image.h"
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
@@ -43,8 +41,7 @@ int Count(const std::string& text, const std::regex& pattern) {
       std::distance(std::sregex_iterator(text.begin(), text.end(), pattern), {}));
 }
 
-/// Paths of an SVG that are filled with a finger's colour and cover what is behind them, as markers
-/// and heads of arrows do.
+/// Count the opaque paths of an SVG in a finger's colour, such as markers and arrow heads.
 int OpaqueFills(const std::string& svg, int finger) {
   const Color color = FingerColor(FingerIndex(finger));
   const auto percent = [](int channel) { return std::to_string(channel * 100 / 255); };
@@ -75,7 +72,7 @@ TEST(PlanFigureTest, EachFormatBeginsAsItsFilesDo) {
 }
 
 TEST(PlanFigureTest, TheSameFigureHasTheSameBytesAndAnotherHasOthers) {
-  // Compared as a whole, not with EXPECT_EQ: a failure would print megabytes.
+  // Files are compared as a whole: EXPECT_EQ would print megabytes.
   for (const FigureFormat format : kFormats) {
     EXPECT_TRUE(Step(1, format) == Step(1, format));
     EXPECT_FALSE(Step(1, format) == Step(2, format));
@@ -84,14 +81,15 @@ TEST(PlanFigureTest, TheSameFigureHasTheSameBytesAndAnotherHasOthers) {
   }
 }
 
-TEST(PlanFigureTest, EveryFingerThatHoldsHasAMarkerInItsColour) {
+TEST(PlanFigureTest, EveryFingerInContactHasAMarkerInItsColour) {
   const std::string hold = Step(0, FigureFormat::kSvg);
   for (const int finger : {0, 1, 2}) EXPECT_EQ(OpaqueFills(hold, finger), 1) << finger;
   EXPECT_EQ(OpaqueFills(hold, 3), 0);
   const std::string two = Step(3, FigureFormat::kSvg);
   EXPECT_EQ(OpaqueFills(two, 3), 1);
-  EXPECT_EQ(OpaqueFills(two, 0), 2);  // with the head of the arrow that arrives
-  EXPECT_EQ(OpaqueFills(two, 1), 1);  // the head of the arrow that leaves; the marker is hollow
+  EXPECT_EQ(OpaqueFills(two, 0), 2);  // with the head of the arrow towards the contact
+  EXPECT_EQ(OpaqueFills(two, 1),
+            1);  // only the head of the arrow away from the contact, because the marker is hollow
 }
 
 TEST(PlanFigureTest, AStepIsAColumnWideAndASheetTwo) {
@@ -121,7 +119,7 @@ TEST(PlanFigureTest, ALongObjectHasFewerPanelsInARow) {
       object::Polygon::FromRings({{{-1, -0.1}, {1, -0.1}, {1, 0.1}, {-1, 0.1}}}, "bar");
   const object::Polygon plate =
       object::Polygon::FromRings({{{-1, -0.5}, {1, -0.5}, {1, 0.5}, {-1, 0.5}}}, "plate");
-  // Two rows of bars are higher than one row of plates, though a plate is five times as high.
+  // Two rows of bars are higher than one row of plates, although a plate is five times as high.
   EXPECT_GT(height(bar), height(plate));
 }
 
@@ -175,7 +173,7 @@ TEST(PanelGraspTest, AConeEndsOnThePanel) {
   const object::Polygon square = MakeSquare();
   const PanelView view = FitView(square, {}, 240);
   const auto length = [&](double x) {
-    // The material's side is to the right, as it is from a hole's border.
+    // The material is on the right side, like at the border of a hole.
     const DoubleCone cone = {Vector2d(x, 0), Vector2d(1, 0), 0.3};
     return ConeLength(square, {}, cone, 1, view);
   };
@@ -184,14 +182,14 @@ TEST(PanelGraspTest, AConeEndsOnThePanel) {
   EXPECT_LT(view.ToPanel({0.8, 0}).x() + length(0.8), 240);
 }
 
-TEST(PanelFingersTest, ClearanceOutsideEndsWhereThePolygonBeginsAgain) {
+TEST(PanelFingersTest, OutwardClearanceEndsAtThePolygon) {
   const object::Polygon frame = object::Polygon::FromRings(
       {{{0, 0}, {6, 0}, {6, 6}, {0, 6}}, {{1, 1}, {1, 4}, {4, 4}, {4, 1}}}, "frame");
   EXPECT_NEAR(OutwardClearance(frame, {Vector2d(1, 2), Vector2d(1, 0)}), 3, 1e-12);
   EXPECT_TRUE(std::isinf(OutwardClearance(frame, {Vector2d(6, 2), Vector2d(1, 0)})));
 }
 
-TEST(PanelTextTest, ACaptionBreaksAfterItsClausesAndBetweenWordsWhereItMust) {
+TEST(PanelTextTest, ACaptionBreaksAfterClausesOrBetweenWords) {
   const std::string caption = "(a) hold: fingers 0, 1; concurrent grasp";
   EXPECT_THAT(WrapCaption(caption, 500), ElementsAre(caption));
   EXPECT_THAT(WrapCaption(caption, 100),
@@ -202,7 +200,7 @@ TEST(PanelTextTest, ACaptionBreaksAfterItsClausesAndBetweenWordsWhereItMust) {
   EXPECT_THAT(WrapCaption("", 100), SizeIs(0));
 }
 
-TEST(PlanFigureTest, AFigureIsAsWideAsAskedWithTextAsLargeAsAsked) {
+TEST(PlanFigureTest, AFigureHasTheRequestedWidthAndFontSize) {
   const auto width = [](const FigureStyle& style) {
     return PngSize(DrawStepFigure(SquarePanels(), 0, style)).width;
   };
@@ -213,14 +211,14 @@ TEST(PlanFigureTest, AFigureIsAsWideAsAskedWithTextAsLargeAsAsked) {
                   millimetres * kDotsPerMillimetre, 1);
     }
   }
-  // Larger text in the same width: another layout, the same file but for its scale is not enough.
+  // Larger text in the same width requires another layout. Scaling alone is not enough.
   const auto svg = [](double points) {
     return DrawStepFigure(SquarePanels(), 0, {.format = FigureFormat::kSvg, .font_pt = points});
   };
   EXPECT_NE(svg(7.5), svg(9));
 }
 
-TEST(PlanFigureTest, ASheetHasThePanelsThatAreChosenInTheirOrder) {
+TEST(PlanFigureTest, ASheetHasTheChosenPanelsInOrder) {
   const FigureStyle png = {.format = FigureFormat::kPng};
   const PlanPanels panels = SquarePanels();
   const int all = panels.count();

@@ -12,15 +12,16 @@ namespace regrasp::render {
 [[nodiscard]] plan::FingerContact FingerAt(const object::Polygon& polygon, int finger, int edge,
                                            double share);
 
-/// A plan of a hand of four fingers at θ = 20°; its goal is the last grasp.
+/// Return a plan for four fingers at θ = 20°. Its goal is the last grasp.
 [[nodiscard]] plan::Plan MakePlanarPlan(const plan::FingerGrasp& initial,
                                         std::vector<plan::Step> steps);
 
-/// A plan on the square at θ = 20°: a parallel grasp; finger 0 moves; 3 takes over from 0; 0 is
-/// placed opposite and 1 and 2 leave.
+/// Return a plan on the square at θ = 20°: a parallel grasp, a sliding step of finger 0, a switch
+/// from finger 0 to 3, and a switch that places finger 0 opposite and releases 1 and 2.
 [[nodiscard]] plan::Plan MakeSquarePlan();
 
-/// A hold and a switch on the triangle at θ = 20°, both concurrent.
+/// Return a plan with an initial grasp and a switch on the triangle at θ = 20°. Both grasps are
+/// concurrent.
 [[nodiscard]] plan::Plan MakeTrianglePlan();
 
 }  // namespace regrasp::render

@@ -3,22 +3,22 @@
 #include <cmath>
 #include <functional>
 
+#include "render/figures/figure_page.h"
 #include "render/figures/panel_sheet.h"
-#include "render/figures/panel_text.h"
-#include "render/figures/panel_view.h"
 #include "render/figures/plan_figure.h"
+#include "render/figures/planar_panel.h"
 #include "render/picture/cairo_paint.h"
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp::render {
 namespace scale_bar_test {
 
-/// Pixels in a point; extents are whole pixels.
+/// Pixels per point. Extents are whole pixels.
 constexpr double kFine = 100;
-/// The ticks at its ends are half outside it; points.
+/// Extent of the ticks beyond the ends of the bar, points.
 constexpr double kSlack = 0.65;
 
-/// How wide what is drawn below `top` is, points.
+/// Return the width of everything drawn below `top`, points.
 double InkWidthBelow(double top, const std::function<void(cairo_t*)>& draw) {
   const CairoSurface surface(cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, nullptr));
   const CairoContext context(cairo_create(surface.get()));
@@ -37,14 +37,14 @@ TEST(ScaleBar, IsARoundLengthOfAtMostAQuarterOfThePanel) {
   EXPECT_DOUBLE_EQ(ScaleBarLength(100, 25), 1);
 }
 
-TEST(ScaleBar, IsAsLongOnThePageAsItSays) {
+TEST(ScaleBar, HasTheLengthOfItsLabel) {
   for (const double points_per_metre : {700.0, 1000.0, 1500.0}) {
     const double drawn = InkWidthBelow(-1000, [&](cairo_t* cr) {
       DrawScaleBar(cr, {240, 100}, points_per_metre);
     });
-    const double told = ScaleBarLength(240, points_per_metre) * points_per_metre;
-    EXPECT_NEAR(drawn, told, kSlack);
-    // Negative control: a bar for another scale is not.
+    const double labelled = ScaleBarLength(240, points_per_metre) * points_per_metre;
+    EXPECT_NEAR(drawn, labelled, kSlack);
+    // Negative control: a bar for another scale does not match.
     EXPECT_GT(
         std::abs(drawn - ScaleBarLength(240, 1.2 * points_per_metre) * points_per_metre / 1.2),
         kSlack);

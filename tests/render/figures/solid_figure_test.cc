@@ -8,7 +8,7 @@
 #include "planner/base/number.h"
 #include "planner/plan/locate.h"
 #include "render/figures/panel_sheet.h"
-#include "render/figures/panel_view.h"
+#include "render/figures/planar_panel.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
@@ -22,7 +22,7 @@ plan::FingerContact Hold(int finger, const Vector3d& p, const Vector3d& n) {
   return {FingerIndex(finger), {p, n}};
 }
 
-/// Four fingers on a cube of 6 cm, one of which another one replaces.
+/// Return a plan that replaces one of four fingers on a cube of 6 cm.
 plan::Plan MakePlan(const object::Polyhedron& cube) {
   plan::Plan plan;
   plan.dimension = 3;
@@ -68,17 +68,17 @@ TEST(SolidFigureTest, HiddenEdgesAreDashed) {
     return Count(DrawStepFigure(MakePanels(options), 0, {.format = FigureFormat::kSvg}),
                  "stroke-dasharray");
   };
-  EXPECT_EQ(dashed(view), 3);  // the edges that meet at the corner that is not seen
+  EXPECT_EQ(dashed(view), 3);  // the edges at the hidden corner
   EXPECT_EQ(dashed(no_edges), 0);
 }
 
 TEST(SolidFigureTest, AFingerBehindTheSolidIsPaleAndOneBeforeItIsNot) {
-  // Finger 0 is on the side of +x, finger 1 on that of −x.
+  // Finger 0 is on the +x side, finger 1 on the −x side.
   const auto draw = [](double azimuth) {
     const SolidFigureOptions options = {.view = ViewDirection{Radians(azimuth), Radians(20)}};
     return DrawStepFigure(MakePanels(options), 0, {.format = FigureFormat::kSvg});
   };
-  // Filled markers in the finger's own colour; a stem, which stands out, is stroked.
+  // Filled markers in the finger's own colour. A stem, which is visible too, is stroked.
   const std::string blue = "fill:rgb\\(0%,39.607843%,64.705882%\\);fill-opacity:1";
   const std::string yellow = "fill:rgb\\(94.117647%,69.019608%,0%\\);fill-opacity:1";
   const auto plain = [](std::string svg) {

@@ -1,10 +1,9 @@
-#include "render/frames/align_inset.h"
-
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "planner/base/number.h"
+#include "render/frames/annotation.h"
 #include "render/frames/frame.h"
 #include "tests/render/frames/scenes.h"
 
@@ -24,22 +23,22 @@ Camera MakeCamera() {
 
 const TextStyle kStyle = {12, {}};
 
-/// A finger on the side x = 0.3 that came so far along y.
+/// Return a finger on the side x = 0.3 that slid by `length` along y.
 FingerGlyph MakeMoved(double length) {
   FingerGlyph glyph;
   glyph.role = plan::FingerRole::kMoved;
   glyph.outward = Vector3d::UnitX();
   glyph.contact = Vector3d(0.3, 0, 0);
-  glyph.ball_radius = 0.03;
+  glyph.fingertip_radius = 0.03;
   glyph.stem_radius = 0.01;
-  glyph.ball = glyph.contact + glyph.ball_radius * glyph.outward;
+  glyph.fingertip = glyph.contact + glyph.fingertip_radius * glyph.outward;
   glyph.stem_end = glyph.end = glyph.contact + 0.12 * glyph.outward;
   glyph.path = {glyph.contact - Vector3d(0, length, 0), glyph.contact};
   glyph.force = Vector3d::Zero();
   return glyph;
 }
 
-TEST(AlignInsetTest, OnlyAnAlignThatIsShorterThanABallIsMagnified) {
+TEST(AlignInsetTest, OnlySlidingStepsShorterThanAFingertipAreMagnified) {
   const auto count = [](const FingerGlyph& glyph) {
     return PlaceInsets(MakeCamera(), {&glyph, 1}, {}, kStyle).size();
   };
@@ -51,7 +50,7 @@ TEST(AlignInsetTest, OnlyAnAlignThatIsShorterThanABallIsMagnified) {
   EXPECT_EQ(count(holding), 0U);
 }
 
-TEST(AlignInsetTest, ItShowsThePathAboutItsCentreAndIsInsideThePicture) {
+TEST(AlignInsetTest, ItIsInsideTheImageAndCentredAtThePath) {
   int checked = 0;
   for (const double length : {0.05, 0.01, 0.002}) {
     const FingerGlyph glyph = MakeMoved(length);
@@ -70,14 +69,15 @@ TEST(AlignInsetTest, ItShowsThePathAboutItsCentreAndIsInsideThePicture) {
       EXPECT_GT(inset.centre[axis], inset.radius);
       EXPECT_LT(inset.centre[axis], (axis == 0 ? 640 : 480) - inset.radius);
     }
-    EXPECT_GT((inset.centre - camera.Project(glyph.ball)).norm(), inset.radius);
+    EXPECT_GT((inset.centre - camera.Project(glyph.fingertip)).norm(), inset.radius);
     ++checked;
   }
   EXPECT_EQ(checked, 3);
 }
 
-TEST(AlignInsetTest, AFrameWithAShortAlignShowsWhereTheFingerCameFrom) {
-  // The same grasp, with and without having moved: far more differs than a track below the ball.
+TEST(AlignInsetTest, AFrameWithAShortSlidingStepShowsItsStart) {
+  // The same grasp with and without a sliding step: the difference is much larger than a track
+  // below the fingertip.
   const object::Polyhedron cube = MakeCube(0.03);
   const auto count = [&](double length) {
     plan::Snapshot moved = MakeCubeSequence()[0];
@@ -96,9 +96,10 @@ TEST(AlignInsetTest, AFrameWithAShortAlignShowsWhereTheFingerCameFrom) {
   EXPECT_EQ(count(0), 0);
 }
 
-TEST(AlignInsetTest, OrdinalsStandOnlyWhereFingersBeginOneAfterTheOther) {
+TEST(AlignInsetTest, OrdinalsAreDrawnOnlyIfFingersStartAtDifferentTimes) {
   const object::Polyhedron cube = MakeCube(0.03);
-  // Finger 2 moves in the first leg or in the second one; its picture is the same but for that.
+  // Finger 2 slides in the first or in the second segment. The images differ in nothing but the
+  // ordinals.
   const auto draw = [&](bool later) {
     plan::Snapshot snapshot = MakeCubeSequence()[0];
     const FrameOptions options = {640, 480, 1};

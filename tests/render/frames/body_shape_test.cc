@@ -20,7 +20,7 @@ TEST(BodyShapeTest, IsTheRealSolidInUnitsOfItsDiameter) {
   const BodyShape shape = MakeBodyShape(block);
   const double unit = std::pow(block.diameter(), 3);
   EXPECT_NEAR(Volume(shape.surface) * unit, block.mass_properties().volume, 1e-12);
-  EXPECT_EQ(shape.edges.size(), 18U);  // of a prism of six sides; no edge inside a face
+  EXPECT_EQ(shape.edges.size(), 18U);  // a prism of six sides, without edges inside a face
 }
 
 TEST(BodyShapeTest, APolygonWithAHoleBecomesAClosedPrism) {
@@ -34,7 +34,7 @@ TEST(BodyShapeTest, APolygonWithAHoleBecomesAClosedPrism) {
   EXPECT_LT(flux.norm(), 1e-12);
 }
 
-TEST(BodyShapeTest, APrismHasTheThicknessAskedForAndItsTopAtThePlaneOfTheContacts) {
+TEST(BodyShapeTest, APrismHasTheRequestedThicknessAndItsTopAtTheContactPlane) {
   const object::Polygon square =
       object::Polygon::FromWkt("POLYGON((0 0, 3 0, 3 4, 0 4, 0 0))", "rectangle");
   for (const double thickness : {0.02, 0.25, 2.0}) {
@@ -64,7 +64,7 @@ TEST(BodyShapeTest, RaysInThePlaneOfTheContactsMeetThePrismsWalls) {
   EXPECT_EQ(met, 3);
 }
 
-/// A prism of `sides` sides, 1 in radius and 0.5 high.
+/// Return a prism with `sides` sides, radius 1 and height 0.5.
 object::Polyhedron MakeRoundPrism(int sides) {
   std::vector<Eigen::Vector2d> outline;
   for (int i = 0; i < sides; ++i) {
@@ -74,8 +74,8 @@ object::Polyhedron MakeRoundPrism(int sides) {
   return object::Polyhedron::FromSoup(Extrude(outline, 0, 0.5), "prism");
 }
 
-TEST(BodyShapeTest, EdgesAreWhereTheSurfaceTurnsByMoreThanTheCreaseAngle) {
-  const object::Polyhedron prism = MakeRoundPrism(12);  // its walls meet at 30°
+TEST(BodyShapeTest, EdgesAreBendsAboveTheCreaseAngle) {
+  const object::Polyhedron prism = MakeRoundPrism(12);  // walls at 30° to each other
   const auto edges = [&](EdgeStyle style, double degrees) {
     const BodyOptions options = {.edges = style, .crease_angle = Radians(degrees)};
     return MakeBodyShape(prism, options).edges.size();
@@ -98,7 +98,7 @@ TEST(BodyShapeTest, IsShadedSmoothlyButAcrossCreases) {
         EXPECT_NEAR(std::abs(n.z()), 1, 1e-12);
         continue;
       }
-      // A wall's two triangles count by their area: the mean leans to one side a little.
+      // The mean is area-weighted, so that the two triangles of a wall tilt it slightly.
       EXPECT_GT(n.head<2>().dot(outward), std::cos(Radians(6)));
       ++round;
     }
@@ -107,7 +107,7 @@ TEST(BodyShapeTest, IsShadedSmoothlyButAcrossCreases) {
 }
 
 TEST(BodyShapeTest, LeavesOutScratchesAndKeepsLoops) {
-  // A roof with a ridge that ends in the middle of it, on a block: 45° on one side only.
+  // A block with a roof whose ridge ends in the middle: 45° on one side only.
   object::PolygonSoup soup;
   const double size = 10;
   soup.vertices = {{0, 0, 0},    {size, 0, 0},    {size, size, 0}, {0, size, 0}, {0, 0, 5},
@@ -118,7 +118,7 @@ TEST(BodyShapeTest, LeavesOutScratchesAndKeepsLoops) {
                  {1, 2, 6, 5},
                  {2, 3, 7, 6},
                  {3, 0, 4, 7},
-                 // The top around a small hill whose sides rise at more than 40°.
+                 // The top around a small hill whose sides are steeper than 40°.
                  {4, 5, 10},
                  {4, 10, 8},
                  {5, 9, 10},
@@ -133,21 +133,21 @@ TEST(BodyShapeTest, LeavesOutScratchesAndKeepsLoops) {
                  {11, 8, 12}};
   const BodyShape hill = MakeBodyShape(object::Polyhedron::FromSoup(soup, "hill"));
   EXPECT_EQ(hill.edges.size(), 12U + 4 + 4) << "a small hill has a loop around its foot";
-  // The same creases without the loop: the foot is smooth, the ridge is a short tree.
+  // The same creases without the loop: the foot is smooth, and the ridge is a short tree.
   soup.vertices[12].z() = 5.24;
   const BodyOptions sharp = {.crease_angle = Radians(50)};
   const BodyShape flat = MakeBodyShape(object::Polyhedron::FromSoup(soup, "hill"), sharp);
   EXPECT_EQ(flat.edges.size(), 12U);
 }
 
-TEST(BodyShapeTest, TheOutlineOfARoundBodyIsWhereItTurnsAwayFromTheEye) {
+TEST(BodyShapeTest, TheOutlineOfARoundObjectSeparatesFrontAndBack) {
   const BodyShape body = MakeBodyShape(MakeRoundPrism(64), {.crease_angle = Radians(95)});
   EXPECT_TRUE(body.edges.empty());
   const auto outline = FindOutline(body, [](const Vector3d&) { return Vector3d(1, 0, 0); });
   int upright = 0;
   for (const auto& [a, b] : outline) {
     if (std::abs(a.z() - b.z()) < 1e-9) {
-      EXPECT_GT(a.x() + b.x(), 0);  // the rims, where a wall faces the eye
+      EXPECT_GT(a.x() + b.x(), 0);  // rims at which a wall faces the eye
       continue;
     }
     EXPECT_LT(std::abs(a.x()), 0.05);

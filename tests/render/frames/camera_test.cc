@@ -22,7 +22,7 @@ std::vector<Vector3d> RandomPoints(std::mt19937& random, int count) {
   return points;
 }
 
-TEST(CameraTest, CroppingTakesTheSameFromBothSidesAndChangesNothingElse) {
+TEST(CameraTest, CroppingIsSymmetricAndPreservesTheProjection) {
   std::mt19937 random(5);
   const Margins margins = {0.05, 0.04, 0.10};
   int cropped = 0;
@@ -125,7 +125,7 @@ TEST(CameraTest, ProjectsTheCentreOfItsViewToTheCentreOfTheImage) {
   camera.width = 200;
   camera.height = 100;
   EXPECT_TRUE(camera.Project(Vector3d::Zero()).isApprox(Vector2d(100, 50)));
-  // 2.5 up is the upper edge at distance 5.
+  // At distance 5 the upper border is at 2.5.
   EXPECT_TRUE(camera.Project({0, 2.5, 0}).isApprox(Vector2d(100, 0)));
   EXPECT_DOUBLE_EQ(camera.PixelsPerUnit(Vector3d::Zero()), 20);
 }

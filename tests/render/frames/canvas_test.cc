@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 constexpr Color kRed = {200, 40, 40};
 constexpr int kSide = 64;
 
-/// Straight from above, a length of 1 is half of the picture.
+/// Return a camera that looks down, with a length of 1 as half of the image.
 Camera FromAbove() {
   Camera camera;
   camera.position = {0, 0, 10};
@@ -23,15 +23,15 @@ Camera FromAbove() {
   return camera;
 }
 
-/// [−h, h]² at height z, seen from above.
-FacetMesh Square(double h, double z) {
-  FacetMesh mesh;
+/// Return the square [−h, h]² at height z, visible from above.
+ShadedMesh Square(double h, double z) {
+  ShadedMesh mesh;
   mesh.AddFlat({-h, -h, z}, {h, -h, z}, {h, h, z});
   mesh.AddFlat({-h, -h, z}, {h, h, z}, {-h, h, z});
   return mesh;
 }
 
-Image DrawOnce(const std::vector<FacetMesh>& meshes, const Drawing& drawing,
+Image DrawOnce(const std::vector<ShadedMesh>& meshes, const Drawing& drawing,
                int supersampling = 1) {
   Canvas canvas(meshes, kSide, kSide, supersampling);
   return canvas.Draw(FromAbove(), drawing);
@@ -54,16 +54,16 @@ TEST(CanvasTest, IsWhiteWhereNothingIsDrawn) {
   EXPECT_EQ(image.rgb, MakeImage(kSide, kSide).rgb);
 }
 
-TEST(CanvasTest, ABallIsAsLargeAsItsRadiusSays) {
+TEST(CanvasTest, ASphereHasItsRadius) {
   Drawing drawing;
-  drawing.shapes = {{Ball{Vector3d::Zero(), 0.5}, kRed}};
+  drawing.shapes = {{Sphere{Vector3d::Zero(), 0.5}, kRed}};
   const double area = M_PI * std::pow(0.5 * kSide / 2, 2);
   EXPECT_NEAR(CountColored(DrawOnce({}, drawing)), area, 0.03 * area);
 }
 
 TEST(CanvasTest, TheUpperSideOfAnImageIsUp) {
   Drawing drawing;
-  drawing.shapes = {{Ball{Vector3d(0.5, 0.5, 0), 0.2}, kRed}};
+  drawing.shapes = {{Sphere{Vector3d(0.5, 0.5, 0), 0.2}, kRed}};
   const Image image = DrawOnce({}, drawing);
   const auto green = [&](int x, int y) { return image.rgb[3 * (std::size_t(y) * kSide + x) + 1]; };
   EXPECT_LT(green(48, 16), 100);
@@ -71,26 +71,26 @@ TEST(CanvasTest, TheUpperSideOfAnImageIsUp) {
   EXPECT_EQ(green(16, 16), 255);
 }
 
-/// A square of a veil at a height, over or under a half-transparent layer at 0.5.
+/// Return the colour of a veil's square at a height, above or below a translucent layer at 0.5.
 Color ThroughVeil(double height, std::vector<Window> windows = {}) {
-  const std::vector<FacetMesh> meshes = {Square(0.9, 0.5), Square(0.9, height)};
+  const std::vector<ShadedMesh> meshes = {Square(0.9, 0.5), Square(0.9, height)};
   Drawing drawing;
   drawing.layers = {{{{MeshInstance{0}, Color{0, 0, 255}}}, 0.5}};
   drawing.veil = Veil{{{MeshInstance{1}, Color{255, 0, 0}, 0.8}}, {{0}}, std::move(windows)};
   return CentreOf(DrawOnce(meshes, drawing));
 }
 
-TEST(CanvasTest, AVeilIsBehindWhatCoversItAndBeforeWhatDoesNot) {
+TEST(CanvasTest, AVeilIsBehindItsCoversAndInFrontOfOtherShapes) {
   const Color over = ThroughVeil(0.8);
   const Color under = ThroughVeil(0.2);
   EXPECT_GT(over.r, over.b + 60);
   EXPECT_GT(under.b, over.b + 60);
-  // Of the red square 0.8 are seen, or half of that below the layer.
+  // The red square contributes 0.8, or half of that below the layer.
   EXPECT_NEAR(over.g, 0.2 * ThroughVeil(-20).g, 30);
 }
 
 TEST(CanvasTest, BesideAVeilALayerIsAsItIsWithoutOne) {
-  const std::vector<FacetMesh> meshes = {Square(0.9, 0.5), Square(0.1, 0.8)};
+  const std::vector<ShadedMesh> meshes = {Square(0.9, 0.5), Square(0.1, 0.8)};
   Drawing drawing;
   drawing.layers = {{{{MeshInstance{0}, Color{0, 0, 255}}}, 0.5}};
   const Image without = DrawOnce(meshes, drawing);
@@ -118,12 +118,12 @@ TEST(CanvasTest, AVeilIsClearerInAWindow) {
   EXPECT_EQ(ThroughVeil(0.8, {{{5, 5}, 10, 1}}).b, closed.b) << "elsewhere";
 }
 
-TEST(CanvasTest, ALayerIsLaidOverThePictureWithItsOpacity) {
-  const std::vector<FacetMesh> meshes = {Square(0.9, 0.5)};
+TEST(CanvasTest, ALayerIsBlendedWithItsOpacity) {
+  const std::vector<ShadedMesh> meshes = {Square(0.9, 0.5)};
   Drawing drawing;
   drawing.shapes = {{Line{{-0.5, 0, 0}, {0.5, 0, 0}, 0.2}, kRed}};
   const Color below = CentreOf(DrawOnce(meshes, drawing));
-  EXPECT_EQ(below.r, kRed.r);  // lines have no light
+  EXPECT_EQ(below.r, kRed.r);  // lines have no lighting
   Layer cover = {{{MeshInstance{0}, Color{0, 0, 255}}}, 1};
   drawing.layers = {cover};
   const Color covered = CentreOf(DrawOnce(meshes, drawing));
@@ -142,13 +142,13 @@ TEST(CanvasTest, ALayerBehindAShapeDoesNotPaleIt) {
   EXPECT_EQ(CentreOf(DrawOnce({Square(0.9, -0.5)}, drawing)).r, kRed.r);
 }
 
-TEST(CanvasTest, ATranslucentShapeMixesWithWhatIsBehindItOnce) {
+TEST(CanvasTest, ATranslucentShapeIsBlendedOnce) {
   Drawing drawing;
   drawing.shapes = {{Line{{-0.5, 0, 0}, {0.5, 0, 0}, 0.2}, Color{0, 0, 0}, 0.5}};
   EXPECT_NEAR(CentreOf(DrawOnce({}, drawing)).g, 128, 1);
 }
 
-TEST(CanvasTest, OutlinesAreHiddenByWhatStandsBeforeThem) {
+TEST(CanvasTest, ShapesInFrontHideOutlines) {
   Drawing drawing;
   drawing.outline = {{Line{{-0.5, 0, 0}, {0.5, 0, 0}, 0.1}, kRed}};
   for (const double height : {-0.5, 0.5}) {
@@ -160,7 +160,7 @@ TEST(CanvasTest, OutlinesAreHiddenByWhatStandsBeforeThem) {
 
 TEST(CanvasTest, SupersamplingAveragesEdgesAndKeepsAreas) {
   Drawing drawing;
-  drawing.shapes = {{Ball{Vector3d::Zero(), 0.5}, kRed}};
+  drawing.shapes = {{Sphere{Vector3d::Zero(), 0.5}, kRed}};
   const auto tones = [](const Image& image) {
     std::vector<unsigned char> green;
     for (std::size_t i = 1; i < image.rgb.size(); i += 3) green.push_back(image.rgb[i]);
@@ -172,11 +172,11 @@ TEST(CanvasTest, SupersamplingAveragesEdgesAndKeepsAreas) {
   EXPECT_NEAR(CountColored(fine), CountColored(rough), 150);
 }
 
-TEST(CanvasTest, PerspectiveShrinksWhatIsFartherAway) {
+TEST(CanvasTest, PerspectiveShrinksDistantShapes) {
   Camera camera = FromAbove();
   const auto pixels = [&](double z) {
     Drawing drawing;
-    drawing.shapes = {{Ball{Vector3d(0, 0, z), 0.3}, kRed}};
+    drawing.shapes = {{Sphere{Vector3d(0, 0, z), 0.3}, kRed}};
     Canvas canvas({}, kSide, kSide, 1);
     return CountColored(canvas.Draw(camera, drawing));
   };

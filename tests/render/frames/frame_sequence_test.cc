@@ -11,7 +11,7 @@
 namespace regrasp::render {
 namespace frame_sequence_test {
 
-/// The cube's three frames again and again, each with a number of its own.
+/// The three frames of the cube, repeated, each with its own number.
 class FrameSequenceTest : public ::testing::Test {
  protected:
   FrameSequenceTest() {
@@ -58,7 +58,7 @@ TEST_F(FrameSequenceTest, NothingToDrawIsNoWork) {
   EXPECT_TRUE(Render(2).empty());
 }
 
-TEST_F(FrameSequenceTest, WhatGoesWrongIsThrown) {
+TEST_F(FrameSequenceTest, ErrorsAreThrown) {
   int taken = 0;
   const auto take = [&taken](int, const Image&) {
     if (++taken == 3) throw std::runtime_error("the disk is full");

@@ -8,8 +8,8 @@
 
 #include "planner/base/number.h"
 #include "planner/object/polygon.h"
-#include "render/frames/fault_overlay.h"
-#include "render/picture/color_table.h"
+#include "render/frames/fault_marks.h"
+#include "render/picture/image.h"
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
@@ -18,7 +18,7 @@ namespace frame_test {
 const double kHalfAngle = Radians(20);
 
 FrameOptions Small(int supersampling = 1) { return {320, 240, supersampling}; }
-/// Large enough for text.
+/// Return options for frames that are large enough for text.
 FrameOptions Medium() { return {640, 480, 1}; }
 
 Image Draw(const object::Object& object, const std::vector<plan::Snapshot>& snapshots,
@@ -34,7 +34,7 @@ Color PixelAt(const Image& image, int x, int y) {
 
 bool IsWhite(Color c) { return c.r == 255 && c.g == 255 && c.b == 255; }
 
-/// Pixels of the hue and roughly the saturation of `color`, lit or in shade.
+/// Count the pixels with the hue and about the saturation of `color`, lit or in shade.
 int CountHue(const Image& image, Color color) {
   const auto normalised = [](Color c) {
     const double sum = c.r + c.g + c.b + 1e-9;
@@ -57,7 +57,7 @@ int CountDifferent(const Image& a, const Image& b) {
   return count;
 }
 
-TEST(FrameTest, HasTheSizeThatWasAskedFor) {
+TEST(FrameTest, HasTheRequestedSize) {
   const object::Polyhedron cube = MakeCube(0.03);
   int checked = 0;
   for (const auto& [width, height] : {std::pair(64, 48), std::pair(48, 200), std::pair(801, 333)}) {
@@ -76,7 +76,7 @@ TEST(FrameTest, DrawsTheLargestSizeInBandsWithoutSeams) {
   const Image image = Draw(cube, MakeCubeSequence(), 0, {4096, 4096, 2});
   EXPECT_EQ(image.width, 4096);
   EXPECT_TRUE(IsWhite(PixelAt(image, 4095, 4095)));
-  // Bands that did not fit together would leave the centre or a corner without the body.
+  // Bands that do not fit together would have no body at the centre or in a corner.
   const Image small = Draw(cube, MakeCubeSequence(), 0, {512, 512, 2});
   const Image shrunk = Shrink(image, 8);
   long difference = 0;
@@ -87,7 +87,7 @@ TEST(FrameTest, DrawsTheLargestSizeInBandsWithoutSeams) {
   EXPECT_LT(static_cast<double>(difference) / small.rgb.size(), kMeanDifference);
 }
 
-/// A box ten times as long as it is wide, along x, held at its ends.
+/// A box ten times as long as wide, along x, with fingers at its ends.
 struct LongScene {
   object::Polyhedron box = MakeBox({0.3, 0.03, 0.03});
   std::vector<plan::Snapshot> snapshots = {{}};
@@ -103,7 +103,7 @@ FrameOptions Cropped() {
 TEST(FrameTest, CroppedFramesShowTheSameWithoutTheWhiteAroundIt) {
   const LongScene scene;
   FrameOptions options = Cropped();
-  options.view.direction = ViewDirection{Radians(-90), 0};  // along the box's side
+  options.view.direction = ViewDirection{Radians(-90), 0};  // along the side of the box
   FrameRenderer renderer(scene.box, 1, kHalfAngle, scene.snapshots, options);
   const Image cropped = renderer.Render(scene.snapshots[0]);
   EXPECT_EQ(cropped.width, renderer.width());
@@ -118,7 +118,7 @@ TEST(FrameTest, CroppedFramesShowTheSameWithoutTheWhiteAroundIt) {
   for (int y = 0; y < 480; ++y) {
     for (int x = 0; x < 640; ++x) {
       const bool inside = y >= off && y < off + cropped.height;
-      // Text stands at the border.
+      // Text is at the border.
       if (y >= 480 - 100) continue;
       const Color expected = PixelAt(whole, x, y);
       ink += !IsWhite(expected);
@@ -130,7 +130,7 @@ TEST(FrameTest, CroppedFramesShowTheSameWithoutTheWhiteAroundIt) {
   EXPECT_GT(ink, 1000);
 }
 
-TEST(FrameTest, WhatFillsTheFrameIsNotCropped) {
+TEST(FrameTest, AFullFrameIsNotCropped) {
   const object::Polyhedron cube = MakeCube(0.03);
   FrameRenderer renderer(cube, 1, kHalfAngle, MakeCubeSequence(), Cropped());
   EXPECT_EQ(renderer.height(), 480);
@@ -154,7 +154,7 @@ TEST(FrameTest, OnADarkGroundThereIsNoWhiteAndTextIsLight) {
   EXPECT_GT(light, 20);
 }
 
-TEST(FrameTest, WhatIsTransparentIsTheSameOnWhite) {
+TEST(FrameTest, ATransparentFrameEqualsTheWhiteOneOnWhite) {
   const object::Polyhedron cube = MakeCube(0.03);
   FrameOptions options = Medium();
   const Image white = Draw(cube, MakeCubeSequence(), 1, options, "caption");
@@ -165,7 +165,7 @@ TEST(FrameTest, WhatIsTransparentIsTheSameOnWhite) {
   ASSERT_EQ(clear.alpha.size(), std::size_t{640} * 480);
   EXPECT_EQ(clear.alpha[0], 0);
   EXPECT_EQ(std::ranges::count_if(clear.alpha, [](int a) { return a == 0; }) > 640 * 480 / 3, true);
-  // Balls and text are opaque, the body is not.
+  // Fingertips and text are opaque, the object is not.
   EXPECT_GT(std::ranges::count(clear.alpha, 255), 1000);
   EXPECT_GT(std::ranges::count_if(clear.alpha, [](int a) { return a > 60 && a < 200; }), 5000);
 }
@@ -193,7 +193,7 @@ TEST(FrameTest, ShowsEveryHoldingFingerInItsColourAndNoFreeFinger) {
     without.fingers[free].role = plan::FingerRole::kFree;
     FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Medium());
     const Color color = FingerColor(snapshots[0].fingers[free].finger);
-    // Behind the body fingers are paler; their numbers never are.
+    // Fingers behind the object are paler, but their numbers are not.
     constexpr int kClearlyThere = 20;  // pixels
     EXPECT_GT(CountHue(all, color), CountHue(renderer.Render(without), color) + kClearlyThere)
         << "finger " << free;
@@ -217,7 +217,7 @@ TEST(FrameTest, ACopyDrawsTheSameWithTheSameCamera) {
   }
 }
 
-TEST(FrameTest, TheCameraIsTheSameWhereFingersInTheAirAreDrawnAway) {
+TEST(FrameTest, DisplayedGapsDoNotChangeTheCamera) {
   const object::Polyhedron cube = MakeCube(0.03);
   std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   for (plan::Snapshot& snapshot : snapshots) {
@@ -237,7 +237,7 @@ TEST(FrameTest, TheCameraIsTheSameWhereFingersInTheAirAreDrawnAway) {
   EXPECT_GT(count(1), 100) << "a released finger stands away";
 }
 
-TEST(FrameTest, ChangesWhenTheObjectTurnsOrAFingerChangesItsRole) {
+TEST(FrameTest, ChangesWithTheObjectPoseAndTheRoleOfAFinger) {
   const object::Polyhedron cube = MakeCube(0.03);
   const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Small());
@@ -271,7 +271,8 @@ TEST(FrameTest, WritesTheCaptionAtTheBottomLeft) {
 }
 
 TEST(FrameTest, IsIndependentOfTheObjectsSize) {
-  // The same scene in metres and, scaled, in millimetres: the same picture, scale bar included.
+  // The same scene in metres and, scaled, in millimetres gives the same image, with the same scale
+  // bar.
   const object::Polyhedron cube = MakeCube(0.03);
   object::PolygonSoup soup;
   for (const Eigen::Vector3d& p : cube.vertices()) soup.vertices.push_back(1024 * p);
@@ -285,7 +286,7 @@ TEST(FrameTest, IsIndependentOfTheObjectsSize) {
 }
 
 TEST(FrameTest, DrawsFingersThatFarAwayObjectsLeftBehind) {
-  // After a failed step the object may have fallen out of the picture; that must not matter.
+  // After a failed step the object can be outside the image.
   const object::Polyhedron cube = MakeCube(0.03);
   std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   snapshots.back().X_WO.translation() = Eigen::Vector3d(0, 0, -50);
@@ -300,7 +301,7 @@ object::Polygon MakePolygon() {
       "polygon");
 }
 
-/// One finger from the left, one from below.
+/// Return a snapshot with one finger at the left and one at the bottom.
 plan::Snapshot MakePlanarSnapshot() {
   plan::Snapshot snapshot;
   snapshot.fingertip_radius_m = 0.002;
@@ -310,27 +311,27 @@ plan::Snapshot MakePlanarSnapshot() {
   return snapshot;
 }
 
-TEST(FrameTest, DrawsPolygonsAsPrismsOfTheThicknessAskedFor) {
+TEST(FrameTest, DrawsPolygonsAsPrismsOfTheRequestedThickness) {
   const object::Polygon polygon = MakePolygon();
   FrameOptions thin = Small(), thick = Small();
   thin.body.thickness = 0.02;
   thick.body.thickness = 0.25;
   const ViewDirection tilted = {Radians(270), Radians(60)};
   thin.view.direction = thick.view.direction = tilted;
-  FrameOptions usual = Small();
-  usual.view.direction = tilted;
+  FrameOptions standard = Small();
+  standard.view.direction = tilted;
   const Image a = Draw(polygon, {MakePlanarSnapshot()}, 0, thin);
   const Image b = Draw(polygon, {MakePlanarSnapshot()}, 0, thick);
   for (const int finger : {0, 1}) EXPECT_GT(CountHue(a, FingerColor(FingerIndex(finger))), 40);
   EXPECT_GT(CountDifferent(a, b), 1000);
-  EXPECT_EQ(CountDifferent(b, Draw(polygon, {MakePlanarSnapshot()}, 0, usual)), 0);
+  EXPECT_EQ(CountDifferent(b, Draw(polygon, {MakePlanarSnapshot()}, 0, standard)), 0);
 }
 
-/// Frames keep at least this free at their border, pixels: less than their margins are, and more
-/// than what a line of a mark is wide.
+/// Minimum empty border of frames, pixels: less than their margins, and more than the width of a
+/// mark's line.
 constexpr int kFreeBorder = 5;
 
-/// Pixels that are not white within kFreeBorder of the border.
+/// Count the non-white pixels within kFreeBorder of the border.
 int CountAtBorder(const Image& image) {
   int count = 0;
   for (int y = 0; y < image.height; ++y) {
@@ -374,10 +375,11 @@ TEST(FrameTest, EverythingDrawnIsInsideTheFrame) {
       }
     }
   }
-  EXPECT_EQ(cut_off, drawn);  // each is cut off once it is three times as large
+  EXPECT_EQ(cut_off, drawn);  // every mark is cut off if it is three times as large
 }
 
-/// Two fingers inside a ring, one before the other as seen from one of 36 azimuths.
+/// Return two fingers inside a ring. From one of 36 azimuths the first finger is in front of the
+/// second.
 std::vector<plan::Snapshot> MakePairsInsideARing() {
   std::vector<plan::Snapshot> snapshots;
   for (const double elevation : {20, 28, 38, 48}) {
@@ -395,7 +397,7 @@ std::vector<plan::Snapshot> MakePairsInsideARing() {
   return snapshots;
 }
 
-TEST(FrameTest, WhatOneViewHidesIsSeenFromAnotherOneOfTheSameSize) {
+TEST(FrameTest, AFingerHiddenInOneViewHasAnotherViewOfTheSameSize) {
   const object::Polyhedron ring = MakeHoledBlock();
   const std::vector<plan::Snapshot> snapshots = MakePairsInsideARing();
   FrameOptions options = Medium();
@@ -423,8 +425,8 @@ TEST(FrameTest, WhatOneViewHidesIsSeenFromAnotherOneOfTheSameSize) {
   }
 }
 
-TEST(FrameTest, AForceIsInsideTheFrameHoweverItsFingerStands) {
-  // The one long force of the sequence leaves the object at its other side.
+TEST(FrameTest, AForceIsInsideTheFrameForEveryFingerDirection) {
+  // The only long force of the sequence points out of the opposite side of the object.
   const object::Polyhedron plate = object::Polyhedron::FromSoup(
       Extrude({{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}, 0, 0.004), "plate");
   plan::Snapshot snapshot;
@@ -439,13 +441,13 @@ TEST(FrameTest, AForceIsInsideTheFrameHoweverItsFingerStands) {
   EXPECT_EQ(CountAtBorder(renderer.Render(snapshot)), 0);
 }
 
-TEST(FrameTest, WhatIsWrongIsInsideTheFrameToo) {
+TEST(FrameTest, FaultMarksAreInsideTheFrame) {
   const object::Polyhedron cube = MakeCube(0.03);
   const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   FaultMarks marks;
   marks.dimensions = {{{0.03, 0, 0}, {0.09, 0, 0}, "a text that goes beyond its line"}};
   marks.places = {{{0, 0, 0.08}, -Eigen::Vector3d::UnitZ(), "was here"}};
-  marks.tips = {{{0, -0.07, 0}, 0.01}};
+  marks.fingertips = {{{0, -0.07, 0}, 0.01}};
   FrameOptions options = Medium();
   options.view.direction = ViewDirection{Radians(60), Radians(20)};
   const auto at_border = [&] {
@@ -458,7 +460,7 @@ TEST(FrameTest, WhatIsWrongIsInsideTheFrameToo) {
 }
 
 TEST(FrameTest, ShowsPlanarFrictionConesFromTheirFlatSide) {
-  // A flat cone seen from its edge would not show its angle: whichever way it points.
+  // A flat cone seen from its edge would not show its angle, in any direction.
   const object::Polygon polygon = MakePolygon();
   for (const int finger : {0, 1}) {
     plan::Snapshot alone = MakePlanarSnapshot();
@@ -467,7 +469,8 @@ TEST(FrameTest, ShowsPlanarFrictionConesFromTheirFlatSide) {
       FrameRenderer renderer(polygon, 1, Radians(degrees), {alone}, Medium());
       return renderer.Render(alone);
     };
-    constexpr int kClearlyWider = 6000;  // bytes: 9400; seen from its edge 3000
+    // Bytes: 9400 for a cone seen from above, 3000 from its edge.
+    constexpr int kClearlyWider = 6000;
     EXPECT_GT(CountDifferent(draw(10), draw(40)), kClearlyWider) << "finger " << finger;
   }
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "render/frames/frame.h"
-#include "render/picture/color_table.h"
+#include "render/picture/image.h"
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr int kFinger = 2;
 
-/// A palm below a cube of 2 m across and a finger with a tip, a ball of 0.3 m, at +x.
+/// Return a palm below a cube of 2 m, and a finger at +x with a fingertip sphere of 0.3 m.
 HandView Hand() {
   return {{{FingerIndex(), 0}, false, MakeCapsule({-1, 0, 0}, {1, 0, 0}, 0.4)},
           {{FingerIndex(kFinger), 1}, false, MakeCapsule({0, 0, -1}, {0, 0, 0}, 0.2)},
@@ -33,7 +33,7 @@ plan::Snapshot Holding(const Vector3d& palm = {0, 0, -3}) {
   return snapshot;
 }
 
-PictureFrame Frame() { return {MakeCube().diameter(), Vector3d::Zero()}; }
+NormalizedFrame Frame() { return {MakeCube().diameter(), Vector3d::Zero()}; }
 
 std::vector<Color> ColorsOf(const plan::Snapshot& snapshot,
                             const std::vector<plan::HandLink>& at_fault = {}) {
@@ -46,7 +46,7 @@ std::vector<Color> ColorsOf(const plan::Snapshot& snapshot,
 bool IsReddish(Color c) { return c.r > 120 && c.g < 0.6 * c.r && c.b < 0.65 * c.r; }
 bool IsGrey(Color c) { return std::abs(c.r - c.b) < 30 && std::abs(c.r - c.g) < 30; }
 
-TEST(HandFigure, TheTipOfAFingerThatTouchesHasItsColour) {
+TEST(HandFigure, AFingertipInContactHasTheColourOfItsFinger) {
   const std::vector<Color> colors = ColorsOf(Holding());
   ASSERT_EQ(colors.size(), 3u);
   EXPECT_TRUE(IsGrey(colors[0]) && IsGrey(colors[1]));
@@ -67,16 +67,16 @@ TEST(HandFigure, LinksAtFaultAreRedAndNoOthers) {
   EXPECT_EQ(red({{FingerIndex(), 0}}), (std::vector{true, false, false}));
 }
 
-TEST(HandFigure, MeshesThatAreInsideOutAreTurned) {
+TEST(HandFigure, InvertedMeshesAreFlipped) {
   HandView hand = Hand();
   for (HandLinkView& link : hand) link.mesh = TurnInsideOut(link.mesh);
-  const std::vector<FacetMesh> turned = MakeHandMeshes(hand, Frame());
-  const std::vector<FacetMesh> usual = MakeHandMeshes(Hand(), Frame());
+  const std::vector<ShadedMesh> turned = MakeHandMeshes(hand, Frame());
+  const std::vector<ShadedMesh> standard = MakeHandMeshes(Hand(), Frame());
   ASSERT_EQ(turned.size(), 6u);
   for (int i : {1, 3, 5}) {
     EXPECT_GT(Volume(turned[i]), 0);
-    EXPECT_NEAR(Volume(turned[i]), Volume(usual[i]), 1e-12);
-    EXPECT_LT(Volume(turned[i - 1]), -Volume(usual[i])) << "a larger shell";
+    EXPECT_NEAR(Volume(turned[i]), Volume(standard[i]), 1e-12);
+    EXPECT_LT(Volume(turned[i - 1]), -Volume(standard[i])) << "a larger shell";
   }
 }
 
@@ -87,14 +87,14 @@ std::vector<Window> WindowsFrom(const Vector3d& back) {
   camera.position = 10 * camera.axes.col(2);
   camera.projection = Projection::kOrthographic;
   camera.width = camera.height = 100;
-  const PictureFrame frame = Frame();
+  const NormalizedFrame frame = Frame();
   const std::vector<FingerGlyph> fingers = MakeFingerGlyphs(snapshot, frame, RayTree());
   return HandFigure(Hand(), frame).Windows(snapshot, fingers, camera);
 }
 
-TEST(HandFigure, AHandHasAWindowWhereItHidesAContactAndNoOther) {
-  // From +x the tip stands before its contact and all that is behind it; from −x before none of
-  // what a finger 0 without links has, and its own is seen through the object.
+TEST(HandFigure, AHandHasWindowsExactlyForHiddenContacts) {
+  // Seen from +x, the fingertip hides its contact and everything behind it. Seen from −x, it does
+  // not hide finger 0, which has no links, and its own contact is visible through the object.
   const std::vector<Window> before = WindowsFrom(Vector3d::UnitX());
   ASSERT_EQ(before.size(), 2u);
   EXPECT_EQ(before[0].strength, 1);
@@ -103,10 +103,10 @@ TEST(HandFigure, AHandHasAWindowWhereItHidesAContactAndNoOther) {
   for (const Window& window : above) EXPECT_LT(window.strength, 1);
 }
 
-TEST(HandFrames, AllAreSeenFromOnePlaceAndInOneScale) {
+TEST(HandFrames, AllFramesShareTheViewpointAndTheScale) {
   const object::Polyhedron cube = MakeCube();
   std::vector<plan::Snapshot> snapshots = {Holding(), Holding()};
-  // Behind the other one: without a hand this frame would have a view of its own.
+  // The other finger is hidden: without a hand this frame would have its own view.
   for (int i = 0; i < 6; ++i) {
     snapshots[1].fingers.push_back(
         MakeFinger(3 + i, plan::FingerRole::kHolding, {1, 0.01 * i, 0}, {-1, 0, 0}));
@@ -118,11 +118,11 @@ TEST(HandFrames, AllAreSeenFromOnePlaceAndInOneScale) {
   };
   FrameRenderer renderer = make(Hand());
   for (int i = 0; i < 2; ++i) EXPECT_FALSE(renderer.HasOwnView(i));
-  // The hand is in the picture, and all of it.
+  // The image contains the whole hand.
   EXPECT_NE(renderer.Render(snapshots[0]).rgb, make({}).Render(snapshots[0]).rgb);
 }
 
-TEST(HandFrames, AMoveShowsWhereTheObjectWas) {
+TEST(HandFrames, AnInHandMotionShowsTheFormerPose) {
   const object::Polyhedron cube = MakeCube();
   std::vector<plan::Snapshot> snapshots = {Holding(), Holding()};
   snapshots[1].X_WO_before = Isometry3d(Eigen::AngleAxisd(0.6, Vector3d::UnitZ()));
@@ -132,7 +132,7 @@ TEST(HandFrames, AMoveShowsWhereTheObjectWas) {
   const Image still = renderer.Render(snapshots[0]);
   const Image moved = renderer.Render(snapshots[1]);
   EXPECT_NE(still.rgb, moved.rgb);
-  // Where a fault has its own ghost this one is left out.
+  // If a fault has its own ghost, this one is omitted.
   FaultMarks marks{.heading = "", .fingers = {}};
   marks.X_WO_before = Isometry3d::Identity();
   EXPECT_EQ(renderer.Render(snapshots[0], "", &marks).rgb,

@@ -1,5 +1,3 @@
-#include "render/frames/ray_tree.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "render/frames/body_shape.h"
+#include "render/frames/shaded_mesh.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
@@ -36,8 +35,8 @@ TEST(RayTreeTest, CountsTheSidesThatARayPasses) {
   EXPECT_EQ(cube.CountHits(inside + x, x, 0, 9), 0);
 }
 
-TEST(RayTreeTest, ARayInThePlaneOfASideOfTheBoxesMeetsWhatIsThere) {
-  FacetMesh mesh;
+TEST(RayTreeTest, RaysInThePlaneOfABoxSideHitTriangles) {
+  ShadedMesh mesh;
   for (int i = 0; i < 16; ++i) {
     mesh.AddFlat({1.0 * i, 0, 0}, {1.0 * i, 1, 0}, {1.0 * i, 0, 1});
   }
@@ -46,20 +45,20 @@ TEST(RayTreeTest, ARayInThePlaneOfASideOfTheBoxesMeetsWhatIsThere) {
   EXPECT_EQ(tree.CountHits({-1, 0, 0.5}, Vector3d::UnitX(), 0, 99), 16);
 }
 
-TEST(RayTreeTest, AnEmptyOneIsMetNowhere) {
+TEST(RayTreeTest, AnEmptyTreeHasNoHits) {
   EXPECT_TRUE(std::isinf(RayTree().Distance(Vector3d::Zero(), Vector3d::UnitX(), 0)));
-  EXPECT_EQ(RayTree(FacetMesh()).CountHits(Vector3d::Zero(), Vector3d::UnitX(), 0, 9), 0);
+  EXPECT_EQ(RayTree(ShadedMesh()).CountHits(Vector3d::Zero(), Vector3d::UnitX(), 0, 9), 0);
 }
 
 TEST(RayTreeTest, GivesTheSameAsAskingEveryTriangle) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto draw = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
-  FacetMesh all;
-  std::vector<RayTree> alone;  // a tree of each triangle has nothing to leave out
+  ShadedMesh all;
+  std::vector<RayTree> alone;  // a tree of one triangle cannot omit any
   for (int i = 0; i < 300; ++i) {
     const Vector3d a = draw();
-    FacetMesh one;
+    ShadedMesh one;
     one.AddFlat(a, a + 0.4 * draw(), a + 0.4 * draw());
     all.AddFlat(one.triangles[0][0], one.triangles[0][1], one.triangles[0][2]);
     alone.emplace_back(one);

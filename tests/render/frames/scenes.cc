@@ -33,7 +33,8 @@ object::Polyhedron MakeThinLBlock() {
 }
 
 object::Polyhedron MakeHoledBlock() {
-  // Outer and inner ring of four; a quadrilateral per side, so that no facet has a hole.
+  // Outer and inner ring of four vertices. Each side is one quadrilateral, so that no face has a
+  // hole.
   const std::vector<Vector2d> outer = {{-0.04, -0.03}, {0.04, -0.03}, {0.04, 0.03}, {-0.04, 0.03}};
   object::PolygonSoup soup = Extrude(outer, -0.015, 0.015);
   soup.facets.resize(4);
@@ -49,7 +50,7 @@ object::Polyhedron MakeHoledBlock() {
   return object::Polyhedron::FromSoup(soup, "holed block");
 }
 
-double Volume(const FacetMesh& mesh) {
+double Volume(const ShadedMesh& mesh) {
   double volume = 0;
   for (const auto& [a, b, c] : mesh.triangles) volume += a.dot(b.cross(c)) / 6;
   return volume;

@@ -58,7 +58,7 @@ TEST(StepSceneTest, AGlbFileHasAllPartsForWhoeverReadsIt) {
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     EXPECT_EQ(scene->mMeshes[i]->mNumFaces, parts[i].mesh.triangles.size()) << parts[i].name;
   }
-  // z up is y up there.
+  // The z axis becomes the y axis.
   const aiVector3D& p = scene->mMeshes[0]->mVertices[0];
   const Vector3d& q = parts[0].mesh.triangles[0][0];
   EXPECT_NEAR(p.y, q.z(), 1e-6);

@@ -10,14 +10,14 @@ namespace viewpoint_test {
 
 using Eigen::Vector3d;
 
-/// A finger on the face of [−half, half]³ that `outward` points out of.
+/// Return a finger on the face of [−half, half]³ with the outward normal `outward`.
 FingerGlyph MakeGlyph(int finger, const Vector3d& outward, double half) {
   FingerGlyph glyph;
   glyph.finger = FingerIndex(finger);
   glyph.contact = half * outward;
   glyph.outward = outward;
-  glyph.ball_radius = 0.03;
-  glyph.ball = glyph.contact + glyph.ball_radius * outward;
+  glyph.fingertip_radius = 0.03;
+  glyph.fingertip = glyph.contact + glyph.fingertip_radius * outward;
   glyph.stem_radius = 0.013;
   glyph.stem_end = glyph.end = glyph.contact + 0.125 * outward;
   glyph.force = Vector3d::Zero();
@@ -30,7 +30,7 @@ TEST(ViewpointTest, ADirectionIsAzimuthAboutZAndElevationAboveThePlane) {
   EXPECT_LT((ViewDirection{1.0, Radians(90)}.ToCamera() - Vector3d::UnitZ()).norm(), 1e-12);
 }
 
-TEST(ViewpointTest, StandsOnTheSideOfTheFingers) {
+TEST(ViewpointTest, IsOnTheSideOfTheFingers) {
   const BodyShape cube = MakeBodyShape(MakeCube(0.03));
   const double half = 0.5 / std::sqrt(3.0);
   for (const Vector3d& side :
@@ -42,7 +42,7 @@ TEST(ViewpointTest, StandsOnTheSideOfTheFingers) {
   }
 }
 
-TEST(ViewpointTest, CountsAFingerAsOftenAsItIsSeenInTheSequence) {
+TEST(ViewpointTest, CountsAFingerInEveryFrame) {
   const BodyShape cube = MakeBodyShape(MakeCube(0.03));
   const double half = 0.5 / std::sqrt(3.0);
   const FingerGlyph front = MakeGlyph(0, Vector3d::UnitX(), half);
@@ -59,7 +59,7 @@ TEST(ViewpointTest, SeesAPlanarObjectFromStraightAbove) {
   EXPECT_FALSE(chosen.own[0]);
 }
 
-TEST(ViewpointTest, LooksAtForcesFromTheirSide) {
+TEST(ViewpointTest, ShowsForcesFromTheSide) {
   const BodyShape plate = MakeBodyShape(MakeBox({0.06, 0.06, 0.004}));
   FingerGlyph pushed = MakeGlyph(0, Vector3d::UnitZ(), 0.02);
   for (const int axis : {0, 1}) {
@@ -69,7 +69,7 @@ TEST(ViewpointTest, LooksAtForcesFromTheirSide) {
   }
 }
 
-/// Directions that pictures may be taken from, but those from below.
+/// Return the candidate directions of the camera, except those from below.
 std::vector<Vector3d> AllAround() {
   std::vector<Vector3d> directions;
   for (const double elevation : {12, 20, 28, 38, 48}) {
@@ -80,8 +80,8 @@ std::vector<Vector3d> AllAround() {
   return directions;
 }
 
-/// Of frames for AllAround, those and only those have a view of their own that are at fault.
-/// @param make  the fingers of a frame for a direction along which they cannot be seen.
+/// Check that exactly the faulty frames have their own view, for frames for AllAround.
+/// @param make  function that returns the fingers of a frame that are invisible from a direction.
 template <class Make>
 void ExpectOwnViewsOnlyAlong(const BodyShape& body, const Make& make) {
   const std::vector<Vector3d> directions = AllAround();
@@ -103,10 +103,10 @@ void ExpectOwnViewsOnlyAlong(const BodyShape& body, const Make& make) {
 }
 
 TEST(ViewpointTest, AFrameWithAFingerBehindAThickBodyHasAViewOfItsOwn) {
-  BodyShape ball;
-  ball.surface = MakeCapsule(Vector3d::Zero(), Vector3d::Zero(), 0.5);
-  ball.rays = RayTree(ball.surface);
-  ExpectOwnViewsOnlyAlong(ball, [](const Vector3d& direction) {
+  BodyShape sphere;
+  sphere.surface = MakeCapsule(Vector3d::Zero(), Vector3d::Zero(), 0.5);
+  sphere.rays = RayTree(sphere.surface);
+  ExpectOwnViewsOnlyAlong(sphere, [](const Vector3d& direction) {
     FingerGlyph behind = MakeGlyph(0, -direction, 0.5);
     behind.force = direction;
     return std::vector<FingerGlyph>{behind};
@@ -120,7 +120,7 @@ TEST(ViewpointTest, AFrameWhoseFingersCoverEachOtherInsideARingHasAViewOfItsOwn)
                                      MakeGlyph(1, Vector3d::UnitZ(), 0)};
     for (FingerGlyph& glyph : pair) {
       const Vector3d by = (glyph.finger == 0 ? 0.1 : -0.1) * direction;
-      for (Vector3d* p : {&glyph.contact, &glyph.ball, &glyph.stem_end, &glyph.end}) *p += by;
+      for (Vector3d* p : {&glyph.contact, &glyph.fingertip, &glyph.stem_end, &glyph.end}) *p += by;
     }
     return pair;
   });

@@ -9,8 +9,8 @@
 namespace regrasp::render {
 namespace caption_test {
 
-/// A plan whose one step aligns fingers 1 and 2; each has a place, in centimetres, at every
-/// waypoint.
+/// Return the caption of a plan whose only step slides fingers 1 and 2.
+/// @param waypoints  positions of the two fingers at each waypoint, centimetres.
 std::string CaptionOf(const std::vector<std::array<double, 2>>& waypoints) {
   plan::Align align;
   for (const auto& places : waypoints) {
@@ -27,7 +27,7 @@ std::string CaptionOf(const std::vector<std::array<double, 2>>& waypoints) {
   return FrameCaption(plan, plan::EntryIndex(1));
 }
 
-TEST(CaptionTest, SaysHowFarFingersAlignAndInWhichOrder) {
+TEST(CaptionTest, StatesTheDistancesAndTheOrderOfSlidingFingers) {
   EXPECT_EQ(CaptionOf({{0, 0}, {1, 0}}), "step 1/1 · align: move 1 by 1 cm along the surface");
   EXPECT_EQ(CaptionOf({{0, 0}, {1, 2}}),
             "step 1/1 · align: move 1 by 1 cm, 2 by 2 cm together along the surface");
@@ -38,7 +38,8 @@ TEST(CaptionTest, SaysHowFarFingersAlignAndInWhichOrder) {
   EXPECT_EQ(CaptionOf({{0, 0}, {0, 0}}), "step 1/1 · align");
 }
 
-/// Of a step that takes the object by a shift, metres, and a turn about z, radians.
+/// Return the caption of an in-hand motion with a translation (metres) and a rotation about z
+/// (radians).
 std::string CaptionOfMove(double shift, double turn) {
   plan::Move move;
   move.path.resize(2);
@@ -50,10 +51,10 @@ std::string CaptionOfMove(double shift, double turn) {
   return FrameCaption(plan, plan::EntryIndex(1));
 }
 
-TEST(CaptionTest, SaysHowFarTheObjectTurnsOrElseGoes) {
-  EXPECT_EQ(CaptionOfMove(0.005, 0.5), "step 1/1 · move: turn the object by 28.65°");
-  EXPECT_EQ(CaptionOfMove(0.005, 0), "step 1/1 · move: shift the object by 5 mm");
-  EXPECT_EQ(CaptionOfMove(0.005, 1e-9), "step 1/1 · move: shift the object by 5 mm");
+TEST(CaptionTest, StatesTheRotationOrTheTranslationOfTheObject) {
+  EXPECT_EQ(CaptionOfMove(0.005, 0.5), "step 1/1 · move: rotate the object by 28.65°");
+  EXPECT_EQ(CaptionOfMove(0.005, 0), "step 1/1 · move: translate the object by 5 mm");
+  EXPECT_EQ(CaptionOfMove(0.005, 1e-9), "step 1/1 · move: translate the object by 5 mm");
   EXPECT_EQ(CaptionOfMove(1e-9, 1e-9), "step 1/1 · move: free fingers");
 }
 

@@ -1,5 +1,3 @@
-#include "render/picture/color_table.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,8 @@
 #include <random>
 #include <set>
 #include <stdexcept>
+
+#include "render/picture/animation.h"
 
 namespace regrasp::render {
 namespace color_table_test {
@@ -70,7 +70,7 @@ TEST(ColorTableTest, MoreColoursAreNearerAndEveryCallChoosesTheSame) {
   EXPECT_EQ(AsSet(ChooseColors(images, 100)), AsSet(ChooseColors(images, 100)));
 }
 
-TEST(ColorTableTest, TheNearestIsTheNearestOfAll) {
+TEST(ColorTableTest, FindsTheNearestColour) {
   std::mt19937 random(7);
   std::vector<Color> colors;
   const auto draw = [&] { return static_cast<unsigned char>(random() % 256); };
@@ -87,7 +87,7 @@ TEST(ColorTableTest, TheNearestIsTheNearestOfAll) {
       return sum;
     };
     const int least = distance(*std::ranges::min_element(colors, {}, distance));
-    // Asked twice: the second time it is known.
+    // The second call uses the stored result.
     EXPECT_EQ(distance(colors[table.Nearest(color)]), least);
     EXPECT_EQ(distance(colors[table.Nearest(color)]), least);
   }

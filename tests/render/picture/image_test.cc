@@ -25,7 +25,7 @@ std::filesystem::path TestFile(const std::string& name) {
   return std::filesystem::path(testing::TempDir()) / name;
 }
 
-TEST(ImageTest, ComesBackFromPngUnchanged) {
+TEST(ImageTest, PngDecodesToTheSameImage) {
   const Image image = MakeNoise(37, 21);
   const std::filesystem::path path = TestFile("regrasp_image_test.png");
   WritePng(path, image);
@@ -41,7 +41,7 @@ TEST(ImageTest, ComesBackFromPngUnchanged) {
   std::filesystem::remove(path);
 }
 
-TEST(ImageTest, APictureOfFewColoursIsAboutAsSmallAsLibpngMakesIt) {
+TEST(ImageTest, AnImageWithFewColoursIsAboutAsSmallAsWithLibpng) {
   Image image = MakeImage(640, 480);
   for (int y = 0; y < 480; ++y) {
     for (int x = 0; x < 640; ++x) {

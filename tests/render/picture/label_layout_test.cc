@@ -53,12 +53,12 @@ TEST(LabelLayoutTest, NeverCoversFingersNorOtherLabels) {
   EXPECT_EQ(checked, 2500);
 }
 
-TEST(LabelLayoutTest, ALabelIsNearerToItsOwnFingersBallThanToAnotherOne) {
+TEST(LabelLayoutTest, ALabelIsNearestToItsOwnFingertip) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> offset(-60, 60);
   int at_another_stem = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    // Fingers inside a hole: the stem of each ends at the ball of the other.
+    // Fingers inside a hole: the stem of each finger ends at the fingertip of the opposite one.
     std::vector<LabelAnchor> anchors;
     std::vector<Obstacle> obstacles;
     const Vector2d middle(320, 240);
@@ -79,7 +79,7 @@ TEST(LabelLayoutTest, ALabelIsNearerToItsOwnFingersBallThanToAnotherOne) {
       }
     }
   }
-  EXPECT_EQ(at_another_stem, 800);  // the place that a label would like best is a wrong one
+  EXPECT_EQ(at_another_stem, 800);  // the preferred position of a label is wrong
 }
 
 TEST(LabelLayoutTest, KeepsLabelsInsideTheImage) {

@@ -1,4 +1,4 @@
-#include "render/picture/video.h"
+#include "render/picture/animation.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -31,7 +31,7 @@ Image MakeFlat(int width, int height, Color color) {
   return image;
 }
 
-/// White with a red column at `x`, two pixels wide.
+/// Return a white image with a red column at `x`, two pixels wide.
 Image MakeLine(int width, int height, int x) {
   Image image = MakeImage(width, height);
   for (int y = 0; y < height; ++y) {
@@ -50,7 +50,7 @@ struct Shown {
   int begin_ms, duration_ms;
 };
 
-/// What is read of a file's bytes.
+/// The read position in the bytes of a file.
 struct Source {
   const std::string& bytes;
   std::size_t at = 0;
@@ -74,7 +74,7 @@ std::int64_t SeekSource(void* opaque, std::int64_t offset, int whence) {
   return offset;
 }
 
-/// Of what the decoders of both formats give: Y'CbCr of BT.709 in limited range, and BGRA.
+/// Convert the frame formats of both decoders: Y'CbCr of BT.709 in limited range, and BGRA.
 Image ToImage(const AVFrame& frame) {
   Image image = MakeImage(frame.width, frame.height, 0);
   const bool bgra = frame.format == AV_PIX_FMT_BGRA;
@@ -142,7 +142,7 @@ std::vector<Shown> Decode(const std::string& bytes) {
   return shown;
 }
 
-/// The largest distance of a channel of the pixel from the colour.
+/// Return the maximum difference of a pixel's channels from a colour.
 int DistanceAt(const Image& image, int x, int y, Color color) {
   const unsigned char* rgb = image.rgb.data() + 3 * (y * image.width + x);
   return std::max(
@@ -155,7 +155,7 @@ std::vector<int> Begins(const std::vector<Shown>& shown) {
   return begins;
 }
 
-TEST(VideoTest, AnMp4HasAPictureEveryTickAndShowsEveryImageForItsTime) {
+TEST(VideoTest, AnMp4HasAFramePerTickAndShowsEveryImageForItsDuration) {
   const auto video = MakeMp4(64, 48);
   video->Add(MakeFlat(64, 48, kTeal), 2 * kTick_ms);
   video->Add(MakeFlat(64, 48, kRed), 10 * kTick_ms);
@@ -170,7 +170,7 @@ TEST(VideoTest, AnMp4HasAPictureEveryTickAndShowsEveryImageForItsTime) {
   }
 }
 
-/// The types of the boxes that an MP4 file consists of.
+/// Return the types of the boxes of an MP4 file.
 std::vector<std::string> Boxes(const std::string& bytes) {
   std::vector<std::string> types;
   for (std::size_t at = 0; at + 8 <= bytes.size();) {
@@ -183,7 +183,7 @@ std::vector<std::string> Boxes(const std::string& bytes) {
   return types;
 }
 
-TEST(VideoTest, TheIndexOfAnMp4StandsBeforeItsPictures) {
+TEST(VideoTest, TheIndexOfAnMp4PrecedesItsFrames) {
   const auto video = MakeMp4(64, 48);
   video->Add(MakeFlat(64, 48, kTeal), 2 * kTick_ms);
   video->Add(MakeLine(64, 48, 20), 3 * kTick_ms);
@@ -193,7 +193,7 @@ TEST(VideoTest, TheIndexOfAnMp4StandsBeforeItsPictures) {
   EXPECT_EQ(boxes.front(), "ftyp");
   EXPECT_LT(place("moov"), place("mdat"));
   EXPECT_NE(place("mdat"), boxes.end());
-  // It points to where they are now.
+  // The index refers to the final positions.
   const std::vector<Shown> shown = Decode(bytes);
   ASSERT_EQ(shown.size(), 5u);
   EXPECT_LE(DistanceAt(shown[0].image, 30, 20, kTeal), 4);
@@ -208,7 +208,7 @@ TEST(VideoTest, SidesOfAnMp4AreEven) {
   const Image& image = shown[0].image;
   EXPECT_EQ(image.width, 50);
   EXPECT_EQ(image.height, 52);
-  // What is added is like what is beside it.
+  // The padding continues the border.
   EXPECT_LE(DistanceAt(image, 49, 51, kRed), 60);
   EXPECT_LE(DistanceAt(image, 20, 51, {255, 255, 255}), 4);
 }

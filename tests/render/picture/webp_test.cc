@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "render/picture/moving_picture.h"
+#include "render/picture/animation.h"
 
 namespace regrasp::render {
 namespace webp_test {
@@ -21,7 +21,7 @@ Image MakeFlat(int width, int height, unsigned char brightness) {
   return MakeImage(width, height, brightness);
 }
 
-TEST(WebpTest, AnImageComesBackAsItWentIn) {
+TEST(WebpTest, DecodingReturnsTheEncodedImage) {
   Image image = MakeFlat(64, 48, 255);
   for (int y = 0; y < 48; ++y) {
     for (int x = 0; x < 32; ++x) image.rgb[3 * (64 * y + x)] = 40;  // the left half is cyan
@@ -50,7 +50,7 @@ TEST(WebpTest, WideImagesAreScaledDownAndNarrowOnesAreNot) {
   EXPECT_EQ(size_of(EncodeWebp(MakeFlat(4000, 1, 90), 10)), std::pair(10, 1));
 }
 
-TEST(WebpTest, SizesThatWebpCannotHoldAreRefused) {
+TEST(WebpTest, UnsupportedSizesAreRefused) {
   EXPECT_THROW(static_cast<void>(EncodeWebp({}, 10)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(EncodeWebp(MakeFlat(16384, 1, 0), 10)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(EncodeWebp(MakeFlat(4, 4, 0), 0)), std::invalid_argument);
@@ -80,8 +80,8 @@ TEST(WebpAnimationTest, EveryImageIsShownForItsTime) {
   EXPECT_NEAR(brightness[1], 220, 4);
 }
 
-/// What changes by little from image to image, as shading does, while a corner changes much.
-TEST(WebpAnimationTest, SlowChangesComeRight) {
+/// Images with small changes, such as shading, and a large change in one corner.
+TEST(WebpAnimationTest, SlowChangesReachTheirFinalValue) {
   constexpr int kSide = 64;
   const auto animation = MakeWebpAnimation(kSide, kSide);
   constexpr int kImages = 60;
@@ -109,7 +109,7 @@ TEST(WebpAnimationTest, SlowChangesComeRight) {
     ++shown;
   }
   EXPECT_GT(shown, kImages / 2);
-  EXPECT_LE(worst, 16) << "59 without pictures that stand whole";
+  EXPECT_LE(worst, 16) << "59 without key frames";
 }
 
 TEST(WebpAnimationTest, ImagesOfAnotherSizeAreRefused) {

@@ -36,10 +36,10 @@ TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {
     step.check.index = plan::EntryIndex(static_cast<int>(report.steps.size()) - 1);
     step.check.required = grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
   }
-  EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>step 1, 3.00° to spare</dd>"));
+  EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>step 1, 3.00° margin</dd>"));
   // If a step failed, the margin of another step is not reported as the weakest.
   report.steps.emplace_back().check.reason = plan::Reason::kNotForceClosure;
-  EXPECT_THAT(FormatFacts(report), Not(HasSubstr("to spare")));
+  EXPECT_THAT(FormatFacts(report), Not(HasSubstr("° margin")));
 }
 
 TEST(FactsTest, TheProgramAndTheCommandAreTold) {

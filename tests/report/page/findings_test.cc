@@ -39,8 +39,8 @@ TEST(FindingsTest, EveryReplayedStepHasItsWeakestFingerAndItsMargins) {
   EXPECT_THAT(text, HasSubstr("4.50° (finger 2)"));
   EXPECT_THAT(text, HasSubstr("1.25° (finger 0)"));
   EXPECT_THAT(text, Not(HasSubstr("Disagreements")));
-  EXPECT_THAT(text, Not(HasSubstr("largest push")));
-  EXPECT_THAT(text, Not(HasSubstr("Fixed squeeze")));
+  EXPECT_THAT(text, Not(HasSubstr("Largest disturbance")));
+  EXPECT_THAT(text, Not(HasSubstr("Fixed grasp force")));
 }
 
 TEST(FindingsTest, WhatWasNotReplayedHasNone) {
@@ -57,8 +57,10 @@ TEST(FindingsTest, ADisagreementIsToldInWordsAndEscaped) {
   report.steps[1].disagreement = sim::Disagreement{
       sim::Between::kFixedFails, sim::Cause::kConeReached, "finger <2> & its cone", {}};
   const std::string text = FormatFindings(report);
-  EXPECT_THAT(text, HasSubstr("Step 1: adapted forces resist the shake, a fixed squeeze does not. "
-                              "Likely cause: finger &lt;2&gt; &amp; its cone."));
+  EXPECT_THAT(
+      text,
+      HasSubstr("Step 1: adapted forces resist the disturbance, a fixed grasp force does not. "
+                "Likely cause: finger &lt;2&gt; &amp; its cone."));
   EXPECT_THAT(text, HasSubstr("<td class=\"number\">fail: slipped</td>"));
 }
 

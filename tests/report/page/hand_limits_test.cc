@@ -1,5 +1,3 @@
-#include "report/hand_limits.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -67,7 +65,7 @@ TEST(HandLimitsTest, LimitsAreInTheJsonTheTableAndThePage) {
   EXPECT_THAT(page, HasSubstr("Limits that the verdict relies on"));
   EXPECT_THAT(page, HasSubstr("tha1"));
   EXPECT_THAT(page, Not(HasSubstr("unknown")));
-  EXPECT_THAT(report.warnings(), IsEmpty());
+  EXPECT_THAT(Warnings(report), IsEmpty());
 }
 
 TEST(HandLimitsTest, AForceLimitThatTheModelDoesNotGiveIsNamedEverywhere) {
@@ -77,8 +75,8 @@ TEST(HandLimitsTest, AForceLimitThatTheModelDoesNotGiveIsNamedEverywhere) {
   EXPECT_EQ(json["settings"]["hand"]["limits"][1]["torque_Nm"], 2);
   EXPECT_THAT(FormatReportTable(report), HasSubstr("force limit unknown for 1 of 2 actuators"));
   EXPECT_THAT(PageOf(report), HasSubstr("unknown"));
-  ASSERT_THAT(report.warnings(), SizeIs(1));
-  EXPECT_EQ(report.warnings()[0],
+  ASSERT_THAT(Warnings(report), SizeIs(1));
+  EXPECT_EQ(Warnings(report)[0],
             "the hand's model gives no force limit for 1 of 2 actuators: the verdict takes their "
             "strength as unlimited, largest torque 1.17 N·m");
 }
@@ -86,16 +84,16 @@ TEST(HandLimitsTest, AForceLimitThatTheModelDoesNotGiveIsNamedEverywhere) {
 TEST(HandLimitsTest, GeometryThatIsInTheObjectWhereASphereTouchesIsNamed) {
   Report report = HandReport(1, 1);
   report.steps[0].replay->hand->covered_depth_m = 9e-4;
-  EXPECT_THAT(report.warnings(), IsEmpty());
+  EXPECT_THAT(Warnings(report), IsEmpty());
   report.steps[0].replay->hand->covered_depth_m = 2.8e-3;
-  ASSERT_THAT(report.warnings(), SizeIs(1));
-  EXPECT_THAT(report.warnings()[0], HasSubstr("up to 2.8 mm inside the object"));
+  ASSERT_THAT(Warnings(report), SizeIs(1));
+  EXPECT_THAT(Warnings(report)[0], HasSubstr("up to 2.8 mm inside the object"));
 }
 
 TEST(HandLimitsTest, AReplayByPointsHasNoLimits) {
   Report report = HandReport(kUnlimited, kUnlimited);
   report.settings->hand.reset();
-  EXPECT_THAT(report.warnings(), IsEmpty());
+  EXPECT_THAT(Warnings(report), IsEmpty());
   EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("limits:")));
   EXPECT_THAT(PageOf(report), Not(HasSubstr("Limits that")));
 }

@@ -93,7 +93,7 @@ class EditedHandTest : public FolderTest {
         kinematics::CompileModel(Write("other.xml", model)));
     return hand;
   }
-  /// Return a plan that rotates the cube about z by `turn`, radians.
+  /// Plan for a rotation of the cube about z, radians, with the friction of the world.
   [[nodiscard]] plan::Plan PlanFor(const kinematics::HandFile& hand, double turn = 0.3) const {
     gait::GaitRequest request;
     request.hand = &hand.hand;
@@ -104,7 +104,9 @@ class EditedHandTest : public FolderTest {
     request.turn = {Eigen::Vector3d::UnitZ(), turn};
     const gait::GaitResult found = gait::FindGait(request);
     if (!found.gait) throw std::runtime_error(found.message);
-    return plan::LocatePlan(solid(), gait::PlanOf(*found.gait, request, found.contacts));
+    plan::Plan plan = plan::LocatePlan(solid(), gait::PlanOf(*found.gait, request, found.contacts));
+    plan.half_angle = std::atan(kMu);
+    return plan;
   }
   [[nodiscard]] const object::Polyhedron& solid() const {
     return dynamic_cast<const object::Polyhedron&>(*cube_.object);

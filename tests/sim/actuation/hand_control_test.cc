@@ -41,7 +41,6 @@ TEST_F(HeldInHand, AHandoverGoesFromTheForcesBeforeToThoseAfter) {
 TEST_F(HeldInHand, AShakePushesAndTwists) {
   const auto shaken = [&](double shake) {
     HandReplayOptions options;
-    options.half_angle = std::atan(kMu);
     options.mass_kg = kMass;
     options.shake = shake;
     return ReplayHand(hand_, solid(), plan_, options, {}, 1).steps.back();

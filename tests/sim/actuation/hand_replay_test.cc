@@ -39,7 +39,6 @@ constexpr double kMu = 0.8;
 
 HandReplayOptions Options() {
   HandReplayOptions options;
-  options.half_angle = std::atan(kMu);
   options.mass_kg = 0.125;
   return options;
 }
@@ -155,9 +154,8 @@ TEST(HandReplayTest, NothingHoldsAtNineTenthsOfTheFrictionThatIsNeeded) {
 TEST(HandReplayTest, AnObjectThatIsTooHeavyFalls) {
   const double squeeze = ReplayOf(GoodPlan()).settings.squeeze_N;
   HandReplayOptions options = Options();
-  // The faces are vertical, so friction supports at most μ times the grasp force. The weight is 20
-  // % more.
-  options.mass_factor = 1.2 * kMu * squeeze / (options.mass_kg * kGravity);
+  // The faces are vertical, so friction supports at most μ times the grasp force: 20 % too much.
+  options.mass_factor = 1.2 * kMu * squeeze / (*options.mass_kg * kGravity);
   EXPECT_NE(ReasonOf(ReplayOf(GoodPlan(), options)), Reason::kNone);
 }
 
@@ -399,7 +397,6 @@ TEST(HandReplaysTest, GiveWhatEachPlanAloneGivesWhateverWasReplayedBefore) {
   plan::Plan slippery = good;
   slippery.half_angle = std::atan(0.05);
   HandReplayOptions options = Options();
-  options.half_angle.reset();
   HandReplays replays(Hand(), Cube(), options);
   std::vector<Reason> reasons;
   for (const plan::Plan* plan :

@@ -42,15 +42,14 @@ TEST_P(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
   request.turn = {Eigen::Vector3d::UnitZ(), 0.5};
   const gait::GaitResult found = gait::FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  const plan::Plan plan =
-      plan::LocatePlan(solid, gait::PlanOf(*found.gait, request, found.contacts));
+  plan::Plan plan = plan::LocatePlan(solid, gait::PlanOf(*found.gait, request, found.contacts));
+  plan.half_angle = std::atan(0.8);
 
   std::vector<SceneKey> keys;
   HandReplayOptions options;
-  options.half_angle = std::atan(0.8);
   options.mass_kg = 0.125;
   options.tip = GetParam();
-  HandReplayObserver observer;
+  ReplayObserver observer;
   observer.on_rest = [&](const HandWorld& world, plan::EntryIndex entry) {
     keys.push_back({"rest " + std::to_string(entry), world.time(), world.Save().engine.qpos,
                     world.controls()});
@@ -60,7 +59,7 @@ TEST_P(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
   ASSERT_EQ(keys.size(), plan.steps.size() + 1);
 
   const std::vector<SceneFile> files = ExportHandScene(
-      hand, solid, request.scale, {0.8, options.mass_kg, kGravity, 1, {}, options.tip}, keys);
+      hand, solid, request.scale, {0.8, *options.mass_kg, kGravity, 1, {}, options.tip}, keys);
   EXPECT_EQ(files.back().name, kSceneName);
   for (const SceneFile& file : files) EXPECT_TRUE(IsSceneFile(file.name)) << file.name;
   const mujoco::ModelPtr model = LoadStockScene(files, folder_);
@@ -68,7 +67,7 @@ TEST_P(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
   ASSERT_EQ(model->nkey, static_cast<int>(keys.size()));
   const int object = mj_name2id(model.get(), mjOBJ_BODY, "regrasp_object");
   ASSERT_GE(object, 0);
-  EXPECT_NEAR(model->body_mass[object], options.mass_kg, 1e-12);
+  EXPECT_NEAR(model->body_mass[object], *options.mass_kg, 1e-12);
   for (int key = 0; key < model->nkey; ++key) {
     mj_resetDataKeyframe(model.get(), data.get(), key);
     mj_forward(model.get(), data.get());

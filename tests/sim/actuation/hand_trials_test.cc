@@ -23,7 +23,7 @@ class HandTrialsTest : public testing::Test {
     const gait::GaitResult found = gait::FindGait(request_);
     if (!found.gait) throw std::runtime_error(found.message);
     plan_ = plan::LocatePlan(solid(), gait::PlanOf(*found.gait, request_, found.contacts));
-    options_.half_angle = std::atan(0.8);
+    plan_.half_angle = std::atan(0.8);
     options_.mass_kg = 0.125;
   }
   [[nodiscard]] const object::Polyhedron& solid() const {

@@ -41,7 +41,6 @@ class HandWorldTest : public EditedHandTest {
  protected:
   [[nodiscard]] HandReplayOptions Options() const {
     HandReplayOptions options;
-    options.half_angle = std::atan(kMu);
     options.mass_kg = kMass;
     return options;
   }
@@ -149,8 +148,8 @@ TEST_F(HandWorldTest, ControlsStayInTheRangesOfTheModel) {
     return std::array<double, 2>{range[0] - 0.05, range[1] + 0.05};
   };
   double outside = 0;
-  HandReplayObserver observer;
-  observer.on_step = [&](const HandWorld& world) {
+  ReplayObserver observer;
+  observer.on_time_step = [&](const HandWorld& world) {
     outside = std::max(outside, LargestOutside(world, narrow));
   };
   const ReplayResult free = ReplayHand(plain, solid(), plan, Options(), observer);

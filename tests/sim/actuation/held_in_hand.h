@@ -28,6 +28,7 @@ class HeldInHand : public testing::Test {
     const gait::GaitResult found = gait::FindGait(request);
     if (!found.gait) throw std::runtime_error(found.message);
     plan_ = plan::LocatePlan(solid(), gait::PlanOf(*found.gait, request, found.contacts));
+    plan_.half_angle = std::atan(kMu);
   }
   [[nodiscard]] const object::Polyhedron& solid() const {
     return dynamic_cast<const object::Polyhedron&>(*cube_.object);

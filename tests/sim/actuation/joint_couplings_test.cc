@@ -8,7 +8,7 @@
 
 #include "planner/base/number.h"
 #include "planner/mujoco/handles.h"
-#include "sim/actuation/hand_judge.h"
+#include "sim/actuation/execution_monitor.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/hand_scene_export.h"
 #include "sim/actuation/hand_world.h"
@@ -29,7 +29,6 @@ class JointCouplingsTest : public EditedHandTest {
  protected:
   [[nodiscard]] HandReplayOptions Options() const {
     HandReplayOptions options;
-    options.half_angle = std::atan(kMu);
     options.mass_kg = kMass;
     return options;
   }
@@ -61,8 +60,8 @@ TEST_F(JointCouplingsTest, CoupledJointsStayCoupledWhateverTheServosAre) {
   const kinematics::HandFile hand = CoupledHand();
   const plan::Plan plan = PlanFor(hand);
   double largest = 0;
-  HandReplayObserver observer;
-  observer.on_step = [&](const HandWorld& world) {
+  ReplayObserver observer;
+  observer.on_time_step = [&](const HandWorld& world) {
     for (const std::vector<double>& q : world.state().joints) {
       largest = std::max(largest, std::abs(q[3] - q[2]));
     }
@@ -89,16 +88,16 @@ TEST_F(JointCouplingsTest, AJointThatIsOffItsCouplingIsNamed) {
     state.pose.translation().z() += 1;  // out of reach
     state.joints[1][3] += Radians(degrees);
     world.Place(state);
-    HandJudge judge(world, solid(), kScale, {});
-    judge.Start();
-    judge.Watch(state.pose);
-    EXPECT_NEAR(Degrees(judge.measures().coupling_rad), degrees, 1e-6);
-    ASSERT_EQ(judge.breach().has_value(), degrees > 1);
-    if (!judge.breach()) continue;
-    EXPECT_EQ(judge.breach()->reason, Reason::kCouplingViolated);
-    EXPECT_THAT(judge.breach()->detail,
+    ExecutionMonitor monitor(world, solid(), kScale, {});
+    monitor.Start();
+    monitor.Watch(state.pose);
+    EXPECT_NEAR(Degrees(monitor.measures().coupling_rad), degrees, 1e-6);
+    ASSERT_EQ(monitor.violation().has_value(), degrees > 1);
+    if (!monitor.violation()) continue;
+    EXPECT_EQ(monitor.violation()->reason, Reason::kCouplingViolated);
+    EXPECT_THAT(monitor.violation()->detail,
                 HasSubstr("joint finger1_joint3, which is coupled to finger1_joint2, is 1.1"));
-    EXPECT_THAT(judge.breach()->fault.fingers, testing::ElementsAre(FingerIndex(1)));
+    EXPECT_THAT(monitor.violation()->fault.fingers, testing::ElementsAre(FingerIndex(1)));
   }
 }
 
@@ -111,13 +110,13 @@ TEST_F(JointCouplingsTest, AJointOutsideItsRangeIsNamed) {
     state.pose.translation().z() += 1;
     state.joints[2][3] = hand.hand.fingers[2].joints[3].lower - Radians(degrees);
     world.Place(state);
-    HandJudge judge(world, solid(), kScale, {});
-    judge.Start();
-    judge.Watch(state.pose);
-    ASSERT_EQ(judge.breach().has_value(), degrees > 1);
-    if (!judge.breach()) continue;
-    EXPECT_EQ(judge.breach()->reason, Reason::kJointLimit);
-    EXPECT_THAT(judge.breach()->detail, HasSubstr("joint finger2_joint3 of finger 2"));
+    ExecutionMonitor monitor(world, solid(), kScale, {});
+    monitor.Start();
+    monitor.Watch(state.pose);
+    ASSERT_EQ(monitor.violation().has_value(), degrees > 1);
+    if (!monitor.violation()) continue;
+    EXPECT_EQ(monitor.violation()->reason, Reason::kJointLimit);
+    EXPECT_THAT(monitor.violation()->detail, HasSubstr("joint finger2_joint3 of finger 2"));
   }
 }
 
@@ -165,7 +164,7 @@ TEST_F(JointCouplingsTest, ResidualsAreThoseOfTheModelsEqualities) {
 TEST_F(JointCouplingsTest, TheExportedSceneHoldsCoupledFingersInStockMuJoCo) {
   const kinematics::HandFile hand = CoupledHand();
   std::vector<SceneKey> keys;
-  HandReplayObserver observer;
+  ReplayObserver observer;
   observer.on_rest = [&](const HandWorld& world, plan::EntryIndex entry) {
     keys.push_back({"rest " + std::to_string(entry), world.time(), world.Save().engine.qpos,
                     world.controls()});

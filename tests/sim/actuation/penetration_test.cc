@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/actuation/hand_judge.h"
+#include "sim/actuation/execution_monitor.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/hand_world.h"
 #include "tests/sim/actuation/edited_hand.h"
@@ -73,15 +73,15 @@ TEST_F(PenetrationTest, AFingertipThatIsTooDeepInTheObjectIsNamed) {
     // Move the object against the finger, whose normal points into the object.
     state.pose.translation() -= depth * (state.pose.linear() * held.contact.n);
     world.Place(state);
-    HandJudge judge(world, solid(), kScale, {});
-    judge.Start();
-    judge.Watch(state.pose);
-    ASSERT_EQ(judge.breach().has_value(), depth > 5e-4) << judge.breach()->detail;
-    if (!judge.breach()) continue;
-    EXPECT_EQ(judge.breach()->reason, Reason::kTipPenetrates);
-    EXPECT_THAT(judge.breach()->detail, HasSubstr("the fingertip sphere of finger"));
-    EXPECT_THAT(judge.breach()->detail, HasSubstr("inside the object, limit 500 µm"));
-    EXPECT_THAT(judge.breach()->fault.fingers, testing::ElementsAre(held.finger));
+    ExecutionMonitor monitor(world, solid(), kScale, {});
+    monitor.Start();
+    monitor.Watch(state.pose);
+    ASSERT_EQ(monitor.violation().has_value(), depth > 5e-4) << monitor.violation()->detail;
+    if (!monitor.violation()) continue;
+    EXPECT_EQ(monitor.violation()->reason, Reason::kTipPenetrates);
+    EXPECT_THAT(monitor.violation()->detail, HasSubstr("the fingertip sphere of finger"));
+    EXPECT_THAT(monitor.violation()->detail, HasSubstr("inside the object, limit 500 µm"));
+    EXPECT_THAT(monitor.violation()->fault.fingers, testing::ElementsAre(held.finger));
   }
 }
 
@@ -89,7 +89,6 @@ TEST_F(PenetrationTest, GeometryOfAFingertipIsCheckedAgainstTheObject) {
   const plan::Plan plan = PlanFor(HandWith({}));
   ASSERT_TRUE(IsHeldByFirst(plan));
   HandReplayOptions options;
-  options.half_angle = std::atan(kMu);
   options.mass_kg = kMass;
   const auto replay = [&](const std::string& radius) {
     return ReplayHand(HandWithSphere(radius), solid(), plan, options);
@@ -122,12 +121,12 @@ TEST_F(PenetrationTest, GeometryOfAFingertipIsCheckedAgainstOtherLinks) {
       state.joints.assign(5, std::vector<double>(4, 0));
       state.joints[0][1] = angle;
       world.Place(state);
-      HandJudge judge(world, solid(), kScale, {});
-      judge.Start();
-      judge.Watch(state.pose);
-      if (!judge.breach()) continue;
-      EXPECT_EQ(judge.breach()->reason, Reason::kHandCollides);
-      details.push_back(judge.breach()->detail);
+      ExecutionMonitor monitor(world, solid(), kScale, {});
+      monitor.Start();
+      monitor.Watch(state.pose);
+      if (!monitor.violation()) continue;
+      EXPECT_EQ(monitor.violation()->reason, Reason::kHandCollides);
+      details.push_back(monitor.violation()->detail);
     }
     return details;
   };

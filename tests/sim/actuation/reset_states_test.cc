@@ -128,12 +128,12 @@ TEST_F(ResetStatesTest, WhatNoHandHoldsEndsWithTheReason) {
   options_.friction_factor = 0.01;
   const DrawnStates none = Draw(2, 1, 2);
   EXPECT_TRUE(none.states.empty());
-  EXPECT_NE(none.message.find("it holds none"), std::string::npos) << none.message;
+  EXPECT_NE(none.message.find("none of "), std::string::npos) << none.message;
   EXPECT_NE(none.message.find("slipped"), std::string::npos) << none.message;
   request_.scale = 10;  // edge length of 0.5 m
   const DrawnStates large = Draw(2, 1, 2);
   EXPECT_TRUE(large.states.empty());
-  EXPECT_EQ(large.message, "no random grasp that the hand reaches holds the object");
+  EXPECT_EQ(large.message, "no random grasp within reach of the hand is force closure");
 }
 
 TEST_F(ResetStatesTest, StockMuJoCoHoldsThemInTheSceneThatIsExported) {

@@ -96,13 +96,12 @@ struct Replayed {
 Replayed ReplayWith(const kinematics::HandFile& hand, TipShape tip) {
   Replayed replayed;
   HandReplayOptions options;
-  options.half_angle = std::atan(kMu);
   options.mass_kg = 0.125;
   options.tip = tip;
-  HandReplayObserver observer;
+  ReplayObserver observer;
   bool rests = false;
   observer.on_rest = [&](const HandWorld& /*world*/, plan::EntryIndex /*entry*/) { rests = true; };
-  observer.on_step = [&](const HandWorld& world) {
+  observer.on_time_step = [&](const HandWorld& world) {
     if (rests) return;
     replayed.heights.clear();
     for (const plan::FingerContact& held : Turn().initial) {

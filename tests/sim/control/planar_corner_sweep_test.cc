@@ -123,10 +123,9 @@ void MotionMonitor(const object::Polygon& polygon, const plan::Plan& plan, Tally
   double critical = 0;
   for (const plan::StepCheck& step : check.steps)
     critical = std::max(critical, step.required->lower);
-  ReplayOptions options;
-  options.half_angle = std::atan(kTooLittle * std::tan(critical));
-  tally.refuted +=
-      ReplayPlan(polygon, check.located, options).steps.back().reason != plan::Reason::kNone;
+  plan::Plan weak = check.located;
+  weak.half_angle = std::atan(kTooLittle * std::tan(critical));
+  tally.refuted += ReplayPlan(polygon, weak, {}).steps.back().reason != plan::Reason::kNone;
   for (const plan::Step& step : plan.steps) {
     if (const auto* align = std::get_if<plan::Align>(&step)) tally.turns += CountTurns(*align);
   }

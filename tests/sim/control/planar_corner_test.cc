@@ -189,9 +189,9 @@ TEST(PlanarCorner, AWalkBelowTheFrictionThatItNeedsFailsInTheReplay) {
   const plan::PlanCheck check = plan::CheckPlan(gear, plan);
   ASSERT_TRUE(check.passed());
   const double needed = check.steps[1].required->upper;
-  ReplayOptions options;
-  options.half_angle = std::atan(0.9 * std::tan(needed));
-  EXPECT_NE(ReplayPlan(gear, check.located, options).steps.back().reason, plan::Reason::kNone);
+  plan::Plan weak = check.located;
+  weak.half_angle = std::atan(0.9 * std::tan(needed));
+  EXPECT_NE(ReplayPlan(gear, weak, {}).steps.back().reason, plan::Reason::kNone);
 }
 
 }  // namespace planar_corner_test

@@ -225,7 +225,7 @@ TEST(CheckHandTest, ASlideIsFollowedAllTheWay) {
   };
   const std::vector<Change> changes = {
       {"no paths", Reason::kHandJumps, "no path", [](auto& align) { align.motion.reset(); }},
-      {"a path too few", Reason::kHandJumps, "waypoints ask for",
+      {"a path too few", Reason::kHandJumps, "for its waypoints",
        [](auto& align) { align.motion->pop_back(); }},
       {"one state", Reason::kHandJumps, "path to waypoint 1 has one state",
        [](auto& align) { align.motion->front().resize(1); }},
@@ -296,13 +296,12 @@ TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
          FirstSwitch(plan).motion->place.front().joints[0][0] += 1e-6;
          return FirstOf(plan, "switch") + 1;
        }},
-      {"a finger is missing", Reason::kHandJumps, "has 3 fingers, and the hand has 4",
+      {"a finger is missing", Reason::kHandJumps, "has 3 fingers, expected 4",
        [](plan::Plan& plan) {
          FirstMove(plan).path.back().joints.pop_back();
          return FirstOf(plan, "move") + 1;
        }},
-      {"a joint is missing", Reason::kHandJumps,
-       "3 joints of finger 2 (finger2), and the hand has 4",
+      {"a joint is missing", Reason::kHandJumps, "3 joints of finger 2 (finger2), expected 4",
        [](plan::Plan& plan) {
          FirstMove(plan).path.back().joints[2].pop_back();
          return FirstOf(plan, "move") + 1;

@@ -145,7 +145,7 @@ TEST(DisagreementTest, AForceThatReachedItsConeIsNamedWithItsFingerAndItsTime) {
   const Disagreement found = hold.ExplainFailure();
   EXPECT_EQ(found.cause, Cause::kConeReached);
   EXPECT_EQ(ValueOf(found, "finger"), 2);
-  EXPECT_THAT(found.text, HasSubstr("at rest"));
+  EXPECT_THAT(found.text, HasSubstr("in the static grasp"));
 }
 
 TEST(DisagreementTest, WhereNothingSpeaksForACauseNoneIsClaimed) {
@@ -236,7 +236,7 @@ TEST(EnginesTest, FrictionNearTheCriticalOneComesFirstAndAWeakGraspNext) {
   hold.settings.mu = 1.01 * std::tan(required->upper);
   const Disagreement near = hold.Compare(kPasses, plan::Reason::kSlipped).value();
   EXPECT_EQ(near.cause, Cause::kCriticalFriction);
-  EXPECT_THAT(near.text, HasSubstr("1.01 times the critical one"));
+  EXPECT_THAT(near.text, HasSubstr("1.01 times the required one"));
   hold.settings.mu = 1.04 * std::tan(required->upper);
   EXPECT_EQ(hold.Compare(kPasses, plan::Reason::kSlipped).value().cause, Cause::kQuality);
 }
@@ -246,7 +246,7 @@ TEST(EnginesTest, AnEngineThatDoesNotComeThroughIsNamed) {
   HoldOfTwo hold(cube.object, MakePlan(cube.Start(), 25));
   const auto found = hold.Compare(kPasses, plan::Reason::kSimulationUnstable);
   EXPECT_EQ(found.value().cause, Cause::kUnstable);
-  EXPECT_THAT(found->text, HasSubstr("ODE did not come through: what ODE says"));
+  EXPECT_THAT(found->text, HasSubstr("ODE did not converge: what ODE says"));
 }
 
 TEST(EnginesTest, TheForcesOfTheEngineThatFailsAreLookedAt) {

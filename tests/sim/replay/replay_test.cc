@@ -37,11 +37,9 @@ TEST(ReplayHold, LosesTheSameGraspBelowItsRequiredFriction) {
   EXPECT_FALSE(result.steps[0].detail.empty());
 }
 
-TEST(ReplayHold, FrictionOptionOverridesThePlan) {
+TEST(ReplayHold, FrictionIsThatOfThePlan) {
   const CubeCase cube;
-  ReplayOptions options;
-  options.half_angle = Radians(4);
-  const ReplayResult result = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), options);
+  const ReplayResult result = ReplayPlan(cube.object, MakePlan(cube.Start(), 4), {});
   EXPECT_TRUE(LosesObject(result.steps.at(0).reason));
   EXPECT_NEAR(result.settings.mu, std::tan(Radians(4)), 1e-12);
 }

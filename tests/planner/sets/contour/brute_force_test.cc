@@ -1,5 +1,5 @@
-// Sets and switches against grids of grasps, each classified by itself; and a witness, classified
-// likewise, for everything that the graph says.
+// Comparison of sets and switches with grids of independently classified grasps. Every set and
+// switch of the graph must have a witness, which is classified by the same function.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ constexpr int kLines = 300;
 constexpr std::uint64_t kSeed = 2;
 constexpr double kAngles[] = {10, 15, 20, 35, 50};
 
-/// What a grid of kLines may miss of all sets, or of all switches.
+/// Fraction of all sets, or of all switches, that a grid of kLines may miss.
 constexpr double kMissedPart = 0.03;
 
 TEST(ContourBruteForce, EveryGraspOfAGridIsInOnePieceAndItsComponentsAreTheSets) {
@@ -66,7 +66,7 @@ TEST(ContourBruteForce, NoticesAGraphOfOtherFrictionAndOfAnotherPolygon) {
   EXPECT_TRUE(fails(other, 20));
 }
 
-/// Classifies grasps that are given in places.
+/// Classifies grasps given by places.
 class Witness {
  public:
   Witness(const object::Polygon& polygon, const ContourGraph& graph, double half_angle)
@@ -99,7 +99,8 @@ class Witness {
            Confirms({next, passage.other}, {boundary.begin(next), at}, stretching);
   }
 
-  /// Two pieces of the sets share a contact: in the middle of where their outlines overlap.
+  /// Return whether two pieces of the sets share a contact, in the middle of the overlap of their
+  /// outlines.
   [[nodiscard]] bool ConfirmsSwitch(sets::SetIndex v, sets::SetIndex w) const {
     for (const PieceIndex p : graph_.pieces_of(v)) {
       for (const PieceIndex q : graph_.pieces_of(w)) {
@@ -135,7 +136,7 @@ class Witness {
     return {low, high};
   }
 
-  /// The middle of the outline at a place of the k-th contact is a grasp.
+  /// Return whether the middle of the outline at a place of the k-th contact is a grasp.
   [[nodiscard]] bool HasGraspAt(PieceIndex piece, const std::vector<Vector2d>& outline, int k,
                                 double at) const {
     double low = std::numeric_limits<double>::infinity();

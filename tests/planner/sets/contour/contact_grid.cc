@@ -19,10 +19,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Lines on every edge, however short it is.
+/// Minimum number of lines per edge.
 constexpr int kLeastLines = 4;
 
-/// How far outside its outline a grasp may lie, over the diameter: rounding of outlines.
+/// Largest distance of a grasp from its outline due to rounding, divided by the diameter.
 constexpr double kOutlineRounding = 1e-9;
 
 grasp::Contact ContactOn(const object::Polygon& polygon, int edge, double share) {
@@ -30,8 +30,8 @@ grasp::Contact ContactOn(const object::Polygon& polygon, int edge, double share)
   return {(1 - share) * from + share * to, polygon.inward_normal(FaceIndex(edge)), FaceIndex(edge)};
 }
 
-/// How far inside a convex outline a point lies; negative outside. Sides that are rounding have no
-/// direction.
+/// Return the depth of a point inside a convex outline; negative outside. Sides within rounding
+/// have no direction and are ignored.
 double DepthIn(const std::vector<Vector2d>& outline, const Vector2d& p, double rounding) {
   double depth = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -156,7 +156,7 @@ GridComparison CompareWithGrid(const object::Polygon& polygon, const ContourGrap
         ++result.too_close;
         continue;
       }
-      // Lines are in the order of the edges.
+      // Lines are sorted by edge.
       const Vector2d place(boundary.PlaceOf(a), boundary.PlaceOf(b));
       std::vector<PieceIndex> in;
       bool deep = false;

@@ -63,10 +63,10 @@ TEST(PieceOutline, IsConvexOfAtMostSixCornersInItsRectangleAndWholeWhereThePiece
     for (PieceIndex p{0}; p < std::ssize(graph.pieces()); ++p) {
       const GraspPiece& piece = graph.pieces()[p];
       const std::vector<Vector2d> outline = PieceOutline(graph, p);
-      if (outline.empty()) continue;  // too thin for doubles
+      if (outline.empty()) continue;  // it is too thin for doubles
       ++pieces;
       constexpr std::size_t kMostCorners = 6;
-      std::size_t corners = 0;  // others lie on the line of their neighbours
+      std::size_t corners = 0;  // the remaining ones are on the line of their neighbours
       for (std::size_t i = 0; i < outline.size(); ++i) {
         const Vector2d& corner = outline[i];
         const Vector2d side = outline[(i + 1) % outline.size()] - corner;
@@ -91,7 +91,8 @@ TEST(PieceOutline, IsConvexOfAtMostSixCornersInItsRectangleAndWholeWhereThePiece
   EXPECT_GT(full, 100);
 }
 
-/// A contact at a vertex with either normal, and the other contact: both are grasps of a sense.
+/// Return whether a contact at a vertex and the other contact are a grasp of a sense, with either
+/// normal at the vertex.
 bool IsPassage(const object::Polygon& polygon, const Boundary& boundary, double half_angle,
                const PiecePassage& passage, Sense sense, double place) {
   const FaceIndex next = boundary.next(passage.edge);
@@ -111,7 +112,7 @@ TEST(PassageRange, IsWhereBothNormalsOfTheVertexMakeAGraspAndNowhereElse) {
     const double margin = SizeToleranceOf(polygon);
     for (const PiecePassage& passage : graph.passages()) {
       const PlaceRange range = PassageRange(graph, passage);
-      if (range.high - range.low <= 2 * margin) continue;  // doubles cannot tell
+      if (range.high - range.low <= 2 * margin) continue;  // doubles cannot decide
       const bool stretching = graph.pieces()[passage.pieces[0]].stretching;
       const Sense sense = stretching ? Sense::kStretching : Sense::kSqueezing;
       const auto is_passage = [&](double place) {
@@ -153,7 +154,8 @@ TEST(SetBorder, SegmentsFallOrLieOnVerticesAndOneOfTheirSidesIsNotInTheSet) {
             }
             EXPECT_LT(along.x() * along.y(), 0);
             ++falling;
-            // On a cone's border: a little to one side it is a grasp, to the other it is none.
+            // On a cone's border: a grasp slightly to one side, not a grasp slightly to the other
+            // side.
             if (along.lpNorm<Eigen::Infinity>() < step * 1e3) continue;
             const GraspPiece& piece = graph.pieces()[segment.piece];
             const Vector2d across = step * Vector2d(along.y(), -along.x()).normalized();

@@ -14,8 +14,8 @@ namespace contour_switch_test {
 
 using Eigen::Vector2d;
 
-/// The largest half-width of a square centred in a set with the contact on an edge held at a place,
-/// by trying many places of the other contact.
+/// Return the largest half-width of a square in a set with a contact fixed at a place of an edge,
+/// by sampling the other contact.
 double LargestAt(SetGeometry& geometry, sets::SetIndex set, FaceIndex edge, double place) {
   constexpr int kTries = 200;
   double largest = 0;
@@ -36,7 +36,7 @@ double LargestAt(SetGeometry& geometry, sets::SetIndex set, FaceIndex edge, doub
   return largest;
 }
 
-/// The largest smaller half-width of all switches whose common contact is at one of many places.
+/// Return the largest smaller half-width of all switches, by sampling the common contact.
 double LargestSwitchByTrying(SetGeometry& geometry, sets::SetIndex from, sets::SetIndex to) {
   constexpr int kTries = 60;
   const Boundary& boundary = geometry.graph().boundary();
@@ -131,8 +131,8 @@ TEST(ContourSwitch, AWideOneIsFoundForEverySwitchOfTheGraphAndForNoOther) {
   EXPECT_GT(apart, 60);
 }
 
-/// Every grasp of a route is in the set, and between two of them contacts move on their edges or
-/// one goes around a vertex.
+/// Check that every grasp of a route is in the set, and that between two of them contacts move on
+/// their edges or one passes a vertex.
 void ExpectRoute(SetGeometry& geometry, const std::vector<PlacedGrasp>& route) {
   const ContourGraph& graph = geometry.graph();
   const object::Polygon& polygon = graph.boundary().polygon();
@@ -205,7 +205,7 @@ TEST(AlignRoute, TakesTheShortPathAroundADisc) {
   const auto opposite = [&](int edge) {
     return *geometry.Locate({middle(FaceIndex(edge)), middle(FaceIndex((edge + 12) % 24))});
   };
-  // Two edges on for both fingers, or the same two fingers the other way round ten edges on.
+  // Both fingers move by two edges. With exchanged fingers, they would move by ten edges.
   const auto route = FindAlignRoute(geometry, opposite(11), opposite(1));
   EXPECT_EQ(route.size(), 2U + 2 * 4);
 }

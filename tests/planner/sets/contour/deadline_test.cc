@@ -28,7 +28,7 @@ TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough
   const Boundary boundary(polygon);
   const CountedDeadline of_candidates, of_pieces, of_passages, of_overlaps;
   const auto candidates = polygon::FindTwoFingerCandidates(edges, of_candidates.deadline());
-  EXPECT_EQ(of_candidates.looks(), 2 * edges.size());  // by angle, and in order
+  EXPECT_EQ(of_candidates.looks(), 2 * edges.size());  // once by angle and once in order
   const auto pieces = FindPieces(edges, candidates, of_pieces.deadline());
   EXPECT_EQ(of_pieces.looks(), std::ssize(candidates));
   static_cast<void>(FindPassages(edges, boundary, pieces, of_passages.deadline()));
@@ -41,7 +41,7 @@ TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough
   };
   static_cast<void>(
       FindOverlaps(edges, boundary, pieces, count, one_by_one, of_overlaps.deadline()));
-  // Each projects on both of its edges, which begins and ends.
+  // Each piece projects onto both of its edges, and each projection has two ends.
   EXPECT_EQ(of_overlaps.looks(), 5 * count);
 }
 

@@ -22,10 +22,11 @@ using Vec = exact::Vec<Number>;
 using Edge = exact::Edge<Number>;
 using Region = exact::Region<Number>;
 
-/// Doubles may miss that a rectangle is full by this much, over the square of an edge's length.
+/// Error of doubles in the decision that a rectangle is full, divided by the square of an edge's
+/// length.
 constexpr double kRounding = 1e-12;
 
-/// An open interval; empty where low >= high.
+/// Open interval; empty if low >= high.
 struct Range {
   Number low = 1;
   Number high = 0;
@@ -48,10 +49,10 @@ bool Overlap(const Range& a, const Range& b) {
 struct Piece {
   std::array<FaceIndex, 2> edges;
   bool stretching = false;
-  bool covers = false;           ///< closed, it is the whole rectangle
-  bool touches_a_line = false;   ///< a corner of the rectangle is on a cone's border, in doubles
-  std::array<Range, 4> sides;    ///< as GraspPiece::reaches
-  std::array<Range, 2> contact;  ///< its projections
+  bool covers = false;           ///< its closure is the whole rectangle
+  bool touches_a_line = false;   ///< in doubles, a corner of the rectangle is on a cone's border
+  std::array<Range, 4> sides;    ///< see GraspPiece::reaches
+  std::array<Range, 2> contact;  ///< projections on the two edges
 };
 
 Piece MakePiece(int e, int f, bool stretching, const Edge& a, const Edge& b, const Region& region) {
@@ -93,8 +94,8 @@ class Oracle {
 
   std::vector<Piece> pieces;
   std::set<std::array<int, 4>> passages;   ///< pieces before and after, edge, other
-  std::vector<int> root;                   ///< of each piece's set: its first piece
-  std::set<std::pair<int, int>> switches;  ///< of roots
+  std::vector<int> root;                   ///< first piece of each piece's set
+  std::set<std::pair<int, int>> switches;  ///< pairs of roots
   int candidates = 0;
   int combinations = 0;
 
@@ -163,14 +164,14 @@ class Oracle {
 
   std::vector<int> next_;
   std::vector<Edge> edges_;
-  std::map<std::array<int, 3>, int> number_;  ///< by edges and stretching
+  std::map<std::array<int, 3>, int> number_;  ///< number of a piece by edges and stretching
 };
 
 std::string Text(const Piece& p) {
   return std::to_string(p.edges[0]) + (p.stretching ? "<>" : "><") + std::to_string(p.edges[1]);
 }
 
-/// Pieces agree one by one; false where their lists differ.
+/// Compare pieces one by one. @returns false if their lists differ.
 bool ComparePieces(const Oracle& oracle, const ContourGraph& graph, std::ostream& out) {
   const auto& pieces = graph.pieces();
   for (std::size_t i = 0; i < std::min(pieces.size(), oracle.pieces.size()); ++i) {
@@ -257,7 +258,7 @@ OracleCounts CompareWithRationals(const object::Polygon& polygon, const ContourG
     std::set<std::pair<int, int>> switches;
     for (const auto& [v, w] : graph.switches()) switches.insert(std::minmax(first[v], first[w]));
     CompareSets("switches", switches, oracle.switches, out);
-    // Components of sets: those of pieces, joined by passages and switches.
+    // Components of sets: those of pieces, connected by passages and switches.
     std::vector<int> label(oracle.root);
     for (bool changed = true; changed;) {
       changed = false;

@@ -7,7 +7,7 @@
 
 namespace regrasp::contour {
 
-/// What was compared.
+/// Number of comparisons.
 struct OracleCounts {
   int candidates = 0;
   int combinations = 0;
@@ -21,11 +21,12 @@ struct OracleCounts {
   OracleCounts& operator+=(const OracleCounts& other);
 };
 
-/// Compares a graph with a second route, in rational numbers: the unit square of the two contact
-/// parameters of every pair of edges is clipped by the borders of both cones, corner by corner;
-/// sets, passages and switches follow from the coordinates of the corners. Nothing is shared with
-/// the planner but tan θ.
-/// @param difference  set to what differs, left empty where nothing does.
+/// Compare a graph with a second method in rational numbers.
+///
+/// For every pair of edges, the unit square of the two contact parameters is clipped by the borders
+/// of both cones. Sets, passages and switches follow from the coordinates of its corners. The
+/// method shares only tan θ with the planner.
+/// @param difference  output: all differences as text; empty if there are none.
 [[nodiscard]] OracleCounts CompareWithRationals(const object::Polygon& polygon,
                                                 const ContourGraph& graph, double half_angle,
                                                 std::string& difference);

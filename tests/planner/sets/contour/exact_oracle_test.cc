@@ -1,5 +1,5 @@
-// The switching graph against rational arithmetic: generic and degenerate polygons, the same ones a
-// little off, sets that only touch.
+// Comparison of the switching graph with rational arithmetic: generic, degenerate and slightly
+// perturbed polygons, and touching sets.
 
 #include "tests/planner/sets/contour/exact_oracle.h"
 

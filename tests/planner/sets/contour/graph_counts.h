@@ -9,7 +9,7 @@
 
 namespace regrasp::contour {
 
-/// What a contour graph is counted by.
+/// Counts of a contour graph.
 struct Counts {
   std::int64_t candidates;
   std::int64_t combinations;

@@ -16,7 +16,8 @@ namespace graph_memory_test {
 
 using ::testing::HasSubstr;
 
-/// A wheel of teeth, two edges on the tips and two between them: as many sets as pieces.
+/// Make a gear with four edges per tooth, two at the outer radius and two at the inner radius: as
+/// many sets as pieces.
 object::Polygon Gear(int edges) {
   object::PolygonRings rings(1);
   for (int k = 0; k < edges; ++k) {
@@ -27,7 +28,7 @@ object::Polygon Gear(int edges) {
   return object::Polygon::FromRings(std::move(rings), "gear");
 }
 
-/// A smooth outline: few sets of many pieces.
+/// Make a smooth outline: few sets with many pieces.
 object::Polygon Egg(int edges) {
   return Mapped(RegularPolygon(edges), [](const Eigen::Vector2d& p) {
     return Eigen::Vector2d(2 * p.x(), p.y() * (1 + 0.2 * p.x()));
@@ -52,7 +53,7 @@ const std::vector<Case>& Cases() {
   return cases;
 }
 
-#if !defined(__SANITIZE_ADDRESS__)  // which keeps what is freed
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer keeps freed memory
 TEST(ContourGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
   for (const auto& [object, degrees] : Cases()) {
     const double used = PeakBytesOf(

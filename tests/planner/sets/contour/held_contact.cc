@@ -9,7 +9,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Calls work(piece, k) for the pieces of a set whose k-th edge is `edge`.
+/// Call work(piece, k) for the pieces of a set whose k-th edge is `edge`.
 template <class Work>
 void ForEachPieceOn(const ContourGraph& graph, sets::SetIndex set, FaceIndex edge,
                     const Work& work) {

@@ -6,35 +6,35 @@
 
 namespace regrasp::contour {
 
-/// An open interval of places.
+/// Open interval of places.
 struct Section {
   double low;
   double high;
 };
 
-/// Where an outline is met by the line on which the k-th place is `at`.
+/// Return the intersection of an outline with the line on which the k-th place is `at`.
 [[nodiscard]] std::optional<Section> SectionOf(const std::vector<Eigen::Vector2d>& outline, int k,
                                                double at);
 
-/// The half-width on a diagram's edge, by the share of its length from its one end.
+/// Return the half-width at a fraction of a diagram edge.
 [[nodiscard]] double SizeOn(const DiagramEdge& edge, double share);
 
-/// The grasps of a set with one contact held at a place of an edge, whichever finger it belongs to.
+/// Grasps of a set with one contact fixed at a place of an edge, for either finger.
 class HeldContact {
  public:
-  /// `geometry` must outlive this object.
+  /// @param geometry  must outlive this object.
   HeldContact(SetGeometry& geometry, sets::SetIndex set, FaceIndex edge, double at)
       : geometry_(geometry), set_(set), edge_(edge), at_(at) {}
 
-  /// The largest half-width of samples of every piece, and how far apart these are: sizes change by
-  /// no more than the distance between two grasps.
+  /// Largest half-width of samples of every piece, and their spacing. The half-width changes at
+  /// most by the distance between two grasps.
   struct Sampled {
     double best = 0;
     double spacing = 0;
   };
   [[nodiscard]] Sampled Sample(int samples) const;
 
-  /// The largest half-width on the set's diagram.
+  /// Return the largest half-width on the set's diagram.
   [[nodiscard]] double ByDiagram() const;
 
  private:

@@ -1,4 +1,4 @@
-// Polygons whose sets, switches and largest squares are known by hand.
+// Polygons whose sets, switches and largest squares are computed by hand.
 
 #include <gtest/gtest.h>
 
@@ -38,8 +38,8 @@ TEST(ContourKnownAnswers, ALongRectangleKeepsItsEndsApart) {
   for (const double degrees : {10.0, 20.0, 44.0}) {
     EXPECT_EQ(CountsOf(Rectangle(6, 2), degrees), (Counts{2, 2, 2, 0, 2})) << degrees;
   }
-  // Between neighbouring sides grasps go from the long sides around the corners, but not to the
-  // grasp of both ends: at 46° these are seen from each other within 19°.
+  // Grasps of adjacent sides connect the long sides around the corners, but not the grasps of both
+  // ends. At 46°, the directions between the two ends are within 19°.
   EXPECT_EQ(CountsOf(Rectangle(6, 2), 46), (Counts{6, 6, 2, 1, 1}));
 }
 
@@ -47,7 +47,7 @@ TEST(ContourKnownAnswers, AnEquilateralTriangleHasGraspsFrom30Degrees) {
   for (const double degrees : {10.0, 20.0, 29.9}) {
     EXPECT_EQ(CountsOf(RegularPolygon(3), degrees), (Counts{0, 0, 0, 0, 0})) << degrees;
   }
-  // From a corner the opposite side is within both cones of the corner from 60° on.
+  // At 60° and more, the opposite side of a corner is inside both cones of the corner.
   for (const double degrees : {30.1, 35.0, 59.9}) {
     EXPECT_EQ(CountsOf(RegularPolygon(3), degrees), (Counts{3, 3, 3, 3, 1})) << degrees;
   }
@@ -65,7 +65,7 @@ TEST(ContourKnownAnswers, ARegularHexagonIsOneSetFrom30Degrees) {
 
 TEST(ContourKnownAnswers, AForkIsSqueezedAndStretched) {
   const object::Polygon fork = Fork();
-  // At 10° the projections of the two tips on the bottom don't meet (4.76 and 5.24), at 20° they
+  // At 10° the projections of the two ends on the bottom do not meet (4.76 and 5.24); at 20° they
   // do.
   EXPECT_EQ(CountsOf(fork, 10).switches, 6);
   EXPECT_EQ(CountsOf(fork, 20).switches, 7);
@@ -84,7 +84,8 @@ TEST(ContourKnownAnswers, AForkIsSqueezedAndStretched) {
 }
 
 TEST(ContourKnownAnswers, TheLargestSquareBetweenParallelSides) {
-  // Bottom and top of a square: |x + y − 4| < 4 tan θ from where the edges begin.
+  // Grasps of bottom and top of a square: |x + y − 4| < 4 tan θ, relative to the starts of the
+  // edges.
   const object::Polygon square = Square(4);
   const ContourGraph graph(square, Radians(10));
   const double tangent = std::tan(Radians(10));
@@ -102,7 +103,8 @@ TEST(ContourKnownAnswers, TheLargestSquareBetweenParallelSides) {
   }
 }
 
-/// Of ends of border segments: one point modulo the periods and the symmetry of contact space.
+/// Return whether two ends of border segments are equal modulo the periods and the symmetry of
+/// contact space.
 bool SamePlace(const Boundary& boundary, Vector2d a, Vector2d b) {
   const double period = boundary.perimeter(RingIndex(0));
   const auto near = [&](double x, double y) {
@@ -112,7 +114,7 @@ bool SamePlace(const Boundary& boundary, Vector2d a, Vector2d b) {
   return (near(a.x(), b.x()) && near(a.y(), b.y())) || (near(a.x(), b.y()) && near(a.y(), b.x()));
 }
 
-/// The closed curves that bound a set of a polygon without holes.
+/// Count the closed curves that bound a set of a polygon without holes.
 int CurvesOf(const ContourGraph& graph, sets::SetIndex set) {
   const std::vector<BorderSegment> border = SetBorder(graph, set);
   const int count = static_cast<int>(border.size());
@@ -140,9 +142,9 @@ TEST(ContourKnownAnswers, ADiscIsOneMoebiusBandWhoseWidthIsTheFrictionAngle) {
     ASSERT_EQ(graph.vertex_count(), 1);
     EXPECT_EQ(std::ssize(graph.switches()), 0);
     EXPECT_EQ(graph.components().count(), 1);
-    // A band that closes with a half turn has one border; an ordinary one would have two.
+    // A Möbius band has one border; an ordinary band would have two.
     EXPECT_EQ(CurvesOf(graph, sets::SetIndex(0)), 1);
-    // On a circle of radius R: |y − x − πR| < 2 R θ.
+    // Grasps on a circle of radius R: |y − x − πR| < 2 R θ.
     EXPECT_NEAR(LargestSize(graph, sets::SetIndex(0)), Radians(degrees),
                 disc.face_measure(FaceIndex(0)));
   }
@@ -160,7 +162,7 @@ TEST(ContourKnownAnswers, AnAnnulusIsSqueezedAcrossItsRingAndStretchedInsideItsH
     ASSERT_EQ(graph.vertex_count(), 3);
     EXPECT_EQ(std::ssize(graph.switches()), 2);
     EXPECT_EQ(graph.components().count(), 1);
-    // From the sine rule in the triangle of the centre and the two contacts.
+    // Sine rule in the triangle of the centre and the two contacts.
     const double turn = angle - std::asin(kInner * std::sin(angle) / kOuter);
     std::set<std::tuple<int, int, bool>> kinds;
     for (sets::SetIndex set{0}; set < 3; ++set) {

@@ -1,5 +1,5 @@
-// The switch with the largest contact regions against a search along the boundary, with sizes by
-// the corners of squares.
+// Comparison of the switch with the largest contact regions with a search along the boundary that
+// computes sizes from the corners of squares.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace regrasp::contour {
 namespace largest_switch_test {
 
-/// The largest smaller size of a switch between two sets, by samples along all edges.
+/// Return the largest smaller size of a switch between two sets, by samples along all edges.
 double SampledSwitchSize(SetGeometry& geometry, sets::SetIndex v, sets::SetIndex w,
                          int samples_of_edge, int samples_of_section) {
   const Boundary& boundary = geometry.graph().boundary();

@@ -1,4 +1,4 @@
-// Laws of the contour graph: what must not change, and what may only grow.
+// Laws of the contour graph: invariants and monotonicity.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using Eigen::Vector2d;
 constexpr double kAngles[] = {10, 20, 35, 50};
 constexpr std::uint64_t kSeed = 4;
 
-/// The twelve-edge polygons and some of 40 edges.
+/// Return the twelve-edge polygons and several of 40 edges.
 const std::vector<NamedPolygon>& Polygons() {
   static const std::vector<NamedPolygon> polygons = [] {
     std::vector<NamedPolygon> result = TwelveEdgePolygons();
@@ -33,7 +33,8 @@ const std::vector<NamedPolygon>& Polygons() {
   return polygons;
 }
 
-/// Counts before and after, at every angle of every polygon; how many vertices were compared.
+/// Compare counts before and after a change, for every polygon and angle. @returns number of
+/// compared vertices.
 template <class Change>
 std::int64_t ExpectSameCounts(const Change& change) {
   std::int64_t vertices = 0;
@@ -73,8 +74,7 @@ TEST(ContourLaws, TheLawsNoticeAPolygonThatIsStretched) {
   EXPECT_NE(CountsOf(stretched, 20), CountsOf(blob, 20));
 }
 
-/// The polygon on even coordinates, so that the middle of an edge is exact; some of its edges cut
-/// in two there.
+/// Round the polygon to even coordinates, so that the middle of every edge is exact.
 object::Polygon Even(const object::Polygon& polygon) {
   const double grid = std::ldexp(polygon.diameter(), -20);
   return Mapped(polygon, [grid](const Vector2d& p) {
@@ -144,7 +144,7 @@ TEST(ContourLaws, NoGraspIsLostWithMoreFrictionAndSetsOnlyMerge) {
         more.GetNeighbours(merged[v], neighbours);
         EXPECT_EQ(std::count(neighbours.begin(), neighbours.end(), merged[w]), 1);
       }
-      // Grasps found with less friction lie in pieces of more.
+      // Grasps at less friction are in pieces at more friction.
       const ContactGrid grid(polygon, Radians(kAngles[k]), kLines, kSeed);
       for (int i = 0; i < grid.line_count(); ++i) {
         for (int j = 0; j < i; ++j) {

@@ -60,7 +60,7 @@ const std::vector<NamedPolygon>& TwelveEdgePolygons() {
     add("slanted fork",
         {{{0, 0}, {9, -1}, {10, 8}, {7.5, 9}, {6, 3}, {3.5, 2.5}, {2.2, 9}, {0, 8}}});
     add("square frame", {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {1, 3}, {3, 3}, {3, 1}}});
-    // Stretching between edges that share a vertex.
+    // Stretching grasps of edges that share a vertex.
     add("notch", {{{0, 0}, {8, 0}, {8, 5}, {4.6, 5}, {4, 1}, {3.2, 5}, {0, 5}}});
     for (const std::uint64_t seed : {11, 12, 13}) {
       result.push_back({"irregular " + std::to_string(seed), IrregularOutline(12, 0.35, seed)});
@@ -83,11 +83,11 @@ const std::vector<NamedPolygon>& DegeneratePolygons() {
     add("square frame", {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {1, 3}, {3, 3}, {3, 1}}});
     add("comb", {{{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {0, 1}}});
     add("3-4-5", {{{0, 0}, {4, 0}, {8, 0}, {8, 3}, {4, 6}, {0, 3}}});
-    // A staircase under a straight top: cells touch at corners where four of them meet.
+    // A staircase under a straight top: cells touch at corners at which four of them meet.
     add("stairs",
         {{{0, 0}, {2, 0}, {2, 1}, {4, 1}, {4, 2}, {6, 2}, {6, 3}, {8, 3}, {8, 8}, {4, 8}, {0, 8}}});
-    // Bottom and top cut into pieces of equal length: at tan θ = 1/4 the border of a cone goes
-    // through corners of rectangles.
+    // Bottom and top are divided into pieces of equal length: at tan θ = 1/4 the border of a cone
+    // passes corners of rectangles.
     add("bar", {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {4, 4}, {3, 4}, {2, 4}, {1, 4}, {0, 4}}});
     return polygons;
   }();

@@ -10,29 +10,34 @@
 
 namespace regrasp::contour {
 
-/// x in [0, width], y in [0, height], first vertex at the origin; exact.
+/// Make the rectangle x in [0, width], y in [0, height] with exact coordinates and the first vertex
+/// at the origin.
 [[nodiscard]] object::Polygon Rectangle(double width, double height);
 
-/// An upright fork of two prongs: 10 wide and 10 high, prongs 3 wide, a slot 4 wide and 7 deep.
-/// Edges: 0 bottom, 1 right side, 2 right tip, 3 right inner side, 4 floor of the slot, 5 left
-/// inner side, 6 left tip, 7 left side.
+/// Make an upright fork with two prongs: 10 wide and 10 high, prongs 3 wide, a slot 4 wide and 7
+/// deep.
+///
+/// Edges: 0 bottom, 1 right side, 2 right end, 3 right inner side, 4 floor of the slot, 5 left
+/// inner side, 6 left end, 7 left side.
 [[nodiscard]] object::Polygon Fork();
 
-/// A regular polygon of circumradius `outer` with a concentric hole of as many edges, `inner`.
+/// Make a regular polygon of circumradius `outer` with a concentric hole of circumradius `inner`
+/// and as many edges.
 [[nodiscard]] object::Polygon Annulus(int n, double outer, double inner);
 
-/// A simple polygon about the origin: shaken angles, radii anywhere between `least` and 1.
+/// Make a simple polygon about the origin with perturbed angles and random radii between `least`
+/// and 1.
 [[nodiscard]] object::Polygon IrregularOutline(int edges, double least, std::uint64_t seed);
 
-/// Squares, triangles, letters, forks, rings, regular and irregular outlines, of 3 to 12 edges;
-/// those with symmetries have exact ties.
+/// Return squares, triangles, letters, forks, rings, regular and irregular outlines with 3 to 12
+/// edges. Symmetric ones have exact ties.
 [[nodiscard]] const std::vector<NamedPolygon>& TwelveEdgePolygons();
 
-/// Exact ties at tan θ = 1/4, 1/2, 3/4, 1, 3/2, or as near as doubles come to a regular polygon;
-/// cells that touch at corners where four of them meet.
+/// Return polygons with exact ties at tan θ = 1/4, 1/2, 3/4, 1 or 3/2, regular polygons rounded to
+/// doubles, and cells that touch at corners at which four of them meet.
 [[nodiscard]] const std::vector<NamedPolygon>& DegeneratePolygons();
 
-/// The polygon with its rings started from the `by`-th vertex (of each, modulo their number).
+/// Return the polygon with each ring starting at the `by`-th vertex, modulo the number of vertices.
 [[nodiscard]] object::Polygon Renumbered(const object::Polygon& polygon, int by);
 
 }  // namespace regrasp::contour

@@ -40,14 +40,15 @@ const std::vector<NamedPolygon>& Objects() {
   return objects;
 }
 
-/// A plan that the checker passes, of switches of one finger, in which no two aligns are one.
+/// Check that the plan passes the checker, switches one finger at a time and has no two consecutive
+/// sliding steps.
 void ExpectGood(const object::Polygon& polygon, const planning::PlanResult& result) {
   ExpectGoodPlan(ContourPlanner(), polygon, result);
   ExpectOneFingerInEverySwitch(result.plan.value());
   ExpectNoAlignAfterAnAlign(*result.plan);
 }
 
-/// The regions that the plan's switches claim, in their order.
+/// Return the contact regions in the plan's switches, in order.
 std::vector<double> RegionsOf(const plan::Plan& plan) {
   std::vector<double> regions;
   for (const plan::Step& step : plan.steps) {
@@ -59,7 +60,7 @@ std::vector<double> RegionsOf(const plan::Plan& plan) {
   return regions;
 }
 
-/// The grasps before and after each switch.
+/// Return the grasps before and after each switch.
 std::vector<std::array<grasp::Grasp, 2>> SwitchGrasps(const plan::Plan& plan) {
   std::vector<std::array<grasp::Grasp, 2>> grasps;
   plan::FingerGrasp holding = plan.initial;
@@ -73,7 +74,7 @@ std::vector<std::array<grasp::Grasp, 2>> SwitchGrasps(const plan::Plan& plan) {
   return grasps;
 }
 
-/// The sets that a plan passes.
+/// Return the sets that a plan passes.
 std::vector<sets::SetIndex> SetsOf(const object::Polygon& polygon, const plan::Plan& plan) {
   const ContourGraph graph(polygon, plan.half_angle);
   const SetGeometry geometry(graph);
@@ -86,7 +87,7 @@ std::vector<sets::SetIndex> SetsOf(const object::Polygon& polygon, const plan::P
   return sets;
 }
 
-/// The contact a length along the boundary farther.
+/// Move a contact by a length along the boundary.
 grasp::Contact Moved(const Boundary& boundary, const grasp::Contact& contact, double by) {
   const RingIndex ring = boundary.ring_of(contact.face);
   double place = std::fmod(boundary.PlaceOf(contact) + by, boundary.perimeter(ring));
@@ -135,7 +136,7 @@ TEST_P(PlanOnContourAt, OptimisedSwitchesHaveRegionsAtLeastAsLarge) {
           PlanWith(ContourPlanner(), polygon, Given(plan::ContactsOf(margin.plan->initial)),
                    Given(margin.plan->goal), RegionsAt(GetParam(), seed));
       ASSERT_TRUE(region.plan);
-      // Otherwise a switch was too weak for one of the two, and they took different paths.
+      // Skip different paths: one plan avoids a switch that does not meet its criteria.
       if (SetsOf(polygon, *margin.plan) != SetsOf(polygon, *region.plan)) continue;
       const std::vector<double> of_margin = RegionsOf(*margin.plan);
       const std::vector<double> of_region = RegionsOf(*region.plan);
@@ -171,7 +172,7 @@ TEST_P(PlanOnContourAt, InsideTheirRegionsContactsStandAnywhere) {
     for (std::size_t i = 0; i < grasps.size(); ++i) {
       bool lost = false;
       for (const grasp::Grasp& grasp : grasps[i]) {
-        // Corners and random places, a millionth inside.
+        // Corners and random places, a millionth inside the region.
         for (int k = 0; k < 200; ++k) {
           const double h = (1 - 1e-6) * regions[i];
           const double x = k < 4 ? (k % 2 == 0 ? h : -h) : h * (2 * random.Uniform() - 1);
@@ -179,7 +180,7 @@ TEST_P(PlanOnContourAt, InsideTheirRegionsContactsStandAnywhere) {
           EXPECT_TRUE(holds(grasp, x, y)) << name << ", switch " << i;
           ++seen;
         }
-        // A little outside along its border force closure is lost somewhere, for one of the two.
+        // Slightly outside the region, one of the two grasps loses force closure at some place.
         for (int k = 0; k < 800; ++k) {
           const double h = 1.02 * regions[i];
           const double t = h * (2 * random.Uniform() - 1);
@@ -210,7 +211,7 @@ TEST(PlanOnContour, GoesAroundADiscByOneAlign) {
   ExpectGood(disc, result);
   ASSERT_THAT(result.plan->steps, SizeIs(1));
   const auto& align = std::get<plan::Align>(result.plan->steps[0]);
-  // Each finger passes eight corners, or four if they meet the goal the other way round.
+  // Each finger passes eight corners, or four if they reach the goal with exchanged fingers.
   EXPECT_GE(align.waypoints.size(), 2U + 2 * 2 * 4);
   EXPECT_LE(align.waypoints.size(), 2U + 2 * 2 * 8);
 }

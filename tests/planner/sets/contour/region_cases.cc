@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 8;
 
-/// Farther apart than roundings, nearer than what counts as one place.
+/// Perturbation larger than rounding and smaller than the tolerance of equal places.
 constexpr double kShake = 1e-13;
 
 }  // namespace

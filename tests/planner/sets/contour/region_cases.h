@@ -10,15 +10,18 @@
 
 namespace regrasp::contour {
 
-/// Lengths of contact space agree to this, 1e-9 of the boundary: bisection ends at 1e-12 of it, and
-/// the force-closure test leaves out what is within 1e-12 of its border.
+/// Return the tolerance of lengths in contact space, 1e-9 of the boundary.
+///
+/// Bisection ends at 1e-12 of it, and the force-closure test is undecided within 1e-12 of its
+/// border.
 [[nodiscard]] double SizeToleranceOf(const object::Polygon& polygon);
 
-/// The twelve-edge and the degenerate polygons, the latter once more with roundings of 1e-13; discs
-/// and an annulus, whose sets go around their rings; an outline of many edges.
+/// Return the polygons for tests of regions: the twelve-edge polygons, the degenerate ones (also
+/// with perturbations of 1e-13), discs and an annulus with sets around their rings, and an outline
+/// with many edges.
 [[nodiscard]] const std::vector<NamedPolygon>& RegionPolygons();
 
-/// Calls work(polygon, graph, half-angle) for every one of RegionPolygons and some angles.
+/// Call work(polygon, graph, friction angle) for every one of RegionPolygons and several angles.
 template <class Work>
 void ForEachRegionGraph(const Work& work) {
   for (const auto& [name, polygon] : RegionPolygons()) {

@@ -1,5 +1,5 @@
-// Largest squares: the metric against corners of squares, the diagram against searches along lines
-// and over grids.
+// Largest squares: comparison of the metric with corners of squares, and of the diagram with
+// searches along lines and over grids.
 
 #include "planner/sets/contour/region_diagram.h"
 
@@ -21,7 +21,7 @@ using Eigen::Vector2d;
 
 constexpr std::uint64_t kSeed = 6;
 
-/// A point in the interior of an outline.
+/// Draw a point in the interior of an outline.
 Vector2d DrawIn(const std::vector<Vector2d>& outline, std::mt19937_64& engine) {
   std::exponential_distribution<double> weight;
   Vector2d point = Vector2d::Zero();
@@ -35,7 +35,7 @@ Vector2d DrawIn(const std::vector<Vector2d>& outline, std::mt19937_64& engine) {
 }
 
 TEST(RegionMetric, SizesAreThoseOfSquaresWhoseCornersAreGrasps) {
-  constexpr int kPoints = 2;  // of every piece
+  constexpr int kPoints = 2;  // points per piece
   std::mt19937_64 engine(kSeed);
   int points = 0;
   int beyond_a_piece = 0;
@@ -76,7 +76,7 @@ TEST(RegionMetric, TheOracleRefusesSquaresThatAreLarger) {
 }
 
 TEST(RegionDiagram, SizesAlongEveryEdgeAreThoseOfTheMetricAndOfTheCorners) {
-  constexpr int kByCorners = 16;  // one edge in so many
+  constexpr int kByCorners = 16;  // one of 16 edges is tested by corners
   int edges = 0;
   ForEachRegionGraph(
       [&](const object::Polygon& polygon, const ContourGraph& graph, double half_angle) {
@@ -101,7 +101,7 @@ TEST(RegionDiagram, SizesAlongEveryEdgeAreThoseOfTheMetricAndOfTheCorners) {
 
 TEST(RegionDiagram, HoldsTheBestGraspWithOneContactHeld) {
   constexpr int kSamples = 40;
-  constexpr int kDraws = 1;  // of the held contact, for each contact of every piece
+  constexpr int kDraws = 1;  // fixed contacts per contact of every piece
   std::mt19937_64 engine(kSeed);
   std::uniform_real_distribution<double> uniform(0, 1);
   int checked = 0;
@@ -135,7 +135,7 @@ double LargestSize(const std::vector<DiagramEdge>& diagram) {
 }
 
 TEST(RegionDiagram, ItsLargestSquareIsThatOfAGridOfTheSet) {
-  constexpr int kSteps = 16;  // on either axis of every piece
+  constexpr int kSteps = 16;  // steps per axis of every piece
   int sets = 0;
   ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
     for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set, ++sets) {

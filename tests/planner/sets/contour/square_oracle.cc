@@ -6,7 +6,7 @@
 namespace regrasp::contour {
 namespace {
 
-/// Halvings of the largest possible square: to some 1e-12 of the perimeter.
+/// Number of bisections of the largest possible square: to about 1e-12 of the perimeter.
 constexpr int kHalvings = 40;
 
 }  // namespace
@@ -27,7 +27,7 @@ SquareOracle::SquareOracle(const object::Polygon& polygon, double half_angle)
 std::vector<grasp::Contact> SquareOracle::EndsWithin(int ring, double place,
                                                      double half_width) const {
   std::vector<grasp::Contact> ends;
-  // One turn before to one turn after the place: no square is wider than the ring is long.
+  // One turn before and after the place suffice, because no square is wider than the ring is long.
   for (const int turn : {-1, 0, 1}) {
     double begin = turn * perimeter_[ring];
     for (int e = first_edge_[ring]; e < first_edge_[ring + 1]; ++e) {

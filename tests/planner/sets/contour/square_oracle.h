@@ -7,26 +7,28 @@
 
 namespace regrasp::contour {
 
-/// Largest squares of contact space by asking the general force-closure test of their corners:
-/// shares the meaning of a place with the planner, and nothing else.
+/// Largest squares of contact space, found by the general force-closure test of their corners. The
+/// class shares only the definition of a place with the planner.
 class SquareOracle {
  public:
   SquareOracle(const object::Polygon& polygon, double half_angle);
 
-  /// Whether both contacts can be anywhere within `half_width` of their places, independently, in
-  /// one sense. Vertices of the polygon cut the square into rectangles; on each the grasps of one
-  /// sense are convex, so its corners decide.
+  /// Return whether both contacts can move independently by `half_width` and stay a grasp in one
+  /// sense.
+  ///
+  /// Vertices of the polygon divide the square into rectangles. In each of them the grasps of one
+  /// sense are convex, so the corners decide.
   [[nodiscard]] bool Holds(int ring_a, double x, int ring_b, double y, double half_width) const;
 
-  /// The supremum of such half-widths, by bisection; 0 where the grasp itself is none.
+  /// Compute the supremum of these half-widths by bisection; 0 if the contacts are not a grasp.
   [[nodiscard]] double SizeAt(int ring_a, double x, int ring_b, double y) const;
 
-  /// The same about a point of a piece's rectangle.
+  /// Compute the same for a point of a piece's rectangle.
   [[nodiscard]] double SizeAt(const ContourGraph& graph, PieceIndex piece,
                               const Eigen::Vector2d& places) const;
 
  private:
-  /// The ends of the parts of edges that lie within a length of a place, two for each edge.
+  /// Return the ends of the parts of edges within a length of a place, two per edge.
   [[nodiscard]] std::vector<grasp::Contact> EndsWithin(int ring, double place,
                                                        double half_width) const;
 

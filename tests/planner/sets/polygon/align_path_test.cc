@@ -27,7 +27,7 @@ Eigen::VectorXd ParametersOf(const object::Polygon& polygon, const grasp::Grasp&
   return parameters;
 }
 
-/// Decided by the checker's certificates, which know nothing of grasp sets.
+/// Decided by the certificates of the checker, which do not use grasp sets.
 bool IsForceClosureBetween(const object::Polygon& polygon, const grasp::Grasp& from,
                            const grasp::Grasp& to, double half_angle) {
   motion::GraspMotion motion;
@@ -41,7 +41,7 @@ struct AlignCount {
   int lost_at_half_the_friction = 0;
 };
 
-/// Aligns between two random grasps of every set.
+/// Check sliding steps between two random grasps of every set.
 void CheckAligns(const object::Polygon& polygon, double degrees, std::uint64_t seed,
                  AlignCount& count) {
   const PolygonGraph graph = MakeGraph(polygon, degrees, planning::Spanning::kAdaptive);
@@ -86,7 +86,7 @@ TEST(AlignPath, LeadsNowhereFromAGraspOutsideTheSet) {
   const PolygonGraph graph = MakeGraph(square, 20, planning::Spanning::kAdaptive);
   const GraspSet& set = graph.sets()[graph.SetsOn(Edges({0, 2})).front()];
   const SetCells cells(square, set);
-  // Edge 2 runs from the right to the left.
+  // Edge 2 is directed from right to left.
   const Eigen::Vector2d upright(0.5, 0.5);
   const Eigen::Vector2d leaning(0.9, 0.9);
   EXPECT_EQ(FindAlignPath(cells, upright, Eigen::Vector2d(0.25, 0.75)).size(), 2U);

@@ -1,5 +1,3 @@
-#include "planner/sets/attached_graph.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include "planner/search/switching_graph.h"
 #include "planner/sets/candidate_search.h"
 #include "planner/sets/polygon/graph_cells.h"
+#include "planner/sets/set_graph.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
@@ -28,7 +27,7 @@ class AttachedBlob : public testing::Test {
   AttachedBlob()
       : graph_(MakeGraph(blob_, 20, planning::Spanning::kAdaptive)), cells_(blob_, graph_) {}
 
-  /// The switches between a set of `start` and one of `goal`, and two for these.
+  /// Return the fewest switches between start and goal, plus two for the edges to their sets.
   [[nodiscard]] std::optional<int> Switches(const sets::GraspEnds& start,
                                             const sets::GraspEnds& goal) const {
     const sets::AttachedGraph graph(graph_, start, goal, banned_);
@@ -60,7 +59,8 @@ TEST_F(AttachedBlob, NeighboursAreMutualAndDistinct) {
   for (int v = 0; v < graph_.vertex_count(); ++v) {
     of_graph += static_cast<int>(Neighbours(graph_, v).size());
   }
-  // Without the banned one; five attachments, and the start before and after its own switch.
+  // Minus the banned edge, plus five attachments and the start's additional switch, in both
+  // directions.
   EXPECT_EQ(edges, of_graph - 2 + 2 * 5 + 2);
 }
 

@@ -12,7 +12,7 @@
 namespace regrasp::polygon {
 namespace {
 
-constexpr std::size_t kMostFailures = 20;  // more say nothing new
+constexpr std::size_t kMostFailures = 20;  // more add no information
 constexpr double kCrowding = 4;            // contacts near ends are at distance v^kCrowding
 
 std::vector<int> EdgesWithout(const std::vector<int>& edges, int edge) {
@@ -66,7 +66,7 @@ grasp::Contact BruteForce::At(int edge, double u) const {
 }
 
 BruteForce::Drawn BruteForce::Draw(int edge) {
-  // Half of the contacts are near an end: sets too small to be hit evenly are in corners.
+  // Half of the contacts are near an end, because small sets are at corners.
   std::uniform_real_distribution<double> uniform(0, 1);
   double u = uniform(engine_);
   if (uniform(engine_) < 0.5) {
@@ -188,7 +188,7 @@ void BruteForce::DrawThirds(const Drawn& first, const Drawn& second, int thirds)
       }
     }
   }
-  // Two concurrent sets need a common focus point on top of common contacts: see DrawFocusPoints.
+  // Two concurrent sets also need a common focus point: see DrawFocusPoints.
   for (std::size_t c = 0; c < by_third.size(); ++c) {
     for (std::size_t d = c + 1; d < by_third.size(); ++d) {
       for (const int v : by_third[c]) {
@@ -227,7 +227,7 @@ void BruteForce::DrawFocusPoints(int points) {
     if (graph_.sets()[v].type != GraspType::kConcurrent) continue;
     for (const auto& cell : FocusCell(polygon_, graph_.sets()[v])) {
       for (int k = 0; k < points; ++k) {
-        // Random weights of the corners: any point of a convex polygon.
+        // Random weights of the corners reach every point of a convex polygon.
         Eigen::Vector2d sum = Eigen::Vector2d::Zero();
         double weights = 0;
         for (const Eigen::Vector2d& corner : cell) {
@@ -274,7 +274,7 @@ void BruteForce::CheckFocusPoint(int vertex, const Eigen::Vector2d& x) {
   };
   add(own);
   if (members.empty()) {
-    ++too_close;  // a cell too thin for doubles
+    ++too_close;  // the cell is too thin for doubles
     return;
   }
   if (members.front() != vertex) Fail("a focus point is in another component: " + Text(vertex));

@@ -13,32 +13,35 @@
 
 namespace regrasp::polygon {
 
-/// Random grasps of a polygon held against its graph.
+/// Compares random grasps of a polygon with its graph.
 class BruteForce {
  public:
   BruteForce(const object::Polygon& polygon, const PolygonGraph& graph, double half_angle,
              planning::Spanning spanning, std::uint64_t seed);
 
-  /// Draws contacts on every two edges, and third contacts on every other edge to each: what they
-  /// are by KindsOfTwo and KindsOfThree must be in exactly one vertex each, force closure, and
-  /// joined by the switches that share two contacts.
+  /// Draw pairs of contacts on every two edges, and a third contact on every other edge.
+  ///
+  /// Each grasp must be in exactly one vertex per kind (KindsOfTwo, KindsOfThree) and be force
+  /// closure. Vertices that share two contacts must be connected if one of them is parallel.
   void DrawGrasps(int pairs, int thirds);
 
-  /// Draws focus points of every concurrent vertex: contacts that they see must be a grasp of the
-  /// vertex, and all vertices that they belong to be joined where two edges are common.
+  /// Draw focus points of every concurrent vertex.
+  ///
+  /// Contacts that they see must form a grasp of the vertex. All vertices of these contacts must be
+  /// connected if they have two common edges.
   void DrawFocusPoints(int points);
 
-  /// Draws more where a vertex was not hit or a switch not found.
+  /// Draw more grasps for vertices without a grasp and for switches that were not found.
   void SearchMissing(int draws, int thirds);
 
-  /// After the others: 2-finger vertices and others whose drawn contacts overlap on an edge must be
-  /// joined.
+  /// Check that 2-finger vertices are connected with others if their drawn contacts overlap on an
+  /// edge. Call it last.
   void CompareTwoFingerSwitches();
 
-  int grasps = 0;                         ///< classified, certain
-  int too_close = 0;                      ///< left out
-  std::vector<int> hits;                  ///< grasps of each vertex
-  std::set<std::array<int, 2>> switches;  ///< found, of any type
+  int grasps = 0;                         ///< number of certainly classified grasps
+  int too_close = 0;                      ///< number of uncertain grasps, which are ignored
+  std::vector<int> hits;                  ///< number of grasps in each vertex
+  std::set<std::array<int, 2>> switches;  ///< found switches of all types
   std::vector<std::string> failures;
 
  private:
@@ -52,7 +55,7 @@ class BruteForce {
 
   Drawn Draw(int edge);
   grasp::Contact At(int edge, double u) const;
-  /// The vertices that contacts (by ascending edge) belong to; checks each of them.
+  /// Return the vertices of contacts, sorted by edge, and check each of them.
   std::vector<int> Vertices(std::vector<Drawn> drawn);
   int VertexOf(GraspType type, const std::vector<int>& edges, int part) const;
   bool Joined(int a, int b) const { return graph_switches_.contains(std::minmax(a, b)); }
@@ -62,7 +65,8 @@ class BruteForce {
   void DrawFor(int v, int w, int draws, int thirds);
   void DrawThirds(const Drawn& first, const Drawn& second, int thirds);
   void CheckFocusPoint(int vertex, const Eigen::Vector2d& x);
-  /// The range of contacts on the edge that x sees at a half-angle; empty where it sees none.
+  /// Compute the range of contacts on an edge that x sees at an angle. @returns whether there is
+  /// any.
   bool Sees(const Eigen::Vector2d& x, int edge, double phi, bool& outer, double& low,
             double& high) const;
 
@@ -73,7 +77,7 @@ class BruteForce {
   std::mt19937_64 engine_;
   std::map<Key, int> vertex_of_;
   std::set<std::pair<int, int>> graph_switches_;
-  std::map<std::pair<int, int>, std::pair<double, double>> range_;  ///< by vertex and edge
+  std::map<std::pair<int, int>, std::pair<double, double>> range_;  ///< ranges by vertex and edge
 };
 
 }  // namespace regrasp::polygon

@@ -1,4 +1,4 @@
-// The switching graph against random grasps of small polygons.
+// Comparison of the switching graph with random grasps of small polygons.
 
 #include "tests/planner/sets/polygon/brute_force.h"
 
@@ -11,13 +11,14 @@
 namespace regrasp::polygon {
 namespace brute_force_test {
 
-constexpr int kPairs = 150;    // draws of two contacts for every two edges
-constexpr int kThirds = 4;     // and of a third contact on each other edge
-constexpr int kPoints = 20;    // focus points for every convex part of a cell
-constexpr int kSearch = 2000;  // draws where something was not found
+constexpr int kPairs = 150;    // pairs of contacts per two edges
+constexpr int kThirds = 4;     // third contacts per pair and edge
+constexpr int kPoints = 20;    // focus points per convex part of a cell
+constexpr int kSearch = 2000;  // draws per missing vertex or switch
 constexpr std::uint64_t kSeed = 1;
 
-/// Switches through sets so small that the draws may miss them, over all.
+/// Fraction of switches, over all polygons, that the draws may miss because the sets are very
+/// small.
 constexpr double kMissingPart = 0.005;
 
 struct Totals {

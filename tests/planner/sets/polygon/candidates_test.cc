@@ -14,10 +14,10 @@ namespace regrasp::polygon {
 namespace candidates_test {
 
 constexpr double kPi = std::numbers::pi;
-/// Angles closer to a limit than this are left to the exact predicates alone.
+/// Distance of an angle from a limit below which only exact predicates can decide.
 constexpr double kTooClose = 1e-9;
 
-/// A polygon of `n` irregular edges whose vertices go around the origin.
+/// Make a polygon with `n` irregular edges around the origin.
 object::Polygon Irregular(int n, unsigned seed) {
   std::vector<Eigen::Vector2d> ring;
   for (int k = 0; k < n; ++k) {
@@ -34,10 +34,10 @@ double NormalAngle(const object::Polygon& polygon, int edge) {
   return std::atan2(n.y(), n.x());
 }
 
-/// The angle between two directions, in [0, π].
+/// Return the angle between two directions, in [0, π].
 double Between(double a, double b) { return std::abs(std::remainder(a - b, 2 * kPi)); }
 
-/// (π − largest gap) / 2 of three directions; not positive where they don't span.
+/// Return (π − largest gap) / 2 of three directions; not positive if they do not span.
 double SpanningLimit(std::array<double, 3> angles) {
   for (double& a : angles) a = std::remainder(a, 2 * kPi);
   std::sort(angles.begin(), angles.end());
@@ -114,8 +114,8 @@ TEST_P(CandidatesTest, TwoFingerOnesAreThePairsOfNearlyOppositeNormals) {
   EXPECT_GT(found, 10);
 }
 
-/// Whether a direction lies in the interiors of all three cones, by trying many; nullopt where it
-/// is close.
+/// Return whether some direction is in the interiors of all three cones, by sampling; nullopt if it
+/// is uncertain.
 std::optional<bool> HaveCommonDirection(const std::array<double, 3>& axes, double half_angle) {
   double best = -kPi;
   constexpr int kDirections = 7200;

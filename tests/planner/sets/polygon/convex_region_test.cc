@@ -15,7 +15,7 @@ HalfPlane<NT> Make(double a, double b, double c) {
   return {NT(a), NT(b), NT(c)};
 }
 
-/// The part of the unit square inside half-planes a x + b y + c > 0.
+/// Return the part of the unit square inside half-planes a x + b y + c > 0.
 std::optional<FilteredRegion> Cut(const std::vector<std::array<double, 3>>& cuts) {
   return FilteredRegion::Make([cuts](auto zero) {
     using NT = decltype(zero);
@@ -51,12 +51,12 @@ TEST_F(ConvexRegionTest, CutsKeepTheAreaThatIsInside) {
   } cases[] = {
       {{}, 1, 4},
       {{{1, 1, -1}}, 0.5, 3},      // through two corners
-      {{{1, 1, -0.5}}, 0.875, 5},  // cuts a corner off
+      {{{1, 1, -0.5}}, 0.875, 5},  // cuts off a corner
       {{{1, 0, -0.25}}, 0.75, 4},  // parallel to two sides
       {{{1, 1, 0}}, 1, 4},         // touches a corner
-      {{{0, 1, 0}}, 1, 4},         // a side of the square itself
+      {{{0, 1, 0}}, 1, 4},         // a side of the square
       {{{1, 1, -0.5}, {-1, -1, 1.5}}, 0.75, 6},
-      {{{1, 1, -1}, {1, -1, 0}}, 0.25, 3},  // three borders in one point
+      {{{1, 1, -1}, {1, -1, 0}}, 0.25, 3},  // three borders through one point
   };
   for (const auto& c : cases) {
     const auto region = Cut(c.cuts);
@@ -72,7 +72,7 @@ TEST_F(ConvexRegionTest, WhatHasNoInteriorIsEmpty) {
   EXPECT_FALSE(Cut({{0, -1, 0}}));               // a side
   EXPECT_FALSE(Cut({{1, 1, -1}, {-1, -1, 1}}));  // a diagonal
   EXPECT_FALSE(Cut({{1, 0, -2}}));               // outside
-  EXPECT_TRUE(Cut({{-1, -1, 0x1p-1000}}));       // all but nothing
+  EXPECT_TRUE(Cut({{-1, -1, 0x1p-1000}}));       // very small, but not empty
 }
 
 TEST_F(ConvexRegionTest, RegionsThatTouchDoNotOverlap) {
@@ -83,7 +83,7 @@ TEST_F(ConvexRegionTest, RegionsThatTouchDoNotOverlap) {
   const auto corner = Cut({{0, 1, -0.5}, {1, 0, -0.5}});
   const auto opposite = Cut({{0, -1, 0.5}, {-1, 0, 0.5}});
   EXPECT_FALSE(FilteredRegion::Overlap(*corner, *opposite));
-  // One rounding up or down decides.
+  // A single rounding up or down decides.
   const auto above = Cut({{0, 1, -std::nextafter(0.5, 0)}});
   const auto below = Cut({{0, 1, -std::nextafter(0.5, 1)}});
   EXPECT_TRUE(FilteredRegion::Overlap(*lower, *above));
@@ -91,7 +91,7 @@ TEST_F(ConvexRegionTest, RegionsThatTouchDoNotOverlap) {
 }
 
 TEST_F(ConvexRegionTest, ARegionThatReachesInfinityIsCutLikeAnyOther) {
-  // What is above the segment from (0, 0) to (1, 0) between rays that diverge.
+  // Region above the segment from (0, 0) to (1, 0), between diverging rays.
   const auto wedge = [](auto zero, double cut) {
     using NT = decltype(zero);
     ConvexRegion<NT> region(

@@ -10,7 +10,7 @@
 namespace regrasp::polygon {
 namespace deadline_test {
 
-/// Looks while the candidates of all types are listed.
+/// Return the number of deadline checks for listing the candidates of all types.
 int LooksForCandidates(const object::Polygon& polygon, double half_angle) {
   const double tangent = std::tan(half_angle);
   const IntervalScope scope;
@@ -34,8 +34,8 @@ TEST(PolygonDeadline, TheGraphLooksAtItForEveryCandidateAndVertexAndEndsWherever
   const int listing = LooksForCandidates(polygon, Radians(20));
   EXPECT_GE(listing, 9 + 2 * 9 + 9);
   const auto candidates = concurrent.candidates + two_finger.candidates + parallel.candidates;
-  // Vertices are listed, joined on each of their three pairs of edges, or as 2-finger ones, and
-  // concurrent ones with parallel ones of the same edges.
+  // Checks happen when vertices are listed, joined on each of their three pairs of edges or as
+  // 2-finger vertices, and when concurrent and parallel ones on the same edges are joined.
   const auto joining = 3 * (concurrent.vertices + parallel.vertices) + two_finger.vertices;
   EXPECT_EQ(never.looks(),
             listing + candidates + graph.vertex_count() + joining + concurrent.vertices);

@@ -1,6 +1,6 @@
-// Degenerate polygons, and the same ones a little off: parallel edges, equal normals, regular
-// polygons, sets that only touch. The graph against exact set operations, and against what is known
-// by construction.
+// Degenerate polygons and slightly perturbed ones: parallel edges, equal normals, regular polygons,
+// touching sets. The graph is compared with exact set operations and with answers known by
+// construction.
 
 #include <gtest/gtest.h>
 
@@ -48,9 +48,9 @@ std::vector<NamedPolygon> DegeneratePolygons() {
   }
   add("square frame", {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {1, 3}, {3, 3}, {3, 1}}});
   add("comb", {{{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {0, 1}}});
-  // The hypotenuse's normal is 135° from both others: φ* = 22.5°.
+  // The hypotenuse's normal differs by 135° from both others, so φ* = 22.5°.
   add("right triangle", {{{0, 0}, {4, 0}, {0, 4}}});
-  // Normals of 3-4-5 triangles, and two edges in one line.
+  // Normals of 3-4-5 triangles, and two collinear edges.
   add("3-4-5", {{{0, 0}, {4, 0}, {8, 0}, {8, 3}, {4, 6}, {0, 3}}});
   return polygons;
 }

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 constexpr double kPi = std::numbers::pi;
 
-/// Half the side of the square that cones are clipped from, over the polygon's size.
+/// Half side of the square from which cones are clipped, divided by the polygon's size.
 constexpr double kSquare = 1e4;
 
 Vector2d Planar(const Eigen::Vector3d& v) { return v.head<2>(); }
@@ -23,7 +23,7 @@ double Between(const Vector2d& a, const Vector2d& b) {
 }
 double Wrap(double angle) { return std::remainder(angle, 2 * kPi); }
 
-/// π less the largest gap between neighbouring normals.
+/// Compute π minus the largest gap between adjacent normals.
 double SpanningExcess(std::span<const grasp::Contact> contacts) {
   std::array<double, 3> angles;
   for (int k = 0; k < 3; ++k) angles[k] = Angle(Planar(contacts[k].n));
@@ -32,7 +32,8 @@ double SpanningExcess(std::span<const grasp::Contact> contacts) {
          std::max({angles[1] - angles[0], angles[2] - angles[1], 2 * kPi + angles[0] - angles[2]});
 }
 
-/// The part of a convex polygon on the left of the line through p along w, and up to `by` right.
+/// Clip a convex polygon at the line through p along w: keep its left side and up to `by` on the
+/// right.
 std::vector<Vector2d> Clip(const std::vector<Vector2d>& polygon, const Vector2d& p,
                            const Vector2d& w, double by) {
   std::vector<Vector2d> clipped;
@@ -48,7 +49,8 @@ std::vector<Vector2d> Clip(const std::vector<Vector2d>& polygon, const Vector2d&
   return clipped;
 }
 
-/// The cones on the given sides have a common interior when every border is moved out by `by`.
+/// Return whether the cones on the given sides have a common interior if every border is moved
+/// outward by `by`.
 bool ConesMeet(std::span<const grasp::Contact> contacts, int sides, double half_angle, double size,
                double by) {
   const Vector2d middle = Planar(contacts[0].p);
@@ -65,7 +67,8 @@ bool ConesMeet(std::span<const grasp::Contact> contacts, int sides, double half_
   return !rest.empty();
 }
 
-/// The directions, relative to −n_a, in −C(n_a), C(n_b) and C(n_c), widened by `by` at both ends.
+/// Return the directions, relative to −n_a, in −C(n_a), C(n_b) and C(n_c), widened by `by` at both
+/// ends.
 std::optional<std::array<double, 2>> CommonDirections(const grasp::Contact& a,
                                                       const grasp::Contact& b,
                                                       const grasp::Contact& c, double half_angle,
@@ -79,7 +82,8 @@ std::optional<std::array<double, 2>> CommonDirections(const grasp::Contact& a,
   return std::array{low, high};
 }
 
-/// How far, at best, the two outer lines are from the centre's, on different sides; −1 if nowhere.
+/// Return the largest distance of two outer lines on different sides from the centre's line; −1 if
+/// there are none.
 double ParallelMargin(const grasp::Contact& a, const grasp::Contact& b, const grasp::Contact& c,
                       double half_angle, double by) {
   const auto directions = CommonDirections(a, b, c, half_angle, by);
@@ -87,7 +91,7 @@ double ParallelMargin(const grasp::Contact& a, const grasp::Contact& b, const gr
   const double zero = Angle(-Planar(a.n));
   const Vector2d to_b = Planar(b.p - a.p);
   const Vector2d to_c = Planar(c.p - a.p);
-  // Which side a contact is on changes only in the direction to it or away from it.
+  // The side of a contact changes only at the direction to it or from it.
   std::vector<double> ends = {(*directions)[0], (*directions)[1]};
   for (const Vector2d& v : {to_b, to_c}) {
     for (const Vector2d& w : {v, Vector2d(-v)}) {

@@ -9,35 +9,38 @@
 
 namespace regrasp::polygon {
 
-// What makes a planar grasp concurrent, 2-finger or parallel, written down once more in doubles and
-// as plainly as can be, contact by contact. Nothing of planner/sets/polygon but the names of the
-// types.
+// Definition of concurrent, 2-finger and parallel planar grasps, written again as simply as
+// possible in doubles, contact by contact. It shares only the names of the types with
+// planner/sets/polygon.
 
-/// A kind of grasp that contacts are, as far as doubles can tell.
+/// Kind of a grasp as decided in doubles.
 struct DirectKind {
   GraspType type;
-  int part;      ///< as GraspSet::parts has it, for contacts in the order of their edges
-  bool certain;  ///< false within kDirectMargin of the border between yes and no
+  int part;      ///< see GraspSet::parts, for contacts in the order of their edges
+  bool certain;  ///< false if the decision is within kDirectMargin
 };
 
-/// Relative to `size` for lengths, radians for angles.
+/// Margin of a decision, relative to `size` for lengths, in rad for angles.
 inline constexpr double kDirectMargin = 1e-9;
 
-/// The half-angle that three contacts' cones have in concurrent grasps; 0 where their normals don't
-/// span.
+/// Return the angle φ of the cones of three contacts in concurrent grasps; 0 if their normals do
+/// not span.
 [[nodiscard]] double ConcurrentHalfAngle(std::span<const grasp::Contact> contacts,
                                          double half_angle, planning::Spanning spanning);
 
-/// Squeezing: the second contact in the first one's cone and the other way round. Stretching: both
-/// behind.
-/// @param size  of the polygon.
+/// Return the kinds of two contacts.
+///
+/// In a grasp from outside, each contact is in the cone of its opposite. In a stretching grasp,
+/// each contact is in the reversed cone.
 [[nodiscard]] std::vector<DirectKind> KindsOfTwo(std::span<const grasp::Contact> contacts,
                                                  double half_angle);
 
-/// Concurrent: the normals span, and the cones (for each part on given sides) have a common
-/// interior; found by clipping a huge square.
-/// Parallel: for some direction w in −C(n_a), C(n_b) and C(n_c) the lines along w through p_b and
-/// p_c are on different sides of the one through p_a; a is the part.
+/// Return the kinds of three contacts.
+///
+/// Concurrent: the normals span, and the cones, on the sides given by the part, have a common
+/// interior; found by clipping a huge square. Parallel: there is a direction w in −C(n_a), C(n_b)
+/// and C(n_c) for which the lines along w through p_b and p_c are on different sides of the line
+/// through p_a. The part is a.
 [[nodiscard]] std::vector<DirectKind> KindsOfThree(std::span<const grasp::Contact> contacts,
                                                    double half_angle, planning::Spanning spanning,
                                                    double size);

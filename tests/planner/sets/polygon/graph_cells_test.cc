@@ -18,7 +18,8 @@ TEST(GraphCells, DrawsGraspsAllOverASet) {
   GraphCells cells(square, graph);
   const sets::SetIndex vertex = graph.SetsOn(Edges({0, 2})).front();
   RandomStream random(1, RandomUse::kStart);
-  // Quarters of both edges that the contacts hit: all pairs but those that lean too far.
+  // Pairs of quarters of both edges that the contacts reach: all except those beyond the friction
+  // angle.
   std::set<std::pair<int, int>> hit;
   for (int i = 0; i < 500; ++i) {
     const grasp::Grasp grasp = cells.GraspOf(*cells.Draw(vertex, random));
@@ -68,7 +69,8 @@ TEST(GraphCells, SwitchesOfItsOwnLeadAnyGraspThatAHandCanKeepToTheSets) {
   const object::Polygon square = Square(1);
   const PolygonGraph graph = MakeGraph(square, 20, planning::Spanning::kAdaptive);
   GraphCells cells(square, graph);
-  // Leans by 31°; another contact opposite either one makes a pair, or a new pair altogether.
+  // The grasp is inclined by 31°. A new contact opposite either contact makes a pair, and so do two
+  // new ones.
   const grasp::Grasp leaning = MakeGrasp(square, {{0, 0.2}, {2, 0.2}});
   const std::vector<sets::Attachment<PolygonPlace>> found =
       cells.FindSwitches(leaning, hand::kFingersInPlane);
@@ -80,7 +82,7 @@ TEST(GraphCells, SwitchesOfItsOwnLeadAnyGraspThatAHandCanKeepToTheSets) {
     vertices.insert(attachment.place.set);
   }
   EXPECT_EQ(vertices.size(), 2U);
-  // A hand of three fingers keeps one; with two there is none to spare.
+  // A hand of three fingers must keep one contact; a hand of two has no free finger.
   EXPECT_EQ(cells.FindSwitches(leaning, 3).size(), 2U);
   EXPECT_TRUE(cells.FindSwitches(leaning, 2).empty());
 }

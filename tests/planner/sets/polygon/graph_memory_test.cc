@@ -12,7 +12,7 @@ namespace graph_memory_test {
 
 using ::testing::HasSubstr;
 
-#if !defined(__SANITIZE_ADDRESS__)  // which keeps what is freed
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer keeps freed memory
 TEST(PolygonGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
   struct Case {
     const char* file;

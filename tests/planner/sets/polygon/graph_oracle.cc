@@ -15,14 +15,14 @@ namespace {
 
 using Region = CGAL::Polygon_2<CellKernel>;
 
-/// Farther than any corner of the tests' cells where they are bounded, over an edge's length: two
-/// lines whose directions are exact products of doubles cross nearer than this.
+/// Distance beyond all corners of bounded cells in the tests, divided by an edge's length. Two
+/// lines with directions that are exact products of doubles intersect closer than this.
 constexpr double kFarthestReach = 0x1p200;
 
-/// A tangent may be this much below the smaller of tan θ and tan φ*: it is rounded down.
+/// Largest difference between min(tan θ, tan φ*) and a tangent, because tangents are rounded down.
 constexpr double kTangentSlack = 1e-12;
 
-/// The points within reach on the inner (left) or outer side of an edge's line.
+/// Return the points within reach on the inner (left) or outer side of an edge's line.
 CellSet HalfPlaneSet(const object::Polygon& polygon, int edge, bool outer) {
   const auto [a, b] = polygon.edge(FaceIndex(edge));
   const CellKernel::Point_2 pa(a.x(), a.y());
@@ -37,7 +37,8 @@ CellSet HalfPlaneSet(const object::Polygon& polygon, int edge, bool outer) {
   return CellSet(box);
 }
 
-/// Bit k of a part is set iff it is on the outer side of the k-th edge (GraspSet::parts).
+/// Add the parts of a cell. Bit k of a part is set iff it is on the outer side of the k-th edge
+/// (GraspSet::parts).
 void AddParts(const object::Polygon& polygon, const SetCell& cell, const CellSet& rest, int k,
               int part, std::vector<int>& parts) {
   if (rest.is_empty()) return;
@@ -55,10 +56,10 @@ void AddParts(const object::Polygon& polygon, const SetCell& cell, const CellSet
 std::vector<int> PartsOf(const object::Polygon& polygon, const SetCell& cell) {
   std::vector<int> parts;
   AddParts(polygon, cell, CellSet(cell.component), 2, 0, parts);
-  return parts;  // the third edge first, so that they are in ascending order
+  return parts;  // ascending, because the recursion begins with the third edge
 }
 
-/// True iff the cell comes near the far end of what sees one of its edges.
+/// Return whether the cell reaches the far end of the region that sees one of its edges.
 bool ReachesEnd(const object::Polygon& polygon, const SetCell& cell) {
   const CellKernel::FT far(kFarthestReach / 2);
   const auto& outline = cell.component.outer_boundary();

@@ -8,21 +8,22 @@
 
 namespace regrasp::polygon {
 
-/// What was compared, so that tests can expect it positive.
+/// Number of comparisons, which tests expect to be positive.
 struct OracleCount {
   int candidates = 0;
   int cells = 0;
   int switches = 0;
-  int several = 0;    ///< combinations whose cell falls apart
-  int unbounded = 0;  ///< cells that reach to infinity, as they may at φ = φ*
+  int several = 0;    ///< combinations with several components
+  int unbounded = 0;  ///< unbounded cells, which can occur at φ = φ*
 
   OracleCount& operator+=(const OracleCount& other);
 };
 
-/// Compares the concurrent part of a graph with CGAL's Boolean operations on polygons, exactly: the
-/// candidates, the tangents, the components of every cell and the sides that they lie on, the
-/// switches between them.
-/// @param difference  set to what differs, left empty where nothing does.
+/// Compare the concurrent part of a graph exactly with CGAL's Boolean operations on polygons.
+///
+/// Compared are candidates, tangents, components of every cell with their sides, and switches
+/// between them.
+/// @param difference  output: all differences as text; empty if there are none.
 [[nodiscard]] OracleCount CompareWithSetOperations(const object::Polygon& polygon,
                                                    const PolygonGraph& graph, double half_angle,
                                                    planning::Spanning spanning,

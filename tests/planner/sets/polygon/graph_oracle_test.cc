@@ -1,4 +1,4 @@
-// Concurrent grasp sets: the graph against exact Boolean operations on polygons.
+// Comparison of concurrent grasp sets with exact Boolean operations on polygons.
 
 #include "tests/planner/sets/polygon/graph_oracle.h"
 

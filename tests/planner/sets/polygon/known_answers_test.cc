@@ -1,4 +1,4 @@
-// Polygons whose switching graphs are counted by hand.
+// Polygons with switching graphs that are counted by hand.
 
 #include <gtest/gtest.h>
 
@@ -47,21 +47,22 @@ void ExpectAnswer(const object::Polygon& polygon, double degrees, planning::Span
   EXPECT_EQ(graph.components().count(), expected.components);
 }
 
-/// An equilateral triangle: −√3 is rounded, nothing below depends on it.
+/// Make an equilateral triangle. −√3 is rounded, but no answer depends on it.
 object::Polygon EquilateralTriangle() {
   return object::Polygon::FromRings({{{-1, 0}, {1, 0}, {0, std::sqrt(3)}}}, "triangle");
 }
 
-/// A regular hexagon of side 1, its opposite edges exactly parallel; the first edge at the bottom.
+/// Make a regular hexagon of side 1 with exactly parallel opposite edges; the first edge is at the
+/// bottom.
 object::Polygon Hexagon() {
   const double h = std::sqrt(3) / 2;
   return object::Polygon::FromRings({{{-0.5, -h}, {0.5, -h}, {1, 0}, {0.5, h}, {-0.5, h}, {-1, 0}}},
                                     "hexagon");
 }
 
-// Square. Of any three normals two are opposite, so none span (a gap of π, and less is needed).
-// Up to 45° only opposite sides squeeze, and no three normals are within 2θ up to sign: two sets,
-// one switch.
+// Square. Two of any three normals are opposite, so none span: their gap is π, and it must be
+// smaller. Up to 45° only opposite sides form pairs, and no three normals are within 2θ up to sign.
+// The graph has two sets and one switch.
 TEST(KnownAnswers, ASquareBelow45DegreesHasTwoOpposedGrasps) {
   Answer answer;
   answer.two_finger = {2, 2, 2, 1};
@@ -74,13 +75,14 @@ TEST(KnownAnswers, ASquareBelow45DegreesHasTwoOpposedGrasps) {
   }
 }
 
-// Above 45° neighbouring sides squeeze across their corner too: all 6 pairs. A triple of sides has
-// two that face each other; either is a centre for the other two, whose normals are 90° apart
-// (the side between them is none: the others' normals are 180° apart). Both centres' sets hold
-// grasps with the contact between in the middle and the others at the far end, so they are one:
-// 4 triples, 4 vertices. Every contact is valid in each set, and every two contacts of a parallel
-// grasp, so all that share an edge (2-finger with parallel: 6 · 4, as a pair always meets a triple)
-// or two edges (parallel: 4 · 3 / 2) are joined.
+// Above 45° adjacent sides form pairs across their corner, too: all 6 pairs. A triple of sides has
+// two that face each other. Either is a centre for the two others, whose normals differ by 90°. The
+// side between them is not a centre, because the two others' normals differ by 180°. The sets of
+// both centres contain grasps with the contact between in the middle and the other contacts at the
+// far end. They are therefore one set: 4 triples, 4 vertices. Every contact is valid in each set,
+// and so are every two contacts of a parallel grasp. All sets that share an edge are connected
+// (2-finger with parallel: 6 · 4, because a pair always shares an edge with a triple), and so are
+// those that share two edges (parallel: 4 · 3 / 2).
 TEST(KnownAnswers, ASquareAbove45DegreesIsHeldAcrossItsCornersToo) {
   Answer answer;
   answer.two_finger = {6, 6, 6, 1};
@@ -96,9 +98,10 @@ TEST(KnownAnswers, ASquareAbove45DegreesIsHeldAcrossItsCornersToo) {
   }
 }
 
-// Equilateral triangle. Gaps of 120° θ-positively span for θ < 30°; the centre sees all sides; what
-// is behind one side is joined through that side, and behind two sides nothing sees both. Normals
-// are 60° from opposite, so pairs need θ > 30°, and 120° from parallel, so triples θ > 60°.
+// Equilateral triangle. Gaps of 120° θ-positively span for θ < 30°. The centre sees all sides. The
+// region behind one side is connected through that side, and no point behind two sides sees both.
+// Normals differ by 60° from opposite, so pairs need θ > 30°. They differ by 120° from parallel, so
+// triples need θ > 60°.
 TEST(KnownAnswers, AnEquilateralTriangleBelow30DegreesHasOneConcurrentSet) {
   Answer answer;
   answer.concurrent = {1, 1, 1, 1};
@@ -112,8 +115,8 @@ TEST(KnownAnswers, AnEquilateralTriangleBelow30DegreesHasOneConcurrentSet) {
   }
 }
 
-// Above 30° two sides squeeze across their corner. Adaptively the concurrent set remains, at 30°;
-// every contact is valid in all sets and every pair is two of the three sides.
+// Above 30° two sides form a pair across their corner. With `adaptive` the concurrent set remains,
+// at 30°. Every contact is valid in all sets, and every pair consists of two of the three sides.
 TEST(KnownAnswers, AnEquilateralTriangleAbove30DegreesIsSqueezedAcrossItsCorners) {
   Answer answer;
   answer.two_finger = {3, 3, 3, 1};
@@ -129,9 +132,9 @@ TEST(KnownAnswers, AnEquilateralTriangleAbove30DegreesIsSqueezedAcrossItsCorners
   }
 }
 
-// Regular hexagon, sides 0 to 5. Only {0, 2, 4} and {1, 3, 5} span, with gaps of 120°; the centre
-// sees each. They share no side. Below 30° only opposite sides squeeze, and each of these 3 pairs
-// shares one side, its middle for one, with either triple.
+// Regular hexagon, sides 0 to 5. Only {0, 2, 4} and {1, 3, 5} span, with gaps of 120°. The centre
+// sees each side of them, and they share no side. Below 30° only opposite sides form pairs. Each of
+// these 3 pairs shares one side, with a common contact in its middle, with either triple.
 TEST(KnownAnswers, AHexagonBelow30DegreesHasTwoTriplesAndThreePairs) {
   Answer answer;
   answer.concurrent = {2, 2, 2, 2};
@@ -146,22 +149,21 @@ TEST(KnownAnswers, AHexagonBelow30DegreesHasTwoTriplesAndThreePairs) {
   }
 }
 
-// Between 30° and 60°: the 6 pairs {i, i+2} squeeze as well, 9 in all. Parallel grasps need −n of
-// the centre and the other two normals within 60°: {i, i+1, i+3} and {i, i+1, i+4}, centre last,
-// 12 in all.
-// Just above 30° the forces of {i, i+1, i+3} go along one direction, 120° for i = 0; across it the
-// three sides reach over [−1, 0], [0, 1] and [0, 1], and the centre's contact is between the other
-// two: all contacts of i, of i+1 and of i+3 are valid, all pairs of (i, i+1) and of (i, i+3), and
-// of (i+1, i+3) those with u + u' > 1 (and a little more, as the direction has some play). For {i,
-// i+1, i+4} it is the mirror image: u + u' < 1 (and a little more) for (i, i+4).
-// - parallel–parallel: (i, i+1) is in 2 triples: 6 · 1; (i, i+3) in 4: 3 · 6; (i, i+2) in 2, which
-//   overlap by what is a little more: 6 · 1; 30 together.
-// - 2-finger–parallel: of the 9 pairs all but 2 share a side with a triple ({0, 1, 3} misses {2, 4}
-//   and {2, 5}): 12 · 7.
-// - adaptive, the concurrent sets at 30°: each shares a side with the 3 opposite pairs and with the
-// 3
-//   pairs of its own sides: 12. Each parallel triple has two sides in common with one of them; it
-//   is symmetric in u + u' = 1, so it overlaps on either side: 12.
+// Between 30° and 60° the 6 pairs {i, i+2} are grasps as well, so there are 9 pairs. Parallel
+// grasps need −n of the centre and the two other normals within 60°: {i, i+1, i+3} and {i, i+1,
+// i+4}, centre last, 12 in all. Just above 30° the forces of {i, i+1, i+3} have one direction, 120°
+// for i = 0. Across it the three sides extend over [−1, 0], [0, 1] and [0, 1], and the centre's
+// contact is between the two others. All contacts of i, i+1 and i+3 are therefore valid, and all
+// pairs of (i, i+1) and of (i, i+3). The valid pairs of (i+1, i+3) have u + u' > 1, and slightly
+// less because the direction is not unique. For {i, i+1, i+4}, the mirror image, the pairs of (i,
+// i+4) have u + u' < 1, and slightly more.
+// - parallel–parallel: (i, i+1) is in 2 triples: 6 · 1. (i, i+3) is in 4: 3 · 6. (i, i+2) is in 2,
+//   which overlap slightly around u + u' = 1: 6 · 1. The sum is 30.
+// - 2-finger–parallel: each triple shares a side with all of the 9 pairs except 2 ({0, 1, 3} with
+//   {2, 4} and {2, 5}): 12 · 7.
+// - With `adaptive`, the concurrent sets at 30°: each shares a side with the 3 opposite pairs and
+//   with the 3 pairs of its own sides: 12. Each parallel triple has two common sides with one of
+//   them. That set is symmetric in u + u' = 1, so it overlaps on either side: 12.
 TEST(KnownAnswers, AHexagonAbove30DegreesHasTwelveParallelSets) {
   Answer answer;
   answer.two_finger = {9, 9, 9, 1};
@@ -181,9 +183,9 @@ TEST(KnownAnswers, AHexagonAbove30DegreesHasTwelveParallelSets) {
   }
 }
 
-// A bar of 20 by 1. At 10° contacts on its long sides squeeze when less than tan 10° apart along
-// it, and those on its short sides always. At 46° the long sides do over a wider stretch; still the
-// square's counts, since corners look alike.
+// A bar of 20 by 1. At 10°, contacts on its long sides form a pair if they are less than tan 10°
+// apart along it; contacts on its short sides always do. At 46° the range on the long sides is
+// larger. The counts are still those of the square, because the corners are the same.
 TEST(KnownAnswers, ABarIsCountedLikeASquare) {
   const object::Polygon bar =
       object::Polygon::FromRings({{{0, 0}, {20, 0}, {20, 1}, {0, 1}}}, "bar");
@@ -194,10 +196,10 @@ TEST(KnownAnswers, ABarIsCountedLikeASquare) {
   ExpectAnswer(bar, 10, planning::Spanning::kAdaptive, answer);
 }
 
-// A slot between two prongs: sides that face away from each other are stretched. At 10° the 4
-// upright sides give the pairs of opposite normals: outer with outer and each prong's own two sides
-// squeeze, the slot's two sides stretch, and the slot's floor and the prongs' ends squeeze with the
-// bottom.
+// A slot between two prongs; sides that face away from each other permit stretching grasps. At 10°
+// the 4 upright sides form pairs of opposite normals. Grasps from outside are on the two outer
+// sides and on the two sides of each prong. The two sides of the slot permit stretching. The floor
+// of the slot and the ends of the prongs form pairs with the bottom.
 TEST(KnownAnswers, AForkIsSqueezedAndStretched) {
   const object::Polygon fork = object::Polygon::FromRings(
       {{{0, 0}, {3, 0}, {3, 4}, {2, 4}, {2, 1}, {1, 1}, {1, 4}, {0, 4}}}, "fork");
@@ -217,7 +219,7 @@ TEST(KnownAnswers, AForkIsSqueezedAndStretched) {
   EXPECT_EQ(parts(0, 4), std::vector<int>{0});
   EXPECT_EQ(parts(0, 6), std::vector<int>{0});
   EXPECT_EQ(graph.counts(kF).vertices, 7);
-  // The right outer side and the slot's left one have the same normal.
+  // The right outer side and the left side of the slot have the same normal.
   EXPECT_TRUE(graph.SetsOn(Edges({1, 5})).empty());
 }
 

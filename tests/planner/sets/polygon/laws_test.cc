@@ -1,4 +1,4 @@
-// Laws of the switching graph: what changes nothing, and what only adds.
+// Laws of the switching graph: invariants and monotonicity.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST(GraphLaws, CountsAreTheSameScaledMirroredTurnedAndRenumbered) {
   EXPECT_GT(changed_by_friction, 20);
 }
 
-// A part of a set at less friction lies in a part of a set at more.
+// A part of a set at less friction is inside a part of a set at more friction.
 TEST(GraphLaws, NothingIsLostWhenFrictionGrowsUnderAdaptiveSpanning) {
   int checked = 0;
   int lost_by_uniform = 0;

@@ -16,9 +16,8 @@ namespace parallel_test {
 using Triple = EdgeTriple;
 using Parameters = std::array<double, 3>;
 
-/// Whether three contacts on a triple of edges are parallel with a given centre, from the
-/// definition: some direction of the common cone has b and c on different sides of the line through
-/// a.
+/// Decides by the definition whether three contacts are parallel with a given centre: for some
+/// direction of the common cone, b and c are on different sides of the line through a.
 class ParallelOracle {
  public:
   ParallelOracle(const object::Polygon& polygon, double half_angle)
@@ -31,7 +30,7 @@ class ParallelOracle {
     const Eigen::Vector2d to_c = Point(triple[c], u[c]) - Point(triple[centre], u[centre]);
     constexpr int kDirections = 200;
     for (int k = 0; k < kDirections; ++k) {
-      // All directions of the cone about −n of the centre, finely.
+      // Densely sampled directions of the cone about −n of the centre.
       const double turn = half_angle_ * ((2 * k + 1.0) / kDirections - 1);
       const Eigen::Vector2d w = Eigen::Rotation2D<double>(turn) * -Normal(triple[centre]);
       if (!InCone(triple[b], w) || !InCone(triple[c], w)) continue;
@@ -85,7 +84,7 @@ const std::vector<object::Polygon>& Polygons() {
         "band"));
     list.push_back(object::Polygon::FromRings(
         {{{0, 0}, {2, -1}, {4.2, 0.1}, {4.8, 2}, {3, 3.9}, {0.7, 3.1}, {-0.6, 1.7}}}, "heptagon"));
-    // Its two left steps lie on one side of the end of its bottom.
+    // Its two left steps are on one side of the end of its bottom.
     list.push_back(object::Polygon::FromRings(
         {{{0, 0}, {8, -1}, {9, -1}, {9, 1}, {2, 1.2}, {1.2, 1.2}, {1.2, 1}, {1, 1}, {0, 0.9}}},
         "steps"));
@@ -96,7 +95,7 @@ const std::vector<object::Polygon>& Polygons() {
 
 class ParallelTest : public testing::TestWithParam<double> {
  protected:
-  /// The candidates of a polygon: triples and their centres.
+  /// Return the candidates of a polygon: triples with their centres.
   static std::map<Triple, std::vector<int>> Candidates(const EdgeTable& edges) {
     std::map<Triple, std::vector<int>> centres;
     for (const ParallelCandidate& c : FindParallelCandidates(edges)) {
@@ -159,7 +158,7 @@ TEST_P(ParallelTest, GraspsOfTheDefinitionLieInTheSetAndItsProjections) {
   EXPECT_GT(grasps, 1000);
   EXPECT_GT(sets, 10);
   EXPECT_GT(empty, 0);
-  // Sets too small to be hit by 150 draws.
+  // Some sets are too small for 150 draws.
   EXPECT_LT(unseen, sets / 3);
 }
 
@@ -201,7 +200,7 @@ TEST_P(ParallelTest, WhatTheProjectionsHoldBelongsToAGrasp) {
   }
   EXPECT_GT(inside, 100);
   EXPECT_GT(outside, 10);
-  // The oracle tries 200 third contacts and 200 directions: what only a sliver holds, it misses.
+  // The oracle samples 200 third contacts and 200 directions, so it misses slivers.
   EXPECT_LT(missed, inside / 20);
 }
 

@@ -22,7 +22,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 using Status = planning::PlanResult::Status;
 
-/// A random grasp of every type that the polygon has.
+/// Draw a random grasp of every type that the polygon has.
 std::map<GraspType, grasp::Grasp> DrawEveryType(const object::Polygon& polygon, double degrees,
                                                 std::uint64_t seed) {
   const PolygonGraph graph = MakeGraph(polygon, degrees, planning::Spanning::kAdaptive);
@@ -33,7 +33,7 @@ std::map<GraspType, grasp::Grasp> DrawEveryType(const object::Polygon& polygon, 
     vertices[graph.sets()[v].type].push_back(v);
   std::map<GraspType, grasp::Grasp> grasps;
   for (const auto& [type, all] : vertices) {
-    // A set that is too thin for doubles gives no grasp.
+    // Sets that are too thin for doubles return no grasp.
     std::optional<PolygonPlace> place;
     while (!place) place = cells.Draw(all[random.Index(all.size())], random);
     grasps[type] = cells.GraspOf(*place);
@@ -41,7 +41,7 @@ std::map<GraspType, grasp::Grasp> DrawEveryType(const object::Polygon& polygon, 
   return grasps;
 }
 
-/// True iff two vertices that hold these grasps, or a part of them, are in one component.
+/// Return whether two vertices that contain these grasps, or a part of them, are in one component.
 bool AreJoined(const object::Polygon& polygon, double degrees, const grasp::Grasp& a,
                const grasp::Grasp& b) {
   const PolygonGraph graph = MakeGraph(polygon, degrees, planning::Spanning::kAdaptive);
@@ -55,7 +55,7 @@ bool AreJoined(const object::Polygon& polygon, double degrees, const grasp::Gras
   return false;
 }
 
-/// A plan that the checker passes, in which no two aligns are one.
+/// Check that the plan passes the checker and has no two consecutive sliding steps.
 void ExpectGood(const object::Polygon& polygon, const planning::PlanResult& result,
                 const grasp::Grasp& start, const grasp::Grasp& goal) {
   ExpectGoodPlan(PolygonPlanner(), polygon, result, start, goal);
@@ -140,7 +140,7 @@ TEST(PlanOnPolygon, RandomAnyDrawsTwoOrThreeContactsConnectedOrNot) {
 }
 
 TEST(PlanOnPolygon, RandomAnyDrawsThreeContactsWhereNoTwoHold) {
-  // At 20° the triangle has no grasp of two fingers.
+  // At 20° the triangle has no 2-finger grasp.
   const object::Polygon triangle = ReadPlanarModel("triangle.wkt");
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const planning::PlanResult result =
@@ -176,7 +176,8 @@ TEST(PlanOnPolygon, TwoFingersAcrossTheSquareTurnByOneSwitch) {
 }
 
 TEST(PlanOnPolygon, StartAndGoalMayHoldWithMoreContactsThanASetHas) {
-  // No three edges of the square make a set that these grasps are in; two of their contacts do.
+  // No set on three edges of the square contains these grasps, but a set contains two of their
+  // contacts.
   const object::Polygon square = Square(1);
   const grasp::Grasp start = MakeGrasp(square, {{0, 0.5}, {0, 0.25}, {2, 0.5}, {1, 0.75}});
   const grasp::Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}, {3, 0.25}});
@@ -211,7 +212,7 @@ TEST(PlanOnPolygon, RestsInGraspsOfTheQualityAskedForOrWarns) {
 TEST(PlanOnPolygon, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
   const object::Polygon square = Square(1);
   planning::PlanRequest options = RequestAt(20);
-  options.criteria.min_quality = 0.9;  // more than any grasp has at this friction
+  options.criteria.min_quality = 0.9;  // higher than for any grasp at this friction
   const planning::PlanResult result =
       PlanWith(PolygonPlanner(), square, Given(MakeGrasp(square, {{0, 0.5}, {2, 0.5}})),
                Given(MakeGrasp(square, {{1, 0.5}, {3, 0.5}})), options);
@@ -248,8 +249,8 @@ TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
   EXPECT_GT(apart, 0);
 }
 
-/// Two pairs across the square whose torques cancel, so that hardly any friction holds, while each
-/// pair alone leans by atan 0.2 = 11.3°.
+/// Make two pairs across the square whose torques cancel. The grasp needs very little friction, but
+/// each pair alone is inclined by atan 0.2 = 11.3°.
 grasp::Grasp MakePinwheel(const object::Polygon& square) {
   return MakeGrasp(square, {{0, 0.6}, {2, 0.6}, {1, 0.4}, {3, 0.4}});
 }
@@ -267,7 +268,8 @@ TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
   };
   EXPECT_THAT(message(pinwheel, pair), AllOf(HasSubstr("from.json"), HasSubstr("in none of")));
   EXPECT_THAT(message(pair, pinwheel), AllOf(HasSubstr("to.json"), HasSubstr("in none of")));
-  // With friction for a pair alone it can switch, and no finger has to where it is the goal itself.
+  // With enough friction for a pair alone, it can switch. If it is both start and goal, no step is
+  // required.
   ExpectGood(square,
              PlanWith(PolygonPlanner(), square, Given(pinwheel), Given(pair), RequestAt(15)),
              pinwheel, pair);
@@ -278,8 +280,8 @@ TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
 }
 
 TEST(PlanOnPolygon, AGraspInNoSetComesToOneByASwitchOfItsOwn) {
-  // The normals of a regular triangle span the plane up to 30°: under uniform spanning more
-  // friction leaves pairs of fingers alone, to which these turned grasps are too far off.
+  // The normals of a regular triangle span the plane up to 30°. With more friction, uniform
+  // spanning has 2-finger grasps only. Two contacts of these rotated grasps are not among them.
   const object::Polygon triangle = RegularPolygon(3);
   const grasp::Grasp start = MakeGrasp(triangle, {{0, 0.4}, {1, 0.4}, {2, 0.4}});
   const grasp::Grasp goal = MakeGrasp(triangle, {{0, 0.6}, {1, 0.6}, {2, 0.6}});

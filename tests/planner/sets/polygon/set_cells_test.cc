@@ -11,7 +11,7 @@
 namespace regrasp::polygon {
 namespace set_cells_test {
 
-/// Contacts drawn on distinct edges, in the order of the edges.
+/// Contacts on distinct random edges, sorted by edge.
 struct Draw {
   std::vector<int> edges;
   Eigen::VectorXd parameters;
@@ -32,7 +32,7 @@ Draw DrawContacts(const object::Polygon& polygon, int count, std::mt19937_64& en
   return draw;
 }
 
-/// How often cells agree with the direct conditions.
+/// Counts of comparisons between cells and direct conditions.
 struct Agreement {
   int inside = 0;
   int outside = 0;
@@ -113,7 +113,7 @@ TEST(SetCells, ClearWidthsOfParallelSetsAreNoneOrThoseOfGraspsInThem) {
     for (const GraspSet& set : graph.sets()) {
       if (set.type != GraspType::kParallel) continue;
       const double width = ClearWidth(polygon, set);
-      // More inequalities than any cell has.
+      // It has more inequalities than any cell.
       EXPECT_LE(width, SetCells(polygon, set).width() + kNoSlack) << name;
       EXPECT_GE(width, 0);
       ++parallel;
@@ -125,8 +125,9 @@ TEST(SetCells, ClearWidthsOfParallelSetsAreNoneOrThoseOfGraspsInThem) {
 }
 
 TEST(SetCells, MeasureSlackInDiametersAtAnyScale) {
-  // Two fingers across the unit square, on the bottom and the top: with clearance to the ends of
-  // the edges, the border of a cone of 45° passes the middle of the other edge at 1 / sqrt 2.
+  // 2-finger grasps of the bottom and top of the unit square. The border of a cone of 45° passes
+  // the middle of the opposite edge at a distance of 1 / √2, with clearance to the ends of the
+  // edges.
   for (const double size : {1.0, 1000.0}) {
     const object::Polygon square = Square(size);
     const PolygonGraph graph = MakeGraph(square, 45, planning::Spanning::kAdaptive);

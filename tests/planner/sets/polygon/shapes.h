@@ -11,7 +11,7 @@ inline PolygonGraph MakeGraph(const object::Polygon& polygon, double degrees,
   return PolygonGraph(polygon, Radians(degrees), spanning);
 }
 
-/// Edges of a polygon by their numbers.
+/// Return edges of a polygon by their numbers.
 [[nodiscard]] inline std::vector<FaceIndex> Edges(const std::vector<int>& numbers) {
   return {numbers.begin(), numbers.end()};
 }

@@ -11,10 +11,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// Slacks of order 1: some hundred roundings.
+/// Tolerance of slacks of order 1: a few hundred roundings.
 constexpr double kTolerance = 1e-13;
 
-/// low < x < high and low < y < high.
+/// Return the inequalities low < x < high and low < y < high.
 Inequalities Box(double low, double high) {
   Inequalities box;
   box.rows = MatrixXd(4, 2);
@@ -31,7 +31,7 @@ TEST(SlackProgram, TheMiddleOfABoxIsFarthestFromItsSides) {
 }
 
 TEST(SlackProgram, TheIncentreOfATriangleIsFarthestFromItsSides) {
-  // x > 0, y > 0 and 3x + 4y < 12: a 3-4-5 triangle, whose inscribed circle has radius 1.
+  // x > 0, y > 0 and 3x + 4y < 12: a 3-4-5 triangle with an inscribed circle of radius 1.
   Inequalities triangle;
   triangle.rows = MatrixXd(3, 2);
   triangle.rows << 1, 0, 0, 1, -0.6, -0.8;
@@ -77,7 +77,7 @@ TEST(SlackProgram, NoRandomPointHasMoreSlack) {
                         VectorXd::NullaryExpr(rows, draw)};
     const SlackSolution best = MaximizeSlack(set);
     EXPECT_EQ(best.slack, set.SlackAt(best.z));
-    if (best.slack >= 1 - kTolerance) continue;  // enough
+    if (best.slack >= 1 - kTolerance) continue;  // limited by `enough`
     for (int i = 0; i < 200; ++i) {
       const VectorXd z = best.z + 1e-3 * VectorXd::NullaryExpr(variables, draw);
       EXPECT_LE(set.SlackAt(z), best.slack + kTolerance);

@@ -20,7 +20,8 @@ std::vector<FaceIndex> CommonEdges(const GraspSet& a, const GraspSet& b) {
   return common;
 }
 
-/// What a hand of four fingers can do: both grasps in their sets, kept contacts in place.
+/// Check that a hand of four fingers can execute the switch: both grasps are in their sets, and
+/// kept contacts are equal.
 void ExpectFeasible(const SwitchSide& from, const SwitchSide& to, const SwitchPoint& point) {
   EXPECT_TRUE(IsInSet(*from.cells, point.before));
   EXPECT_TRUE(IsInSet(*to.cells, point.after));
@@ -40,9 +41,11 @@ struct SwitchCount {
   int none = 0;
 };
 
-/// Whether the graph says of two sets if any of their grasps switch: where an edge is common to a
-/// 2-finger set and another, or two edges to sets of which one is parallel. Concurrent sets are not
-/// joined where only different focus points see the common contacts.
+/// Return whether the graph decides exactly whether any grasps of two sets can switch.
+///
+/// It does if a 2-finger set has a common edge with another set, or if two sets, one of them
+/// parallel, have two common edges. Concurrent sets are not connected if only different focus
+/// points see the common contacts.
 bool GraphDecides(const GraspSet& a, const GraspSet& b) {
   const auto is = [&](GraspType type) { return a.type == type || b.type == type; };
   const auto common = CommonEdges(a, b).size();
@@ -87,7 +90,7 @@ TEST(SwitchPoint, IsFoundWhereTheGraphHasASwitchAndNowhereElse) {
   EXPECT_GT(count.none, 10);
 }
 
-/// The square's sets of two fingers across it.
+/// The square's 2-finger sets on opposite sides.
 class AcrossTheSquare : public testing::Test {
  protected:
   AcrossTheSquare()
@@ -108,7 +111,7 @@ TEST_F(AcrossTheSquare, PlacesTwoFingersAndReleasesTwo) {
       FindSwitchPoints(Side({0, 2}), Side({1, 3}), hand::kFingersInPlane);
   ASSERT_EQ(points.size(), 1U);
   EXPECT_TRUE(points.front().kept.empty());
-  // With three fingers there is nothing to keep.
+  // Three fingers would have to keep a contact, but there is no common edge.
   EXPECT_TRUE(FindSwitchPoints(Side({0, 2}), Side({1, 3}), 3).empty());
 }
 
@@ -119,11 +122,11 @@ TEST_F(AcrossTheSquare, StartsFromTheGraspAtHand) {
       FindSwitchPoints(from, Side({1, 3}), hand::kFingersInPlane);
   ASSERT_EQ(points.size(), 1U);
   EXPECT_EQ(points.front().before, *from.fixed);
-  from.fixed = Eigen::Vector2d(0.1, 0.1);  // leans by more than 30°
+  from.fixed = Eigen::Vector2d(0.1, 0.1);  // inclined by more than 30°
   EXPECT_TRUE(FindSwitchPoints(from, Side({1, 3}), hand::kFingersInPlane).empty());
 }
 
-/// The larger the farther the contacts are from the beginnings of their edges.
+/// Return a score that increases with the distance of contacts from the starts of their edges.
 double ScoreByPosition(const GraspSet&, const Eigen::VectorXd& parameters) {
   return parameters.mean();
 }
@@ -135,10 +138,10 @@ TEST_F(AcrossTheSquare, ImprovingRaisesTheScoreInsideTheSets) {
   const SwitchPoint better = ImproveSwitch(from, to, point, ScoreByPosition);
   ExpectFeasible(from, to, better);
   EXPECT_NEAR(ScoreOf(from, to, point, ScoreByPosition), 0.5, 1e-9);
-  // Opposite edges run against each other: the sum of both parameters is within 1 ± tan 30°.
+  // Opposite edges have opposite directions, so the sum of both parameters is within 1 ± tan 30°.
   EXPECT_GT(ScoreOf(from, to, better, ScoreByPosition), 0.65);
   EXPECT_LT(ScoreOf(from, to, better, ScoreByPosition), 0.79);
-  // Slack is left on either side.
+  // Both grasps keep some slack.
   for (const auto& [side, parameters] :
        {std::pair(&from, &better.before), std::pair(&to, &better.after)}) {
     EXPECT_TRUE(IsInSet(*side->cells, *parameters, point.slack / 5));

@@ -1,5 +1,5 @@
-// Sets that touch exactly, in coordinates and tangents that doubles hold: they do not meet. A
-// little closer they do, a little farther they don't.
+// Sets that touch exactly, in coordinates and tangents that are exact doubles, do not meet. If they
+// are slightly closer, they meet; if they are slightly farther apart, they do not.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace touching_test {
 
 constexpr double kTangent = 0.25;
 
-/// The angle whose tangent is this very double.
+/// Return the angle whose tangent is exactly this double.
 double HalfAngle() {
   double angle = std::atan(kTangent);
   while (std::tan(angle) > kTangent) angle = std::nextafter(angle, 0);
@@ -24,7 +24,7 @@ double HalfAngle() {
   return angle;
 }
 
-/// The one vertex of a type on these edges; −1 where there is none.
+/// Return the only vertex of a type on these edges; −1 if there is none.
 int VertexOn(const PolygonGraph& graph, GraspType type, const std::vector<int>& edges) {
   int found = -1;
   for (const sets::SetIndex v : graph.SetsOn(Edges(edges))) {
@@ -41,7 +41,7 @@ bool Joined(const PolygonGraph& graph, int a, int b) {
   return std::count(neighbours.begin(), neighbours.end(), b) > 0;
 }
 
-/// Both oracles agree with the graph.
+/// Check that both oracles agree with the graph.
 void ExpectOraclesAgree(const object::Polygon& polygon, const PolygonGraph& graph,
                         planning::Spanning spanning) {
   std::string difference;
@@ -51,13 +51,14 @@ void ExpectOraclesAgree(const object::Polygon& polygon, const PolygonGraph& grap
   EXPECT_EQ(difference, "");
 }
 
-/// How far the moved part is from touching; negative: beyond.
+/// Distance of the moved part from touching; negative beyond it.
 constexpr double kApart[] = {0.25, 1e-6, 1e-12, 0x1p-51, 0, -0x1p-51, -1e-12, -1e-6, -0.25};
 
-// A house with two feet, [0, 1] and [2, 3] on y = 0. What sees them is |x − 0.5| < 0.5 + y/4 and
-// |x − 2.5| < 0.5 + y/4: they meet above (1.5, 2). What sees both slopes of the roof ends there
-// when their upper ends are at (4, 3.5) and (−1, 3.5), as the upper border of the right one goes
-// from its end along (−5, −3); it ends above y = −2, where the feet's regions meet again.
+// A house with two feet, [0, 1] and [2, 3] on y = 0. The regions that see them are |x − 0.5| < 0.5
+// + y/4 and |x − 2.5| < 0.5 + y/4, which meet above (1.5, 2). The region that sees both slopes of
+// the roof ends at that point if their upper ends are (4, 3.5) and (−1, 3.5): the upper border of
+// the right one starts at its end along (−5, −3). This region ends above y = −2, at which the
+// feet's regions meet again.
 TEST(Touching, CellsThatTouchInAPointAreNotJoined) {
   constexpr int kLeft = 0;
   constexpr int kRight = 3;
@@ -88,9 +89,9 @@ TEST(Touching, CellsThatTouchInAPointAreNotJoined) {
   }
 }
 
-// Two edges that turn by exactly twice the half-angle at (1, 0), from (1, 0) to (15, −8), tan =
-// 8/15. The right border of what sees the first, along (1, 4), is the left border of what sees the
-// second.
+// Two edges that turn by exactly twice the friction angle at (1, 0), from (1, 0) to (15, −8), tan =
+// 8/15. The right border of the region that sees the first edge, along (1, 4), is the left border
+// of the region that sees the second one.
 TEST(Touching, CellsThatTouchAlongASegmentAreNotJoined) {
   for (const double apart : kApart) {
     SCOPED_TRACE(apart);
@@ -107,8 +108,8 @@ TEST(Touching, CellsThatTouchAlongASegmentAreNotJoined) {
 }
 
 // A hall with a floor y = 0 and three pieces of ceiling at y = 2. Parallel grasps with the first
-// two, [0, 0.25] and [0.75, 1], and the floor as centre need floor contacts left of 1 + 2/4 = 1.5;
-// with the third, which begins at 2, contacts squeeze right of 2 − 2/4 = 1.5.
+// two, [0, 0.25] and [0.75, 1], and the floor as centre need floor contacts left of 1 + 2/4 = 1.5.
+// The third piece begins at 2, so its 2-finger grasps need floor contacts right of 2 − 2/4 = 1.5.
 TEST(Touching, ContactsThatTouchDoNotJoinAParallelAndATwoFingerSet) {
   for (const planning::Spanning spanning : kSpannings) {
     for (const double apart : kApart) {

@@ -19,7 +19,7 @@ using Vec = exact::Vec<Number>;
 using Edge = exact::Edge<Number>;
 using Region = exact::Region<Number>;
 
-/// Farther than the corners of any bounded cell of the tests, over an edge's length.
+/// Distance beyond the corners of all bounded cells in the tests, divided by an edge's length.
 constexpr double kFarthestReach = 0x1p200;
 
 struct Range {
@@ -27,8 +27,8 @@ struct Range {
   Number high;
 };
 
-/// The contacts on an edge that a cell sees. How far x sees up the edge is convex in x, and how far
-/// down concave, so corners are enough.
+/// Return the contacts on an edge that a cell sees. The upper end of the range that x sees is
+/// convex in x, the lower end concave. The corners of the cell therefore determine the range.
 Range SeenRange(const SetCell& cell, const Edge& edge, double tangent) {
   const Number length = Dot(edge.along, edge.along);
   std::optional<Range> range;
@@ -55,7 +55,7 @@ TwoFingerCount CompareTwoFingerSets(const object::Polygon& polygon, const Polygo
   std::vector<Edge> edges;
   for (int e = 0; e < n; ++e) edges.push_back(exact::MakeEdge<Number>(polygon, e, tangent));
 
-  // Cells of triples that fall apart are left out: which one is which is decided elsewhere.
+  // Triples with several components are ignored, because graph_oracle tests which one is which.
   std::map<std::vector<FaceIndex>, double> tangents;
   for (const GraspSet& set : graph.sets()) {
     if (set.type == GraspType::kConcurrent) tangents[set.edges] = set.tangent;

@@ -7,17 +7,19 @@
 
 namespace regrasp::polygon {
 
-/// What was compared.
+/// Number of comparisons.
 struct TwoFingerCount {
   int candidates = 0;
   int sets = 0;
-  int switches = 0;  ///< with concurrent sets
+  int switches = 0;  ///< switches with concurrent sets
 };
 
-/// Compares the 2-finger part of a graph with a second route, exactly: candidates by the cones'
-/// borders, sets by clipping the unit square of the two parameters, and the switches to concurrent
-/// sets by their ranges of contacts, those of concurrent sets from CGAL's Boolean operations.
-/// @param difference  set to what differs, left empty where nothing does.
+/// Compare the 2-finger part of a graph exactly with a second method.
+///
+/// Candidates are decided by the cones' borders, sets by clipping the unit square of the two
+/// parameters. Switches to concurrent sets are decided by the ranges of contacts, which for
+/// concurrent sets come from CGAL's Boolean operations.
+/// @param difference  output: all differences as text; empty if there are none.
 [[nodiscard]] TwoFingerCount CompareTwoFingerSets(const object::Polygon& polygon,
                                                   const PolygonGraph& graph, double half_angle,
                                                   std::string& difference);

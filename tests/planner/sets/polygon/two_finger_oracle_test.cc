@@ -1,4 +1,4 @@
-// 2-finger sets and their switches to concurrent ones: the graph against exact clipping.
+// Comparison of 2-finger sets and their switches to concurrent sets with exact clipping.
 
 #include "tests/planner/sets/polygon/two_finger_oracle.h"
 

@@ -20,10 +20,10 @@ namespace align_force_closure_test {
 constexpr int kPlans = 200;
 constexpr int kPlansOfControls = 60;
 
-/// Grasps that are tested between two waypoints, both included.
+/// Number of tested grasps between two waypoints, including both.
 constexpr int kSamples = 65;
 
-/// A solid and the graph that plans are made on.
+/// A solid with the graph on which plans are made.
 struct PlanningCase {
   std::string name;
   const object::Polyhedron* body;
@@ -40,7 +40,7 @@ std::vector<NamedBody> Bodies() {
   return bodies;
 }
 
-/// Bodies, half-angles and spannings whose graphs have grasps.
+/// Return objects, friction angles and spanning rules with a non-empty graph.
 std::vector<PlanningCase> Cases(const std::vector<NamedBody>& bodies) {
   std::vector<PlanningCase> cases;
   for (const NamedBody& named : bodies) {
@@ -68,7 +68,7 @@ struct Tally {
   int not_closed = 0;
 };
 
-/// Every grasp from waypoint to waypoint, by the one function.
+/// Test every sampled grasp between waypoints with the common force-closure function.
 Tally Walk(const plan::Align& align, const object::WrenchFrame& frame, double half_angle) {
   Tally tally{1};
   for (std::size_t w = 0; w + 1 < align.waypoints.size(); ++w) {
@@ -95,8 +95,8 @@ void Add(const Tally& more, Tally& sum) {
   sum.not_closed += more.not_closed;
 }
 
-/// Visits `count` random plans.
-/// @returns how many there were.
+/// Visit `count` random plans.
+/// @returns number of visited plans.
 template <typename Visit>
 int ForEachPlan(int count, Visit visit) {
   const std::vector<NamedBody> bodies = Bodies();
@@ -112,7 +112,7 @@ int ForEachPlan(int count, Visit visit) {
       const planning::PlanResult result =
           PlanWith(PolyhedronPlanner(one.graph.get()), *one.body, random, random, options);
       if (result.status == planning::PlanResult::Status::kNoGrasp)
-        continue;  // none is as good as asked for
+        continue;  // no grasp meets the criteria
       SCOPED_TRACE(one.name + ", seed " + std::to_string(seed));
       EXPECT_EQ(result.status, planning::PlanResult::Status::kFound) << result.message;
       if (!result.plan) continue;
@@ -146,9 +146,11 @@ TEST(AlignsOfPolyhedra, EveryGraspAlongEveryAlignOfTwoHundredPlansIsForceClosure
   RecordProperty("segments", all.segments);
 }
 
-/// Visits the aligns of plans with Spanning::kUniform: there the forces of any three contacts of a
-/// grasp don't balance, wherever in their cones they are, and those of all four are linearly
-/// dependent by one relation only, with four positive factors (Phoka 2010, 5.2).
+/// Visit the sliding steps of plans with Spanning::kUniform.
+///
+/// With uniform spanning, the forces of any three contacts of a grasp do not balance, wherever in
+/// their cones they are. The forces of all four contacts have one linear relation only, with four
+/// positive factors (Phoka 2010, 5.2).
 template <typename Visit>
 int ForEachUniformAlign(Visit visit) {
   int aligns = 0;
@@ -166,7 +168,7 @@ int ForEachUniformAlign(Visit visit) {
 
 TEST(AlignsOfPolyhedra, AWayWithAContactPushedOffIsFoundNotForceClosure) {
   const int pushed = ForEachUniformAlign([](const PlanningCase& one, const plan::Align& align) {
-    // So far along its own plane that no other torque balances that of its force.
+    // Moved so far along its own plane that no other torque balances the torque of its force.
     plan::Align off = align;
     for (plan::FingerGrasp& grasp : off.waypoints) {
       grasp::Contact& contact = grasp.front().contact;
@@ -174,7 +176,7 @@ TEST(AlignsOfPolyhedra, AWayWithAContactPushedOffIsFoundNotForceClosure) {
     }
     const Tally walked = Walk(off, one.body->wrench_frame(), one.options.criteria.half_angle);
     EXPECT_EQ(walked.not_closed, walked.grasps);
-    // One waypoint only: between good ones the path is bad all the same.
+    // A single invalid waypoint between valid ones makes the path invalid.
     plan::Align bent = align;
     bent.waypoints.insert(bent.waypoints.begin() + 1, off.waypoints.front());
     EXPECT_GT(Walk(bent, one.body->wrench_frame(), one.options.criteria.half_angle).not_closed, 0);
@@ -184,7 +186,7 @@ TEST(AlignsOfPolyhedra, AWayWithAContactPushedOffIsFoundNotForceClosure) {
 
 TEST(AlignsOfPolyhedra, AWayWithAContactOnTheWrongSideIsFoundNotForceClosure) {
   const int turned = ForEachUniformAlign([](const PlanningCase& one, const plan::Align& align) {
-    // A finger that pushes out of the object instead of into it.
+    // A contact normal that points out of the object instead of into it.
     plan::Align wrong = align;
     for (plan::FingerGrasp& grasp : wrong.waypoints) grasp.front().contact.n *= -1;
     const Tally walked = Walk(wrong, one.body->wrench_frame(), one.options.criteria.half_angle);

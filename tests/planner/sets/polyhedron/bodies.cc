@@ -97,7 +97,7 @@ std::vector<Ring> RingOutline() {
 
 namespace {
 
-/// A linear map that leaves no two lengths and no right angle alike.
+/// Return a linear map without equal lengths or right angles.
 Eigen::Affine3d Skewed() {
   Eigen::Affine3d map = Eigen::Affine3d::Identity();
   map.linear() << 1, 0.11, 0.07, -0.05, 0.93, 0.13, 0.03, -0.08, 1.06;

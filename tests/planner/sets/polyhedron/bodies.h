@@ -24,38 +24,38 @@ inline constexpr planning::Spanning kBothSpannings[] = {planning::Spanning::kUni
 
 [[nodiscard]] const char* Name(planning::Spanning spanning);
 
-/// Vertices of a cube with every second corner: edges of 2√2, the centre at the origin.
+/// Make a tetrahedron of every second corner of a cube: edges of 2√2, centre at the origin.
 [[nodiscard]] object::Polyhedron RegularTetrahedron();
 
-/// The ends of the three unit axes.
+/// Make an octahedron of the ends of the three unit axes.
 [[nodiscard]] object::Polyhedron RegularOctahedron();
 
-/// About the origin.
+/// Make a box about the origin.
 [[nodiscard]] object::Polyhedron Box(const Eigen::Vector3d& size);
 
 using Ring = std::vector<Eigen::Vector2d>;
 
-/// The part between z = 0 and z = `height` of the cone over an outline (counter-clockwise, then
-/// holes, clockwise) whose copy at the top is `taper` times as large about the origin: its two ends
-/// have the outline's shape, holes go through.
+/// Make the part of a cone over an outline between z = 0 and z = `height`.
+///
+/// The outline (counter-clockwise, then holes, clockwise) is `taper` times as large at the top,
+/// about the origin. Both ends have its shape, and holes pass through.
 [[nodiscard]] object::Polyhedron Frustum(const std::vector<Ring>& rings, double height,
                                          double taper);
 
-/// An L about the origin, and a square with a square hole.
+/// Outlines of an L about the origin, and of a square with a square hole.
 [[nodiscard]] std::vector<Ring> LOutline();
 [[nodiscard]] std::vector<Ring> FrameOutline();
 
-/// The like without parallel edges, so that the sides of frusta hold grasps with the ends: a
-/// boomerang, and a pentagon with a triangular hole.
+/// Similar outlines without parallel edges: a boomerang, and a pentagon with a triangular hole. The
+/// sides and ends of their frusta therefore permit grasps.
 [[nodiscard]] std::vector<Ring> BoomerangOutline();
 [[nodiscard]] std::vector<Ring> RingOutline();
 
-/// A tetrahedron, round and stretched stones, frusta of a boomerang and of a ring: few faces, none
-/// of them with a symmetry, convex and not.
+/// Return objects with few faces and without symmetry, convex or not: a tetrahedron, round and
+/// stretched stones, frusta of a boomerang and of a ring.
 [[nodiscard]] const std::vector<NamedBody>& SmallBodies();
 
-/// Calls check(body, degrees, spanning) for each of the small bodies, the angles and both
-/// spannings.
+/// Call check(body, degrees, spanning) for each small object, angle and spanning rule.
 template <class Check>
 void ForEachSmallBody(std::span<const double> angles, const Check& check) {
   for (const NamedBody& named : SmallBodies()) {

@@ -15,14 +15,15 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Sides of the pyramids that decide: their half-angles differ by less than a hundredth.
+/// Number of sides of the deciding pyramids. Inscribed and circumscribed angles differ by less than
+/// 1 %.
 constexpr int kSides = 24;
 
-/// Margins nearer to zero than this, over the body's size, may be the solver's rounding.
+/// Margin below which the solver's rounding decides, divided by the object's size.
 constexpr double kLeastMargin = 1e-6;
 
-/// Where inscribed pyramids have a point, the planner looks for it; where it finds none within its
-/// own reach of 100, there is none much nearer.
+/// Reach of inscribed pyramids. If they have a common point, the planner must find it. If the
+/// planner finds none within its reach of 100, there is none much closer.
 constexpr double kInscribedReach = 50;
 constexpr double kCircumscribedReach = 200;
 
@@ -69,7 +70,7 @@ class Program {
 
  private:
   std::unique_ptr<glp_prob, void (*)(glp_prob*)> problem_;
-  // Entry 0 is not used: GLPK counts from 1.
+  // Entry 0 is unused, because GLPK indices start at 1.
   std::vector<int> rows_ = {0}, columns_ = {0};
   std::vector<double> values_ = {0};
 };
@@ -95,7 +96,7 @@ double ConeMargin(std::span<const SeenFrom> sets, const ConePyramid& pyramid, do
   Program program;
   std::array<int, 3> x;
   for (int& axis : x) axis = program.AddColumn(GLP_DB, -reach, reach);
-  // A bound on both sides: a margin so small that no test compares with it.
+  // The lower bound is a margin so small that no test compares with it.
   const int margin = program.AddColumn(GLP_DB, -2 * reach, 1);
   for (const SeenFrom& set : sets) {
     const int point_row = program.AddRow(0);
@@ -109,7 +110,7 @@ double ConeMargin(std::span<const SeenFrom> sets, const ConePyramid& pyramid, do
       program.Set(sum_row, weight, 1);
     }
     if (set.axis.isZero(0)) continue;
-    // μ = ν + t: the edges' sum goes with t, ν ≥ 0 with each.
+    // μ = ν + t with ν ≥ 0: t multiplies the sum of the edges, each ν one edge.
     Vector3d sum = Vector3d::Zero();
     for (const Vector3d& edge : EdgesOf(set, pyramid)) {
       program.Set(point_row, program.AddColumn(GLP_LO, 0, 0), edge);

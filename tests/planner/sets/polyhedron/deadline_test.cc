@@ -19,7 +19,7 @@ TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereve
   static_cast<void>(FindQuadrupleCandidates(body, std::tan(Radians(15)),
                                             planning::Spanning::kAdaptive, listing.deadline()));
   EXPECT_EQ(listing.looks(), 2 * (8 * 7 / 2));  // each pair of faces twice
-  // Cells are joined on each of their four triples of faces.
+  // Cells are connected on each of their four triples of faces.
   EXPECT_EQ(never.looks(), listing.looks() + graph.candidate_count() + 4 * graph.vertex_count());
   ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
     static_cast<void>(PolyhedronGraph(body, Radians(15), planning::Spanning::kAdaptive, deadline));

@@ -16,7 +16,7 @@ namespace face_part_test {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Sines and areas over the body's size below this are rounding of the face's plane.
+/// Bound on rounding of the face's plane, for sines and areas divided by the object's size.
 constexpr double kRounding = 1e-9;
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -55,7 +55,7 @@ void ExpectConvexAndCounterClockwise(const FacePart& part) {
   EXPECT_GT(AreaOf(o), 0);
 }
 
-/// Whether a side of the first has all of the second beyond it or on it.
+/// Return whether all of the second part is beyond or on a side of the first one.
 bool HasSideBetween(const FacePart& a, const FacePart& b) {
   const auto& o = a.outline();
   for (std::size_t i = 0; i < o.size(); ++i) {
@@ -67,12 +67,12 @@ bool HasSideBetween(const FacePart& a, const FacePart& b) {
   return false;
 }
 
-/// Convex polygons have no interior in common iff a side of one separates them.
+/// Return whether two convex polygons have no common interior: a side of one separates them.
 bool AreDisjoint(const FacePart& a, const FacePart& b) {
   return HasSideBetween(a, b) || HasSideBetween(b, a);
 }
 
-/// Checks everything that holds of all bodies; how many parts they have in all.
+/// Check properties that all objects have. @returns number of parts.
 int CheckParts(const object::Polyhedron& body, const FaceParts& split) {
   EXPECT_EQ(std::ssize(split.first), body.face_count() + 1);
   EXPECT_EQ(split.first.back(), static_cast<int>(split.parts.size()));
@@ -99,8 +99,9 @@ int CheckParts(const object::Polyhedron& body, const FaceParts& split) {
   return static_cast<int>(split.parts.size());
 }
 
-/// The hull of a face contains its parts, touches them at all of its own corners, and is the part
-/// where there is one; how many faces have several.
+/// Check hulls: a hull contains its parts, touches them at all of its corners, and equals a single
+/// part.
+/// @returns number of faces with several parts.
 int CheckHulls(const object::Polyhedron& body, const FaceParts& split) {
   EXPECT_EQ(std::ssize(split.hulls), body.face_count());
   const double small = kRounding * body.diameter();
@@ -134,7 +135,7 @@ int CheckHulls(const object::Polyhedron& body, const FaceParts& split) {
   return several;
 }
 
-/// Joints lie on the borders of both their parts, and parts of a face hang together by them.
+/// Check that joints are on the borders of both parts and connect all parts of a face.
 int CheckJoints(const FaceParts& split) {
   for (const PartJoint& joint : split.joints) {
     EXPECT_EQ(joint.segment.outline().size(), 2U);
@@ -189,8 +190,8 @@ TEST(SplitFaces, AFrameIsPartsInACircle) {
   const object::Polyhedron body = Frustum(FrameOutline(), 1, 0.5);
   ASSERT_EQ(body.face_count(), 10);
   const FaceParts split = SplitFaces(body);
-  const int parts = CheckParts(body, split) - 8;  // of the two frames
-  // Four are enough; the joining of triangles may need twice four each.
+  const int parts = CheckParts(body, split) - 8;  // parts of the two frames
+  // The minimum is four per frame; joining triangles can need up to twice as many.
   EXPECT_GE(parts, 8);
   EXPECT_LE(parts, 16);
   EXPECT_EQ(CheckJoints(split), parts);
@@ -208,7 +209,7 @@ TEST(SplitFaces, AStarOfManyCornersIsCutAtItsConcaveOnes) {
   const object::Polyhedron body = Frustum({star}, 1, 0.5);
   const FaceParts split = SplitFaces(body);
   const int parts = CheckParts(body, split) - 2 * kTips;
-  // At least a part more for every two concave corners, at most four times as many.
+  // At least one part more per two concave corners, and at most four times as many.
   EXPECT_GE(parts, 2 * (kTips / 2 + 1));
   EXPECT_LE(parts, 8 * (kTips / 2 + 1));
   EXPECT_GT(CheckJoints(split), 0);

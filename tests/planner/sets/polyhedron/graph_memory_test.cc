@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 const double kHalfAngle = Radians(15);
 
-#if !defined(__SANITIZE_ADDRESS__)  // which keeps what is freed
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer keeps freed memory
 TEST(PolyhedronGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
   for (const char* file : {"body40.obj", "body47.obj", "body67.obj"}) {
     const object::Polyhedron solid = ReadSolidModel(file);

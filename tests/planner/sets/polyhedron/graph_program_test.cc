@@ -1,4 +1,4 @@
-// Pieces, components and links of the graph, each against linear programs with inscribed and
+// Comparison of pieces, components and links of the graph with linear programs for inscribed and
 // circumscribed pyramids.
 
 #include <gtest/gtest.h>
@@ -19,24 +19,24 @@ using Eigen::Vector3d;
 
 constexpr double kDegrees[] = {10, 20, 35};
 constexpr std::uint64_t kSeed = 7;
-constexpr int kMostCandidates = 80;  // of one graph
+constexpr int kMostCandidates = 80;  // sampled candidates per graph
 constexpr int kMostLinks = 250;
 
-/// Of all decisions no more than one in so many may lie between the pyramids.
+/// At most one of this many decisions may be between the pyramids.
 constexpr int kFewBetween = 20;
 
 struct Count {
   int meet = 0;
   int apart = 0;
-  int touch = 0;  ///< at vertices and edges that faces share
+  int touch = 0;  ///< at common vertices and edges of faces
   int between = 0;
-  int several = 0;  ///< combinations of more than one piece
-  int fallen = 0;   ///< combinations of more than one cell
+  int several = 0;  ///< combinations with more than one piece
+  int fallen = 0;   ///< combinations with more than one cell
 
   [[nodiscard]] int all() const { return meet + apart + touch + between; }
 };
 
-/// The parts of a face as they are; what sees one of them from a side.
+/// Return the set of points that see a part of a face from one side.
 SeenFrom SetOf(const FaceParts& parts, HalfIndex half, double tangent) {
   const FacePart& part = parts.parts[half / 2];
   SeenFrom set;
@@ -61,7 +61,7 @@ class GraphOracle {
     if (candidates_.size() > kMostCandidates) candidates_.resize(kMostCandidates);
   }
 
-  /// Every piece of the sampled combinations, and the components that they fall into.
+  /// Check every piece of the sampled combinations, and their components.
   void CheckPieces(Count& count) {
     for (const QuadrupleCandidate& candidate : candidates_) {
       std::vector<Halves> certain, possible;
@@ -81,7 +81,7 @@ class GraphOracle {
     }
   }
 
-  /// Sampled pairs of cells with three common faces.
+  /// Check sampled pairs of cells with three common faces.
   void CheckLinks(Count& count) {
     const std::set<sets::SetPair> links(graph_.switches().begin(), graph_.switches().end());
     std::vector<sets::SetPair> pairs;
@@ -120,7 +120,7 @@ class GraphOracle {
     return DecideByPyramids(sets, scale_);
   }
 
-  /// Expects that the graph says what the pyramids do, where they know.
+  /// Expect that the graph agrees with the pyramids if they can decide.
   static void Tally(Verdict verdict, bool has, Count& count) {
     if (verdict == Verdict::kMeet) {
       EXPECT_TRUE(has);
@@ -136,7 +136,7 @@ class GraphOracle {
     }
   }
 
-  /// The cell that has a piece, or −1.
+  /// Return the cell that contains a piece, or −1.
   [[nodiscard]] int FindCell(const FaceQuadruple& faces, const Halves& halves) const {
     const auto& cells = graph_.cells();
     auto cell =
@@ -150,8 +150,8 @@ class GraphOracle {
     return -1;
   }
 
-  /// Whether two pieces meet: through the face of which they lie on both sides, or over a joint of
-  /// two of its parts.
+  /// Decide whether two pieces meet: through the face that separates them, or over a joint of two
+  /// of its parts.
   [[nodiscard]] Verdict DecideJunction(const Halves& a, const Halves& b, double tangent) const {
     std::vector<SeenFrom> sets;
     int changed = -1;
@@ -174,7 +174,7 @@ class GraphOracle {
     return DecideByPyramids(sets, scale_);
   }
 
-  /// Corners that two parts of one face share: two where they share a side.
+  /// Return the common corners of two parts of one face: two if they share a side.
   [[nodiscard]] std::vector<Vector3d> CommonCorners(HalfIndex half, HalfIndex other) const {
     const SeenFrom one = SetOf(parts_, half, 1);
     const SeenFrom two = SetOf(parts_, other, 1);
@@ -185,8 +185,8 @@ class GraphOracle {
     return common;
   }
 
-  /// Pieces that certainly hang together are in one cell; those of one cell hang together at least
-  /// through junctions that are not certainly shut.
+  /// Check components: certainly connected pieces are in one cell, and the pieces of one cell are
+  /// connected by junctions that are not certainly closed.
   void CheckComponents(const QuadrupleCandidate& candidate, const std::vector<Halves>& certain,
                        const std::vector<Halves>& possible) const {
     for (std::size_t i = 0; i < certain.size(); ++i) {
@@ -220,7 +220,7 @@ class GraphOracle {
         a.faces, [&](int face) { return std::ranges::count(b.faces, face) > 0; }));
   }
 
-  /// Whether pieces with the same halves of the common faces have a focus point in common.
+  /// Decide whether pieces with equal halves of the common faces have a common focus point.
   [[nodiscard]] Verdict DecideLink(const FocusCell& a, const FocusCell& b) const {
     Verdict verdict = Verdict::kApart;
     for (const FocusPiece& of_a : a.pieces) {
@@ -290,7 +290,7 @@ TEST(GraphProgram, LinksAreThoseOfLinearPrograms) {
 }
 
 TEST(GraphProgram, PyramidsTellConesThatMeetFromConesThatTouchAndThatPart) {
-  // A cone upwards from (0, 0, −1), and others.
+  // A cone upwards from (0, 0, −1), compared with several other cones.
   const SeenFrom up{{Vector3d(0, 0, -1)}, Vector3d::UnitZ(), 0.5};
   const auto decide = [&](const Vector3d& from, const Vector3d& axis) {
     return DecideByPyramids(std::vector{up, {{from}, axis, 0.5}}, 1);
@@ -299,7 +299,7 @@ TEST(GraphProgram, PyramidsTellConesThatMeetFromConesThatTouchAndThatPart) {
   EXPECT_EQ(decide({0, 0, 1}, Vector3d::UnitZ()), Verdict::kMeet);
   EXPECT_EQ(decide({0, 0, -2}, -Vector3d::UnitZ()), Verdict::kApart);
   EXPECT_EQ(decide({0, 0, -1}, -Vector3d::UnitZ()), Verdict::kTouch);
-  // Downwards from one beside the first: their border lines are parallel, 1 apart along x.
+  // A downward cone next to the first one: their border lines are parallel, 1 apart along x.
   EXPECT_EQ(decide({0.97, 0, 1}, -Vector3d::UnitZ()), Verdict::kMeet);
   EXPECT_EQ(decide({0.9999, 0.01, 1}, -Vector3d::UnitZ()), Verdict::kBetween);
   EXPECT_EQ(decide({1.03, 0, 1}, -Vector3d::UnitZ()), Verdict::kApart);

@@ -34,9 +34,10 @@ TEST(PolyhedronGraph, OfARegularTetrahedronIsOneCellAboutItsCentre) {
     EXPECT_EQ(cell.faces, (FaceQuadruple{FaceIndex(0), FaceIndex(1), FaceIndex(2), FaceIndex(3)}));
     EXPECT_EQ(cell.tangent, std::tan(Radians(degrees)));
     EXPECT_TRUE(Contains(graph, cell, Vector3d::Zero()));
-    // Inside, or outside one face: past an edge no foot is on its faces, as cot φ > tan 70.5°.
+    // Inside, or outside one face. Past an edge, no foot is on the faces at the edge, because cot φ
+    // > tan 70.5°.
     EXPECT_EQ(cell.pieces.size(), 5U);
-    // Outside the face opposite (1, 1, 1), a little below its middle, (−1, −1, −1)/3.
+    // Outside the face opposite (1, 1, 1), slightly below its middle, (−1, −1, −1)/3.
     EXPECT_TRUE(Contains(graph, cell, Vector3d::Constant(-0.35)));
     EXPECT_FALSE(Contains(graph, cell, Vector3d::Constant(1.5)));
     EXPECT_FALSE(Contains(graph, cell, Vector3d::Constant(-1.5)));
@@ -85,13 +86,14 @@ TEST(PolyhedronGraph, OfARegularOctahedronIsTwoTetrahedraOfFaces) {
 }
 
 TEST(PolyhedronGraph, OfATetrahedronWithoutItsTipHasNoGraspWithTheCut) {
-  // Three sides lean in over the bottom; with the cut on top in its place all normals point down.
+  // Three sides are inclined inwards over the bottom. With the cut face instead of the bottom, all
+  // normals point down.
   std::vector<Eigen::Vector2d> base;
   for (int i = 0; i < 3; ++i) {
     const double angle = 2 * std::numbers::pi * i / 3 + 0.3;
     base.emplace_back(std::cos(angle), std::sin(angle));
   }
-  // A regular tetrahedron's height is √2; a third of it is left.
+  // The height of a regular tetrahedron is √2; a third of it remains.
   const object::Polyhedron body = Frustum({base}, std::sqrt(2.0) / 3, 2.0 / 3);
   ASSERT_EQ(body.face_count(), 5);
   const PolyhedronGraph graph(body, Radians(10), planning::Spanning::kUniform);
@@ -105,8 +107,8 @@ TEST(PolyhedronGraph, OfATetrahedronWithoutItsTipHasNoGraspWithTheCut) {
 TEST(PolyhedronGraph, OfATetrahedronCutAtAllCornersHasTheSmallFacesTetrahedronToo) {
   object::PolygonSoup soup;
   const Vector3d corners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-  // Corner i is cut off at a third of the edge to each j, at vertex 3 i + (place of j among the
-  // others).
+  // Corner i is cut off at a third of the edge to each j. The vertex there is 3 i + (position of j
+  // among the remaining corners).
   const auto vertex = [](int i, int j) { return 3 * i + (j < i ? j : j - 1); };
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
@@ -118,7 +120,8 @@ TEST(PolyhedronGraph, OfATetrahedronCutAtAllCornersHasTheSmallFacesTetrahedronTo
     soup.facets.push_back(
         {vertex(a, b), vertex(b, a), vertex(b, c), vertex(c, b), vertex(c, a), vertex(a, c)});
   }
-  // Around corner 0 the faces come in the order of edges 1, 2, 3; around the others as listed.
+  // Around corner 0 the faces are in the order of edges 1, 2, 3; around the remaining corners as
+  // listed.
   const std::array<std::array<int, 3>, 4> around = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   for (int i = 0; i < 4; ++i) {
     const auto& [a, b, c] = around[i];
@@ -138,8 +141,10 @@ TEST(PolyhedronGraph, OfATetrahedronCutAtAllCornersHasTheSmallFacesTetrahedronTo
   }
 }
 
-/// A regular tetrahedron whose bottom is a roof: its ridge goes from a corner down to a point in
-/// the plane of the side opposite, `drop` of that side's height below the bottom edge.
+/// Make a regular tetrahedron whose bottom is a roof.
+///
+/// Its ridge connects a corner with a point in the plane of the opposite side, `drop` times that
+/// side's height below the bottom edge.
 object::Polyhedron TetrahedronOverRoof(double drop) {
   const double half_edge = std::sqrt(3.0) / 2;
   const Vector3d a(-half_edge, -0.5, 0), b(half_edge, -0.5, 0), c(0, 1, 0);

@@ -1,4 +1,4 @@
-// What must not change the graph, and what may only let it grow.
+// Laws of the graph: invariants and monotonicity.
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,8 @@ const std::vector<NamedBody>& Bodies() {
   return bodies;
 }
 
-/// Counts before and after, of every body; how many vertices were compared.
+/// Compare counts before and after a change, for every object. @returns number of compared
+/// vertices.
 template <class Change>
 int ExpectSameCounts(const Change& change) {
   int vertices = 0;
@@ -126,7 +127,7 @@ TEST(PolyhedronLaws, CountsDoDependOnStretching) {
                CountsOf(body, 10, planning::Spanning::kUniform));
 }
 
-/// The cell of each piece, by its halves.
+/// Return the cell of each piece, by its halves.
 std::map<Halves, int> CellsByPiece(const PolyhedronGraph& graph) {
   std::map<Halves, int> cell_of;
   for (int cell = 0; cell < graph.vertex_count(); ++cell) {
@@ -145,7 +146,7 @@ TEST(PolyhedronLaws, UnderAdaptiveSpanningMoreFrictionKeepsPiecesComponentsAndLi
       PolyhedronGraph more(body, Radians(degrees[i + 1]), planning::Spanning::kAdaptive);
       const auto in_less = CellsByPiece(less);
       const auto in_more = CellsByPiece(more);
-      std::map<int, int> image;  // of the cells
+      std::map<int, int> image;  // image of each cell
       for (const auto& [halves, cell] : in_less) {
         const auto kept = in_more.find(halves);
         ASSERT_NE(kept, in_more.end());

@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 
 constexpr std::uint64_t kSeed = 5;
 constexpr double kReach = 100;
-/// What minima may differ by: a hundredth of their value, and rounding.
+/// Tolerance of minima: a hundredth of their value, and rounding.
 constexpr double kGap = 0.0101;
 constexpr double kRounding = 1e-9;
 
@@ -50,7 +50,7 @@ struct Ball {
   double radius;
 };
 
-/// The cut of the ball whose |x − c| − r is largest at x.
+/// Return the cut of the ball with the largest |x − c| − r at x.
 MinMax::LargestCut LargestOf(const std::vector<Ball>& balls) {
   return [&balls](const Vector3d& x) {
     Cut largest;
@@ -73,8 +73,8 @@ MinMax::LargestCut LargestOf(const std::vector<Cut>& planes) {
   };
 }
 
-/// The least of the largest |x − c| − r: the smallest ball that encloses balls of the radii that r
-/// falls short of a common number, by CGAL.
+/// Compute the minimum of the largest |x − c| − r with CGAL: the smallest ball that encloses balls
+/// of radius kCommon − r.
 double LeastByEnclosingBall(const std::vector<Ball>& balls) {
   using Kernel = CGAL::Simple_cartesian<double>;
   using Traits = CGAL::Min_sphere_of_spheres_d_traits_3<Kernel, double>;
@@ -87,8 +87,8 @@ double LeastByEnclosingBall(const std::vector<Ball>& balls) {
   return enclosing.radius() - kCommon;
 }
 
-/// The least t with n · x + offset ≤ t for all planes, by CGAL's exact linear programs; nullopt
-/// where there is none.
+/// Compute the smallest t with n · x + offset ≤ t for all planes with CGAL's exact linear programs;
+/// nullopt if there is none.
 std::optional<double> LeastByProgram(const std::vector<Cut>& planes) {
   CGAL::Quadratic_program<double> program(CGAL::SMALLER, false, 0, false, 0);
   for (int row = 0; row < static_cast<int>(planes.size()); ++row) {
@@ -138,7 +138,8 @@ TEST(MinMax, OfRandomHalfSpacesIsThatOfExactPrograms) {
     std::vector<Cut> planes;
     for (int k = 0; k < 12; ++k) planes.push_back({draw.Direction(), draw.Between(-1, 0.5)});
     const auto program = LeastByProgram(planes);
-    if (!program || *program < -kReach / 10) continue;  // normals that hardly span, or don't
+    // Normals that nearly do not span, or do not.
+    if (!program || *program < -kReach / 10) continue;
     const double least = *program;
     MinMax min_max(Vector3d::Zero(), kReach);
     const MinMaxResult result = min_max.Solve(LargestOf(planes), MinMax::Until::kMinimum);
@@ -174,15 +175,15 @@ TEST(MinMax, OfSetsThatTouchIsUnclearAndOneThatIsFarIsNotFoundBeyondTheReach) {
   EXPECT_NE(min_max.Solve(LargestOf(far), MinMax::Until::kSign).overlap, Overlap::kSome);
 }
 
-/// The largest of some volumes at x.
+/// Return the largest value of some volumes at x.
 double LargestAt(const std::vector<UnionVolume>& volumes, const Vector3d& x) {
   double largest = -std::numeric_limits<double>::infinity();
   for (const UnionVolume& volume : volumes) largest = std::max(largest, volume.At(x));
   return largest;
 }
 
-/// Walks down the largest of some volumes in random directions, from a point; the convex function
-/// has no other valley.
+/// Descend on the largest of some volumes in random directions. The convex function has only one
+/// minimum.
 double WalkDown(const std::vector<UnionVolume>& volumes, Vector3d x, double step, Draw& draw) {
   double value = LargestAt(volumes, x);
   for (int i = 0; i < 3000 && step > kRounding; ++i) {
@@ -229,7 +230,7 @@ TEST(MinMax, OfUnionVolumesIsNotBeatenByWalksDown) {
       EXPECT_LT(LargestAt(volumes, sign.point), 0);
       EXPECT_NEAR(result.value, LargestAt(volumes, result.point), kRounding);
       EXPECT_GE(walked, result.value - kGap * std::abs(result.value) - kRounding);
-      // From the basis that decided the sign it is found again.
+      // The basis that decided the sign yields the same minimum.
       min_max.Resume(basis);
       const MinMaxResult again = min_max.Solve(volumes, MinMax::Until::kMinimum);
       EXPECT_EQ(again.overlap, Overlap::kSome);

@@ -17,8 +17,8 @@ namespace normal_quadruples_test {
 using Eigen::Vector3d;
 
 constexpr std::uint64_t kSeed = 12;
-/// Combinations whose φ* is this near to θ (as tangents), or whose normals are this near to a
-/// half-space, are told apart by doubles alone.
+/// Distance of tan φ* from tan θ, or of normals from a half-space, below which only rounding
+/// decides.
 constexpr double kTooClose = 1e-9;
 
 std::vector<Vector3d> RandomNormals(int count, const Vector3d& stretch, std::mt19937_64& engine) {
@@ -31,12 +31,14 @@ std::vector<Vector3d> RandomNormals(int count, const Vector3d& stretch, std::mt1
   return normals;
 }
 
-/// tan φ* by the definition. The normals positively span iff Σ λ_k n_k = 0 with all λ > 0, and φ*
-/// is where a plane through the origin first has all four cones on one side: the least, over
-/// planes, of the largest angle of a normal over it. The least is taken where three normals are
-/// equally high. Negative where the normals do not span.
+/// Compute tan φ* by its definition; negative if the normals do not span.
+///
+/// The normals positively span iff Σ λ_k n_k = 0 with all λ > 0. φ* is the angle at which a plane
+/// through the origin first has all four cones on one side. It is the minimum over planes of the
+/// largest elevation of a normal above the plane. At the minimum, three normals have equal
+/// elevation.
 double LimitByDefinition(const std::array<Vector3d, 4>& n) {
-  // λ by Cramer's rule: the volumes of the other three, with alternating signs.
+  // λ by Cramer's rule: the volumes of the three remaining normals with alternating signs.
   Eigen::Vector4d lambda(n[1].cross(n[2]).dot(n[3]), -n[0].cross(n[2]).dot(n[3]),
                          n[0].cross(n[1]).dot(n[3]), -n[0].cross(n[1]).dot(n[2]));
   if (lambda.sum() < 0) lambda = -lambda;
@@ -47,7 +49,7 @@ double LimitByDefinition(const std::array<Vector3d, 4>& n) {
     for (int k = 0, row = 0; k < 4; ++k) {
       if (k != out) three.row(row++) = n[k].transpose();
     }
-    // d · n = 1 for the three: along the unit d they are all 1 / |d| high.
+    // d · n = 1 for the three normals: along the unit vector of d, each has the height 1 / |d|.
     least_sine = std::min(least_sine, 1 / (three.inverse() * Vector3d::Ones()).norm());
   }
   return least_sine / std::sqrt(1 - least_sine * least_sine);
@@ -55,10 +57,10 @@ double LimitByDefinition(const std::array<Vector3d, 4>& n) {
 
 struct Limited {
   FaceQuadruple faces;
-  double limit;  ///< tan φ*
+  double limit;  ///< tan φ* of the normals
 };
 
-/// Every 4-subset that spans, by the definition.
+/// Find every subset of four normals that spans by the definition.
 std::vector<Limited> FindPlainly(const std::vector<Vector3d>& n) {
   std::vector<Limited> spanning;
   const int count = static_cast<int>(n.size());
@@ -76,7 +78,7 @@ std::vector<Limited> FindPlainly(const std::vector<Vector3d>& n) {
   return spanning;
 }
 
-/// @returns how many were found.
+/// Compare the candidates with the definition. @returns number of candidates.
 std::size_t ExpectPlainCandidates(const std::vector<Vector3d>& normals) {
   std::size_t count = 0;
   const std::vector<Limited> plain = FindPlainly(normals);
@@ -111,12 +113,12 @@ TEST(NormalQuadruples, AreThoseOfThePlainDefinition) {
       found_in_all += ExpectPlainCandidates(RandomNormals(count, stretch, engine));
     }
   }
-  // More than one word of bits.
+  // The bits need more than one word.
   found_in_all += ExpectPlainCandidates(RandomNormals(66, Vector3d::Ones(), engine));
   EXPECT_GT(found_in_all, 100000U);
 }
 
-/// Whether some directions positively span, by Σ λ d = 0.
+/// Return whether directions positively span, by Σ λ d = 0.
 bool Spans(const std::array<Vector3d, 4>& d) { return LimitByDefinition(d) > 0; }
 
 TEST(NormalQuadruples, AnyDirectionsInsideTheConesSpanAndSomeJustBeyondDoNot) {
@@ -140,7 +142,8 @@ TEST(NormalQuadruples, AnyDirectionsInsideTheConesSpanAndSomeJustBeyondDoNot) {
       return d;
     };
     for (int draw = 0; draw < 20; ++draw) ASSERT_TRUE(Spans(tilted(0.999 * unit(engine))));
-    // All four towards one plane, by a little more: those that are least high over it.
+    // Tilt all four normals by slightly more than the limit towards a plane above which three of
+    // them have equal elevation.
     for (int out = 0; out < 4; ++out) {
       Eigen::Matrix3d three;
       for (int k = 0, row = 0; k < 4; ++k) {
@@ -180,8 +183,9 @@ TEST(NormalQuadruples, OfARegularTetrahedronSpanBelowTheArcSineOfAThird) {
 TEST(NormalQuadruples, OfBoxesDoNotSpanAndOfAnOctahedronTwoTetrahedraDo) {
   for (const planning::Spanning spanning : kBothSpannings) {
     EXPECT_EQ(CountOf(Box({1, 2, 3}), 5, spanning), 0U);
-    // Normals (±1, ±1, ±1): any four that span leave no two opposite ones with another pair
-    // coplanar; what remains are every second corner of the cube, and the other ones.
+    // Normals (±1, ±1, ±1). Four of them that span contain no two opposite normals that are
+    // coplanar with the remaining pair. The only such sets are the two sets of alternate corners of
+    // the cube.
     EXPECT_EQ(CountOf(RegularOctahedron(), 5, spanning), 2U);
   }
 }

@@ -29,7 +29,7 @@ planning::PlanRequest RequestOn(const object::Polyhedron& body, double degrees) 
   return request;
 }
 
-/// A plan that the checker passes, of switches of one finger.
+/// Check that the plan passes the checker and switches one finger at a time.
 void ExpectGood(const object::Polyhedron& body, const planning::PlanResult& result) {
   ExpectGoodPlan(PolyhedronPlanner(), body, result);
   ExpectOneFingerInEverySwitch(result.plan.value());
@@ -60,8 +60,8 @@ TEST(PlanOnPolyhedron, LeadsFromARandomGraspToAnother) {
   }
   EXPECT_GT(switches, 50);
   EXPECT_GT(aligns, 20);
-  // Uniform spanning at 25° has no grasps at all; with little friction some bodies have none so
-  // good.
+  // Uniform spanning has no grasps at 25°. At little friction, some objects have no grasp that
+  // meets the criteria.
   EXPECT_LT(none, 60);
 }
 
@@ -122,7 +122,7 @@ TEST(PlanOnPolyhedron, EveryRandomGraspIsForceClosureAndLocatedInItsCell) {
 }
 
 TEST(PlanOnPolyhedron, SaysWhichGraspIsNotConcurrent) {
-  // Two pairs on opposite faces of a box: force closure, but no four normals span.
+  // Two pairs on opposite faces of a box are force closure, but no four normals span.
   const object::Polyhedron box = Box({2, 2, 2});
   const auto contact = [&](const Eigen::Vector3d& p) {
     const FaceIndex face = box.FacesNear(p, 1e-9).front();

@@ -1,5 +1,5 @@
-// Concurrent grasps drawn without the graph: each lies in a piece that the graph has, and each cell
-// of small bodies is hit.
+// Concurrent grasps drawn without the graph. Each must be in a piece of the graph, and each cell of
+// small objects must contain one.
 
 #include <gtest/gtest.h>
 
@@ -21,18 +21,18 @@ using Eigen::Vector3d;
 
 constexpr double kDegrees[] = {10, 18, 35};
 constexpr std::uint64_t kSeed = 8;
-constexpr int kFocusPoints = 1500;  // of one graph
-constexpr int kDirections = 4;      // a face and focus point
-constexpr int kTries = 50000;       // for a contact that is known to be there
+constexpr int kFocusPoints = 1500;  // focus points per graph
+constexpr int kDirections = 4;      // directions per face and focus point
+constexpr int kTries = 50000;       // draws per contact that must exist
 
-/// Contacts nearer to a face's border or a part's side than this, over the diameter, are not used:
-/// which part they are on depends on rounding.
+/// Distance from a face's border or a part's side below which contacts are ignored, divided by the
+/// diameter. Their part depends on rounding.
 constexpr double kAtBorder = 1e-9;
 
-/// A contact that a focus point sees, and the half of the part it is on.
+/// Contact that a focus point sees, with the half of its part.
 struct Seen {
   HalfIndex half;
-  double slope;  ///< the tangent of the angle with the normal
+  double slope;  ///< tangent of the angle with the normal
   Vector3d contact;
 };
 
@@ -40,14 +40,14 @@ class GraspDraw {
  public:
   GraspDraw(const object::Polyhedron& body, const FaceParts& parts) : body_(body), parts_(parts) {}
 
-  /// Around the body, nearer and farther.
+  /// Draw a point around the object at various distances.
   Vector3d FocusPoint() {
     const double size = body_.diameter() * std::pow(4, 2 * unit_(engine_) - 2);
     const Vector3d drawn(normal_(engine_), normal_(engine_), normal_(engine_));
     return body_.mass_properties().centroid + size * drawn;
   }
 
-  /// The contact of a face in a random direction inside the double cone about a focus point.
+  /// Return the contact of a face in a random direction inside the double cone about a focus point.
   std::optional<Seen> See(int face, double tangent, const Vector3d& focus) {
     const Vector3d n = body_.inward_normal(FaceIndex(face));
     const double height = n.dot(focus - body_.CentroidOf(FaceIndex(face)));
@@ -65,7 +65,8 @@ class GraspDraw {
   std::size_t Index(std::size_t count) { return engine_() % count; }
 
  private:
-  /// By crossings of the face's border with a ray in its plane.
+  /// Return whether a contact is on a face, by counting crossings of its border with a ray in its
+  /// plane.
   [[nodiscard]] bool IsOnFace(int face, const Vector3d& contact) const {
     if (body_.DistanceToBorder(FaceIndex(face), contact) < kAtBorder * body_.diameter())
       return false;
@@ -83,7 +84,7 @@ class GraspDraw {
     return inside;
   }
 
-  /// The part that a point of a face is inside; −1 where it is between two.
+  /// Return the part that contains a point of a face; −1 if the point is between two.
   [[nodiscard]] int PartOf(int face, const Vector3d& contact) const {
     for (int p = parts_.first[face]; p < parts_.first[face + 1]; ++p) {
       const FacePart& part = parts_.parts[p];
@@ -120,7 +121,7 @@ bool IsHeld(const object::Polyhedron& body, const std::array<Seen, 4>& grasp,
 
 struct Count {
   int grasps = 0;
-  int outer = 0;  ///< with a contact seen from the outer side
+  int outer = 0;  ///< grasps with a contact seen from the outer side
   int cells = 0;
   std::set<Halves> pieces;
 };
@@ -140,7 +141,7 @@ class GraspOracle {
     candidates_ = FindQuadrupleCandidates(normals, std::tan(half_angle_), spanning);
   }
 
-  /// Every grasp by contacts that random focus points see is in a cell.
+  /// Check that every grasp of contacts seen by random focus points is in a cell.
   void CheckDrawnGrasps(Count& count) {
     for (int i = 0; i < kFocusPoints; ++i) {
       const Vector3d focus = draw_.FocusPoint();
@@ -159,8 +160,8 @@ class GraspOracle {
     }
   }
 
-  /// From the deepest focus point of every piece contacts are found on its four halves, and they
-  /// hold the body.
+  /// Check that the deepest focus point of every piece sees contacts on its four halves, and that
+  /// these are force closure.
   void CheckEveryCell(Count& count) {
     for (const FocusCell& cell : graph_.cells()) {
       ++count.cells;
@@ -186,7 +187,7 @@ class GraspOracle {
   }
 
  private:
-  /// One contact of each face, of those within the candidate's own cones.
+  /// Choose one contact per face inside the candidate's own cones.
   std::optional<std::array<Seen, 4>> Choose(const QuadrupleCandidate& candidate,
                                             const std::vector<std::vector<Seen>>& seen) {
     std::array<Seen, 4> grasp;
@@ -222,8 +223,8 @@ class GraspOracle {
       contact = *seen;
       return true;
     }
-    // Hardly any direction meets the face: its nearest point does. Which part that is on does not
-    // matter where there is one.
+    // Nearly no direction meets the face, so its nearest point is used. The part does not matter if
+    // there is only one.
     const auto& first = graph_.finder().parts().first;
     if (first[face + 1] - first[face] > 1) return false;
     contact.contact = body_.ClosestPoint(FaceIndex(face), focus);
@@ -236,7 +237,7 @@ class GraspOracle {
   double half_angle_;
   PolyhedronGraph graph_;
   GraspDraw draw_;
-  std::map<Halves, int> cell_of_;  // by the pieces' halves
+  std::map<Halves, int> cell_of_;  // cells by the halves of their pieces
   std::vector<QuadrupleCandidate> candidates_;
 };
 

@@ -30,7 +30,7 @@ class PointSource {
   std::uniform_real_distribution<double> unit_{-1, 1};
 };
 
-/// The part's contacts on a grid of triangles about its first corner, corners included.
+/// Return the part's contacts on a grid of triangles about its first corner, including corners.
 std::vector<Vector3d> ContactsOf(const FacePart& part, int cells) {
   std::vector<Vector3d> contacts;
   const auto& o = part.outline();
@@ -45,15 +45,15 @@ std::vector<Vector3d> ContactsOf(const FacePart& part, int cells) {
   return contacts;
 }
 
-/// What one contact says of x: cos φ · (distance from the cone's axis) − sin φ · (height), negative
-/// inside its cone.
+/// Compute the value of one contact at x: cos φ · (distance from the cone's axis) − sin φ ·
+/// (height), negative inside its cone.
 double OfContact(const Vector3d& x, const Vector3d& contact, const Vector3d& axis, double tangent) {
   const double height = axis.dot(x - contact);
   const double aside = (x - contact - height * axis).norm();
   return (aside - tangent * height) / std::sqrt(1 + tangent * tangent);
 }
 
-/// Every half of the small bodies' parts, with its cone's axis.
+/// Call `check` for every half of the small objects' parts, with its cone's axis.
 template <class Check>
 int ForEachHalf(double tangent, const Check& check) {
   int halves = 0;
@@ -79,7 +79,7 @@ TEST(UnionVolume, IsTheLeastOverItsContacts) {
         ForEachHalf(tangent, [&](const object::Polyhedron& body, const FacePart& part,
                                  const UnionVolume& volume, const Vector3d& axis) {
           const std::vector<Vector3d> contacts = ContactsOf(part, kCells);
-          // From any point of the part to the grid it is less than this.
+          // Every point of the part is closer to the grid than this.
           const double spacing = body.diameter() / kCells;
           for (int i = 0; i < 10; ++i) {
             const Vector3d x = body.mass_properties().centroid + source.Next(body.diameter());
@@ -127,7 +127,7 @@ TEST(UnionVolume, IsConvexAlongRandomSegments) {
 }
 
 TEST(UnionVolume, OfASquareIsKnownByHand) {
-  // The top of a cube, seen from below, which is inside.
+  // The top of a cube, seen from below, that is, from inside.
   const FaceParts split = SplitFaces(Box({2, 2, 2}));
   const auto top =
       std::ranges::find_if(split.parts, [](const FacePart& p) { return p.normal.z() < -0.5; });

@@ -1,0 +1,272 @@
+#include "render/frames/shaded_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace regrasp::render {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Bottom and top of a wedge above the contact plane: above the top of the prism in the depth
+/// buffer, and below the middle of a force arrow.
+constexpr double kWedgeBottom = 1.8e-3, kWedgeTop = 2.6e-3;
+
+/// Segments of a cone's rim: its outline deviates from a circle by less than 0.1 %.
+constexpr int kConeSegments = 72;
+
+/// Segments around a capsule, from its equator to its pole, and around the end of a band.
+constexpr int kCapsuleSides = 32;
+constexpr int kCapsuleRings = 8;
+constexpr int kBandSides = 6;
+
+/// Return two unit vectors that form a right-handed frame with `axis`.
+std::pair<Vector3d, Vector3d> AcrossOf(const Vector3d& axis) {
+  const Vector3d u = axis.unitOrthogonal();
+  return {u, axis.cross(u)};
+}
+
+}  // namespace
+
+void ShadedMesh::AddFlat(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d normal = (b - a).cross(c - a).normalized();
+  triangles.push_back({a, b, c});
+  normals.push_back({normal, normal, normal});
+}
+
+ShadedMesh TurnInsideOut(ShadedMesh mesh) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+    std::swap(mesh.normals[i][1], mesh.normals[i][2]);
+    for (Vector3d& normal : mesh.normals[i]) normal = -normal;
+  }
+  return mesh;
+}
+
+void ShadedMesh::Add(const std::array<Vector3d, 3>& corners,
+                     const std::array<Vector3d, 3>& corner_normals) {
+  triangles.push_back(corners);
+  normals.push_back(corner_normals);
+}
+
+ShadedMesh MakeCone(double half_angle, double slant) {
+  ShadedMesh cone;
+  const double sine = std::sin(half_angle);
+  const double cosine = std::cos(half_angle);
+  const auto rim = [&](double i) -> Vector3d {
+    const double angle = 2 * std::numbers::pi * i / kConeSegments;
+    return slant * Vector3d(sine * std::cos(angle), sine * std::sin(angle), cosine);
+  };
+  const auto normal = [&](double i) -> Vector3d {
+    const double angle = 2 * std::numbers::pi * i / kConeSegments;
+    return {cosine * std::cos(angle), cosine * std::sin(angle), -sine};
+  };
+  for (int i = 0; i < kConeSegments; ++i) {
+    cone.triangles.push_back({Vector3d::Zero(), rim(i + 1), rim(i)});
+    cone.normals.push_back({normal(i + 0.5), normal(i + 1), normal(i)});
+    cone.AddFlat({0, 0, slant * cosine}, rim(i), rim(i + 1));
+  }
+  return cone;
+}
+
+ShadedMesh MakeWedge(double half_angle, double slant) {
+  ShadedMesh wedge;
+  const double x = slant * std::sin(half_angle);
+  const double z = slant * std::cos(half_angle);
+  const std::array<Vector3d, 3> corners = {Vector3d::Zero(), Vector3d(x, 0, z), Vector3d(-x, 0, z)};
+  const Vector3d low = kWedgeBottom * Vector3d::UnitY(), high = kWedgeTop * Vector3d::UnitY();
+  const auto& [a, b, c] = corners;
+  wedge.AddFlat(a + high, c + high, b + high);
+  wedge.AddFlat(a + low, b + low, c + low);
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d& p = corners[i];
+    const Vector3d& q = corners[(i + 1) % 3];
+    wedge.AddFlat(p + low, p + high, q + high);
+    wedge.AddFlat(p + low, q + high, q + low);
+  }
+  return wedge;
+}
+
+ShadedMesh MakeCapsule(const Vector3d& from, const Vector3d& to, double radius) {
+  const bool is_sphere = (to - from).norm() == 0;
+  const Vector3d axis = is_sphere ? Vector3d::UnitZ() : Vector3d((to - from).normalized());
+  const auto [u, v] = AcrossOf(axis);
+  constexpr int kLast = 2 * kCapsuleRings + 1;
+  const auto normal = [&](int ring, double side) -> Vector3d {
+    const bool far_end = ring > kCapsuleRings;
+    const double tilt =
+        std::numbers::pi / 2 * ((far_end ? ring - 1 : ring) - kCapsuleRings) / kCapsuleRings;
+    const double turn = 2 * std::numbers::pi * side / kCapsuleSides;
+    return std::cos(tilt) * (std::cos(turn) * u + std::sin(turn) * v) + std::sin(tilt) * axis;
+  };
+  const auto point = [&](int ring, double side) -> Vector3d {
+    return (ring > kCapsuleRings ? to : from) + radius * normal(ring, side);
+  };
+  ShadedMesh capsule;
+  for (int ring = 0; ring < kLast; ++ring) {
+    for (int side = 0; side < kCapsuleSides; ++side) {
+      const auto corner = [&](int i, int j) { return point(ring + i, side + j); };
+      const auto across = [&](int i, int j) { return normal(ring + i, side + j); };
+      if (ring > 0) {
+        capsule.Add({corner(0, 0), corner(0, 1), corner(1, 1)},
+                    {across(0, 0), across(0, 1), across(1, 1)});
+      }
+      if (ring + 1 < kLast) {
+        capsule.Add({corner(0, 0), corner(1, 1), corner(1, 0)},
+                    {across(0, 0), across(1, 1), across(1, 0)});
+      }
+    }
+  }
+  return capsule;
+}
+
+ShadedMesh MakeBand(const Vector3d& from, const Vector3d& to, double radius, const Vector3d& back) {
+  const Vector3d along = (to - from) - (to - from).dot(back) * back;
+  const Vector3d u = along.norm() > 0 ? Vector3d(along.normalized()) : back.unitOrthogonal();
+  const Vector3d v = back.cross(u);
+  std::vector<Vector3d> outline;
+  for (const bool far_end : {false, true}) {
+    for (int i = 0; i <= kBandSides; ++i) {
+      const double turn =
+          std::numbers::pi * ((far_end ? -0.5 : 0.5) + static_cast<double>(i) / kBandSides);
+      outline.push_back((far_end ? to : from) +
+                        radius * (std::cos(turn) * u + std::sin(turn) * v + back));
+    }
+  }
+  ShadedMesh band;
+  for (std::size_t i = 2; i < outline.size(); ++i) {
+    band.Add({outline[0], outline[i - 1], outline[i]}, {back, back, back});
+  }
+  return band;
+}
+
+namespace {
+
+constexpr int kLeaf = 4;  ///< maximum number of triangles in a leaf
+/// Maximum depth of a tree that halves 2³¹ triangles at every node.
+constexpr int kDeepest = 32;
+
+/// A ray with its inverse direction.
+struct Ray {
+  Ray(const Vector3d& origin, const Vector3d& direction, double skip)
+      : origin(origin), direction(direction), inverse(direction.cwiseInverse()), from(skip) {}
+
+  const Vector3d& origin;
+  const Vector3d& direction;
+  const Vector3d inverse;
+  double from;
+
+  [[nodiscard]] bool Meets(const Eigen::AlignedBox3d& box, double to) const {
+    double near = from;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (direction[axis] ==
+          0) {  // avoids zero times infinity for an origin in the plane of a side
+        if (origin[axis] < box.min()[axis] || origin[axis] > box.max()[axis]) return false;
+        continue;
+      }
+      const double a = (box.min()[axis] - origin[axis]) * inverse[axis];
+      const double b = (box.max()[axis] - origin[axis]) * inverse[axis];
+      near = std::max(near, std::min(a, b));
+      to = std::min(to, std::max(a, b));
+    }
+    return near <= to;
+  }
+
+  /// Return the distance to a triangle; infinity without intersection.
+  [[nodiscard]] double DistanceTo(const std::array<Vector3d, 3>& triangle) const {
+    // Möller and Trumbore 1997.
+    const auto& [a, b, c] = triangle;
+    const Vector3d u = b - a;
+    const Vector3d v = c - a;
+    const Vector3d p = direction.cross(v);
+    const double determinant = u.dot(p);
+    const Vector3d s = origin - a;
+    const double alpha = s.dot(p) / determinant;
+    const Vector3d q = s.cross(u);
+    const double beta = direction.dot(q) / determinant;
+    const double distance = v.dot(q) / determinant;
+    const bool met = determinant != 0 && alpha >= 0 && beta >= 0 && alpha + beta <= 1;
+    return met && distance > from ? distance : std::numeric_limits<double>::infinity();
+  }
+};
+
+}  // namespace
+
+RayTree::RayTree(const ShadedMesh& mesh) : triangles_(mesh.triangles) {
+  if (!triangles_.empty()) Split(0, static_cast<int>(triangles_.size()));
+}
+
+void RayTree::Split(int begin, int end) {
+  const std::size_t node = nodes_.size();
+  nodes_.push_back({{}, begin, end});
+  Eigen::AlignedBox3d middles;
+  for (int i = begin; i < end; ++i) {
+    for (const Vector3d& p : triangles_[i]) nodes_[node].box.extend(p);
+    middles.extend(Vector3d(triangles_[i][0] + triangles_[i][1] + triangles_[i][2]));
+  }
+  if (end - begin <= kLeaf) return;
+  Eigen::Index axis = 0;
+  middles.sizes().maxCoeff(&axis);
+  const int half = (begin + end) / 2;
+  std::nth_element(triangles_.begin() + begin, triangles_.begin() + half, triangles_.begin() + end,
+                   [axis](const Triangle& a, const Triangle& b) {
+                     return a[0][axis] + a[1][axis] + a[2][axis] <
+                            b[0][axis] + b[1][axis] + b[2][axis];
+                   });
+  Split(begin, half);
+  nodes_[node].right = static_cast<int>(nodes_.size());
+  Split(half, end);
+}
+
+/// Visit the triangles that a ray hits.
+/// @param take  function of the distance to a triangle. It returns the distance up to which further
+///              triangles count; a negative value ends the visit.
+template <class Ray, class Take>
+void RayTree::Visit(const Ray& ray, const Take& take) const {
+  if (nodes_.empty()) return;
+  std::array<int, kDeepest> open = {0};
+  double to = std::numeric_limits<double>::infinity();
+  for (int count = 1; count > 0;) {
+    const int index = open[--count];
+    const Node& node = nodes_[index];
+    if (!ray.Meets(node.box, to)) continue;
+    if (node.right >= 0) {
+      open[count++] = node.right;
+      open[count++] = index + 1;
+      continue;
+    }
+    for (int i = node.begin; i < node.end; ++i) {
+      const double distance = ray.DistanceTo(triangles_[i]);
+      if (distance < to) to = take(distance);
+    }
+  }
+}
+
+double RayTree::Distance(const Vector3d& origin, const Vector3d& direction, double skip) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  Visit(Ray(origin, direction, skip), [&nearest](double distance) { return nearest = distance; });
+  return nearest;
+}
+
+int RayTree::CountHits(const Vector3d& origin, const Vector3d& direction, double skip,
+                       int most) const {
+  int hits = 0;
+  Visit(Ray(origin, direction, skip),
+        [&](double) { return ++hits < most ? std::numeric_limits<double>::infinity() : -1; });
+  return hits;
+}
+
+bool IsHit(const std::vector<PlacedRays>& surfaces, const Eigen::Vector3d& origin,
+           const Eigen::Vector3d& direction, double skip) {
+  return std::ranges::any_of(surfaces, [&](const PlacedRays& surface) {
+    const auto& [rays, to_rays] = surface;
+    return rays->CountHits(to_rays * origin, to_rays.linear() * direction, skip, 1) > 0;
+  });
+}
+
+}  // namespace regrasp::render

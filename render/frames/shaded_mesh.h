@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <vector>
+
+namespace regrasp::render {
+
+/// Triangles with a normal at each corner. Flat triangles have three equal normals.
+struct ShadedMesh {
+  std::vector<std::array<Eigen::Vector3d, 3>> triangles;  ///< counter-clockwise from outside
+  std::vector<std::array<Eigen::Vector3d, 3>> normals;
+
+  void AddFlat(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+  void Add(const std::array<Eigen::Vector3d, 3>& corners,
+           const std::array<Eigen::Vector3d, 3>& corner_normals);
+};
+
+/// Return the mesh with the opposite orientation.
+[[nodiscard]] ShadedMesh TurnInsideOut(ShadedMesh mesh);
+
+/// Return a closed cone with its apex at the origin that opens along +z.
+/// @param half_angle  angle between axis and side, radians.
+/// @param slant       length of the side.
+[[nodiscard]] ShadedMesh MakeCone(double half_angle, double slant);
+
+/// Return a flat friction cone: a triangle in the plane y = 0 with its apex at the origin that
+/// opens along +z, as a thin closed plate at y > 0.
+[[nodiscard]] ShadedMesh MakeWedge(double half_angle, double slant);
+
+/// Return the surface of all points within `radius` of the segment from..to, which may be a point.
+[[nodiscard]] ShadedMesh MakeCapsule(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                     double radius);
+
+/// Return the filled outline of a capsule: a flat band with round ends, perpendicular to the line
+/// of sight and at the near side of the capsule.
+/// @param back  unit vector towards the eye.
+[[nodiscard]] ShadedMesh MakeBand(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                  double radius, const Eigen::Vector3d& back);
+
+/// A bounding-volume tree for ray queries of a mesh. It owns a copy of the triangles.
+///
+/// A ray has an origin and a unit direction. Intersections up to distance `skip` are ignored,
+/// because a ray can start on the surface. A ray through an edge hits both triangles. An empty tree
+/// has no intersections.
+class RayTree {
+ public:
+  RayTree() = default;
+  explicit RayTree(const ShadedMesh& mesh);
+
+  /// Return the distance to the first triangle; infinity if there is none.
+  [[nodiscard]] double Distance(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                double skip) const;
+  /// Return the number of triangles that a ray hits, at most `most`.
+  [[nodiscard]] int CountHits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                              double skip, int most) const;
+
+ private:
+  using Triangle = std::array<Eigen::Vector3d, 3>;
+  /// A node of the tree. Its left child is the next node; leaves have no right child.
+  struct Node {
+    Eigen::AlignedBox3d box;
+    int begin = 0, end = 0;  ///< range of triangles
+    int right = -1;
+  };
+
+  void Split(int begin, int end);
+  template <class Ray, class Take>
+  void Visit(const Ray& ray, const Take& take) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+};
+
+/// A surface with a pose.
+struct PlacedRays {
+  const RayTree* rays;
+  Eigen::Isometry3d to_rays;  ///< transformation into the frame of the surface
+};
+
+/// Return whether a ray hits one of the surfaces.
+[[nodiscard]] bool IsHit(const std::vector<PlacedRays>& surfaces, const Eigen::Vector3d& origin,
+                         const Eigen::Vector3d& direction, double skip);
+
+}  // namespace regrasp::render
