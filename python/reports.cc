@@ -31,7 +31,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// A report with the inputs of its pictures.
+/// Report held by Python, with the inputs of its images.
 struct PythonReport {
   report::Report report;
   plan::Plan plan;
@@ -155,7 +155,7 @@ void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::st
 void BindReports(py::module_& module) {
   using validation::ValidationOptions;
   py::class_<ValidationOptions> options(module, "ValidationOptions");
-  // Adds a property for a member of one of the structs that the options consist of.
+  // Add a property for a member of one of the structs that the options consist of.
   const auto add = [&options](const char* name, auto part, auto member) {
     using Value = std::remove_cvref_t<decltype(std::declval<ValidationOptions&>().*part.*member)>;
     options.def_property(

@@ -42,8 +42,8 @@ def read_dexgraspbench(path: str | os.PathLike, *,
 def read_bodex(path: str | os.PathLike, *, object_pose: ArrayLike | None = None) -> HandGrasps:
     """Read a dictionary of BODex (`robot_pose`, `joint_names`).
 
-    The second of the three stages of each grasp is read, in which the fingers are in contact. No
-    code in the file is executed.
+    The second stage of each grasp is read, in which the fingers are in contact. No code in the file
+    is executed.
 
     Args:
         path: NPY or NPZ file.

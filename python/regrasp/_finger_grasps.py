@@ -147,7 +147,7 @@ class FingerGrasps:
                  "normal": self.normals[grasp, f].tolist()} for f in fingers]
 
     def _steps(self, grasp: int) -> list[dict]:
-        """From the grasp before it."""
+        """Return the steps from the previous grasp to this one."""
         before, after = self.active[grasp - 1], self.active[grasp]
         elsewhere = before & after & (self.points[grasp] != self.points[grasp - 1]).any(axis=-1)
         steps = [(np.flatnonzero(after & ~before), [])]

@@ -31,7 +31,7 @@ double RoundedCylinder(const Point& p, double radius, double low, double high, d
 /// minimum min(a, b) − (max(0, w − |a − b|))³ / (6 w²), w = blend (Quilez 2013).
 double Join(double a, double b, double blend);
 
-/// Return the difference of the solids a and b, blended in the same manner.
+/// Return the difference of the solids a and b, blended like Join.
 double Cut(double a, double b, double blend);
 
 /// Project a point onto the field's zero along the gradient (Newton).

@@ -127,7 +127,7 @@ class General(ProgramCase):
         before, after = self.gain(done, r"has a friction margin of (\S+)°, the improved one a .* of (\S+)°")
         self.assertGreaterEqual(after, before)
         needed, given = self.gain(done, r"friction angle of (\S+) of (\S+) degrees")
-        self.assertAlmostEqual(given - needed, after, delta=0.011)  # of two rounded numbers
+        self.assertAlmostEqual(given - needed, after, delta=0.011)  # difference of two rounded numbers
         _, done = self.plan("cube.obj", 3, "--optimize", "steps", degrees="25")
         self.assertNotIn("the first sequence", done.stderr)
         margin, _ = self.plan("cube.obj", 3, "--optimize", "margin", degrees="25")

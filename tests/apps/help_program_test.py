@@ -117,7 +117,7 @@ class Help(ProgramCase):
         page = self.page("commands")
         self.assertEqual(page, self.help_as("markdown", "regrasp"),
                          "commands.md is out of date: run scripts/command-pages")
-        # regrasp-convert is in Python, and tests/python has its test.
+        # regrasp-convert is a Python program, tested in tests/python.
         self.assertEqual(re.findall(r"\]\(command_(\w+)\.md\)", page), [*PROGRAMS, "convert"])
         pages = os.listdir(os.path.join(program_case.ARGUMENTS.source, "docs"))
         self.assertEqual(sorted(name[8:-3] for name in pages if name.startswith("command_")),

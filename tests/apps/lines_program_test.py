@@ -343,7 +343,7 @@ class Lines(ProgramCase):
         self.assertIn("3 entries: 3 no-plan", done.stderr)
         for none in self.lines("plans.jsonl")[1:]:
             self.assertIn("time limit reached", none["message"])
-        # Longer than a query takes, and shorter than all of many take.
+        # Longer than one query takes, and shorter than all queries together.
         self.write_lines("queries.jsonl", self.queries(3) * 30)
         self.plan("more.jsonl", "--time-limit", "60")
 

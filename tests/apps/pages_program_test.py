@@ -25,7 +25,7 @@ TURN = """plan --quiet --hand models/hands/ring4.json --object models/cube.obj -
 --output turn.json
 """
 
-# The reference pages of the commands, with what their examples leave behind.
+# Reference pages of the commands, with the files that their examples must create.
 COMMANDS = {
     "commands": [],
     "command_plan": ["plan.json"],
@@ -37,7 +37,7 @@ COMMANDS = {
     "command_hand": ["hand.json", "hand.png"],
 }
 
-# Files that the examples of the commands take for granted.
+# Files that the examples of the commands assume.
 EXAMPLES = ("cp models/*.obj models/*.wkt .; cp models/cube.start.json start.json; "
             "cp models/cube.goal.json goal.json; cp models/cube.obj part.obj; mkdir plans\n"
             + CUBE + "cp plan.json plans; cp plan.json cube.json; mkdir -p shards/1\n"
@@ -50,7 +50,7 @@ EXAMPLES = ("cp models/*.obj models/*.wkt .; cp models/cube.start.json start.jso
             "polygon --start models/polygon15.start.json --goal models/polygon15.goal.json "
             "--output polygon15.json\n")
 
-# Files that pages name as somebody's own, by page: how they come to be.
+# Commands that create the user's files of a page.
 GIVEN = {
     "analytic_check": CUBE,
     "export_hand_plan": TURN,

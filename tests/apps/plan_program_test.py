@@ -533,7 +533,7 @@ class Plan(ProgramCase):
             self.assert_refused(2, [start, words], *self.polygon_arguments(
                 object=self.model("square.wkt"), start=start,
                 goal=self.model("square.goal.json"), friction_angle="10"))
-        # Leans by atan(2 / 6) = 18.43°.
+        # The inclination is atan(2 / 6) = 18.43°.
         refuse("requires a friction angle of 18.44°, found 10.00°", pair)
         refuse("needs 2 to 4 contacts, found 1", pair[:1])
         refuse("needs 2 to 4 contacts, found 5",

@@ -36,7 +36,7 @@ class Repair(ProgramCase):
     def test_a_hole_is_filled_and_the_report_says_so(self):
         done = self.repair("--report", "repair.json")
         self.assertIn("fill-holes", done.stderr)
-        # 3/16 of it, as it is rounded.
+        # 3/16 of it, rounded.
         self.assertRegex(done.stderr, r"18\.[78] % of the surface filled in")
         report = json.loads(self.read("repair.json"))
         self.assertEqual(report["stages"][-1]["outcome"], "solid")

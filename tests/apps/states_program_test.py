@@ -46,7 +46,7 @@ class States(ProgramCase):
         """Check the units: contacts are on the cube, and forces support its weight."""
         self.assertAlmostEqual(math.hypot(*state["object_quaternion"]), 1)
         self.assertGreaterEqual(sum(state["active"]), 3)
-        half = 0.03 * states["scale"]  # of the cube's edge
+        half = 0.03 * states["scale"]  # half of the cube's edge
         total = [0, 0, 0]
         for active, point, force in zip(state["active"], state["contact_points"],
                                        state["contact_forces"]):

@@ -749,7 +749,7 @@ class Validate(ProgramCase):
                     friction_angle="30")
         done = self.assert_done(*at_40, "--friction-angle", "40")
         self.assertIn("friction angle 40°", done.stdout)
-        # The plan's own friction lowered, and a report that says so too.
+        # Lower the plan's own friction, and change the report accordingly.
         self.plan["friction"]["half_angle_deg"] = 1
         self.forge(report)
         self.refuse("found 40°", verify="forged.json")

@@ -34,7 +34,7 @@ TEST(LeastFrictionTest, OnASlopeItIsTheTangentOfTheAngle) {
     const std::vector<grasp::Contact> below = {
         At(-Vector3d::UnitZ(), {std::sin(angle), 0, std::cos(angle)})};
     const double least = LeastFriction(below, kFrame, {{kWeight}}, kMostNormal);
-    // Share of the weight, which is 1, that may stay unbalanced across the slope.
+    // A share of the weight, which is 1, may stay unbalanced across the slope.
     EXPECT_LE(least, (1 + kMore) * std::tan(angle));
     EXPECT_GT(least, std::tan(angle) - kLess / std::cos(angle));
   }

@@ -276,7 +276,7 @@ class FormatsTest(RegraspCase):
             np.testing.assert_array_equal(arrays["grasps"], [0])
             places = unit.nearest(arrays["points"][arrays["active"]])[0]
             np.testing.assert_allclose(places, arrays["points"][arrays["active"]], atol=1e-12)
-        # An object that says another size is refused, one that says the same is not.
+        # An object with a different size is rejected, one with the same size is accepted.
         large = regrasp.Object.read(self.path("unit.obj"), scale=0.06)
         self.refuses(["object", "found 0.06", "0.12", "unit_1"], found.touching, self.hand, large)
         np.save(path, self.dexgraspnet([0.06, 0.06]))
@@ -435,7 +435,7 @@ class FormatsTest(RegraspCase):
         with np.load(self.path("b.npz")) as arrays:
             self.assertEqual(arrays["points"].shape, (len(self.grasps), 4, 3))
             self.assertFalse(arrays["active"][:, int(idle)].any())
-        # If a finger that must touch does not, no grasp is left and no file is written.
+        # If a required finger is not in contact, no grasp remains and no file is written.
         said = self.convert(self.path("a.yaml"), "--hand", HAND, "--object", CUBE, "--fingers",
                             "finger" + idle, "--output", self.path("c.npz"), code=1)
         self.assertIn(f"finger{idle} ", said)

@@ -87,10 +87,10 @@ class GraspFilesTest(RegraspCase):
         margin = self.judge("--mu", "0.9", code=1, active=mask, **arrays)["margin"]
         for old in ({"holds": mask}, {"holds": mask, "format_version": np.array(1)},
                     {"active": mask, "format_version": np.array(2)},
-                    # In version 2 an array holds has no meaning.
+                    # In version 2 an array named holds is ignored.
                     {"active": mask, "holds": ~mask, "format_version": np.array(2)}):
             np.testing.assert_array_equal(self.judge("--mu", "0.9", code=1, **old, **arrays)["margin"], margin)
-        # Negative controls: without the mask the margins differ, and so they do where it is not read.
+        # Negative controls: without the mask the margins differ, and also if the mask is ignored.
         for other in ({}, {"holds": mask, "format_version": np.array(2)}):
             again = self.judge("--mu", "0.9", code=1, **other, **arrays)["margin"]
             self.assertFalse(np.array_equal(again, margin))
@@ -116,7 +116,7 @@ class GraspFilesTest(RegraspCase):
         self.assertFalse(found["valid"][counts == 0].any())
         words = found["reasons"][found["reason"].astype(int)]
         self.assertEqual(set(words[counts == 0]), {"not-force-closure"})
-        # The point of a contact that is not active is ignored, as long as it is a number.
+        # The point of an inactive contact is ignored, if it is a number.
         points = np.where(active[..., None], self.points, 7)
         again = self.judge("--mu", "0.9", code=1, points=points, normals=self.normals, active=active)
         np.testing.assert_array_equal(again["margin"], found["margin"])
@@ -134,7 +134,7 @@ class GraspFilesTest(RegraspCase):
         line, = [line for line in self.said.splitlines() if line.startswith("off-surface: ")]
         self.assertIn("grasp 3, contact 1 (the first): 1.2e-06 of the object file's units", line)
         self.assertIn("1e-06 of it counts as on it", line)
-        # The index is that of the file, whichever contacts are active.
+        # The index is that in the file, regardless of inactive contacts.
         active = np.ones((400, 4), bool)
         active[3, 1] = active[7, 0] = active[7, 2] = False
         self.judge("--mu", "0.5", code=1, active=active, **arrays)
@@ -154,7 +154,7 @@ class GraspFilesTest(RegraspCase):
         near = self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
         self.assertNotIn("off-surface", found["reasons"][found["reason"].astype(int)])
         np.testing.assert_array_equal(found["valid"], near["valid"])
-        # The control: a tenth of a millimetre is off, and the tolerance says why it is what it is.
+        # Negative control: a point 0.1 mm off is rejected, with the reason for the tolerance.
         points[5, 1] += 1e-4 * -self.normals[5, 1].astype(np.float32)
         self.judge("--mu", "0.5", code=1, object=far, points=points, normals=self.normals)
         self.assertIn("grasp 5, contact 1 (the first): ", self.said)
@@ -174,7 +174,7 @@ class GraspFilesTest(RegraspCase):
             report = self.report_of(points[i], normals[i], *options)
             self.assertEqual(report["verdict"] == "pass", found["valid"][i])
             self.assertEqual(report["steps"][0]["reason"] or "", words[i])
-        # By analysis alone all that are on the object pass.
+        # All grasps on the object pass if there is only the analysis.
         self.assertEqual(self.judge("--mu", "0.4", code=1, points=points)["valid"].sum(), 11)
 
     def report_of(self, points, normals, *options):
@@ -213,7 +213,7 @@ class GraspFilesTest(RegraspCase):
         valid = self.judge("--mu", "0.5", code=1, points=self.points)["valid"]
         self.judge("--friction-angle", "26.6", code=0, points=self.points[valid])
         self.assertTrue(self.said.endswith("verdict: pass\n"))
-        # A file without grasps is no pass.
+        # A file without grasps does not pass.
         self.assertIn("at least one grasp", self.judge("--mu", "0.5", code=2, points=np.zeros((0, 4, 3))))
 
     def test_grasps_in_the_plane(self):

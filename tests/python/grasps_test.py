@@ -51,7 +51,8 @@ class GraspsTest(RegraspCase):
         self.assertIsNone(held.quality)
         two = regrasp.force_closure(TETRAHEDRON[:2], -TETRAHEDRON[:2], mu=0.5)
         self.assertIs(two.is_force_closure, False)
-        # Two fingers hold a square when each sees the other in its cone: at 45° exactly too close.
+        # Two fingers hold a square if each is inside the other's cone: at exactly 45° it is too
+        # close to call.
         square = [[0., 0.], [1., 1.]], [[1., 0.], [-1., 0.]]
         self.assertTrue(regrasp.force_closure(*square, friction_angle_deg=46).is_force_closure)
         self.assertFalse(regrasp.force_closure(*square, friction_angle_deg=44).is_force_closure)
@@ -151,7 +152,7 @@ class GraspsTest(RegraspCase):
             far = np.vstack([TETRAHEDRON, [[distance, 0, 0]]])
             found = regrasp.force_closure(far, np.vstack([-TETRAHEDRON, [[-1, 0, 0]]]), mu=0.5)
             self.assertTrue(found.is_force_closure or found.too_close, distance)
-        # The control: beside each other they do not hold, and that is certain.
+        # Negative control: neighbouring contacts are certainly not force closure.
         near = regrasp.force_closure(TETRAHEDRON[:2], -TETRAHEDRON[:2], mu=0.5)
         self.assertFalse(near.is_force_closure or near.too_close)
 

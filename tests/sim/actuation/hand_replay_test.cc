@@ -154,7 +154,7 @@ TEST(HandReplayTest, NothingHoldsAtNineTenthsOfTheFrictionThatIsNeeded) {
 TEST(HandReplayTest, AnObjectThatIsTooHeavyFalls) {
   const double squeeze = ReplayOf(GoodPlan()).settings.squeeze_N;
   HandReplayOptions options = Options();
-  // Vertical faces: friction carries no more, and this is a fifth more.
+  // The faces are vertical, so friction supports at most μ times the grasp force: 20 % too much.
   options.mass_factor = 1.2 * kMu * squeeze / (*options.mass_kg * kGravity);
   EXPECT_NE(ReasonOf(ReplayOf(GoodPlan(), options)), Reason::kNone);
 }

@@ -372,7 +372,7 @@ TEST(CheckHandTest, AFingerThroughTheObjectCollides) {
   plan::HandPath& path = FirstSwitch(plan).motion->place;
   ASSERT_GE(path.size(), 3U);
   const FingerIndex moving = FirstSwitch(plan).place.front().finger;
-  // The straight finger ends far inside the object, or crosses links between it and its contact.
+  // The joints bend inwards, so that the finger reaches far into the object.
   plan::HandState through = path[path.size() / 2];
   for (double& angle : through.joints[moving]) angle = 1.2;
   through.joints[moving][0] = 0;
@@ -481,7 +481,7 @@ TEST(GapTest, IsDecidedCloseToTheDistance) {
     const std::vector<Vector3d> a = hull({0, 0, 0});
     const std::vector<Vector3d> b = hull({5 + 2 * random.Normal(), random.Normal(), 0});
     const double distance = collision::Distance({a, 0}, {b, 0}).lower;
-    // Skip distances so small that 0.1 % of them is below the resolution of the bodies.
+    // Skip tiny distances: a clearance is larger than a thousandth of a link.
     if (distance < 0.05) continue;
     ++apart;
     EXPECT_TRUE(HaveGap(MakeConvexBody(a, 0), MakeConvexBody(b, 0), distance * (1 - 1e-3))) << i;
