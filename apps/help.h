@@ -77,8 +77,8 @@ void SetUsage(const CLI::App& app, const std::string& usage);
 /// a newline.
 [[nodiscard]] std::string WrapText(const std::string& text, int indent, int width);
 
-/// What makes the manual page ("man"), the completion of a shell ("bash", "zsh", "fish") or the
-/// section of docs/options.md ("markdown") for the same options.
+/// Return the manual page ("man"), the completion of a shell ("bash", "zsh", "fish") or the
+/// reference page ("markdown") for the same options.
 /// @throws InputError  if `format` is a different one.
 [[nodiscard]] std::string FormatHelpAs(std::string_view format, const CLI::App& app);
 

@@ -21,10 +21,10 @@
 
 namespace regrasp::planning {
 
-/// Half-angle φ of the cones of concurrent grasps, θ being the friction's.
+/// Half-angle φ of the cones of concurrent grasps; θ is the friction angle.
 enum class Spanning {
   kAdaptive,  ///< φ = min(θ, φ*), φ* the supremum of angles for which the normals φ-positively span
-  kUniform,  ///< φ = θ where the normals θ-positively span, no set where they don't
+  kUniform,  ///< φ = θ if the normals θ-positively span; otherwise there is no set
 };
 
 /// A start or goal grasp, or how to choose it.

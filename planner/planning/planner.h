@@ -16,16 +16,16 @@ struct MemoryNeed;
 
 namespace regrasp::planning {
 
-/// How many grasps of one type a graph has.
+/// Number of grasps of one type in a graph.
 struct TypeSummary {
   std::string name;
   std::int64_t candidates = 0;
   std::int64_t combinations = 0;
   std::int64_t vertices = 0;
-  std::int64_t components = 0;  ///< of the graph, were there only this type
+  std::int64_t components = 0;  ///< components of the graph with this type only
 };
 
-/// Random queries over a roadmap, and the times they took.
+/// Random queries on a roadmap, and their times.
 struct QuerySummary {
   int count = 0;
   int connected = 0;
@@ -34,49 +34,50 @@ struct QuerySummary {
   double mean_seconds = 0;
 };
 
-/// How much of a graph sampling found. Quadruples of faces, as sampling does not tell components of
-/// one quadruple apart.
+/// Share of a graph that sampling finds. It counts quadruples of faces, because sampling does not
+/// distinguish the components of one quadruple.
 struct SamplingShare {
-  std::int64_t quadruples = 0;        ///< of the direct graph
-  std::int64_t found_quadruples = 0;  ///< of these
-  std::int64_t links = 0;             ///< between quadruples of the direct graph
-  std::int64_t found_links = 0;       ///< of these
+  std::int64_t quadruples = 0;        ///< number of quadruples in the direct graph
+  std::int64_t found_quadruples = 0;  ///< number of these that sampling finds
+  std::int64_t links = 0;             ///< number of links between quadruples in the direct graph
+  std::int64_t found_links = 0;       ///< number of these that sampling finds
 };
 
-/// The size of a planner's graph, and what was asked for besides.
+/// The size of a planner's graph, with the additional values of the request.
 struct GraphSummary {
   std::string planner;
-  std::int64_t faces = 0;  ///< edges of a polygon, contact points of a roadmap
-  std::string face_name;   ///< what `faces` counts: "edges"
+  std::int64_t faces = 0;  ///< number of edges of a polygon, or of contact points of a roadmap
+  std::string face_name;   ///< name of the elements that `faces` counts: "edges"
   std::vector<TypeSummary> types;
-  std::vector<std::pair<std::string, std::int64_t>> edges;  ///< by types, as "parallel-parallel"
+  /// number of edges per type, for example "parallel-parallel"
+  std::vector<std::pair<std::string, std::int64_t>> edges;
   std::int64_t vertices = 0;
   std::int64_t components = 0;
   double vertex_seconds = 0;
   double edge_seconds = 0;
-  std::optional<std::int64_t> unclear;  ///< decisions too close to call, where there can be such
+  /// number of numerically undecidable cases; nullopt if there can be none
+  std::optional<std::int64_t> unclear;
   std::optional<SamplingShare> sampling_share;
-  int clusters = 0;  ///< of the contact points of a roadmap
+  int clusters = 0;  ///< number of clusters of the contact points of a roadmap
   std::optional<QuerySummary> queries;
 };
 
-/// What every planner answers.
+/// The result of a planner.
 struct PlanResult {
   enum class Status {
     kFound,
-    kNoSequence,  ///< no sequence joins the two grasps in this planner's graph
-    kNoGrasp,     ///< a random start or goal could not be drawn, or a given one is in no set
+    kNoSequence,  ///< no sequence connects the two grasps in this planner's graph
+    kNoGrasp,     ///< no random start or goal was found, or a given one is in no set
   };
   Status status = Status::kFound;
-  std::string message;  ///< for a negative answer: what was searched
-  /// Where plans were found that a hand carries none of out, why not: of the one that came
-  /// farthest.
+  std::string message;  ///< for a negative result: description of the search
+  /// Failure reason of the best candidate, if plans were found but none executes in simulation.
   std::optional<plan::Reason> trial;
-  std::vector<std::string> warnings;  ///< of grasps that don't meet the criteria
-  std::vector<std::string> notes;     ///< what was gained by making the sequence better, for people
-  /// The plan, all but the object's file, digest and scale. Set where the status is kFound.
+  std::vector<std::string> warnings;  ///< grasps that do not meet the criteria
+  std::vector<std::string> notes;     ///< improvements of the sequence, as text
+  /// The plan without the object's file, digest and scale. Set if the status is kFound.
   std::optional<plan::Plan> plan;
-  double margin = 0;  ///< smallest of half_angle − required half-angle over all grasps at rest
+  double margin = 0;  ///< smallest friction margin of all static grasps, radians
 };
 
 // Options that only some planners have, as users write them. Further options are declared with the
@@ -91,19 +92,21 @@ inline constexpr char kHandOption[] = "--hand";
 /// Return the options of a request that only some planners have, as users write them.
 [[nodiscard]] std::vector<std::string> OptionsOf(const PlanRequest& request);
 
-/// What a planner can do with objects of one dimension.
+/// Capabilities of a planner for objects of one dimension.
 struct PlannerScope {
-  int fingers = 0;                      ///< of the hand that it plans for
-  grasp::ContactLimits contacts;        ///< of the grasps that it takes
-  grasp::ContactLimits contacts_drawn;  ///< of those that are drawn evenly over the surface
+  int fingers = 0;                ///< number of fingers of the hand
+  grasp::ContactLimits contacts;  ///< permitted numbers of contacts of a grasp
+  /// numbers of contacts of grasps that are drawn uniformly on the surface
+  grasp::ContactLimits contacts_drawn;
 };
 
-/// What is known of a planner before it plans.
+/// Properties of a planner that are independent of a request.
 struct PlannerTraits {
-  std::string name = {};  ///< as `--planner` takes it
-  std::string what = {};  ///< what it plans, in a few words for `--help`
-  std::optional<PlannerScope> in_plane = std::nullopt;  ///< nullopt: no planar objects
-  std::optional<PlannerScope> in_space = std::nullopt;  ///< nullopt: no solids
+  std::string name = {};  ///< name for `--planner`
+  std::string what = {};  ///< short description for `--help`
+  /// nullopt: planar objects are not supported
+  std::optional<PlannerScope> in_plane = std::nullopt;
+  std::optional<PlannerScope> in_space = std::nullopt;  ///< nullopt: solids are not supported
   /// Options of some planners that this planner has, as users write them: "--optimize margin".
   std::vector<std::string> options = {};
   /// Whether it plans on a graph of its own: SummarizeGraph builds it, and
@@ -113,8 +116,8 @@ struct PlannerTraits {
   bool needs_hand = false;
 };
 
-/// A method of planning. Whoever wants a plan calls Solve (solve.h), which sees to all that
-/// planners have in common; a planner supplies its traits and the planning alone.
+/// A planning method. To plan, call Solve (solve.h), which does the common part of all planners. A
+/// planner supplies its traits and the search.
 class Planner {
  public:
   virtual ~Planner() = default;
@@ -122,24 +125,26 @@ class Planner {
   [[nodiscard]] const PlannerTraits& traits() const { return traits_; }
   [[nodiscard]] const std::string& name() const { return traits_.name; }
 
-  /// @param dimension  of the object, 2 or 3.
+  /// @param dimension  dimension of the object, 2 or 3.
   [[nodiscard]] const std::optional<PlannerScope>& ScopeIn(int dimension) const {
     return dimension == 2 ? traits_.in_plane : traits_.in_space;
   }
 
-  /// What it is about to build for a request that it can serve; nullopt: nothing large.
+  /// Estimate the memory of the largest structure for a request that the planner serves; nullopt:
+  /// negligible.
   [[nodiscard]] virtual std::optional<MemoryNeed> EstimateMemory(const PlanRequest& request) const;
 
-  /// @param request  that it can serve; its hand has a number of fingers, start and goal are grasps
-  ///                 that the planner takes, or kRandom where it has grasps of its own.
-  /// @throws NoGrasp, TimeUp  for Solve.
+  /// Plan for a request.
+  /// @param request  request that the planner serves. The number of fingers is set. Start and goal
+  ///     are grasps that the planner accepts, or kRandom if it has a graph.
+  /// @throws NoGrasp, TimeUp  as results for Solve.
   [[nodiscard]] virtual PlanResult Plan(const PlanRequest& request) const = 0;
 
-  /// Builds its graph and counts what is in it (graph_summary.h).
-  /// @param request  for a graph, that it serves; start and goal count for nothing.
-  /// @throws InputError  the request's tasks need another graph.
-  /// @throws TimeUp      the deadline came.
-  /// @throws std::logic_error  it has no graph.
+  /// Build the planner's graph and count its elements (graph_summary.h).
+  /// @param request  request for a graph that the planner serves; start and goal are ignored.
+  /// @throws InputError  if the request's parameters require another graph.
+  /// @throws TimeUp      if the deadline passed.
+  /// @throws std::logic_error  if the planner has no graph.
   [[nodiscard]] virtual GraphSummary SummarizeGraph(const PlanRequest& request) const;
 
  protected:
@@ -149,10 +154,10 @@ class Planner {
   PlannerTraits traits_;
 };
 
-/// Why a planner cannot serve a request: the object's dimension, the number of fingers of the hand,
-/// a hand that it needs, or an option or a graph that it does not have; empty where it can.
-/// Contacts of given grasps are not looked at: they are checked one by one, with a message for each
-/// (Solve).
+/// Return the reason that a planner cannot serve a request; empty if it can.
+/// The reason is the object's dimension, the number of fingers, a missing hand, or an unsupported
+/// option or graph. Contacts of given grasps are not checked here: Solve checks them one by one,
+/// with a message for each.
 [[nodiscard]] std::string WhyNotServed(const Planner& planner, const PlanRequest& request);
 
 }  // namespace regrasp::planning

@@ -25,7 +25,7 @@ namespace {
 using Kind = GraspChoice::Kind;
 using Status = PlanResult::Status;
 
-/// Rounded up to a hundredth of a degree: with that much friction the grasp is force closure.
+/// Rounded up to a hundredth of a degree: the grasp is force closure with this friction angle.
 std::optional<std::pair<int, int>> ContactsAtSamePoint(const grasp::Grasp& grasp,
                                                        double same_point) {
   for (std::size_t i = 0; i < grasp.size(); ++i) {
@@ -41,7 +41,7 @@ std::string RangeText(const grasp::ContactLimits& range) {
          std::to_string(range.most);
 }
 
-/// What start and goal have in common.
+/// Resolve start and goal grasps of a request.
 class GraspResolver {
  public:
   GraspResolver(const Planner& planner, const PlanRequest& request)
@@ -50,7 +50,7 @@ class GraspResolver {
         scope_(planner.ScopeIn(request.object->dimension()).value()),
         evaluator_(*request.object, request.criteria, request.hand) {}
 
-  /// A given grasp checked, one that is drawn evenly over the surface drawn.
+  /// Return a given grasp after its check, or a grasp drawn uniformly on the surface.
   [[nodiscard]] GraspChoice Resolve(GraspChoice choice, RandomUse use) const {
     if (choice.kind == Kind::kAny) {
       if (planner_.traits().needs_hand) return choice;
@@ -60,7 +60,7 @@ class GraspResolver {
       Check(choice);
       return choice;
     }
-    // Of the surface only the given points take fingers, and those the planner has.
+    // Fingers may only be at the given points, and the planner has their grasps.
     if (request_.given_points != nullptr) choice.kind = Kind::kRandom;
     if (choice.kind == Kind::kRandom && planner_.traits().has_graph) return choice;
     RandomStream random(request_.seed, use);

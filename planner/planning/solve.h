@@ -4,16 +4,18 @@
 
 namespace regrasp::planning {
 
-/// Plans by a planner: checks the request, given grasps and what the planner would take, draws
-/// grasps evenly over the surface, and turns NoGrasp and TimeUp into results.
+/// Plan with a planner: the entry point for all planners.
 ///
-/// Laws: without a deadline the same arguments give the same plan, bit for bit; a goal equal to the
-/// start as a set gives no steps; every grasp at rest and in between is force closure.
-/// @throws InputError             the planner does not serve the request (WhyNotServed), or a given
-///                                grasp has another number of contacts than it takes, two at the
-///                                same point, is not force closure, or fingers of the hand cannot
-///                                stand in it.
-/// @throws std::invalid_argument  friction or quality is out of its range.
+/// It checks the request, the given grasps and the memory estimate, draws grasps uniformly on the
+/// surface, and converts NoGrasp and TimeUp to results.
+///
+/// Laws: without a deadline the same arguments give the same plan, bit for bit. A goal that equals
+/// the start as a set gives a plan without steps. Every static grasp, and every instant in between,
+/// is force closure.
+/// @throws InputError             if the planner does not serve the request (WhyNotServed), or a
+///     given grasp is unsuitable: its number of contacts, two contacts at one point, no force
+///     closure, or no room for the fingers of the hand.
+/// @throws std::invalid_argument  if friction or quality is out of range.
 [[nodiscard]] PlanResult Solve(const Planner& planner, const PlanRequest& request);
 
 }  // namespace regrasp::planning

@@ -26,7 +26,7 @@ struct PolyhedronParameters {
   }
 };
 
-/// What a PolyhedronGraph takes at most while it is built, within a factor of two.
+/// Estimate the peak memory for building a PolyhedronGraph, within a factor of two.
 ///
 /// The candidates among at most sixty randomly drawn faces are counted. Their number grows with the
 /// fourth power of the number of faces. The fractions of candidates with cells and of connected
