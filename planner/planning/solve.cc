@@ -25,7 +25,7 @@ namespace {
 using Kind = GraspChoice::Kind;
 using Status = PlanResult::Status;
 
-/// Rounded up to a hundredth of a degree: the grasp is force closure with this friction angle.
+/// Find the first two contacts that are within a distance of each other.
 std::optional<std::pair<int, int>> ContactsAtSamePoint(const grasp::Grasp& grasp,
                                                        double same_point) {
   for (std::size_t i = 0; i < grasp.size(); ++i) {
