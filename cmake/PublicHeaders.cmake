@@ -42,6 +42,8 @@ set(regrasp_public_headers
   planner/planning/planner.h
   planner/planning/solve.h
   planner/registry/registry.h
+  planner/roadmap/roadmap_parameters.h
+  planner/sets/set_parameters.h
   # Hands: a hand's file, a task for it, the planner, the replay by its actuators.
   planner/collision/convex_shape.h
   planner/kinematics/hand_description.h

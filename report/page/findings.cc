@@ -117,7 +117,7 @@ Element StressPlot(const Report& report) {
   return Element(
       "div", {{"class", "plots"}},
       Figure({}, DrawStepPlot(plot), "The weakest direction of each static grasp.",
-             "The largest push that is resisted, as the replay found it and by analysis."));
+             "The largest disturbance that is resisted, in the replay and by analysis."));
 }
 
 Element StressRow(const ReportStep& step) {
@@ -139,7 +139,7 @@ std::vector<Element> Stress(const Report& report) {
   for (const ReportStep* step : Replayed(report)) {
     if (!step->replay->stress.empty()) rows.push_back(StressRow(*step));
   }
-  std::vector<Element> found = {Element("h2", {}, "The largest push")};
+  std::vector<Element> found = {Element("h2", {}, "Largest disturbance")};
   if (report.steps.size() > 1) found.push_back(StressPlot(report));
   found.push_back(ScrolledTable(head, rows));
   found.push_back(Note(

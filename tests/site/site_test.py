@@ -20,8 +20,12 @@ PAGES = ["index", "first_picture", "trust_a_plan", "guard_a_library", "make_a_fi
          "limitations", "reference"]
 
 
+# A heading may begin with a number, for example "1. Plan".
+NO_PROSE = ("pre", "code", "script", "style", "h2", "h3")
+
+
 class Page(html.parser.HTMLParser):
-    """Links, anchors, what is loaded, and the text that is no code."""
+    """Links, anchors, loaded files, and the text that is neither code nor a heading."""
 
     def __init__(self, text):
         super().__init__()
@@ -38,10 +42,10 @@ class Page(html.parser.HTMLParser):
         for name in ("src", "href"):
             if tag in ("script", "img", "link") and name in attributes:
                 self.loaded.append(attributes[name])
-        self._code += tag in ("pre", "code", "script", "style")
+        self._code += tag in NO_PROSE
 
     def handle_endtag(self, tag):
-        self._code -= tag in ("pre", "code", "script", "style")
+        self._code -= tag in NO_PROSE
 
     def handle_data(self, data):
         if not self._code:
