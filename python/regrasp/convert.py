@@ -47,8 +47,8 @@ class NoContacts(Exception):
 def parser() -> argparse.ArgumentParser:
     """Return the parser of the program's options."""
     parser = _Parser(
-        prog="regrasp-convert", description="Converts grasps and plans between formats, and says what "
-        "it could not carry over.", epilog=_EPILOG)
+        prog="regrasp-convert", description="Convert grasps and plans between formats, and report what "
+        "the output format cannot represent.", epilog=_EPILOG)
     parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format, a single one for "
                         ".csv and .mcap")
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help="output file, .yaml, .npz, .json "

@@ -278,7 +278,7 @@ class Help(ProgramCase):
         self.program = "plan"
         for words in (["--start", *rest], [*rest, "--start"]):
             self.assert_refused(2, "--start: a value is required: --start FILE|random", *words)
-        # What only begins like an option is a value.
+        # A word that only begins like an option is a value.
         self.assert_refused(2, "found \"-1\"", *rest[:2], "--mu", "-1", *rest[4:])
 
     def test_completions_have_every_option(self):

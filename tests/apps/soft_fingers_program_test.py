@@ -81,7 +81,7 @@ class SoftFingers(ProgramCase):
         self.assertEqual(len(report["steps"][0]["proof"]["rest"]["torques"]), 2)
         verify = [*plan, "--verify", "result/report.json"]
         self.assertIn("force closure at every instant", self.assert_done(*verify).stdout)
-        # Of hard points they are none, and a torque beyond the torsion proves nothing.
+        # The proofs are invalid for hard contacts, and with a torque beyond the torsional friction.
         self.assert_refused(2, ["report.json", "torsion"], *verify, "--torsion", "0")
         report["steps"][0]["proof"]["rest"]["torques"] = [1, 1]
         self.write_json("result/report.json", report)

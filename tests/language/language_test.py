@@ -67,7 +67,7 @@ CONTROLS = {
     "term-lever": (["times their levers"], ["moment arms", "leverage"]),
     "term-facet": (["200 facets"], ["200 triangles", "facet-wise"]),
     "term-invented": (["invented surface"], ["filled surface", "--allow filled"]),
-    "term-tip": (["the tips roll"], ["the fingertips roll", "--replay tip=geometry"]),
+    "term-tip": (["the tips roll"], ["the fingertips roll", "--tip geometry"]),
     "term-picture": (["Picture of a plan", "a moving picture", "the contact sheet"], ["an animation", "--picture FILE"]),
     "term-aligns": (["two aligns", "an align"], ["it aligns the axes", "the step `align`"]),
     "term-thing": (["a thing"], ["nothing", "an object"]),
@@ -133,6 +133,10 @@ class Texts(unittest.TestCase):
         self.assertEqual(rules("a.py", 'd["motor"] = 1\n'), [])
         self.assertEqual(rules("a.py", '"""Return it.\n\n>>> motors\nmotors\n\nDone."""\n'), [])
         self.assertEqual(rules("a.py", '"""Return it.\n\nthe motors\n"""\n'), ["term-motor"])
+
+    def test_settings_of_options_are_not_read(self):
+        self.assertEqual(rules("a.cc", 'f("use --tip geometry here");'), [])
+        self.assertNotEqual(rules("a.cc", 'f("use the tip of geometry here");'), [])
 
     def test_phrases_are_found_across_lines_with_their_line(self):
         for name, text in (("a.md", "One\n\nthe natural\ntime\n"), ("a.h", "int a;\n\n// the natural\n// time\n"),
