@@ -17,16 +17,16 @@ namespace {
 using plan::Reason;
 using sim::Cause;
 
-/// Coefficients of friction that are required are rounded up to thousandths.
+/// Steps per unit to which required coefficients of friction are rounded up.
 constexpr double kMuSteps = 1000;
 
-/// The friction angle that is enough, degrees, as the detail of the failure has it.
+/// Return the required friction angle, degrees, as in the detail of the failure.
 std::string RequiredText(const ReportStep& step, const Report& report) {
   return FormatRequiredDegrees(Degrees(step.check.required->upper), Degrees(report.half_angle))
       .value;
 }
 
-/// " 7.34" if an angle is known that is enough.
+/// Return " 7.34" if the required friction angle is known.
 std::string DegreesAsked(const ReportStep& step, const Report& report) {
   return step.check.required ? " " + RequiredText(step, report) : "";
 }
@@ -43,7 +43,7 @@ std::string MendFriction(const ReportStep& step, const Report& report) {
          FormatShort(mu) + "; the disturbance test can require slightly more), or " + other;
 }
 
-/// By the likely cause of a replay that fails what the analysis passes.
+/// Return a fix for the likely cause of a failed replay of a step that passes the analysis.
 std::string MendReplay(const ReportStep& step, const Report& report) {
   if (report.settings && report.settings->hand) {
     return "plan with more margin (plan at less friction than you check, --min-quality 0.05 or "
@@ -73,7 +73,7 @@ std::string MendReplay(const ReportStep& step, const Report& report) {
   }
 }
 
-/// A clearance helps only where there is one.
+/// More clearance helps only if the fault has a clearance.
 std::string MendCollision(const plan::Fault& fault) {
   if (fault.hand && !fault.hand->gap_m) {
     return "plan with a larger --clearance, or with motions in which fingertips roll less";
@@ -93,7 +93,7 @@ std::string MendReach(const plan::Fault& fault) {
   return "use contacts that a finger reaches from outside, farther from concave corners";
 }
 
-/// ": (0, 0.6, -0.8)"
+/// Return ": (0, 0.6, -0.8)".
 std::string NormalText(const ReportStep& step, const Report& report) {
   const grasp::Grasp& expected = step.fault().expected;
   return expected.empty() ? "" : ": " + plan::VectorText(expected.front().n, report.dimension);
@@ -171,7 +171,7 @@ std::string MendOf(const ReportStep& step, const Report& report) {
   return "";
 }
 
-/// Of a replay by a hand.
+/// Return the tolerances of a replay by a hand.
 std::string HandToleranceText(const sim::HandTolerance& tolerance) {
   return "limit: the object is " + FormatLength(tolerance.length_m) + " and " +
          FormatDegrees(Degrees(tolerance.angle_rad)) +
@@ -181,10 +181,10 @@ std::string HandToleranceText(const sim::HandTolerance& tolerance) {
          FormatLength(tolerance.slip_m);
 }
 
-/// Significant digits of a limit that stands beside a value that exceeds it.
+/// Significant digits of a limit that is printed next to a value that exceeds it.
 constexpr int kLimitDigits = 6;
 
-/// How much may move or slip.
+/// Return the limits of displacement and slip.
 std::string ToleranceText(const Report& report) {
   if (report.settings && report.settings->hand) {
     return HandToleranceText(report.settings->hand->tolerance);
@@ -208,7 +208,7 @@ std::string DepthToleranceText(const Report& report) {
   return FormatLength(HandToleranceOf(report).depth_m);
 }
 
-/// What a step breaks. @param hand  the fault is of the plan's hand.
+/// Return the rule that a step violates. @param hand  whether the fault is of the plan's hand.
 std::string RuleOf(Reason reason, bool hand, const Report& report) {
   switch (reason) {
     case Reason::kOffSurface:

@@ -7,24 +7,24 @@
 
 namespace regrasp::report {
 
-/// Name of the reason of a plan whose steps pass and too few of whose trials do.
+/// Name of the reason of a plan whose steps pass but too few of whose trials pass.
 inline constexpr char kTrialsFailed[] = "trials-failed";
 
-/// The first step of a plan that fails, or its trials, for people: the terminal, the page, the
-/// pictures, report.json and JUnit say it in these words. A plan that passes has none.
+/// First failing step of a plan, or its failing trials, as readable text. The terminal, the HTML
+/// report, the images, report.json and JUnit use the same text. A plan that passes has none.
 struct Failure {
   plan::EntryIndex entry{0};  ///< not valid if all steps pass and too few trials do
   std::string kind;           ///< "hold", or as StepKind; "trials"
   std::string reason;         ///< "slipped", or kTrialsFailed
-  /// With its number and unit: "finger 2 slipped by 300 µm under a push of 5.3 N along +x".
+  /// Description of the fault with number and unit: "finger 2 slipped by 300 µm".
   std::string what;
-  std::string why;   ///< what it is held against, and the likely cause where one was found
-  std::string mend;  ///< what would make it pass
+  std::string why;   ///< limit that is exceeded, and the likely cause if one was found
+  std::string mend;  ///< suggested fix
 
-  /// "step 1 (align) fails: slipped: finger 2 slipped by 300 µm …".
-  /// Of trials: "trials-failed: 6 of 20 trials with noise fail: 4 slipped, …".
+  /// Return "step 1 (align) fails: slipped: finger 2 slipped by 300 µm …". For trials:
+  /// "trials-failed: 6 of 20 trials with noise fail: 4 slipped, …".
   [[nodiscard]] std::string headline() const;
-  /// Headline, why and what would mend it, on one line.
+  /// Return headline, reason and suggested fix, on one line.
   [[nodiscard]] std::string line() const;
 };
 
@@ -38,7 +38,7 @@ struct Failure {
 /// stand", "FAIL at step 2: finger 2 slipped by …", "FAIL: 6 of 20 trials with noise fail: …".
 [[nodiscard]] std::string HeadingText(const Report& report);
 
-/// Three lines: what, why, what would mend it; empty where nothing fails.
+/// Return three lines (fault, reason, suggested fix); empty if nothing fails.
 [[nodiscard]] std::string FormatFailure(const Report& report);
 
 }  // namespace regrasp::report

@@ -11,12 +11,12 @@ namespace regrasp::report {
 
 namespace {
 
-/// What a failure says, and its picture.
+/// Return the text of a failure, with the path of its image.
 std::string FailureText(const JunitCase& result) {
   return result.text + (result.picture.empty() ? "" : "\npicture: " + result.picture);
 }
 
-/// Seconds to a thousandth, as JUnit has them.
+/// Decimals of times in seconds, as in other JUnit files.
 constexpr int kTimeDecimals = 3;
 
 Element MakeCase(const std::string& suite, const JunitCase& result) {

@@ -7,23 +7,24 @@
 
 namespace regrasp::report {
 
-/// Text as it can stand in HTML, XML, SVG and in a quoted attribute: & < > " ' are escaped;
-/// bytes that are not UTF-8, and invisible characters (IsInvisible) other than tab and line feed,
-/// become U+FFFD. What is left are characters that XML 1.0 allows (its production Char).
+/// Escape text for HTML, XML, SVG and quoted attributes.
+/// The characters & < > " ' are escaped. Bytes that are not UTF-8, and invisible characters
+/// (IsInvisible) other than tab and line feed, become U+FFFD. The result has only characters that
+/// XML 1.0 allows (its production Char).
 [[nodiscard]] std::string EscapeMarkup(std::string_view text);
 
-/// Names and values, in this order.
+/// Names and values, in output order.
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-/// An element of HTML, SVG or XML: its tag, its attributes and what stands in it.
+/// An element of HTML, SVG or XML: its tag, its attributes and its content.
 ///
-/// Text and values are escaped where they are added, so that nothing from outside becomes markup.
-/// What is written is well-formed XML, and HTML too: the elements that HTML calls void (meta, img,
-/// …) are closed in their own tag, all others by one.
+/// Text and values are escaped when they are added, so that no input becomes markup. The output is
+/// well-formed XML and valid HTML: void elements of HTML (meta, img, …) are closed in their own
+/// tag, all other elements by an end tag.
 class Element {
  public:
-  /// @param tag, attributes  names are taken as they are.
-  /// @param children         as Add takes them, in this order.
+  /// @param tag, attributes  tag and attributes; names are not escaped.
+  /// @param children         children in output order, of any type that Add accepts.
   template <typename... Children>
   explicit Element(std::string_view tag, const Attributes& attributes = {},
                    const Children&... children)
@@ -33,9 +34,9 @@ class Element {
 
   void Add(std::string_view text);
   void Add(const Element& child);
-  /// Elements side by side, each on a line of its own.
+  /// Add elements, each on its own line.
   void Add(const std::vector<Element>& children);
-  /// What follows other rules than markup and comes from no one else: a style sheet.
+  /// Add text without escaping, such as a style sheet; never text from input.
   void AddVerbatim(std::string_view text);
 
   [[nodiscard]] std::string Format() const;

@@ -257,7 +257,7 @@ Json MakeWeakestFinger(const ReportStep& step, double half_angle) {
   return FingerNeedJson(step.weakest_finger->finger, step.weakest_finger->friction, half_angle);
 }
 
-/// What the plan takes as a whole: the least of every margin, and where.
+/// Return the smallest margin of each kind over the whole plan, with its place.
 Json MakeMargins(const Report& report) {
   Json finger = nullptr;
   if (const plan::EntryIndex step = report.weakest_finger_step(); step.valid()) {
@@ -297,7 +297,7 @@ Json MakeAlignShares(const std::optional<sim::StepReplay>& replay) {
       {"imitated", shares.imitated}, {"slid", shares.slid}, {"best_effort", shares.best_effort}};
 }
 
-/// `step` gets its contact region, if it has one.
+/// Add the contact region of a step, if there is one.
 void AddRegion(const std::optional<plan::SwitchRegion>& region, Json& step) {
   if (!region) return;
   step["region"] = {{"half_width", region->half_width},
@@ -310,7 +310,7 @@ Json MakeCertificate(const std::optional<motion::ProofVerdict>& certificate) {
   return certificate->proves() ? "holds" : "does-not-hold";
 }
 
-/// What the replay measured, where there was one.
+/// Add the measurements of the replay, if there was one.
 void AddReplay(const ReportStep& step, Json& json) {
   if (!step.replay || step.skipped) return;
   json["protocols"] = ProtocolsJson(*step.replay);

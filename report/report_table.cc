@@ -50,7 +50,7 @@ namespace {
 
 std::string Percent(double share) { return FormatShort(100 * share, 2); }
 
-/// "+x" of a force, "t+x" of a torque.
+/// Return "+x" for a force, "t+x" for a torque.
 std::string ShortName(const sim::Push& push) {
   return std::string(push.turn ? "t" : "") + (push.sign > 0 ? "+" : "-") + "xyz"[push.axis];
 }
@@ -175,7 +175,7 @@ std::string TrialsNoiseText(const sim::TrialSummary& summary) {
 
 namespace {
 
-/// Lengths to two significant digits.
+/// Significant digits of lengths.
 constexpr int kLengthDigits = 2;
 
 constexpr char kNothing[] = "-";
@@ -186,10 +186,10 @@ std::string RequiredAngle(const ReportStep& step) {
   return FormatRequiredDegrees(Degrees(step.check.required->upper));
 }
 
-/// Which columns a table has beside those that it always has.
+/// Optional columns of a table.
 struct Columns {
   bool regions = false;
-  bool fixed = false;  ///< the verdict at fixed squeeze, beside the adapted one that decides
+  bool fixed = false;  ///< verdict at fixed grasp force, next to the adapted one that decides
 };
 
 Columns ColumnsOf(const Report& report) {
@@ -224,7 +224,7 @@ std::string FormatWeakest(const Report& report) {
   return weakest.empty() ? "" : "weakest: " + weakest + "\n";
 }
 
-/// What a finger needs, or the others without it.
+/// Return the friction that a finger requires, or that the other fingers require without it.
 std::string NeedText(const grasp::FingerFriction& finger, double half_angle,
                      const std::string& what) {
   const auto [needed, available] = FormatRequiredDegrees(
@@ -233,7 +233,7 @@ std::string NeedText(const grasp::FingerFriction& finger, double half_angle,
          what + needed + " of " + available + " degrees\n";
 }
 
-/// Quality and weakest finger of a single grasp.
+/// Format quality and weakest finger of a single grasp.
 std::string FormatGraspLines(const Report& report) {
   const int weakest = grasp::WeakestFinger(report.grasp->fingers);
   if (weakest < 0) return "";
@@ -242,7 +242,7 @@ std::string FormatGraspLines(const Report& report) {
          NeedText(report.grasp->fingers[weakest], report.half_angle, "a friction angle of ");
 }
 
-/// Of steps that pass: why one fails is told with its failure.
+/// Format the disagreements of steps that pass. A failure includes its own cause.
 std::string FormatCauses(const Report& report) {
   std::string text;
   for (const ReportStep& step : report.steps) {
@@ -253,7 +253,7 @@ std::string FormatCauses(const Report& report) {
   return text;
 }
 
-/// Every step on which two engines differ, or that they agree.
+/// Format every step on which two engines differ, or that they agree.
 std::string FormatEngines(const Report& report) {
   if (!report.settings || report.settings->engine != sim::EngineChoice::kBoth) return "";
   std::string text;
@@ -273,7 +273,7 @@ std::string FormatEngines(const Report& report) {
          (agreed == 1 ? " step\n" : " steps\n");
 }
 
-/// The weakest finger of the whole plan.
+/// Format the weakest finger of the whole plan.
 std::string FormatWeakestFinger(const Report& report) {
   const plan::EntryIndex index = report.weakest_finger_step();
   if (!index.valid() || report.grasp) return "";
@@ -283,8 +283,8 @@ std::string FormatWeakestFinger(const Report& report) {
          NeedText(need.friction, report.half_angle, "");
 }
 
-/// What is weakest in a plan whose steps pass. One that fails has something weaker, which is told
-/// first.
+/// Format the weakest point of a plan whose steps pass. A plan that fails prints its failure
+/// instead.
 std::string FormatWeakestOfPlan(const Report& report) {
   return report.steps_passed() ? FormatWeakest(report) + FormatWeakestFinger(report) : "";
 }
@@ -297,7 +297,7 @@ std::string FormatUndecided(const Report& report) {
          " pieces of aligns, a millionth of the path each\n";
 }
 
-/// What was held, and how hard.
+/// Format the object and the grasp force.
 std::string FormatBody(const Report& report) {
   return (report.measures.empty() ? "" : "object: " + report.measures + "\n") +
          (report.farthest_from_points

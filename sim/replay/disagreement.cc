@@ -19,13 +19,13 @@ namespace {
 
 using Finding = std::optional<Disagreement>;
 
-/// A fingertip counts as too thick only where it exceeds the clearance by more than rounding.
+/// Ratio to the clearance above which a fingertip is too thick; it exceeds rounding errors.
 constexpr double kThicker = 1 + 1e-6;
 
 std::string Finger(FingerIndex finger) { return "finger " + std::to_string(finger); }
 
-/// A finger that slid off its face pushes on another one; what it lacks to the planned cone then is
-/// no number to tell.
+/// After a finger slides off its face it presses on another one. Its margin to the planned cone is
+/// then meaningless and is not reported.
 Disagreement ConeReached(const std::string& what, FingerIndex finger, double margin) {
   const double degrees = Degrees(std::max(margin, 0.0));
   return {.cause = Cause::kConeReached,
@@ -33,7 +33,7 @@ Disagreement ConeReached(const std::string& what, FingerIndex finger, double mar
           .values = {{"finger", finger}, {"cone_margin_deg", degrees}}};
 }
 
-/// Looks for causes where the replay fails, one after the other.
+/// Checks the possible causes of a failed replay, one after the other.
 class ReplayFault {
  public:
   explicit ReplayFault(const ExaminedStep& step)
@@ -86,7 +86,7 @@ class ReplayFault {
     for (const plan::FingerGrasp& grasp : grasps_) {
       if (grasp.empty()) return 0;
       const grasp::Grasp contacts = plan::ContactsOf(grasp);
-      // To say that a grasp is no worse takes a part of the work of measuring it.
+      // A lower bound of the quality is much cheaper than its value.
       if (grasp::QualityAtLeast(contacts, frame_, half_angle_, least)) continue;
       least = std::min(least, grasp::ComputeQuality(contacts, frame_, half_angle_).lower);
     }
@@ -145,7 +145,7 @@ class ReplayFault {
         .values = {{"quality", quality()}, {"shake", shake}}};
   }
 
-  /// A grasp above the shake that is below it once it carries the weight.
+  /// Check for a grasp whose quality falls below ρ only because it supports the weight.
   [[nodiscard]] Finding LookAtWeightInShake() const {
     if (grasps_.back().empty()) return std::nullopt;
     const grasp::Grasp rest = plan::ContactsOf(grasps_.back());
@@ -235,7 +235,7 @@ Disagreement ExplainAnalysis(const ExaminedStep& step) {
                      {"required_half_angle_deg", Degrees(required)}}};
 }
 
-/// Of the two engines.
+/// Check whether friction near the required one explains a disagreement of the two engines.
 Finding LookAtCriticalFriction(const ExaminedStep& step) {
   if (!step.check.required) return std::nullopt;
   const double critical = std::tan(step.check.required->upper);

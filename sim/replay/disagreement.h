@@ -12,40 +12,40 @@
 
 namespace regrasp::sim {
 
-/// Two examinations of one step that say different things.
+/// Two examinations of one step with different results.
 enum class Between {
   kReplayFails,    ///< the analysis passes the step, the replay fails it
-  kAnalysisFails,  ///< the other way round, where someone replays what the analysis fails
-  kFixedFails,     ///< adapted forces resist the shake, a fixed squeeze does not
+  kAnalysisFails,  ///< the analysis fails the step, the replay passes it
+  kFixedFails,     ///< adapted forces resist the disturbance test, a fixed grasp force does not
   kOdeFails,       ///< MuJoCo passes the step, ODE fails it
-  kOdePasses,      ///< the other way round
+  kOdePasses,      ///< MuJoCo fails the step, ODE passes it
 };
 
-/// What is likely behind it, in the order in which it is looked for.
+/// Likely cause of a disagreement, in the order in which causes are checked.
 enum class Cause {
-  kConcaveCorner,     ///< a contact where no fingertip fits
-  kNoClearance,       ///< a fingertip thicker than the clearance of its contact
-  kWeight,            ///< the squeeze does not carry the weight, or not besides the shake
-  kQuality,           ///< quality ε below the shake
-  kEdge,              ///< a contact nearer to its face's border than a finger may slip
-  kConeReached,       ///< a finger's force reached its friction cone
-  kNotSimulated,      ///< the analytic fault is none that a replay looks at
-  kNoShake,           ///< a replay without shake: the weight alone does not test the grasp
-  kCriticalFriction,  ///< friction within 2 % of the critical one
-  kUnstable,          ///< one of two engines did not come through
+  kConcaveCorner,  ///< a contact at which no fingertip fits
+  kNoClearance,    ///< a fingertip thicker than the clearance of its contact
+  kWeight,        ///< the grasp force does not support the weight, alone or in the disturbance test
+  kQuality,       ///< grasp quality ε below ρ
+  kEdge,          ///< a contact closer to the border of its face than the slip limit
+  kConeReached,   ///< a finger's force reached its friction cone
+  kNotSimulated,  ///< an analytic fault that a replay does not check
+  kNoShake,       ///< a replay without disturbance test: the weight alone does not test the grasp
+  kCriticalFriction,  ///< friction within 2 % of the required friction
+  kUnstable,          ///< an unstable simulation in one of the two engines
   kUnknown,           ///< none of these
 };
 
-/// A disagreement and its likely cause, with the numbers that speak for it.
+/// A disagreement and its likely cause, with the numbers that support it.
 struct Disagreement {
   Between between = Between::kReplayFails;
   Cause cause = Cause::kUnknown;
-  std::string text = {};  ///< for people, one phrase
-  /// Names as in report.json; lengths in metres, angles in degrees, loads over the squeeze.
+  std::string text = {};  ///< readable description, one phrase
+  /// Names as in report.json; lengths in metres, angles in degrees, loads over the grasp force.
   std::vector<std::pair<std::string, double>> values = {};
 };
 
-/// A step and what was found of it.
+/// A step and its results.
 struct ExaminedStep {
   const object::Object& object;
   const plan::Plan& located;  ///< contacts on the surface (PlanCheck::located)
@@ -54,28 +54,30 @@ struct ExaminedStep {
   const ReplaySettings& settings;
 };
 
-/// Compares what the analysis, the replay and its two protocols say of a step; nullopt where they
-/// agree. Geometry comes before loads, and loads before what was measured: a finger that has no
-/// clearance slips too, and a grasp that is too weak reaches its cones.
+/// Compare the analysis, the replay and its two protocols on a step.
+/// Geometry is checked first, then loads, then measurements. A finger without clearance slips too,
+/// and a grasp that is too weak reaches its friction cones.
+/// @returns the disagreement; nullopt if all agree.
 [[nodiscard]] std::optional<Disagreement> ExplainDisagreement(const ExaminedStep& step);
 
-/// Compares what the two engines say of a step that both replayed; nullopt where they agree, or
-/// where both have not replayed it. Friction within kNearCriticalOfTwo of the critical one comes
-/// first: there it is rounding that decides; then what makes a replay fail.
+/// Compare the results of the two engines on a step.
+/// Friction within kNearCriticalOfTwo of the required friction is checked first, because rounding
+/// decides there. The causes of a failed replay follow.
+/// @returns the disagreement; nullopt if the engines agree, or if only one replayed the step.
 [[nodiscard]] std::optional<Disagreement> ExplainEngines(const ExaminedStep& step);
 
-/// "likely cause: the quality is below the shake: …", or that none was found.
+/// Return the likely cause as text, or that none was found.
 [[nodiscard]] std::string LikelyCauseText(const Disagreement& found);
 
-/// "replay-fails" and so on, as the report spells it.
+/// Return the name in the report, such as "replay-fails".
 [[nodiscard]] std::string_view BetweenName(Between between);
-/// "quality-below-shake" and so on, as the report spells it.
+/// Return the name in the report, such as "quality-below-shake".
 [[nodiscard]] std::string_view CauseName(Cause cause);
 
-/// Friction over the critical one (of μ) up to which a grasp that is not force closure can stand a
-/// replay: none at or below 0.98 did in 2000.
+/// Largest ratio of friction to required friction (of μ) at which a grasp cannot pass a replay.
+/// None of 2000 grasps that are not force closure passed at or below 0.98.
 inline constexpr double kNearCritical = 0.98;
-/// Two engines may differ about a grasp whose friction is as near to the critical one, relatively.
+/// Relative distance to the required friction within which two engines may differ.
 inline constexpr double kNearCriticalOfTwo = 0.02;
 
 }  // namespace regrasp::sim

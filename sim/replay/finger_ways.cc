@@ -44,7 +44,7 @@ void FingerWays::AppendTo(const object::Object& object,
     if (waypoints.empty() || !AreSame(waypoints.back(), grasp)) waypoints.push_back(grasp);
   };
   while (true) {
-    // Who comes to a border next.
+    // Finger that reaches a border next.
     std::size_t next = ways_.size();
     for (std::size_t i = 0; i < ways_.size(); ++i) {
       if (leg_of[i] + 1 == ways_[i].legs.size()) continue;

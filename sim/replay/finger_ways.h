@@ -8,24 +8,25 @@
 
 namespace regrasp::sim {
 
-/// Ways of fingers along the surface that begin and end together, as waypoints of an align: between
-/// two waypoints every finger moves on one face, or turns its normal at a point of a border.
+/// Paths of fingers along the surface that begin and end together, as waypoints of a sliding step.
+/// Between two waypoints every finger moves on one face, or turns its normal at a point of a
+/// border.
 class FingerWays {
  public:
-  /// @param held  the finger, with all that is said of its contact but where it is.
-  /// @param legs  at least one, each beginning where the one before it ends. Each takes its share
-  ///              of the time by its length.
+  /// @param held  finger and its contact; the point of the contact is ignored.
+  /// @param legs  consecutive legs of the path, at least one. The time of each leg is proportional
+  ///     to its length.
   void Add(const plan::FingerContact& held, const std::vector<object::SurfaceLeg>& legs);
 
-  /// Adds waypoints: one where a finger comes to a border, one where it has turned there, and the
-  /// end; none that is like the one before it.
+  /// Add waypoints: one when a finger reaches a border, one after it turned there, and the end. A
+  /// waypoint that equals its predecessor is omitted.
   void AppendTo(const object::Object& object, std::vector<plan::FingerGrasp>& waypoints) const;
 
  private:
   struct Way {
     plan::FingerContact held;
     std::vector<object::SurfaceLeg> legs;
-    std::vector<double> ends;  ///< of the legs, in [0, 1]
+    std::vector<double> ends;  ///< end times of the legs, in [0, 1]
   };
 
   std::vector<Way> ways_;

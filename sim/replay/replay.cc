@@ -24,7 +24,7 @@ void RestoreRoles(ReplayWorld& world) {
   }
 }
 
-/// What entry `index` of the report does between two rests.
+/// Execute entry `index` of the report, between two static grasps.
 void Perform(ReplayWorld& world, const object::Object& object, const plan::Plan& plan,
              plan::EntryIndex index, StepReplay& result) {
   if (index == 0) {
@@ -37,7 +37,7 @@ void Perform(ReplayWorld& world, const object::Object& object, const plan::Plan&
     return;
   }
   const auto* align = std::get_if<plan::Align>(&step);
-  if (align == nullptr) return;  // a move: there is no hand to carry it out
+  if (align == nullptr) return;  // an in-hand motion: there is no hand to execute it
   const auto& waypoints = align->waypoints;
   if (waypoints.empty()) return;
   const AlignScript& script = *world.scene().entries[index].script;
@@ -50,7 +50,7 @@ void Perform(ReplayWorld& world, const object::Object& object, const plan::Plan&
   TellMoved(world, waypoints_B);
 }
 
-/// The step as the monitor measured it.
+/// Return the measurements of the monitor for a step.
 StepMotion Describe(const MotionMonitor& monitor) {
   StepMotion result;
   static_cast<Violation&>(result) = {monitor.reason(), monitor.detail(), {}};
@@ -65,17 +65,17 @@ StepMotion Describe(const MotionMonitor& monitor) {
 
 StepMotion Unstable(const MotionMonitor& monitor, const UnstableError& error) {
   StepMotion result = Describe(monitor);
-  // An object that is lost may well end in a state that the engine cannot bear.
+  // After the object is lost, an unstable simulation is expected and changes no reason.
   if (result.reason != plan::Reason::kNone) return result;
   result.reason = plan::Reason::kSimulationUnstable;
   const std::string why = error.what();
-  // The engine's first sentence has it.
+  // The engine's first sentence contains the reason.
   result.detail =
       "the simulation became unstable " + monitor.phase() + ": " + why.substr(0, why.find(". "));
   return result;
 }
 
-/// What is at fault by the monitor, as the world is now.
+/// Return the fault that the monitor found, with the present state of the world.
 plan::Fault DescribeFault(const ReplayWorld& world, const object::Object& object, double scale) {
   const MotionMonitor& monitor = world.monitor();
   const Eigen::Vector3d& centroid = object.mass_properties().centroid;
@@ -95,7 +95,7 @@ plan::Fault DescribeFault(const ReplayWorld& world, const object::Object& object
   const bool slipped = monitor.reason() == plan::Reason::kSlipped;
   fault.fingers = {f};
   fault.found = contact_at(found);
-  // A slide is along the surface; off the surface it has no place to be but the one beneath it.
+  // A slide is along the surface. A place off the surface is projected onto it.
   const Eigen::Vector3d along = n * n.dot(finger.contact.p - found);
   const Eigen::Vector3d slide = finger.touch_B - found;
   fault.expected = {
@@ -103,7 +103,7 @@ plan::Fault DescribeFault(const ReplayWorld& world, const object::Object& object
   return fault;
 }
 
-/// The step with its shakes; the monitor is as before.
+/// Return the step with its disturbance tests; the monitor is restored.
 StepMotion ShakeAtRest(ReplayWorld& world, const object::Object& object, double scale,
                        DisturbanceResponse response) {
   const MotionMonitor before = world.monitor();
@@ -112,7 +112,7 @@ StepMotion ShakeAtRest(ReplayWorld& world, const object::Object& object, double 
   seen.detail = world.monitor().detail();
   seen.snapshot = world.TakeSnapshot();
   const auto see_fault = [&](const plan::FaultPush& push) {
-    // What failed before any push did not fail for it.
+    // A failure that precedes the disturbance is not caused by it.
     if (world.monitor().reason() == before.reason()) return;
     seen.fault = DescribeFault(world, object, scale);
     seen.detail = world.monitor().detail();
@@ -146,7 +146,7 @@ FingerMargins MarginsNow(const ReplayWorld& world) {
   return margins;
 }
 
-/// What is asked of a step once it is at rest.
+/// Test the static grasp after a step.
 void ExamineRest(ReplayWorld& world, const object::Object& object, double scale,
                  StepReplay& result) {
   const ReplaySettings& settings = world.settings();
@@ -157,7 +157,7 @@ void ExamineRest(ReplayWorld& world, const object::Object& object, double scale,
   if (settings.protocol != Protocol::kFixed) result.adapted = shake(DisturbanceResponse::kAdapted);
   if (settings.protocol != Protocol::kAdapted) result.fixed = shake(DisturbanceResponse::kFixed);
   static_cast<StepMotion&>(result) = result.adapted ? *result.adapted : *result.fixed;
-  // A grasp that lost the object before any push has no limit to look for.
+  // A grasp that loses the object without a disturbance resists no wrench.
   if (settings.stress && world.monitor().reason() == plan::Reason::kNone)
     result.stress = MeasureStress(world);
 }
@@ -192,7 +192,7 @@ StepReplay ReplayStep(ReplayWorld& world, const object::Object& object, const pl
   return result;
 }
 
-/// The controls with which the fingers hold the initial grasp at rest, for the keyframe.
+/// Return the controls of the fingers in the initial static grasp, for the keyframe.
 std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const object::Object& body,
                                           const plan::Plan& plan) {
   const ReplaySettings& s = scene.settings;
@@ -213,7 +213,7 @@ std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const object::Obje
 
 namespace {
 
-/// In one engine.
+/// Replay a plan in one engine.
 ReplayResult ReplayOnce(const object::Object& object, const plan::Plan& plan,
                         const ReplayOptions& options, const ReplayObserver& observer, int steps) {
   const int all = static_cast<int>(plan.steps.size()) + 1;

@@ -32,15 +32,19 @@ struct StepMotion : Violation {
 /// decides.
 struct StepReplay : StepMotion {
   plan::EntryIndex index{0};
-  double drift_m = 0;  ///< |Δx| + R|Δrotation| at its end since the sequence began
+  /// |Δx| + R|Δrotation| from the start of the sequence to the end of the step
+  double drift_m = 0;
   AlignMode align_mode = AlignMode::kNone;
-  AlignShares align_shares;                  ///< planned shares; zero for other steps
-  FingerMargins motion_margins;              ///< of holding fingers that do not slide on purpose
-  FingerMargins rest_margins;                ///< in the static grasp after the step
-  std::optional<StepMotion> adapted, fixed;  ///< of each protocol that ran
-  std::optional<StepMotion> ode;             ///< of the second engine, with EngineChoice::kBoth
-  std::vector<DirectionStress> stress;       ///< in each direction, with ReplayOptions::stress
-  /// Set for a replay by a hand; displacement, rotation and motion are then off the planned pose.
+  AlignShares align_shares;  ///< planned shares; zero for other steps
+  /// friction margins of holding fingers that do not slide on purpose
+  FingerMargins motion_margins;
+  FingerMargins rest_margins;  ///< friction margins in the static grasp after the step
+  std::optional<StepMotion> adapted, fixed;  ///< results of each protocol that ran
+  std::optional<StepMotion> ode;  ///< results of the second engine, with EngineChoice::kBoth
+  /// resisted wrench in each direction, with ReplayOptions::stress
+  std::vector<DirectionStress> stress;
+  /// Measurements of a replay by a hand. If set, displacement, rotation and motion are relative to
+  /// the planned pose.
   std::optional<HandMeasures> hand = std::nullopt;
 };
 
@@ -49,21 +53,22 @@ struct ReplayResult {
   std::vector<StepReplay> steps;  ///< ends with the first step that fails
 };
 
-/// Replay a plan with frictional point fingers in a physics engine: execute its steps, and apply
-/// disturbance forces along and torques about all axes in every static grasp.
+/// Replay a plan with frictional point fingers in a physics engine.
+/// It executes the steps of the plan. In every static grasp it applies disturbance forces along all
+/// axes and torques about them.
 ///
-/// A pass means: with this friction, grasp force and finger model the object withstands ± shake ·
-/// grasp force along every axis in every static grasp of the sequence. The replay uses no result of
-/// the analytic check. A plan that fails the check can be replayed, too.
+/// A pass means: with this friction, grasp force and finger model the object withstands ± ρ · grasp
+/// force along every axis in every static grasp of the sequence. The replay uses no result of the
+/// analytic check. A plan that fails the check can be replayed, too.
 ///
 /// Both engines have the same scene, script, disturbance tests and monitor, and know only
 /// sim/scene/engine.h. With EngineChoice::kBoth the result is MuJoCo's. Each step also has that of
 /// ODE, up to the first that fails there. The observer watches MuJoCo.
 ///
 /// Deterministic: the same plan gives the same bits.
-/// @param plan   located on the object (PlanCheck::located).
+/// @param plan   plan located on the object (PlanCheck::located).
 /// @param steps  number of steps to replay, initial grasp included; negative: all.
-/// @throws InputError  the body cannot be simulated (scale or mass out of range).
+/// @throws InputError  if the body cannot be simulated (scale or mass out of range).
 [[nodiscard]] ReplayResult ReplayPlan(const object::Object& object, const plan::Plan& plan,
                                       const ReplayOptions& options,
                                       const ReplayObserver& observer = {}, int steps = -1);

@@ -20,20 +20,20 @@ namespace {
 using Eigen::Vector3d;
 using object::SurfaceLeg;
 
-/// The fingers as they are meant to be and as they are.
+/// Fingers with their planned and their actual contacts.
 class NoisyHand {
  public:
   NoisyHand(const object::Object& object, const ContactNoise& noise, RandomStream& random)
       : object_(object), noise_(noise), random_(random) {}
 
-  /// A free finger touches.
+  /// Place a free finger on the surface.
   void Place(plan::FingerContact& held) {
     const grasp::Contact actual = Draw(held.contact);
     held_[held.finger] = {held.contact, actual};
     held.contact = actual;
   }
 
-  /// The fingers that hold go from waypoint to waypoint.
+  /// Move the holding fingers from waypoint to waypoint.
   void Move(plan::Align& align) {
     std::vector<plan::FingerGrasp> noisy;
     for (const plan::FingerGrasp& waypoint : align.waypoints) {
@@ -41,7 +41,7 @@ class NoisyHand {
       for (const plan::FingerContact& held : waypoint) ways.Add(held, WayTo(held));
       ways.AppendTo(object_, noisy);
     }
-    // Where no finger moves.
+    // Keep two waypoints if no finger moves.
     if (noisy.size() == 1) noisy.push_back(noisy.front());
     align.waypoints = std::move(noisy);
   }
@@ -83,8 +83,7 @@ class NoisyHand {
     return meant;
   }
 
-  /// The way of a finger to where it is to be at a waypoint; a single leg without length where it
-  /// stays.
+  /// Return the path of a finger to its place at a waypoint; one leg of length 0 if it stays.
   [[nodiscard]] std::vector<SurfaceLeg> WayTo(const plan::FingerContact& to) {
     const auto at = held_.find(to.finger);
     if (at == held_.end()) {
@@ -104,7 +103,7 @@ class NoisyHand {
       actual = drawn;
       return *way;
     }
-    // No way along the surface is known: straight there, as the plan has it.
+    // Without a path along the surface it moves straight, as in the plan.
     const Vector3d from = actual.p;
     actual = meant;
     return {{meant.face, from, meant.p}};
@@ -197,7 +196,7 @@ TrialSummary RunTrials(const object::Object& object, const plan::Plan& plan,
     RandomStream contacts(trials.seed, RandomUse::kTrialContacts, trial);
     const TrialFactors factors = DrawTrialFactors(trials, trial);
     ReplayOptions drawn = options;
-    drawn.stress = false;  // of the nominal replay alone
+    drawn.stress = false;  // only the nominal replay measures it
     drawn.friction_factor = factors.friction;
     drawn.mass_factor = factors.mass;
     const plan::Plan noisy = AddContactNoise(object, plan, noise, contacts);

@@ -24,10 +24,10 @@ struct ContactNoise {
   double fingertip = 0;  ///< radius of the fingertip; object's unit
 };
 
-/// Return the plan as a hand with placement errors executes it. Every contact moves along the
-/// surface by a normal deviate in each direction of its face, straight and across borders
-/// (object/surface_walk.h), so that the size of faces does not matter. It has the normal of the
-/// face that it reaches.
+/// Return the plan as a hand with placement errors executes it.
+/// Every contact moves along the surface by a normal deviate in each direction of its face,
+/// straight and across borders (object/surface_walk.h). The size of faces therefore does not
+/// matter. The contact has the normal of the face that it reaches.
 ///
 /// The error of a finger is drawn once for each point at which the plan has it, through static
 /// grasps, sliding steps and turns of its normal. In a sliding step the finger moves along the
@@ -36,7 +36,7 @@ struct ContactNoise {
 /// kMostNoiseDraws times. Then the contact stays.
 ///
 /// Deterministic. Without deviation the plan is unchanged.
-/// @param plan  located on the object (PlanCheck::located); its goal is not changed.
+/// @param plan  plan located on the object (PlanCheck::located); its goal is not changed.
 [[nodiscard]] plan::Plan AddContactNoise(const object::Object& object, const plan::Plan& plan,
                                          const ContactNoise& noise, RandomStream& random);
 
@@ -47,8 +47,8 @@ struct TrialOptions {
   int count = 0;
   std::uint64_t seed = 0;
   /// Standard deviation of every contact along the surface, over D: 1 mm on a body of 10 cm. The
-  /// fingertips of a calibrated hand are a few millimetres off at most (3.7 mm for the DLR-Hand II:
-  /// Tenhumberg, Sievers and Bäuml 2023).
+  /// fingertips of a calibrated hand deviate by a few millimetres at most (3.7 mm for the DLR-Hand
+  /// II: Tenhumberg, Sievers and Bäuml 2023).
   double position_noise = 0.01;
   double friction_error = 0.1;  ///< relative standard deviation of the friction coefficient
   double mass_error = 0.1;      ///< relative standard deviation of the mass
@@ -69,29 +69,30 @@ struct TrialFactors {
 struct TrialSummary {
   TrialOptions options;
   int passed = 0;
-  std::map<plan::Reason, int> reasons;    ///< how many trials failed for each reason
-  std::map<plan::EntryIndex, int> steps;  ///< how many failed first in each step
+  std::map<plan::Reason, int> reasons;    ///< number of failed trials by reason
+  std::map<plan::EntryIndex, int> steps;  ///< number of failed trials by the first step that fails
 
   [[nodiscard]] double share() const;
-  /// Whether the share is at least `options.min_pass_rate`.
+  /// Return whether the share is at least `options.min_pass_rate`.
   [[nodiscard]] bool enough() const;
   /// Return the interval of the share, at kTrialConfidence.
   [[nodiscard]] ShareInterval interval() const;
 };
 
-/// Replay the plan `trials.count` times. In each trial the placement of fingers has errors
-/// (AddContactNoise), and friction and mass of the world differ from those that the hand assumes
-/// for its forces. The hand knows where its fingers touch, as in any replay. A trial passes if
-/// every step of the replay does.
+/// Replay the plan `trials.count` times in perturbed worlds.
+/// In each trial the placement of fingers has errors (AddContactNoise), and friction and mass of
+/// the world differ from those that the hand assumes for its forces. The hand knows its contacts,
+/// as in any replay. A trial passes if every step of the replay does.
 ///
 /// Friction and mass are those assumed times 1 + error · (a normal deviate), at least kLeastFactor.
 ///
 /// Laws: trial k depends on the seed and k alone. The same arguments give the same summary. Without
 /// errors every trial is the nominal replay.
-/// @param plan       located on the object; its nominal replay passes.
+/// @param plan       plan located on the object; its nominal replay passes.
 /// @param fingertip  radius of the fingertips in the nominal replay, metres.
 /// @param progress   callback after every trial; may be empty.
-/// @throws std::invalid_argument  a count below 1, an error or noise outside [0, kMostError].
+/// @throws std::invalid_argument  if a count is below 1, or an error or noise is outside [0,
+///     kMostError].
 /// @throws InputError             as ReplayPlan.
 [[nodiscard]] TrialSummary RunTrials(const object::Object& object, const plan::Plan& plan,
                                      const ReplayOptions& options, const TrialOptions& trials,
@@ -99,7 +100,7 @@ struct TrialSummary {
                                      const std::function<void(int done)>& progress = {});
 
 /// Run trials, and count their results. Both replays use it.
-/// @param replay  returns the last step of a trial.
+/// @param replay  function that returns the last step of a trial.
 /// @throws std::invalid_argument  as RunTrials.
 [[nodiscard]] TrialSummary CountTrials(const TrialOptions& trials,
                                        const std::function<StepReplay(int trial)>& replay,
