@@ -134,7 +134,7 @@ void ExpectFree(const HeldFolder& folder, const std::set<std::string>& own,
     throw InputError(
         path.string() +
         ": cannot overwrite a file that no earlier run wrote; help: move it or pass another "
-        "--out");
+        "--output");
   }
 }
 

@@ -296,13 +296,12 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
   const ListOption::Parser size = SizeParser(options.frame.width, options.frame.height);
   ListOption("--size", &options.settings)
       .Values("WxH", {[&options, size](const std::string& name, const std::string& text) {
-    size(name, text);
-    options.frame.crop = false;
+                size(name, text);
+                options.frame.crop = false;
               }})
       .Key("animation", SizeParser(options.animation_width, options.animation_height))
       .Key("overview",
-           IntegerParser(options.sheet_width, render::kMinOverviewWidth,
-      render::kMaxOverviewWidth,
+           IntegerParser(options.sheet_width, render::kMinOverviewWidth, render::kMaxOverviewWidth))
       .AddTo(app, "WxH[,animation=WxH][,overview=W]",
              "Size of frames, pixels. By default frames are cropped to their content [default: " +
                  std::to_string(options.frame.width) + "x" + std::to_string(options.frame.height) +
