@@ -31,9 +31,8 @@
 #include "report/page/report_page.h"
 #include "report/report.h"
 #include "sim/actuation/hand_scene_export.h"
-#include "sim/actuation/hand_trajectory.h"
 #include "sim/actuation/hand_world.h"
-#include "sim/replay/trajectory.h"
+#include "sim/actuation/trajectory.h"
 #include "sim/scene/scaling.h"
 #include "sim/validation/validation.h"
 

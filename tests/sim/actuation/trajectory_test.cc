@@ -1,4 +1,4 @@
-#include "sim/replay/trajectory.h"
+#include "sim/actuation/trajectory.h"
 
 #include <gtest/gtest.h>
 
