@@ -302,9 +302,9 @@ class TreeSearch {
                      reached(1) + " from the goal in " + std::to_string(reach_.tests) + " tests" +
                      (reach_.out_of_time ? "; time limit reached" : "") +
                      "; this does not prove that there is no sequence" +
-                     (request_.explain ? ""
-                                       : "; help: --explain searches for the smallest friction "
-                                         "that is sufficient");
+                     (parameters_.explain ? ""
+                                          : "; help: --explain searches for the smallest friction "
+                                            "that is sufficient");
     if (parameters_.explain) result.message += Explain(from, to);
     return result;
   }
