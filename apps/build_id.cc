@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view kOwner{ELF_NOTE_GNU, sizeof ELF_NOTE_GNU};
 
-/// @param notes  one behind the other: a header, the owner's name, the content, each padded.
+/// Return the build ID in the notes of an ELF segment; empty if there is none.
+/// @param notes  consecutive notes: header, name of the owner and content, each padded.
 std::string FindBuildId(std::string_view notes, std::size_t alignment) {
   const auto padded = [alignment](std::size_t size) {
     return (size + alignment - 1) / alignment * alignment;
@@ -34,13 +35,13 @@ std::string FindBuildId(std::string_view notes, std::size_t alignment) {
   return "";
 }
 
-/// Called for the program first, and stops there.
+/// Take the build ID of the first object, which is the program, and stop.
 int TakeProgram(dl_phdr_info* object, std::size_t /*size*/, void* id) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& part = object->dlpi_phdr[i];
     if (part.p_type != PT_NOTE) continue;
     const auto* notes = reinterpret_cast<const char*>(object->dlpi_addr + part.p_vaddr);
-    // Notes are padded to 4 bytes, or to 8 where their segment says so.
+    // Notes are padded to 4 bytes, or to 8 if their segment is aligned to 8.
     const std::string found = FindBuildId({notes, part.p_memsz}, part.p_align == 8 ? 8 : 4);
     if (!found.empty()) *static_cast<std::string*>(id) = found;
   }
@@ -52,7 +53,7 @@ int TakeProgram(dl_phdr_info* object, std::size_t /*size*/, void* id) {
 std::string BuildId() {
   std::string id;
   dl_iterate_phdr(TakeProgram, &id);
-  // Builds must not be taken for one another.
+  // Different builds must not have the same ID.
   return id.empty() ? Sha256(ReadFile("/proc/self/exe")) : id;
 }
 

@@ -4,9 +4,10 @@
 
 namespace regrasp::apps {
 
-/// The linker's digest of the running program (the ELF note NT_GNU_BUILD_ID), hexadecimal: builds
-/// of other sources, by another compiler or with other options have another one. If the linker
-/// wrote none, the SHA-256 of the program's file.
+/// Return the linker's digest of the running program, hexadecimal.
+/// It is the ELF note NT_GNU_BUILD_ID. Builds from different sources, by a different compiler or
+/// with different options have different digests. If the linker wrote none, it is the SHA-256 of
+/// the program's file.
 [[nodiscard]] std::string BuildId();
 
 }  // namespace regrasp::apps

@@ -17,7 +17,7 @@ Ink InkOf(std::string_view verdict) {
 }
 
 std::string PaintLine(const std::string& line) {
-  // "verdict: fail, …", and what a failed plan says first.
+  // "verdict: fail, …", and the first line of a failed plan.
   static const std::regex kWhole("(verdict: )(.*)|()(step \\d+ \\(\\w+\\) fails: .*)");
   // A cell of a table.
   static const std::regex kCell("(.*?  )(pass|fail(: \\S+)?|skipped|bad-input|error)((  .*)?)");

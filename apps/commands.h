@@ -5,10 +5,10 @@
 
 namespace regrasp::apps {
 
-/// A program, which is also a subcommand of `regrasp`.
+/// A program that is also a subcommand of `regrasp`.
 struct Command {
   const char* name;
-  const char* text;  ///< what it does, a sentence
+  const char* text;  ///< purpose of the program, one sentence
 };
 
 inline constexpr std::array<Command, 7> kCommands = {{
@@ -26,7 +26,7 @@ inline constexpr std::array<Command, 7> kCommands = {{
      "Finds palm, fingers and fingertips in a model of a hand, and prints what they can do."},
 }};
 
-/// What the program of this name does; empty where there is none.
+/// Return the purpose of a program; empty for an unknown name.
 [[nodiscard]] inline std::string CommandText(const std::string& name) {
   for (const Command& command : kCommands) {
     if (command.name == name) return command.text;

@@ -1,4 +1,4 @@
-// What shells complete a program's command line with, from what its --help says.
+// Shell completions of a program's command line, from the same data as its --help.
 
 #include <algorithm>
 
@@ -38,19 +38,20 @@ std::string SubcommandNames(const CLI::App& app, const std::string& separator) {
   return text;
 }
 
-/// Within single quotes of zsh, and within brackets there.
+/// Escape a text for single quotes of zsh, and for brackets in them.
 std::string ZshQuoted(std::string text) {
   for (const char c : {'\\', '[', ']'}) text = Replaced(text, c, std::string("\\") + c);
   return Replaced(text, '\'', "'\\''");
 }
 
-/// Within single quotes of fish.
+/// Escape a text for single quotes of fish.
 std::string FishQuoted(const std::string& text) {
   return Replaced(Replaced(text, '\\', "\\\\"), '\'', "\\'");
 }
 
-/// Of a program with subcommands: these and its options at first, and then what the program of the
-/// subcommand's name is completed with. Its completion stands in a file beside.
+/// Return the completion of a program with subcommands.
+/// The first word is completed with the subcommands and options of the program. Further words are
+/// completed by the subcommand's program, whose completion is in a file of the same folder.
 std::string BashDispatch(const CLI::App& app) {
   const std::string& name = app.get_name();
   return "_regrasp_" + name +
@@ -136,7 +137,7 @@ std::string ZshCompletion(const CLI::App& app) {
 std::string FishCompletion(const CLI::App& app) {
   std::string text = Subcommands(app).empty() ? "" : FishDispatch(app);
   for (const OptionHelp& option : AllOptions(app)) {
-    // Without files or with them: fish refuses both at once.
+    // fish accepts only one of the two flags: with files or without.
     const bool files = TakesFile(option) || TakesFolder(option);
     text +=
         "complete -c " + app.get_name() + (files ? " -F -l " : " -f -l ") + option.name.substr(2);

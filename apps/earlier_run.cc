@@ -46,7 +46,7 @@ bool IsFile(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-/// Empty where there is no such file.
+/// Return the text of a file; empty if it cannot be read.
 std::string TextOf(const fs::path& path) {
   if (!IsFile(path)) return "";
   try {
@@ -56,7 +56,7 @@ std::string TextOf(const fs::path& path) {
   }
 }
 
-/// Whether the files beside a report are those that it names.
+/// Return whether the files in a report's folder have the digests in the report.
 bool AreUnchanged(const fs::path& folder, const std::vector<report::FileDigest>& files) {
   return std::ranges::all_of(files, [&](const report::FileDigest& file) {
     const fs::path path = folder / file.name;
@@ -68,8 +68,9 @@ bool Holds(std::string_view text, const std::string& word) {
   return text.find('"' + word + '"') != std::string_view::npos;
 }
 
-/// The names of results that a report says stand beside it. It may be cut or edited until it is no
-/// JSON any more: what it names is removed all the same.
+/// Return the names of the results that a report lists.
+/// The report may be cut or edited such that it is not valid JSON. The files that it names are
+/// removed anyway.
 std::vector<std::string> NamesIn(const std::string& report) {
   const std::size_t begin = report.find("\"files\"");
   if (begin == std::string::npos) return {};
@@ -95,7 +96,7 @@ bool HasSameRun(const ValidateOptions& options) {
     const ReportSummary report = SummarizeReport(ParseJson(text, kReportName), kReportName);
     return AreUnchanged(folder, report.files) && report.run == DigestOfNow(options);
   } catch (const InputError&) {
-    return false;  // the run itself says what is wrong
+    return false;  // the run itself reports the error
   }
 }
 
@@ -149,7 +150,7 @@ void RemoveEarlierRun(HeldFolder& folder, const std::set<std::string>& own) {
     const bool ours = own.contains(name) || own.contains(NameBesideAside(name));
     if (ours && !entry->is_directory(error)) files.push_back(entry->path());
   }
-  // The report first: it never stands beside half of its pictures.
+  // Remove the report first, so that it never exists without a part of its images.
   std::ranges::partition(files,
                          [](const fs::path& file) { return file.filename() == kReportName; });
   for (const fs::path& file : files) {

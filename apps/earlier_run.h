@@ -9,26 +9,28 @@
 
 namespace regrasp::apps {
 
-/// Whether the folder of a plan holds the complete results of an earlier run that would come out
-/// the same: a report with this run's digest, and all files that it names, each of them and the
-/// report itself to the byte as they were written.
+/// Return whether a plan's folder has complete results of an equal earlier run.
+/// The report must have the digest of this run. The report and all files that it names must be
+/// unchanged, byte for byte.
 [[nodiscard]] bool HasSameRun(const ValidateOptions& options);
 
-/// The results in a folder that are known to be ours: the report of an earlier validation and the
-/// files that it names, and what a validation that was killed had announced.
+/// Return the names of files in a folder that a validation wrote.
+/// These are the report of an earlier validation, the files that it names, and the files that a
+/// killed validation announced.
 [[nodiscard]] std::set<std::string> OwnResults(const HeldFolder& folder);
 
-/// The same of a batch: its summary, and its page where the summary names one.
+/// Return the names of files in a folder that a batch wrote.
+/// These are its summary and its HTML report, if the summary names it.
 [[nodiscard]] std::set<std::string> OwnSummary(const HeldFolder& folder);
 
-/// Makes sure that files can be written which may replace `own` ones and no others.
-/// @throws InputError  a folder, or a file that is not of `own`, has one of the names.
+/// Check that writing the files replaces no files except `own` ones.
+/// @throws InputError  if a folder, or a file that is not in `own`, has one of the names.
 void ExpectFree(const HeldFolder& folder, const std::set<std::string>& own,
                 const std::vector<std::string>& names);
 
-/// Removes `own` files and what a killed process left of them half-written. All else stays, and so
-/// do folders.
-/// @throws EnvironmentError  one of them cannot be removed.
+/// Remove `own` files and their incomplete versions that a killed process wrote.
+/// All other files and all folders are kept.
+/// @throws EnvironmentError  if one of them cannot be removed.
 void RemoveEarlierRun(HeldFolder& folder, const std::set<std::string>& own);
 
 }  // namespace regrasp::apps

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kEntryDigits = 3;
 
-/// All that an entry can be.
+/// Return all kinds of entries.
 std::vector<std::string> EntryKinds() {
   static_assert(std::variant_size_v<plan::Step> == 3, "a kind of step is missing below");
   return {"hold", plan::StepKind(plan::Switch()), plan::StepKind(plan::Align()),

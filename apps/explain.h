@@ -6,18 +6,19 @@
 
 namespace regrasp::apps {
 
-/// Value of --explain that prints all entries as Markdown: the sections of docs/failure_reasons.md,
-/// then those of docs/likely_causes.md.
+/// Value of --explain that prints all entries as Markdown.
+/// These are the sections of docs/failure_reasons.md, then those of docs/likely_causes.md.
 inline constexpr char kExplainAll[] = "all";
 
-/// Add the option `--explain REASON`. It is handled during parsing, before required options are
-/// checked: the text goes to standard output, and the program exits with 0.
+/// Add the option `--explain REASON`.
+/// It is handled during parsing, before required options are checked. The text goes to standard
+/// output, and the program exits with 0.
 void AddExplain(CLI::App& app);
 
-/// Return what `--explain` prints for a failure reason or likely cause, or for `kExplainAll`.
+/// Return the text that `--explain` prints for a failure reason or likely cause.
 ///
-/// @param name   for example "slipped"
-/// @param width  maximum number of characters per line, except for `kExplainAll`
+/// @param name   failure reason or likely cause, for example "slipped", or `kExplainAll`.
+/// @param width  maximum number of characters per line; ignored for `kExplainAll`.
 /// @returns text that ends with a newline
 /// @throws InputError  if there is no such reason; the message lists all
 [[nodiscard]] std::string ExplainText(std::string_view name, int width);

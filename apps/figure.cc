@@ -40,7 +40,7 @@ using namespace regrasp;
 
 constexpr char kProgram[] = "figure";
 
-/// The beginning of the names of figures of contact space.
+/// First part of the file names of contact space figures.
 constexpr char kContactSpace[] = "contact_space";
 
 constexpr char kSceneEnding[] = "glb";
@@ -48,13 +48,13 @@ constexpr char kSceneEnding[] = "glb";
 constexpr NumberRange kWidths = {.lower = 20, .upper = 2000};
 constexpr NumberRange kFontSizes = {.lower = 2, .upper = 72};
 
-/// The folder of the figures.
+/// Folder of the figures.
 class FigureFolder {
  public:
   explicit FigureFolder(std::filesystem::path path);
   void Write(const std::string& name, const std::string& bytes);
-  /// Removes the figures of an earlier run that this one has not written again: files that bear a
-  /// figure's name and are ours.
+  /// Remove the figures of an earlier run that this run has not overwritten.
+  /// A file is removed if it has the name of a figure and the mark of this program.
   void RemoveOthers(const std::string& format) const;
 
  private:
@@ -68,7 +68,7 @@ struct FigureProgram {
   std::string out;
   std::string format = "svg";
   render::FigureStyle style;
-  std::string panels;  ///< of the sheet; all where empty
+  std::string panels;  ///< panels of the sheet; empty: all
   std::optional<double> scale;
   bool allow_object_change = false;
   bool contact_space = false;
@@ -163,8 +163,9 @@ plan::Plan FigureProgram::Located(const plan::Plan& plan, const object::Object& 
   return check.located;
 }
 
-/// True iff an earlier run may have written this: 000_hold.svg, 001_switch.svg, …,
-/// contact_space.svg, contact_space_001.svg, … in this format, or a scene, 000_hold.glb.
+/// Return whether a name is one that an earlier run may have written.
+/// In this format these are 000_hold.svg, 001_switch.svg, …, contact_space.svg and
+/// contact_space_001.svg, …. Scenes are 000_hold.glb, ….
 bool IsFigureName(const std::string& name, const std::string& format) {
   if (IsEntryFileName(name, format) || IsEntryFileName(name, kSceneEnding) ||
       name == std::string(kContactSpace) + "." + format) {
@@ -184,7 +185,7 @@ render::FigureFormat FormatOf(const std::string& format) {
 
 std::string SheetName(const std::string& format) { return "sheet." + format; }
 
-/// Whether a file says that this program made it. One that cannot be read does not.
+/// Return whether a file has the mark of this program; false if it cannot be read.
 bool IsOurs(const std::filesystem::path& file) {
   try {
     return render::IsMarkedFigure(ReadFile(file));
@@ -244,8 +245,9 @@ void FigureProgram::WriteContactSpace(const object::Polygon& polygon, const plan
   }
 }
 
-/// Reads "0,2-4"; all of `count` where the text is empty.
-/// @throws InputError  it is no such list, or names an entry that is not there.
+/// Parse a list of entries such as "0,2-4".
+/// An empty text means all `count` entries.
+/// @throws InputError  if the text is not such a list, or an entry does not exist.
 std::vector<int> ParsePanels(const std::string& text, int count) {
   std::vector<int> entries;
   if (text.empty()) {
@@ -253,7 +255,7 @@ std::vector<int> ParsePanels(const std::string& text, int count) {
     return entries;
   }
   try {
-    std::istringstream parts(text + ",");  // so that an empty last part is one
+    std::istringstream parts(text + ",");  // the last part can be empty
     for (std::string part; std::getline(parts, part, ',');) {
       const std::size_t dash = part.find('-');
       const int first = ParseInteger("--panels", part.substr(0, dash), 0, count - 1);

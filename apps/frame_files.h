@@ -13,19 +13,20 @@
 
 namespace regrasp::apps {
 
-/// The files in the folder of a validation, besides a frame for each step.
+/// Files in the folder of a validation, in addition to a frame for each step.
 inline constexpr char kReportName[] = "report.json";
 inline constexpr char kPageName[] = "report.html";
 inline constexpr char kOverviewName[] = "overview.png";
 inline constexpr char kAnimationName[] = "replay.webp";
 
-/// The names of all files that a validation of the plan may write into its folder; fewer where
-/// steps are not replayed.
+/// Return the names of all files that a validation of the plan may write.
+/// If steps are not replayed, it writes fewer.
 [[nodiscard]] std::vector<std::string> ResultNames(const plan::Plan& plan, bool frames,
                                                    bool animation);
 
-/// Whether a validation writes, or removes as an earlier one's, a file of this name in its folder:
-/// report, page, contact sheet, moving picture, or the frame of an entry.
+/// Return whether a validation writes or removes files of this name.
+/// Such files are the report, the HTML report, the overview image, the animations and the frames of
+/// entries.
 [[nodiscard]] bool IsValidationFile(const std::string& name);
 
 struct MovingFile {
@@ -33,22 +34,23 @@ struct MovingFile {
   render::AnimationFormat format;
 };
 
-/// Draws a frame of every step up to the one that failed into `folder` and names it in the report,
-/// and the contact sheet overview.png (report/pictures/report_pictures.h).
-/// @returns the same pictures, smaller, one for each entry of the report.
-/// @throws EnvironmentError  no rendering context, or the folder cannot be written.
+/// Draw a frame of each step up to the failed one, and the overview image.
+/// The frames are written into `folder` and named in the report. The overview image is overview.png
+/// (`report/pictures/report_pictures.h`).
+/// @returns the same images in a smaller size, one for each entry of the report.
+/// @throws EnvironmentError  if there is no rendering context, or the folder cannot be written.
 [[nodiscard]] std::vector<report::PagePicture> WriteFrames(const object::Object& object,
                                                            const plan::Plan& plan,
                                                            const report::DrawingOptions& options,
                                                            const std::filesystem::path& folder,
                                                            report::Report& report);
 
-/// Writes what was replayed as moving pictures, from where the frames are seen; the last rest is
-/// the frame of the step that failed.
-/// @param options  the size is that of the moving pictures.
+/// Write the replay as animations, with the view of the frames.
+/// The last pause shows the frame of the failed step, if a step failed.
+/// @param options  drawing options with the size of the animations.
 /// @param samples  states during the replay, ascending in time.
-/// @param files    at least one.
-/// @returns the first of them.
+/// @param files    files to write, at least one.
+/// @returns the first animation.
 /// @throws EnvironmentError  as WriteFrames.
 report::PagePicture WriteAnimation(const object::Object& object, const plan::Plan& plan,
                                    const report::DrawingOptions& options,

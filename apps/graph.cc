@@ -1,4 +1,4 @@
-// graph: builds the switching graph and prints what the dissertation's tables print.
+// graph: builds the switching graph and prints the dissertation's table values.
 
 #include <algorithm>
 #include <iostream>

@@ -12,7 +12,8 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Columns as wide as their widest cell, the first to the left, the others to the right.
+/// Format a table. Columns are as wide as their widest cell.
+/// The first column is aligned to the left, all others to the right.
 std::string FormatTable(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {

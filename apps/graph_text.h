@@ -7,14 +7,15 @@
 
 namespace regrasp::apps {
 
-/// A graph file's contents (docs/formats.md).
+/// Return the contents of a graph file (docs/formats.md).
 [[nodiscard]] Json GraphJson(const planning::GraphSummary& summary, double half_angle);
 
-/// What `graph` prints: tables of grasps and switches, times, and what was asked for besides.
+/// Return the text that `graph` prints.
+/// It has tables of grasps and finger switches, times, and the additional values of the request.
 [[nodiscard]] std::string GraphTable(const planning::GraphSummary& summary,
                                      const std::string& title);
 
-/// How many of the direct graph's sets sampling found, and of its links.
+/// Return the share of the direct graph that sampling finds, as text.
 [[nodiscard]] std::string ShareText(const planning::SamplingShare& share);
 
 }  // namespace regrasp::apps

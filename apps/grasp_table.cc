@@ -41,7 +41,7 @@ void CheckFinite(const NpzArray& array, const std::string& file) {
                    std::to_string(at % width) + "] is not finite");
 }
 
-/// With z = 0 where it has none.
+/// Return vectors in space, with z = 0 if the array has only x and y.
 std::vector<double> InSpace(const NpzArray& array) {
   if (array.shape[2] == 3) return array.values;
   std::vector<double> values;
@@ -54,7 +54,8 @@ std::vector<double> InSpace(const NpzArray& array) {
 
 using Shape = std::vector<std::size_t>;
 
-/// @throws InputError  it is not that of N grasps of k contacts.
+/// Check the shape of an array of points.
+/// @throws InputError  if it is not the shape of N grasps with k contacts.
 void CheckShape(const Shape& shape, const std::string& file, int dimension) {
   constexpr std::size_t kMostContacts = 1000;
   if (shape.size() != 3 || shape[2] != static_cast<std::size_t>(dimension) || shape[1] < 1 ||
@@ -78,8 +79,8 @@ void AppendActive(const std::vector<double>& values, const std::vector<double>& 
 }
 
 /// Group grasps by their number of active contacts; drop those without any.
-/// @param all     N grasps of k contacts
-/// @param active  (N, k) mask of active contacts
+/// @param all     N grasps of k contacts.
+/// @param active  (N, k) mask of active contacts.
 std::vector<GraspGroup> SplitByCount(const GraspGroup& all, const std::vector<double>& active) {
   const auto k = static_cast<std::size_t>(all.contacts);
   std::vector<GraspGroup> groups(k);
@@ -101,8 +102,9 @@ std::vector<GraspGroup> SplitByCount(const GraspGroup& all, const std::vector<do
   return groups;
 }
 
-/// Return the mask of active contacts, or nullptr if the file has none. Version 1 calls it `holds`.
-/// @throws InputError  if the version is not supported, or if the file has the mask twice
+/// Return the mask of active contacts, or nullptr if the file has none.
+/// Version 1 calls it `holds`.
+/// @throws InputError  if the version is not supported, or if the file has the mask twice.
 const NpzArray* FindActive(const std::vector<NpzArray>& arrays, const std::string& file) {
   const NpzArray* active = Find(arrays, kActive);
   const NpzArray* old = Find(arrays, kActiveInVersion1);

@@ -31,24 +31,25 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Version of the file format: 2 has `valid` and `is_force_closure` instead of `holds`.
+/// Version of the file format.
+/// Version 2 has `valid` and `is_force_closure` instead of `holds`.
 constexpr double kVerdictsVersion = 2;
 
-/// The last that a grasp can fail for.
+/// Last reason in the enumeration that a single grasp can fail for.
 constexpr auto kLastReason = plan::Reason::kObjectMoved;
 
-/// A contact that is off the surface, by its grasp and its index there.
+/// A contact that is off the surface, with the indices of its grasp and contact.
 struct OffSurface {
   std::size_t grasp;
   int contact;
   Eigen::Vector3d point;
 };
 
-/// The verdicts on those grasps that are on the object, at their places among all.
+/// Verdicts of all grasps of a file. Only grasps on the object are checked.
 struct Verdicts {
   std::vector<double> is_force_closure, valid, too_close, margin, required_deg, quality, reason,
       replayed;
-  std::optional<OffSurface> off_surface;  ///< of the first grasp of the file that has one
+  std::optional<OffSurface> off_surface;  ///< contact of the first grasp that has one
 
   explicit Verdicts(std::size_t count)
       : is_force_closure(count, 0),
@@ -61,9 +62,9 @@ struct Verdicts {
         replayed(count, 0) {}
 };
 
-/// Those of a group's grasps that have a place on the object.
+/// Grasps of a group whose contacts are on the object.
 struct PlacedGrasps {
-  std::vector<std::size_t> places;  ///< among all grasps
+  std::vector<std::size_t> places;  ///< index of each grasp among all grasps
   std::vector<double> points, normals;
 };
 
@@ -133,7 +134,8 @@ grasp::Grasp GraspAt(const PlacedGrasps& placed, int contacts, std::size_t i) {
   return grasp;
 }
 
-/// Holds and shakes, in MuJoCo, those that are force closure: each on its own, on all cores.
+/// Simulate the force-closure grasps in MuJoCo, with the disturbance test.
+/// Each grasp has a separate simulation. All cores are used.
 void Replay(const object::Object& object, const PlacedGrasps& placed, int contacts,
             const ValidateOptions& options, ProgressLine& progress, Verdicts& verdicts) {
   const validation::ValidationOptions given = ValidationOptionsOf(options);
@@ -164,7 +166,7 @@ void Replay(const object::Object& object, const PlacedGrasps& placed, int contac
 Verdicts JudgeAll(const object::Object& object, const GraspTable& table,
                   const ValidateOptions& options, ProgressLine& progress) {
   Verdicts verdicts(table.count);
-  // Of a grasp that nobody holds nothing else is said.
+  // Default reason, which remains for grasps that are not force closure.
   verdicts.reason.assign(table.count, static_cast<double>(plan::Reason::kNotForceClosure));
   for (const GraspGroup& group : table.groups) {
     const PlacedGrasps placed = Place(object, group, verdicts);
@@ -176,7 +178,7 @@ Verdicts JudgeAll(const object::Object& object, const GraspTable& table,
   return verdicts;
 }
 
-/// The codes that stand in `reason`, as words.
+/// Return the names of the codes in the array `reason`.
 std::vector<std::string> ReasonWords() {
   std::vector<std::string> words;
   for (int i = 0; i <= static_cast<int>(kLastReason); ++i) {
@@ -210,7 +212,7 @@ std::size_t Count(const std::vector<double>& values, double value) {
   return static_cast<std::size_t>(std::ranges::count(values, value));
 }
 
-/// What the table of a terminal has, by verdict.
+/// Return the table for the terminal: the number of grasps per verdict.
 std::string CountsText(const Verdicts& verdicts) {
   std::vector<TextRow> rows = {{"verdict", "grasps"}};
   const auto add = [&](const std::string& what, std::size_t n) {
@@ -228,8 +230,9 @@ std::string CountsText(const Verdicts& verdicts) {
   return FormatRows(rows);
 }
 
-/// "off-surface: grasp 3, contact 1: 0.001 of the object file's units off the surface, …"; empty if
-/// all contacts are on it.
+/// Return the line about the first contact off the surface; empty if none is.
+/// Example: "off-surface: grasp 3, contact 1 (the first): 0.001 of the object file's units off the
+/// surface, …".
 std::string OffSurfaceLine(const object::Object& object, const Verdicts& verdicts) {
   if (!verdicts.off_surface) return "";
   const OffSurface& first = *verdicts.off_surface;

@@ -20,7 +20,7 @@ constexpr double kLargestClearance_m = 0.05;
 constexpr double kLargestNormError = 1e-3;
 constexpr double kFarthest_m = 10;
 
-/// Lists are accepted with commas and with spaces.
+/// Replace commas by spaces; lists are accepted with both.
 std::string SpacesForCommas(std::string text) {
   std::ranges::replace(text, ',', ' ');
   return text;

@@ -8,9 +8,9 @@
 
 namespace regrasp::apps {
 
-/// The options of `plan` that are about a hand.
+/// Options of `plan` for a hand.
 struct HandOptions {
-  std::string hand;  ///< its file; empty: fingers without a hand
+  std::string hand;  ///< file of the hand; empty: fingers without a hand
   std::string turn;
   std::string start_pose;
   std::string goal_pose;
@@ -20,10 +20,12 @@ struct HandOptions {
   void AddTo(CLI::App& app);
 
   [[nodiscard]] bool given() const { return !hand.empty(); }
-  /// Checks the options against each other. @param start, goal  of `plan --start` and `--goal`.
+  /// Check that the options are consistent.
+  /// @param start, goal  values of `plan --start` and `--goal`.
   /// @throws InputError  if a task is missing or stated twice.
   void Check(const std::string& start, const std::string& goal) const;
-  /// Fill in the task. @throws InputError  if an option is malformed.
+  /// Fill in the task.
+  /// @throws InputError  if an option is malformed.
   void AskFor(planning::InHandTask& task) const;
 };
 

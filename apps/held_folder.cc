@@ -23,15 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Every line of the file begins so; nobody else's file does.
+/// Start of every line of the file, by which files of regrasp are recognized.
 constexpr std::string_view kOurs = "regrasp: ";
 constexpr std::string_view kHolder = "regrasp: process ";
 constexpr std::string_view kWrites = "regrasp: writes ";
 
-/// Between two looks at a folder that is held.
+/// Time between two attempts to lock a folder.
 constexpr std::chrono::milliseconds kPause{10};
 
-/// Files of ours are far smaller.
+/// Maximum number of bytes that are read; the file is far smaller.
 constexpr off_t kMostBytes = off_t{1} << 24;
 
 std::string HostName() {
@@ -52,7 +52,7 @@ std::string ReadAll(const Descriptor& file) {
   return text;
 }
 
-/// What follows `mark` in the lines that begin with it.
+/// Return the text after `mark` of each line that starts with it.
 std::vector<std::string> LinesWith(std::string_view mark, const std::string& text) {
   std::vector<std::string> found;
   std::istringstream stream(text);
@@ -66,7 +66,8 @@ std::vector<std::string> LinesWith(std::string_view mark, const std::string& tex
   throw EnvironmentError(path.string() + ": " + std::strerror(error));
 }
 
-/// Makes what is missing. The folder may go at any time: another process removes one that is empty.
+/// Open the run file, and make the file and its folder if they do not exist.
+/// Another process may remove the folder at any time if it is empty.
 Descriptor OpenRunFile(const fs::path& folder, const fs::path& file) {
   constexpr mode_t kMode = 0666;
   constexpr int kTries = 1000;
@@ -74,7 +75,8 @@ Descriptor OpenRunFile(const fs::path& folder, const fs::path& file) {
   for (int tries = 0; tries < kTries; ++tries) {
     std::error_code error;
     fs::create_directories(folder, error);
-    // EEXIST is what the library says of a folder that went between its mkdir and its look at it.
+    // The library returns EEXIST if the folder was removed after mkdir failed and before it was
+    // checked.
     failed = error.value();
     if (failed == ENOENT || failed == EEXIST) continue;
     if (failed != 0) FailWith(folder, failed);
@@ -86,19 +88,20 @@ Descriptor OpenRunFile(const fs::path& folder, const fs::path& file) {
   FailWith(folder, failed == 0 ? ENOENT : failed);
 }
 
-/// Whether the path still leads to the open file: it is removed with its lock held, so that one who
-/// waited for that lock holds nothing.
+/// Return whether the path still refers to the open file.
+/// The owner removes the file before it releases the lock. A process that waited for that lock then
+/// has a lock on a removed file.
 bool IsAt(const fs::path& path, const Descriptor& file) {
   struct stat open, there;
   return fstat(file.get(), &open) == 0 && lstat(path.c_str(), &there) == 0 &&
          open.st_dev == there.st_dev && open.st_ino == there.st_ino;
 }
 
-/// The folder's run file, locked.
+/// Open and lock the run file of a folder.
 Descriptor Lock(const fs::path& folder, const fs::path& file, std::chrono::milliseconds patience) {
   for (auto waited = std::chrono::milliseconds(0);; waited += kPause) {
     Descriptor opened = OpenRunFile(folder, file);
-    // A file system without locks goes without.
+    // On a file system without locks, the folder is used without a lock.
     const bool held = flock(opened.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     if (!held && IsAt(file, opened)) return opened;
     if (waited >= patience) {
@@ -122,7 +125,7 @@ HeldFolder::MadeFolders::MadeFolders(const fs::path& folder) {
 }
 
 HeldFolder::MadeFolders::~MadeFolders() {
-  // One that holds something stays.
+  // A folder that is not empty is kept.
   for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder) {
     if (rmdir(folder->c_str()) != 0 && errno != ENOENT) return;
   }

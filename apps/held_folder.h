@@ -10,24 +10,28 @@
 
 namespace regrasp::apps {
 
-/// The file by which a process holds a folder.
+/// Name of the file whose lock restricts a folder to one process.
 inline constexpr char kRunFileName[] = ".regrasp-run";
 
-/// A folder of results that this process alone writes into while this lives. It is made where it
-/// is missing, and goes again where nothing was put into it.
+/// A locked output folder, into which only this process writes.
+/// The lock lasts for the lifetime of this object. The folder is made if it does not exist, and
+/// removed at the end if it is empty.
 ///
-/// The folder is held by a lock on a file in it, kRunFileName, which says who holds it and which
-/// files it is about to write. The file goes with this object. A process that is killed leaves it,
-/// but not its lock; the next one learns from it what was left behind. Forked children hold the
-/// lock too, so that a folder is free only when the last of them is gone.
+/// The lock is on the file kRunFileName in the folder. The file names the process that has the lock
+/// and the files that it is about to write. The destructor removes the file. If a process is
+/// killed, the file remains without the lock. The next process reads from it which files the killed
+/// process wrote. Forked children share the lock, so the folder is free when the last of them has
+/// ended.
 class HeldFolder {
  public:
-  /// How long a folder is waited for: the children of a run that was killed take an instant to go.
+  /// Waiting time for a locked folder.
+  /// The children of a killed run take an instant to end.
   static constexpr std::chrono::milliseconds kPatience{1000};
 
-  /// @throws EnvironmentError  another process holds the folder, which it names; or the folder
-  ///                           cannot be made or written.
-  /// @throws InputError        something that is not ours bears the file's name.
+  /// Lock a folder.
+  /// @throws EnvironmentError  if another process has locked the folder (the message names it), or
+  ///     the folder cannot be made or written.
+  /// @throws InputError        if a file of the same name exists that regrasp did not write.
   explicit HeldFolder(std::filesystem::path path, std::chrono::milliseconds patience = kPatience);
   ~HeldFolder();
   HeldFolder(const HeldFolder&) = delete;
@@ -35,17 +39,18 @@ class HeldFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// The names of files that processes have announced which were killed here.
+  /// Names of files that killed processes had announced in this folder.
   [[nodiscard]] const std::set<std::string>& left_behind() const { return left_behind_; }
 
-  /// To be called before files are written or removed: should this process be killed, the next one
-  /// knows them for its own.
-  /// @param names  without line breaks.
-  /// @throws EnvironmentError  the disk is full.
+  /// Announce files before they are written or removed.
+  /// If this process is killed, the next one recognizes them as files of regrasp.
+  /// @param names  file names without line breaks.
+  /// @throws EnvironmentError  if the disk is full.
   void Announce(const std::vector<std::string>& names);
 
  private:
-  /// The folders that were made to make one; those that are still empty at the end go.
+  /// Folders that were made for one path.
+  /// The destructor removes those that are empty.
   class MadeFolders {
    public:
     explicit MadeFolders(const std::filesystem::path& folder);
@@ -54,7 +59,7 @@ class HeldFolder {
     MadeFolders& operator=(const MadeFolders&) = delete;
 
    private:
-    std::vector<std::filesystem::path> folders_;  ///< the innermost last
+    std::vector<std::filesystem::path> folders_;  ///< folders that were made, the innermost last
   };
 
   void Append(const std::string& lines);

@@ -18,8 +18,8 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Limits of the width of a text, and its default: narrower lines break words, wider ones are hard
-/// to read.
+/// Limits of the width of a text, and its default.
+/// Narrower lines break words, and wider ones are hard to read.
 constexpr int kNarrowest = 40, kWidest = 120, kUsualWidth = 80;
 
 /// Column of an option's text in --help.
@@ -32,7 +32,8 @@ int Length(std::string_view utf8) {
       std::ranges::count_if(utf8, [](char c) { return (c & '\xC0') != '\x80'; }));
 }
 
-/// Words in lines of at most `width` characters, each begun by `indent` spaces.
+/// Break words into lines of at most `width` characters.
+/// Each line is indented by `indent` spaces.
 std::string Wrap(const std::string& text, int indent, int width) {
   std::string lines, line;
   std::istringstream words(text);
@@ -67,7 +68,8 @@ bool IsWord(const std::string& text) {
   });
 }
 
-/// The words among "FILE|random|random-any", of CLI11's "FORMAT:{svg,pdf}", or at the beginning of
+/// Return the words that a type lists as choices.
+/// It has the form "FILE|random|random-any", CLI11's "FORMAT:{svg,pdf}" or
 /// "points|hand[,KEY=VALUE]".
 std::vector<std::string> ChoicesOf(const std::string& whole) {
   const std::string type = whole.substr(0, whole.find('['));
@@ -82,7 +84,7 @@ std::vector<std::string> ChoicesOf(const std::string& whole) {
 
 constexpr char kDefault[] = " [default: ";
 
-/// Text up to the first stop or the default.
+/// Return the text up to the first stop or the default.
 std::string FirstClause(const std::string& text) {
   std::size_t end = text.size();
   for (const char* stop : {"; ", ": ", ". ", ".\n", "\n", kDefault})
@@ -90,14 +92,14 @@ std::string FirstClause(const std::string& text) {
   return text.substr(0, end);
 }
 
-/// "[default: 0.01]" in a text; empty if there is none.
+/// Return "[default: 0.01]" in a text; empty if there is none.
 std::string DefaultIn(const std::string& text) {
   const std::size_t begin = text.find(kDefault);
   if (begin == std::string::npos) return "";
   return text.substr(begin + 1, text.find(']', begin) - begin);
 }
 
-/// Follows the name of a group in that of its rare options.
+/// Suffix of a group's name for its rare options.
 constexpr char kRare[] = " (rare)";
 
 bool IsRare(const CLI::Option& option) { return option.get_group().ends_with(kRare); }
@@ -107,7 +109,7 @@ std::string GroupOf(const CLI::Option& option) {
   return IsRare(option) ? group.substr(0, group.size() - std::string_view(kRare).size()) : group;
 }
 
-/// Usage texts without the program's name (SetUsage).
+/// Return the usage texts without the program's name (SetUsage).
 std::map<const CLI::App*, std::string>& Usages() {
   static std::map<const CLI::App*, std::string> usages;
   return usages;
@@ -134,7 +136,7 @@ std::string HeadOf(const OptionHelp& option) {
   return option.name + (option.type.empty() ? "" : " " + option.type);
 }
 
-/// One line; a type that leaves no room is cut.
+/// Return the line of an option in -h. A type that is too long is cut.
 std::string ShortLine(const OptionHelp& option) {
   std::string head = "  " + NamesOf(option);
   if (Length(head) > kShortColumn - 2) {

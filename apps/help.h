@@ -33,8 +33,8 @@ struct HelpGroup {
   std::vector<OptionHelp> options;
 };
 
-/// Group of the options that all programs have; CLI11 puts --help there. It comes last in all
-/// texts.
+/// Group of the options that all programs have. It comes last in all texts.
+/// CLI11 puts --help there.
 inline constexpr char kGeneralGroup[] = "Options";
 
 /// Title of that group.
@@ -55,34 +55,37 @@ void MarkRare(CLI::App& app, const std::vector<std::string>& names);
 /// Set the part of the usage between the program's name and "[options]".
 void SetUsage(const CLI::App& app, const std::string& usage);
 
-/// All options in their groups, in the order in which they were added.
+/// Return all options in their groups, in the order in which they were added.
 [[nodiscard]] std::vector<HelpGroup> HelpGroups(const CLI::App& app);
 
-/// The subcommands of `regrasp`; other programs have none.
+/// Return the subcommands of `regrasp`; empty for other programs.
 [[nodiscard]] std::vector<const CLI::App*> Subcommands(const CLI::App& app);
 
-/// Return "plan --object FILE --output FILE [options]", "regrasp COMMAND [options]": the text of
-/// SetUsage, otherwise the required options.
+/// Return the usage, such as "plan --object FILE --output FILE [options]".
+/// It contains the text of SetUsage, or the required options if none is set.
 [[nodiscard]] std::string UsageText(const CLI::App& app);
 
-/// Return what -h, --help or --help-all prints: usage, purpose, subcommands, the options by groups,
-/// and except for -h the examples (the app's footer). Lines are no longer than `width` characters
-/// unless a word is; -h does not wrap the lines of options.
+/// Return the text that -h, --help or --help-all prints.
+/// It has the usage, the purpose, the subcommands and the options by groups. Except for -h, it also
+/// has the examples (the app's footer). Lines have at most `width` characters, unless a single word
+/// is longer. -h does not wrap the lines of options.
 [[nodiscard]] std::string HelpText(const CLI::App& app, int width, HelpLevel level);
 
-/// Return the width of text on standard output: COLUMNS, the width of the terminal, otherwise 80.
+/// Return the width of text on standard output.
+/// It is COLUMNS, or the width of the terminal, or 80.
 [[nodiscard]] int HelpWidth();
 
-/// Break text into lines of at most `width` characters, each indented by `indent` spaces; ends with
-/// a newline.
+/// Break text into lines of at most `width` characters.
+/// Each line is indented by `indent` spaces. The result ends with a newline.
 [[nodiscard]] std::string WrapText(const std::string& text, int indent, int width);
 
-/// Return the manual page ("man"), the completion of a shell ("bash", "zsh", "fish") or the
-/// reference page ("markdown") for the same options.
+/// Return a document of the options in a format.
+/// The formats are the manual page ("man"), shell completions ("bash", "zsh", "fish") and the
+/// reference page ("markdown").
 /// @throws InputError  if `format` is a different one.
 [[nodiscard]] std::string FormatHelpAs(std::string_view format, const CLI::App& app);
 
-/// The same for each format.
+/// Return the document of one format.
 [[nodiscard]] std::string ManPage(const CLI::App& app);
 [[nodiscard]] std::string BashCompletion(const CLI::App& app);
 [[nodiscard]] std::string ZshCompletion(const CLI::App& app);

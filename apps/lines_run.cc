@@ -16,13 +16,15 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Before the number of the signal that stopped a run, as shells count it.
+/// Exit code minus the number of the signal that stopped a run, as in shells.
 constexpr int kSignalled = 128;
 
-/// A million lines that are all bad say the same.
+/// Maximum number of printed messages.
+/// A million bad lines may have the same message.
 constexpr int kMostMessages = 20;
 
-/// Of lines that are plans already, what holds none is no fault.
+/// Return the exit code of an outcome.
+/// If the input lines are plans, a line without a plan is not an error.
 int ExitCodeOf(Outcome outcome, const std::string& content) {
   switch (outcome) {
     case Outcome::kPlan:
@@ -97,7 +99,7 @@ int RunLinesFile(const LinesRun& run) {
   }
   progress.Clear();
   messages.PrintRest();
-  // As the first process of a container this one goes on: the kernel spares it.
+  // The signal has no effect on the first process of a container, which therefore continues.
   if (stop != 0) raise(stop);
   if (stop != 0) return kSignalled + stop;
   if (!run.quiet) {

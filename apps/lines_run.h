@@ -9,32 +9,33 @@
 
 namespace regrasp::apps {
 
-/// A run over a file of lines that writes another one.
+/// A run that reads a JSON Lines file and writes another one.
 struct LinesRun {
-  std::string program;  ///< its name, before its messages
-  std::string content;  ///< of the output: "plans" or "reports"
+  std::string program;  ///< name of the program, printed before its messages
+  std::string content;  ///< content of the output: "plans" or "reports"
   std::filesystem::path input, output;
-  std::string shard;  ///< as the option says it; empty: all
-  /// SHA-256 of all that the output's lines come from, of what its input's lines do.
+  std::string shard;  ///< value of --shard; empty: all lines
+  /// Function that returns the SHA-256 of all inputs of the output's lines.
+  /// `source` is the identity of the input's lines (LinesInput::source).
   std::function<std::string(const std::string& source)> digest;
   int jobs = 1;
-  std::optional<double> time_limit_s;  ///< of an entry
+  std::optional<double> time_limit_s;  ///< time limit of an entry
   bool fresh = false;
   bool quiet = false;
   LineWork work;
 };
 
-/// Runs it, or goes on where an earlier run was stopped, and says how many entries came to what. Of
-/// what is said of single entries the first messages are printed; all stand in the output.
+/// Run, or continue a stopped run, and print the number of entries per outcome.
+/// Only the first messages about single entries are printed. The output has all of them.
 ///
-/// @returns the exit code of the worst entry: 0 a plan, a pass, or one that had no plan to
-/// validate; 1 no plan or a fail, 2 bad input, 3 an error; 128 and its number where a signal
-/// stopped the run and left this process alive.
+/// @returns exit code of the worst entry: 0 for a plan, a pass, or an entry without a plan to
+///     validate. 1 for no plan or a fail, 2 for bad input, 3 for an error. 128 plus the signal's
+///     number if a signal stopped the run and this process is alive.
 /// @throws InputError, EnvironmentError  as LinesInput and LinesOutput.
 [[nodiscard]] int RunLinesFile(const LinesRun& run);
 
-/// Works on a line in a child: what is thrown for bad input, or because the machine fails, becomes
-/// the result.
+/// Process a line in a child process.
+/// Exceptions for bad input or for a failure of the machine become the result.
 [[nodiscard]] std::string GuardLine(const Line& line, const std::function<std::string()>& work);
 
 }  // namespace regrasp::apps

@@ -11,14 +11,15 @@
 
 namespace regrasp::apps {
 
-/// An option whose value is a comma-separated list of values, words and KEY=VALUE settings:
-/// `--view 30,20,zoom=2,orthographic`. The option may be given several times; each adds its items.
+/// Option whose value is a list: `--view 30,20,zoom=2,orthographic`.
+/// Its items are values, words and KEY=VALUE settings, separated by commas. The option may be given
+/// several times, and each occurrence adds its items.
 ///
-/// Values come in a fixed order. A setting that is given twice, an unknown one and too few or too
-/// many values are bad usage; messages name a similar setting.
+/// Values have a fixed order. A repeated or unknown setting and a wrong number of values are bad
+/// usage. Messages name a similar setting.
 class ListOption {
  public:
-  /// Parses a value. The first argument names it in messages: "--view zoom".
+  /// Parser of a value. The first argument is its name in messages: "--view zoom".
   using Parser = std::function<void(const std::string& name, const std::string& value)>;
 
   /// @param name  option name, with short name if it has one: "-o,--output".
@@ -38,7 +39,7 @@ class ListOption {
   /// Add the option to a command line.
   /// @param type  its value in help texts: "AZIMUTH,ELEVATION[,KEY=VALUE,…]".
   CLI::Option* AddTo(CLI::App& app, const std::string& type, const std::string& description) const;
-  /// The same for an option that can be given without a value.
+  /// Add the option to a command line; it can be given without a value.
   CLI::Option* AddOptionalTo(CLI::App& app, const std::string& type,
                              const std::string& description) const;
 
@@ -73,13 +74,14 @@ class ListOption {
   std::vector<Setting> settings_;
 };
 
-/// True iff an option was added by ListOption.
+/// Return whether an option was added by ListOption.
 [[nodiscard]] bool IsList(const CLI::Option& option);
 
 /// Return the items of all occurrences of a list option, joined by commas.
 [[nodiscard]] std::string JoinItems(const std::vector<std::string>& results);
 
-/// Return a parser of a number in a range. @param value  a double, or an optional one.
+/// Return a parser of a number in a range.
+/// @param value  destination: a double, or an optional one.
 template <class Value>
 [[nodiscard]] ListOption::Parser NumberParser(Value& value, const NumberRange& range) {
   return [&value, range](const std::string& name, const std::string& text) {

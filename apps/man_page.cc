@@ -1,4 +1,4 @@
-// The manual page of a program, from what its --help says.
+// Manual page of a program, from the same data as its --help.
 
 #include <algorithm>
 #include <cctype>
@@ -13,8 +13,9 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Text as troff takes it (groff_char(7), groff_man(7)): a hyphen that is a minus, a backslash that
-/// is one, no line that is a request, and all but ASCII by code point.
+/// Escape a text for troff (groff_char(7), groff_man(7)).
+/// A hyphen becomes a minus sign, and a backslash is printed literally. No line becomes a request,
+/// and characters outside ASCII are written by code point.
 std::string Escape(const std::string& text) {
   std::string escaped;
   for (std::size_t i = 0; i < text.size();) {
@@ -63,7 +64,7 @@ std::string OptionText(const OptionHelp& option) {
          EscapeLines(option.text + (option.required ? " (required)" : ""));
 }
 
-/// Each with its own page.
+/// Return the list of commands, each with a reference to its page.
 std::string CommandsText(const CLI::App& app) {
   std::string text;
   for (const CLI::App* command : Subcommands(app)) {

@@ -1,4 +1,4 @@
-// merge: joins the shards of a run over many lines into the file that one run writes.
+// merge: joins the shards of a run over a JSON Lines file into a single output file.
 
 #include <filesystem>
 #include <string>

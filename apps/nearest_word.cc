@@ -7,7 +7,7 @@ namespace regrasp::apps {
 
 namespace {
 
-/// The number of edits, by dynamic programming over prefixes.
+/// Return the number of edits, by dynamic programming over prefixes.
 int Distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<int>> d(a.size() + 1, std::vector<int>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {
@@ -28,7 +28,7 @@ int Distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string SimilarWord(const std::string& given, const std::vector<std::string>& words) {
-  // Longer than every word and its plausible misspellings.
+  // Maximum length of the given text, above all words with plausible misspellings.
   constexpr std::size_t kLongest = 64;
   constexpr int kCharactersAnEdit = 3;
   if (given.size() > kLongest) return "";

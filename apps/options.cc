@@ -122,7 +122,7 @@ std::optional<double> FrictionOptions::half_angle() const {
   if (degrees_ && mu_) throw InputError("--friction-angle: cannot be used with --mu");
   if (!degrees_ && !mu_) return std::nullopt;
   const double angle = degrees_ ? Radians(*degrees_) : std::atan(*mu_);
-  // A huge or tiny number may round onto an end of the interval, in radians or in degrees.
+  // A huge or tiny number may be rounded to an end of the interval, in radians or in degrees.
   if (!(angle > 0 && angle < std::numbers::pi / 2 && Degrees(angle) < 90)) {
     throw InputError(degrees_ ? "--friction-angle " + FormatDouble(*degrees_) +
                                     ": too close to an end of (0°, 90°)"
@@ -133,7 +133,7 @@ std::optional<double> FrictionOptions::half_angle() const {
 }
 
 std::string FrictionOptions::warning() const {
-  // Rubber on rough surfaces has up to 2.
+  // Largest plausible coefficient; rubber on rough surfaces has up to 2.
   constexpr double kMostUsual = 3;
   if (!mu_ || *mu_ <= kMostUsual) return "";
   return "--mu " + FormatDouble(*mu_) +

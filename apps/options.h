@@ -11,7 +11,7 @@
 
 namespace regrasp::apps {
 
-/// The values that a number on the command line may take.
+/// Range of a number on the command line.
 struct NumberRange {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -32,14 +32,15 @@ struct NumberRange {
 [[nodiscard]] double ParseNumber(const std::string& name, const std::string& text,
                                  const NumberRange& range);
 
-/// Parse a decimal integer of type `Integer` (int, std::uint64_t) in [lower, upper].
+/// Parse a decimal integer of type `Integer` in [lower, upper].
+/// `Integer` is int or std::uint64_t, for example.
 /// @throws CLI::ValidationError  as ParseNumber.
 template <class Integer>
 [[nodiscard]] Integer ParseInteger(const std::string& name, const std::string& text, Integer lower,
                                    Integer upper);
 
-/// Adds an option that takes a number inside `range`.
-/// @param value  a double, or an optional one.
+/// Add an option that takes a number inside `range`.
+/// @param value  destination: a double, or an optional one.
 template <class Value>
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, Value& value,
                        const NumberRange& range, const std::string& description,
@@ -50,8 +51,8 @@ CLI::Option* AddNumber(CLI::App& app, const std::string& name, Value& value,
   return app.add_option_function<std::string>(name, parse, description)->type_name(type);
 }
 
-/// Adds an option that takes an integer in [lower, upper].
-/// @param value  an integer of the type of the limits, or an optional one.
+/// Add an option that takes an integer in [lower, upper].
+/// @param value  destination: an integer of the type of the limits, or an optional one.
 template <class Value, class Integer>
 CLI::Option* AddInteger(CLI::App& app, const std::string& name, Value& value, Integer lower,
                         Integer upper, const std::string& description) {
@@ -98,8 +99,8 @@ CLI::Option* AddScale(
 /// Add `-q, --quiet`.
 CLI::Option* AddQuiet(CLI::App& app, bool& value);
 
-/// Return the given options with their values, except those that change no result. The items of a
-/// list option are one value, whether it was given once or several times.
+/// Return the given options with their values, except those that change no result.
+/// The items of a list option are one value, also if it is given several times.
 [[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> GivenOptions(
     const CLI::App& app, const std::set<std::string>& change_nothing);
 
@@ -117,7 +118,8 @@ class FrictionOptions {
   /// @throws InputError  if both are given, or the angle is not inside (0°, 90°) as a double.
   [[nodiscard]] std::optional<double> half_angle() const;
 
-  /// @throws InputError  as half_angle, or if neither is given.
+  /// Friction angle in radians.
+  /// @throws InputError  as half_angle, or if neither option is given.
   [[nodiscard]] double required_half_angle() const;
 
   /// Warning about an implausible coefficient; otherwise empty.
@@ -135,8 +137,8 @@ class ContactOptions {
   /// @param usual  text of the default: "0", "that of the plan".
   void AddTo(CLI::App& app, const std::string& usual);
 
-  /// Torsional friction length (grasp::Contact::torsion), in the object's length unit; 0 for hard
-  /// points, nullopt if the option is not given.
+  /// Torsional friction length, in the object's length unit.
+  /// It is grasp::Contact::torsion: 0 for hard points, nullopt if the option is not given.
   [[nodiscard]] std::optional<double> torsion() const { return torsion_; }
 
  private:

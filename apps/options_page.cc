@@ -1,4 +1,4 @@
-// The reference page of a command, docs/command_NAME.md, from its help texts.
+// Reference page of a command, docs/command_NAME.md, from its help texts.
 
 #include "apps/help.h"
 
@@ -13,7 +13,8 @@ std::string AsItems(const std::string& text) {
   return items;
 }
 
-/// The page of `regrasp` itself, docs/commands.md, links to the pages of all commands.
+/// Return the table of commands for docs/commands.md, the page of `regrasp`.
+/// It links to the pages of all commands.
 std::string CommandTable(const CLI::App& app) {
   std::string text = "\n## Commands\n\n| command | task |\n| --- | --- |\n";
   for (const CLI::App* command : Subcommands(app)) {

@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 
 using FileId = std::pair<dev_t, ino_t>;
 
-/// Of a regular file, after links.
+/// Return the identity of a regular file after links; nullopt for other files.
 std::optional<FileId> IdOf(const fs::path& path) {
   struct stat status;
   if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
   return FileId(status.st_dev, status.st_ino);
 }
 
-/// One path for all that name the same place, whether or not something is there.
+/// Return one path for all paths to the same place, also if no file exists there.
 fs::path PlaceOf(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(EndOfLinks(path), error);
@@ -40,7 +40,7 @@ bool IsInside(const fs::path& folder, const fs::path& place) {
          folder.end();
 }
 
-/// What is known to be read or written.
+/// Files that a program reads or writes.
 class KnownFiles {
  public:
   explicit KnownFiles(const std::vector<NamedFile>& inputs) {
@@ -49,7 +49,8 @@ class KnownFiles {
     }
   }
 
-  /// @throws InputError  it is an input.
+  /// Refuse an output that is an input.
+  /// @throws InputError  if the file is an input.
   void RefuseInput(const std::string& option, const fs::path& path) const {
     const auto id = IdOf(path);
     const auto input = id ? inputs_.find(*id) : inputs_.end();
@@ -58,7 +59,8 @@ class KnownFiles {
                      input->second);
   }
 
-  /// @throws InputError  another output is written there.
+  /// Add an output file.
+  /// @throws InputError  if it is an input or another output.
   void AddOutput(const NamedFile& output) {
     RefuseInput(output.option, output.path);
     std::error_code error;
@@ -70,7 +72,8 @@ class KnownFiles {
                    : places_.emplace(PlaceOf(output.path), output.option).first->second);
   }
 
-  /// After all single files.
+  /// Add an output folder. All single files must be added before.
+  /// @throws InputError  if a file in it is an input or another output.
   void AddFolder(const OutputFolder& folder) {
     std::error_code error;
     for (fs::directory_iterator entry(folder.path, error), end; !error && entry != end;
@@ -97,8 +100,8 @@ class KnownFiles {
   }
 
   std::map<FileId, std::string> inputs_;
-  std::map<FileId, std::string> ids_;       ///< of outputs that exist
-  std::map<fs::path, std::string> places_;  ///< of outputs that do not
+  std::map<FileId, std::string> ids_;       ///< options of outputs that exist
+  std::map<fs::path, std::string> places_;  ///< options of outputs that do not exist yet
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// plan: finds a regrasp sequence from a start grasp to a goal grasp and writes a plan; or many.
+// plan: finds a regrasp sequence from a start grasp to a goal grasp and writes a plan. With
+// --batch, it plans for many queries.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -29,7 +30,7 @@ namespace {
 using namespace regrasp::apps;
 using namespace regrasp;
 
-/// "2 switches, 1 align".
+/// Return the numbers of steps by kind, as text.
 std::string StepCounts(const std::vector<plan::Step>& steps) {
   std::string text;
   for (const auto& [kind, several] :
@@ -54,7 +55,8 @@ void CheckOutput(const PlanProgram& program) {
   CheckOutputsWritable(outputs);
 }
 
-/// A surface that is refused is told what a repair would make of it.
+/// Read the object.
+/// An error about its surface includes the expected result of a repair.
 object::ObjectFile ReadObject(const PlannerOptions& common) {
   try {
     return common.ReadObjectFile(kPlanName);
@@ -78,7 +80,8 @@ void PrintSummary(const PlannerOptions& common, const FinishedPlan& finished) {
   for (const std::string& note : result.notes) PrintMessage(kPlanName, note);
 }
 
-/// "60 × 60 × 60 mm": the size of a solid's bounding box along the axes of its file.
+/// Return the size of a solid's bounding box: "60 × 60 × 60 mm".
+/// It is measured along the axes of the solid's file.
 std::string BoxText(const object::Polyhedron& solid, double scale) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : solid.vertices()) box.extend(vertex);
@@ -90,8 +93,9 @@ std::string BoxText(const object::Polyhedron& solid, double scale) {
   return text + " mm";
 }
 
-/// Print size and mass before the search for a hand's plan: a wrong unit of length shows at once
-/// instead of after minutes of search without result.
+/// Print size and mass before the search for a hand's plan.
+/// The user then notices a wrong unit of length at once, instead of after minutes of search without
+/// result.
 void PrintSize(const PlannerOptions& common, const object::ObjectFile& object,
                const object::BodyMeasures& body) {
   const std::string warning = object::SizeWarning(body, common.scale);

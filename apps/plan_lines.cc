@@ -30,10 +30,11 @@ namespace regrasp::apps {
 
 namespace {
 
-/// What a query asks for, in the words of the command line.
+/// A query of a JSON Lines file, as options of the command line.
 struct Query {
-  std::string object_name, object_sha256;  ///< empty: not said
-  PlanProgram program;                     ///< all but the object's path
+  /// name and digest of the object's file; empty: not given
+  std::string object_name, object_sha256;
+  PlanProgram program;  ///< options of the query, without the object's path
 };
 
 PlanEnd ReadEnd(const plan::JsonReader& root, const std::string& name, const char* key,
@@ -62,7 +63,8 @@ double ReadPositive(const plan::JsonReader& value, bool or_zero) {
              value.Quoted());
 }
 
-/// Members with other names are the user's own.
+/// Refuse members whose names are similar to known ones.
+/// Members with other names are accepted as the user's own data.
 void RefuseMisspelt(const plan::JsonReader& reader, const Json& object,
                     const std::vector<std::string>& names) {
   for (const auto& [name, value] : object.items()) {
@@ -100,8 +102,8 @@ Query ReadQuery(const Line& line, const PlanProgram& program) {
   return query;
 }
 
-/// What stands in the braces behind "object", without parsing: lines with the same text have the
-/// same object.
+/// Return the text of the member "object", without parsing.
+/// Lines with the same text have the same object.
 std::string ObjectText(const Line& line) {
   const std::string_view text = line.text;
   const std::size_t begin = text.find(R"("object")");
@@ -113,7 +115,7 @@ class PlanLines {
  public:
   explicit PlanLines(const PlanProgram& program)
       : program_(program), finder_(program.common.object) {
-    program_.common.quiet = true;  // one line for each would be too many
+    program_.common.quiet = true;  // no progress per line
   }
 
   int Run(bool quiet) {
@@ -161,8 +163,9 @@ class PlanLines {
     CheckOutputsWritable(outputs);
   }
 
-  /// A start or goal is not given, a word, or the path and the bytes of a file: all of these
-  /// differ.
+  /// Add a start or goal to a digest.
+  /// It is missing, a word, or the path and the bytes of a file. These three cases have different
+  /// digests.
   static void AddEnd(const PlanEnd& end, InputsDigest& digest) {
     if (!end.given()) {
       digest.AddAbsent(end.option);
@@ -174,7 +177,7 @@ class PlanLines {
     if (file) digest.Add("sha256", Sha256(ReadFile(end.value)));
   }
 
-  /// All that the results of all queries depend on.
+  /// Return the digest of all inputs that the results of all queries depend on.
   [[nodiscard]] InputsDigest Common() const {
     InputsDigest digest;
     digest.Add("version", ProgramVersion()).Add("build", BuildId());
@@ -199,20 +202,20 @@ class PlanLines {
     return digest.Add("object", Sha256(ReadFile(program_.common.object))).Finish();
   }
 
-  /// What a query says of its object; none if it is a bad one.
+  /// Return the object that a query names; nullopt if the query is invalid.
   [[nodiscard]] std::optional<ObjectOfLine> ObjectOf(const Line& line) const {
     try {
       const Query query = ReadQuery(line, program_);
       return ObjectOfLine{query.object_name, query.object_sha256};
     } catch (const InputError&) {
-      return std::nullopt;  // the child reports it
+      return std::nullopt;  // the child process reports the error
     }
   }
 
-  /// The object of a query, whose program then names its file.
+  /// Return the object of a query, and set its file in the query's options.
   SharedObject ObjectOf(const Line& line, Query& query) {
     PlannerOptions& common = query.program.common;
-    // Each query has all of --time-limit.
+    // --time-limit applies to each query separately.
     common.begin = std::chrono::steady_clock::now();
     common.object = finder_.Find(query.object_name, query.object_sha256, line.name);
     SharedObject object =
@@ -231,9 +234,9 @@ class PlanLines {
       Query query = ReadQuery(line, program_);
       static_cast<void>(ObjectOf(line, query));
     } catch (const InputError&) {
-      // The child says so of each line.
+      // The child process reports the error for each line.
     } catch (const TimeUp&) {
-      // Likewise.
+      // The child process reports this, too.
     }
   }
 

@@ -4,11 +4,12 @@
 
 namespace regrasp::apps {
 
-/// Plans for each query of a file of lines (docs/formats.md), in processes that share the objects
-/// that were loaded, and writes a file of lines with a plan for each, or why there is none.
-/// @returns the exit code, as RunLinesFile.
-/// @throws InputError        an option does not go with many plans, or a file as RunLinesFile.
-/// @throws EnvironmentError  the output cannot be written.
+/// Plan for each query of a JSON Lines file (docs/formats.md).
+/// The processes share the loaded objects. The output is a JSON Lines file with a plan, or the
+/// reason that none was found, for each query.
+/// @returns exit code of RunLinesFile.
+/// @throws InputError        if an option cannot be used with several plans, or as RunLinesFile.
+/// @throws EnvironmentError  if the output cannot be written.
 [[nodiscard]] int RunPlanLines(const PlanProgram& program);
 
 }  // namespace regrasp::apps

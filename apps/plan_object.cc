@@ -9,7 +9,7 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Whether the plan was made for this object, or for the one that this is the repaired form of.
+/// Return whether the plan is for this object or for its unrepaired original.
 bool IsFor(const plan::Plan& plan, const object::ObjectFile& object) {
   if (plan.repair && !object.repair) return plan.repair->sha256 == object.sha256;
   return plan.object_sha256 == object.sha256 && plan.repair == object.repair;

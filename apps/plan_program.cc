@@ -23,13 +23,13 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Instead of a grasp file.
+/// Word that replaces a grasp file.
 constexpr char kRandom[] = "random";
 constexpr char kRandomAny[] = "random-any";
 
 constexpr int kMostJobs = 1024;
 
-/// Message for a plan that a planner found and the checker fails.
+/// Return the message for a found plan that fails the checker.
 std::string CheckerComplaint(const plan::PlanCheck& check) {
   const auto failed = std::ranges::find_if(
       check.steps, [](const plan::StepCheck& step) { return step.reason != plan::Reason::kNone; });
@@ -127,7 +127,7 @@ planning::GraspChoice PlanProgram::Choose(const PlanEnd& end, const object::Obje
     return {Kind::kGiven, plan::ParseGrasp(end.text, end.name, object), end.name};
   }
   const std::string& value = end.value;
-  // No such file, and nearly one of the words.
+  // The value is not a file, but it may be a misspelt word.
   if (!end.is_random() && !std::filesystem::exists(value)) {
     const std::string meant = SimilarWord(value, {kRandom, kRandomAny});
     if (!meant.empty()) throw InputError(end.option + ": file " + value + " not found" + meant);
@@ -143,7 +143,7 @@ planning::PlanRequest PlanProgram::RequestFor(const object::Object& object) cons
   request.criteria.min_quality = min_quality;
   request.objective = objective;
   request.parameters.Edit<planning::SearchParameters>().explain = explain;
-  if (batch.empty()) request.jobs = jobs;  // a batch has as many processes
+  if (batch.empty()) request.jobs = jobs;  // a batch uses the jobs for its processes
   return request;
 }
 
@@ -186,7 +186,8 @@ void PlanProgram::CheckEnds() const {
                        "program choose a grasp, found " +
                        end.value);
     }
-    // Without a hand a plan is from a grasp to a grasp; a hand chooses those that are not given.
+    // Without a hand, a plan requires both grasps. With a hand, the planner chooses those that are
+    // not given.
     if (!hand.given() && !end.given()) throw InputError(end.option + " is required");
   }
   hand.Check(start.value + start.text, goal.value + goal.text);
@@ -195,7 +196,7 @@ void PlanProgram::CheckEnds() const {
 void PlanProgram::ReadHand() {
   if (!hand.given()) return;
   planning::InHandTask task;
-  hand.AskFor(task);  // before any file is read
+  hand.AskFor(task);  // checks the options before any file is read
   hand_file = std::make_shared<const kinematics::HandFile>(kinematics::ReadHandFile(hand.hand));
 }
 

@@ -20,15 +20,15 @@
 
 namespace regrasp::apps {
 
-/// The program's name, before its messages.
+/// Name of the program, printed before its messages.
 inline constexpr char kPlanName[] = "plan";
 
-/// A start or a goal on the command line.
+/// Start or goal on the command line.
 struct PlanEnd {
-  std::string option;  ///< "--start"
-  std::string value;   ///< a grasp file, "random" or "random-any"; empty: not given
-  std::string text;    ///< the grasp itself, instead of its file
-  std::string name;    ///< of `text`, as messages call it
+  std::string option;  ///< name of the option: "--start"
+  std::string value;   ///< grasp file, "random" or "random-any"; empty: not given
+  std::string text;    ///< text of the grasp, instead of a file
+  std::string name;    ///< name of `text` in messages
 
   [[nodiscard]] bool given() const { return !value.empty() || !text.empty(); }
   [[nodiscard]] bool is_random() const;
@@ -40,7 +40,7 @@ using GivenPoints = std::optional<std::vector<Eigen::Vector3d>>;
 /// Result of planning and of the checker.
 struct FinishedPlan {
   planning::PlanResult result;
-  plan::PlanCheck check;  ///< if there is a plan
+  plan::PlanCheck check;  ///< result of the checker, if there is a plan
 };
 
 /// Options of `plan`.
@@ -50,7 +50,7 @@ struct PlanProgram {
   PlanEnd goal{"--goal", "", "", ""};
   std::string output;
   double min_quality = criteria::GraspCriteria().min_quality;
-  double finger_radius = 0;  ///< 0: points
+  double finger_radius = 0;  ///< radius of the fingertips; 0: points
   planning::Objective objective = planning::Objective::kSteps;
   bool explain = false;
   HandOptions hand;
@@ -59,20 +59,22 @@ struct PlanProgram {
   std::string batch;  ///< file of queries, which override the options
   std::string shard;
   int jobs;
-  bool fresh = false;  ///< discard the results of an earlier run
+  bool fresh = false;  ///< whether to discard the results of an earlier run
   /// Given options that change results, each with its values.
   std::vector<std::pair<std::string, std::vector<std::string>>> given;
-  /// Called once when the search for a hand's plan begins, after the input has been checked.
+  /// Function that is called once, when the search for a hand's plan begins.
+  /// The input has been checked by then.
   std::function<void()> on_search = [] {};
 
   PlanProgram();
-  /// Adds all options to the command line; they are set when it is parsed.
+  /// Add all options to the command line; parsing sets them.
   void AddTo(CLI::App& app);
   /// Check the parsed options.
   /// @throws InputError  if they are inconsistent.
   void Finish(const CLI::App& app);
 
-  /// @throws InputError  if an end is missing or cannot be used with a hand.
+  /// Check that start and goal are given, as far as they are required.
+  /// @throws InputError  if one is missing or cannot be used with a hand.
   void CheckEnds() const;
   /// Read the hand's file, if there is one.
   /// @throws InputError  if it is not valid.

@@ -26,10 +26,11 @@ namespace {
 
 constexpr double kMostRoughness_deg = 45;
 
-/// Hours of search.
+/// Largest search budget, hours of search.
 constexpr std::int64_t kLargestBudget = 100'000'000'000;
 
-/// More queries take minutes on objects where many fail.
+/// Maximum number of queries.
+/// More queries take minutes on objects with many failing queries.
 constexpr int kMostQueries = 100'000;
 
 std::vector<std::string> NamesForUsers() {
@@ -38,6 +39,7 @@ std::vector<std::string> NamesForUsers() {
   return names;
 }
 
+/// Check the name of a planner.
 /// @throws CLI::ValidationError  if there is no planner of this name.
 void CheckPlanner(const std::string& option, const std::string& name) {
   const std::vector<std::string> names = NamesForUsers();
@@ -47,7 +49,8 @@ void CheckPlanner(const std::string& option, const std::string& name) {
                                          registry::PlannerNames() + SimilarWord(name, names));
 }
 
-/// One line per planner: "general: any force-closure grasps, on any object".
+/// Return one line per planner.
+/// Example: "general: any force-closure grasps, on any object".
 std::string PlannersText() {
   std::string text;
   for (const planning::Planner* planner : registry::AllPlanners()) {
@@ -188,8 +191,8 @@ void PlannerOptions::NotePlaces(plan::RoadmapNote& note) const {
 double PlannerOptions::PlannedHalfAngle() const {
   const double half_angle = friction.required_half_angle();
   if (!patch_felt()) return half_angle;
-  // A cone about a triangle's normal, narrower by the angle to the patch's normal, is inside the
-  // patch's cone.
+  // The friction cone about a triangle's normal is narrowed by the angle to the normal of the
+  // contact patch. It is then inside the friction cone about the normal of the contact patch.
   const double planned = half_angle - Radians(roughness_deg);
   if (planned > 0) return planned;
   throw InputError("--patch roughness: must be less than the friction angle, " +

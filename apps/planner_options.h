@@ -16,7 +16,7 @@
 
 namespace regrasp::apps {
 
-/// The options that `plan` and `graph` have in common.
+/// Options that `plan` and `graph` have in common.
 struct PlannerOptions {
   /// Program that has the options.
   enum class Purpose { kPlan, kGraph };
@@ -24,20 +24,21 @@ struct PlannerOptions {
   std::string object;
   RepairOptions repair;
   std::optional<double>
-      patch;  ///< radius, object units. 0 for none, nullopt for the default of the object
+      /// contact patch radius, object units; 0: none, nullopt: default
+      patch;
   double roughness_deg = 5;
-  bool allow_invented = false;  ///< contacts on surface that a repair filled in
+  bool allow_invented = false;  ///< whether contacts may be on filled surfaces
   FrictionOptions friction;
   ContactOptions contact;
   std::string planner = "auto";
   planning::Spanning spanning = planning::Spanning::kAdaptive;
   std::uint64_t seed = 0;
   std::optional<int> contacts;
-  bool contacts_given = false;  ///< at the points that the object's file gives
+  bool contacts_given = false;  ///< whether contacts are at the points of the object's file
   std::optional<int> clusters;
-  bool fallback = true;                ///< search in the full contact set
-  std::optional<std::int64_t> budget;  ///< search budget (PlanRequest::effort)
-  int queries = 0;                     ///< random queries of `graph`
+  bool fallback = true;                ///< whether to search in the full contact set
+  std::optional<std::int64_t> budget;  ///< search budget (SearchParameters::budget)
+  int queries = 0;                     ///< number of random queries of `graph`
   double scale = 1;
   std::optional<double> time_limit_s;
   bool force = false;
@@ -48,31 +49,34 @@ struct PlannerOptions {
   void AddTo(CLI::App& app, Purpose purpose);
 
   /// Read the object, repair it if required, and report the repair.
-  /// @throws TimeUp  if the time limit is reached.
   /// @param program  name of the program in messages.
+  /// @throws TimeUp  if the time limit is reached.
   [[nodiscard]] object::ObjectFile ReadObjectFile(const std::string& program) const;
 
-  /// Points that contacts must be at (PlanRequest::given_points); none if they are free. Reads the
-  /// object's file again.
+  /// Read the points that contacts must be at; nullopt if contacts are free.
+  /// The points are in the object's file, which is read again.
   [[nodiscard]] std::optional<std::vector<Eigen::Vector3d>> ReadGivenPoints() const;
 
-  /// Contact patch that bounds the error of normals, with --patch or for repaired objects.
+  /// Contact patch that bounds the error of normals; nullopt without a patch.
+  /// There is one with --patch and for repaired objects.
   [[nodiscard]] std::optional<object::FeltPatch> patch_felt() const;
 
-  /// The patch's radius on an object, its unit of length, for the plan; none without a patch.
+  /// Return the radius of the contact patch on an object; nullopt without a patch.
+  /// The radius is in the object's unit of length.
   [[nodiscard]] std::optional<double> PatchRadius(const object::Object& object) const;
 
-  /// Writes where contacts are into the note of a plan over clustered contact points.
+  /// Write the constraints on contact locations into a plan's roadmap note.
+  /// These are the roughness of the contact patch and whether filled surfaces are allowed.
   void NotePlaces(plan::RoadmapNote& note) const;
 
-  /// Request of the options for an object, without start and goal.
-  /// @throws InputError  friction is missing, doubled or out of range; more contact points than a
-  ///                     plain roadmap takes, and no clusters.
+  /// Return the request for an object, without start and goal.
+  /// @throws InputError  if the friction is missing, given twice or out of range, or the roughness
+  ///     is not less than the friction angle.
   [[nodiscard]] planning::PlanRequest RequestFor(const object::Object& object) const;
 
-  /// The planner that is named, or the one that `auto` takes.
-  /// @throws InputError  as registry::PlannerFor; its graph would take more than UsableMemory, and
-  ///                     --allow large-graph is not given.
+  /// Return the named planner, or the one that `auto` selects.
+  /// @throws InputError  as registry::PlannerFor, or if its graph needs more than UsableMemory and
+  ///     --allow large-graph is not given.
   [[nodiscard]] const planning::Planner& PlannerFor(const planning::PlanRequest& request) const;
 
  private:

@@ -25,12 +25,13 @@ namespace regrasp::apps {
 
 namespace {
 
-/// A file that is opened while a standard stream is closed would get its number, and with it what
-/// is printed. Opened the wrong way round, they stay as good as closed.
+/// Open standard streams that are closed.
+/// Otherwise a file would get their number, and the program's output would be written into it. The
+/// streams are opened for the wrong direction, so that they remain unusable.
 void TakeClosedStreams() {
   const auto take = [](int stream, int flags) {
     if (fcntl(stream, F_GETFD) >= 0) return;
-    // The lowest free number is this one.
+    // open returns the lowest free number, which is that of this stream.
     if (open("/dev/null", flags) != stream) throw EnvironmentError("/dev/null cannot be opened");
   };
   take(STDIN_FILENO, O_WRONLY);
@@ -38,13 +39,15 @@ void TakeClosedStreams() {
   take(STDERR_FILENO, O_RDONLY);
 }
 
-/// At the limit of a file's size (ulimit -f) writing then fails like on a full disk.
+/// Prepare standard streams and signals.
+/// Without SIGXFSZ, writing beyond the file size limit (ulimit -f) fails like on a full disk.
 void PrepareProcess() {
   TakeClosedStreams();
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// A full disk behind standard output must not look like success.
+/// Flush standard output and return the exit code.
+/// A full disk must not result in an exit code for success.
 int FlushResults(const std::string& program, int exit_code) {
   std::cout.flush();
   if (std::cout) return exit_code;
@@ -52,11 +55,12 @@ int FlushResults(const std::string& program, int exit_code) {
   return kExitEnvironment;
 }
 
-/// What the build makes manual pages and completions with.
+/// Option by which the build makes manual pages and completions.
 constexpr char kHelpAs[] = "--help-as";
 constexpr char kHelpAll[] = "--help-all";
 
-/// @param words  the words between an option and the next one.
+/// Check the number of words that follow an option.
+/// @param words  words between an option and the next one.
 /// @throws InputError  if the option has no value, or several words instead of one list.
 void CheckValue(const OptionHelp& option, std::span<const std::string> words) {
   if (!option.type.empty() && words.empty() && !option.value_optional) {
@@ -69,7 +73,8 @@ void CheckValue(const OptionHelp& option, std::span<const std::string> words) {
                    std::to_string(words.size()) + " words; help: " + option.name + " " + value);
 }
 
-/// True for "-j4", the only short name that its value can follow without a space.
+/// Return whether a word is like "-j4".
+/// Only this short name can be followed by its value without a space.
 bool IsShortNumber(const std::string& word) {
   return word.size() > 2 && word.starts_with("-j") &&
          word.find_first_not_of("0123456789", 2) == std::string::npos;
@@ -100,14 +105,14 @@ void CheckOptions(const CLI::App& app, std::span<const std::string> words) {
       if (name == given) CheckValue(*known, rest.first(next));
       continue;
     }
-    // "-object" is taken for "--object".
+    // "-object" is read as "--object".
     const std::string meant = name[1] == '-' ? name : "-" + name;
     throw InputError("unknown option " + name + SimilarWord(meant, names) + " (" + app.get_name() +
                      " --help-all lists all)");
   }
 }
 
-/// The level of help that is requested first.
+/// Return the level of help that is requested first; nullopt if none is.
 std::optional<HelpLevel> RequestedHelp(std::span<const std::string> words) {
   for (const std::string& word : words) {
     if (word == "--") return std::nullopt;
@@ -151,7 +156,7 @@ int Run(CLI::App& app, std::vector<std::string> words, const std::string& called
     throw InputError(std::string(error.what()) + " (" + app.get_name() + " --help lists all)");
   }
   const int code = run();
-  // Bad input is one line: notes are for command lines that work.
+  // Bad input prints a single line. Notes are printed only for command lines that work.
   if (code <= kExitNegative) PrintNotes(program, renamed);
   return code;
 }
@@ -173,7 +178,7 @@ void PrintError(const std::string& program, std::string_view message) {
 }
 
 void PrintTable(const std::string& table, const std::string& files) {
-  // Scripts take the last line, which says how it went.
+  // Scripts read the last line, which has the verdict.
   std::string text = table;
   text.insert(text.rfind('\n', text.size() - 2) + 1, OneLine("files: " + files) + "\n");
   std::cout << (TakesColour(STDOUT_FILENO) ? PaintVerdicts(text) : text);

@@ -7,45 +7,52 @@
 
 namespace regrasp::apps {
 
-/// What a program's exit says.
+/// Exit codes of the programs.
 enum ExitCode : int {
-  kExitDone = 0,         ///< done; for `validate`: pass
-  kExitNegative = 1,     ///< a negative answer: no sequence, or the plan failed
+  kExitDone = 0,         ///< success; for `validate`: pass
+  kExitNegative = 1,     ///< negative result: no plan found, or the plan fails
   kExitBadInput = 2,     ///< bad usage or bad input
-  kExitEnvironment = 3,  ///< the environment failed
+  kExitEnvironment = 3,  ///< failure of the environment
 };
 
-/// The body of every main(): parses the command line, runs the program and turns what is thrown
-/// into one line on standard error, "plan: cube.obj: …", and an exit code.
+/// Parse the command line, run a program and return its exit code.
+/// This is the body of every main(). An exception becomes one line on standard error, "plan: error:
+/// cube.obj: …", and an exit code:
 ///
-/// Bad usage and InputError give 2. EnvironmentError, exhausted memory, an unwritable standard
-/// output and unexpected errors give 3. -h, --help, --help-all and --version print to standard
-/// output and give 0, and so does `--help-as man|bash|zsh|fish|markdown`, which the build uses.
-/// Called as "regrasp plan", by `regrasp`, usage and messages contain that name. Old names of
-/// options (renamed_options.h) are accepted; if the program returns, a note on standard error names
-/// the new one. Unknown options are reported first, with a similar one. Closed standard streams are
-/// opened, so that no file gets their number; SIGXFSZ is ignored, so that the file size limit is an
-/// error.
-/// @param app  with all its options; its name is the program's. --version is added here.
-/// @param run  called after parsing; returns the exit code.
+/// - TimeUp returns 1.
+/// - Bad usage and InputError return 2.
+/// - EnvironmentError, exhausted memory, an unwritable standard output and unexpected errors return
+///   3.
+/// - -h, --help, --help-all and --version print to standard output and return 0. So does `--help-as
+///   man|bash|zsh|fish|markdown`, which the build uses.
+///
+/// If `regrasp` calls the program, usage and messages contain the name "regrasp plan". Old names of
+/// options (renamed_options.h) are accepted. If the program returns, a note on standard error names
+/// the new one. Unknown options are reported first, with a similar one.
+///
+/// Closed standard streams are opened, so that no file gets their number. SIGXFSZ is ignored, so
+/// that writing beyond the file size limit is an error.
+/// @param app  command line with all options; its name is the program's name. --version is added
+///     here.
+/// @param run  function that is called after parsing; returns the exit code.
 int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
 
-/// The part of RunProgram after parsing: runs, and turns what is thrown into a line and an exit
-/// code.
+/// Run a program after parsing.
+/// Exceptions become a line on standard error and an exit code, as in RunProgram.
 int RunGuarded(const std::string& program, const std::function<int()>& run);
 
-/// The project's version, as --version prints it.
+/// Return the project's version, as --version prints it.
 [[nodiscard]] std::string ProgramVersion();
 
-/// Prints "name: message" as exactly one line on standard error, whatever bytes the message has.
-/// On a terminal a warning is coloured.
+/// Print "name: message" as exactly one line on standard error, for any bytes.
+/// A warning is coloured on a terminal.
 void PrintMessage(const std::string& program, std::string_view message);
 
-/// The same for what went wrong: on a terminal the message is red.
+/// Print an error like PrintMessage; the line is red on a terminal.
 void PrintError(const std::string& program, std::string_view message);
 
-/// Prints a table with verdicts on standard output, on a terminal with colours (colour.h), and
-/// before its last line where its files are.
+/// Print a table with verdicts on standard output, with colours on a terminal.
+/// A line with the paths of its files is inserted before the last line.
 void PrintTable(const std::string& table, const std::string& files);
 
 }  // namespace regrasp::apps

@@ -13,7 +13,7 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Back to the first column, and erase to the end of the line (ECMA-48 EL).
+/// Return to the first column, and erase to the end of the line (ECMA-48 EL).
 const std::string kEraseLine = "\r\x1b[K";
 
 }  // namespace

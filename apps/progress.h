@@ -7,8 +7,8 @@
 
 namespace regrasp::apps {
 
-/// One line of progress on standard error that each report overwrites. Shown only when standard
-/// error is a terminal and the user did not ask for quiet; cleared at the end.
+/// A line of progress on standard error that each report overwrites.
+/// It is shown only on a terminal and without --quiet. The destructor clears it.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);
@@ -17,11 +17,12 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void Report(std::string_view text);
-  /// Report, for work that is handed a function. This object outlives it.
+  /// Return the function Report, for work that takes a function.
+  /// This object must outlive it.
   [[nodiscard]] std::function<void(std::string_view)> reporter() {
     return [this](std::string_view text) { Report(text); };
   }
-  /// Removes the line, so that a message can take its place.
+  /// Remove the line, so that a message can be printed in its place.
   void Clear();
 
  private:
@@ -29,18 +30,18 @@ class ProgressLine {
   bool dirty_ = false;
 };
 
-/// Progress of minutes of work where standard error is no terminal but a log: a plain line now and
-/// then. Shown only when the user did not ask for quiet.
+/// Progress of long work, if standard error is a log instead of a terminal.
+/// It prints a plain line at intervals, unless --quiet is given.
 class ProgressLog {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Between two lines, and before the first: short work writes none.
+  /// Time between two lines, and before the first one. Short work prints none.
   static constexpr std::chrono::seconds kInterval{30};
 
-  /// @param program  its name stands before every line.
+  /// @param program  name that starts every line.
   ProgressLog(std::string program, bool quiet, std::function<Clock::time_point()> now = Clock::now);
 
-  /// Prints the text where a line is due.
+  /// Print the text if a line is due.
   void Report(std::string_view text);
 
  private:

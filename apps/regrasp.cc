@@ -1,5 +1,5 @@
-// regrasp: all programs under one name, `regrasp plan` for `plan`; `regrasp help plan` for its
-// help.
+// regrasp: provides all programs under one name, `regrasp plan` for `plan`. `regrasp help plan`
+// prints its help.
 
 #include <unistd.h>
 
@@ -23,7 +23,8 @@ using namespace regrasp;
 
 constexpr char kProgram[] = "regrasp";
 
-/// @throws InputError  there is none of this name.
+/// Check the name of a command.
+/// @throws InputError  if there is no command of this name.
 void CheckCommand(const std::string& name) {
   std::vector<std::string> names;
   for (const Command& command : kCommands) names.emplace_back(command.name);
@@ -32,22 +33,22 @@ void CheckCommand(const std::string& name) {
                    " (regrasp --help lists all)");
 }
 
-/// Becomes the program of that name, which stands beside this one: exit codes, signals and streams
-/// are its own.
-/// @param argv  from the command on; ends with a null pointer.
-/// @throws EnvironmentError  it does not start.
+/// Replace this process by a program in the same folder.
+/// Exit codes, signals and streams are those of the program.
+/// @param argv  arguments from the command on, with a null pointer at the end.
+/// @throws EnvironmentError  if the program does not start.
 [[noreturn]] void Become(const std::string& name, char** argv) {
   std::error_code unknown;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
   const std::string program = self.parent_path() / name;
-  // By this name it knows how it was called.
+  // The program prints the name by which it was called.
   std::string called = std::string(kProgram) + " " + name;
   argv[0] = called.data();
   execv(program.c_str(), argv);
   throw EnvironmentError(program + " cannot be started: " + std::strerror(errno));
 }
 
-/// Replaces this process by the help of a command.
+/// Replace this process by the help of a command.
 [[noreturn]] void ShowHelpOf(const std::string& name) {
   CheckCommand(name);
   std::string option = "--help";

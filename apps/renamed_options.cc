@@ -13,11 +13,11 @@ namespace {
 
 /// A renamed option.
 struct Renaming {
-  std::string_view programs;  ///< their names, separated by spaces
+  std::string_view programs;  ///< names of the programs, separated by spaces
   std::string_view old_name;
   std::string_view new_name;
-  /// The new value; `*` is replaced by the old one. Empty: the option keeps its value, if it has
-  /// one.
+  /// New value, in which `*` is replaced by the old one.
+  /// If it is empty, the option keeps its value, if it has one.
   std::string_view value;
 };
 
@@ -102,7 +102,7 @@ bool HasWord(const std::vector<std::string>& words, std::string_view name) {
   });
 }
 
-/// Rewrites a command line from its first word to its last.
+/// Rewriter of a command line, from its first word to its last.
 class Renamer {
  public:
   Renamer(std::string_view program, const std::vector<std::string>& words)
@@ -140,13 +140,13 @@ class Renamer {
     const bool takes_value = renaming.value.find('*') != std::string_view::npos;
     const std::string new_name(renaming.new_name);
     if (takes_value && !value) value = TakeValue();
-    if (takes_value && !value) return result_.words.push_back(new_name);  // refused by the parser
+    if (takes_value && !value) return result_.words.push_back(new_name);  // the parser refuses it
     const std::string item = WithValue(renaming.value, value.value_or(""));
     result_.words.push_back(new_name + "=" + item);
     Note(std::string(renaming.old_name) + (takes_value ? " " + *value : ""), new_name + " " + item);
   }
 
-  /// `--contact hard|soft` is implied by the torsional friction length.
+  /// Remove `--contact hard|soft`, which the torsional friction length implies.
   void RenameContact(std::optional<std::string> value) {
     if (!value) value = TakeValue();
     if (!value || (*value != "hard" && *value != "soft")) {
@@ -167,7 +167,7 @@ class Renamer {
     Note(old, std::string(kTorsion) + " 0");
   }
 
-  /// The value of an option, if it is not missing.
+  /// Return the value of an option; nullopt if it is missing.
   std::optional<std::string> TakeValue() {
     if (next_ == words_.size() || IsOption(words_[next_])) return std::nullopt;
     return words_[next_++];

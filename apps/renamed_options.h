@@ -6,8 +6,8 @@
 
 namespace regrasp::apps {
 
-/// Return true iff a word of the command line is an option: neither a negative number nor "-", the
-/// standard stream.
+/// Return whether a word of the command line is an option.
+/// Negative numbers and "-", the standard stream, are not options.
 [[nodiscard]] bool IsOption(std::string_view word);
 
 /// Command line with the current names of all options.
@@ -17,7 +17,8 @@ struct RenamedWords {
   std::vector<std::string> notes;
 };
 
-/// Replace old names of options, which are accepted for one version, by the current ones.
+/// Replace old names of options by the current ones.
+/// Old names are accepted for one version.
 /// @param program  name of the program: "plan".
 /// @param words  command line without the program's name.
 /// @throws InputError  if an old option has no equivalent in the current ones.

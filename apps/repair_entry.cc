@@ -1,4 +1,4 @@
-// The module regrasp_repair.so: planner/repair for programs that load it at its first use.
+// Module regrasp_repair.so: planner/repair for programs that load it at its first use.
 
 #include "apps/repair_module.h"
 #include "planner/repair/repair.h"

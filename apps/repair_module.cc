@@ -12,7 +12,9 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Beside the program in a build folder, REGRASP_MODULES relative to it if installed.
+/// Return the possible paths of the module.
+/// In a build folder it is in the folder of the program. If installed, it is in REGRASP_MODULES,
+/// relative to that folder.
 std::vector<std::string> ModulePlaces() {
   std::error_code unknown;
   const std::filesystem::path folder =

@@ -7,10 +7,10 @@
 
 namespace regrasp::apps {
 
-/// The functions of the module `regrasp_repair.so`, declared as in planner/repair/repair.h.
+/// Functions of the module `regrasp_repair.so` (planner/repair/repair.h).
 ///
-/// Repair takes a sixth of the time to build regrasp and few runs need it, so programs load it at
-/// its first use.
+/// Repair takes a sixth of the time to build regrasp and few runs need it. Therefore programs load
+/// it at its first use.
 struct RepairFunctions {
   object::ObjectFile (*read_repaired)(const std::filesystem::path& path,
                                       const object::RepairOptions& options,
@@ -28,12 +28,13 @@ inline constexpr char kRepairEntry[] = "regrasp_repair_functions";
                                               const object::Reading& reading,
                                               std::string* text = nullptr);
 
-/// Return the end of a refusal: what a repair of the file would yield (repair::RepairHint).
+/// Return the end of an error message: the expected result of a repair.
+/// See repair::RepairHint.
 [[nodiscard]] std::string RepairHint(const std::filesystem::path& path,
                                      const object::Reading& reading);
 
-/// Return the SHA-256 of the module's file, which is a part of the program's build; "missing" if it
-/// is not installed.
+/// Return the SHA-256 of the module's file, a part of the program's build.
+/// It is "missing" if the module is not installed.
 [[nodiscard]] const std::string& RepairModuleDigest();
 
 }  // namespace regrasp::apps

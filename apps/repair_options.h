@@ -8,7 +8,7 @@
 
 namespace regrasp::apps {
 
-/// How a surface that is not a closed solid is read, as the command line states it.
+/// Options for reading a surface that is not a closed solid.
 class RepairOptions {
  public:
   /// Add --shells and --repair, the settings of the program `repair`.
@@ -18,7 +18,7 @@ class RepairOptions {
 
   [[nodiscard]] bool wanted() const { return switch_ != nullptr && switch_->count() > 0; }
   [[nodiscard]] object::RepairOptions Get() const;
-  /// With and without a repair.
+  /// Selection of closed shells, used with and without a repair.
   [[nodiscard]] std::optional<object::Shells> shells() const { return shells_; }
 
  private:

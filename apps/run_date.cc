@@ -14,7 +14,7 @@ namespace regrasp::apps {
 namespace {
 
 constexpr const char* kVariable = "SOURCE_DATE_EPOCH";
-constexpr std::time_t kLatest = 253402300799;  // the last second of 9999
+constexpr std::time_t kLatest = 253402300799;  // last second of the year 9999
 
 std::time_t Seconds() {
   const char* value = std::getenv(kVariable);

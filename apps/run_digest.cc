@@ -18,7 +18,7 @@ std::string ObjectPathOf(const ValidateOptions& options, const std::string& name
   namespace fs = std::filesystem;
   std::error_code error;
   if (!fs::is_directory(options.object_path, error)) return options.object_path;
-  // Only the name counts: a plan must not lead out of the folder.
+  // Only the file name is used: a plan must not refer to files outside the folder.
   const fs::path name = fs::path(named_by_plan).filename();
   const fs::path path = options.object_path / name;
   if (!name.empty() && fs::is_regular_file(path, error)) return path.string();
@@ -29,13 +29,13 @@ std::string ObjectPathOf(const ValidateOptions& options, const std::string& name
 std::string CommandText(const ValidateOptions& options, const RunInputs& inputs) {
   std::string text = std::string(kValidateName) + " --object " + inputs.object.name +
                      (options.for_grasp() ? " --grasp " : " --plan ") + inputs.input.name;
-  // Their names change no result.
+  // The names of these files change no result.
   if (!options.start.empty()) text += " --start …";
   if (!options.goal.empty()) text += " --goal …";
   if (!options.hand.empty()) text += " --hand …";
   for (const auto& [name, values] : options.given) {
     text += " " + name;
-    // A flag has a value too, which nobody types.
+    // CLI11 gives a flag the value "true", which users do not type.
     for (const std::string& value : values) {
       if (!value.empty() && value != "true") text += " " + value;
     }
@@ -44,7 +44,8 @@ std::string CommandText(const ValidateOptions& options, const RunInputs& inputs)
 }
 
 std::string RepairInput(const ValidateOptions& options, const std::string& plan_text) {
-  // A plan that only mentions the word depends on one input more than it must.
+  // The search may find the word in a plan without a repair. The digest then includes one input
+  // more than required.
   const bool repaired = plan_text.find("\"repair\"") != std::string::npos;
   return options.repair.wanted() || repaired ? RepairModuleDigest() : "";
 }

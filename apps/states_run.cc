@@ -25,18 +25,19 @@
 namespace regrasp::apps {
 namespace {
 
-/// Random grasps of a rest; of objects that a hand can hold one of a thousand or more is one.
+/// Maximum number of random grasps that are drawn to find a static grasp.
+/// For objects that a hand can hold, at least one grasp in a thousand is a static grasp.
 constexpr int kMostDraws = 50'000;
 constexpr int kFewestFingers = 3;
 
-/// What states are made of.
+/// Inputs of the reset states.
 struct StatesTask {
   object::ObjectFile object;
   const object::Polyhedron* solid = nullptr;
   kinematics::HandFile hand;
   gait::GaitRequest request;
   sim::ResetStateOptions states;
-  std::vector<std::string> doubts;  ///< about size and friction; empty ones are none
+  std::vector<std::string> doubts;  ///< warnings about size, friction and hand; can be empty
 };
 
 StatesTask ReadStatesTask(const ValidateOptions& options, ProgressLine& progress) {
@@ -99,7 +100,7 @@ sim::DrawnStates Draw(const ValidateOptions& options, const StatesTask& task,
 
 std::string Percent(double share) { return FormatShort(100 * share, 3) + " %"; }
 
-/// What the table of a terminal has.
+/// Return the table for the terminal.
 std::string SummaryOf(const sim::DrawnStates& drawn) {
   std::vector<TextRow> rows = {{"random grasps", "number"},
                                {"held, and written", std::to_string(drawn.states.size())}};

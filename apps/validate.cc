@@ -1,6 +1,6 @@
-// validate: checks a plan, a library of plans or grasps analytically, replays it in MuJoCo,
-// draws a frame of each step, and says pass or fail. Or makes states in which a hand holds an
-// object.
+// validate: checks a plan, a library of plans or grasps analytically, replays it in MuJoCo and
+// draws a frame of each step. The result is pass or fail. With --export-states, it makes states in
+// which a hand holds an object.
 
 #include "apps/commands.h"
 #include "apps/explain.h"

@@ -31,13 +31,14 @@ namespace fs = std::filesystem;
 
 constexpr char kWarning[] = "warning: ";
 
-/// Before the number of the signal that stopped a batch, as shells count it.
+/// Exit code minus the number of the signal that stopped a batch, as in shells.
 constexpr int kChildSignalled = 128;
 
-/// Of a child: the earlier run's report stays. Beyond every ExitCode.
+/// Exit code of a child process that keeps the report of an earlier run.
+/// It is larger than every ExitCode.
 constexpr int kExitKept = 4;
 
-/// What a child does; it prints how long each entry took.
+/// Validate one plan in a child process, and print the duration of each entry.
 int ValidateOne(ValidateOptions options, const LibraryPlan& plan, const fs::path& folder) {
   options.plan_path = plan.path.string();
   options.out = (folder / plan.name).string();
@@ -56,7 +57,7 @@ int ValidateOne(ValidateOptions options, const LibraryPlan& plan, const fs::path
   });
 }
 
-/// What a child printed: the times of the entries that it replayed.
+/// Return the durations of replayed entries in the output of a child process.
 std::vector<double> TimesIn(const std::string& output) {
   std::istringstream stream(output);
   std::vector<double> times;
@@ -64,7 +65,7 @@ std::vector<double> TimesIn(const std::string& output) {
   return times;
 }
 
-/// The lines that a child wrote, without the program's name.
+/// Return the lines that a child process wrote, without the program's name.
 std::vector<std::string> LinesOf(const std::string& text) {
   const std::string prefix = std::string(kValidateName) + ": ";
   std::vector<std::string> lines;
@@ -75,7 +76,7 @@ std::vector<std::string> LinesOf(const std::string& text) {
   return lines;
 }
 
-/// Why a child is an error by how it ended; empty where its exit code tells.
+/// Return the reason that a child process was stopped; empty if it exited.
 std::string WhyStopped(const ChildExit& exit, const ValidateOptions& options) {
   switch (exit.kind) {
     case ChildExit::Kind::kExited:
@@ -88,7 +89,8 @@ std::string WhyStopped(const ChildExit& exit, const ValidateOptions& options) {
   return "";
 }
 
-/// In a folder of objects each file may be that of a plan.
+/// Return all input files of a batch.
+/// In a folder of objects, each file may be the object of a plan.
 std::vector<NamedFile> InputsOf(const ValidateOptions& options, const PlanLibrary& library) {
   std::vector<NamedFile> inputs = {{"--object", options.object_path},
                                    {"--start", options.start},
@@ -115,7 +117,7 @@ PlanLibrary FindLibrary(const ValidateOptions& options) {
     outputs.folders.push_back({"--output", folder / plan.name, IsValidationFile});
   }
   CheckOutputsDiffer(InputsOf(options, library), outputs);
-  // That of a plan is its own matter.
+  // The process of each plan checks the folder of the plan.
   outputs.folders.resize(1);
   CheckOutputsWritable(outputs);
   return library;
@@ -137,6 +139,7 @@ class Batch {
     }
   }
 
+  /// Run the batch.
   /// @returns the exit code.
   int Run() {
     PrepareFolder();
@@ -163,11 +166,11 @@ class Batch {
     return static_cast<int>(summary_.verdict());
   }
 
-  /// The signal that stopped it; 0 where all plans were looked at.
+  /// Signal that stopped the batch; 0 if all plans were validated.
   [[nodiscard]] int stop() const { return stop_; }
 
  private:
-  /// A summary never stands beside the results of another run.
+  /// Remove an earlier summary, so that it is never next to results of another run.
   void PrepareFolder() {
     const std::set<std::string> own = OwnSummary(folder_);
     ExpectFree(folder_, own, {kSummaryName, kIndexName});
@@ -198,7 +201,7 @@ class Batch {
       outcome.verdict = PlanVerdict::kBadInput;
     } else if (exit.code == kExitDone || exit.code == kExitNegative || exit.code == kExitKept) {
       TakeReport(exit.code == kExitKept, outcome);
-      // A run that reuses results hides no failure.
+      // Failures are printed for reused results, too.
       const auto failure = outcome.kept ? outcome.report->failure() : std::nullopt;
       if (failure) lines.push_back(failure->line());
     }
@@ -212,7 +215,8 @@ class Batch {
     ShowProgress();
   }
 
-  /// What is reported is there: others may have removed it since.
+  /// Check that all reported results exist.
+  /// Another process may have removed them during the run.
   void ExpectResults() {
     for (PlanOutcome& outcome : summary_.plans) {
       if (!outcome.report) continue;
@@ -231,7 +235,7 @@ class Batch {
     }
   }
 
-  /// New and kept results are told from the same file.
+  /// Take the result from the report file, for new and for kept results.
   void TakeReport(bool kept, PlanOutcome& outcome) {
     try {
       outcome.report = ReadReportSummary(folder_.path() / outcome.name / kReportName);
@@ -259,9 +263,9 @@ class Batch {
 int RunBatch(const ValidateOptions& given) {
   ValidateOptions options = given;
   try {
-    options.hand_sha256 = HandInput(given);  // once for all plans
+    options.hand_sha256 = HandInput(given);  // computed once for all plans
   } catch (const InputError&) {
-    // The run of each plan reports it.
+    // The run of each plan reports the error.
   }
   int exit_code = 0;
   int stop = 0;
@@ -270,7 +274,7 @@ int RunBatch(const ValidateOptions& given) {
     exit_code = batch.Run();
     stop = batch.stop();
   }
-  // As the first process of a container this one goes on: the kernel spares it.
+  // The signal has no effect on the first process of a container, which therefore continues.
   if (stop != 0) raise(stop);
   return exit_code;
 }

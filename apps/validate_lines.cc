@@ -34,8 +34,8 @@ namespace fs = std::filesystem;
 /// Digits in the name of the folder of a plan with frames.
 constexpr std::size_t kDigits = 7;
 
-/// Return the text before the initial grasp, without parsing. Lines with equal texts have the same
-/// object.
+/// Return the text before the initial grasp, without parsing.
+/// Lines with equal texts have the same object.
 std::string ValidateObjectText(const Line& line) {
   const std::string_view text = line.text;
   const std::size_t begin = text.find(R"("object":)");
@@ -99,11 +99,11 @@ class ValidateLines {
     CheckOutputsWritable(outputs);
   }
 
-  /// Digest of all that the lines of the output come from.
+  /// Return the digest of all inputs of the output's lines.
   /// @param source  identity of the input's lines.
   [[nodiscard]] std::string Digest(const std::string& source) const {
     ValidateOptions options = options_;
-    // A limit changes which entries are errors.
+    // A time limit changes which entries are errors.
     if (options.time_limit_s) {
       options.given.emplace_back("--time-limit", std::vector{FormatDouble(*options.time_limit_s)});
     }
@@ -111,7 +111,8 @@ class ValidateLines {
     return DigestOf(options, source, one ? Sha256(ReadFile(options.object_path)) : "");
   }
 
-  /// @param object_sha256  of the object of all lines; empty: each names its own.
+  /// Return the digest of all inputs, for given options.
+  /// @param object_sha256  SHA-256 of the object of all lines; empty: each line names its object.
   [[nodiscard]] std::string DigestOf(const ValidateOptions& options, const std::string& source,
                                      const std::string& object_sha256) const {
     return RunDigest(options, {{"", source},
@@ -129,7 +130,7 @@ class ValidateLines {
       return ObjectOfLine{object.Member("file").String(), object.Member("sha256").String(),
                           RepairInput(options_, line.text)};
     } catch (const InputError&) {
-      return std::nullopt;  // the child reports it
+      return std::nullopt;  // the child process reports the error
     }
   }
 
@@ -143,7 +144,7 @@ class ValidateLines {
     return said.empty() ? std::vector<std::string>{} : std::vector{line.name + ": " + said};
   }
 
-  /// Whether the frames that a record comes with are still there.
+  /// Return whether the frames of a record still exist.
   [[nodiscard]] bool HasFrames(const Line& line, std::string_view record) {
     const auto outcome = OutcomeOf(record, line.entry);
     if (outcome != Outcome::kFail && outcome != Outcome::kPass) return true;
@@ -159,7 +160,7 @@ class ValidateLines {
     return HasSameRun(options);
   }
 
-  /// The options by which messages call the plan of a line.
+  /// Return the options with the name of the plan of a line in messages.
   [[nodiscard]] ValidateOptions OptionsFor(const Line& line) const {
     ValidateOptions options = options_;
     options.plan_path = line.name;
@@ -170,7 +171,7 @@ class ValidateLines {
     try {
       static_cast<void>(MakePlanTask(OptionsFor(line), line.text, shared_, objects_));
     } catch (const InputError&) {
-      // The process of each line reports it.
+      // The process of each line reports the error.
     }
   }
 
@@ -204,7 +205,8 @@ class ValidateLines {
     return std::nullopt;
   }
 
-  /// The options of the validation that draws the frames of an entry, all but the object.
+  /// Return the options of the validation that draws the frames of an entry.
+  /// The object is not set.
   [[nodiscard]] ValidateOptions FramesOptions(std::int64_t entry) const {
     const std::string number = std::to_string(entry);
     ValidateOptions options = options_;
@@ -218,7 +220,7 @@ class ValidateLines {
     return options;
   }
 
-  /// A validation of its own, which is the same once more.
+  /// Draw the frames of a line by a separate validation with the same result.
   void DrawFrames(const Line& line, const ValidateTask& task) {
     ValidateOptions options = FramesOptions(line.entry);
     options.object_path =

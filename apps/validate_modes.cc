@@ -9,8 +9,9 @@
 namespace regrasp::apps {
 namespace {
 
-/// @param why  follows the name of a given option that is not served.
-/// @throws InputError  if there is one.
+/// Refuse all given options except some.
+/// @param why  text that follows the name of a refused option.
+/// @throws InputError  if an option is given that is not in `served`.
 void RefuseOthers(const CLI::App& app, const std::set<std::string>& served,
                   const std::string& why) {
   for (const CLI::Option* option : app.get_options()) {
@@ -19,7 +20,8 @@ void RefuseOthers(const CLI::App& app, const std::set<std::string>& served,
   }
 }
 
-/// Longer than any plan takes, and still a number of seconds that clocks can add.
+/// Largest time limit.
+/// It exceeds the time of any plan, and clocks can add it without overflow.
 constexpr double kLongestTime_s = 1e6;
 
 }  // namespace
@@ -40,7 +42,7 @@ void AddBatch(CLI::App& app, ValidateOptions& options) {
 }
 
 void AddStates(CLI::App& app, ValidateOptions& options) {
-  // The file of a million states has about 700 MB.
+  // Maximum number of states; the file of a million states has about 700 MB.
   constexpr int kMostStates = 1'000'000;
   ListOption("--export-states")
       .Values("the number of states", {IntegerParser(options.states, 1, kMostStates)})

@@ -112,7 +112,7 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
       "with --replay hand joints, controls and object pose, as NPZ if the file ends in .npz");
 }
 
-/// Object and fingers, in addition to the plan.
+/// Add the options of the object and the fingers, in addition to the plan.
 void AddBodies(CLI::App& app, ValidateOptions& options) {
   options.friction.AddTo(app);
   options.contact.AddTo(app, "that of the plan; 0 for grasps");
@@ -164,11 +164,11 @@ void AddDisturbance(CLI::App& app, ValidateOptions& options) {
              "ten times as slow");
 }
 
-/// Parse "0.001" (object diameters), "2mm" or "5deg".
+/// Parse a tolerance: "0.001" (object diameters), "2mm" or "5deg".
 void ParseTolerance(ValidateOptions& options, const std::string& name, const std::string& text) {
   constexpr double kMetre_mm = 1e3, kHalfTurn_deg = 180;
   const std::size_t end = text.find_first_not_of("0123456789.+-eE");
-  // "2e" would be read as a number with an exponent.
+  // The number parser would read "2e" as a number with an exponent.
   const std::string unit = end == std::string::npos ? "" : text.substr(end);
   const std::string number = text.substr(0, end);
   if (!options.settings.insert(name + " " + (unit.empty() ? "diameters" : unit)).second) {
@@ -314,13 +314,14 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
   AddVideo(app, options.video);
 }
 
-/// Each keeps two images with four samples per pixel in memory.
+/// Limit for the workers: each has two images with four samples per pixel in memory.
 constexpr int kMostWorkers = 16;
 
 constexpr char kSeveralPlans[] = "requires several plans, a folder or a file of plans (*.jsonl)";
 constexpr char kSinglePlan[] = "requires a single plan or grasp";
 
-/// Options of inputs, outputs and speed; the content of files is compared by itself.
+/// Return the options that change no result: inputs, outputs and speed.
+/// The contents of input files are compared separately.
 const std::set<std::string>& ChangeNothing() {
   static const std::set<std::string> kNames = {
       "--help",   "--help-all", "--version",     "--object",     "--plan",  "--grasp", "--output",
@@ -368,7 +369,7 @@ void ValidateOptions::AddTo(CLI::App& app) {
 void ValidateOptions::Refuse(const CLI::App& app, std::initializer_list<const char*> names,
                              const std::string& why) const {
   for (const char* name : names) {
-    // An option, or one of its settings.
+    // The name is an option, or a setting of an option.
     const bool setting = std::string(name).find(' ') != std::string::npos;
     if (setting ? settings.contains(name) : app.count(name) > 0) {
       throw InputError(std::string(name) + ": " + why);
@@ -475,10 +476,10 @@ std::filesystem::path ValidateOptions::Folder() const {
   if (!out.empty()) return out;
   const fs::path parent = "out";
   if (plan_path.empty() && plans.size() > 1) return parent / "batch";
-  // Standard input has no name.
+  // Standard input has no file name.
   if (InputPath() == kStandardStream) return parent / "plan";
   if (!for_batch()) return parent / fs::path(InputPath()).stem();
-  // "plans/" and "." have names too.
+  // The absolute path also has a last name for "plans/" and ".".
   const fs::path folder = fs::absolute(plans.front()).lexically_normal();
   const fs::path name = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
   return parent / (name.empty() ? fs::path("batch") : name);

@@ -20,7 +20,7 @@
 
 namespace regrasp::apps {
 
-/// The program's name, before its messages.
+/// Name of the program, printed before its messages.
 inline constexpr char kValidateName[] = "validate";
 
 /// Name of standard input (--plan) and standard output (--json).
@@ -31,16 +31,18 @@ enum class Frames { kAll, kFailed, kNone };
 
 /// Options of `validate`.
 struct ValidateOptions {
-  std::string object_path;         ///< for plans also a folder, where each finds the file it names
-  std::vector<std::string> plans;  ///< files and folders
-  std::string plan_path;           ///< the one to validate now
-  std::string grasp_path;          ///< instead of a plan
-  std::string grasps_path;         ///< many of them, as arrays
-  bool required_angle = false;     ///< of each of those, too
-  bool quality = false;            ///< of each of those, too
-  bool replay_grasps = false;      ///< simulate those that are force closure
-  int states = 0;                  ///< reset states that are made, instead of a plan
-  double min_quality = criteria::GraspCriteria().min_quality;  ///< of their grasps
+  /// file of the object; for plans also a folder with the file that each names
+  std::string object_path;
+  std::vector<std::string> plans;  ///< files and folders of plans
+  std::string plan_path;           ///< plan to validate
+  std::string grasp_path;          ///< grasp to validate, instead of a plan
+  std::string grasps_path;         ///< NPZ file of grasps, instead of a plan
+  bool required_angle = false;     ///< whether to compute the required friction angle of each grasp
+  bool quality = false;            ///< whether to compute the grasp quality of each grasp
+  bool replay_grasps = false;      ///< whether to simulate the grasps that are force closure
+  int states = 0;                  ///< number of reset states to make, instead of a plan
+  /// smallest grasp quality of reset states
+  double min_quality = criteria::GraspCriteria().min_quality;
   std::string out;
   std::string junit;
   std::string json;
@@ -48,30 +50,32 @@ struct ValidateOptions {
   std::string trajectory;
   std::string start;
   std::string goal;
-  std::string hand;         ///< of a plan for a hand: its file; empty: the hand is not checked
-  std::string hand_sha256;  ///< of `hand` with its model; empty: not known yet (HandInput)
+  std::string hand;  ///< file of the hand; empty: the hand is not checked
+  /// digest of `hand` with its model; empty: not computed yet (HandInput)
+  std::string hand_sha256;
   double clearance_m = sim::HandCheckOptions().clearance_m;
-  bool replay_by_hand = false;  ///< on the hand's own model, not by ideal fingers
-  bool feedback = true;         ///< of that replay: joint targets follow the object's pose
-  sim::TipShape tip = sim::TipShape::kBall;  ///< of that replay: collision shape
-  double tolerance_mm = 2;                   ///< of the same
+  bool replay_by_hand = false;  ///< whether to replay on the hand's model, instead of ideal fingers
+  bool feedback = true;         ///< whether joint targets of the hand follow the object's pose
+  /// collision shape of the fingertips in a replay by the hand
+  sim::TipShape tip = sim::TipShape::kBall;
+  double tolerance_mm = 2;  ///< position tolerance of a replay by the hand
   double tolerance_deg = 5;
-  sim::HandTolerance tolerance;  ///< after Finish
-  std::string verify;            ///< a report whose certificates are checked
+  sim::HandTolerance tolerance;  ///< tolerance of a replay by the hand; set by Finish
+  std::string verify;            ///< report whose certificates are checked
   FrictionOptions friction;
   ContactOptions contact;
-  RepairOptions repair;  ///< of a grasp's object; a plan holds its own
+  RepairOptions repair;  ///< repair of the object of a grasp; a plan has its own
   std::optional<double> scale;
   sim::ReplayOptions replay;
   double joint_noise_deg = 0.5;
-  sim::TrialOptions trials;  ///< a count of 0: none
+  sim::TrialOptions trials;  ///< options of repeated replays; a count of 0: none
   render::FrameOptions frame;
   int animation_width =
-      0;  ///< pixels; after Finish those of --size animation, or half of the frames
+      0;  ///< width in pixels; Finish sets --size animation, or half of the frames' width
   int animation_height = 0;
   bool animation_crop = false;
   std::string video;
-  int workers;  ///< threads that draw frames
+  int workers;  ///< number of threads that draw frames
   int sheet_width = render::kOverviewWidth;
   Frames frames = Frames::kAll;
   bool animate = false;
@@ -80,26 +84,26 @@ struct ValidateOptions {
   bool allow_object_change = false;
   bool allow_undecided = false;
   bool quiet = false;
-  bool silent = false;  ///< print no failures: the caller does
-  int jobs;             ///< plans at a time, or threads that make states
+  bool silent = false;  ///< whether failures are not printed, because the caller prints them
+  int jobs;             ///< number of simultaneous plans, or of threads that make states
   std::optional<double> time_limit_s;
-  bool fresh = false;  ///< validates again what an earlier run did
+  bool fresh = false;  ///< whether to discard the results of an earlier run
   std::string shard;   ///< part of a JSON Lines file; empty: all
-  /// Given settings of list options: "--replay tip", "--tolerance mm".
+  /// Given settings of list options: `--replay tip`, "--tolerance mm".
   std::set<std::string> settings;
-  /// Given options that change results, each with its values: input of a run's digest.
+  /// Given options that change results, with their values, for a run's digest.
   std::vector<std::pair<std::string, std::vector<std::string>>> given;
 
   ValidateOptions();
-  /// Adds all options to the command line; they are set when it is parsed.
+  /// Add all options to the command line; parsing sets them.
   void AddTo(CLI::App& app);
-  /// After parsing: finds out what is given and whether it goes together.
-  /// @throws InputError  it does not.
+  /// Complete the options after parsing, and check that they are consistent.
+  /// @throws InputError  if they are inconsistent.
   void Finish(const CLI::App& app);
 
-  /// Several plans, or a folder of them.
+  /// Whether the input is several plans or a folder of plans.
   [[nodiscard]] bool for_batch() const;
-  /// A JSON Lines file of plans.
+  /// Whether the input is a JSON Lines file of plans.
   [[nodiscard]] bool for_lines() const;
   [[nodiscard]] bool trajectory_is_npz() const;
   [[nodiscard]] bool for_grasp() const { return !grasp_path.empty(); }
@@ -109,13 +113,15 @@ struct ValidateOptions {
   [[nodiscard]] bool draws_frames(bool passed) const {
     return frames == Frames::kAll || (frames == Frames::kFailed && !passed);
   }
-  /// The plan, the grasp or the grasps; of states the object.
+  /// Path of the plan, the grasp or the grasps; for reset states, of the object.
   [[nodiscard]] const std::string& InputPath() const;
-  /// Folder of the results: `out`, or out/<plan, grasp, object or folder name>, or out/batch.
+  /// Folder of the results.
+  /// It is `out`, or out/<plan, grasp, object or folder name>, or out/batch.
   [[nodiscard]] std::filesystem::path Folder() const;
 
  private:
-  /// @param names  options ("--engine") and settings ("--replay tip").
+  /// Refuse options and settings.
+  /// @param names  names of options ("--engine") and settings (`--replay tip`).
   /// @throws InputError  if one of them is given.
   void Refuse(const CLI::App& app, std::initializer_list<const char*> names,
               const std::string& why) const;

@@ -40,18 +40,19 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Time between two rows of a finger in the trajectory, about a hundredth of a switch.
+/// Time between two rows of a finger in the trajectory.
+/// It is about a hundredth of a finger switch.
 constexpr double kSampleInterval_s = 5e-4;
 
-/// Data that is recorded while the replay runs, as far as the options need it.
+/// Data that is recorded during the replay, if the options require it.
 struct ReplayRecord {
-  Stopwatch run;   ///< since the program began
-  Stopwatch step;  ///< since the last step was done
+  Stopwatch run;   ///< time since the program began
+  Stopwatch step;  ///< time since the last step was done
   std::vector<double> step_seconds;
-  std::vector<plan::Snapshot> trajectory;  ///< of a replay by point fingers
-  std::vector<plan::Snapshot> animation;   ///< the same
-  sim::HandTrajectory hand_trajectory;     ///< of a replay by a hand
-  std::vector<sim::SceneKey> rests;        ///< the same
+  std::vector<plan::Snapshot> trajectory;  ///< trajectory of a replay by ideal fingers
+  std::vector<plan::Snapshot> animation;   ///< animation samples of a replay by ideal fingers
+  sim::HandTrajectory hand_trajectory;     ///< trajectory of a replay by a hand
+  std::vector<sim::SceneKey> rests;        ///< keyframes of a replay by a hand
 };
 
 /// Return the observer that records what the options need.
@@ -61,7 +62,8 @@ sim::ReplayObserver Recorder(const ValidateOptions& options, const plan::Plan& p
   observer.on_progress = [&record](int, int) { record.step_seconds.push_back(record.step.Lap()); };
   const bool trajectory = !options.trajectory.empty();
   const bool animate = options.animates();
-  // How long a replay takes depends on the object: an animation is cut from all of its states.
+  // The duration of a replay depends on the object, so an animation requires all states to select
+  // from.
   observer.sample_interval_s = animate ? 0 : kSampleInterval_s;
   if (trajectory || animate) {
     observer.on_sample = [trajectory, animate, &record](const plan::Snapshot& snapshot) {
@@ -128,7 +130,7 @@ std::vector<std::string> NamesOfResults(const ValidateOptions& options, const Va
   return ResultNames(task.plan, options.frames != Frames::kNone, options.animate);
 }
 
-/// Reports how many images are drawn: on a terminal always, in a log at intervals.
+/// Progress of drawing: always shown on a terminal, at intervals in a log.
 class DrawingCount {
  public:
   DrawingCount(std::string what, bool quiet)
@@ -150,6 +152,7 @@ class DrawingCount {
   ProgressLog log_;
 };
 
+/// Write the animations.
 /// @returns animation for the HTML report: replay.webp, or the video if only that is made.
 report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions frame,
                             const ValidateTask& task, const report::HandPicture* hand,
@@ -193,7 +196,8 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
   WriteFile(folder / kPageName, report::FormatReportHtml(report, task.plan, pictures, moving));
 }
 
-/// Check that no file of the run was removed: the report that is written next lists them.
+/// Check that no file of the run was removed.
+/// The report that lists them is written next.
 void CheckPictures(const std::filesystem::path& folder, const report::Report& report) {
   std::vector<std::string> names = {kPageName};
   for (const report::ReportStep& step : report.steps) {
@@ -275,9 +279,9 @@ void WriteResults(const ValidateOptions& options, const render::FrameOptions& fr
   }
 }
 
-/// "out/plan/report.html, report.json and 3 more".
+/// Return "out/plan/report.html, report.json and 3 more".
 std::string FilesText(const std::filesystem::path& folder, const report::Report& report) {
-  // The page and the report; the report lists all but itself.
+  // The HTML report is one of the listed files. The JSON report is not listed.
   const std::size_t others = report.run->files.size() - 1;
   return (folder / kPageName).string() + ", " + kReportName +
          (others > 0 ? " and " + std::to_string(others) + " more" : "");

@@ -55,7 +55,7 @@ OutputFiles OutputsOf(const ValidateOptions& options) {
   return outputs;
 }
 
-/// Check that the options do not contradict the plan on how its object is repaired.
+/// Check that the options do not contradict the plan's repair of its object.
 void CheckRepair(const ValidateOptions& options, const plan::Plan& plan) {
   if (options.repair.shells() && options.repair.shells() != plan.shells) {
     throw InputError("--shells must match " + options.plan_path + ": /object/shells" +
@@ -91,9 +91,10 @@ plan::Plan ParsePlanOf(const ValidateOptions& options, const std::string& text) 
   return plan;
 }
 
-/// Return how to read the object of a plan.
+/// Return the reading options for the object of a plan.
 object::Reading ReadingOf(const plan::Plan& plan, object::Reading reading) {
-  // No verdict depends on these, but --show clusters computes clusters without rough places.
+  // No verdict depends on these options, but --show clusters computes clusters without rough
+  // places.
   if (plan.roadmap && plan.roadmap->roughness) {
     reading.patch = {plan.patch_radius, *plan.roadmap->roughness};
   }
@@ -101,7 +102,8 @@ object::Reading ReadingOf(const plan::Plan& plan, object::Reading reading) {
   return reading;
 }
 
-/// Return a text for how to read the object: plans with equal texts and files have equal objects.
+/// Return a key of the reading options.
+/// Plans with equal keys and files have equal objects.
 std::string ReadingKey(const plan::Plan& plan) {
   Json key = Json::array();
   if (plan.repair) {

@@ -45,29 +45,31 @@ struct ValidateTask {
                                                       const ValidateTask& task);
 
 /// Validate a task. The report has the name and the digest of the object's file.
-/// @throws InputError  plan, object and options do not fit together.
+/// @throws InputError  if plan, object and options are inconsistent.
 [[nodiscard]] validation::ValidationResult ValidateFiles(
     const ValidateOptions& options, const ValidateTask& task,
     const validation::ValidationObserver& observer = {});
 
 /// Check that outputs can be written and are not inputs.
-/// @throws InputError  an output is another file of the command line, or cannot be written.
+/// @throws InputError  if an output is another file of the command line, or cannot be written.
 void CheckOutputs(const ValidateOptions& options);
 
 /// Check that a planar object has no torsional friction.
-/// @throws InputError  --torsion is given for a planar object.
+/// @throws InputError  if --torsion is given for a planar object.
 void CheckTorsionFits(const ValidateOptions& options, const object::Object& object);
 
-/// Read the object of --grasp, --grasps or --export-states, and repair it if requested.
-/// @throws InputError  the file is not an object.
+/// Read the object of --grasp, --grasps or --export-states.
+/// The object is repaired if requested.
+/// @throws InputError  if the file is not an object.
 [[nodiscard]] object::ObjectFile ReadGraspObject(const ValidateOptions& options,
                                                  ProgressLine& progress);
 
 /// Read --start, --goal and --hand.
 [[nodiscard]] SharedInputs ReadSharedInputs(const ValidateOptions& options);
 
-/// Read all files of the command line: the object, the plan or the grasp, and SharedInputs.
-/// @throws InputError  a file is invalid, or does not fit another file or an option.
+/// Read all files of the command line.
+/// These are the object, the plan or the grasp, and SharedInputs.
+/// @throws InputError  if a file is invalid, or does not fit another file or an option.
 [[nodiscard]] ValidateTask ReadTask(const ValidateOptions& options);
 
 /// Sources of the objects of many plans.
@@ -76,8 +78,8 @@ struct PlanObjects {
   ObjectShelf shelf;
 };
 
-/// Make the task of one of many plans, which has no file of its own.
-/// @param options  `plan_path` is the name of the plan in messages.
+/// Make the task of one of many plans, which has no separate file.
+/// @param options  options whose `plan_path` is the name of the plan in messages.
 /// @throws InputError  as ReadTask.
 [[nodiscard]] ValidateTask MakePlanTask(const ValidateOptions& options, const std::string& text,
                                         const SharedInputs& shared, PlanObjects& objects);

@@ -16,7 +16,8 @@ namespace {
 
 using Kind = motion::ProofVerdict::Kind;
 
-/// Largest difference of equal friction angles after a conversion to degrees and back, radians.
+/// Largest difference of friction angles that count as equal, radians.
+/// Conversion to degrees and back causes it.
 constexpr double kSameFriction = 1e-12;
 
 void ExpectDigest(const plan::JsonReader& json, const std::string& sha256, const char* what) {
@@ -28,7 +29,7 @@ void ExpectDigest(const plan::JsonReader& json, const std::string& sha256, const
               "…");
 }
 
-/// Read the proofs of the first steps. Those after a failed step have none.
+/// Read the proofs of the first steps. Steps after a failed step have none.
 std::vector<certificate::EntryProof> ReadProofs(const plan::JsonReader& steps, int dimension) {
   std::vector<certificate::EntryProof> proofs;
   for (const plan::JsonReader& step : steps.Elements()) {
@@ -46,7 +47,7 @@ std::string DescribeProof(const motion::ProofVerdict& verdict) {
   return "not proved: " + verdict.why;
 }
 
-/// Return the fault of a step apart from force closure; empty if it has none.
+/// Return the failure of a step, except for force closure; empty if there is none.
 std::string FaultOf(const plan::StepCheck& check) {
   if (check.skipped) return "not checked: an entry before it is at fault";
   if (check.reason == plan::Reason::kNone) return "";

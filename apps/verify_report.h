@@ -9,26 +9,28 @@
 
 namespace regrasp::apps {
 
-/// A plan, checked as CheckPlan does in all but force closure, and the proofs of that in a report,
-/// checked in exact rational arithmetic against plan and object.
+/// Result of checking a plan and the force-closure proofs of its report.
+/// CheckPlan checks all other criteria. The proofs are checked against plan and object in exact
+/// rational arithmetic.
 struct ReportVerification {
-  std::string text;     ///< a line per entry, and what all of them prove
-  bool proved = false;  ///< every entry of the plan
+  std::string text;     ///< text with a line per entry, and the conclusion
+  bool proved = false;  ///< whether every entry of the plan is proved
 };
 
-/// The subject that a report must have.
+/// Plan and object that a report must be about.
 struct ReportSubject {
   const object::Object& object;
-  std::string object_sha256;      ///< of the object file's bytes
-  const plan::Plan& plan;         ///< with friction, torsion and fingers of the validation
-  std::string plan_sha256;        ///< of the plan file's bytes
+  std::string object_sha256;      ///< SHA-256 of the object file's bytes
+  const plan::Plan& plan;         ///< plan with friction, torsion and fingers of the validation
+  std::string plan_sha256;        ///< SHA-256 of the plan file's bytes
   plan::CheckOptions check = {};  ///< required start and goal
 };
 
-/// @param text  of the report.
-/// @param name  how messages call it.
-/// @throws InputError  the report is broken, holds no proofs, or is about another plan, object or
-///                     friction.
+/// Verify a plan and the proofs in its report.
+/// @param text  text of the report.
+/// @param name  name of the report in messages.
+/// @throws InputError  if the report is invalid, has no proofs, or is about another plan, object or
+///     friction.
 [[nodiscard]] ReportVerification VerifyReport(std::string_view text, const std::string& name,
                                               const ReportSubject& subject);
 

@@ -19,7 +19,7 @@ ListOption::Parser AngleParser(double& radians, double lower, double upper) {
   };
 }
 
-/// Return `--view` with azimuth and elevation.
+/// Return the option `--view` with azimuth and elevation.
 ListOption ViewOption(std::optional<render::ViewDirection>& view) {
   ListOption list("--view");
   list.Values("AZIMUTH,ELEVATION, as in 30,20",
