@@ -60,8 +60,10 @@ class ExecutionMonitor {
     double without_force = 0;
     Eigen::Vector3d slip = Eigen::Vector3d::Zero();
     Eigen::Vector3d first_O = Eigen::Vector3d::Zero();
-    std::vector<double> at_limit;       ///< seconds without a break, by drive
-    std::vector<double> control_limit;  ///< seconds in this step, of its control
+    /// uninterrupted seconds at the force limit, by independent joint
+    std::vector<double> at_limit;
+    /// seconds at the control limit in this step, by independent joint
+    std::vector<double> control_limit;
   };
   void WatchObject(const Eigen::Isometry3d& planned, double share, double& off_m, double& off_rad);
   void WatchFinger(FingerIndex finger);

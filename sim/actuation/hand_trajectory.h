@@ -7,21 +7,23 @@
 
 namespace regrasp::sim {
 
-/// What a hand does during a replay, as other programs read it.
+/// Recorded motion of a hand during a replay, in formats that other programs read.
 class HandTrajectory {
  public:
-  /// To be called after every step of the world; keeps one every kInterval.
+  /// Record a state every kInterval. Call it after every step of the world.
   void Add(const HandWorld& world);
 
-  /// A header row, then a row per instant: time_s, the angles of all joints of the fingers (rad,
-  /// named as the model names them), the controls of the model's actuators (`control NAME`), the
-  /// object's origin (m) and quaternion w, x, y, z in the palm's frame. Lines end with CR LF.
+  /// Format the motion as CSV: a header row, then a row per time sample.
+  /// The columns are time_s, the angles of all joints of the fingers (rad, with the joint names of
+  /// the model), the controls of the model's actuators (`control NAME`), and the object's origin
+  /// (m) and quaternion w, x, y, z in the palm's frame. Lines end with CR LF.
   [[nodiscard]] std::string FormatCsv() const;
-  /// The same as arrays: time_s (N), joints (N, J), controls (N, C), object (N, 7), and the names
-  /// joint_names (J) and control_names (C).
+  /// Format the motion as NPZ arrays: time_s (N), joints (N, J), controls (N, C), object (N, 7),
+  /// and the names joint_names (J) and control_names (C).
   [[nodiscard]] std::string FormatNpz() const;
 
-  inline static constexpr double kInterval = 0.01;  ///< seconds, of the controller's measurements
+  /// interval of the samples, seconds; that of the controller's measurements
+  inline static constexpr double kInterval = 0.01;
 
  private:
   struct Sample {
