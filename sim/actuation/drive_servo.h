@@ -34,10 +34,10 @@ struct DriveActuator {
 
 /// Find the actuator with the largest moment about an independent joint, and make it a servo.
 /// An actuator without a servo in the model gets one with critical damping. The inertia for it is
-/// at least that of a small gear motor. Constants of the model that depend on inertias are stale
-/// afterwards (mj_setConst). A servo of the model keeps the range of its control. If the servo is
-/// derived, the range of the control becomes a limit of its force, because its control is then an
-/// angle.
+/// at least that of a small electric finger. Constants of the model that depend on inertias are
+/// stale afterwards (mj_setConst). A servo of the model keeps the range of its control. If the
+/// servo is derived, the range of the control becomes a limit of its force, because its control is
+/// then an angle.
 /// @param joints        joints of the model, in the order of the finger's joints.
 /// @param force_factor  factor on the force limit of the model.
 /// @param data          data of the model with the moments of actuators, in any joint

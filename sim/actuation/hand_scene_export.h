@@ -17,7 +17,7 @@ inline constexpr const char* kHandSceneObject = "regrasp_object";
 /// Return the model of a hand with the object in it.
 /// The object is a free body with its mass and inertia, its origin at its centroid and the axes of
 /// its file. Couplings of the hand's file become constraints. A URDF has no actuators. It gets an
-/// actuator for each independent joint of a finger, with the effort limit of the joint.
+/// actuator for each independent joint of a finger, with the force limit of the joint.
 /// @param scale  metres per unit of the object's file. @param mass  mass of the object, kg.
 [[nodiscard]] kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
                                                   const object::Polyhedron& solid, double scale,

@@ -9,7 +9,7 @@ namespace {
 const std::vector<std::string> kObjectColumns = {
     "object_x_m", "object_y_m", "object_z_m", "object_qw", "object_qx", "object_qy", "object_qz"};
 
-/// A field of a row; in quotes where it has to be (RFC 4180).
+/// Return a field of a row, in quotes if RFC 4180 requires them.
 std::string Field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

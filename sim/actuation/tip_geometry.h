@@ -61,7 +61,7 @@ using TipShapes = std::vector<collision::ConvexShape>;
 [[nodiscard]] std::vector<collision::ConvexShape> CollisionShapesOf(const mjModel_& model,
                                                                     const std::string& body);
 
-/// metres: three times the depth of fingertips in a static grasp
+/// Radius of shapes without one, metres: three times the depth of fingertips in a static grasp.
 inline constexpr double kTipSkin = 2e-4;
 
 /// Contacts of a hand's fingertips with an object's surface, in the object's frame, metres.
@@ -74,7 +74,7 @@ class TipSurface {
   /// Return the expected maximum number of simultaneous contacts of all fingertips.
   [[nodiscard]] int most_contacts() const;
 
-  /// Clear all caches. Later results then do not depend on earlier ones, to the bit.
+  /// Clear the cached triangles. Later results then do not depend on earlier ones, to the bit.
   void Forget();
 
   /// Return the present contacts of a fingertip, shape by shape. The search extends to kNear.
