@@ -32,7 +32,7 @@ Isometry3d PoseAt(const mjData& data, int body) {
   return kinematics::PoseAt(data.xpos, data.xmat, body);
 }
 
-/// Reserve memory for `contacts` contacts and the largest number of constraint rows. Rows are those
+/// Allocate memory for `contacts` contacts and the largest number of constraint rows. Rows are those
 /// of contacts, range limits, joint friction and couplings. The memory is cleared whenever a state
 /// is placed.
 void SetRoom(int contacts, mjModel& model) {
