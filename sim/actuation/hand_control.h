@@ -78,8 +78,8 @@ class HandControl {
 
   /// Keep the fingertip at its present place on the object.
   void Attach(FingerIndex finger);
-  /// Slide a fingertip along the surface. Its distance from the target along the normal does not
-  /// count.
+  /// Slide a fingertip along the surface.
+  /// Its distance from the target along the normal does not count.
   /// @param centre_O  target of the fingertip sphere's centre, in the object's frame.
   void LeadAlongSurface(FingerIndex finger, const Eigen::Vector3d& centre_O);
   /// Return how well the other fingers balance the sliding fingers of a hold.

@@ -40,8 +40,9 @@ class HandLinks {
   /// Return all links, in order, at the joint configurations of the fingers.
   [[nodiscard]] std::vector<Placed> Place(const kinematics::HandModel& hand,
                                           const std::vector<kinematics::Posture>& postures) const;
-  /// Return whether two links of one Place may touch: neighbours along a finger, and links that are
-  /// near each other in the reference configuration.
+  /// Return whether two links of one Place may touch.
+  /// Neighbours along a finger may, and links that are near each other in the reference
+  /// configuration.
   [[nodiscard]] bool MayTouch(const Placed& a, const Placed& b) const;
 
  private:

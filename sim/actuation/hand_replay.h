@@ -32,12 +32,12 @@ struct HandReplayOptions : ReplayConditions {
 /// Replay a plan for a hand on the hand's own model in MuJoCo (HandWorld) with HandControl.
 /// The hand grasps the object and executes each step. In each static grasp the object is disturbed.
 ///
-/// A pass means: with this friction and mass the actuators of the hand's model move the object
-/// along the plan to within the tolerance, and only fingertips hold it. The replay uses no result
-/// of the analytic check.
+/// A pass means two things with this friction and mass. The actuators of the hand's model move the
+/// object along the plan to within the tolerance, and only fingertips hold it. The replay uses no
+/// result of the analytic check.
 ///
-/// With TipShape::kGeometry the planned spheres still decide the placement of fingers, the place of
-/// each fingertip on the object, and whether a finger is at its contact.
+/// With TipShape::kGeometry the planned spheres still decide three things: the placement of
+/// fingers, the place of each fingertip on the object, and contact of a finger.
 ///
 /// Deterministic: the same plan gives the same bits.
 /// @param plan   plan for a hand, located on the object.

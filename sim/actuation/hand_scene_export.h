@@ -45,9 +45,13 @@ inline constexpr const char* kSceneOrigin = "regrasp_object_origin";
 [[nodiscard]] bool IsSceneFile(const std::string& name);
 
 /// Export the world of a hand as a folder that stock MuJoCo loads, from version 2.2.2 on.
-/// The folder has copies of the meshes of the hand, and scene.xml as the last file. It has the
-/// hand's servos and their limits, the object as a mesh, spheres at the fingertips or the model's
-/// geometry, friction, gravity, and a keyframe for each static grasp.
+/// The folder has copies of the meshes of the hand, and scene.xml as the last file. The scene has:
+///
+/// - the hand's servos and their limits
+/// - the object as a mesh
+/// - spheres at the fingertips, or the model's geometry
+/// - friction and gravity
+/// - a keyframe for each static grasp
 ///
 /// It differs from HandWorld in one point: MuJoCo collides the convex hull of the mesh. Textures
 /// from files are omitted.

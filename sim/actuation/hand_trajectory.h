@@ -14,12 +14,17 @@ class HandTrajectory {
   void Add(const HandWorld& world);
 
   /// Format the motion as CSV: a header row, then a row per time sample.
-  /// The columns are time_s, the angles of all joints of the fingers (rad, with the joint names of
-  /// the model), the controls of the model's actuators (`control NAME`), and the object's origin
-  /// (m) and quaternion w, x, y, z in the palm's frame. Lines end with CR LF.
+  ///
+  /// - time_s
+  /// - angles of all joints of the fingers, rad, with the joint names of the model
+  /// - controls of the model's actuators (`control NAME`)
+  /// - the object's origin (m) and quaternion w, x, y, z in the palm's frame
+  ///
+  /// Lines end with CR LF.
   [[nodiscard]] std::string FormatCsv() const;
-  /// Format the motion as NPZ arrays: time_s (N), joints (N, J), controls (N, C), object (N, 7),
-  /// and the names joint_names (J) and control_names (C).
+  /// Format the motion as NPZ arrays.
+  /// They are time_s (N), joints (N, J), controls (N, C), object (N, 7), and the names joint_names
+  /// (J) and control_names (C).
   [[nodiscard]] std::string FormatNpz() const;
 
   /// interval of the samples, seconds; that of the controller's measurements

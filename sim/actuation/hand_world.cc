@@ -32,9 +32,9 @@ Isometry3d PoseAt(const mjData& data, int body) {
   return kinematics::PoseAt(data.xpos, data.xmat, body);
 }
 
-/// Allocate memory for `contacts` contacts and the largest number of constraint rows. Rows are those
-/// of contacts, range limits, joint friction and couplings. The memory is cleared whenever a state
-/// is placed.
+/// Allocate memory for `contacts` contacts and the largest number of constraint rows. Rows are
+/// those of contacts, range limits, joint friction and couplings. The memory is cleared whenever a
+/// state is placed.
 void SetRoom(int contacts, mjModel& model) {
   constexpr int kRowsOfContact = 3;
   constexpr int kRowsOfWeld = 6;  // largest number of rows of a coupling

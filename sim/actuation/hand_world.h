@@ -124,8 +124,8 @@ class HandWorld {
   /// Return all links of the hand, collision geometry of its fingertips included.
   [[nodiscard]] const HandLinks& links() const;
   [[nodiscard]] TipShape tip_shape() const;
-  /// Return the torques of the independent joints that balance a contact force and the links'
-  /// weight.
+  /// Return the torques of the independent joints that balance a contact force.
+  /// They balance the weight of the links, too.
   /// @param force  force of the fingertip on the object.
   [[nodiscard]] Eigen::VectorXd BalancingTorques(FingerIndex finger, const Eigen::Vector3d& at,
                                                  const Eigen::Vector3d& force) const;

@@ -8,8 +8,8 @@ struct mjData_;
 
 namespace regrasp::sim {
 
-/// The couplings of revolute joints that a model keeps as constraints: equalities of joints, and of
-/// tendons that are sums of joint angles.
+/// The couplings of revolute joints that a model keeps as constraints.
+/// They are equalities of joints, and of tendons that are sums of joint angles.
 class JointCouplings {
  public:
   explicit JointCouplings(const mjModel_& model);

@@ -114,8 +114,8 @@ struct RestToHold {
   plan::FingerGrasp grasp;  ///< contacts in the object's units
 };
 
-/// Function that draws a static grasp. It returns nullopt if a bounded number of attempts finds
-/// none.
+/// Function that draws a static grasp.
+/// It returns nullopt if a bounded number of attempts finds none.
 using DrawRest = std::function<std::optional<RestToHold>(RandomStream&)>;
 
 struct DrawnStatesOptions {

@@ -9,8 +9,8 @@
 
 namespace regrasp::sim {
 
-/// A timed path of a hand, with zero speed at both ends. Between two states it is as fast as the
-/// speed limits of joints and object allow.
+/// A timed path of a hand, with zero speed at both ends.
+/// Between two states it is as fast as the speed limits of joints and object allow.
 class TimedPath {
  public:
   /// @param path         path with at least one state; must outlive this object.
@@ -36,8 +36,8 @@ inline constexpr double kPathRamp = 0.15;   ///< time from zero to full speed, s
 [[nodiscard]] Eigen::Vector3d PlannedTip(const kinematics::HandModel& hand,
                                          const plan::HandState& state, FingerIndex finger);
 
-/// Paths of fingertips between two waypoints of a sliding step, from their actual places to the
-/// planned ones.
+/// Paths of sliding fingertips between two waypoints of a sliding step.
+/// They lead from the actual places of the fingertips to the planned ones.
 class SlidingTips {
  public:
   /// @param world     world with the present state of hand and object; must outlive this object.

@@ -15,8 +15,8 @@ namespace regrasp::sim {
                                    const plan::Plan& plan, int entries, double half_angle,
                                    double weight);
 
-/// Return the grasp force for a single static grasp: the largest that kTorqueShare allows, at most
-/// `most`.
+/// Return the grasp force for a single static grasp, newtons.
+/// It is the largest that kTorqueShare allows, and at most `most`.
 /// @param grasp  contacts in the object's units, `scale` metres each.
 [[nodiscard]] double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double scale,
                                  const plan::HandState& state, const plan::FingerGrasp& grasp,
