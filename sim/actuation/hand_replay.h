@@ -32,11 +32,11 @@ struct HandReplayOptions : ReplayConditions {
 /// Replay a plan for a hand on the hand's own model in MuJoCo (HandWorld) with HandControl.
 /// The hand grasps the object and executes each step. In each static grasp the object is disturbed.
 ///
-/// A pass means two things with this friction and mass. The actuators of the hand's model move the
+/// A pass is a statement about this friction and mass. The actuators of the hand's model move the
 /// object along the plan to within the tolerance, and only fingertips hold it. The replay uses no
 /// result of the analytic check.
 ///
-/// With TipShape::kGeometry the planned spheres still decide three things: the placement of
+/// With TipShape::kGeometry the planned spheres still decide the placement of
 /// fingers, the place of each fingertip on the object, and contact of a finger.
 ///
 /// Deterministic: the same plan gives the same bits.
