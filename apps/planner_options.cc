@@ -77,7 +77,7 @@ std::string PlannerHelp(PlannerOptions::Purpose purpose) {
          "goal [default: yes]\n" +
          (plans
               ? "budget=N (general, gait): search budget in force-closure tests [default: " +
-                    std::to_string(tree::TreePlanner::kDefaultEffort) +
+                    std::to_string(tree::TreePlanner::kDefaultTests) +
                     "] or expanded grasps [default: " + std::to_string(gait::kDefaultExpanded) + "]"
               : "queries=N (roadmap with clusters): also answer N random queries between "
                 "force-closure grasps");

@@ -10,8 +10,9 @@ namespace regrasp::report {
 /// Name of the reason of a plan whose steps pass but too few of whose trials pass.
 inline constexpr char kTrialsFailed[] = "trials-failed";
 
-/// First failing step of a plan, or its failing trials, as readable text. The terminal, the HTML
-/// report, the images, report.json and JUnit use the same text. A plan that passes has none.
+/// First failing step of a plan, or its failing trials, as readable text.
+/// The terminal, the HTML report, the images, report.json and JUnit use the same text. A plan that
+/// passes has none.
 struct Failure {
   plan::EntryIndex entry{0};  ///< not valid if all steps pass and too few trials do
   std::string kind;           ///< "hold", or as StepKind; "trials"
@@ -30,12 +31,13 @@ struct Failure {
 
 [[nodiscard]] std::optional<Failure> DescribeFailure(const Report& report);
 
-/// Return the verdict in a line if it is more than "pass": the headline of the failure, or "pass in
-/// 14 of 20 trials" if some trials fail; otherwise empty.
+/// Return the verdict in a line if it is more than "pass", otherwise nothing.
+/// It is the headline of the failure, or "pass in 14 of 20 trials" if some trials fail.
 [[nodiscard]] std::string VerdictHeadline(const Report& report);
 
-/// Return the heading of the overview image: "PASS in 14 of 20 trials: the hold and all 3 steps
-/// stand", "FAIL at step 2: finger 2 slipped by …", "FAIL: 6 of 20 trials with noise fail: …".
+/// Return the heading of the overview image.
+/// Examples: "PASS in 14 of 20 trials: the hold and all 3 steps stand", "FAIL at step 2: finger 2
+/// slipped by …", "FAIL: 6 of 20 trials with noise fail: …".
 [[nodiscard]] std::string HeadingText(const Report& report);
 
 /// Return three lines (fault, reason, suggested fix); empty if nothing fails.

@@ -26,24 +26,27 @@ using validation::Verdict;
 /// Return "pass", "skipped" or "fail: slipped".
 [[nodiscard]] std::string VerdictText(const ReportStep& step);
 
-/// Return the limits that the verdict of a replay by a hand relies on, in one line: "torque 1 N·m,
-/// 16 control ranges, 16 joint ranges".
+/// Return the limits that the verdict of a replay by a hand relies on, in one line.
+/// Example: "torque 1 N·m, 16 control ranges, 16 joint ranges".
 [[nodiscard]] std::string LimitsText(const std::vector<sim::DriveLimits>& limits);
 
-/// Return warnings for people that do not change the verdict: each switch with a smaller contact
-/// region than the plan claims, each sliding step whose certificate does not prove it, and the
-/// assumptions of a replay by a hand.
+/// Return readable warnings that do not change the verdict.
+///
+/// - each finger switch with a smaller contact region than the plan claims
+/// - each sliding step whose certificate does not prove it
+/// - the assumptions of a replay by a hand
 [[nodiscard]] std::vector<std::string> Warnings(const Report& report);
 
-/// Format report.json. In addition to the members that docs/format_report.md defines, each step has
-/// `detail` for people and `undecided`, and a sliding step its mode. Bytes of file names that are
-/// not UTF-8 are replaced.
+/// Format report.json.
+/// In addition to the members that docs/format_report.md defines, each step has a readable `detail`
+/// and `undecided`, and a sliding step its mode. Bytes of file names that are not UTF-8 are
+/// replaced.
 [[nodiscard]] std::string FormatReportJson(const Report& report);
 
-/// Format a readable table. It has a line per step with required friction angle, displacement,
-/// slip, verdict and contact region, and ends with the verdict and the number of trials that pass.
-/// A plan that fails starts with its failure, reason and suggested fix (failure.h). One that passes
-/// has its weakest step.
+/// Format a readable table.
+/// It has a line per step with required friction angle, displacement, slip, verdict and contact
+/// region. It ends with the verdict and the number of trials that pass. A plan that fails starts
+/// with its failure, reason and suggested fix (failure.h). One that passes has its weakest step.
 [[nodiscard]] std::string FormatReportTable(const Report& report);
 
 }  // namespace regrasp::report

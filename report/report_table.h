@@ -44,8 +44,9 @@ struct WeakestPush {
 /// "7 of 100 trials with noise fail: 5 slipped, 2 object-moved; first in step 0: 4, step 3: 3".
 [[nodiscard]] std::string TrialsFailureText(const sim::TrialSummary& summary);
 
-/// Return the noise of the trials: "contacts off by 0.01 diameters, friction by 10 %, mass by 10 %
-/// (standard deviations); seed 0".
+/// Return the noise of the trials.
+/// Example: "contacts off by 0.01 diameters, friction by 10 %, mass by 10 % (standard deviations);
+/// seed 0".
 [[nodiscard]] std::string TrialsNoiseText(const sim::TrialSummary& summary);
 
 }  // namespace regrasp::report

@@ -12,13 +12,13 @@
 namespace regrasp::sim {
 namespace {
 
-/// Of servos that the model leaves out, as small electric fingers have them: N m / rad, and the
-/// inertia of a motor behind its gear, kg m².
+/// Servo constants if the model has no servo, as for small electric fingers: stiffness, N m/rad,
+/// and inertia of an actuator behind its gear, kg m².
 constexpr double kServoStiffness = 4;
 constexpr double kServoInertia = 1e-3;
 
-/// @returns the critical damping of what a drive moves, which has the inertia of a small gear
-/// motor at least.
+/// @returns the critical damping for the inertia that an independent joint moves, at least that of
+///     a small electric actuator with gear.
 double MakeCritical(const kinematics::Finger& finger, const std::vector<int>& joints, int drive,
                     double stiffness, mjModel& model) {
   double inertia = 0;
@@ -32,7 +32,7 @@ double MakeCritical(const kinematics::Finger& finger, const std::vector<int>& jo
   return 2 * std::sqrt(stiffness * inertia);
 }
 
-/// The actuator follows the law of its servo.
+/// Give the actuator the law of its servo.
 void MakeServo(const DriveActuator& found, mjModel& model) {
   const double stiffness = found.servo.stiffness / (found.moment * found.moment);
   const double damping = found.servo.damping / (found.moment * found.moment);

@@ -33,22 +33,23 @@ constexpr double kHandover = 0.25;
 constexpr double kSettle = 0.3;
 constexpr double kHandPushRamp = 0.05;
 constexpr double kPushHold = 0.1;
-// A finger comes straight down from this height, until it feels this, metres and newtons.
+// A finger approaches along the normal from this height (metres) until it measures kTouched
+// (newtons).
 constexpr double kHeight = 8e-3;
 constexpr double kDescent = 0.02;  // m/s
-constexpr double kDeepest = 4e-3;  // below the planned place
+constexpr double kDeepest = 4e-3;  // largest depth below the planned place
 constexpr double kTouched = 0.05;
-/// Others balance it where no more of the squeeze is missing.
+/// Smallest margin, a share of the grasp force, at which the other fingers balance sliding fingers.
 constexpr double kHeldBySome = -1e-3;
-/// A finger that has left this far does as planned again, metres.
+/// Distance from the object, metres, at which a released finger returns to its planned joints.
 constexpr double kClear = 2e-3;
 constexpr double kSlowest = 0.05;  ///< rad/s
 
-/// What servos may lag behind where they steer for while they carry the object, radians.
+/// Largest lag of servos behind their targets while fingers hold the object, radians.
 constexpr double kMostLag = 0.025;
 
-/// So fast that no servo lags more: a damping c makes one of stiffness k lag by c / k times the
-/// speed.
+/// Return the joint speed at which no servo exceeds kMostLag. A servo of damping c and stiffness k
+/// lags by c / k times the speed.
 double CarryingSpeed(const HandWorld& world) {
   double speed = kHeldJoints;
   for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
@@ -61,18 +62,18 @@ double CarryingSpeed(const HandWorld& world) {
   return std::max(speed, kSlowest);
 }
 
-/// The step fails; nothing more is to be done.
+/// Exception that ends a failed step.
 struct StepFails {};
 
 }  // namespace
 
-/// A finger on its way down to a contact, in the object's frame.
+/// A finger that approaches a contact, in the object's frame.
 struct EntryReplay::Coming {
   FingerIndex finger;
-  Vector3d touching;  ///< where the ball's centre is to be
+  Vector3d touching;  ///< target of the fingertip sphere's centre
   Vector3d outward;
-  double height = 0;                  ///< from which it goes down
-  Vector3d aside = Vector3d::Zero();  ///< what it is off sideways then
+  double height = 0;                  ///< initial height above the contact
+  Vector3d aside = Vector3d::Zero();  ///< initial lateral offset
   bool down = false;
 };
 
@@ -115,7 +116,7 @@ StepReplay EntryReplay::Carry(plan::EntryIndex index) {
     step.detail = std::string("the simulation became unstable: ") + error.what();
   }
   Describe(step);
-  step.fixed = static_cast<const StepMotion&>(step);  // the shake is met by servos alone
+  step.fixed = static_cast<const StepMotion&>(step);  // only servos resist the disturbance test
   return step;
 }
 
@@ -187,7 +188,7 @@ void EntryReplay::TakeHold() {
   }
   monitor_.WatchContacts(plan_.initial, plan_.scale, start_off_);
   if (monitor_.violation()) throw StepFails();
-  // Something holds the object until the fingers do.
+  // The object is fixed until the fingers hold it.
   world_.PinObject(true);
   monitor_.SetSettling(true);
   control_.SetFeedback(false);
@@ -288,7 +289,7 @@ void EntryReplay::PlaceFingers(const plan::Switch& change) {
   const TimedPath timed(path, kFreeJoints);
   const double duration = timed.duration();
   const double begin = world_.time();
-  // Freely until the first of them is straight above its contact …
+  // The fingers follow the path until the first of them is within kHeight of its contact.
   bool above = false;
   while (!above && world_.time() - begin < duration) {
     Run(world_.timestep(), [&](double) { state_ = timed.At(world_.time() - begin); });
@@ -296,7 +297,7 @@ void EntryReplay::PlaceFingers(const plan::Switch& change) {
       return (PlannedTip(world_.hand(), state_, finger.finger) - finger.touching).norm() < kHeight;
     });
   }
-  // … then down along the normal to where the object really is.
+  // They then approach the actual object along the normal.
   Descend(path.back(), coming);
   state_ = path.back();
 }
@@ -319,7 +320,7 @@ void EntryReplay::Descend(const HandState& end, std::vector<Coming>& coming) {
       state_ = plan::StateBetween(begin, end, way > 0 ? std::min(1.0, gone / way) : 1);
       for (const Coming& finger : coming) {
         if (finger.down) continue;
-        // What it is off sideways goes in the first half of the way.
+        // The lateral offset disappears in the first half of the approach.
         const double aside = way > 0 ? std::max(0.0, 1 - 2 * gone / way) : 0;
         control_.LeadTip(finger.finger, finger.touching + (finger.height - gone) * finger.outward +
                                             aside * finger.aside);
@@ -367,7 +368,7 @@ void EntryReplay::Rest() {
 
 void EntryReplay::Shake() {
   rest_ = world_.Save();
-  // So that what comes depends on nothing else.
+  // The rest of the replay then depends on this state alone.
   world_.Restore(rest_);
   if (shake_ == 0) return;
   shaking_ = true;

@@ -12,12 +12,12 @@ namespace regrasp::sim {
 /// Executes the steps of a plan with a hand in order, initial grasp first, and monitors each.
 class EntryReplay {
  public:
-  /// All but settings and options outlive this object.
+  /// All arguments but settings and options must outlive this object.
   EntryReplay(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
               const HandControlSettings& control, const HandReplayOptions& options,
               const ReplayObserver& observer);
 
-  /// Execute a step after the one before it, wait for the static grasp, and disturb it.
+  /// Execute the next step, wait for the static grasp, and disturb it.
   StepReplay Carry(plan::EntryIndex index);
 
   /// Complete state in the static grasp after a step that passed.
@@ -50,9 +50,9 @@ class EntryReplay {
   void HandOver(const Hold& from, const Hold& to);
   void Align(const plan::Align& align);
   /// @param at    contacts of the fingers that stop.
-  /// @param hold  present hold; afterwards `to`.
+  /// @param hold  present holding fingers; afterwards `to`.
   void ChangeSliding(const plan::FingerGrasp& at, Hold& hold, const Hold& to);
-  /// Fingers slide from a waypoint to the next, those whose contacts differ.
+  /// Slide fingers from a waypoint to the next: those whose contacts differ.
   /// @param hold  as in ChangeSliding.
   void Slide(const plan::FingerGrasp& from, const plan::FingerGrasp& to, const plan::HandPath& path,
              Hold& hold);
@@ -65,15 +65,15 @@ class EntryReplay {
 
   HandWorld& world_;
   const plan::Plan& plan_;
-  double shake_;      ///< newtons
+  double shake_;      ///< disturbance force, newtons
   double radius_;     ///< half the object's diameter, metres
   double start_off_;  ///< upper bound on the initial offset of the object's points
   const ReplayObserver& observer_;
   ExecutionMonitor monitor_;
   HandControl control_;
-  plan::HandState state_;             ///< planned now
-  std::vector<FingerIndex> holding_;  ///< since the last rest
-  HandWorld::State rest_;             ///< the last one
+  plan::HandState state_;             ///< present planned state
+  std::vector<FingerIndex> holding_;  ///< holding fingers of the last static grasp
+  HandWorld::State rest_;             ///< last static grasp
   bool shaking_ = false;
 };
 

@@ -64,7 +64,7 @@ void ExecutionMonitor::CopyState(const ExecutionMonitor& other) {
 void ExecutionMonitor::WatchContacts(const plan::FingerGrasp& grasp, double scale,
                                      double known_off) {
   for (const plan::FingerContact& held : grasp) {
-    // Contacts are planned for spheres. Other fingertips touch elsewhere.
+    // Contacts are planned for spheres. Fingertips of other shapes touch at other points.
     const std::optional<collision::NearPoint> near = world_.NearBall(held.finger);
     const double radius = world_.hand().fingers[held.finger].tip.radius;
     const double off = near ? std::max((near->point - scale * held.contact.p).norm(),

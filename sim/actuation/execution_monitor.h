@@ -43,11 +43,11 @@ class ExecutionMonitor {
   void WatchRest(const Eigen::Isometry3d& planned);
   /// Check that a finger that was placed is near the object.
   void WatchPlaced(FingerIndex finger);
-  /// Set whether fingertips of the model may be in the object: from the start to the first static
-  /// grasp they are pressed out of it.
+  /// Set whether fingertips of the model may be in the object.
+  /// They may from the start to the first static grasp, while contact forces press them out of it.
   void SetSettling(bool on) { settling_ = on; }
-  /// Check the depth of fingertips in a static grasp, and measure that of the collision geometry
-  /// which spheres replace.
+  /// Check the depth of fingertips in a static grasp.
+  /// It also measures the depth of the collision geometry that fingertip spheres replace.
   void WatchTipsAtRest();
 
   [[nodiscard]] const std::optional<Violation>& violation() const { return violation_; }
@@ -60,8 +60,10 @@ class ExecutionMonitor {
     double without_force = 0;
     Eigen::Vector3d slip = Eigen::Vector3d::Zero();
     Eigen::Vector3d first_O = Eigen::Vector3d::Zero();
-    std::vector<double> at_limit;       ///< seconds without a break, by drive
-    std::vector<double> control_limit;  ///< seconds in this step, of its control
+    /// uninterrupted seconds at the force limit, by independent joint
+    std::vector<double> at_limit;
+    /// seconds at the control limit in this step, by independent joint
+    std::vector<double> control_limit;
   };
   void WatchObject(const Eigen::Isometry3d& planned, double share, double& off_m, double& off_rad);
   void WatchFinger(FingerIndex finger);
@@ -71,8 +73,8 @@ class ExecutionMonitor {
   void WatchJoints(FingerIndex finger);
   void WatchCouplings();
   void WatchTips(const std::vector<HandLinks::Placed>& placed);
-  /// Check that a shape of a finger, in the palm's frame, is not deeper in the object than
-  /// `allowed`.
+  /// Check that a shape of a finger is not deeper in the object than `allowed`.
+  /// @param shape  shape in the palm's frame.
   void WatchDepth(FingerIndex finger, const collision::ConvexShape& shape, double allowed,
                   const std::string& what);
   /// Marks of a violation in an image.

@@ -14,20 +14,20 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using kinematics::Posture;
 
-/// Of the integral of the object's offset, 1/s.
+/// Gain of the integral of the object's offset, 1/s.
 constexpr double kIntegralGain = 20;
-/// Of damped least squares, metres; and the pull towards the planned joints in its null space, of a
-/// step.
+/// Damping of the least squares, metres, and the share of the offset from the planned joints that
+/// each step removes in its null space.
 constexpr double kDamping = 5e-3;
 constexpr double kPull = 0.02;
-/// The largest normal force of fingers that slide, of the squeeze.
+/// Largest normal force of all sliding fingers, as a share of the grasp force.
 constexpr double kMostSliding = 0.5;
-/// In which a servo lets go of what it pressed with when its finger was attached, seconds: planned
-/// forces are all that is to be left.
+/// Time constant in which the preload of a servo at attachment decays, seconds. Only the planned
+/// forces remain.
 constexpr double kPreloadTime = 0.1;
-/// Planned joints go no faster, rad/s.
+/// Largest speed of planned joints, rad/s.
 constexpr double kFastest = 2;
-/// In which what a free finger is off goes, seconds.
+/// Time constant in which the offset of a free finger decays, seconds.
 constexpr double kOffsetTime = 0.1;
 
 Vector3d RotationVector(const Matrix3d& turn) {
@@ -208,7 +208,8 @@ grasp::GraspForces HandControl::PlannedForces(const grasp::Grasp& contacts,
 
 std::vector<Vector3d> HandControl::ForcesOf(const Hold& all) const {
   std::vector<Vector3d> forces(fingers_.size(), Vector3d::Zero());
-  // A finger that never came to the object cannot press on it: the judge sees that it does not.
+  // A finger that never touched the object cannot press on it. The monitor detects its missing
+  // contact.
   const Hold hold = WithContacts(all);
   if (hold.fingers.empty()) return forces;
   const Matrix3d turn = world_.object_pose().linear();
@@ -260,7 +261,7 @@ void HandControl::FollowTip(FingerIndex finger) {
 Eigen::VectorXd HandControl::TorquesOf(FingerIndex f) const {
   const Finger& finger = fingers_[f];
   Eigen::VectorXd torques = world_.BalancingTorques(f, finger.contact, finger.force);
-  // One that holds has to give way as it rolls: without damping it would slip the easier.
+  // A holding finger must comply as it rolls. Compensation of its damping would increase slip.
   if (finger.mode == Mode::kAttached) return torques;
   for (int drive = 0; drive < torques.size(); ++drive) {
     const DriveServo& servo = world_.servo(f, drive);

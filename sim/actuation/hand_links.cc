@@ -18,10 +18,10 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using kinematics::HandModel;
 
-/// Links that are nearer than this while the hand is at rest are so by construction, metres.
+/// Distance in the reference configuration below which links are near by construction, metres.
 constexpr double kNearWhileAtRest = 1e-3;
 
-/// The origin of a link's frame while the hand is at rest, when all frames are parallel.
+/// Return the origin of a link's frame in the reference configuration, with parallel frames.
 Vector3d OriginAtRest(const HandModel& hand, const HandLinks::Link& link) {
   Vector3d origin = Vector3d::Zero();
   for (int k = 0; k < link.after; ++k) origin += hand.fingers[link.finger].joints[k].offset;

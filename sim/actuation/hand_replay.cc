@@ -22,7 +22,7 @@ namespace {
 using Eigen::Vector3d;
 using plan::HandState;
 
-/// Most static grasps that HandReplays keeps, about 20 kB each.
+/// Largest number of static grasps that HandReplays stores, about 20 kB each.
 constexpr int kMostKnown = 5000;
 
 /// Return the initial state of hand and object.
@@ -118,8 +118,7 @@ void Append(const plan::FingerGrasp& grasp, std::vector<double>& numbers) {
   }
 }
 
-/// All that a replay takes from an entry of a plan: entries with the same numbers are replayed
-/// alike.
+/// Return all inputs of a replay from an entry of a plan. Equal numbers give equal replays.
 std::vector<double> NumbersOf(const plan::Plan& plan, plan::EntryIndex entry) {
   std::vector<double> numbers;
   if (entry == 0) {
@@ -174,19 +173,19 @@ struct HandReplays::Impl {
   struct Come {
     StepReplay step;
     EntryReplay::Rested rested;
-    std::map<std::vector<double>, std::unique_ptr<Come>> next = {};  ///< by NumbersOf
+    std::map<std::vector<double>, std::unique_ptr<Come>> next = {};  ///< successors by NumbersOf
   };
   using Next = std::map<std::vector<double>, std::unique_ptr<Come>>;
 
   kinematics::HandFile file;
   const object::Polyhedron& solid;
   HandReplayOptions given;
-  HandReplayOptions options = {};  ///< with the mass at this scale
+  HandReplayOptions options = {};  ///< options with the mass at this scale
   double half_angle = 0;
   double scale = 0;
   std::optional<HandWorld> world = {};
-  std::map<double, Next> begun = {};  ///< by the squeeze
-  int known = 0;                      ///< rests in all
+  std::map<double, Next> begun = {};  ///< initial grasps by grasp force
+  int known = 0;                      ///< total number of stored static grasps
 
   void Forget() {
     begun.clear();

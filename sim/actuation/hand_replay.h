@@ -29,20 +29,20 @@ struct HandReplayOptions : ReplayConditions {
   std::vector<kinematics::Posture> joint_offsets = {};  ///< HandWorldOptions::joint_offsets
 };
 
-/// Replay a plan for a hand on the hand's own model in MuJoCo (HandWorld) with HandControl: grasp
-/// the object, execute each step, and apply disturbance forces in each static grasp.
+/// Replay a plan for a hand on the hand's own model in MuJoCo (HandWorld) with HandControl.
+/// The hand grasps the object and executes each step. In each static grasp the object is disturbed.
 ///
-/// A pass means: with this friction and mass the actuators of the hand's model move the object
-/// along the plan to within the tolerance, and only fingertips hold it. The replay uses no result
-/// of the analytic check.
+/// A pass is a statement about this friction and mass. The actuators of the hand's model move the
+/// object along the plan to within the tolerance, and only fingertips hold it. The replay uses no
+/// result of the analytic check.
 ///
-/// With TipShape::kGeometry the planned spheres still decide the placement of fingers, the place of
-/// each fingertip on the object, and whether a finger is at its contact.
+/// With TipShape::kGeometry the planned spheres still decide the placement of
+/// fingers, the place of each fingertip on the object, and contact of a finger.
 ///
 /// Deterministic: the same plan gives the same bits.
-/// @param plan   located, with a hand.
+/// @param plan   plan for a hand, located on the object.
 /// @param steps  number of steps to replay, initial grasp included; negative: all.
-/// @throws InputError  the hand's model cannot be simulated.
+/// @throws InputError  if the hand's model cannot be simulated.
 [[nodiscard]] ReplayResult ReplayHand(const kinematics::HandFile& file,
                                       const object::Polyhedron& solid, const plan::Plan& plan,
                                       const HandReplayOptions& options,
@@ -51,14 +51,14 @@ struct HandReplayOptions : ReplayConditions {
 /// Replays plans one after another, each from the first step that differs from earlier plans.
 class HandReplays {
  public:
-  /// @param solid  outlives this object.
+  /// @param solid  object; must outlive this object.
   HandReplays(kinematics::HandFile file, const object::Polyhedron& solid,
               const HandReplayOptions& options);
   ~HandReplays();
   HandReplays(const HandReplays&) = delete;
   HandReplays& operator=(const HandReplays&) = delete;
 
-  /// Return the result of ReplayHand, to the bit, without the steps that the deadline cut off.
+  /// Return the result of ReplayHand, to the bit, without the steps after the deadline.
   /// @throws InputError  as ReplayHand.
   [[nodiscard]] ReplayResult Replay(const plan::Plan& plan, const Deadline& deadline);
 
@@ -67,7 +67,7 @@ class HandReplays {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Replay a plan by its hand `trials.count` times in worlds that differ from what the hand assumes.
+/// Replay a plan by its hand `trials.count` times in perturbed worlds.
 /// Friction and mass differ as in RunTrials. The initial object pose differs along and about each
 /// axis by a normal deviate (position_noise · D, and that over R in radians). Each measured joint
 /// angle has a constant error (joint_noise).

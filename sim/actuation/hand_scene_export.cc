@@ -42,7 +42,7 @@ XmlElement Element(std::string name, std::vector<std::pair<std::string, std::str
   return element;
 }
 
-/// The object as the engine has it: a free body at its centroid, with the axes of its frame.
+/// Return the object's body as in the engine: free, at its centroid, with the axes of its frame.
 XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass) {
   const object::MassProperties& properties = solid.mass_properties();
   const Matrix3d inertia = mass / properties.volume * scale * scale * properties.inertia;
@@ -60,8 +60,8 @@ XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass
                                    {"conaffinity", "0"}})});
 }
 
-/// The couplings of a finger as equality constraints, which are between angles beyond those of the
-/// reference position.
+/// Add the couplings of a finger as equality constraints. They relate angles relative to the
+/// reference configuration.
 void AddCouplings(const kinematics::Finger& finger, std::vector<XmlElement>& couplings) {
   for (const kinematics::Joint& joint : finger.joints) {
     if (!joint.follows) continue;
@@ -70,14 +70,14 @@ void AddCouplings(const kinematics::Finger& finger, std::vector<XmlElement>& cou
     couplings.push_back(
         Element("joint", {{"joint1", joint.name},
                           {"joint2", leader.name},
-                          // A linkage is hard: as hard as contacts are (tip_contact.h).
+                          // A linkage is as stiff as contacts (tip_geometry.h).
                           {"solref", FormatDouble(kTipContactTime) + " 1"},
                           {"solimp", NumbersText({kTipImpedance.begin(), kTipImpedance.end()})},
                           {"polycoef", Numbers({constant, joint.ratio, 0, 0, 0})}}));
   }
 }
 
-/// The joint that an actuator of MJCF moves; empty if it moves a tendon.
+/// Return the joint that an actuator of MJCF moves; empty if it moves a tendon.
 std::string JointOf(const XmlElement& actuator) {
   for (const char* attribute : {"joint", "jointinparent"}) {
     if (const std::string* name = actuator.Find(attribute)) return *name;
@@ -85,8 +85,8 @@ std::string JointOf(const XmlElement& actuator) {
   return "";
 }
 
-/// An actuator of a joint that follows another one would fight its coupling: without a command it
-/// pulls to angle 0. It is left out if the other joint has an actuator of its own.
+/// Remove actuators of joints that follow another joint, if that joint has its own actuator.
+/// Without a command such an actuator pulls to angle 0, against the coupling.
 void DropFollowersActuators(const kinematics::HandModel& hand, XmlElement& root) {
   std::set<std::string> moved;
   for (const XmlElement& section : root.children) {
@@ -107,7 +107,8 @@ void DropFollowersActuators(const kinematics::HandModel& hand, XmlElement& root)
   }
 }
 
-/// A URDF has no actuators: each drive of a finger gets a motor, as strong as the joint may be.
+/// Return a URDF model with an actuator for each independent joint of a finger. A URDF has none.
+/// The force limits are those of the joints.
 kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
   const kinematics::ModelText& urdf = file.compiled->text;
   kinematics::ModelText text = kinematics::AsMjcf(urdf.files.front(), urdf);
@@ -127,12 +128,12 @@ kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
   return text;
 }
 
-/// `count` numbers of a body.
+/// Return the text of `count` numbers of a body.
 std::string BodyNumbers(const mjtNum* values, int body, int count) {
   return NumbersText(values + std::ptrdiff_t{count} * body, count);
 }
 
-/// Write the inertia of every body as the hand's model has it, in the order of its bodies.
+/// Write the inertia of every body of the hand's model, in the order of its bodies.
 void WriteInertias(const mjModel& model, XmlElement& element, int& last) {
   for (XmlElement& child : element.children) {
     if (child.name != "body" || ++last >= model.nbody) continue;
@@ -150,7 +151,8 @@ void WriteInertias(const mjModel& model, XmlElement& element, int& last) {
   }
 }
 
-/// A compiler that derives masses, or scales them, would do so with the object as well.
+/// Write inertias, and remove compiler settings that derive or scale masses. They would change the
+/// object, too.
 void FixMasses(const mjModel& model, XmlElement& root) {
   int last = 0;
   for (XmlElement& section : root.children) {
@@ -201,7 +203,7 @@ void ForEach(XmlElement& element, const std::function<void(XmlElement&)>& visit)
   for (XmlElement& child : element.children) ForEach(child, visit);
 }
 
-/// The section of that name; made where there is none.
+/// Return the section of that name; create it if it is missing.
 XmlElement& Section(XmlElement& root, const std::string& name) {
   const auto found = std::ranges::find(root.children, name, &XmlElement::name);
   return found != root.children.end() ? *found
@@ -223,7 +225,7 @@ class SceneWriter {
 
   std::vector<SceneFile> Write(const std::vector<SceneKey>& keys) {
     XmlElement& root = text_.root;
-    // What versions of MuJoCo call differently, or do without.
+    // Remove elements that some versions of MuJoCo name differently or do not have.
     std::erase_if(root.children, [](const XmlElement& child) {
       return child.name == "size" || child.name == "statistic" || child.name == "custom";
     });
@@ -244,7 +246,7 @@ class SceneWriter {
   }
 
  private:
-  /// The files of meshes come along under names of their own; textures do not.
+  /// Return the mesh files under new names. Textures are omitted.
   std::vector<SceneFile> TakeMeshes() {
     std::vector<SceneFile> files;
     ForEach(text_.root, [](XmlElement& element) {
@@ -264,7 +266,7 @@ class SceneWriter {
       const std::string name =
           kMeshPrefix + std::to_string(files.size()) + path.extension().string();
       files.push_back({name, ReadFile(path)});
-      // A mesh is called after its file where it has no name.
+      // An unnamed mesh gets the name of its file.
       if (element.Find("name") == nullptr) {
         element.Set("name", std::filesystem::path(*named).stem().string());
       }
@@ -281,7 +283,7 @@ class SceneWriter {
     return mesh == text_.meshes.end() ? std::filesystem::path(named) : mesh->path;
   }
 
-  /// The options that the replay does not leave at their defaults (SetReplayOptions).
+  /// Set the options that the replay changes from their defaults (SetReplayOptions).
   void SetOptions(XmlElement& option) const {
     const mjOption& opt = world_.model().opt;
     option.attributes = {{"timestep", FormatDouble(opt.timestep)},
@@ -301,7 +303,7 @@ class SceneWriter {
         if (name != nullptr && *name == kHandSceneObject) {
           element.attributes = {{"name", *name}, {"type", "mesh"}, {"mesh", kHandSceneObject}};
         }
-        // Only tips touch anything, and only the object: SetContacts.
+        // Only fingertips and the object make contact: SetContacts.
         element.Set("contype", "0");
         element.Set("conaffinity", "0");
       } else if (element.name == "body" && name != nullptr) {
@@ -332,13 +334,13 @@ class SceneWriter {
     }
   }
 
-  /// The origin of the object's file, in the frame of the object's body, which is at its centroid.
+  /// Return the origin of the object's file, in the frame of the object's body at its centroid.
   [[nodiscard]] XmlElement OriginSite() const {
     const Eigen::Vector3d origin = -scale_ * solid_.mass_properties().centroid;
     return ExportElement("site", {{"name", kSceneOrigin}, {"pos", NumbersText(origin.data(), 3)}});
   }
 
-  /// About the object's centroid, in metres.
+  /// Return the object's mesh about its centroid, in metres.
   [[nodiscard]] XmlElement ObjectMesh() const {
     std::vector<double> vertices;
     for (const Eigen::Vector3d& vertex : solid_.vertices()) {
@@ -351,14 +353,14 @@ class SceneWriter {
         faces += (faces.empty() ? "" : " ") + std::to_string(corner);
     }
     return ExportElement("mesh",
-                         // The hand's model may scale all meshes that do not say.
+                         // The hand's model may have a default scale of meshes.
                          {{"name", kHandSceneObject},
                           {"scale", "1 1 1"},
                           {"vertex", NumbersText(vertices)},
                           {"face", faces}});
   }
 
-  /// Geoms of a tip's link that collide.
+  /// Name the colliding geoms of a fingertip's link.
   void NameTips(const std::string& body, XmlElement& element) {
     const mjModel& model = *file_.compiled->model;
     int geom = model.body_geomadr[mj_name2id(&model, mjOBJ_BODY, body.c_str())];

@@ -11,18 +11,19 @@
 
 namespace regrasp::sim {
 
-/// The body of the object, and its geom, which touches nothing by itself.
+/// Name of the object's body and of its geom, which has no contacts by default.
 inline constexpr const char* kHandSceneObject = "regrasp_object";
 
-/// The model of a hand with the object in it: a free body with its mass and inertia, the origin at
-/// its centroid, the axes of its file. Couplings of the hand's file become constraints; a URDF,
-/// which has no actuators, gets a motor for each drive of a finger, as strong as the joint may be.
-/// @param scale  metres per unit of the object's file. @param mass  kg.
+/// Return the model of a hand with the object in it.
+/// The object is a free body with its mass and inertia, its origin at its centroid and the axes of
+/// its file. Couplings of the hand's file become constraints. A URDF has no actuators. It gets an
+/// actuator for each independent joint of a finger, with the force limit of the joint.
+/// @param scale  metres per unit of the object's file. @param mass  mass of the object, kg.
 [[nodiscard]] kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
                                                   const object::Polyhedron& solid, double scale,
                                                   double mass);
 
-/// A rest of a replay, as a scene has it.
+/// A static grasp of a replay as a keyframe of a scene.
 struct SceneKey {
   std::string name;
   double time_s = 0;
@@ -37,20 +38,24 @@ struct SceneFile {
 };
 
 inline constexpr const char* kSceneName = "scene.xml";
-/// The site of the object's body that is the origin of the object's file.
+/// Name of the site at the origin of the object's file, in the object's body.
 inline constexpr const char* kSceneOrigin = "regrasp_object_origin";
 
-/// Whether a scene may have a file of this name.
+/// Return whether a scene may have a file of this name.
 [[nodiscard]] bool IsSceneFile(const std::string& name);
 
-/// The world of a hand as a folder that stock MuJoCo loads, from 2.2.2 on: scene.xml, last, and
-/// before it copies of the meshes of the hand. It has the hand's servos and their limits, the
-/// object as a mesh, balls at the tips or the model's own, friction, gravity, and a keyframe for
-/// each rest.
+/// Export the world of a hand as a folder that stock MuJoCo loads, from version 2.2.2 on.
+/// The folder has copies of the meshes of the hand, and scene.xml as the last file. The scene has:
 ///
-/// What differs from HandWorld: MuJoCo collides the mesh as its convex hull. Pictures on surfaces
-/// (textures from files) are left out.
-/// @param keys  of a HandWorld of the same hand and object.
+/// - the hand's servos and their limits
+/// - the object as a mesh
+/// - spheres at the fingertips, or the model's geometry
+/// - friction and gravity
+/// - a keyframe for each static grasp
+///
+/// It differs from HandWorld in one point: MuJoCo collides the convex hull of the mesh. Textures
+/// from files are omitted.
+/// @param keys  keyframes from a HandWorld of the same hand and object.
 /// @throws InputError  as HandWorld.
 [[nodiscard]] std::vector<SceneFile> ExportHandScene(const kinematics::HandFile& file,
                                                      const object::Polyhedron& solid, double scale,

@@ -32,12 +32,12 @@ Isometry3d PoseAt(const mjData& data, int body) {
   return kinematics::PoseAt(data.xpos, data.xmat, body);
 }
 
-/// Room for as many contacts, and for the rows of constraints that these, both ends of every range,
-/// friction in joints and what couples them can be. All of it is cleared whenever a state is
-/// placed.
+/// Allocate memory for `contacts` contacts and the largest number of constraint rows. Rows are
+/// those of contacts, range limits, joint friction and couplings. The memory is cleared whenever a
+/// state is placed.
 void SetRoom(int contacts, mjModel& model) {
   constexpr int kRowsOfContact = 3;
-  constexpr int kRowsOfWeld = 6;  // of what couples, the most
+  constexpr int kRowsOfWeld = 6;  // largest number of rows of a coupling
   model.nconmax = contacts;
   model.njmax = kRowsOfContact * contacts + kRowsOfWeld * model.neq +
                 2 * (model.njnt + model.ntendon) + model.nv + model.ntendon;
@@ -47,9 +47,9 @@ void SetRoom(int contacts, mjModel& model) {
 
 struct HandWorld::Impl {
   struct FingerState {
-    std::vector<int> joints;  ///< of the model
+    std::vector<int> joints;  ///< joints of the model
     int tip_body = 0;
-    int tip_geom = 0;  ///< that stands for all that touches
+    int tip_geom = 0;  ///< geom that represents all touching shapes
     std::vector<DriveActuator> drives;
   };
 
@@ -60,12 +60,12 @@ struct HandWorld::Impl {
   HandWorldOptions options;
   kinematics::ModelPtr model;
   kinematics::DataPtr data;
-  Isometry3d palm = Isometry3d::Identity();  ///< in the engine's world
+  Isometry3d palm = Isometry3d::Identity();  ///< pose in the engine's world
   Vector3d centroid;
   int object_body = 0, object_geom = 0, object_qpos = 0;
   std::vector<FingerState> fingers;
-  std::vector<int> frozen;  ///< joints
-  bool pinned = false;      ///< the object
+  std::vector<int> frozen;  ///< frozen joints
+  bool pinned = false;      ///< whether the object is fixed
   std::optional<JointCouplings> couplings;
 
   Impl(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
@@ -85,8 +85,8 @@ struct HandWorld::Impl {
     UpdateConstants(*model, *data);
     SetReplayOptions(-options.gravity_m_s2 * (palm.linear() * hand.up), frozen, *model);
     couplings.emplace(*model);
-    // Links that touch anything are a failure and not a matter of forces: ExecutionMonitor looks.
-    // The engine looks at pairs that are named, of which there are none.
+    // Contacts of links are violations that ExecutionMonitor finds, not forces. The engine checks
+    // only named pairs, and there are none.
     model->opt.collision = mjCOL_PAIR;
     model->npair = 0;
     std::fill_n(model->geom_contype, model->ngeom, 0);
@@ -118,7 +118,7 @@ struct HandWorld::Impl {
     }
   }
 
-  /// The object weighs what it should, whatever the hand's model does with masses.
+  /// Check that the hand's model does not change the mass of the object.
   void CheckObjectMass(const kinematics::HandFile& file) const {
     constexpr double kTolerance = 1e-9;
     const double mass = model->body_mass[object_body];
@@ -128,12 +128,12 @@ struct HandWorld::Impl {
                      FormatShort(options.mass_kg) + " kg, found " + FormatShort(mass) + " kg");
   }
 
-  /// A hinge or a slide.
+  /// Return whether a joint is revolute or prismatic.
   [[nodiscard]] bool IsScalar(int joint) const {
     return model->jnt_type[joint] == mjJNT_HINGE || model->jnt_type[joint] == mjJNT_SLIDE;
   }
 
-  /// Joints of no finger.
+  /// Find the joints of no finger.
   void FindFrozen() {
     for (int joint = 0; joint < model->njnt; ++joint) {
       const bool of_finger = std::ranges::any_of(fingers, [&](const FingerState& finger) {
@@ -144,7 +144,7 @@ struct HandWorld::Impl {
     }
   }
 
-  /// Which actuator turns each drive, and its law.
+  /// Find the actuator and the servo of each independent joint.
   void FindServos() {
     mj_forward(model.get(), data.get());
     for (std::size_t i = 0; i < fingers.size(); ++i) {
@@ -164,7 +164,7 @@ struct HandWorld::Impl {
 
   [[nodiscard]] kinematics::Posture PostureOf(FingerIndex finger) const {
     const kinematics::Finger& chain = hand.fingers[finger];
-    // Joints that share a drive do so to the softness of a constraint: their mean.
+    // A constraint couples joints only softly; their mean is used.
     kinematics::Posture sum = kinematics::Posture::Zero(chain.drives);
     VectorXd count = VectorXd::Zero(chain.drives);
     for (std::size_t k = 0; k < chain.joints.size(); ++k) {
@@ -176,13 +176,13 @@ struct HandWorld::Impl {
     return sum.cwiseQuotient(count);
   }
 
-  /// The centre of the tip's ball, whatever coupled joints do.
+  /// Return the centre of the fingertip sphere, with the actual angles of coupled joints.
   [[nodiscard]] Vector3d BallInWorld(FingerIndex finger) const {
     const FingerState& state = fingers[finger];
     return PoseAt(*data, state.tip_body) * surface.ball(finger);
   }
 
-  /// The ball's speed where it is at `point`, of a body.
+  /// Return the velocity of the point of a body that is at `point`.
   [[nodiscard]] Vector3d SpeedAt(int body, const Vector3d& point) const {
     const mjtNum* velocity = data->cvel + std::ptrdiff_t{6} * body;
     const Vector3d about = VectorAt(data->subtree_com, model->body_rootid[body]);
@@ -224,7 +224,7 @@ const Vector3d& HandWorld::centroid_O() const { return impl_->centroid; }
 void HandWorld::Place(const plan::HandState& state) {
   Impl& impl = *impl_;
   mj_resetData(impl.model.get(), impl.data.get());
-  // What was before has no say in what comes, to the last bit.
+  // Later results must not depend on earlier ones, to the bit.
   impl.surface.Forget();
   for (std::size_t i = 0; i < impl.fingers.size(); ++i) {
     for (std::size_t k = 0; k < impl.fingers[i].joints.size(); ++k) {
@@ -288,7 +288,8 @@ TipTouch HandWorld::touch(FingerIndex finger) const {
   const ContactSum sum = impl.SumContacts(finger);
   touch.force = impl.palm.linear().transpose() * sum.force;
   const Vector3d mean = (pose.linear().transpose() * sum.normal).stableNormalized();
-  // Forces on both sides of a tip have no common normal: the nearest point is the contact then.
+  // Forces on both sides of a fingertip have no common normal. The nearest point is then the
+  // contact.
   if (impl.options.tip == TipShape::kGeometry && sum.pressing > 0 && mean != Vector3d::Zero()) {
     touch.point_O = pose.inverse() * (sum.point / sum.pressing);
     touch.inward_O = -mean;
@@ -433,7 +434,7 @@ void HandWorld::Command(FingerIndex finger, const kinematics::Posture& target,
     const mjtNum* bias = impl.model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
     const double control = (force - bias[0] - bias[1] * (length + off)) / gain;
     const auto& range = found.servo.control_range;
-    // As the model's own range has it, also in what is recorded.
+    // Recorded controls, too, must be within the range of the model.
     impl.data->ctrl[a] = range ? std::clamp(control, range->front(), range->back()) : control;
   }
 }
@@ -451,7 +452,7 @@ void HandWorld::PinObject(bool on) { impl_->pinned = on; }
 void HandWorld::Step() {
   const mjModel* m = impl_->model.get();
   mjData* d = impl_->data.get();
-  // As mj_step, with the contacts of the tips in between.
+  // The calls of mj_step, with the contacts of the fingertips inserted.
   mj_kinematics(m, d);
   mj_comPos(m, d);
   mj_tendon(m, d);
@@ -486,7 +487,7 @@ void HandWorld::Restore(const State& state) {
   const mjModel* m = impl_->model.get();
   mjData* d = impl_->data.get();
   impl_->surface.Forget();
-  // A reset would clear all of the engine's memory, for every push of a shake.
+  // A reset would clear the engine's entire memory for every disturbance.
   RestoreState(state.engine, *d);
   std::fill_n(d->xfrc_applied, std::ptrdiff_t{6} * m->nbody, 0);
   SetControls(state.controls);

@@ -23,43 +23,46 @@ struct mjModel_;
 
 namespace regrasp::sim {
 
-/// What the world of a hand is made of.
+/// Options of the world of a hand.
 struct HandWorldOptions {
   double mu = 0;
   double mass_kg = 0;
-  double gravity_m_s2 = 9.81;  ///< against the hand's up direction
-  double force_factor = 1;     ///< of the limits of all actuators, times what the model has
-  /// What the hand's sensors say of the angles of drives, by finger, less what they are, radians;
-  /// none: nothing.
+  double gravity_m_s2 = 9.81;  ///< gravity, opposite to the hand's up direction
+  double force_factor = 1;     ///< factor on the model's limits of all actuators
+  /// Errors of the hand's joint sensors, by finger: measured minus true angles of the independent
+  /// joints, radians. Empty: no errors.
   std::vector<kinematics::Posture> joint_offsets = {};
   TipShape tip = TipShape::kBall;
 };
 
-/// Where a fingertip and the object touch.
+/// Contact between a fingertip and the object.
 struct TipTouch {
-  Eigen::Vector3d point_O = Eigen::Vector3d::Zero();  ///< of the surface, nearest to the tip
+  /// point of the surface nearest to the fingertip
+  Eigen::Vector3d point_O = Eigen::Vector3d::Zero();
   Eigen::Vector3d inward_O = Eigen::Vector3d::Zero();
-  double gap = std::numeric_limits<double>::infinity();  ///< negative: the tip is in the surface
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();       ///< on the object, newtons
-  Eigen::Vector3d sliding_O = Eigen::Vector3d::Zero();  ///< speed of the tip along the surface, m/s
+  /// distance; negative: the fingertip penetrates the surface
+  double gap = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< force on the object, newtons
+  /// speed of the fingertip along the surface, m/s
+  Eigen::Vector3d sliding_O = Eigen::Vector3d::Zero();
 };
 
-/// A hand's own model in MuJoCo, its palm fixed, and a free object that only its fingertips hold.
+/// A hand's own model in MuJoCo with a fixed palm, and a free object that only fingertips hold.
 ///
-/// The tips are balls, or what the model has there for collisions (TipShapesOf), that touch the
-/// object's true surface (BallContact, FindContacts), with friction and no torsion. Links pass
-/// through each other and the object: that they do not is for a judge to see.
-/// Joints of no finger stay where they are at rest. All in the palm's frame, metres, newtons,
-/// seconds; O is the object's frame (its file's axes and origin, in metres).
+/// The fingertips are spheres or the model's collision geometry (TipShapesOf). They touch the
+/// object's true surface (BallContact, FindContacts), with friction and without torsional friction.
+/// Links pass through each other and the object; ExecutionMonitor checks that they do not. Joints
+/// of no finger stay at their reference positions. All quantities are in the palm's frame, metres,
+/// newtons, seconds; O is the object's frame (its file's axes and origin, in metres).
 class HandWorld {
  public:
-  /// All that what comes depends on, but for loads and what is pinned.
+  /// The state that determines the simulation, except loads and whether the object is pinned.
   struct State {
     EngineState engine;
     std::vector<double> controls;
   };
 
-  /// @throws InputError  the hand's model does not allow it; as TipShapesOf.
+  /// @throws InputError  if the hand's model cannot be simulated; as TipShapesOf.
   HandWorld(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
             const HandWorldOptions& options);
   ~HandWorld();
@@ -67,78 +70,80 @@ class HandWorld {
   HandWorld& operator=(const HandWorld&) = delete;
 
   [[nodiscard]] const kinematics::HandModel& hand() const;
-  /// What the engine has, servos included that are derived.
+  /// Return the model of the engine, derived servos included.
   [[nodiscard]] const mjModel_& model() const;
   [[nodiscard]] double time() const;
   [[nodiscard]] double timestep() const;
   [[nodiscard]] const Eigen::Vector3d& centroid_O() const;
 
-  /// Hand and object at once, at rest.
+  /// Set the poses of hand and object, with velocities of zero.
   void Place(const plan::HandState& state);
   [[nodiscard]] plan::HandState state() const;
   [[nodiscard]] Eigen::Isometry3d object_pose() const;
   [[nodiscard]] kinematics::Posture posture(FingerIndex finger) const;
-  /// Angles of the finger's joints, coupled ones too, radians.
+  /// Return the angles of the finger's joints, coupled joints included, radians.
   [[nodiscard]] std::vector<double> joint_angles_of(FingerIndex finger) const;
-  /// As the hand's sensors have it.
+  /// Return the joint configuration that the hand's sensors measure.
   [[nodiscard]] kinematics::Posture measured_posture(FingerIndex finger) const;
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
-  /// As in the last step; without a place where the surface is farther than 5 mm. The contacts of a
-  /// tip that is no ball count as one: force is their sum, point and normal are their means,
-  /// weighted with what each presses with.
+  /// Return the contact of a fingertip in the last step.
+  /// It has no place if the surface is farther than 5 mm. The contacts of a fingertip that is not a
+  /// sphere are combined: the force is their sum. Point and normal are means, weighted with the
+  /// normal forces.
   [[nodiscard]] TipTouch touch(FingerIndex finger) const;
-  /// Where the tip's ball, whatever it is that touches, is near the surface, in the object's frame;
-  /// nullopt where that is farther than 5 mm.
+  /// Return the surface point near the fingertip sphere, in the object's frame.
+  /// The sphere counts even if other geometry makes contact. The result is nullopt beyond 5 mm.
   [[nodiscard]] std::optional<collision::NearPoint> NearBall(FingerIndex finger) const;
   [[nodiscard]] const DriveServo& servo(FingerIndex finger, int drive) const;
-  /// Of the model's actuators, in its order; one without a name is called after its number.
+  /// Return the names of the model's actuators, in its order; an unnamed one gets its number.
   [[nodiscard]] std::vector<std::string> control_names() const;
-  /// Their controls, as in the last step.
+  /// Return the controls of the actuators in the last step.
   [[nodiscard]] std::vector<double> controls() const;
-  /// @param controls  of all actuators, in the model's order, until they are set again.
+  /// @param controls  controls of all actuators, in the model's order, until they are set again.
   void SetControls(const std::vector<double>& controls);
-  /// Of all joints of the hand's model, those of no finger too, in its order.
+  /// Return the names of all joints of the hand's model, in its order.
+  /// Joints of no finger are included.
   [[nodiscard]] std::vector<std::string> joint_names() const;
-  /// Their angles, radians.
+  /// Return the angles of all joints of the hand's model, radians.
   [[nodiscard]] std::vector<double> joint_angles() const;
-  /// What the actuator of a drive does now, over its limit; 0 where it has none.
+  /// Return the force of the actuator of an independent joint, over its limit; 0 without a limit.
   [[nodiscard]] double load_share(FingerIndex finger, int drive) const;
-  /// Torque of the actuator about the drive now, N m.
+  /// Return the present torque of the actuator about the joint, N m.
   [[nodiscard]] double torque(FingerIndex finger, int drive) const;
-  /// Whether the control of the drive is at an end of its range (`ctrlrange`).
+  /// Return whether the control of the joint is at an end of its range (`ctrlrange`).
   [[nodiscard]] bool is_control_at_limit(FingerIndex finger, int drive) const;
-  /// The limits of all drives, by finger.
+  /// Return the limits of all independent joints, by finger.
   [[nodiscard]] std::vector<DriveLimits> limits() const;
-  /// The coupling of joints that is farthest off, as the model has them as constraints.
+  /// Return the largest residual of the couplings that the model has as constraints.
   [[nodiscard]] JointCouplings::Residual largest_coupling_residual() const;
-  /// "joint ffj1, which is coupled to ffj2,".
+  /// Return "joint ffj1, which is coupled to ffj2,".
   [[nodiscard]] std::string CouplingText(int equality) const;
-  /// The finger of a coupling's first joint and the joint's place in it; not valid and −1 if it is
-  /// a joint of no finger.
+  /// Return the finger of a coupling's first joint, and the index of the joint in the finger.
+  /// They are not valid and −1 for a joint of no finger.
   [[nodiscard]] std::pair<FingerIndex, int> JointOfCoupling(int equality) const;
-  /// All links of the hand, collision geometry of its fingertips included.
+  /// Return all links of the hand, collision geometry of its fingertips included.
   [[nodiscard]] const HandLinks& links() const;
   [[nodiscard]] TipShape tip_shape() const;
-  /// The torques of the drives with which a force at the tip's contact and the weight of the links
-  /// balance.
-  /// @param force  of the tip on the object.
+  /// Return the torques of the independent joints that balance a contact force.
+  /// They balance the weight of the links, too.
+  /// @param force  force of the fingertip on the object.
   [[nodiscard]] Eigen::VectorXd BalancingTorques(FingerIndex finger, const Eigen::Vector3d& at,
                                                  const Eigen::Vector3d& force) const;
-  /// The servos steer for a posture, as the sensors have it, with torques besides.
+  /// Set the target of the servos, as a measured joint configuration, and additional torques.
   void Command(FingerIndex finger, const kinematics::Posture& target,
                const Eigen::VectorXd& torques);
-  /// A force and a torque about the centroid on the object, besides its weight.
+  /// Set a force and a torque about the centroid on the object, in addition to its weight.
   void SetLoad(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
 
-  /// While on, the object stays where it is.
+  /// Set whether the object is fixed at its present pose.
   void PinObject(bool on);
 
-  /// One time step.
-  /// @throws UnstableError
+  /// Advance the simulation by one time step.
+  /// @throws UnstableError  if the simulation becomes unstable.
   void Step();
 
   [[nodiscard]] State Save() const;
-  /// Without loads. What comes then is the same to the bit, whatever was before.
+  /// Restore a state, without loads. The simulation after it is bit-identical, whatever precedes.
   void Restore(const State& state);
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 bool IsHinge(const mjModel& model, int joint) { return model.jnt_type[joint] == mjJNT_HINGE; }
 
-/// Whether all that a tendon runs over are revolute joints.
+/// Return whether a tendon uses revolute joints only.
 bool SumsAngles(const mjModel& model, int tendon) {
   const int first = model.tendon_adr[tendon];
   for (int i = first; i < first + model.tendon_num[tendon]; ++i) {
@@ -22,7 +22,7 @@ bool SumsAngles(const mjModel& model, int tendon) {
   return true;
 }
 
-/// The largest coefficient of a tendon, by which a length becomes an angle.
+/// Return the largest coefficient of a tendon, which converts a length to an angle.
 double LargestCoefficient(const mjModel& model, int tendon) {
   double largest = 0;
   const int first = model.tendon_adr[tendon];
@@ -32,13 +32,13 @@ double LargestCoefficient(const mjModel& model, int tendon) {
   return largest;
 }
 
-/// MuJoCo's polynomial of the second joint or tendon.
+/// Return MuJoCo's polynomial of the second joint or tendon.
 double Polynomial(const mjModel& model, int equality, double x) {
   const mjtNum* c = model.eq_data + std::ptrdiff_t{mjNEQDATA} * equality;
   return c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * c[4])));
 }
 
-/// The angle of a joint from the one at rest.
+/// Return the angle of a joint relative to the reference configuration.
 double AngleFromRest(const mjModel& model, const mjData& data, int joint) {
   const int at = model.jnt_qposadr[joint];
   return data.qpos[at] - model.qpos0[at];

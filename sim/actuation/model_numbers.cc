@@ -13,7 +13,7 @@ namespace {
 
 using kinematics::XmlElement;
 
-/// `count` numbers of the row `index` of an array.
+/// Return the text of `count` numbers of the row `index` of an array.
 std::string RowText(const mjtNum* values, int index, int count) {
   return NumbersText(values + std::ptrdiff_t{count} * index, count);
 }
@@ -40,7 +40,8 @@ void WriteJoint(const mjModel& model, int joint, XmlElement& element) {
   element.Set("range", RowText(model.jnt_range, joint, 2));
 }
 
-/// The frame of a mesh is not that of its geom.
+/// Write the numbers of a primitive geom. A mesh is skipped, since its frame differs from its
+/// geom's.
 void WriteGeom(const mjModel& model, int geom, XmlElement& element) {
   if (model.geom_type[geom] == mjGEOM_MESH || element.Find("mesh") != nullptr) return;
   element.Set("pos", RowText(model.geom_pos, geom, 3));
@@ -69,7 +70,7 @@ void WriteBody(const mjModel& model, int body, XmlElement& element) {
   }
 }
 
-/// Bodies are numbered depth first.
+/// Write the numbers of bodies, which are numbered depth first.
 void WriteBodies(const mjModel& model, XmlElement& parent, int& last) {
   WriteBody(model, last, parent);
   for (XmlElement& child : parent.children) {
@@ -118,7 +119,7 @@ void WriteActuator(const mjModel& model, int a, XmlElement& element) {
   }
 }
 
-/// Calls `write` with the number of each element of the sections of a name.
+/// Call `write` with the number of each element in all sections of a given name.
 void ForSections(XmlElement& root, const std::string& name, int count,
                  const std::function<void(int, XmlElement&)>& write) {
   int index = 0;

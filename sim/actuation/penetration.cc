@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 /// Resolution of Depth, metres.
 constexpr double kDepthStep = 5e-5;
 
-/// The directions from the middle of a cube to its faces, edges and corners.
+/// Return the directions from the centre of a cube to its faces, edges and corners.
 const std::vector<Vector3d>& SpreadDirections() {
   static const std::vector<Vector3d> directions = [] {
     std::vector<Vector3d> made;
@@ -32,7 +32,7 @@ ConvexShape Translated(const ConvexShape& shape, const Vector3d& way) {
   return collision::Moved(Eigen::Isometry3d(Eigen::Translation3d(way)), shape);
 }
 
-/// The solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983).
+/// Return the solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983).
 double SolidAngle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double la = a.norm();
   const double lb = b.norm();
@@ -66,7 +66,7 @@ bool Penetration::IsOutAfter(const ConvexShape& shape, const Vector3d& way) cons
 bool Penetration::IsDeeper(const ConvexShape& shape, double depth, const Vector3d& outward) const {
   const bool is_near = outward != Vector3d::Zero();
   if (surface_.IsApart(shape, 0)) {
-    // Wholly inside it is far from the surface, too.
+    // A shape that is entirely inside can also be far from the surface.
     if (is_near || !Contains(shape.points.front())) return false;
   } else if (is_near && surface_.IsApart(Translated(shape, depth * outward), 0)) {
     return false;

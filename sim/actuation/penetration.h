@@ -11,24 +11,24 @@
 
 namespace regrasp::sim {
 
-/// How deep convex shapes are in a solid. All in the solid's frame, metres.
+/// Depth of convex shapes in a solid. All quantities are in the solid's frame, metres.
 ///
-/// The depth is the length of the shortest translation that takes the shape out of the solid, over
-/// a known surface normal near the shape and 26 directions that are spread evenly. It is exact
-/// along the normal and at most an eighth too large otherwise.
+/// The depth is the length of the shortest translation that moves the shape out of the solid. The
+/// candidates are the known surface normal near the shape and 26 evenly distributed directions. The
+/// depth is exact along the normal and at most an eighth too large otherwise.
 class Penetration {
  public:
-  /// @param scale  Metres per unit of the solid's file.
+  /// @param scale  metres per unit of the solid's file.
   Penetration(const object::Polyhedron& solid, double scale);
 
   [[nodiscard]] const collision::SurfaceTree& surface() const { return surface_; }
 
   /// Return whether a shape is deeper in the solid than `depth`.
-  /// @param outward  Outward normal of the surface near the shape, of length 1; zero if the surface
-  ///                 is not near.
+  /// @param outward  outward unit normal of the surface near the shape; zero if the surface is not
+  ///     near.
   [[nodiscard]] bool IsDeeper(const collision::ConvexShape& shape, double depth,
                               const Eigen::Vector3d& outward) const;
-  /// Return the depth of a shape, to 0.05 mm from above, no more than `most`.
+  /// Return the depth of a shape, at most `most`, rounded up to 0.05 mm.
   [[nodiscard]] double Depth(const collision::ConvexShape& shape, double most,
                              const Eigen::Vector3d& outward) const;
   [[nodiscard]] bool Contains(const Eigen::Vector3d& point) const;

@@ -38,7 +38,7 @@ Isometry3d PoseOf(const ResetState& state) {
   return pose;
 }
 
-/// What is allowed at rest.
+/// Return the tolerance of a static grasp.
 HandTolerance AtRest(HandTolerance tolerance) {
   tolerance.length_m *= tolerance.at_rest;
   tolerance.angle_rad *= tolerance.at_rest;
@@ -97,14 +97,14 @@ std::variant<ResetState, Reason> ResetStates::Make(const plan::HandState& rest,
 void ResetStates::TakeHold(const plan::HandState& rest, const plan::FingerGrasp& grasp,
                            double squeeze_N) {
   world_.Place(rest);
-  // The hand need not know where the object is: what it comes to rest at is what is stored.
+  // Feedback is off, since the stored state is the final one, at any pose of the object.
   HandControl control(world_, solid_, scale_, {options_.half_angle, squeeze_N, weight_N_, false});
   Hold hold;
   for (const plan::FingerContact& held : grasp) {
     control.Attach(held.finger);
     hold.fingers.push_back(held.finger);
   }
-  // Something holds the object until the fingers do.
+  // The object is fixed until the fingers hold it.
   world_.PinObject(true);
   const int taking = StepsIn(kTakeHold, world_);
   for (int i = 1; i <= taking; ++i) {
@@ -180,9 +180,9 @@ void AppendVector(const Eigen::VectorXd& vector, Values& values) {
   values.insert(values.end(), vector.begin(), vector.end());
 }
 
-/// An array with a row for each state.
-/// @param shape   of a row.
-/// @param append  a state's row to values.
+/// Return an array with a row per state.
+/// @param shape   shape of a row.
+/// @param append  function that appends a state's row to values.
 template <typename AppendRow>
 NpzArray RowsOf(const DrawnStates& drawn, const std::string& name, std::vector<std::size_t> shape,
                 const AppendRow& append) {
@@ -192,7 +192,7 @@ NpzArray RowsOf(const DrawnStates& drawn, const std::string& name, std::vector<s
   return array;
 }
 
-/// The same, with a row in it for each finger.
+/// Return an array with a row per state and finger.
 template <typename AppendTip>
 NpzArray TipsOf(const DrawnStates& drawn, const std::string& name, std::vector<std::size_t> shape,
                 const AppendTip& append) {
@@ -201,7 +201,7 @@ NpzArray TipsOf(const DrawnStates& drawn, const std::string& name, std::vector<s
   });
 }
 
-/// Of fingers that hold; the others have none.
+/// Return an array of vectors of holding fingers; NaN for other fingers.
 NpzArray VectorsOf(const DrawnStates& drawn, const std::string& name, std::size_t fingers,
                    Eigen::Vector3d ResetState::Tip::*vector) {
   const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -267,7 +267,7 @@ void AddSettings(const kinematics::HandModel& hand, const ResetStateOptions& opt
   const HandTolerance& tolerance = options.tolerance;
   arrays.push_back(Number("tolerance_m", tolerance.at_rest * tolerance.length_m));
   arrays.push_back(Number("tolerance_rad", tolerance.at_rest * tolerance.angle_rad));
-  arrays.push_back(Text("seed", std::to_string(origin.seed)));  // of 64 bits
+  arrays.push_back(Text("seed", std::to_string(origin.seed)));  // 64 bits
   arrays.push_back(Text("object", origin.object));
   arrays.push_back(Text("object_sha256", origin.object_sha256));
   arrays.push_back(Text("hand", hand.file));
@@ -309,13 +309,13 @@ std::string FormatResetStates(const DrawnStates& drawn, const kinematics::HandMo
 
 namespace {
 
-/// What one thread works with.
+/// Data of one thread.
 struct Worker {
   ResetStates states;
   DrawRest draw;
 };
 
-/// Hands each thread a worker that no other one has.
+/// Pool that gives each thread its own worker.
 class Workers {
  public:
   void Put(std::unique_ptr<Worker> worker) {
@@ -334,14 +334,14 @@ class Workers {
   std::vector<std::unique_ptr<Worker>> idle_;
 };
 
-/// A state, and the rests that were drawn for it before.
+/// A state, and the grasps that were drawn for it before.
 struct Found {
   ResetState state;
   std::map<plan::Reason, std::int64_t> fallen;
   std::int64_t unbalanced = 0;
 };
 
-/// No state was found; nothing more is to be done.
+/// Exception that ends the draw, since no state was found.
 struct NoState {
   std::string message;
 };
@@ -411,7 +411,7 @@ DrawnStates DrawResetStates(const kinematics::HandFile& file, const object::Poly
                             double scale, const ResetStateOptions& states,
                             const DrawnStatesOptions& options,
                             const std::function<DrawRest()>& make_draw) {
-  const EngineHooks hooks;  // what others put back is in no order
+  const EngineHooks hooks;  // shared by all threads; separate hooks are restored in no fixed order
   Workers workers;
   for (int i = 0; i < std::min(options.jobs, options.count); ++i) {
     workers.Put(std::unique_ptr<Worker>(new Worker{{file, solid, scale, states}, make_draw()}));

@@ -25,131 +25,136 @@ struct ShareInterval;  // planner/base/random.h
 
 namespace regrasp::sim {
 
-/// A hand that holds an object, at rest: what a simulation is set to, with velocities of zero.
+/// A static grasp of an object by a hand, to initialize a simulation with zero velocities.
 struct ResetState {
   struct Tip {
     bool holds = false;
-    Eigen::Vector3d contact_O = Eigen::Vector3d::Zero();  ///< in the object's frame, metres
-    Eigen::Vector3d force_O = Eigen::Vector3d::Zero();    ///< on the object, in its frame, newtons
+    Eigen::Vector3d contact_O = Eigen::Vector3d::Zero();  ///< contact in the object's frame, metres
+    /// force on the object, in its frame, newtons
+    Eigen::Vector3d force_O = Eigen::Vector3d::Zero();
   };
 
   std::vector<double> joints;    ///< as HandWorld::joint_angles
   std::vector<double> controls;  ///< as HandWorld::controls
-  /// Of the object's frame in the palm's, metres and w, x, y, z.
+  /// Pose of the object's frame in the palm's frame, metres and w, x, y, z.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector4d quaternion = Eigen::Vector4d::UnitX();
-  std::vector<double> qpos;  ///< all of it as the engine has it (HandWorld::Save)
-  std::vector<Tip> tips;     ///< by finger
-  double squeeze_N = 0;      ///< sum of the normal forces that it was made with
-  /// The farthest that the object came from here while it was held.
+  std::vector<double> qpos;  ///< complete position vector of the engine (HandWorld::Save)
+  std::vector<Tip> tips;     ///< fingertips by finger
+  double squeeze_N = 0;      ///< grasp force with which the state was made
+  /// Largest deviation of the object from this state while it was held.
   double off_m = 0;
   double off_rad = 0;
 };
 
 struct ResetStateOptions {
-  double half_angle = 0;  ///< friction, radians
+  double half_angle = 0;  ///< friction angle, radians
   double mass_kg = 0;
-  std::optional<double> squeeze_N;  ///< otherwise as much as the torques of each rest allow
-  HandTolerance tolerance;          ///< while it is held all along as at rest
-  double friction_factor = 1;       ///< the world's friction over the one that the hand believes
+  std::optional<double> squeeze_N;  ///< grasp force; none: the largest that the torques allow
+  HandTolerance tolerance;     ///< limits while the state is held, throughout as in a static grasp
+  double friction_factor = 1;  ///< friction of the world over the assumed friction
 };
 
-/// Makes reset states of rests in the world of a hand, and holds them.
+/// Makes reset states from static grasps in the world of a hand, and validates them.
 ///
-/// What a state is held by: it is set as it is stored, velocities zero, and for kHeld seconds all
-/// controls stay as they are stored. No finger that holds loses its contact or slips
-/// (HandTolerance), no link touches anything, no actuator is at its limit, the object stays within
-/// the tolerance.
+/// To validate a state, the world is set to it with zero velocities, and all controls stay constant
+/// for kHeld seconds. No holding finger may lose its contact or slip (HandTolerance). No link may
+/// touch anything, no actuator may reach its limit, and the object must stay within the tolerance.
 ///
-/// Laws: what comes of a rest depends on it alone, not on those before it.
+/// Laws: the result for a grasp depends on it alone, not on earlier grasps.
 class ResetStates {
  public:
   /// @throws InputError  as HandWorld.
   ResetStates(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
               const ResetStateOptions& options);
 
-  /// The sum of the normal forces that a rest is held with, newtons: that of the options, or as
-  /// RestSqueeze. @returns nullopt where no forces with that sum balance the object's weight.
-  /// @param grasp  of the rest, in the object's units.
+  /// Return the grasp force of a static grasp, newtons: that of the options, or as RestSqueeze.
+  /// @param grasp  contacts of the grasp, in the object's units.
+  /// @returns the grasp force; nullopt if no forces with that sum balance the object's weight.
   [[nodiscard]] std::optional<double> SqueezeOf(const plan::HandState& rest,
                                                 const plan::FingerGrasp& grasp);
 
-  /// The hand takes hold of the object in a rest, comes to rest, and is validated.
-  /// @returns why it is not held, where it is not.
+  /// Grasp the object in a given state, wait until it is static, and validate it.
+  /// @returns the state, or the reason why it is not held.
   [[nodiscard]] std::variant<ResetState, plan::Reason> Make(const plan::HandState& rest,
                                                             const plan::FingerGrasp& grasp,
                                                             double squeeze_N);
 
-  /// Holds a state, and measures how far off the object comes.
-  /// @returns why it is not held; nullopt where it is.
+  /// Hold a state, and measure the deviation of the object.
+  /// @returns the reason why it is not held; nullopt if it is held.
   [[nodiscard]] std::optional<plan::Reason> Validate(ResetState& state);
 
   [[nodiscard]] const HandWorld& world() const { return world_; }
 
-  inline static constexpr double kTakeHold = 0.15;  ///< seconds, the object pinned
-  inline static constexpr double kSettle = 0.15;    ///< and then free, under control
-  inline static constexpr double kHeld = 1;         ///< seconds, with the controls as they are
+  inline static constexpr double kTakeHold = 0.15;  ///< seconds with the object pinned
+  /// subsequent seconds with the object free, under control
+  inline static constexpr double kSettle = 0.15;
+  inline static constexpr double kHeld = 1;  ///< seconds with constant controls
 
  private:
   void TakeHold(const plan::HandState& rest, const plan::FingerGrasp& grasp, double squeeze_N);
   [[nodiscard]] ResetState Store(const plan::FingerGrasp& grasp, double squeeze_N) const;
   [[nodiscard]] plan::HandState StateOf(const ResetState& state) const;
-  /// Whether the monitor has seen something fail.
+  /// Return the violation that the monitor found, if any.
   [[nodiscard]] std::optional<plan::Reason> Failure() const;
 
   const object::Polyhedron& solid_;
   double scale_;
   ResetStateOptions options_;
-  double weight_N_;  ///< of the object
+  double weight_N_;  ///< weight of the object
   HandWorld world_;
-  ExecutionMonitor fresh_;  ///< that has seen nothing
+  ExecutionMonitor fresh_;  ///< monitor without measurements
   ExecutionMonitor monitor_;
-  std::vector<std::vector<int>> joints_;  ///< by finger: places among all joints of the model
+  std::vector<std::vector<int>> joints_;  ///< indices among all joints of the model, by finger
 };
 
-/// A rest that the hand is to hold.
+/// A static grasp to be held by the hand.
 struct RestToHold {
   plan::HandState state;
-  plan::FingerGrasp grasp;  ///< in the object's units
+  plan::FingerGrasp grasp;  ///< contacts in the object's units
 };
 
-/// Draws rests. @returns nullopt where none is found in a bounded number of tries.
+/// Function that draws a static grasp.
+/// It returns nullopt if a bounded number of attempts finds none.
 using DrawRest = std::function<std::optional<RestToHold>(RandomStream&)>;
 
 struct DrawnStatesOptions {
   int count = 0;
   std::uint64_t seed = 0;
-  /// Rests that are tried for one state: where one of fifty is held, one of a billion has none.
+  /// Largest number of grasps simulated per state. If one of fifty is held, the probability that
+  /// none of 1000 is held is below 1e-8.
   int most_tried = 1000;
-  int jobs = 1;  ///< threads
+  int jobs = 1;  ///< number of threads
   std::function<void(int done)> told =
-      {};  ///< after every state, by one thread at a time; may be empty
+      {};  ///< callback after every state, from one thread at a time; may be empty
 };
 
-/// Reset states, and what became of all rests that were drawn for them.
+/// Reset states, and the results of all grasps that were drawn for them.
 struct DrawnStates {
-  std::vector<ResetState> states;               ///< none where `message` says why
-  std::map<plan::Reason, std::int64_t> fallen;  ///< rests that were not held, by reason
-  std::int64_t unbalanced = 0;  ///< rests that no forces hold (ResetStates::SqueezeOf), not tried
-  std::string message;          ///< what stopped it; empty: nothing
-  // Of the world that they are for.
+  std::vector<ResetState> states;               ///< drawn states; empty if `message` is not
+  std::map<plan::Reason, std::int64_t> fallen;  ///< number of grasps that were not held, by reason
+  /// number of grasps without balancing forces (SqueezeOf), not simulated
+  std::int64_t unbalanced = 0;
+  std::string message;  ///< reason why drawing stopped; empty if it completed
+  // Properties of the simulated world.
   std::vector<std::string> joint_names;
   std::vector<std::string> control_names;
   double timestep_s = 0;
 
   [[nodiscard]] std::int64_t fallen_count() const;
-  /// Of all rests that were tried, those that were not held.
+  /// Return the share of simulated grasps that were not held.
   [[nodiscard]] double fallen_share() const;
-  /// Of that share, as if their number had been given, at kTrialConfidence.
+  /// Return the interval of that share at kTrialConfidence, as for a fixed number of grasps.
   [[nodiscard]] ShareInterval interval() const;
 };
 
-/// Draws rests until so many are reset states. For each state rests are drawn until one is held;
-/// none of `most_tried` ends it all.
+/// Draw static grasps until a given number of reset states is found.
+/// For each state, grasps are drawn until one is held. If none of `most_tried` is held, the
+/// function stops.
 ///
-/// Laws: state k depends on the seed and k alone, whatever the number of threads; of N states the
-/// first M are those that M alone are.
-/// @param make_draw  called once for each thread: what it returns is used by that one.
+/// Laws: state k depends on the seed and k alone, for any number of threads. The first M of N
+/// states are the states of a run with M.
+/// @param make_draw  factory, called once per thread; only that thread uses the result.
 /// @throws InputError  as ResetStates.
 [[nodiscard]] DrawnStates DrawResetStates(const kinematics::HandFile& file,
                                           const object::Polyhedron& solid, double scale,
@@ -157,15 +162,15 @@ struct DrawnStates {
                                           const DrawnStatesOptions& options,
                                           const std::function<DrawRest()>& make_draw);
 
-/// What reset states are of.
+/// Origin of reset states.
 struct ResetStatesOrigin {
-  std::string object;         ///< name of the file
-  std::string object_sha256;  ///< of its bytes
-  double scale = 1;           ///< metres per unit of it
+  std::string object;         ///< name of the object's file
+  std::string object_sha256;  ///< SHA-256 of the file's bytes
+  double scale = 1;           ///< metres per unit of the file
   std::uint64_t seed = 0;
 };
 
-/// Reset states as the bytes of an NPZ file: docs/formats.md has its arrays.
+/// Format reset states as the bytes of an NPZ file; docs/formats.md defines its arrays.
 [[nodiscard]] std::string FormatResetStates(const DrawnStates& drawn,
                                             const kinematics::HandModel& hand,
                                             const ResetStateOptions& options,

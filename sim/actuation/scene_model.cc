@@ -8,7 +8,8 @@ namespace regrasp::sim {
 namespace {
 
 constexpr double kTimestep = 1e-3;
-/// Friction of tips is ten times as hard as the normal, so that what sticks creeps little.
+/// Ratio of frictional to normal constraint impedance (impratio), so that sticking contacts creep
+/// little.
 constexpr double kFrictionHardness = 100;
 /// Armature of frozen joints, kg m².
 constexpr double kFrozenArmature = 1e3;
@@ -28,7 +29,7 @@ void SetReplayOptions(const Eigen::Vector3d& gravity, const std::vector<int>& fr
   model.opt.cone = mjCONE_ELLIPTIC;
   model.opt.impratio = kFrictionHardness;
   std::copy_n(gravity.data(), 3, model.opt.gravity);
-  // The solver ends at a tolerance over the mean inertia, in which frozen joints would be all.
+  // The solver's tolerance is relative to the mean inertia, which frozen joints would dominate.
   const double mean = model.stat.meaninertia;
   const double moving = mean - kFrozenArmature * static_cast<double>(frozen.size()) / model.nv;
   if (!frozen.empty() && mean > 0) model.opt.tolerance *= std::max(moving, mjMINVAL) / mean;

@@ -8,20 +8,22 @@ struct mjData_;
 
 namespace regrasp::sim {
 
-/// Let joints of no finger stay where they are: an armature that no torque of a hand moves.
-/// @param joints  Revolute and prismatic joints of the model.
+/// Freeze joints of no finger by an armature that no torque of a hand moves.
+/// @param joints  revolute and prismatic joints of the model.
 void FreezeJoints(const std::vector<int>& joints, mjModel_& model);
 
-/// Set all options of the simulation: those of the hand's model, such as disabled limits, must not
-/// decide. An implicit integrator is kept; the constraint solver is as precise as MuJoCo's defaults
-/// make it for the hand without frozen joints.
-/// @param gravity  In the engine's world, m/s².
+/// Set all options of the simulation.
+/// Options of the hand's model, such as disabled limits, must not decide a replay. Only an implicit
+/// integrator is kept. The precision of the constraint solver is that of MuJoCo's defaults for the
+/// hand without frozen joints.
+/// @param gravity  gravity in the engine's world, m/s².
 void SetReplayOptions(const Eigen::Vector3d& gravity, const std::vector<int>& frozen,
                       mjModel_& model);
 
-/// Recompute all constants of a model that depend on others (mj_setConst), such as the inverse
-/// inertias that say how hard constraints are. To be called after every change of a model.
-/// @param data  Is at rest (qpos0) then.
+/// Recompute all constants of a model that depend on others (mj_setConst).
+/// One example is the inverse inertias, which determine the stiffness of constraints. Call it after
+/// every change of a model.
+/// @param data  data of the model; its state becomes the reference configuration (qpos0).
 void UpdateConstants(mjModel_& model, mjData_& data);
 
 }  // namespace regrasp::sim

@@ -32,7 +32,7 @@ double SpareOf(const ReplayResult& result) {
   return std::max(0.0, least);
 }
 
-/// The replays of each thread: successive plans of a thread have many steps in common.
+/// Replays of each thread, since successive plans of a thread have many steps in common.
 class ReplaysByThread {
  public:
   ReplaysByThread(kinematics::HandFile file, const object::Polyhedron& solid)

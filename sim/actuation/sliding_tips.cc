@@ -53,9 +53,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a tip, m/s.
+/// Speed of a sliding fingertip, m/s.
 constexpr double kSlideSpeed = 0.02;
-/// Where it goes is seen over this share of its way.
+/// Share of the path over which the direction of motion is computed.
 constexpr double kLookAhead = 0.02;
 
 }  // namespace

@@ -9,57 +9,58 @@
 
 namespace regrasp::sim {
 
-/// A path of a hand in time: from rest to rest, as fast between two states as joints and object may
-/// go.
+/// A timed path of a hand, with zero speed at both ends.
+/// Between two states it is as fast as the speed limits of joints and object allow.
 class TimedPath {
  public:
-  /// @param path         outlives this object; at least one state.
-  /// @param joint_speed  of the fastest joint, rad/s.
+  /// @param path         path with at least one state; must outlive this object.
+  /// @param joint_speed  speed limit of each joint, rad/s.
   TimedPath(const plan::HandPath& path, double joint_speed);
 
   [[nodiscard]] double duration() const;
-  /// @param time  seconds since its begin; before and after it stands.
+  /// @param time  seconds since the start of the path; clamped to its duration.
   [[nodiscard]] plan::HandState At(double time) const;
 
  private:
   const plan::HandPath& path_;
-  std::vector<double> times_;  ///< of the states, at full speed
+  std::vector<double> times_;  ///< times of the states, at full speed
 };
 
 inline constexpr double kObjectSpeed = 0.03;  ///< m/s
 inline constexpr double kObjectTurn = 0.5;    ///< rad/s
-inline constexpr double kHeldJoints = 0.7;    ///< rad/s, of fingers that carry the object
-inline constexpr double kFreeJoints = 1.5;    ///< rad/s
-inline constexpr double kPathRamp = 0.15;     ///< s, from rest to full speed
+inline constexpr double kHeldJoints = 0.7;  ///< speed limit of fingers that hold the object, rad/s
+inline constexpr double kFreeJoints = 1.5;  ///< rad/s
+inline constexpr double kPathRamp = 0.15;   ///< time from zero to full speed, s
 
-/// Where a state has the centre of a finger's tip, in the object's frame, metres.
+/// Return the planned centre of a fingertip sphere, in the object's frame, metres.
 [[nodiscard]] Eigen::Vector3d PlannedTip(const kinematics::HandModel& hand,
                                          const plan::HandState& state, FingerIndex finger);
 
-/// How tips slide between two waypoints of an align: from where they are to where they should be.
+/// Paths of sliding fingertips between two waypoints of a sliding step.
+/// They lead from the actual places of the fingertips to the planned ones.
 class SlidingTips {
  public:
-  /// @param world     how hand and object are now.
-  /// @param timed     the path between the two; outlives this object, as the world does.
-  /// @param from, to  the waypoints; fingers slide whose contacts differ.
+  /// @param world     world with the present state of hand and object; must outlive this object.
+  /// @param timed     path between the two waypoints; must outlive this object.
+  /// @param from, to  waypoints; fingers slide if their contacts differ.
   SlidingTips(const HandWorld& world, const TimedPath& timed, const plan::FingerGrasp& from,
               const plan::FingerGrasp& to);
 
-  /// Whether no finger slides.
+  /// Return whether no finger slides.
   [[nodiscard]] bool empty() const { return tips_.empty(); }
   [[nodiscard]] double duration() const { return duration_; }  ///< seconds
-  /// @param share  of the time.
+  /// @param share  elapsed share of the time.
   [[nodiscard]] plan::HandState StateAt(double share) const;
-  /// Where the centre of a sliding finger's tip is to be, in the object's frame, metres: what it is
-  /// off its way at first goes evenly.
+  /// Return the target of a sliding fingertip sphere's centre, in the object's frame, metres.
+  /// The initial offset from the planned path decreases linearly.
   [[nodiscard]] Eigen::Vector3d CentreAt(FingerIndex finger, double share) const;
-  /// The fingers that slide, and where they go.
+  /// Return the sliding fingers and their directions.
   [[nodiscard]] std::vector<SlidingFinger> At(double share) const;
 
  private:
   struct Tip {
     FingerIndex finger;
-    Eigen::Vector3d off_O;  ///< at first
+    Eigen::Vector3d off_O;  ///< initial offset from the path
   };
   const kinematics::HandModel& hand_;
   const TimedPath& timed_;

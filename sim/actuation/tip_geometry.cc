@@ -21,11 +21,11 @@ namespace {
 using Eigen::Vector3d;
 using kinematics::VectorAt;
 
-/// What is deeper in the object is pushed out as if it were this deep, or tips that overlap it
-/// where their balls do not were thrown off, metres: five times what presses at rest.
+/// Largest depth that counts for the contact force, metres: five times that of a static grasp.
+/// Fingertip geometry can overlap the object more deeply than its sphere, and must not be ejected.
 constexpr double kDeepestContact = 3e-4;
 
-/// Two directions at right angles to a unit vector and to each other.
+/// Return two unit vectors that are perpendicular to a unit vector and to each other.
 std::pair<Vector3d, Vector3d> Tangents(const Vector3d& normal) {
   const Vector3d first = normal.unitOrthogonal();
   return {first, normal.cross(first)};
@@ -50,7 +50,7 @@ mjContact MakeTipContact(const collision::SurfaceContact& touching, const Eigen:
   contact.solref[1] = 1;
   std::ranges::copy(kTipImpedance, contact.solimp);
   contact.dim = 3;
-  contact.efc_address = -1;  // it has no force before a step
+  contact.efc_address = -1;  // no force before a step
   return contact;
 }
 
@@ -61,7 +61,7 @@ ContactSum SumTipContacts(const mjModel& model, const mjData& data, int object_g
     if (contact.geom1 != object_geom || contact.geom2 != tip_geom) continue;
     mjtNum local[6];
     mj_contactForce(&model, &data, i, local);
-    // The engine gives the force on the second geom.
+    // The engine's force is that on the second geom.
     for (int k = 0; k < 3; ++k) sum.force -= local[k] * VectorAt(contact.frame, k);
     const Vector3d normal = VectorAt(contact.frame, 0);
     sum.pressing += local[0];
@@ -76,9 +76,10 @@ namespace {
 using collision::SurfaceContact;
 using Eigen::Isometry3d;
 
-/// A tip goes this far before the triangles near it are looked for anew, metres.
+/// Motion of a fingertip after which its nearby triangles are searched again, metres.
 constexpr double kNeighbourhood = 3e-3;
-/// Nothing bounds those of a ball, which on smooth bodies has one or two.
+/// Assumed maximum number of contacts of a shape. A sphere has no bound; on smooth bodies it has
+/// one or two.
 constexpr int kMostOfShape = 2 * collision::kMostContacts;
 
 }  // namespace
@@ -163,13 +164,13 @@ Eigen::Isometry3d PoseInBody(const mjModel& model, int geom) {
   return kinematics::PoseAt(model.geom_pos + std::ptrdiff_t{3} * geom, matrix, 0);
 }
 
-/// Directions for the points of tips that touch the object: what the hull of all points reaches
-/// beyond those found is less than a thousandth of its size.
+/// Number of directions for the touching points of fingertips. The hull of all points exceeds that
+/// of the selected points by less than a thousandth of its size.
 constexpr int kManyDirections = 2000;
-/// Directions for shapes that are checked for collisions: less than half a hundredth.
+/// Number of directions for collision shapes; the error is less than half a hundredth.
 constexpr int kSomeDirections = 500;
 
-/// The points that are farthest in some direction, of `directions` that are spread evenly.
+/// Return the points that are farthest in one of `directions` evenly distributed directions.
 std::vector<Vector3d> Outermost(const std::vector<Vector3d>& points, int directions) {
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
   std::set<std::size_t> kept;

@@ -20,73 +20,82 @@ struct mjModel_;
 
 namespace regrasp::sim {
 
-// How hard tips and object touch in MuJoCo, in the replay by a hand and in its exported scene.
+// Stiffness of contacts between fingertips and object in MuJoCo, in the replay by a hand and in its
+// exported scene.
 
-/// In which a contact comes back, seconds (solref): five steps of the replay; damped critically.
+/// Time constant of a contact, seconds (solref): five steps of the replay, with critical damping.
 inline constexpr double kTipContactTime = 5e-3;
-/// Impedances, the depth over which the one becomes the other, metres, and the shape (solimp).
+/// Impedances, width of the transition between them in metres, and its shape (solimp).
 inline constexpr std::array<double, 5> kTipImpedance = {0.95, 0.99, 0.0001, 0.5, 2};
 
-/// Return the engine's contact of a tip and the object, without geoms.
-/// @param touching  In the object's frame. @param pose  Of the object in the engine's world.
+/// Return the engine's contact of a fingertip and the object, without geoms.
+/// @param touching  contact in the object's frame.
+/// @param pose      pose of the object in the engine's world.
 [[nodiscard]] mjContact MakeTipContact(const collision::SurfaceContact& touching,
                                        const Eigen::Isometry3d& pose, double mu);
 
-/// The contacts of a tip as one, in the engine's world.
+/// The combined contacts of a fingertip, in the engine's world.
 struct ContactSum {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< on the object
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< force on the object
   double pressing = 0;                               ///< sum of the normal forces
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< of the surface, times `pressing`
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward, times `pressing`
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< point of the surface, times `pressing`
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward normal, times `pressing`
 };
 [[nodiscard]] ContactSum SumTipContacts(const mjModel& model, const mjData& data, int object_geom,
                                         int tip_geom);
 
-/// What of a fingertip touches the object, in the frame of the tip's link, metres.
+/// Shapes of a fingertip that touch the object, in the frame of the fingertip's link, metres.
 using TipShapes = std::vector<collision::ConvexShape>;
 
-/// By finger: the ball of the hand's file; or with TipShape::kGeometry each geom of the tip's link
-/// that collides, as links have them elsewhere (kinematics::ReadHandFile). A shape without a radius
-/// gets one of kTipSkin, in which its contacts are found.
-/// @throws InputError  a tip's link has no such geom: names the model's file, the link and finger.
+/// Return the shapes of each fingertip: the sphere of the hand's file, or the colliding geoms.
+/// With TipShape::kGeometry they are the colliding geoms of the fingertip's link, as for other
+/// links (kinematics::ReadHandFile). A shape without a radius gets the radius kTipSkin, within
+/// which its contacts are found.
+/// @throws InputError  if a fingertip's link has no colliding geom; the message names the model's
+///     file, the link and the finger.
 [[nodiscard]] std::vector<TipShapes> TipShapesOf(const kinematics::HandFile& file, TipShape tip);
 
-/// Return the collision geometry of a body as convex shapes in the body's frame, metres: the shapes
-/// of its geoms (kinematics::ShapeOfGeom), of meshes a hull of at most 500 points.
+/// Return the collision geometry of a body as convex shapes in the body's frame, metres.
+/// They are the shapes of its geoms (kinematics::ShapeOfGeom). A mesh becomes a hull of at most 500
+/// points.
 [[nodiscard]] std::vector<collision::ConvexShape> CollisionShapesOf(const mjModel_& model,
                                                                     const std::string& body);
 
-inline constexpr double kTipSkin = 2e-4;  ///< metres: thrice as deep as tips press at rest
+/// Radius of shapes without one, metres: three times the depth of fingertips in a static grasp.
+inline constexpr double kTipSkin = 2e-4;
 
-/// Where the fingertips of a hand touch an object's surface. All in the object's frame, metres.
+/// Contacts of a hand's fingertips with an object's surface, in the object's frame, metres.
 class TipSurface {
  public:
   /// @throws InputError  as TipShapesOf.
   TipSurface(const kinematics::HandFile& file, TipShape tip, const object::Polyhedron& solid,
              double scale);
 
-  /// As many contacts as all tips may be expected to have at a time.
+  /// Return the expected maximum number of simultaneous contacts of all fingertips.
   [[nodiscard]] int most_contacts() const;
 
-  /// What comes does not depend on what was, to the last bit.
+  /// Clear the cached triangles. Later results then do not depend on earlier ones, to the bit.
   void Forget();
 
-  /// Where the tip touches now, shape by shape. The surface is looked for up to kNear from the tip.
-  /// @param link       of the tip, in the world. @param to_object  from the world.
+  /// Return the present contacts of a fingertip, shape by shape. The search extends to kNear.
+  /// @param link       pose of the fingertip's link in the world.
+  /// @param to_object  transform from the world to the object's frame.
   std::vector<collision::SurfaceContact> FindContacts(FingerIndex finger,
                                                       const Eigen::Isometry3d& link,
                                                       const Eigen::Isometry3d& to_object);
-  /// The deepest of them; without one where the tip was nearest, or at least its ball; nullopt
-  /// farther than kNear.
+  /// Return the deepest contact of the last search, or the nearest surface point without contact.
+  /// That point belongs to the fingertip, or at least to its sphere. The result is nullopt beyond
+  /// kNear.
   [[nodiscard]] const std::optional<collision::SurfaceContact>& nearest(FingerIndex finger) const {
     return tips_[finger].nearest;
   }
 
-  /// The centre of the tip's ball, in the frame of its link.
+  /// Return the centre of the fingertip sphere, in the frame of its link.
   [[nodiscard]] const Eigen::Vector3d& ball(FingerIndex finger) const {
     return tips_[finger].centre;
   }
-  /// Where the ball is near the surface, whatever touches; nullopt farther than kNear.
+  /// Return the surface point near the fingertip sphere; nullopt beyond kNear.
+  /// The sphere counts even if other geometry makes contact.
   [[nodiscard]] std::optional<collision::NearPoint> NearBall(FingerIndex finger,
                                                              const Eigen::Vector3d& centre) const;
 
@@ -95,11 +104,11 @@ class TipSurface {
  private:
   struct Tip {
     TipShapes shapes;
-    Eigen::Vector3d centre;  ///< of the ball
+    Eigen::Vector3d centre;  ///< centre of the sphere
     double radius;
-    double reach = 0;  ///< of the shapes, from the ball's centre
+    double reach = 0;  ///< largest distance of the shapes from the sphere's centre
     std::optional<collision::SurfaceContact> nearest = std::nullopt;
-    /// The triangles that it may touch before the ball has gone kNeighbourhood from here.
+    /// Triangles that it may touch until the sphere is kNeighbourhood from `around`.
     Eigen::Vector3d around = Eigen::Vector3d::Zero();
     std::optional<std::vector<int>> triangles = std::nullopt;
   };
@@ -108,7 +117,7 @@ class TipSurface {
 
   collision::BallContact surface_;
   Eigen::Vector3d centroid_;
-  double object_reach_ = 0;  ///< from the centroid
+  double object_reach_ = 0;  ///< largest distance of the object's points from its centroid
   std::vector<Tip> tips_;
 };
 

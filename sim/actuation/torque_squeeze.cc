@@ -10,7 +10,7 @@
 namespace regrasp::sim {
 namespace {
 
-/// Of the interval between a squeeze that is too much and one that is not.
+/// Number of bisections between a grasp force that is too large and one that is not.
 constexpr int kHalvings = 10;
 
 struct PlannedRest {
@@ -50,7 +50,7 @@ double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double sca
   const Eigen::Isometry3d& pose = state.pose;
   const Eigen::Vector3d down = -weight * (pose.linear().transpose() * world.hand().up);
   const grasp::Grasp contacts = plan::ContactsOf(grasp);
-  /// The largest torque of an actuator over its limit.
+  /// Return the largest ratio of an actuator's torque to its limit.
   const auto load = [&](double squeeze) {
     const grasp::GraspForces forces = grasp::ComputeGraspForces(
         contacts, solid.wrench_frame(), half_angle, {down, Eigen::Vector3d::Zero()}, squeeze);

@@ -6,28 +6,30 @@
 
 namespace regrasp::sim {
 
-/// The sum of the normal forces with which a hand holds an object, newtons: as much as
-/// kTorqueShare of the limits of its actuators allow in every rest of the plan, and no more than
-/// MostSqueeze.
-/// @param world    its hand and object are moved to the rests.
-/// @param entries  how many of the plan count, the hold first.
+/// Return the grasp force with which a hand holds an object, newtons.
+/// It is the largest that kTorqueShare of the limits of its actuators allows in every static grasp
+/// of the plan, and at most MostSqueeze.
+/// @param world    world of hand and object; its state changes to the static grasps.
+/// @param entries  number of entries of the plan that count, initial grasp included.
 [[nodiscard]] double TorqueSqueeze(HandWorld& world, const object::Polyhedron& solid,
                                    const plan::Plan& plan, int entries, double half_angle,
                                    double weight);
 
-/// The same of a single rest: as much as kTorqueShare allows, and no more than `most`.
-/// @param grasp  in the object's units, `scale` metres each.
+/// Return the grasp force for a single static grasp, newtons.
+/// It is the largest that kTorqueShare allows, and at most `most`.
+/// @param grasp  contacts in the object's units, `scale` metres each.
 [[nodiscard]] double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double scale,
                                  const plan::HandState& state, const plan::FingerGrasp& grasp,
                                  double half_angle, double weight, double most);
 
-/// The largest grasp force of any rest, newtons: kMostWeights, kMostWeightsOfUnknown if the hand's
-/// model leaves out the force limit of any actuator, or kEnough if that is more.
+/// Return the largest grasp force of any static grasp, newtons.
+/// It is kMostWeights times the weight, or kMostWeightsOfUnknown times it if the hand's model omits
+/// the force limit of any actuator. It is at least kEnough.
 [[nodiscard]] double MostSqueeze(const HandWorld& world, double weight);
 
 inline constexpr double kTorqueShare = 0.4;
 inline constexpr double kMostWeights = 12;
-inline constexpr double kMostWeightsOfUnknown = 6;  ///< of a hand of unknown strength
+inline constexpr double kMostWeightsOfUnknown = 6;  ///< for a hand of unknown strength
 inline constexpr double kEnough = 4;                ///< newtons
 
 }  // namespace regrasp::sim

@@ -18,7 +18,8 @@ class FingerWays {
   ///     to its length.
   void Add(const plan::FingerContact& held, const std::vector<object::SurfaceLeg>& legs);
 
-  /// Add waypoints: one when a finger reaches a border, one after it turned there, and the end. A
+  /// Add the waypoints of all paths.
+  /// There is one when a finger reaches a border, one after it turned there, and the end. A
   /// waypoint that equals its predecessor is omitted.
   void AppendTo(const object::Object& object, std::vector<plan::FingerGrasp>& waypoints) const;
 

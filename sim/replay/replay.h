@@ -28,8 +28,8 @@ struct StepMotion : Violation {
   plan::Snapshot snapshot;
 };
 
-/// Results of one step in the replay. The numbers of StepMotion are those of the protocol that
-/// decides.
+/// Results of one step in the replay.
+/// The numbers of StepMotion are those of the protocol that decides.
 struct StepReplay : StepMotion {
   plan::EntryIndex index{0};
   /// |Δx| + R|Δrotation| from the start of the sequence to the end of the step
@@ -57,8 +57,8 @@ struct ReplayResult {
 /// It executes the steps of the plan. In every static grasp it applies disturbance forces along all
 /// axes and torques about them.
 ///
-/// A pass means: with this friction, grasp force and finger model the object withstands ± ρ · grasp
-/// force along every axis in every static grasp of the sequence. The replay uses no result of the
+/// A pass is a statement about this friction, grasp force and finger model: the object withstands ±
+/// ρ · grasp force along every axis in every static grasp. The replay uses no result of the
 /// analytic check. A plan that fails the check can be replayed, too.
 ///
 /// Both engines have the same scene, script, disturbance tests and monitor, and know only

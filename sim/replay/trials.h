@@ -29,8 +29,8 @@ struct ContactNoise {
 /// straight and across borders (object/surface_walk.h). The size of faces therefore does not
 /// matter. The contact has the normal of the face that it reaches.
 ///
-/// The error of a finger is drawn once for each point at which the plan has it, through static
-/// grasps, sliding steps and turns of its normal. In a sliding step the finger moves along the
+/// The error of a finger is drawn once for each point of the plan. It persists through static
+/// grasps, sliding steps and turns of the normal. In a sliding step the finger moves along the
 /// surface from one place to the next, which can add waypoints. If no sphere of the fingertip's
 /// radius fits, or no path along the surface is found, the error is drawn again, at most
 /// kMostNoiseDraws times. Then the contact stays.
@@ -80,9 +80,9 @@ struct TrialSummary {
 };
 
 /// Replay the plan `trials.count` times in perturbed worlds.
-/// In each trial the placement of fingers has errors (AddContactNoise), and friction and mass of
-/// the world differ from those that the hand assumes for its forces. The hand knows its contacts,
-/// as in any replay. A trial passes if every step of the replay does.
+/// In each trial the placement of fingers has errors (AddContactNoise). Friction and mass of the
+/// world differ from those that the hand assumes for its forces. The hand knows its contacts, as in
+/// any replay. A trial passes if every step of the replay does.
 ///
 /// Friction and mass are those assumed times 1 + error · (a normal deviate), at least kLeastFactor.
 ///

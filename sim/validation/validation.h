@@ -53,8 +53,7 @@ struct ValidationObserver {
   sim::ReplayObserver replay = {};  ///< for the replay without noise
 };
 
-/// The values that a validation runs with, resolved once from the request. Each step takes them
-/// from here.
+/// The values that a validation runs with, resolved once from the request.
 struct ValidationSettings {
   /// The plan with the friction angle, torsional friction length and finger radius of the
   /// validation. In a ValidationResult also located on the object.
@@ -74,22 +73,24 @@ struct ValidationResult {
 /// Resolve the settings of a request.
 [[nodiscard]] ValidationSettings ResolveSettings(const ValidationRequest& request);
 
-/// Validate a plan or a grasp: check its hand, check the plan analytically, replay it up to the
-/// first failure, and run trials with noise if the replay passes.
+/// Validate a plan or a grasp.
+/// It checks the hand, checks the plan analytically, and replays it up to the first failure. If the
+/// replay passes, it runs trials with noise.
 ///
 /// A step that fails the analytic check is not replayed, and steps after a failure are skipped. The
 /// caller sets names and digests of files, the run record and names of images in the report.
-/// @throws InputError             the plan's dimension is not the object's, the plan is not for
+/// @throws InputError             if the plan's dimension is not the object's, the plan is not for
 ///                                this hand, or object or hand cannot be simulated.
-/// @throws std::invalid_argument  the friction angle is not in (0, π/2).
+/// @throws std::invalid_argument  if the friction angle is not in (0, π/2).
 ///
 ///     const auto result = validation::Validate({.object = cube, .plan = plan});
 ///     if (!result.report.passed()) std::cout << report::FormatReportTable(result.report);
 [[nodiscard]] ValidationResult Validate(const ValidationRequest& request,
                                         const ValidationObserver& observer = {});
 
-/// Make the plan without steps that holds one grasp. Fingers have the numbers of the contacts; the
-/// torsional friction length is that of the first contact.
+/// Return the plan without steps that holds one grasp.
+/// Fingers have the numbers of the contacts. The torsional friction length is that of the first
+/// contact.
 /// @param half_angle  friction angle, radians.
 /// @param scale       metres per unit of the object.
 [[nodiscard]] plan::Plan MakeHoldPlan(const object::Object& object, const grasp::Grasp& grasp,

@@ -35,8 +35,8 @@ struct ReportStep {
   std::optional<certificate::EntryProof> proof;     ///< with ValidationOptions::certificates
   std::string frame;                                ///< file name of the image; empty: none
 
-  /// Return the reason of the analytic check or, if it passes, of the replay. A skipped step has
-  /// none.
+  /// Return the reason of the analytic check or, if it passes, of the replay.
+  /// A skipped step has none.
   [[nodiscard]] plan::Reason reason() const;
   [[nodiscard]] const std::string& detail() const;
   [[nodiscard]] const plan::Fault& fault() const;  ///< location of the fault, for an image
@@ -98,8 +98,8 @@ struct Report {
   [[nodiscard]] plan::EntryIndex weakest_step() const;
   /// Return the results of the analytic check; steps after a failure in the replay are skipped.
   [[nodiscard]] std::vector<plan::StepCheck> checks() const;
-  /// Return the first step with the weakest finger of all (sim/measure/weakest_finger.h); not valid
-  /// if no step has one.
+  /// Return the first step with the weakest finger of all (sim/measure/weakest_finger.h).
+  /// It is not valid if no step has one.
   [[nodiscard]] plan::EntryIndex weakest_finger_step() const;
 };
 
