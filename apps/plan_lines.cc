@@ -52,7 +52,7 @@ void ReadFriction(const plan::JsonReader& friction, FrictionOptions& options) {
   const plan::JsonReader value = friction.Member(degrees ? "half_angle_deg" : "mu");
   if (!(value.Number() > 0)) value.Fail("must be positive, found " + value.Quoted());
   if (degrees && !(value.Number() < 90)) {
-    value.Fail("must lie between 0 and 90, found " + value.Quoted());
+    value.Fail("must be between 0 and 90, found " + value.Quoted());
   }
   degrees ? options.SetDegrees(value.Number()) : options.SetMu(value.Number());
 }

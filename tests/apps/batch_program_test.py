@@ -241,7 +241,7 @@ class Batch(ProgramCase):
                 self.assertEqual(attached, [f"[[ATTACHMENT|{folder}/{frame}]]"])
                 self.assertTrue(os.path.isfile(os.path.join(self.folder, folder, frame)))
                 shutil.rmtree(self.path(out))
-        self.run_batch(1, "--frames", "none", "--junit", "junit.xml")
+        self.run_batch(1, "--junit", "junit.xml")
         self.assertNotIn(b"ATTACHMENT", self.read("junit.xml"))
 
     def times(self, *more):
@@ -294,7 +294,7 @@ class Batch(ProgramCase):
         self.write("result/index.html", "mine")
         done = self.run_program(*self.arguments())
         self.assertEqual(done.returncode, 2)
-        self.assertIn("result/index.html: is in the way", done.stderr)
+        self.assertIn("result/index.html: cannot overwrite", done.stderr)
         self.assertEqual(tree(self.path("result")), {"index.html": b"mine"})
         os.remove(self.path("result/index.html"))
         self.run_batch(0)
@@ -640,8 +640,8 @@ class Batch(ProgramCase):
     def test_a_plan_that_has_the_name_of_the_summary_stays(self):
         self.write("summary.json", Batch.plans["square_01.json"])
         self.use_few()
-        for words, plans in [("summary.json: is the file of --plan", "."),
-                             ("summary.json: is in the way", "plans")]:
+        for words, plans in [("summary.json: --output must not overwrite the file of --plan", "."),
+                             ("summary.json: cannot overwrite", "plans")]:
             self.assert_refused(2, words, "--object", self.model("square.wkt"), "--plan", plans,
                                 "--output", ".", "--frames", "none")
             self.assertEqual(self.read("summary.json"), Batch.plans["square_01.json"])
@@ -668,7 +668,7 @@ class Batch(ProgramCase):
                     os.remove(self.path("result/square_02/" + own))
             done = self.run_program(*arguments)
             self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(f"result/square_02/{name}: is in the way", done.stderr)
+            self.assertIn(f"result/square_02/{name}: cannot overwrite", done.stderr)
             self.assertEqual(tree(self.path("result/square_02")), {name: b"mine, too"})
             self.assertEqual(self.verdicts(), {"square_01": "pass", "square_02": "bad-input"})
             refused += 1
@@ -692,10 +692,10 @@ class Batch(ProgramCase):
         before = tree(self.folder)
         refused = 0
         for words, *arguments in [
-                ["weak.json: is the file of --plan, and --junit", "--junit", "plans/weak.json"],
-                ["square.wkt: is the file of --object, and --junit", "--junit",
+                ["weak.json: --junit must not overwrite the file of --plan", "--junit", "plans/weak.json"],
+                ["square.wkt: --junit must not overwrite the file of --object", "--junit",
                  "models/square.wkt"],
-                ["report.json: is the file of --plan, and --output", "--plan",
+                ["report.json: --output must not overwrite the file of --plan", "--plan",
                  "result/triangle_00/report.json"],
         ]:
             self.assert_refused(2, words, "--object", "models", "--plan", "plans", "--output",
@@ -719,8 +719,8 @@ class Batch(ProgramCase):
         self.assertEqual(self.verdicts(), {"polygon15_03": "pass", "square": "error",
                                            "square_01": "error", "triangle_00": "pass",
                                            "weak": "error"})
-        self.assertIn("validate: square_01: its report.json was removed", errors)
-        self.assertIn("validate: weak: its report.html was removed", errors)
+        self.assertIn("validate: square_01: report.json was removed during the run", errors)
+        self.assertIn("validate: weak: report.html was removed during the run", errors)
 
     # Invalid usage.
 
@@ -746,7 +746,7 @@ class Batch(ProgramCase):
                                                     "2"]),
                 ("--restart: requires several plans", [*models, "--plan", "plans/weak.json",
                                                      "--restart"]),
-                ("is a folder", [*models, "--grasp", self.model("square.start.json"), "--mu", "1"]),
+                ("found a folder", [*models, "--grasp", self.model("square.start.json"), "--mu", "1"]),
         ]:
             with self.subTest(arguments=arguments):
                 self.assert_refused(2, words, *arguments)

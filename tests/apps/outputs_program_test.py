@@ -85,9 +85,9 @@ class Outputs(ProgramCase):
         for option, name in inputs.items():
             os.link(self.path(name), self.path("hard_" + name))
             for output in (name, "./" + name, "hard_" + name):
-                self.assert_unharmed([output, f"is the file of --{option}, and --output"], "plan",
+                self.assert_unharmed([output, f"--output must not overwrite the file of --{option}"], "plan",
                                      *self.plan_arguments(output, **inputs))
-        self.assert_unharmed("is the file of --object, and --json", "graph", "--object",
+        self.assert_unharmed("--json must not overwrite the file of --object", "graph", "--object",
                              "square.wkt", "--friction-angle", "20", "--json", "square.wkt")
 
     def test_a_grasp_that_is_drawn_is_no_file(self):
@@ -102,18 +102,18 @@ class Outputs(ProgramCase):
         plan = [*common, "--plan", "plan.json", "--output", "result"]
         for option in ("--junit", "--trajectory", "--export-mjcf"):
             for output in ("plan.json", "hard.json", "link.json"):
-                self.assert_unharmed([output, f"is the file of --plan, and {option}"], "validate",
+                self.assert_unharmed([output, f"{option} must not overwrite the file of --plan"], "validate",
                                      *plan, option, output)
-            self.assert_unharmed("is the file of --object", "validate", *plan, option, "square.wkt")
-            self.assert_unharmed("is the file of --start", "validate", *plan, option,
+            self.assert_unharmed("must not overwrite the file of --object", "validate", *plan, option, "square.wkt")
+            self.assert_unharmed("must not overwrite the file of --start", "validate", *plan, option,
                                  "square.start.json")
-            self.assert_unharmed("is the file of --goal", "validate", *plan, option,
+            self.assert_unharmed("must not overwrite the file of --goal", "validate", *plan, option,
                                  "square.goal.json")
-            self.assert_unharmed("is the file of --grasp", "validate", "--object", "square.wkt",
+            self.assert_unharmed("must not overwrite the file of --grasp", "validate", "--object", "square.wkt",
                                  "--mu", "0.4", "--frames", "none", "--grasp", "square.start.json",
                                  option, "square.start.json")
             # The name of the file depends on the plan.
-            self.assert_unharmed("is the file of --object", "validate", "--object", ".", "--plan",
+            self.assert_unharmed("must not overwrite the file of --object", "validate", "--object", ".", "--plan",
                                  "plan.json", "--output", "result", option, "square.wkt")
 
     def test_files_in_the_output_folder_that_are_inputs_stay(self):
@@ -123,16 +123,16 @@ class Outputs(ProgramCase):
             for link in (name, "link.json"):
                 os.remove(self.path("link.json"))
                 os.symlink(name, self.path("link.json"))
-                self.assert_unharmed([name, "is the file of --plan, and --output"], "validate",
+                self.assert_unharmed([name, "must not overwrite the file of --plan, and --output"], "validate",
                                      "--object", "square.wkt", "--plan", link, "--output", ".")
             os.rename(self.path(name), self.path("plan.json"))
         os.rename(self.path("square.wkt"), self.path("report.html"))
-        self.assert_unharmed("is the file of --object, and --output", "validate", "--object",
+        self.assert_unharmed("must not overwrite the file of --object, and --output", "validate", "--object",
                              "report.html", "--plan", "plan.json", "--output", ".")
         os.rename(self.path("report.html"), self.path("square.wkt"))
         for name in ("sheet.svg", "000_hold.svg", "contact_space_001.svg"):
             os.rename(self.path("plan.json"), self.path(name))
-            self.assert_unharmed([name, "is the file of --plan, and --output"], "figure",
+            self.assert_unharmed([name, "must not overwrite the file of --plan, and --output"], "figure",
                                  "--object", "square.wkt", "--plan", name, "--output", ".")
             os.rename(self.path(name), self.path("plan.json"))
 

@@ -343,7 +343,7 @@ class Validate(ProgramCase):
         os.mkdir(self.path("result"))
         for name in ("report.json", "overview.png", "report.html"):
             self.write("result/" + name, b"mine")
-            self.refuse(f"result/{name}: is in the way")
+            self.refuse(f"result/{name}: cannot overwrite")
             self.assertEqual(os.listdir(self.path("result")), [name])
             self.assertEqual(self.read("result/" + name), b"mine")
             os.remove(self.path("result/" + name))
