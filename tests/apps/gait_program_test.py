@@ -331,7 +331,7 @@ class Gait(ProgramCase):
         self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
         self.write_json("two.json", {"format": "regrasp-grasp", "version": 1,
                                      "contacts": json.loads(self.read("goal.json"))["contacts"][:2]})
-        self.assert_refused(2, "two.json: /contacts: the planner gait needs 3 to 4 contacts, found 2",
+        self.assert_refused(2, "two.json: /contacts: planner gait requires 3 to 4 contacts, found 2",
                               *self.arguments("--turn", "z,9", "--start", "two.json"))
 
     def test_the_same_arguments_give_the_same_bytes(self):
@@ -376,7 +376,7 @@ class Gait(ProgramCase):
         through = copy.deepcopy(path[len(path) // 2])
         through["joints"][finger] = [0, 1.2, 1.2, 1.2]
         path.insert(len(path) // 2 + 1, through)
-        return entry, (f"of finger {finger}", "m into ", "of place")
+        return entry, (f"of finger {finger}", "m inside ", "of place")
 
     def reddish_in_frames(self, report):
         """Return the number of pixels per frame that are as red as a link at fault."""
@@ -515,7 +515,7 @@ class Gait(ProgramCase):
         turn = ("--object", self.model("cube.obj"), "--mu", "0.3", "--hand", self.hand("ring4"),
                 "--turn", "z,90", "--output", "plan.json")
         self.assert_refused(1, ("none executes in simulation", "the best fails at step ",
-                                "(slipped)", "mm allowed",
+                                "(slipped)", "limit 1 mm",
                                 "help: --robustness preferred writes the best plan anyway"),
                             *turn, "--quiet")
         self.assertIn("the plan does not execute in simulation: it fails at ",
@@ -575,7 +575,7 @@ class Gait(ProgramCase):
             return lambda bad: bad["fingers"][0]["tip"].update(body=value)
 
         for words, change in (
-                ("no body", set_tip("nobody")),
+                ("not found", set_tip("nobody")),
                 ("not below the palm", lambda bad: bad.update(palm="finger0_base")),
                 ("/fingers", lambda bad: bad.update(fingers=[])),
                 ("nowhere.xml", lambda bad: bad.update(model="nowhere.xml"))):
@@ -658,8 +658,8 @@ class Gait(ProgramCase):
                                     self.hand("ring4"), "--turn", "z,90", "--output", "plan.json",
                                     "--planner", "budget=20", *more)
             self.assertEqual(done.returncode, 1, done.stderr)
-            self.assertIn("plan: warning: the object is 104 m across, 2.16e+08 kg: millimetres? "
-                          "use --scale 0.001 (10.4 cm across)\n", done.stderr)
+            self.assertIn("plan: warning: the object is 104 m across, 2.16e+08 kg; help: if the file is in "
+                          "millimetres, pass --scale 0.001 (10.4 cm across)\n", done.stderr)
             self.assertEqual("60000 × 60000 × 60000 mm" in done.stderr, not more, done.stderr)
 
     def test_no_plan_names_the_option_that_may_help(self):

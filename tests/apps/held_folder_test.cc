@@ -161,7 +161,7 @@ TEST_F(HeldFolderTest, NoTwoProcessesHoldItHoweverOftenItChangesHands) {
 TEST_F(HeldFolderTest, WhatIsNotOursIsRefusedAndStays) {
   const fs::path file = folder_ / kRunFileName;
   WriteFile(file, "shopping list\n");
-  EXPECT_THAT(Refusal<InputError>(), HasSubstr("is in the way"));
+  EXPECT_THAT(Refusal<InputError>(), HasSubstr("cannot overwrite"));
   EXPECT_EQ(ReadFile(file), "shopping list\n");
   fs::remove(file);
   WriteFile(folder_ / "other", "");
@@ -173,7 +173,7 @@ TEST_F(HeldFolderTest, WhatIsNotOursIsRefusedAndStays) {
   EXPECT_THAT(Refusal<EnvironmentError>(), HasSubstr(file.string()));
   fs::remove(file);
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
-  EXPECT_THAT(Refusal<InputError>(), HasSubstr("is in the way"));
+  EXPECT_THAT(Refusal<InputError>(), HasSubstr("cannot overwrite"));
   EXPECT_TRUE(fs::is_fifo(file));
 }
 

@@ -274,7 +274,7 @@ class Plan(ProgramCase):
         for scale, size in (("1000", "104 m across, 2.16e+08 kg"), ("0.01", "1.04 mm across")):
             done = self.assert_done(*self.arguments(scale=scale), "--quiet")
             self.assertRegex(done.stderr, f"^plan: warning: the object is {re.escape(size)}.*"
-                                          r"metres\? use --scale 1 \(10.4 cm across\)$")
+                                          r"metres, pass --scale 1 \(10.4 cm across\)$")
             self.assertEqual(done.stderr.count("\n"), 1)
 
     def test_warns_of_a_coefficient_of_friction_that_is_an_angle(self):
@@ -463,10 +463,10 @@ class Plan(ProgramCase):
     def test_refuses_a_start_of_three_or_five_contacts(self):
         contacts = self.start_contacts()
         fewer = self.write_json("fewer.json", self.grasp(contacts[:3]))
-        self.refuse([fewer, "needs 4 contacts, found 3"], start=fewer)
+        self.refuse([fewer, "requires 4 contacts, found 3"], start=fewer)
         extra = {"point": [0.03, -0.02, 0.0], "normal": [-1, 0, 0]}
         more = self.write_json("more.json", self.grasp(contacts + [extra]))
-        self.refuse([more, "needs 4 contacts, found 5"], goal=more)
+        self.refuse([more, "requires 4 contacts, found 5"], goal=more)
 
     def test_refuses_two_contacts_at_one_point(self):
         contacts = self.start_contacts()
@@ -535,8 +535,8 @@ class Plan(ProgramCase):
                 goal=self.model("square.goal.json"), friction_angle="10"))
         # The inclination is atan(2 / 6) = 18.43°.
         refuse("requires a friction angle of 18.44°, found 10.00°", pair)
-        refuse("needs 2 to 4 contacts, found 1", pair[:1])
-        refuse("needs 2 to 4 contacts, found 5",
+        refuse("requires 2 to 4 contacts, found 1", pair[:1])
+        refuse("requires 2 to 4 contacts, found 5",
                [{"point": [x, 0.03]} for x in (-0.02, -0.01, 0, 0.01, 0.02)])
         refuse("contacts 0 and 2 are at the same point", pair + pair[:1])
         refuse("/contacts/0/point", [{"point": [-0.03, 0.01, 0]}] + pair[1:])

@@ -111,8 +111,8 @@ TEST(BatchSummaryTest, TrialsThatFailAreNotHiddenByAPass) {
   const std::string table = FormatSummaryTable(summary);
   EXPECT_THAT(table, HasSubstr("passes in 14 of 20 trials\n"));
   EXPECT_THAT(table, HasSubstr("trials-failed: passes in 2 of 20 trials\n"));
-  EXPECT_THAT(table, HasSubstr("2 pass, 1 fail, 0 bad-input, 0 error; 1 pass in a part of their "
-                               "trials only\n"));
+  EXPECT_THAT(table, HasSubstr("2 pass, 1 fail, 0 bad-input, 0 error; 1 pass in only a part of "
+                               "their trials\n"));
   const Json json = Json::parse(FormatSummaryJson(summary));
   EXPECT_EQ(json["verdict"], "fail");
   EXPECT_FALSE(json["plans"][0].contains("trials"));

@@ -127,7 +127,7 @@ TEST_F(LineOutputTest, APartOfAnotherRunOrOfSomebodyElseIsNotTouched) {
   const std::string bytes = FormatHeader(other) + LineOf(1);
   WriteFile(part_, bytes);
   EXPECT_THAT(Refusal<InputError>(header_),
-              HasSubstr("plans.jsonl.part: line 1: is the part of a run"));
+              HasSubstr("plans.jsonl.part: line 1: belongs to an interrupted run"));
   EXPECT_EQ(ReadFile(part_), bytes);
   {
     LinesOutput fresh(path_, header_, true);

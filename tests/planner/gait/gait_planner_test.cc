@@ -95,7 +95,7 @@ TEST_F(GaitPlannerTest, GivenGraspsAreChecked) {
   grasp.pop_back();
   request.start = Given(grasp);
   EXPECT_THAT([&] { (void)Solve(request); },
-              ThrowsMessage<InputError>(HasSubstr("the planner gait needs 3 to 4 contacts, found " +
+              ThrowsMessage<InputError>(HasSubstr("planner gait requires 3 to 4 contacts, found " +
                                                   std::to_string(grasp.size()))));
   request.start = Given(plan::ContactsOf(turned.plan->initial));
   request.criteria.half_angle = Radians(1);

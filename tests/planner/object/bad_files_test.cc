@@ -94,7 +94,7 @@ const std::map<std::string, std::string> kBadFiles = {
     {"word.xyz", "line 2: point 1: \"here\" is not a finite number"},
     {"two_coordinates.xyz", "line 1: point 0: fewer than three coordinates"},
     {"no_data.pcd", "line DATA not found"},
-    {"compressed.pcd", "is not read; write it as ascii or binary"},
+    {"compressed.pcd", "help: write it as ascii or binary"},
     {"short.pcd", "100 points of 12 bytes: truncated"},
     {"no_y.pcd", "no field y"},
     {"cloud.xyz", "no facet, but a cloud of 4 points, of which a repair may make"},

@@ -65,16 +65,18 @@ TEST(BodyMeasures, TheWarningGuessesTheUnitInWhichAHandWouldGraspIt) {
   const auto guess = [](double units, double scale) {
     return SizeWarning({units * scale, 0, 1}, scale);
   };
-  EXPECT_THAT(guess(163, 1),
-              HasSubstr("163 m across, 1 kg: millimetres? use --scale 0.001 (16.3 cm"));
-  EXPECT_THAT(guess(20, 1), HasSubstr("millimetres? use --scale 0.001 (2 cm"));
-  EXPECT_THAT(guess(19, 1), HasSubstr("centimetres? use --scale 0.01 (19 cm"));
-  EXPECT_THAT(guess(400, 1), HasSubstr("millimetres?"));
-  EXPECT_THAT(guess(0.1, 0.001), HasSubstr("metres? use --scale 1 (10 cm"));
+  EXPECT_THAT(
+      guess(163, 1),
+      HasSubstr(
+          "163 m across, 1 kg; help: if the file is in millimetres, pass --scale 0.001 (16.3 cm"));
+  EXPECT_THAT(guess(20, 1), HasSubstr("millimetres, pass --scale 0.001 (2 cm"));
+  EXPECT_THAT(guess(19, 1), HasSubstr("centimetres, pass --scale 0.01 (19 cm"));
+  EXPECT_THAT(guess(400, 1), HasSubstr("in millimetres"));
+  EXPECT_THAT(guess(0.1, 0.001), HasSubstr("metres, pass --scale 1 (10 cm"));
   EXPECT_THAT(guess(401, 1), HasSubstr("pass the length of a file unit in metres with --scale"));
   EXPECT_THAT(guess(0.001, 1), HasSubstr("pass the length of a file unit in metres with --scale"));
   // As millimetres it is only 3 mm; centimetres are suggested before inches.
-  EXPECT_THAT(guess(3, 1), HasSubstr("centimetres? use --scale 0.01 (3 cm"));
+  EXPECT_THAT(guess(3, 1), HasSubstr("centimetres, pass --scale 0.01 (3 cm"));
 }
 
 }  // namespace body_measures_test

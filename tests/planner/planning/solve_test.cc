@@ -131,7 +131,7 @@ TEST(Solve, NamesTheHalfAngleThatIsNeeded) {
   EXPECT_THAT([] { Check(OppositePairs(0.02), 15); },
               ThrowsMessage<InputError>(
                   "given.json: /contacts: not force closure: requires a friction angle of "
-                  "18.44°, given 15.00°"));
+                  "18.44°, found 15.00°"));
   EXPECT_NO_THROW(Check(OppositePairs(0.02), 18.45));
 }
 
@@ -147,12 +147,12 @@ TEST(Solve, RefusesThreeAndFiveContacts) {
   GraspChoice choice = OppositePairs(0);
   choice.grasp.pop_back();
   EXPECT_THAT([&] { Check(choice, 20); },
-              ThrowsMessage<InputError>(HasSubstr("needs 4 contacts, found 3")));
+              ThrowsMessage<InputError>(HasSubstr("requires 4 contacts, found 3")));
   choice = OppositePairs(0);
   choice.grasp.push_back(choice.grasp[0]);
   choice.grasp.back().p.z() += 0.01;
   EXPECT_THAT([&] { Check(choice, 20); },
-              ThrowsMessage<InputError>(HasSubstr("needs 4 contacts, found 5")));
+              ThrowsMessage<InputError>(HasSubstr("requires 4 contacts, found 5")));
 }
 
 TEST(Solve, NamesTheRangeOfContactsThatAPlannerTakes) {
@@ -162,7 +162,7 @@ TEST(Solve, NamesTheRangeOfContactsThatAPlannerTakes) {
       [&] {
         Check(choice, 20, {2, 4});
       },
-      ThrowsMessage<InputError>(HasSubstr("the planner stub needs 2 to 4 contacts, found 1")));
+      ThrowsMessage<InputError>(HasSubstr("planner stub requires 2 to 4 contacts, found 1")));
 }
 
 TEST(Solve, RefusesTwoContactsAtOnePoint) {

@@ -201,7 +201,7 @@ TEST(PlanOnRoadmap, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
                                                Given(AcrossAxis(cube, 1)), options);
   ASSERT_EQ(result.status, Status::kFound);
   ASSERT_THAT(result.warnings, SizeIs(1));
-  EXPECT_THAT(result.warnings[0], HasSubstr("below the quality 0.9"));
+  EXPECT_THAT(result.warnings[0], HasSubstr("below the required 0.9"));
   EXPECT_THAT(result.warnings[0], HasSubstr("step"));
 }
 

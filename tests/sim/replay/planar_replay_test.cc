@@ -111,7 +111,7 @@ TEST(PlanarConcave, CannotBeHeldInTheInnerCornerItself) {
     const plan::FingerContact corner = OnEdge(l, 2, 2, share);
     const ReplayResult hold = ReplayPlan(l, MakePlanarPlan({corner, OnEdge(l, 1, 0, 0.5)}, 20), {});
     EXPECT_EQ(hold.steps.at(0).reason, plan::Reason::kUnreachable);
-    EXPECT_NE(hold.steps.at(0).detail.find("finger 2 cannot stand"), std::string::npos);
+    EXPECT_NE(hold.steps.at(0).detail.find("finger 2 does not fit"), std::string::npos);
     plan::Plan plan = MakePlanarPlan(good, 20);
     plan.steps = {plan::Switch{{corner, OnEdge(l, 3, 0, 0.5)}, {FingerIndex(0), FingerIndex(1)}}};
     const ReplayResult result = ReplayPlan(l, plan, {});

@@ -219,7 +219,7 @@ TEST(PlanOnPolygon, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
                Given(MakeGrasp(square, {{1, 0.5}, {3, 0.5}})), options);
   ASSERT_EQ(result.status, Status::kFound);
   ASSERT_THAT(result.warnings, SizeIs(1));
-  EXPECT_THAT(result.warnings[0], AllOf(HasSubstr("below the quality 0.9"), HasSubstr("step")));
+  EXPECT_THAT(result.warnings[0], AllOf(HasSubstr("below the required 0.9"), HasSubstr("step")));
 }
 
 TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
