@@ -46,7 +46,7 @@ TEST_F(FileTest, WhatCannotBeReadIsBadInput) {
     return MessageOf<InputError>([&] { static_cast<void>(ReadFile(path)); });
   };
   EXPECT_THAT(message(folder_ / "missing"), HasSubstr("missing: no such file"));
-  EXPECT_THAT(message(folder_), HasSubstr("is a folder"));
+  EXPECT_THAT(message(folder_), HasSubstr("found a folder"));
   EXPECT_THAT(message(""), HasSubstr("no such file"));
   EXPECT_THAT(message(folder_ / "a" / "b"), HasSubstr("no such file"));
   EXPECT_THAT(message(std::string(5000, 'x')), HasSubstr("no such file"));
@@ -58,9 +58,9 @@ TEST_F(FileTest, AFileThatIsTooLargeOrWithoutEndIsRefused) {
   std::ofstream(folder_ / "large");
   fs::resize_file(folder_ / "large", kMaxInputBytes + 1);  // sparse
   EXPECT_THAT(MessageOf<InputError>([&] { static_cast<void>(ReadFile(folder_ / "large")); }),
-              HasSubstr("larger than"));
+              HasSubstr("too large"));
   EXPECT_THAT(MessageOf<InputError>([] { static_cast<void>(ReadFile("/dev/zero")); }),
-              HasSubstr("larger than"));
+              HasSubstr("too large"));
 }
 
 TEST(Sha256, IsThatOfThePublishedVectors) {

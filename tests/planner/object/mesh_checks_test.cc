@@ -94,15 +94,15 @@ std::vector<Spoilt> SpoiltCubes() {
          s = Join(s, BoxSoup({0.5, -0.2, -0.2}, {1, 0.2, 0.2}));
        }},
       {"bodies beside", MeshDefect::kSeveralSolids,
-       "facet 6: several solids: its shell lies beside",
+       "facet 6: several solids: its shell is beside",
        [](PolygonSoup& s) {
          s = Join(s, BoxSoup(Vector3d::Constant(2), Vector3d::Constant(2.5)));
        }},
-      {"body inside", MeshDefect::kSeveralSolids, "facet 6: several solids: its shell lies inside",
+      {"body inside", MeshDefect::kSeveralSolids, "facet 6: several solids: its shell is inside",
        [](PolygonSoup& s) {
          s = Join(s, BoxSoup(Vector3d::Constant(-0.2), Vector3d::Constant(0.2)));
        }},
-      {"body in a cavity", MeshDefect::kSeveralSolids, "several solids: its shell lies inside",
+      {"body in a cavity", MeshDefect::kSeveralSolids, "several solids: its shell is inside",
        [](PolygonSoup& s) {
          PolygonSoup cavity = BoxSoup(Vector3d::Constant(-0.4), Vector3d::Constant(0.4));
          Turn(cavity);
@@ -116,7 +116,7 @@ std::vector<Spoilt> SpoiltCubes() {
          Turn(inner);
          s = Join(Join(s, cavity), inner);
        }},
-      {"inward beside a cavity's orientation", MeshDefect::kSeveralSolids, "lies beside",
+      {"inward beside a cavity's orientation", MeshDefect::kSeveralSolids, "is beside",
        [](PolygonSoup& s) {
          PolygonSoup other = BoxSoup(Vector3d::Constant(2), Vector3d::Constant(2.5));
          Turn(other);

@@ -85,7 +85,7 @@ TEST_F(FilesBesideTest, ASurfaceThatComesFromAnotherFileIsRefused) {
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), AllOf(StartsWith(path.string() + ": "),
                                       HasSubstr("surface in another file, \"" + other)));
-      EXPECT_THAT(error.what(), HasSubstr("convert it"));
+      EXPECT_THAT(error.what(), HasSubstr("help: convert"));
     }
   }
 }

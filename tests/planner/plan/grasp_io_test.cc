@@ -81,7 +81,7 @@ TEST(GraspIo, RefusesContactsThatAreNotOnTheObject) {
             "grasp.json: /contacts/0/normal: the normal is 2 long, not 1, expected "
             "(-1, 0, 0)");
   EXPECT_EQ(Complaint(good, square), "grasp.json: /contacts/0/point: expected 2 numbers, found 3");
-  EXPECT_EQ(Complaint("", cube), "grasp.json: /contacts: a grasp needs a contact");
+  EXPECT_EQ(Complaint("", cube), "grasp.json: /contacts: expected at least one contact");
 }
 
 }  // namespace grasp_io_test
