@@ -74,7 +74,7 @@ void AddExplain(CLI::App& app) {
   BeginGroup(app, "Failure reasons");
   app.add_option_function<std::string>(
          "--explain", explain,
-         "Print meaning, usual causes and remedies of a failure reason, for example slipped, and "
+         "Print meaning, causes and remedies of a failure reason, for example slipped, and "
          "exit; all prints all of them as Markdown")
       ->type_name("REASON")
       ->trigger_on_parse();

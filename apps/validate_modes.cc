@@ -31,7 +31,7 @@ void AddBatch(CLI::App& app, ValidateOptions& options) {
                  "Part I of N of a file of plans (*.jsonl). `merge` joins the results")
       ->type_name("I/N");
   AddInteger(app, "-j,--jobs", options.jobs, 1, kMostJobs,
-             "Number of plans that are validated in parallel, or threads of --export-states "
+             "Number of parallel validations, or threads of --export-states "
              "[default: one per processor]");
   AddNumber(app, "--time-limit", options.time_limit_s,
             {.lower = 0, .upper = kLongestTime_s, .lower_included = false},

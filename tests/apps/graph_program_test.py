@@ -103,7 +103,7 @@ class Graph(ProgramCase):
         if limited("graph", "--version").returncode != 0:
             self.skipTest("the address sanitizer does not run in a small address space")
         for more, words in (
-                (["--planner", "points=200"], "for 200 contact points"),
+                (["--planner", "points=200"], "200 contact points require"),
                 (["--planner", "points=1000,clusters=200"], "for 200 clusters")):
             roadmap = ["--object", self.model("cube.obj"), "--friction-angle", "60", "--planner",
                        "roadmap", *more]
@@ -250,7 +250,7 @@ class Graph(ProgramCase):
                  self.arguments("--planner", "roadmap,clusters=8")]
         for case in cases:
             case = [*case, "--friction-angle", "20", "--json", "graph.json"]
-            self.assert_refused(1, "time was up", *case, "--time-limit", "1e-9")
+            self.assert_refused(1, "time limit reached", *case, "--time-limit", "1e-9")
         for case in cases:
             self.assert_done(*case, "--friction-angle", "20", "--time-limit", "1e300")
         self.assert_refused(2, "--time-limit", *cases[0], "--mu", "1", "--time-limit", "0")

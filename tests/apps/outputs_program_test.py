@@ -123,27 +123,27 @@ class Outputs(ProgramCase):
             for link in (name, "link.json"):
                 os.remove(self.path("link.json"))
                 os.symlink(name, self.path("link.json"))
-                self.assert_unharmed([name, "must not overwrite the file of --plan, and --output"], "validate",
+                self.assert_unharmed([name, "--output must not overwrite the file of --plan"], "validate",
                                      "--object", "square.wkt", "--plan", link, "--output", ".")
             os.rename(self.path(name), self.path("plan.json"))
         os.rename(self.path("square.wkt"), self.path("report.html"))
-        self.assert_unharmed("must not overwrite the file of --object, and --output", "validate", "--object",
+        self.assert_unharmed("--output must not overwrite the file of --object", "validate", "--object",
                              "report.html", "--plan", "plan.json", "--output", ".")
         os.rename(self.path("report.html"), self.path("square.wkt"))
         for name in ("sheet.svg", "000_hold.svg", "contact_space_001.svg"):
             os.rename(self.path("plan.json"), self.path(name))
-            self.assert_unharmed([name, "must not overwrite the file of --plan, and --output"], "figure",
+            self.assert_unharmed([name, "--output must not overwrite the file of --plan"], "figure",
                                  "--object", "square.wkt", "--plan", name, "--output", ".")
             os.rename(self.path(name), self.path("plan.json"))
 
     def test_two_outputs_are_two_files(self):
         self.make_inputs()
         plan = ["--object", "square.wkt", "--plan", "plan.json", "--output", "result", "--frames", "none"]
-        self.assert_unharmed("--junit and --trajectory would both", "validate", *plan, "--junit",
+        self.assert_unharmed("--trajectory must not be the file of --junit", "validate", *plan, "--junit",
                              "new", "--trajectory", "./new")
-        self.assert_unharmed("--junit and --output would both", "validate", *plan, "--junit",
+        self.assert_unharmed("--output must not be the file of --junit", "validate", *plan, "--junit",
                              "result/report.json")
-        self.assert_unharmed("--export-mjcf and --output would both", "validate", *plan,
+        self.assert_unharmed("--output must not be the file of --export-mjcf", "validate", *plan,
                              "--export-mjcf", "result/003_align.png")
         self.assert_done(*plan, "--junit", "result/junit.xml", program="validate")
 
