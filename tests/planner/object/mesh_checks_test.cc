@@ -93,8 +93,7 @@ std::vector<Spoilt> SpoiltCubes() {
        [](PolygonSoup& s) {
          s = Join(s, BoxSoup({0.5, -0.2, -0.2}, {1, 0.2, 0.2}));
        }},
-      {"bodies beside", MeshDefect::kSeveralSolids,
-       "facet 6: several solids: its shell is beside",
+      {"bodies beside", MeshDefect::kSeveralSolids, "facet 6: several solids: its shell is beside",
        [](PolygonSoup& s) {
          s = Join(s, BoxSoup(Vector3d::Constant(2), Vector3d::Constant(2.5)));
        }},

@@ -120,7 +120,8 @@ TEST(WhyNotServed, NamesTheDimensionAndTheFingersThatAreMissing) {
   EXPECT_EQ(WhyNotServed(planar, request),
             "planner idle supports planar objects only, found a solid");
   request.object_name = "cube.obj";
-  EXPECT_THAT(WhyNotServed(planar, request), testing::StartsWith("cube.obj: planner idle supports planar objects only"));
+  EXPECT_THAT(WhyNotServed(planar, request),
+              testing::StartsWith("cube.obj: planner idle supports planar objects only"));
   request.object = &square;
   for (const int fingers : {0, 4, 5}) {
     request.hand.fingers = fingers;

@@ -44,9 +44,10 @@ TEST_F(RestSummary, GoodGraspsGiveNoWarning) {
 TEST_F(RestSummary, OfTheGraspsBelowACriterionTheWeakestIsNamed) {
   const double quality =
       grasp::ComputeQuality(weaker_.grasp, square_.wrench_frame(), Radians(30)).lower;
-  EXPECT_THAT(GraspWarnings({good_, weak_, weaker_, weak_}, evaluator_),
-              ElementsAre(AllOf(HasSubstr("quality falls below the required 0.04"),
-                                HasSubstr(FormatShort(quality) + " in the grasp after step 2 of 3"))));
+  EXPECT_THAT(
+      GraspWarnings({good_, weak_, weaker_, weak_}, evaluator_),
+      ElementsAre(AllOf(HasSubstr("quality falls below the required 0.04"),
+                        HasSubstr(FormatShort(quality) + " in the grasp after step 2 of 3"))));
   EXPECT_THAT(GraspWarnings({weak_, good_}, evaluator_),
               ElementsAre(HasSubstr("the start grasp (step 0)")));
 }

@@ -94,7 +94,8 @@ TEST(Solve, AsksThePlannerForNothingThatDoesNotFit) {
   });
   PlanRequest request = RequestAt(20);
   request.memory = 999;
-  EXPECT_THAT(SolveOnCube(planner, Random(), request).message, HasSubstr("the stub: 10 units require"));
+  EXPECT_THAT(SolveOnCube(planner, Random(), request).message,
+              HasSubstr("the stub: 10 units require"));
   EXPECT_EQ(asked, 0);
   request.memory = 1000;
   (void)SolveOnCube(planner, Random(), request);

@@ -73,12 +73,12 @@ TEST(RoadmapMemory, APlanOnARoadmapThatDoesNotFitIsNone) {
   const planning::PlanResult result =
       PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options);
   EXPECT_FALSE(result.plan.has_value());
-  EXPECT_THAT(result.message, HasSubstr("for 200 contact points"));
+  EXPECT_THAT(result.message, HasSubstr("200 contact points require"));
   options = Options(kMaxClusteredContacts, 20, 40);
   options.memory = 1e8;
   EXPECT_THAT(
       PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options).message,
-      HasSubstr("for 4000 contact points"));
+      HasSubstr("4000 contact points require"));
 }
 
 TEST(RoadmapDeadline, EndsAPlanWhereverItComes) {

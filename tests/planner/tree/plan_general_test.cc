@@ -169,7 +169,7 @@ TEST(PlanGeneralTest, ObjectivesAreWhatTheySay) {
     EXPECT_LE(steps.plan->steps.size(), margin.plan->steps.size());
     wider += margin.margin - steps.margin;
     EXPECT_THAT(steps.notes, testing::IsEmpty());
-    EXPECT_THAT(margin.notes, ElementsAre(HasSubstr("a margin of ")));
+    EXPECT_THAT(margin.notes, ElementsAre(HasSubstr("a friction margin of ")));
     EXPECT_THAT(travel.notes, ElementsAre(HasSubstr("total finger travel")));
     EXPECT_TRUE(plan::CheckPlan(*file.object, *travel.plan).passed());
     EXPECT_TRUE(plan::CheckPlan(*file.object, *margin.plan).passed());

@@ -388,7 +388,7 @@ TEST(CheckHandTest, AFingerThroughTheObjectCollides) {
               testing::Contains(testing::Field(&plan::HandLink::finger, moving)));
   // The fault is at the deepest penetration, not at the first state below the clearance.
   EXPECT_LT(*fault.hand->gap_m, 0);
-  EXPECT_THAT(faults.front().detail, testing::HasSubstr("m into"));
+  EXPECT_THAT(faults.front().detail, testing::HasSubstr("m inside"));
 }
 
 /// If links are too near without penetration, the message states their distance.

@@ -95,7 +95,7 @@ TEST(MotionMonitorTest, TellsHowFarAndWhenItWasSeenFirst) {
   EXPECT_EQ(monitor.slip_m(), 0.007);
   monitor.AddGap(FingerIndex(3), 1e-4);
   EXPECT_EQ(monitor.detail(),
-            "finger 3 came 100 µm off the surface under a push of 5.3 N along +x");
+            "finger 3 moved 100 µm off the surface under a push of 5.3 N along +x");
 }
 
 TEST(MotionMonitorTest, WhatExceedsTheToleranceIsNotToldEqualToIt) {

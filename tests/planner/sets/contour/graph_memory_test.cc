@@ -99,7 +99,7 @@ TEST(ContourGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
   const planning::PlanResult result =
       PlanWith(ContourPlanner(), RegularPolygon(10'001), Random(), Random(), options);
   EXPECT_FALSE(result.plan.has_value());
-  EXPECT_THAT(result.message, HasSubstr("for 10001 edges"));
+  EXPECT_THAT(result.message, HasSubstr("10001 edges require"));
 }
 
 }  // namespace graph_memory_test

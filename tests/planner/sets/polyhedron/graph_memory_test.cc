@@ -51,7 +51,7 @@ TEST(PolyhedronGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
   const planning::PlanResult result =
       PlanWith(PolyhedronPlanner(), MakeStone(300, {1, 1, 1}, 1), Random(), Random(), options);
   EXPECT_FALSE(result.plan.has_value());
-  EXPECT_THAT(result.message, HasSubstr("for 300 faces"));
+  EXPECT_THAT(result.message, HasSubstr("300 faces require"));
 }
 
 }  // namespace graph_memory_test
