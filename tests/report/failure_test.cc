@@ -148,7 +148,7 @@ TEST(Failure, DoesNotSuggestALooserTest) {
   EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("more friction"));
   EXPECT_THAT(SqueezeText(*report.settings), Not(HasSubstr("the disturbance")));
   report.settings->shake = 0.01;
-  for (const char* looser : {"--disturbance", "--tolerance"}) {
+  for (const char* looser : {"smaller --disturbance", "larger --tolerance"}) {
     EXPECT_THAT(DescribeFailure(report)->mend, Not(HasSubstr(looser)));
   }
   EXPECT_THAT(SqueezeText(*report.settings), HasSubstr("the weight is 10 % of the disturbance"));

@@ -142,7 +142,7 @@ TEST_F(LineOutputTest, APartOfAnotherRunOrOfSomebodyElseIsNotTouched) {
 
 TEST_F(LineOutputTest, APipeInTheWayIsRefusedUnread) {
   ASSERT_EQ(mkfifo(part_.c_str(), 0600), 0);
-  EXPECT_THAT(Refusal<InputError>(header_), HasSubstr("plans.jsonl.part: is in the way"));
+  EXPECT_THAT(Refusal<InputError>(header_), HasSubstr("plans.jsonl.part: cannot be replaced"));
   fs::remove(part_);
   ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
   LinesOutput output(path_, header_, false);

@@ -72,7 +72,7 @@ TEST_F(MergeLinesTest, AShardThatIsMissingIsNamed) {
   files.erase(files.begin() + 3);
   EXPECT_EQ(Refusal(files), "--shards: 1 of 4 not found: 4");
   files.erase(files.begin());
-  EXPECT_EQ(Refusal(files), "of 4 shards 2 are missing: 1, 4");
+  EXPECT_EQ(Refusal(files), "--shards: 2 of 4 not found: 1, 4");
 }
 
 TEST_F(MergeLinesTest, ShardsThatOverlapAreNamed) {
@@ -97,7 +97,7 @@ TEST_F(MergeLinesTest, ShardsOfDifferentRunsDoNotMix) {
   other = HeaderOf({2, 2});
   other.content = "reports";
   files[1] = Write("other", Text(other));
-  EXPECT_THAT(Refusal(files), HasSubstr("other: line 1: holds reports, not plans"));
+  EXPECT_THAT(Refusal(files), HasSubstr("other: line 1: expected plans, found reports"));
 }
 
 TEST_F(MergeLinesTest, AShardThatWasCutOrEditedIsNamedWithItsLine) {
@@ -122,7 +122,7 @@ TEST_F(MergeLinesTest, AShardThatWasCutOrEditedIsNamedWithItsLine) {
 
 TEST_F(MergeLinesTest, WhatIsNoFileIsRefused) {
   EXPECT_THAT(Refusal({folder_ / "gone"}), HasSubstr("gone: no such file"));
-  EXPECT_THAT(Refusal({folder_}), HasSubstr("is a folder"));
+  EXPECT_THAT(Refusal({folder_}), HasSubstr("found a folder"));
 }
 
 }  // namespace merge_lines_test

@@ -22,10 +22,11 @@ TEST(FactsTest, SettingsAreToldOnlyOfAReplay) {
   report.half_angle = Radians(20);
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>&lt;cube&gt;.obj, a solid</dd>"));
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>20.00° (μ = 0.364)</dd>"));
-  EXPECT_THAT(FormatFacts(report), Not(HasSubstr("Squeeze")));
+  EXPECT_THAT(FormatFacts(report), Not(HasSubstr("Grasp force")));
   report.settings.emplace().squeeze_N = 25;
   report.settings->mass_kg = 2.5 / sim::kGravity;
-  EXPECT_THAT(FormatFacts(report), HasSubstr("<dt>Squeeze</dt><dd>25 N, 10 times the weight: "));
+  EXPECT_THAT(FormatFacts(report),
+              HasSubstr("<dt>Grasp force</dt><dd>25 N, 10 times the weight: "));
 }
 
 TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {
