@@ -74,8 +74,8 @@ void AddExplain(CLI::App& app) {
   BeginGroup(app, "Failure reasons");
   app.add_option_function<std::string>(
          "--explain", explain,
-         "Print meaning, causes and remedies of a failure reason, for example slipped, and "
-         "exit; all prints all of them as Markdown")
+         "Print meaning, causes and remedies of a failure reason, and exit. Example: slipped; all "
+         "prints all reasons as Markdown")
       ->type_name("REASON")
       ->trigger_on_parse();
 }

@@ -104,7 +104,7 @@ class Graph(ProgramCase):
             self.skipTest("the address sanitizer does not run in a small address space")
         for more, words in (
                 (["--planner", "points=200"], "200 contact points require"),
-                (["--planner", "points=1000,clusters=200"], "for 200 clusters")):
+                (["--planner", "points=1000,clusters=200"], "200 clusters require")):
             roadmap = ["--object", self.model("cube.obj"), "--friction-angle", "60", "--planner",
                        "roadmap", *more]
             for program, ends in (("graph", []),
