@@ -301,7 +301,7 @@ class Lines(ProgramCase):
                ({**good, "fricton": {"mu": 0.8}}, "unknown member fricton; similar: friction"),
                ({"object": {"fil": "cube.obj"}},
                 "/object: unknown member fil; similar: file"),
-               ({**good, "start": {"format": "regrasp-grasp"}}, '/start: "version" is missing'),
+               ({**good, "start": {"format": "regrasp-grasp"}}, '/start: member "version" not found'),
                ({"object": {"file": "cube.obj", "sha256": "0" * 64}},
                 f"/object/sha256: the query is for another file, expected cube.obj (SHA-256 "
                 f"{'0' * 12}…), found ")]
