@@ -178,7 +178,7 @@ class PlansTest(RegraspCase):
         self.assertIn("data:image/svg+xml", self.plan._repr_html_())
         read = regrasp.Plan.read(self.path("plan.json"))
         self.assertNotIn("<img", read._repr_html_())
-        self.refuses(["object", "cube.obj", "give it"], read.figure)
+        self.refuses(["object", "cube.obj", "object is required"], read.figure)
         self.assertEqual(read.figure(self.cube), self.plan.figure())
         self.refuses(["width_mm", "20"], read.figure, self.cube, width_mm=1)
         gear = regrasp.Object.read("models/gear128.wkt")
