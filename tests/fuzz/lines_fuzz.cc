@@ -68,7 +68,7 @@ void NamingHostile(const std::filesystem::path& file, const Read& read) {
     const std::string message = error.what();
     const std::string path = file.string();
     if (message.starts_with(path)) throw InputError(kHostileName + message.substr(path.size()));
-    if (!message.starts_with("of ")) ReportFinding("the message names no file: " + message);
+    if (!message.starts_with("--shards: ")) ReportFinding("the message names no file: " + message);
     throw InputError(kHostileName + ": " + message);
   }
 }
