@@ -113,7 +113,7 @@ class HandsTest(RegraspCase):
         plan("turn[1]", "3600", turn=("z", 1e9))
         plan("goal_pose", "7 numbers", goal_pose=[0, 0, 0])
         plan("start_pose", "unit quaternion", start_pose=[0, 0, 0, 2, 0, 0, 0], turn=("z", 9))
-        plan("turn", "already", goal_pose=[0, 0, 0.1, 1, 0, 0, 0], turn=("z", 9))
+        plan("turn", "cannot be used with goal_pose", goal_pose=[0, 0, 0.1, 1, 0, 0, 0], turn=("z", 9))
         plan("start", "file random not found", start="random", turn=("z", 9))
         plan("start", "3 to 4 contacts", "found 2", turn=("z", 9),
              start=[[.03, 0, 0], [-.03, 0, 0]])

@@ -162,7 +162,7 @@ class HidexTest(RegraspCase):
         for words, arguments in [(["--mu"], [path, "--object", CUBE, "--output", "x.json"]),
                                  (["--object"], [path, "--output", "x.npz"]),
                                  (["must be .npz or .json"], [path, "--output", "x.yaml"]),
-                                 (["alone"], [path, path, "--object", CUBE, "--output", "x.npz"])]:
+                                 (["the only input"], [path, path, "--object", CUBE, "--output", "x.npz"])]:
             said = self.convert(*arguments, code=2)
             self.assertEqual(said.count("\n"), 1)
             for word in words:

@@ -64,9 +64,9 @@ class ObjectsTest(RegraspCase):
         self.refuses(["faces", "(F, 3)", "(12, 2)"], make, CORNERS, FACES[:, :2])
         self.refuses(["faces", "float64"], make, CORNERS, FACES.astype(float))
         self.refuses(["faces[0, 2] must be a vertex from 0 to 7, found 9"], make, CORNERS, [[0, 1, 9]])
-        self.refuses(["faces[0, 0]", "vertex -1"], make, CORNERS, [[-1, 1, 2]])
+        self.refuses(["faces[0, 0]", "found -1"], make, CORNERS, [[-1, 1, 2]])
         self.refuses(["object.obj", "closed"], make, CORNERS, FACES[:-1])
-        self.refuses(["vertices", "none"], make, np.zeros((0, 3)), np.zeros((0, 3), int))
+        self.refuses(["vertices", "at least one vertex"], make, np.zeros((0, 3)), np.zeros((0, 3), int))
         self.refuses(["scale", "above 0"], make, CORNERS, FACES, scale=0)
         self.refuses(["scale", "'a'"], make, CORNERS, FACES, scale="a")
 

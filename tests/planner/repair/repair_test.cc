@@ -211,7 +211,7 @@ TEST(Repair, ACoarserSolidIsNotInventedWhereItIsMerelyFarOff) {
   EXPECT_NEAR(InventedShare(lid.solid), share, 0.5 * share);
   // The required deviation is respected.
   options.max_deviation = 0.005;
-  EXPECT_THAT(Refusal(SphereSoup(20), options), HasSubstr("too far"));
+  EXPECT_THAT(Refusal(SphereSoup(20), options), HasSubstr("deviates too much"));
 }
 
 TEST(Repair, NoContactIsDrawnOnInventedSurface) {

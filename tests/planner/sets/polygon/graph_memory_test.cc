@@ -56,7 +56,7 @@ TEST(PolygonGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
   const planning::PlanResult result =
       PlanWith(PolygonPlanner(), polygon, Random(), Random(), options);
   EXPECT_FALSE(result.plan.has_value());
-  EXPECT_THAT(result.message, HasSubstr("for 1001 edges"));
+  EXPECT_THAT(result.message, HasSubstr("1001 edges require"));
 }
 
 }  // namespace graph_memory_test
