@@ -14,16 +14,15 @@ struct Command {
 inline constexpr std::array<Command, 7> kCommands = {{
     {"plan", "Finds a regrasp sequence from a start grasp to a goal grasp and writes a plan."},
     {"validate",
-     "Checks a regrasp plan, a library of plans or a single grasp analytically, replays it in "
-     "MuJoCo with frictional point fingers, shakes the object at every rest state, and says pass "
-     "or fail."},
+     "Checks plans or grasps analytically, replays them in MuJoCo, tests every static grasp with "
+     "disturbances, and reports pass or fail."},
     {"graph", "Builds the switching graph of an object and prints its size."},
     {"figure", "Draws every step of a regrasp plan as a figure for a paper, and a sheet of all."},
     {"repair",
-     "Makes a solid of a scan, a broken mesh or several shells, and says what it changed."},
+     "Makes a closed solid of a scan, a broken mesh or several shells, and reports the changes."},
     {"merge", "Joins the shards of a run over many plans into the file that one run writes."},
     {"hand",
-     "Finds palm, fingers and fingertips in a model of a hand, and prints what they can do."},
+     "Finds palm, fingers and fingertips in a hand model, and prints joints, limits and reach."},
 }};
 
 /// Return the purpose of a program; empty for an unknown name.

@@ -92,8 +92,10 @@ std::string FirstClause(const std::string& text) {
   return text.substr(0, end);
 }
 
-/// Return "[default: 0.01]" in a text; empty if there is none.
-std::string DefaultIn(const std::string& text) {
+/// Return "[default: 0.01]" in the first line of a text; empty if there is none. Further lines are
+/// about the settings of a list.
+std::string DefaultIn(const std::string& whole) {
+  const std::string text = whole.substr(0, whole.find('\n'));
   const std::size_t begin = text.find(kDefault);
   if (begin == std::string::npos) return "";
   return text.substr(begin + 1, text.find(']', begin) - begin);
