@@ -32,7 +32,7 @@ struct MergeProgram {
 void MergeProgram::AddTo(CLI::App& app) {
   BeginGroup(app, "Input");
   app.add_option("--shards", shards,
-                 "Files of all shards of a run, in any order. Of plan --batch --shard I/N, or "
+                 "Files of all shards of a run, in any order. Made by plan --batch --shard I/N, or "
                  "reports.jsonl of validate")
       ->type_name("FILE")
       ->required();
