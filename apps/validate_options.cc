@@ -196,7 +196,9 @@ void AddReplay(CLI::App& app, ValidateOptions& options) {
       .Key("tip",
            ChoiceParser<sim::TipShape>(options.tip, {{"ball", sim::TipShape::kBall},
                                                      {"geometry", sim::TipShape::kGeometry}}))
-      .Key("feedback", ChoiceParser<bool>(options.feedback, {{"pose", true}, {"none", false}}))
+      .Key("feedback", ChoiceParser<sim::PoseFeedback>(options.sensing.feedback,
+                                                       {{"pose", sim::PoseFeedback::kPose},
+                                                        {"none", sim::PoseFeedback::kNone}}))
       .AddTo(app, "points|hand[,KEY=VALUE,…]",
              "Simulation model that executes the plan [default: hand with --hand, otherwise "
              "points]\n"

@@ -55,7 +55,7 @@ struct ValidateOptions {
   std::string hand_sha256;
   double clearance_m = sim::HandCheckOptions().clearance_m;
   bool replay_by_hand = false;  ///< whether to replay on the hand's model, instead of ideal fingers
-  bool feedback = true;         ///< whether joint targets of the hand follow the object's pose
+  sim::HandSensing sensing;     ///< sensors of the hand
   /// collision shape of the fingertips in a replay by the hand
   sim::TipShape tip = sim::TipShape::kBall;
   double tolerance_mm = 2;  ///< position tolerance of a replay by the hand

@@ -230,7 +230,7 @@ validation::ValidationOptions ValidationOptionsOf(const ValidateOptions& options
   given.replay = options.replay;
   given.replay_by_hand = options.replay_by_hand;
   given.hand.tolerance = options.tolerance;
-  given.hand.feedback = options.feedback;
+  given.hand.sensing = options.sensing;
   given.hand.tip = options.tip;
   given.hand_check.clearance_m = options.clearance_m;
   given.trials = options.trials;

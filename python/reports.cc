@@ -174,6 +174,10 @@ void BindReports(py::module_& module) {
            })
       .def("use_tip_geometry",
            [](ValidationOptions& of) { of.hand.tip = sim::TipShape::kGeometry; })
+      .def("set_pose_feedback",
+           [](ValidationOptions& of, bool on) {
+             of.hand.sensing.feedback = on ? sim::PoseFeedback::kPose : sim::PoseFeedback::kNone;
+           })
       .def("set_hand_tolerance", [](ValidationOptions& of, double length_mm, double angle_deg) {
         of.hand.tolerance.length_m = 1e-3 * length_mm;
         of.hand.tolerance.angle_rad = Radians(angle_deg);
@@ -183,7 +187,6 @@ void BindReports(py::module_& module) {
   add("shake", &ValidationOptions::replay, &sim::ReplayOptions::shake);
   add("tolerance", &ValidationOptions::replay, &sim::ReplayOptions::tolerance);
   add("stress", &ValidationOptions::replay, &sim::ReplayOptions::stress);
-  add("feedback", &ValidationOptions::hand, &sim::HandReplayOptions::feedback);
   py::class_<PythonReport>(module, "Report")
       .def_property_readonly(
           "json", [](const PythonReport& of) { return report::FormatReportJson(of.report); })

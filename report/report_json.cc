@@ -153,7 +153,7 @@ Json HandSettingsJson(const sim::HandReplaySettings& settings) {
           {"limit_s", settings.tolerance.limit_s},
           {"joint_deg", Degrees(settings.tolerance.joint_rad)},
           {"depth_m", settings.tolerance.depth_m},
-          {"feedback", settings.feedback ? "pose" : "none"},
+          {"feedback", settings.sensing.feedback == sim::PoseFeedback::kPose ? "pose" : "none"},
           {"tip", settings.tip == sim::TipShape::kBall ? "ball" : "geometry"},
           {"servo_stiffness_Nm_rad", {settings.least_stiffness, settings.largest_stiffness}},
           {"derived_servos", settings.derived_servos},

@@ -185,7 +185,7 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
             given.use_tip_geometry()
         if not given.replay_by_hand:
             raise InputError('tip requires replay="hand"')
-    given.feedback = _arguments.flag("feedback", feedback)
+    given.set_pose_feedback(_arguments.flag("feedback", feedback))
     given.set_hand_tolerance(_arguments.number("tolerance_mm", tolerance_mm, 0),
                              _arguments.number("tolerance_deg", tolerance_deg, 0))
     return Report(_regrasp.validate_plan(object._core, plan.text, plan.name, given,

@@ -43,7 +43,7 @@ void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
   if (settings.protocol == sim::Protocol::kFixed) facts.Add("Protocol", "fixed grasp force");
   if (settings.hand) {
     const sim::HandTolerance& tolerance = settings.hand->tolerance;
-    facts.Add("Replay", settings.hand->feedback
+    facts.Add("Replay", settings.hand->sensing.feedback == sim::PoseFeedback::kPose
                             ? "by the hand's own actuators, corrected by the object's pose"
                             : "by the hand's own actuators");
     facts.Add("Fingertips", settings.hand->tip == sim::TipShape::kBall

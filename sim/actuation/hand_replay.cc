@@ -58,7 +58,8 @@ ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& soli
   s.mass_factor = options.mass_factor;
   HandReplaySettings& hand = s.hand.emplace();
   hand.tolerance = options.tolerance;
-  hand.feedback = options.feedback;
+  hand.sensing = options.sensing;
+  hand.physics = options.physics;
   hand.tip = options.tip;
   hand.limits = world.limits();
   hand.least_stiffness = std::numeric_limits<double>::infinity();
@@ -86,7 +87,8 @@ HandWorldOptions WorldOptions(const HandReplayOptions& options, double half_angl
           options.mass_factor * *options.mass_kg,
           kGravity,
           options.force_factor,
-          options.joint_offsets,
+          options.physics,
+          options.sensing.joint_offsets,
           options.tip};
 }
 
@@ -94,7 +96,8 @@ HandWorldOptions WorldOptions(const HandReplayOptions& options, double half_angl
 HandControlSettings ControlSettings(HandWorld& world, const object::Polyhedron& solid,
                                     const plan::Plan& plan, const HandReplayOptions& options,
                                     int entries) {
-  HandControlSettings control{plan.half_angle, 0, *options.mass_kg * kGravity, options.feedback};
+  HandControlSettings control{plan.half_angle, 0, *options.mass_kg * kGravity,
+                              options.sensing.feedback == PoseFeedback::kPose};
   control.squeeze_N = options.squeeze_N.value_or(
       TorqueSqueeze(world, solid, plan, entries, plan.half_angle, control.weight_N));
   return control;
@@ -269,7 +272,7 @@ TrialSummary RunHandTrials(const kinematics::HandFile& file, const object::Polyh
     drawn.start_shift_m = DrawVector(deviation, random);
     drawn.start_turn_rad = DrawVector(deviation / radius, random);
     for (const kinematics::Finger& finger : file.hand.fingers) {
-      kinematics::Posture& offsets = drawn.joint_offsets.emplace_back(finger.drives);
+      kinematics::Posture& offsets = drawn.sensing.joint_offsets.emplace_back(finger.drives);
       for (double& offset : offsets) offset = trials.joint_noise.value_or(0) * random.Normal();
     }
     return ReplayHand(file, solid, plan, drawn).steps.back();

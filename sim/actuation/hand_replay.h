@@ -11,6 +11,7 @@
 #include "planner/plan/plan.h"
 #include "sim/replay/replay.h"
 #include "sim/replay/trials.h"
+#include "sim/scene/hand_conditions.h"
 #include "sim/scene/settings.h"
 #include "sim/world/replay_observer.h"
 
@@ -19,14 +20,14 @@ namespace regrasp::sim {
 /// Options of a replay by the actuators of a hand. The friction is the plan's.
 struct HandReplayOptions : ReplayConditions {
   HandTolerance tolerance;
-  bool feedback = true;            ///< whether joint targets are corrected by the object's offset
+  HandSensing sensing;
+  HandPhysics physics;
   TipShape tip = TipShape::kBall;  ///< geometry of the fingertips that touches the object
   double force_factor = 1;         ///< factor on the force limits of all actuators
   /// Initial offset of the object's centroid from the plan, in the object's frame.
   Eigen::Vector3d start_shift_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d start_turn_rad =
-      Eigen::Vector3d::Zero();                          ///< initial rotation vector off the plan
-  std::vector<kinematics::Posture> joint_offsets = {};  ///< HandWorldOptions::joint_offsets
+      Eigen::Vector3d::Zero();  ///< initial rotation vector off the plan
 };
 
 /// Replay a plan for a hand on the hand's own model in MuJoCo (HandWorld) with HandControl.

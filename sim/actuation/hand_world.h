@@ -17,6 +17,7 @@
 #include "sim/actuation/hand_links.h"
 #include "sim/actuation/joint_couplings.h"
 #include "sim/scene/engine.h"
+#include "sim/scene/hand_conditions.h"
 #include "sim/scene/settings.h"
 
 struct mjModel_;
@@ -29,6 +30,7 @@ struct HandWorldOptions {
   double mass_kg = 0;
   double gravity_m_s2 = 9.81;  ///< gravity, opposite to the hand's up direction
   double force_factor = 1;     ///< factor on the model's limits of all actuators
+  HandPhysics physics = {};
   /// Errors of the hand's joint sensors, by finger: measured minus true angles of the independent
   /// joints, radians. Empty: no errors.
   std::vector<kinematics::Posture> joint_offsets = {};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/base/index.h"
+#include "sim/scene/hand_conditions.h"
 
 namespace regrasp::sim {
 
@@ -100,8 +101,8 @@ struct DriveLimits {
 /// Settings of a replay by a hand in addition to ReplaySettings.
 struct HandReplaySettings {
   HandTolerance tolerance;
-  /// Whether the measured deviation of the object corrects the joint targets.
-  bool feedback = true;
+  HandSensing sensing;
+  HandPhysics physics;
   TipShape tip = TipShape::kBall;
   double least_stiffness = 0;            ///< of the servos of joints, N m / rad
   double largest_stiffness = 0;          ///< the same

@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -317,7 +319,8 @@ kinematics::HandFile HandWithRange(const std::string& joint, double lower, doubl
   std::string model = ReadFile(folder + "ring5.xml");
   const std::size_t at = model.find("range=\"", model.find("name=\"" + joint + "\"")) + 7;
   model.replace(at, model.find('"', at) - at, FormatDouble(lower) + " " + FormatDouble(upper));
-  const std::string to = testing::TempDir();
+  const std::string to = testing::TempDir() + "narrow_hand_" + std::to_string(getpid()) + "/";
+  std::filesystem::create_directories(to);
   WriteFile(to + "ring5.xml", model);
   WriteFile(to + "narrow.json", ReadFile(folder + "ring5.json"));
   return kinematics::ReadHandFile(to + "narrow.json");

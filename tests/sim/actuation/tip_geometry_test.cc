@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ kinematics::HandFile HandWithTips(const std::string& tip, const std::string& cap
   };
   replace(R"(type="sphere" size="0.01" pos="0 0 0.024")", tip);
   replace(R"(type="capsule" size="0.008" fromto="0 0 0 0 0 0.024")", capsule);
-  const std::string path = testing::TempDir() + "ring5.xml";
+  const std::string path = testing::TempDir() + "tip_geometry_" + std::to_string(getpid()) + ".xml";
   WriteFile(path, model);
   // Replace only the compiled model, because the hand reader requires spheres at the fingertips.
   kinematics::HandFile file = kinematics::ReadHandFile(ProjectPath("models/hands/ring5.json"));
