@@ -65,6 +65,7 @@ struct HandMeasures {
   double tip_depth_m = 0;      ///< largest depth of a fingertip in the object
   /// Largest depth in static grasps of collision geometry of a fingertip that a sphere replaces.
   double covered_depth_m = 0;
+  double squeeze_N = 0;    ///< grasp force of the static grasp after the step
   double simulated_s = 0;  ///< without the disturbance tests
 };
 
