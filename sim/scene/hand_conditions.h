@@ -16,12 +16,12 @@ enum class PoseFeedback {
 /// Sensors of a hand and of the object's pose, and their errors.
 struct HandSensing {
   PoseFeedback feedback = PoseFeedback::kPose;
-  double pose_delay_s = 0.05;   ///< age of a measured pose when it arrives
-  double pose_rate_Hz = 30;     ///< rate of measured poses
-  double pose_noise_m = 3e-4;   ///< standard deviation of the centroid's position along each axis
+  double pose_delay_s = 0.05;  ///< age of a measured pose when it arrives
+  double pose_rate_Hz = 30;    ///< rate of measured poses
+  double pose_noise_m = 3e-4;  ///< standard deviation of the centroid's position along each axis
   double pose_noise_rad = 5.236e-3;  ///< standard deviation of the rotation about each axis: 0.3°
-  double pose_bias_m = 0;    ///< standard deviation of the constant error along each axis
-  double pose_bias_rad = 0;  ///< standard deviation of the constant error about each axis
+  double pose_bias_m = 0;            ///< standard deviation of the constant error along each axis
+  double pose_bias_rad = 0;          ///< standard deviation of the constant error about each axis
   double joint_bias_rad = 0;   ///< standard deviation of the constant error of each joint angle
   double touch_N = 0.05;       ///< smallest contact force that a finger detects
   double command_delay_s = 0;  ///< time from a command of the controller to its effect on a servo
