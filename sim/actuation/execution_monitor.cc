@@ -16,8 +16,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using plan::Reason;
 
-/// Number of time steps between two checks of the links, a hundredth of a second.
-constexpr int kLinkSteps = 10;
+/// Time between two checks of the links, seconds.
+constexpr double kLinkPeriod = 0.01;
 /// Least force of a finger that holds, newtons.
 constexpr double kNoForce = 1e-3;
 /// Share of a force limit that counts as the limit.
@@ -339,7 +339,8 @@ void ExecutionMonitor::Watch(const Isometry3d& planned) {
   measures_.simulated_s += world_.timestep();
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) WatchFinger(f);
   WatchCouplings();
-  if (steps_++ % kLinkSteps == 0) {
+  const int period = static_cast<int>(std::lround(kLinkPeriod / world_.timestep()));
+  if (steps_++ % std::max(1, period) == 0) {
     for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) WatchJoints(f);
     WatchLinks();
   }

@@ -35,11 +35,12 @@ Isometry3d PoseAt(const mjData& data, int body) {
 /// Allocate memory for `contacts` contacts and the largest number of constraint rows. Rows are
 /// those of contacts, range limits, joint friction and couplings. The memory is cleared whenever a
 /// state is placed.
-void SetRoom(int contacts, mjModel& model) {
-  constexpr int kRowsOfContact = 3;
+void SetRoom(int contacts, const HandPhysics& physics, mjModel& model) {
+  const int tangents = physics.torsion_m > 0 ? 3 : 2;
+  const int rows_of_contact = physics.pyramidal_cones ? 2 * tangents : 1 + tangents;
   constexpr int kRowsOfWeld = 6;  // largest number of rows of a coupling
   model.nconmax = contacts;
-  model.njmax = kRowsOfContact * contacts + kRowsOfWeld * model.neq +
+  model.njmax = rows_of_contact * contacts + kRowsOfWeld * model.neq +
                 2 * (model.njnt + model.ntendon) + model.nv + model.ntendon;
 }
 
@@ -73,7 +74,7 @@ struct HandWorld::Impl {
       : hand(file.hand), links(file), surface(file, given.tip, solid, scale), options(given) {
     model = kinematics::CompileText(file.compiled->text.files.front(),
                                     HandSceneText(file, solid, scale, options.mass_kg));
-    SetRoom(surface.most_contacts(), *model);
+    SetRoom(surface.most_contacts(), options.physics, *model);
     data.reset(mj_makeData(model.get()));
     if (!data) throw EnvironmentError("MuJoCo has no memory for a hand");
     centroid = scale * solid.mass_properties().centroid;
@@ -82,8 +83,10 @@ struct HandWorld::Impl {
     FindFrozen();
     FreezeJoints(frozen, *model);
     FindServos();
+    SetTruePhysics();
     UpdateConstants(*model, *data);
-    SetReplayOptions(-options.gravity_m_s2 * (palm.linear() * hand.up), frozen, *model);
+    SetReplayOptions(-options.gravity_m_s2 * (palm.linear() * hand.up), options.physics, frozen,
+                     *model);
     couplings.emplace(*model);
     // Contacts of links are violations that ExecutionMonitor finds, not forces. The engine checks
     // only named pairs, and there are none.
@@ -156,6 +159,22 @@ struct HandWorld::Impl {
     }
   }
 
+  /// Set gains and joint friction that the controller does not know.
+  void SetTruePhysics() {
+    const HandPhysics& physics = options.physics;
+    for (FingerState& finger : fingers) {
+      for (const DriveActuator& drive : finger.drives) {
+        const int a = drive.actuator;
+        model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a] *= physics.gain_factor;
+        mjtNum* bias = model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
+        for (int i = 0; i < 3; ++i) bias[i] *= physics.gain_factor;
+      }
+      for (const int joint : finger.joints) {
+        model->dof_frictionloss[model->jnt_dofadr[joint]] += physics.joint_friction_Nm;
+      }
+    }
+  }
+
   [[nodiscard]] Isometry3d ObjectInWorld() const {
     Isometry3d pose = PoseAt(*data, object_body);
     pose.translation() -= pose.linear() * centroid;
@@ -197,7 +216,7 @@ struct HandWorld::Impl {
     for (FingerIndex finger{0}; finger < std::ssize(fingers); ++finger) {
       const Isometry3d link = PoseAt(*data, fingers[finger].tip_body);
       for (const auto& contact : surface.FindContacts(finger, link, to_object)) {
-        mjContact made = MakeTipContact(contact, pose, options.mu);
+        mjContact made = MakeTipContact(contact, pose, options.mu, options.physics);
         made.geom1 = object_geom;
         made.geom2 = fingers[finger].tip_geom;
         mj_addContact(model.get(), data.get(), &made);
@@ -432,12 +451,13 @@ void HandWorld::Command(FingerIndex finger, const kinematics::Posture& target,
   for (int drive = 0; drive < now.size(); ++drive) {
     const DriveActuator& found = impl.fingers[finger].drives[drive];
     const int a = found.actuator;
-    const double gain = impl.model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a];
+    const double nominal = 1 / impl.options.physics.gain_factor;
+    const double gain = nominal * impl.model->actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a];
     const double length = impl.data->actuator_length[a];
     const double off = (target[drive] - now[drive]) * found.moment;
     const double force = torques[drive] / found.moment;
     const mjtNum* bias = impl.model->actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
-    const double control = (force - bias[0] - bias[1] * (length + off)) / gain;
+    const double control = (force - nominal * bias[0] - nominal * bias[1] * (length + off)) / gain;
     const auto& range = found.servo.control_range;
     // Recorded controls, too, must be within the range of the model.
     impl.data->ctrl[a] = range ? std::clamp(control, range->front(), range->back()) : control;

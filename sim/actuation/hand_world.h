@@ -52,7 +52,8 @@ struct TipTouch {
 /// A hand's own model in MuJoCo with a fixed palm, and a free object that only fingertips hold.
 ///
 /// The fingertips are spheres or the model's collision geometry (TipShapesOf). They touch the
-/// object's true surface (BallContact, FindContacts), with friction and without torsional friction.
+/// object's true surface (BallContact, FindContacts), with friction. Contacts, cones, servo gains
+/// and joint friction are those of HandPhysics; without torsion_m there is no torsional friction.
 /// Links pass through each other and the object; ExecutionMonitor checks that they do not. Joints
 /// of no finger stay at their reference positions. All quantities are in the palm's frame, metres,
 /// newtons, seconds; O is the object's frame (its file's axes and origin, in metres).
@@ -136,6 +137,7 @@ class HandWorld {
   [[nodiscard]] Eigen::VectorXd BalancingTorques(FingerIndex finger, const Eigen::Vector3d& at,
                                                  const Eigen::Vector3d& force) const;
   /// Set the target of the servos, as a measured joint configuration, and additional torques.
+  /// The command assumes the nominal gains of the actuators, without HandPhysics::gain_factor.
   void Command(FingerIndex finger, const kinematics::Posture& target,
                const Eigen::VectorXd& torques);
   /// Set a force and a torque about the centroid on the object, in addition to its weight.

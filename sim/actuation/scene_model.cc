@@ -7,10 +7,11 @@
 namespace regrasp::sim {
 namespace {
 
-constexpr double kTimestep = 1e-3;
 /// Ratio of frictional to normal constraint impedance (impratio), so that sticking contacts creep
 /// little.
 constexpr double kFrictionHardness = 100;
+/// The same of TipContactModel::kDefault, as in the hands of MuJoCo Menagerie.
+constexpr double kDefaultFrictionHardness = 10;
 /// Armature of frozen joints, kg m².
 constexpr double kFrozenArmature = 1e3;
 
@@ -20,14 +21,15 @@ void FreezeJoints(const std::vector<int>& joints, mjModel& model) {
   for (const int joint : joints) model.dof_armature[model.jnt_dofadr[joint]] += kFrozenArmature;
 }
 
-void SetReplayOptions(const Eigen::Vector3d& gravity, const std::vector<int>& frozen,
-                      mjModel& model) {
+void SetReplayOptions(const Eigen::Vector3d& gravity, const HandPhysics& physics,
+                      const std::vector<int>& frozen, mjModel& model) {
   const bool implicit = model.opt.integrator == mjINT_IMPLICIT;
   mj_defaultOption(&model.opt);
   model.opt.integrator = implicit ? mjINT_IMPLICIT : mjINT_EULER;
-  model.opt.timestep = kTimestep;
-  model.opt.cone = mjCONE_ELLIPTIC;
-  model.opt.impratio = kFrictionHardness;
+  model.opt.timestep = physics.timestep_s;
+  model.opt.cone = physics.pyramidal_cones ? mjCONE_PYRAMIDAL : mjCONE_ELLIPTIC;
+  model.opt.impratio =
+      physics.contacts == TipContactModel::kStiff ? kFrictionHardness : kDefaultFrictionHardness;
   std::copy_n(gravity.data(), 3, model.opt.gravity);
   // The solver's tolerance is relative to the mean inertia, which frozen joints would dominate.
   const double mean = model.stat.meaninertia;

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sim/scene/hand_conditions.h"
+
 struct mjModel_;
 struct mjData_;
 
@@ -17,8 +19,8 @@ void FreezeJoints(const std::vector<int>& joints, mjModel_& model);
 /// integrator is kept. The precision of the constraint solver is that of MuJoCo's defaults for the
 /// hand without frozen joints.
 /// @param gravity  gravity in the engine's world, m/s².
-void SetReplayOptions(const Eigen::Vector3d& gravity, const std::vector<int>& frozen,
-                      mjModel_& model);
+void SetReplayOptions(const Eigen::Vector3d& gravity, const HandPhysics& physics,
+                      const std::vector<int>& frozen, mjModel_& model);
 
 /// Recompute all constants of a model that depend on others (mj_setConst).
 /// One example is the inverse inertias, which determine the stiffness of constraints. Call it after

@@ -24,6 +24,8 @@ using kinematics::VectorAt;
 /// Largest depth that counts for the contact force, metres: five times that of a static grasp.
 /// Fingertip geometry can overlap the object more deeply than its sphere, and must not be ejected.
 constexpr double kDeepestContact = 3e-4;
+/// The same with the softer TipContactModel::kDefault, in which static grasps are up to 2 mm deep.
+constexpr double kDeepestDefaultContact = 4e-3;
 
 /// Return two unit vectors that are perpendicular to a unit vector and to each other.
 std::pair<Vector3d, Vector3d> Tangents(const Vector3d& normal) {
@@ -34,9 +36,10 @@ std::pair<Vector3d, Vector3d> Tangents(const Vector3d& normal) {
 }  // namespace
 
 mjContact MakeTipContact(const collision::SurfaceContact& touching, const Eigen::Isometry3d& pose,
-                         double mu) {
+                         double mu, const HandPhysics& physics) {
+  const bool is_stiff = physics.contacts == TipContactModel::kStiff;
   mjContact contact = {};
-  contact.dist = std::max(touching.gap, -kDeepestContact);
+  contact.dist = std::max(touching.gap, is_stiff ? -kDeepestContact : -kDeepestDefaultContact);
   const Vector3d normal = pose.linear() * touching.outward;
   const Vector3d at = pose * touching.point + contact.dist / 2 * normal;
   const auto [first, second] = Tangents(normal);
@@ -46,10 +49,11 @@ mjContact MakeTipContact(const collision::SurfaceContact& touching, const Eigen:
   std::copy_n(second.data(), 3, contact.frame + 6);
   contact.friction[0] = contact.friction[1] = mu;
   contact.friction[2] = contact.friction[3] = contact.friction[4] = mjMINMU;
-  contact.solref[0] = kTipContactTime;
+  if (physics.torsion_m > 0) contact.friction[2] = mu * physics.torsion_m;
+  contact.solref[0] = is_stiff ? kTipContactTime : kDefaultTipContactTime;
   contact.solref[1] = 1;
-  std::ranges::copy(kTipImpedance, contact.solimp);
-  contact.dim = 3;
+  std::ranges::copy(is_stiff ? kTipImpedance : kDefaultTipImpedance, contact.solimp);
+  contact.dim = physics.torsion_m > 0 ? 4 : 3;
   contact.efc_address = -1;  // no force before a step
   return contact;
 }

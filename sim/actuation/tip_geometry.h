@@ -14,6 +14,7 @@
 #include "planner/collision/convex_shape.h"
 #include "planner/collision/shape_contact.h"
 #include "planner/kinematics/hand_file.h"
+#include "sim/scene/hand_conditions.h"
 #include "sim/scene/settings.h"
 
 struct mjModel_;
@@ -27,12 +28,18 @@ namespace regrasp::sim {
 inline constexpr double kTipContactTime = 5e-3;
 /// Impedances, width of the transition between them in metres, and its shape (solimp).
 inline constexpr std::array<double, 5> kTipImpedance = {0.95, 0.99, 0.0001, 0.5, 2};
+/// The same of TipContactModel::kDefault: the defaults of MuJoCo.
+inline constexpr double kDefaultTipContactTime = 2e-2;
+inline constexpr std::array<double, 5> kDefaultTipImpedance = {0.9, 0.95, 0.001, 0.5, 2};
 
 /// Return the engine's contact of a fingertip and the object, without geoms.
+/// With torsional friction the contact resists a torque about its normal of at most
+/// μ · torsion_m · normal force, together with tangential forces (grasp::Contact::torsion).
 /// @param touching  contact in the object's frame.
 /// @param pose      pose of the object in the engine's world.
 [[nodiscard]] mjContact MakeTipContact(const collision::SurfaceContact& touching,
-                                       const Eigen::Isometry3d& pose, double mu);
+                                       const Eigen::Isometry3d& pose, double mu,
+                                       const HandPhysics& physics = {});
 
 /// The combined contacts of a fingertip, in the engine's world.
 struct ContactSum {

@@ -58,8 +58,9 @@ TEST_P(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
   ASSERT_EQ(replay.steps.back().reason, plan::Reason::kNone) << replay.steps.back().detail;
   ASSERT_EQ(keys.size(), plan.steps.size() + 1);
 
-  const std::vector<SceneFile> files = ExportHandScene(
-      hand, solid, request.scale, {0.8, *options.mass_kg, kGravity, 1, {}, options.tip}, keys);
+  const std::vector<SceneFile> files =
+      ExportHandScene(hand, solid, request.scale,
+                      {.mu = 0.8, .mass_kg = *options.mass_kg, .tip = options.tip}, keys);
   EXPECT_EQ(files.back().name, kSceneName);
   for (const SceneFile& file : files) EXPECT_TRUE(IsSceneFile(file.name)) << file.name;
   const mujoco::ModelPtr model = LoadStockScene(files, folder_);
