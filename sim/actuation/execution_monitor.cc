@@ -70,7 +70,12 @@ void ExecutionMonitor::WatchContacts(const plan::FingerGrasp& grasp, double scal
     const double off = near ? std::max((near->point - scale * held.contact.p).norm(),
                                        std::abs(near->distance - radius))
                             : std::numeric_limits<double>::infinity();
-    if (off <= tolerance_.slip_m + known_off) continue;
+    // A hand places a fingertip only as well as it measures its joints.
+    const Vector3d measured =
+        kinematics::TipAt(world_.hand().fingers[held.finger], world_.measured_posture(held.finger))
+            .centre;
+    const double unknown = (measured - world_.tip(held.finger)).norm();
+    if (off <= tolerance_.slip_m + known_off + unknown) continue;
     const std::string how = std::isfinite(off) ? FormatLength(off) + " from" : "far from";
     const int joints = static_cast<int>(world_.hand().fingers[held.finger].joints.size());
     Fail(Reason::kContactLost,
