@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "sim/actuation/hand_world.h"
 #include "tests/sim/actuation/held_in_hand.h"
 
@@ -28,15 +26,19 @@ TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTh
   EXPECT_EQ(squeeze(1e6), kMost);
 }
 
-TEST_F(HeldInHand, AHandOfUnknownStrengthSqueezesWithLess) {
-  constexpr double kWeight = 10;
-  const HandWorld known(hand_, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
-  EXPECT_EQ(MostSqueeze(known, kWeight), kMostWeights * kWeight);
-  const HandWorld unknown(
-      hand_, solid(), kScale,
-      {.mu = kMu, .mass_kg = kMass, .force_factor = std::numeric_limits<double>::infinity()});
-  EXPECT_EQ(MostSqueeze(unknown, kWeight), kMostWeightsOfUnknown * kWeight);
-  EXPECT_EQ(MostSqueeze(unknown, 0.1), kEnough);
+TEST_F(HeldInHand, TheLargestGraspForceIsAMultipleOfTheWeightButEnoughForALightObject) {
+  EXPECT_EQ(MostSqueeze(10), 10 * kMostWeights);
+  EXPECT_EQ(MostSqueeze(0.1), kEnough);
+}
+
+TEST_F(HeldInHand, AGraspForceThatTorquesAllowIsReducedUntilTheGraspIsStable) {
+  constexpr double kMost = 1000;
+  HandWorld world(hand_, solid(), kScale,
+                  {.mu = kMu, .mass_kg = kMass, .gravity_m_s2 = 0, .force_factor = 1e6});
+  const double stable = RestSqueeze(world, solid(), kScale, plan_.hand->initial, plan_.initial,
+                                    std::atan(kMu), 0, kMost);
+  EXPECT_LT(stable, kMost);
+  EXPECT_GT(stable, kEnough);
 }
 
 }  // namespace torque_squeeze_test
