@@ -30,7 +30,7 @@ constexpr char kPlate[] = R"(<mujoco><worldbody>
       <geom type="box" size="0.1 0.1 0.005" mass="0.1" contype="0" conaffinity="0"/>
     </body></worldbody></mujoco>)";
 
-/// A plate that rests on a fixed fingertip at its centre, with the contact of the replay.
+/// A plate on top of a fixed fingertip at its centre, with the contact of the replay.
 /// It moves along all axes and about the vertical axis.
 class PlateOnTip {
  public:
@@ -135,8 +135,7 @@ class HandPhysicsWorldTest : public HeldInHand {
     return {.mu = kMu, .mass_kg = kMass, .gravity_m_s2 = 0, .physics = physics};
   }
   /// Return the actuator torque of a joint in the first step under a command.
-  [[nodiscard]] double FirstTorque(const HandPhysics& physics, double offset,
-                                   double torque) const {
+  [[nodiscard]] double FirstTorque(const HandPhysics& physics, double offset, double torque) const {
     HandWorld world(hand_, solid(), kScale, OptionsWith(physics));
     world.Place(plan_.hand->initial);
     Eigen::VectorXd torques = Eigen::VectorXd::Zero(4);
@@ -165,9 +164,8 @@ class HandPhysicsWorldTest : public HeldInHand {
 };
 
 TEST_F(HandPhysicsWorldTest, TheGainFactorScalesTorquesThatTheControllerDoesNotExpect) {
-  const double stiffness = HandWorld(hand_, solid(), kScale, OptionsWith({}))
-                               .servo(kMovedFinger, 1)
-                               .stiffness;
+  const double stiffness =
+      HandWorld(hand_, solid(), kScale, OptionsWith({})).servo(kMovedFinger, 1).stiffness;
   const double expected = 0.05 * stiffness + 0.1;
   EXPECT_NEAR(FirstTorque({}, 0.05, 0.1), expected, 1e-9);
   EXPECT_NEAR(FirstTorque({.gain_factor = 0.8}, 0.05, 0.1), 0.8 * expected, 1e-9);
