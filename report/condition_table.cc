@@ -90,8 +90,8 @@ std::string ConditionsFailureText(const sim::ConditionSummary& summary) {
   const char* between = ": ";
   for (const sim::ConditionResult& result : summary.results) {
     if (!result.applies || result.passed()) continue;
-    text += between + result.condition.name + " (" + std::string(plan::ReasonName(result.reason)) +
-            ")";
+    text +=
+        between + result.condition.name + " (" + std::string(plan::ReasonName(result.reason)) + ")";
     between = ", ";
   }
   return text;

@@ -23,6 +23,8 @@ enum class RandomUse : std::uint32_t {
   kHomes = 11,
   kGaits = 12,
   kResetStates = 13,
+  kPoseErrors = 14,
+  kJointErrors = 15,
 };
 
 /// Random numbers that are identical on all machines.

@@ -34,10 +34,10 @@ Element BarText(double x, double y, const std::string& text, const std::string& 
 Element ConditionBars(const sim::ConditionSummary& summary) {
   const auto count = static_cast<int>(summary.results.size());
   const int height = kTopHeight + count * kRowHeight;
-  Element svg("svg", {{"role", "img"},
-                      {"aria-label", "Largest deviation under each condition, over its limit"},
-                      {"viewBox", "0 0 " + std::to_string(kChartWidth) + " " +
-                                      std::to_string(height)}});
+  Element svg("svg",
+              {{"role", "img"},
+               {"aria-label", "Largest deviation under each condition, over its limit"},
+               {"viewBox", "0 0 " + std::to_string(kChartWidth) + " " + std::to_string(height)}});
   const int limit = kLabelWidth + kLimitWidth;
   for (int i = 0; i < count; ++i) {
     const sim::ConditionResult& result = summary.results[i];

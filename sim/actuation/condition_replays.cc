@@ -19,9 +19,10 @@ double MarginOf(const HandMeasures& measures, const HandTolerance& tolerance) {
                        measures.slip_m / tolerance.slip_m});
 }
 
-/// Describe the end of a replay. If it is not reached, it is the largest deviation of the last step.
-void DescribeEnd(const ReplayResult& replay, const plan::Plan& plan,
-                 const HandTolerance& tolerance, ConditionResult& result) {
+/// Describe the end of a replay. If it is not reached, it is the largest deviation of the last
+/// step.
+void DescribeEnd(const ReplayResult& replay, const plan::Plan& plan, const HandTolerance& tolerance,
+                 ConditionResult& result) {
   const HandMeasures& last = *replay.steps.back().hand;
   result.reaches_end = replay.steps.size() == plan.steps.size() + 1 && last.is_complete;
   result.end_m = result.reaches_end ? last.rest_off_m : last.off_m;
@@ -46,9 +47,8 @@ ConditionResult ReplayUnder(const kinematics::HandFile& file, const object::Poly
   }
   try {
     const ReplayResult replay = ReplayHand(file, solid, plan, options);
-    const auto failed = std::ranges::find_if(replay.steps, [](const StepReplay& step) {
-      return step.reason != plan::Reason::kNone;
-    });
+    const auto failed = std::ranges::find_if(
+        replay.steps, [](const StepReplay& step) { return step.reason != plan::Reason::kNone; });
     if (failed != replay.steps.end()) {
       result.failed = failed->index;
       result.reason = failed->reason;

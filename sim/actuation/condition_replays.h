@@ -18,12 +18,12 @@ struct ConditionResult {
   /// First step that violates a limit; not valid if none does.
   plan::EntryIndex failed;
   plan::Reason reason = plan::Reason::kNone;
-  std::string detail;         ///< description of the violation, or why the condition does not apply
-  bool reaches_end = false;   ///< whether the last static grasp is reached
-  double end_m = 0;           ///< distance of the object's centroid from the plan at the end
-  double end_rad = 0;         ///< rotation of the object from the plan at the end
-  bool ends_within = false;   ///< whether the end is reached within the tolerance of the plan
-  double margin = 0;          ///< ToleranceMargin
+  std::string detail;        ///< description of the violation, or why the condition does not apply
+  bool reaches_end = false;  ///< whether the last static grasp is reached
+  double end_m = 0;          ///< distance of the object's centroid from the plan at the end
+  double end_rad = 0;        ///< rotation of the object from the plan at the end
+  bool ends_within = false;  ///< whether the end is reached within the tolerance of the plan
+  double margin = 0;         ///< ToleranceMargin
 
   [[nodiscard]] bool passed() const { return applies && reason == plan::Reason::kNone; }
 };

@@ -16,6 +16,8 @@ namespace {
 /// and inertia of an actuator behind its gear, kg m².
 constexpr double kServoStiffness = 4;
 constexpr double kServoInertia = 1e-3;
+/// Time constant of a raised servo, damping over stiffness, seconds.
+constexpr double kDampingTime = 0.02;
 
 /// @returns the critical damping for the inertia that an independent joint moves, at least that of
 ///     a small electric actuator with gear.
@@ -88,6 +90,12 @@ DriveActuator FindServo(const kinematics::Finger& finger, const std::vector<int>
     const mjtNum* control = model.actuator_ctrlrange + std::ptrdiff_t{2} * a;
     const double gain = std::abs(model.actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a]);
     limit = std::min(limit, gain * std::min(-control[0], control[1]));
+  }
+  if (servo && law.stiffness < kServoStiffness) {
+    law.model_stiffness = law.stiffness;
+    law.stiffness = kServoStiffness;
+    law.damping = std::max(law.damping, kDampingTime * kServoStiffness - law.joint_damping);
+    MakeServo(found, model);
   }
   if (!servo) {
     MakeServo(found, model);

@@ -23,6 +23,8 @@ struct DriveServo {
   std::optional<std::array<double, 2>> control_range = std::nullopt;
   /// whether stiffness and damping are chosen here, since the model has no servo
   bool derived = false;
+  /// stiffness in the model, N m / rad, if a joint loop of the controller raises it; otherwise 0
+  double model_stiffness = 0;
 };
 
 /// The actuator that moves an independent joint.

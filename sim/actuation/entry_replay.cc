@@ -33,12 +33,10 @@ constexpr double kHandover = 0.25;
 constexpr double kSettle = 0.3;
 constexpr double kHandPushRamp = 0.05;
 constexpr double kPushHold = 0.1;
-// A finger approaches along the normal from this height (metres) until it measures kTouched
-// (newtons).
+// A finger approaches along the normal from this height (metres) until it touches.
 constexpr double kHeight = 8e-3;
 constexpr double kDescent = 0.02;  // m/s
 constexpr double kDeepest = 4e-3;  // largest depth below the planned place
-constexpr double kTouched = 0.05;
 /// Smallest margin, a share of the grasp force, at which the other fingers balance sliding fingers.
 constexpr double kHeldBySome = -1e-3;
 /// Distance from the object, metres, at which a released finger returns to its planned joints.
@@ -87,11 +85,12 @@ struct EntryReplay::Coming {
 };
 
 EntryReplay::EntryReplay(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
-                         const HandControlSettings& control, const HandReplayOptions& options,
-                         const ReplayObserver& observer)
+                         const HandControlSettings& control, std::vector<double> squeezes,
+                         const HandReplayOptions& options, const ReplayObserver& observer)
     : world_(world),
       plan_(plan),
-      shake_(options.shake * control.squeeze_N),
+      squeezes_(std::move(squeezes)),
+      shake_(options.shake),
       freeze_s_(options.freeze_s),
       radius_(plan.scale * solid.diameter() / 2),
       start_off_(options.start_shift_m.norm() + radius_ * options.start_turn_rad.norm()),
@@ -140,6 +139,8 @@ StepReplay EntryReplay::Carry(plan::EntryIndex index) {
 }
 
 void EntryReplay::Perform(plan::EntryIndex index) {
+  squeeze_ = squeezes_[index];
+  squeeze_before_ = index == 0 ? 0 : squeezes_[index - 1];
   if (index == 0) {
     TakeHold();
     return;
@@ -153,6 +154,7 @@ void EntryReplay::Perform(plan::EntryIndex index) {
 void EntryReplay::Describe(StepReplay& step) const {
   const HandMeasures& measures = monitor_.measures();
   step.hand = measures;
+  step.hand->squeeze_N = squeeze_;
   step.displacement_m = measures.off_m;
   step.rotation_deg = Degrees(measures.off_rad);
   step.moved_m = measures.off_m + radius_ * measures.off_rad;
@@ -216,9 +218,9 @@ void EntryReplay::TakeHold() {
   EndIfFailed();
   // The object is fixed until the fingers hold it.
   world_.PinObject(true);
-  monitor_.SetSettling(true);
+  monitor_.SetSettling(true, start_off_);
   control_.SetFeedback(false);
-  const Hold all = {holding_};
+  const Hold all = HeldWith(squeeze_);
   Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
   world_.PinObject(false);
   control_.SetFeedback(true);
@@ -229,7 +231,10 @@ void EntryReplay::Move(const plan::HandPath& path) {
   monitor_.SetPhase("during the move");
   const TimedPath timed(path, CarryingSpeed(world_));
   const double duration = timed.duration();
-  Run(duration, [&](double share) { state_ = timed.At(share * duration); });
+  Run(duration, [&](double share) {
+    state_ = timed.At(share * duration);
+    control_.SetHolding({HeldWith(squeeze_before_), HeldWith(squeeze_), share, 1});
+  });
 }
 
 void EntryReplay::Switch(const plan::Switch& change) {
@@ -241,7 +246,7 @@ void EntryReplay::Switch(const plan::Switch& change) {
   if (!change.place.empty()) PlaceFingers(change);
   monitor_.SetPhase("while forces are handed over");
   for (const FingerIndex f : change.release) monitor_.SetHolding(f, false);
-  HandOver({holding_}, {after});
+  HandOver(HeldWith(squeeze_before_), {after, squeeze_});
   for (const FingerIndex f : after) {
     if (std::ranges::find(holding_, f) == holding_.end()) monitor_.SetHolding(f, true);
   }
@@ -255,12 +260,12 @@ void EntryReplay::HandOver(const Hold& from, const Hold& to) {
 }
 
 void EntryReplay::Align(const plan::Align& align) {
-  Hold hold = {holding_};
+  Hold hold = HeldWith(squeeze_before_);
   for (std::size_t i = 0; i + 1 < align.waypoints.size(); ++i) {
     Slide(align.waypoints[i], align.waypoints[i + 1], (*align.motion)[i], hold);
   }
   monitor_.SetPhase("while forces are handed over");
-  ChangeSliding(align.waypoints.back(), hold, {holding_});
+  ChangeSliding(align.waypoints.back(), hold, HeldWith(squeeze_));
 }
 
 void EntryReplay::ChangeSliding(const plan::FingerGrasp& at, Hold& hold, const Hold& to) {
@@ -279,9 +284,9 @@ void EntryReplay::ChangeSliding(const plan::FingerGrasp& at, Hold& hold, const H
 void EntryReplay::Slide(const plan::FingerGrasp& from, const plan::FingerGrasp& to,
                         const plan::HandPath& path, Hold& hold) {
   const TimedPath timed(path, CarryingSpeed(world_));
-  const SlidingTips tips(world_, timed, from, to);
+  const SlidingTips tips(control_, world_.hand(), timed, from, to);
   if (tips.empty()) return;
-  const Hold sliding = {holding_, tips.At(0)};
+  const Hold sliding = {holding_, hold.squeeze_N, tips.At(0)};
   const bool is_held = control_.SlidingMargin(sliding, to) > kHeldBySome;
   const std::string unheld = "while a finger slides that the others cannot balance";
   const auto lead = [&](double share) {
@@ -331,8 +336,7 @@ void EntryReplay::PlaceFingers(const plan::Switch& change) {
 void EntryReplay::Descend(const HandState& end, std::vector<Coming>& coming) {
   double way = 0;
   for (Coming& finger : coming) {
-    const Vector3d off =
-        world_.object_pose().inverse() * world_.tip(finger.finger) - finger.touching;
+    const Vector3d off = control_.TipInObject(finger.finger) - finger.touching;
     finger.height = std::max(0.0, finger.outward.dot(off));
     finger.aside = off - finger.height * finger.outward;
     way = std::max(way, finger.height);
@@ -353,7 +357,7 @@ void EntryReplay::Descend(const HandState& end, std::vector<Coming>& coming) {
       }
     });
     for (Coming& finger : coming) {
-      if (finger.down || world_.touch(finger.finger).force.norm() < kTouched) continue;
+      if (finger.down || !control_.Touches(finger.finger)) continue;
       finger.down = true;
       control_.Attach(finger.finger);
     }
@@ -374,7 +378,7 @@ void EntryReplay::ReleaseFingers(const plan::Switch& change) {
   Run(duration, [&](double share) {
     state_ = timed.At(share * duration);
     std::erase_if(near, [this](FingerIndex f) {
-      if (world_.touch(f).gap < kClear) return false;
+      if (control_.GapOf(f) < kClear) return false;
       control_.LetOffsetGo(f);
       return true;
     });
@@ -413,14 +417,15 @@ void EntryReplay::Freeze() {
 }
 
 void EntryReplay::Shake() {
-  if (shake_ == 0 || monitor_.violation()) return;
+  const double shake = shake_ * squeeze_;
+  if (shake == 0 || monitor_.violation()) return;
   shaking_ = true;
   const HandControl control = control_;
   const ExecutionMonitor monitor = monitor_;
   for (const Push& push : PushDirections(3)) {
-    const std::string name = PushText(push, shake_, radius_);
+    const std::string name = PushText(push, shake, radius_);
     monitor_.SetPhase("under " + name);
-    const grasp::Wrench wrench = PushWrench(push, shake_);
+    const grasp::Wrench wrench = PushWrench(push, shake);
     const Vector3d torque = radius_ * wrench.torque_over_radius;
     monitor_.SetPush({wrench.force, torque, name});
     Run(kHandPushRamp, [&](double share) { world_.SetLoad(share * wrench.force, share * torque); });

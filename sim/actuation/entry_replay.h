@@ -12,10 +12,11 @@ namespace regrasp::sim {
 /// Executes the steps of a plan with a hand in order, initial grasp first, and monitors each.
 class EntryReplay {
  public:
-  /// All arguments but settings and options must outlive this object.
+  /// All arguments but settings, grasp forces and options must outlive this object.
+  /// @param squeezes  grasp force of the static grasp after each entry, newtons.
   EntryReplay(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
-              const HandControlSettings& control, const HandReplayOptions& options,
-              const ReplayObserver& observer);
+              const HandControlSettings& control, std::vector<double> squeezes,
+              const HandReplayOptions& options, const ReplayObserver& observer);
 
   /// Execute the next step, wait for the static grasp, and disturb it.
   StepReplay Carry(plan::EntryIndex index);
@@ -39,6 +40,8 @@ class EntryReplay {
   struct Coming;  ///< a finger that approaches a contact
 
   void Perform(plan::EntryIndex index);
+  /// Return the present holding fingers with a grasp force.
+  [[nodiscard]] Hold HeldWith(double squeeze) const { return {holding_, squeeze}; }
   void Describe(StepReplay& step) const;
   /// Return the state in the object's frame, for images.
   [[nodiscard]] plan::Snapshot SnapshotNow() const;
@@ -71,14 +74,17 @@ class EntryReplay {
 
   HandWorld& world_;
   const plan::Plan& plan_;
-  double shake_;      ///< disturbance force, newtons
-  double freeze_s_;   ///< HandReplayOptions::freeze_s
-  double radius_;     ///< half the object's diameter, metres
-  double start_off_;  ///< upper bound on the initial offset of the object's points
+  std::vector<double> squeezes_;  ///< grasp force of the static grasp after each entry, newtons
+  double shake_;                  ///< disturbance force over grasp force
+  double freeze_s_;               ///< HandReplayOptions::freeze_s
+  double radius_;                 ///< half the object's diameter, metres
+  double start_off_;              ///< upper bound on the initial offset of the object's points
   const ReplayObserver& observer_;
   ExecutionMonitor monitor_;
   HandControl control_;
   plan::HandState state_;             ///< present planned state
+  double squeeze_before_ = 0;         ///< grasp force before the present entry, newtons
+  double squeeze_ = 0;                ///< grasp force after it
   std::vector<FingerIndex> holding_;  ///< holding fingers of the last static grasp
   HandWorld::State rest_;             ///< last static grasp
   bool to_end_;

@@ -13,9 +13,13 @@ namespace regrasp::sim {
 namespace {
 
 using Eigen::Isometry3d;
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using plan::Reason;
 
+/// Time between two updates of expected contacts, seconds. A fingertip rolls by less than 0.1 mm in
+/// it.
+constexpr double kRollPeriod = 5e-3;
 /// Time between two checks of the links, seconds.
 constexpr double kLinkPeriod = 0.01;
 /// Least force of a finger that holds, newtons.
@@ -59,6 +63,7 @@ void ExecutionMonitor::CopyState(const ExecutionMonitor& other) {
   violation_ = other.violation_;
   steps_ = other.steps_;
   settling_ = other.settling_;
+  settling_depth_ = other.settling_depth_;
 }
 
 void ExecutionMonitor::WatchContacts(const plan::FingerGrasp& grasp, double scale,
@@ -86,6 +91,46 @@ void ExecutionMonitor::SetHolding(FingerIndex finger, bool holds) {
   state.without_force = 0;
   state.slip.setZero();
   state.first_O = world_.touch(finger).point_O;
+  state.expected_O.reset();
+}
+
+Matrix3d ExecutionMonitor::TipTurn(FingerIndex f, const Isometry3d& pose) const {
+  const kinematics::Finger& chain = world_.hand().fingers[f];
+  return pose.linear().transpose() * kinematics::FramesOf(chain, world_.posture(f)).back().linear();
+}
+
+void ExecutionMonitor::ExpectAt(FingerIndex f, const Vector3d& centre_O) {
+  Finger& state = fingers_[f];
+  state.centre_O = centre_O;
+  state.expected_O.reset();
+  const std::optional<collision::NearPoint> near = world_.NearSphere(f, centre_O);
+  if (!near) return;
+  state.expected_O = near->point;
+  state.centre_O = near->point + world_.hand().fingers[f].tip.radius * near->outward;
+}
+
+void ExecutionMonitor::RollExpected(FingerIndex f, const Isometry3d& planned) {
+  Finger& state = fingers_[f];
+  if (!state.holds || state.slides_to_O) return;
+  const Matrix3d turn = TipTurn(f, planned);
+  if (!state.expected_O) {
+    ExpectAt(f, world_.object_pose().inverse() * world_.tip(f));
+  } else {
+    const Eigen::AngleAxisd change(turn * state.turn_O.transpose());
+    const Vector3d outward = state.centre_O - *state.expected_O;
+    ExpectAt(f, state.centre_O + (change.angle() * change.axis()).cross(outward));
+  }
+  state.turn_O = turn;
+}
+
+double ExecutionMonitor::SlipOf(FingerIndex f, const TipTouch& touch) {
+  Finger& state = fingers_[f];
+  if (world_.tip_shape() != TipShape::kBall) {
+    state.slip += world_.timestep() * touch.sliding_O;
+    return state.slip.norm();
+  }
+  if (!state.expected_O || !std::isfinite(touch.gap)) return 0;
+  return (touch.point_O - *state.expected_O).norm();
 }
 
 void ExecutionMonitor::SetSliding(FingerIndex finger, const Vector3d& centre_O) {
@@ -168,8 +213,7 @@ void ExecutionMonitor::WatchContact(FingerIndex f) {
     const Vector3d off = world_.object_pose().inverse() * world_.tip(f) - *state.slides_to_O;
     slip = (off - off.dot(touch.inward_O) * touch.inward_O).norm();
   } else {
-    state.slip += dt * touch.sliding_O;
-    slip = state.slip.norm();
+    slip = SlipOf(f, touch);
     if (std::isfinite(touch.gap)) {
       measures_.roll_m = std::max(measures_.roll_m, (touch.point_O - state.first_O).norm());
     }
@@ -310,7 +354,8 @@ void ExecutionMonitor::WatchTips(const std::vector<HandLinks::Placed>& placed) {
   if (is_ball) {
     for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
       const double radius = world_.hand().fingers[f].tip.radius;
-      WatchDepth(f, {{world_.tip(f)}, radius}, tolerance_.depth_m, "the fingertip sphere");
+      WatchDepth(f, {{world_.tip(f)}, radius}, tolerance_.depth_m + settling_depth_,
+                 "the fingertip sphere");
     }
   }
   for (const HandLinks::Placed& one : placed) {
@@ -363,6 +408,10 @@ void ExecutionMonitor::WatchPlaced(FingerIndex f) {
 
 void ExecutionMonitor::Watch(const Isometry3d& planned) {
   measures_.simulated_s += world_.timestep();
+  const int roll_period = static_cast<int>(std::lround(kRollPeriod / world_.timestep()));
+  if (steps_ % std::max(1, roll_period) == 0) {
+    for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) RollExpected(f, planned);
+  }
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) WatchFinger(f);
   WatchCouplings();
   const int period = static_cast<int>(std::lround(kLinkPeriod / world_.timestep()));

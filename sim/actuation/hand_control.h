@@ -2,22 +2,24 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <deque>
 #include <optional>
 #include <vector>
 
 #include "planner/grasp/grasp_forces.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
+#include "sim/actuation/hand_sensors.h"
 #include "sim/actuation/hand_world.h"
+#include "sim/scene/hand_conditions.h"
 
 namespace regrasp::sim {
 
 /// Settings of the controller of a hand, described in docs/validation.md.
 struct HandControlSettings {
   double half_angle = 0;  ///< friction angle for planned forces, radians
-  double squeeze_N = 0;   ///< sum of the normal forces of a grasp
   double weight_N = 0;    ///< assumed weight of the object
-  bool feedback = true;   ///< whether the measured offset of the object corrects joint targets
+  HandSensing sensing = {};
 };
 
 /// A holding finger that slides along the surface.
@@ -31,6 +33,7 @@ struct SlidingFinger {
 /// The fingers whose forces hold the object.
 struct Hold {
   std::vector<FingerIndex> fingers;
+  double squeeze_N = 0;                     ///< grasp force: sum of their normal forces
   std::vector<SlidingFinger> sliding = {};  ///< those of the fingers that slide
 
   bool operator==(const Hold&) const = default;
@@ -48,22 +51,24 @@ struct HoldingFingers {
 [[nodiscard]] kinematics::Posture PostureOf(const kinematics::Finger& finger,
                                             const std::vector<double>& angles);
 
-/// Executes a plan with a hand.
+/// Executes a plan with a hand, from joint and touch sensors and a slow, late measured object pose.
 /// Every millisecond the servo of each joint receives a target and an additional torque:
 ///
-/// - The target of a holding fingertip assumes that the object is at its planned pose. The
-///   fingertip keeps its measured place on the object, so that it may roll. Joint targets follow by
-///   damped least squares, near the planned joints. The servo forces present when a finger is
-///   attached decay within a tenth of a second. Otherwise fingers would press against each other
-///   with more than the planned forces.
-/// - The planned pose is shifted by the integral of the object's measured offset, at most
-///   kMostOffset.
-/// - Torques balance the weight of the links and the planned forces at the measured contacts. These
-///   forces support the object's weight with the largest margin inside the friction cones. They are
-///   planned every hundredth of a second.
-/// - A sliding finger is guided along the surface. Along the normal it behaves as a holding finger.
-///   Its planned force is on the edge of its cone, in the direction of motion. It is as small as
-///   possible while the other fingers balance it.
+/// - A holding fingertip has a place on the object, its anchor: the centre of its sphere in the
+///   object's frame. The anchor moves only by rolling without slip, as follows from the measured
+///   joints and the planned object pose. The target of the fingertip is its anchor at the
+///   commanded object pose, so the stiffness of the servos holds the object on the planned path.
+///   Joint targets follow by damped least squares, near the planned joints. The servo forces
+///   present when a finger is attached decay within a tenth of a second.
+/// - The commanded object pose is the planned pose, shifted by the integral of the measured
+///   deviations, at most kMostOffset. A measurement is compared with the plan at its own time, so
+///   a delay does not appear as a deviation.
+/// - Torques balance the weight of the links and the planned forces at the contacts that follow
+///   from the anchors. These forces support the object's weight with the largest margin inside the
+///   friction cones. They are planned every hundredth of a second.
+/// - The anchor of a sliding finger moves along the surface as planned. Its planned force is on the
+///   edge of its cone, in the direction of motion. It is as small as possible while the other
+///   fingers balance it.
 /// - A free finger follows the planned joints. Its offset at release decays within a tenth of a
 ///   second.
 class HandControl {
@@ -76,11 +81,11 @@ class HandControl {
   void Steer(const plan::HandState& planned);
   void SetHolding(const HoldingFingers& holding) { holding_ = holding; }
 
-  /// Keep the fingertip at its present place on the object.
+  /// Keep the fingertip at its measured place on the object.
   void Attach(FingerIndex finger);
   /// Slide a fingertip along the surface.
-  /// Its distance from the target along the normal does not count.
-  /// @param centre_O  target of the fingertip sphere's centre, in the object's frame.
+  /// @param centre_O  target of the fingertip sphere's centre, in the object's frame. Only its
+  ///                  place along the surface counts.
   void LeadAlongSurface(FingerIndex finger, const Eigen::Vector3d& centre_O);
   /// Return how well the other fingers balance the sliding fingers of a hold.
   /// @returns the smaller margin (grasp::SlidingNormal) of two cases: the present contacts, and the
@@ -92,7 +97,14 @@ class HandControl {
   /// Move a fingertip to a place in the object's frame instead of along the planned joints.
   void LeadTip(FingerIndex finger, const Eigen::Vector3d& centre_O);
 
-  /// Set whether the object's offset is corrected, if the settings have feedback.
+  /// Return whether the touch sensor of a fingertip detects a contact.
+  [[nodiscard]] bool Touches(FingerIndex finger) const { return sensors_.Touches(finger); }
+  /// Return the centre of a fingertip sphere in the object's frame, as far as joints and plan tell.
+  [[nodiscard]] Eigen::Vector3d TipInObject(FingerIndex finger) const;
+  /// Return the estimated distance of a fingertip from the surface, or infinity beyond 5 mm.
+  [[nodiscard]] double GapOf(FingerIndex finger) const;
+
+  /// Set whether measured poses correct the object's offset.
   void SetFeedback(bool on) { corrects_ = on; }
 
   /// Take the state of another controller of the same world.
@@ -115,10 +127,18 @@ class HandControl {
 
  private:
   enum class Mode { kFree, kLed, kAttached, kSliding };
+  /// Place of a fingertip on the object.
+  struct Anchor {
+    Eigen::Vector3d centre_O = Eigen::Vector3d::Zero();  ///< centre of the sphere
+    Eigen::Vector3d point_O = Eigen::Vector3d::Zero();   ///< contact
+    Eigen::Vector3d inward_O = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d turn_O = Eigen::Matrix3d::Identity();  ///< orientation of the tip's link
+    bool is_near = false;  ///< whether the surface is near the sphere
+  };
   struct Finger {
     Mode mode = Mode::kFree;
-    Eigen::Vector3d centre_O = Eigen::Vector3d::Zero();
-    Eigen::Vector3d led_O = Eigen::Vector3d::Zero();  ///< target of a sliding finger
+    Anchor anchor;
+    Eigen::Vector3d led_O = Eigen::Vector3d::Zero();  ///< target of a fingertip that is led
     Eigen::Vector3d bias = Eigen::Vector3d::Zero();   ///< offset of its target when it was attached
     kinematics::Posture target;
     kinematics::Posture offset;  ///< offset of a free finger from the planned joints
@@ -126,13 +146,29 @@ class HandControl {
     bool keeps_offset = false;
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< point of application of the force
-    TipTouch touched;  ///< contact, or the last one while the object was near
   };
 
+  /// Command of a finger's servos.
+  struct Command {
+    kinematics::Posture target;
+    Eigen::VectorXd torques;
+  };
+
+  /// Send commands, which take effect after the delay of the sensing.
+  void Send(std::vector<Command> commands);
   void Measure();
+  void IntegrateDeviations();
+  /// Integrate the deviation of the object pose at which the measured fingertips are at their
+  /// anchors.
+  void IntegrateTips();
+  void Integrate(double share, const PoseDeviation& off);
+  /// Move an anchor to a place near the surface, at a distance of the fingertip's radius.
+  void PlaceAnchor(FingerIndex finger, const Eigen::Vector3d& centre_O);
+  /// Return the orientation of the tip's link in the object's frame, from joints and plan.
+  [[nodiscard]] Eigen::Matrix3d TipTurn(FingerIndex finger) const;
+  /// Roll the fingertip along the surface as its joints have moved since the last time.
+  void Roll(FingerIndex finger);
   void PlanForces();
-  /// Return the contact of a finger, or the last one while the object was near; nullopt if none.
-  [[nodiscard]] std::optional<TipTouch> KnownTouch(FingerIndex finger) const;
   /// Return the part of a hold whose contacts are known.
   [[nodiscard]] Hold WithContacts(const Hold& hold) const;
   [[nodiscard]] grasp::Grasp ContactsOf(const std::vector<FingerIndex>& fingers) const;
@@ -142,18 +178,21 @@ class HandControl {
   [[nodiscard]] kinematics::Posture PlannedPosture(FingerIndex finger) const;
   [[nodiscard]] Eigen::VectorXd TorquesOf(FingerIndex finger) const;
   void FollowTip(FingerIndex finger);
-  [[nodiscard]] Eigen::Isometry3d CorrectedPose() const;
+  /// Return the object pose whose tracking brings the object to the planned pose.
+  [[nodiscard]] Eigen::Isometry3d CommandedPose() const;
 
   HandWorld& world_;
   const object::Polyhedron& solid_;
   double scale_;
   double reach_;  ///< largest distance of the object's points from its centroid
   HandControlSettings settings_;
+  HandSensors sensors_;
   plan::HandState planned_;
   HoldingFingers holding_;
   std::vector<Finger> fingers_;
   Eigen::Vector3d shift_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();
+  std::deque<std::vector<Command>> sent_;  ///< commands that have no effect yet
   int step_ = 0;
   bool corrects_ = true;
 };

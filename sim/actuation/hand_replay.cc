@@ -41,12 +41,12 @@ HandState StartOf(const plan::Plan& plan, const HandReplayOptions& options,
 }
 
 ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& solid,
-                          const plan::Plan& plan, const HandControlSettings& control,
+                          const plan::Plan& plan, const std::vector<double>& squeezes,
                           const HandReplayOptions& options) {
   ReplaySettings s;
-  s.mu = std::tan(control.half_angle);
+  s.mu = std::tan(plan.half_angle);
   s.mass_kg = *options.mass_kg;
-  s.squeeze_N = control.squeeze_N;
+  s.squeeze_N = *std::ranges::max_element(squeezes);
   s.squeeze_source = options.squeeze_N ? SqueezeSource::kGiven : SqueezeSource::kTorques;
   s.shake = options.shake;
   s.protocol = Protocol::kFixed;
@@ -82,26 +82,43 @@ HandReplayOptions WithMass(HandReplayOptions options, const object::Polyhedron& 
   return options;
 }
 
+/// Return the errors of the joint sensors, by finger.
+std::vector<kinematics::Posture> JointErrors(const kinematics::HandModel& hand,
+                                             const HandSensing& sensing) {
+  std::vector<kinematics::Posture> errors = sensing.joint_offsets;
+  if (sensing.joint_bias_rad == 0) return errors;
+  for (std::size_t f = 0; f < hand.fingers.size(); ++f) {
+    const int drives = hand.fingers[f].drives;
+    if (f >= errors.size()) errors.emplace_back(kinematics::Posture::Zero(drives));
+    RandomStream random(sensing.seed, RandomUse::kJointErrors, f);
+    for (double& error : errors[f]) error += sensing.joint_bias_rad * random.Normal();
+  }
+  return errors;
+}
+
 /// @pre the mass is set.
-HandWorldOptions WorldOptions(const HandReplayOptions& options, double half_angle) {
+HandWorldOptions WorldOptions(const kinematics::HandModel& hand, const HandReplayOptions& options,
+                              double half_angle) {
   return {options.friction_factor * std::tan(half_angle),
           options.mass_factor * *options.mass_kg,
           kGravity,
           options.force_factor,
           options.physics,
-          options.sensing.joint_offsets,
+          JointErrors(hand, options.sensing),
           options.tip};
 }
 
+HandControlSettings ControlSettings(const plan::Plan& plan, const HandReplayOptions& options) {
+  return {plan.half_angle, *options.mass_kg * kGravity, options.sensing};
+}
+
+/// Return the grasp force of each static grasp, newtons.
 /// @param world  changes to an arbitrary state.
-HandControlSettings ControlSettings(HandWorld& world, const object::Polyhedron& solid,
-                                    const plan::Plan& plan, const HandReplayOptions& options,
-                                    int entries) {
-  HandControlSettings control{plan.half_angle, 0, *options.mass_kg * kGravity,
-                              options.sensing.feedback == PoseFeedback::kPose};
-  control.squeeze_N = options.squeeze_N.value_or(
-      TorqueSqueeze(world, solid, plan, entries, plan.half_angle, control.weight_N));
-  return control;
+std::vector<double> SqueezesOf(HandWorld& world, const object::Polyhedron& solid,
+                               const plan::Plan& plan, const HandReplayOptions& options,
+                               int entries) {
+  if (options.squeeze_N) return std::vector<double>(entries, *options.squeeze_N);
+  return TorqueSqueezes(world, solid, plan, entries, plan.half_angle, *options.mass_kg * kGravity);
 }
 
 void Append(const HandState& state, std::vector<double>& numbers) {
@@ -158,12 +175,13 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
   }
   const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
   const HandReplayOptions options = WithMass(given, solid, plan.scale);
-  HandWorld world(file, solid, plan.scale, WorldOptions(options, plan.half_angle));
-  const HandControlSettings control = ControlSettings(world, solid, plan, options, entries);
+  HandWorld world(file, solid, plan.scale, WorldOptions(file.hand, options, plan.half_angle));
+  const std::vector<double> squeezes = SqueezesOf(world, solid, plan, options, entries);
   ReplayResult result;
-  result.settings = SettingsOf(world, solid, plan, control, options);
+  result.settings = SettingsOf(world, solid, plan, squeezes, options);
   world.Place(StartOf(plan, options, world.centroid_O()));
-  EntryReplay replay(world, solid, plan, control, options, observer);
+  EntryReplay replay(world, solid, plan, ControlSettings(plan, options), squeezes, options,
+                     observer);
   for (plan::EntryIndex index{0}; index < entries; ++index) {
     result.steps.push_back(replay.Carry(index));
     if (observer.on_progress) observer.on_progress(int{index} + 1, entries);
@@ -189,8 +207,8 @@ struct HandReplays::Impl {
   double half_angle = 0;
   double scale = 0;
   std::optional<HandWorld> world = {};
-  std::map<double, Next> begun = {};  ///< initial grasps by grasp force
-  int known = 0;                      ///< total number of stored static grasps
+  Next begun = {};  ///< initial grasps
+  int known = 0;    ///< total number of stored static grasps
 
   void Forget() {
     begun.clear();
@@ -203,7 +221,7 @@ struct HandReplays::Impl {
     scale = plan.scale;
     Forget();
     options = WithMass(given, solid, scale);
-    world.emplace(file, solid, scale, WorldOptions(options, half_angle));
+    world.emplace(file, solid, scale, WorldOptions(file.hand, options, half_angle));
   }
 
   ReplayResult Run(const plan::Plan& plan, const Deadline& deadline) {
@@ -211,13 +229,14 @@ struct HandReplays::Impl {
     if (known > kMostKnown) Forget();
     const int entries = static_cast<int>(plan.steps.size()) + 1;
     world->PinObject(false);
-    const HandControlSettings control = ControlSettings(*world, solid, plan, options, entries);
+    const std::vector<double> squeezes = SqueezesOf(*world, solid, plan, options, entries);
     ReplayResult result;
-    result.settings = SettingsOf(*world, solid, plan, control, options);
+    result.settings = SettingsOf(*world, solid, plan, squeezes, options);
     world->Place(StartOf(plan, options, world->centroid_O()));
     const ReplayObserver unseen;
-    EntryReplay replay(*world, solid, plan, control, options, unseen);
-    Next* next = &begun[control.squeeze_N];
+    EntryReplay replay(*world, solid, plan, ControlSettings(plan, options), squeezes, options,
+                       unseen);
+    Next* next = &begun;
     const Come* last = nullptr;
     plan::EntryIndex index{0};
     for (; index < entries; ++index) {

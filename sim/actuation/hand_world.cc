@@ -334,6 +334,11 @@ std::optional<collision::NearPoint> HandWorld::NearBall(FingerIndex finger) cons
   return impl_->surface.NearBall(finger, centre);
 }
 
+std::optional<collision::NearPoint> HandWorld::NearSphere(FingerIndex finger,
+                                                          const Vector3d& centre_O) const {
+  return impl_->surface.NearBall(finger, centre_O);
+}
+
 const DriveServo& HandWorld::servo(FingerIndex finger, int drive) const {
   return impl_->fingers[finger].drives[drive].servo;
 }

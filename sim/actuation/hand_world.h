@@ -99,6 +99,10 @@ class HandWorld {
   /// Return the surface point near the fingertip sphere, in the object's frame.
   /// The sphere counts even if other geometry makes contact. The result is nullopt beyond 5 mm.
   [[nodiscard]] std::optional<collision::NearPoint> NearBall(FingerIndex finger) const;
+  /// Return the surface point near a sphere of the fingertip's radius at any place.
+  /// @param centre_O  centre in the object's frame.
+  [[nodiscard]] std::optional<collision::NearPoint> NearSphere(
+      FingerIndex finger, const Eigen::Vector3d& centre_O) const;
   [[nodiscard]] const DriveServo& servo(FingerIndex finger, int drive) const;
   /// Return the names of the model's actuators, in its order; an unnamed one gets its number.
   [[nodiscard]] std::vector<std::string> control_names() const;

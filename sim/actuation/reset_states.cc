@@ -71,7 +71,7 @@ std::optional<double> ResetStates::SqueezeOf(const plan::HandState& rest,
   const double squeeze = options_.squeeze_N
                              ? *options_.squeeze_N
                              : RestSqueeze(world_, solid_, scale_, rest, grasp, options_.half_angle,
-                                           weight_N_, MostSqueeze(world_, weight_N_));
+                                           weight_N_, MostSqueeze(weight_N_));
   const Vector3d down = -weight_N_ * (rest.pose.linear().transpose() * world_.hand().up);
   const grasp::GraspForces forces =
       grasp::ComputeGraspForces(plan::ContactsOf(grasp), solid_.wrench_frame(), options_.half_angle,
@@ -98,8 +98,9 @@ void ResetStates::TakeHold(const plan::HandState& rest, const plan::FingerGrasp&
                            double squeeze_N) {
   world_.Place(rest);
   // Feedback is off, since the stored state is the final one, at any pose of the object.
-  HandControl control(world_, solid_, scale_, {options_.half_angle, squeeze_N, weight_N_, false});
-  Hold hold;
+  HandControl control(world_, solid_, scale_,
+                      {options_.half_angle, weight_N_, {.feedback = PoseFeedback::kNone}});
+  Hold hold = {{}, squeeze_N};
   for (const plan::FingerContact& held : grasp) {
     control.Attach(held.finger);
     hold.fingers.push_back(held.finger);

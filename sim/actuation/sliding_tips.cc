@@ -66,17 +66,17 @@ Vector3d PlannedTip(const kinematics::HandModel& hand, const HandState& state, F
          kinematics::TipAt(chain, PostureOf(chain, state.joints[finger])).centre;
 }
 
-SlidingTips::SlidingTips(const HandWorld& world, const TimedPath& timed,
-                         const plan::FingerGrasp& from, const plan::FingerGrasp& to)
-    : hand_(world.hand()), timed_(timed) {
-  const Eigen::Isometry3d to_object = world.object_pose().inverse();
+SlidingTips::SlidingTips(const HandControl& control, const kinematics::HandModel& hand,
+                         const TimedPath& timed, const plan::FingerGrasp& from,
+                         const plan::FingerGrasp& to)
+    : hand_(hand), timed_(timed) {
   double way = 0;
   for (const plan::FingerContact& start : from) {
     const FingerIndex f = start.finger;
     const grasp::Contact& end = plan::FindFinger(to, f)->contact;
     if (end.p == start.contact.p && end.n == start.contact.n) continue;
     const Vector3d planned = PlannedTip(hand_, timed.At(0), f);
-    tips_.push_back({f, to_object * world.tip(f) - planned});
+    tips_.push_back({f, control.TipInObject(f) - planned});
     way = std::max(way, (PlannedTip(hand_, StateAt(1), f) - planned).norm());
   }
   duration_ = std::max(timed.duration(), way / kSlideSpeed);

@@ -40,11 +40,11 @@ inline constexpr double kPathRamp = 0.15;   ///< time from zero to full speed, s
 /// They lead from the actual places of the fingertips to the planned ones.
 class SlidingTips {
  public:
-  /// @param world     world with the present state of hand and object; must outlive this object.
+  /// @param control   controller, which measures the present places of the fingertips.
   /// @param timed     path between the two waypoints; must outlive this object.
   /// @param from, to  waypoints; fingers slide if their contacts differ.
-  SlidingTips(const HandWorld& world, const TimedPath& timed, const plan::FingerGrasp& from,
-              const plan::FingerGrasp& to);
+  SlidingTips(const HandControl& control, const kinematics::HandModel& hand, const TimedPath& timed,
+              const plan::FingerGrasp& from, const plan::FingerGrasp& to);
 
   /// Return whether no finger slides.
   [[nodiscard]] bool empty() const { return tips_.empty(); }

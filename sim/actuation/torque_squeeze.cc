@@ -6,6 +6,7 @@
 
 #include "planner/grasp/grasp_forces.h"
 #include "planner/plan/plan.h"
+#include "sim/actuation/grasp_stiffness.h"
 
 namespace regrasp::sim {
 namespace {
@@ -31,58 +32,115 @@ std::vector<PlannedRest> RestsOf(const plan::Plan& plan, int entries) {
   return rests;
 }
 
-}  // namespace
-
-double MostSqueeze(const HandWorld& world, double weight) {
-  bool known = true;
-  for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
-    for (int drive = 0; drive < world.hand().fingers[f].drives; ++drive) {
-      known = known && std::isfinite(world.servo(f, drive).limit);
-    }
+/// A static grasp of a hand, with which forces it holds, and what resists them.
+class HeldGrasp {
+ public:
+  HeldGrasp(HandWorld& world, const object::Polyhedron& solid, double scale,
+            const plan::HandState& state, const plan::FingerGrasp& grasp, double half_angle,
+            double weight)
+      : world_(world),
+        solid_(solid),
+        pose_(state.pose),
+        grasp_(grasp),
+        contacts_(plan::ContactsOf(grasp)),
+        scale_(scale),
+        half_angle_(half_angle) {
+    load_.force = -weight * (pose_.linear().transpose() * world.hand().up);
+    world.Place(state);
   }
-  return std::max((known ? kMostWeights : kMostWeightsOfUnknown) * weight, kEnough);
-}
 
-double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double scale,
-                   const plan::HandState& state, const plan::FingerGrasp& grasp, double half_angle,
-                   double weight, double most) {
-  world.Place(state);
-  const Eigen::Isometry3d& pose = state.pose;
-  const Eigen::Vector3d down = -weight * (pose.linear().transpose() * world.hand().up);
-  const grasp::Grasp contacts = plan::ContactsOf(grasp);
+  [[nodiscard]] grasp::GraspForces ForcesAt(double squeeze) const {
+    return grasp::ComputeGraspForces(contacts_, solid_.wrench_frame(), half_angle_, load_, squeeze);
+  }
+
   /// Return the largest ratio of an actuator's torque to its limit.
-  const auto load = [&](double squeeze) {
-    const grasp::GraspForces forces = grasp::ComputeGraspForces(
-        contacts, solid.wrench_frame(), half_angle, {down, Eigen::Vector3d::Zero()}, squeeze);
-    double most_load = 0;
-    for (std::size_t i = 0; i < grasp.size(); ++i) {
-      const FingerIndex f = grasp[i].finger;
-      const Eigen::VectorXd torques = world.BalancingTorques(f, pose * (scale * grasp[i].contact.p),
-                                                             pose.linear() * forces.forces[i]);
+  [[nodiscard]] double LoadAt(double squeeze) const {
+    const grasp::GraspForces forces = ForcesAt(squeeze);
+    double most = 0;
+    for (std::size_t i = 0; i < grasp_.size(); ++i) {
+      const FingerIndex f = grasp_[i].finger;
+      const Eigen::VectorXd torques = world_.BalancingTorques(f, pose_ * (scale_ * contacts_[i].p),
+                                                              pose_.linear() * forces.forces[i]);
       for (int drive = 0; drive < torques.size(); ++drive) {
-        most_load = std::max(most_load, std::abs(torques[drive]) / world.servo(f, drive).limit);
+        most = std::max(most, std::abs(torques[drive]) / world_.servo(f, drive).limit);
       }
     }
-    return most_load;
-  };
-  if (load(most) <= kTorqueShare) return most;
+    return most;
+  }
+
+  /// @param share  factor on the forces.
+  [[nodiscard]] double StiffnessAt(double squeeze, double share = 1) const {
+    const grasp::GraspForces forces = ForcesAt(squeeze);
+    std::vector<StiffFinger> fingers;
+    for (std::size_t i = 0; i < grasp_.size(); ++i) {
+      const FingerIndex f = grasp_[i].finger;
+      const kinematics::Finger& chain = world_.hand().fingers[f];
+      Eigen::VectorXd stiffness(chain.drives);
+      for (int drive = 0; drive < chain.drives; ++drive) {
+        stiffness[drive] = world_.servo(f, drive).stiffness;
+      }
+      fingers.push_back({&chain, world_.posture(f), stiffness, pose_ * (scale_ * contacts_[i].p),
+                         pose_.linear() * contacts_[i].n,
+                         share * (pose_.linear() * forces.forces[i])});
+    }
+    const double radius = scale_ * solid_.diameter() / 2;
+    return SmallestStiffness(ComputeGraspStiffness(fingers, pose_ * world_.centroid_O(), radius));
+  }
+
+ private:
+  HandWorld& world_;
+  const object::Polyhedron& solid_;
+  Eigen::Isometry3d pose_;
+  const plan::FingerGrasp& grasp_;
+  grasp::Grasp contacts_;
+  double scale_;
+  double half_angle_;
+  grasp::Wrench load_;
+};
+
+/// Return the largest force up to `most` at which a condition holds that fails from some force on.
+/// The result is at most 1/1000 of `most` too large.
+template <typename Holds>
+double LargestForce(double most, const Holds& holds) {
+  if (holds(most)) return most;
   double low = 0;
   double high = most;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (low + high) / 2;
-    (load(middle) <= kTorqueShare ? low : high) = middle;
+    (holds(middle) ? low : high) = middle;
   }
   return high;
 }
 
-double TorqueSqueeze(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
-                     int entries, double half_angle, double weight) {
-  double squeeze = MostSqueeze(world, weight);
+}  // namespace
+
+double MostSqueeze(double weight) { return std::max(kMostWeights * weight, kEnough); }
+
+double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double scale,
+                   const plan::HandState& state, const plan::FingerGrasp& grasp, double half_angle,
+                   double weight, double most) {
+  const HeldGrasp held(world, solid, scale, state, grasp, half_angle, weight);
+  const double allowed =
+      LargestForce(most, [&](double squeeze) { return held.LoadAt(squeeze) <= kTorqueShare; });
+  const double unloaded = held.StiffnessAt(most, 0);
+  const double stable = LargestForce(allowed, [&](double squeeze) {
+    return held.StiffnessAt(squeeze) >= kStableShare * unloaded;
+  });
+  if (stable >= allowed) return allowed;
+  const double required = LargestForce(
+      allowed, [&](double squeeze) { return held.ForcesAt(squeeze).margin < kLeastMargin; });
+  return std::max(stable, required);
+}
+
+std::vector<double> TorqueSqueezes(HandWorld& world, const object::Polyhedron& solid,
+                                   const plan::Plan& plan, int entries, double half_angle,
+                                   double weight) {
+  std::vector<double> squeezes;
   for (const PlannedRest& rest : RestsOf(plan, entries)) {
-    squeeze =
-        RestSqueeze(world, solid, plan.scale, rest.state, rest.grasp, half_angle, weight, squeeze);
+    squeezes.push_back(RestSqueeze(world, solid, plan.scale, rest.state, rest.grasp, half_angle,
+                                   weight, MostSqueeze(weight)));
   }
-  return squeeze;
+  return squeezes;
 }
 
 }  // namespace regrasp::sim

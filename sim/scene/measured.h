@@ -70,6 +70,7 @@ struct HandMeasures {
   double frozen_off_m = 0;
   double frozen_off_rad = 0;
   bool is_complete = false;  ///< whether the step reached its static grasp
+  double squeeze_N = 0;      ///< grasp force of the static grasp after the step
   double simulated_s = 0;    ///< without the disturbance tests
 };
 

@@ -157,19 +157,16 @@ void RunTrials(const ValidationRequest& request, const ValidationObserver& obser
   };
   const ValidationSettings& settings = result.settings;
   Report& report = result.report;
-  const double squeeze = report.settings->squeeze_N;
   if (settings.hand) {
-    sim::HandReplayOptions options = *settings.hand;
-    options.squeeze_N = squeeze;
-    report.trials = sim::RunHandTrials(*request.hand, SolidOf(request), settings.plan, options,
-                                       trials, progress);
+    report.trials = sim::RunHandTrials(*request.hand, SolidOf(request), settings.plan,
+                                       *settings.hand, trials, progress);
     return;
   }
   sim::ReplayOptions options = settings.replay;
   // With two engines MuJoCo decides.
   if (options.engine == sim::EngineChoice::kBoth) options.engine = sim::EngineChoice::kMujoco;
   // A hand does not know the noise.
-  if (options.hand_squeeze) options.squeeze_N = squeeze;
+  if (options.hand_squeeze) options.squeeze_N = report.settings->squeeze_N;
   report.trials = sim::RunTrials(request.object, settings.plan, options, trials,
                                  report.settings->fingertip_radius_m, progress);
 }

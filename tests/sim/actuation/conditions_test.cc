@@ -74,8 +74,7 @@ TEST(ConditionsTest, InvalidFilesAreRefusedWithThePlaceOfTheFault) {
   EXPECT_EQ(Refusal("[]"), "c.json: expected at least one condition, found an empty array");
   EXPECT_EQ(Refusal(R"({"name": "a"})"), "c.json: expected a JSON array, found a JSON object");
   EXPECT_EQ(Refusal(R"([{"gain_factor": 1}])"), "c.json: /0: member \"name\" not found");
-  EXPECT_EQ(Refusal(R"([{"name": "a"}, {"name": "a"}])"),
-            "c.json: /1/name: found twice: \"a\"");
+  EXPECT_EQ(Refusal(R"([{"name": "a"}, {"name": "a"}])"), "c.json: /1/name: found twice: \"a\"");
   EXPECT_EQ(Refusal(R"([{"name": "a", "gains": 1}])"),
             "c.json: /0: member \"gains\" not supported");
   EXPECT_EQ(Refusal(R"([{"name": "a", "gain_factor": 0}])"),
@@ -157,8 +156,7 @@ TEST_F(ConditionReplaysTest, AReplayContinuesAfterAViolation) {
 }
 
 TEST_F(ConditionReplaysTest, TheRequiredShareDecides) {
-  ConditionSummary summary = Run(
-      R"([{"name": "same"}, {"name": "icy", "friction_factor": 0.1}])");
+  ConditionSummary summary = Run(R"([{"name": "same"}, {"name": "icy", "friction_factor": 0.1}])");
   EXPECT_EQ(summary.applicable(), 2);
   EXPECT_EQ(summary.passed(), 1);
   EXPECT_FALSE(summary.results[1].ends_within);

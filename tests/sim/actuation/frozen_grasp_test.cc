@@ -20,8 +20,7 @@ class FrozenGraspTest : public EditedHandTest {
   /// @param grasp_force in weights of the object.
   [[nodiscard]] StepReplay InitialGrasp(const std::string& stiffness, double grasp_force,
                                         double freeze_s = 1) const {
-    const kinematics::HandFile hand =
-        HandWith({{"kp=\"2.0\"", "kp=\"" + stiffness + "\""}});
+    const kinematics::HandFile hand = HandWith({{"kp=\"2.0\"", "kp=\"" + stiffness + "\""}});
     HandReplayOptions options;
     options.mass_kg = kMass;
     options.shake = 0;
