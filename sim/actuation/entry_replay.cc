@@ -210,16 +210,15 @@ void EntryReplay::Run(double seconds, const OnTick& on_tick) {
 
 void EntryReplay::TakeHold() {
   monitor_.SetPhase("while the hand takes hold");
-  for (const plan::FingerContact& held : plan_.initial) {
-    control_.Attach(held.finger);
-    holding_.push_back(held.finger);
-  }
-  monitor_.WatchContacts(plan_.initial, plan_.scale, start_off_);
-  EndIfFailed();
   // The object is fixed until the fingers hold it.
   world_.PinObject(true);
-  monitor_.SetSettling(true, start_off_);
+  monitor_.SetSettling(true);
   control_.SetFeedback(false);
+  std::vector<Coming> coming = ComingTo(plan_.initial);
+  Descend(state_, coming);
+  for (const plan::FingerContact& held : plan_.initial) holding_.push_back(held.finger);
+  monitor_.WatchContacts(plan_.initial, plan_.scale, start_off_);
+  EndIfFailed();
   const Hold all = HeldWith(squeeze_);
   Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
   world_.PinObject(false);
@@ -308,15 +307,20 @@ void EntryReplay::Slide(const plan::FingerGrasp& from, const plan::FingerGrasp& 
   });
 }
 
-void EntryReplay::PlaceFingers(const plan::Switch& change) {
-  monitor_.SetPhase("while a finger comes");
-  const plan::HandPath& path = change.motion->place;
+std::vector<EntryReplay::Coming> EntryReplay::ComingTo(const plan::FingerGrasp& grasp) const {
   std::vector<Coming> coming;
-  for (const plan::FingerContact& placed : change.place) {
+  for (const plan::FingerContact& placed : grasp) {
     const double radius = world_.hand().fingers[placed.finger].tip.radius;
     const Vector3d outward = -placed.contact.n;
     coming.push_back({placed.finger, plan_.scale * placed.contact.p + radius * outward, outward});
   }
+  return coming;
+}
+
+void EntryReplay::PlaceFingers(const plan::Switch& change) {
+  monitor_.SetPhase("while a finger comes");
+  const plan::HandPath& path = change.motion->place;
+  std::vector<Coming> coming = ComingTo(change.place);
   const TimedPath timed(path, kFreeJoints);
   const double duration = timed.duration();
   const double begin = world_.time();

@@ -63,6 +63,7 @@ class EntryReplay {
   /// @param hold  as in ChangeSliding.
   void Slide(const plan::FingerGrasp& from, const plan::FingerGrasp& to, const plan::HandPath& path,
              Hold& hold);
+  [[nodiscard]] std::vector<Coming> ComingTo(const plan::FingerGrasp& grasp) const;
   void PlaceFingers(const plan::Switch& change);
   void Descend(const plan::HandState& end, std::vector<Coming>& coming);
   void ReleaseFingers(const plan::Switch& change);

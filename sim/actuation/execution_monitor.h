@@ -52,11 +52,7 @@ class ExecutionMonitor {
   void WatchPlaced(FingerIndex finger);
   /// Set whether fingertips of the model may be in the object.
   /// They may from the start to the first static grasp, while contact forces press them out of it.
-  /// @param known_off  additional allowed depth of fingertip spheres meanwhile, metres.
-  void SetSettling(bool on, double known_off = 0) {
-    settling_ = on;
-    settling_depth_ = on ? known_off : 0;
-  }
+  void SetSettling(bool on) { settling_ = on; }
   /// Check the depth of fingertips in a static grasp.
   /// It also measures the depth of the collision geometry that fingertip spheres replace.
   void WatchTipsAtRest();
@@ -69,15 +65,8 @@ class ExecutionMonitor {
     bool holds = false;
     std::optional<Eigen::Vector3d> slides_to_O = std::nullopt;  ///< target of SetSliding
     double without_force = 0;
-    /// Sum of the sliding motion of a fingertip that is not a sphere.
     Eigen::Vector3d slip = Eigen::Vector3d::Zero();
     Eigen::Vector3d first_O = Eigen::Vector3d::Zero();
-    /// Expected place of a holding fingertip sphere: its centre and its contact in the object's
-    /// frame, and the orientation of its link relative to the planned object. Its contact moves
-    /// only by rolling without slip.
-    Eigen::Vector3d centre_O = Eigen::Vector3d::Zero();
-    std::optional<Eigen::Vector3d> expected_O = std::nullopt;
-    Eigen::Matrix3d turn_O = Eigen::Matrix3d::Identity();
     /// uninterrupted seconds at the force limit, by independent joint
     std::vector<double> at_limit;
     /// seconds at the control limit in this step, by independent joint
@@ -86,14 +75,6 @@ class ExecutionMonitor {
   void WatchObject(const Eigen::Isometry3d& planned, double share, double& off_m, double& off_rad);
   void WatchFinger(FingerIndex finger);
   void WatchContact(FingerIndex finger);
-  /// Set the expected place of a fingertip sphere near a place.
-  void ExpectAt(FingerIndex finger, const Eigen::Vector3d& centre_O);
-  /// Roll the expected place with the present joints and the planned object pose.
-  void RollExpected(FingerIndex finger, const Eigen::Isometry3d& planned);
-  /// Return the orientation of a fingertip's link relative to an object pose.
-  [[nodiscard]] Eigen::Matrix3d TipTurn(FingerIndex finger, const Eigen::Isometry3d& pose) const;
-  /// Return the slip of a holding finger, metres.
-  [[nodiscard]] double SlipOf(FingerIndex finger, const TipTouch& touch);
   void WatchActuators(FingerIndex finger);
   void WatchLinks();
   void WatchJoints(FingerIndex finger);
@@ -127,7 +108,6 @@ class ExecutionMonitor {
   std::optional<Violation> violation_;
   int steps_ = 0;
   bool settling_ = false;
-  double settling_depth_ = 0;
 };
 
 }  // namespace regrasp::sim

@@ -1,5 +1,6 @@
 #include "sim/actuation/hand_replay.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/random.h"
+#include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/plan.h"
 #include "sim/actuation/entry_replay.h"
 #include "sim/actuation/hand_world.h"
@@ -26,10 +28,35 @@ using plan::HandState;
 /// Largest number of static grasps that HandReplays stores, about 20 kB each.
 constexpr int kMostKnown = 5000;
 
+/// Height of the fingertips of the initial grasp above their contacts at the start, metres. It is
+/// more than errors of joints and object amount to.
+constexpr double kOpening = 2e-3;
+
+/// Move the fingertips of a grasp away from the object along the normals.
+void Open(const kinematics::HandModel& hand, const plan::FingerGrasp& grasp, HandState& state) {
+  constexpr int kIterations = 10;
+  constexpr double kDamping = 2e-3;  // metres
+  for (const plan::FingerContact& held : grasp) {
+    const kinematics::Finger& chain = hand.fingers[held.finger];
+    kinematics::Posture posture = PostureOf(chain, state.joints[held.finger]);
+    const Vector3d outward = -(state.pose.linear() * held.contact.n);
+    const Vector3d wanted = kinematics::TipAt(chain, posture).centre + kOpening * outward;
+    for (int i = 0; i < kIterations; ++i) {
+      const kinematics::TipState tip = kinematics::TipAt(chain, posture);
+      const Eigen::Matrix3d damped = tip.jacobian * tip.jacobian.transpose() +
+                                     kDamping * kDamping * Eigen::Matrix3d::Identity();
+      posture += tip.jacobian.transpose() * damped.ldlt().solve(wanted - tip.centre);
+      posture = posture.cwiseMax(chain.lower).cwiseMin(chain.upper);
+    }
+    state.joints[held.finger] = kinematics::JointAngles(chain, posture);
+  }
+}
+
 /// Return the initial state of hand and object.
-HandState StartOf(const plan::Plan& plan, const HandReplayOptions& options,
-                  const Vector3d& centroid) {
+HandState StartOf(const kinematics::HandModel& hand, const plan::Plan& plan,
+                  const HandReplayOptions& options, const Vector3d& centroid) {
   HandState start = plan.hand->initial;
+  Open(hand, plan.initial, start);
   const double angle = options.start_turn_rad.norm();
   if (angle > 0) {
     const Eigen::AngleAxisd turn(angle, options.start_turn_rad / angle);
@@ -179,7 +206,7 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
   const std::vector<double> squeezes = SqueezesOf(world, solid, plan, options, entries);
   ReplayResult result;
   result.settings = SettingsOf(world, solid, plan, squeezes, options);
-  world.Place(StartOf(plan, options, world.centroid_O()));
+  world.Place(StartOf(world.hand(), plan, options, world.centroid_O()));
   EntryReplay replay(world, solid, plan, ControlSettings(plan, options), squeezes, options,
                      observer);
   for (plan::EntryIndex index{0}; index < entries; ++index) {
@@ -232,7 +259,7 @@ struct HandReplays::Impl {
     const std::vector<double> squeezes = SqueezesOf(*world, solid, plan, options, entries);
     ReplayResult result;
     result.settings = SettingsOf(*world, solid, plan, squeezes, options);
-    world->Place(StartOf(plan, options, world->centroid_O()));
+    world->Place(StartOf(world->hand(), plan, options, world->centroid_O()));
     const ReplayObserver unseen;
     EntryReplay replay(*world, solid, plan, ControlSettings(plan, options), squeezes, options,
                        unseen);

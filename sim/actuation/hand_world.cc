@@ -7,6 +7,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <deque>
+#include <mutex>
 #include <utility>
 
 #include "planner/base/error.h"
@@ -44,6 +46,43 @@ void SetRoom(int contacts, const HandPhysics& physics, mjModel& model) {
                 2 * (model.njnt + model.ntendon) + model.nv + model.ntendon;
 }
 
+/// Compiled scenes that were used last. To compile a hand with large meshes takes seconds, and many
+/// replays differ only in what is set after that.
+class CompiledScenes {
+ public:
+  /// Return a copy of the compiled scene of a hand and an object.
+  static kinematics::ModelPtr Get(const kinematics::HandFile& file,
+                                  const kinematics::ModelText& scene) {
+    std::string text = kinematics::FormatXml(scene.root);
+    static CompiledScenes scenes;
+    const std::scoped_lock lock(scenes.mutex_);
+    std::deque<Entry>& known = scenes.entries_;
+    auto found = std::ranges::find_if(known, [&](const Entry& entry) {
+      return entry.hand == file.compiled && entry.text == text;
+    });
+    if (found == known.end()) {
+      kinematics::ModelPtr model =
+          kinematics::CompileText(file.compiled->text.files.front(), scene);
+      known.push_front({file.compiled, std::move(text), std::move(model)});
+      if (known.size() > kMostKnown) known.pop_back();
+      found = known.begin();
+    }
+    kinematics::ModelPtr copy(mj_copyModel(nullptr, found->model.get()));
+    if (!copy) throw EnvironmentError("MuJoCo has no memory for a hand");
+    return copy;
+  }
+
+ private:
+  static constexpr std::size_t kMostKnown = 4;
+  struct Entry {
+    std::shared_ptr<const kinematics::CompiledModel> hand;
+    std::string text;
+    kinematics::ModelPtr model;
+  };
+  std::mutex mutex_;
+  std::deque<Entry> entries_;
+};
+
 }  // namespace
 
 struct HandWorld::Impl {
@@ -72,8 +111,7 @@ struct HandWorld::Impl {
   Impl(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
        const HandWorldOptions& given)
       : hand(file.hand), links(file), surface(file, given.tip, solid, scale), options(given) {
-    model = kinematics::CompileText(file.compiled->text.files.front(),
-                                    HandSceneText(file, solid, scale, options.mass_kg));
+    model = CompiledScenes::Get(file, HandSceneText(file, solid, scale, options.mass_kg));
     SetRoom(surface.most_contacts(), options.physics, *model);
     data.reset(mj_makeData(model.get()));
     if (!data) throw EnvironmentError("MuJoCo has no memory for a hand");

@@ -66,7 +66,8 @@ TEST(ConditionTableTest, EachConditionIsARow) {
   const std::string table = FormatConditionTable(ReportWithConditions());
   EXPECT_THAT(table, HasSubstr("condition  step  end_mm  end_deg  ends_within  margin"));
   EXPECT_THAT(table, HasSubstr("light      -     0.4     1.5      yes          0.75    pass\n"));
-  EXPECT_THAT(table, HasSubstr("icy        0     0.4     1.5      yes          -2      fail: slipped\n"));
+  EXPECT_THAT(table,
+              HasSubstr("icy        0     0.4     1.5      yes          -2      fail: slipped\n"));
   EXPECT_THAT(table, HasSubstr("not applicable\n"));
   EXPECT_THAT(table, HasSubstr("conditions: 2 of 3 pass, 3 of 3 end within the tolerance\n"));
   EXPECT_EQ(FormatConditionTable(Report()), "");

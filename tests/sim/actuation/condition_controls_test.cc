@@ -47,13 +47,13 @@ const std::map<std::string, std::string>& Controls() {
 /// Conditions that have no size, or whose opposite is the nominal replay.
 const std::set<std::string>& WithoutControl() {
   static const std::set<std::string> names = {
-      "pose-exact",           // better than any camera
-      "blind",                // there is nothing less than no pose
-      "timestep-0.5ms",       // a smaller step is more accurate; the control is that of 2 ms
-      "pyramidal-cones",      // HandPhysicsTest has a force at which pyramids slip and cones do not
-      "default-contacts",     // HandPhysicsTest compares depth and constants
-      "touch-0.3N",           // a finger that feels nothing presses 4 mm deeper and may still pass
-      "fingertip-geometry",   // TipGeometryTest has geometry with which plans fail
+      "pose-exact",          // better than any camera
+      "blind",               // there is nothing less than no pose
+      "timestep-0.5ms",      // a smaller step is more accurate; the control is that of 2 ms
+      "pyramidal-cones",     // HandPhysicsTest has a force at which pyramids slip and cones do not
+      "default-contacts",    // HandPhysicsTest compares depth and constants
+      "touch-0.3N",          // a finger that feels nothing presses 4 mm deeper and may still pass
+      "fingertip-geometry",  // TipGeometryTest has geometry with which plans fail
   };
   return names;
 }
