@@ -51,7 +51,10 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
                                                 const criteria::GraspCriteria& criteria) {
   planning::InHandTask in_hand{
       .hand = &hand.hand, .scale = body.scale, .robustness = planning::RobustnessLevel::kRequired};
-  in_hand.simulate = sim::ExecutionSimulator(hand, body.solid());
+  in_hand.simulate = sim::ExecutionSimulator(
+      hand, body.solid(),
+      sim::PlanningConditions(getenv("STD") ? sim::PlanningRobustness::kStandard
+                                            : sim::PlanningRobustness::kNominal));
   if (start) {
     in_hand.start_pose = start->pose;
     for (const plan::FingerContact& held : start->holding) {

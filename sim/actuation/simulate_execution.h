@@ -2,23 +2,36 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
 #include "planner/planning/in_hand_task.h"
+#include "sim/actuation/hand_replay.h"
 
 namespace regrasp::sim {
 
+/// Conditions under which a planner simulates its candidates.
+enum class PlanningRobustness {
+  kNominal,   ///< the nominal replay
+  kStandard,  ///< errors of sensors and physics first, then the nominal replay
+};
+
+/// Return the conditions of a robustness, hardest first.
+[[nodiscard]] std::vector<HandReplayOptions> PlanningConditions(PlanningRobustness robustness);
+
 /// Return a function that simulates the execution of plans for planners (planning::InHandTask).
 /// It replays a plan on the hand's own model (ReplayHand) with the plan's friction, for an object
-/// with the density of water, including disturbance tests. Several threads may call it at a time.
+/// with the density of water, under each condition in turn. A plan executes if it does under all;
+/// the result is that of the first condition that fails. Several threads may call it at a time.
 ///
 /// @param solid  object; must outlive the function.
 /// @returns a function that stops after the present step at its deadline, and returns nullopt if
 ///     the hand's model cannot be simulated.
 [[nodiscard]] std::function<std::optional<planning::ExecutionResult>(const plan::Plan&,
                                                                      const Deadline&)>
-ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid);
+ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid,
+                   std::vector<HandReplayOptions> conditions = {HandReplayOptions()});
 
 }  // namespace regrasp::sim
