@@ -51,7 +51,6 @@ constexpr std::array kRenamings = std::to_array<Renaming>({
     {kReplay, "--shake", "--disturbance", "*"},
     {kReplay, "--stress", "--disturbance", "limits"},
     {kReplay, "--align", "--replay", "align=*"},
-    {kReplay, "--feedback", "--replay", "feedback=*"},
     {kReplay, "--tip", "--replay", "tip=*"},
     {kReplay, "--tolerance-mm", "--tolerance", "*mm"},
     {kReplay, "--tolerance-deg", "--tolerance", "*deg"},

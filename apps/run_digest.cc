@@ -73,6 +73,7 @@ std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs) {
                                      {"repair", &inputs.repair_sha256}}) {
     sha256->empty() ? digest.AddAbsent(name) : digest.Add(name, *sha256);
   }
+  if (!options.conditions_sha256.empty()) digest.Add("conditions", options.conditions_sha256);
   return digest.Add("options", options.given).Finish();
 }
 

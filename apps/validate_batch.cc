@@ -45,6 +45,7 @@ int ValidateOne(ValidateOptions options, const LibraryPlan& plan, const fs::path
   options.junit.clear();
   options.quiet = true;
   options.workers = std::max(1, options.workers / options.jobs);
+  options.jobs = 1;  // the plans already use all threads
   return RunGuarded(kValidateName, [&] {
     if (!options.fresh && HasSameRun(options)) return kExitKept;
     {

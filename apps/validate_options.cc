@@ -12,6 +12,7 @@
 #include "apps/validate_modes.h"
 #include "apps/view_options.h"
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "render/picture/animation.h"
 
@@ -186,6 +187,45 @@ void ParseTolerance(ValidateOptions& options, const std::string& name, const std
   }
 }
 
+/// Return a parser of an angle in degrees, stored in radians.
+ListOption::Parser DegreesParser(double& radians) {
+  return [&radians](const std::string& name, const std::string& text) {
+    constexpr double kHalfTurn_deg = 180;
+    radians = Radians(ParseNumber(name, text, {0, kHalfTurn_deg}));
+  };
+}
+
+/// Return a parser of a length in millimetres, stored in metres.
+ListOption::Parser MillimetresParser(double& metres) {
+  return [&metres](const std::string& name, const std::string& text) {
+    constexpr double kMetre_mm = 1e3;
+    metres = ParseNumber(name, text, {0, kMetre_mm}) / kMetre_mm;
+  };
+}
+
+void AddFeedback(CLI::App& app, ValidateOptions& options) {
+  constexpr double kMostDelay_s = 10;
+  constexpr double kMostRate_Hz = 10'000;
+  sim::HandSensing& sensing = options.sensing;
+  ListOption("--feedback", &options.settings)
+      .Word("pose", [&sensing] { sensing.feedback = sim::PoseFeedback::kPose; })
+      .Word("none", [&sensing] { sensing.feedback = sim::PoseFeedback::kNone; })
+      .Key("delay", NumberParser(sensing.pose_delay_s, {0, kMostDelay_s}))
+      .Key("rate", NumberParser(sensing.pose_rate_Hz,
+                                {.lower = 0, .upper = kMostRate_Hz, .lower_included = false}))
+      .Key("noise-mm", MillimetresParser(sensing.pose_noise_m))
+      .Key("noise-deg", DegreesParser(sensing.pose_noise_rad))
+      .Key("bias-mm", MillimetresParser(sensing.pose_bias_m))
+      .Key("bias-deg", DegreesParser(sensing.pose_bias_rad))
+      .AddTo(app, "pose|none[,KEY=VALUE,…]",
+             "Measurement of the object's pose in a replay by the hand [default: pose]\n"
+             "pose: a camera; none: joints and touch only\n"
+             "delay=S: age of a measured pose [default: 0.05]\n"
+             "rate=HZ: measured poses per second [default: 30]\n"
+             "noise-mm=MM, noise-deg=DEG: standard deviations on each axis [default: 0.3, 0.3]\n"
+             "bias-mm=MM, bias-deg=DEG: the same of constant errors [default: 0, 0]");
+}
+
 void AddReplay(CLI::App& app, ValidateOptions& options) {
   ListOption("--replay", &options.settings)
       .Word("points", [&options] { options.replay_by_hand = false; })
@@ -196,6 +236,7 @@ void AddReplay(CLI::App& app, ValidateOptions& options) {
       .Key("tip",
            ChoiceParser<sim::TipShape>(options.tip, {{"ball", sim::TipShape::kBall},
                                                      {"geometry", sim::TipShape::kGeometry}}))
+      // Old form of --feedback, accepted for one version.
       .Key("feedback", ChoiceParser<sim::PoseFeedback>(options.sensing.feedback,
                                                        {{"pose", sim::PoseFeedback::kPose},
                                                         {"none", sim::PoseFeedback::kNone}}))
@@ -207,9 +248,8 @@ void AddReplay(CLI::App& app, ValidateOptions& options) {
              "align=imitate|slide (points): free fingers take over while a finger is "
              "repositioned, or fingers slide along the surface [default: imitate]\n"
              "tip=ball|geometry (hand): collision shape of fingertips, the sphere of the hand file "
-             "or the geoms of the model [default: ball]\n"
-             "feedback=pose|none (hand): joint targets follow the measured object pose or not "
-             "[default: pose]");
+             "or the geoms of the model [default: ball]");
+  AddFeedback(app, options);
   AddChoice<sim::EngineChoice>(app, "--engine", options.replay.engine,
                                {{"mujoco", sim::EngineChoice::kMujoco},
                                 {"ode", sim::EngineChoice::kOde},
@@ -263,6 +303,20 @@ void AddTrialOptions(CLI::App& app, ValidateOptions& options) {
              "mass=X: relative error of the mass [default: 0.1]\n"
              "joints=DEG (--replay hand): measured joint angles [default: 0.5]")
       ->needs(trials);
+  app.add_option("--conditions", options.conditions,
+                 "Also replay the plan by the hand once under each of several conditions [default: "
+                 "nominal]\n"
+                 "nominal: none\n"
+                 "standard: sensors, friction, mass, actuators and contact models that differ "
+                 "(docs/conditions.md)\n"
+                 "FILE: conditions in JSON (docs/conditions.schema.json)")
+      ->type_name("nominal|standard|FILE");
+  app.add_option("--require", options.require,
+                 "Let the verdict depend on conditions. SHARE is the share that must pass "
+                 "[default: 1]\n"
+                 "standard: those of --conditions standard\n"
+                 "conditions: those of --conditions FILE")
+      ->type_name("standard|conditions[=SHARE]");
   AddSeed(app, options.trials.seed, "Random seed of --trials or --export-states [default: 0]");
 }
 
@@ -319,7 +373,10 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
 /// Limit for the workers: each has two images with four samples per pixel in memory.
 constexpr int kMostWorkers = 16;
 
+constexpr char kConditionsWord[] = "conditions";
 constexpr char kSeveralPlans[] = "requires several plans, a folder or a file of plans (*.jsonl)";
+constexpr char kSeveralPlansOrConditions[] =
+    "requires several plans, a folder or a file of plans (*.jsonl), or --conditions";
 constexpr char kSinglePlan[] = "requires a single plan or grasp";
 
 /// Return the options that change no result: inputs, outputs and speed.
@@ -394,7 +451,8 @@ void ValidateOptions::CheckPlans(const CLI::App& app) {
       throw InputError("--plan -: " + std::string(kSinglePlan));
     }
   } else {
-    Refuse(app, {"--jobs", "--time-limit", "--restart"}, kSeveralPlans);
+    Refuse(app, {"--time-limit", "--restart"}, kSeveralPlans);
+    if (conditions.empty() && require.empty()) Refuse(app, {"--jobs"}, kSeveralPlansOrConditions);
     if (!for_grasp()) plan_path = plans.front();
   }
 }
@@ -415,13 +473,46 @@ void ValidateOptions::CheckReplay(const CLI::App& app) {
     trials.joint_noise = Radians(joint_noise_deg);
     return;
   }
-  Refuse(
-      app,
-      {"--tolerance mm", "--tolerance deg", "--replay feedback", "--replay tip", "--noise joints"},
-      "requires --replay hand");
+  Refuse(app,
+         {"--tolerance mm", "--tolerance deg", "--feedback", "--replay feedback", "--replay tip",
+          "--noise joints"},
+         "requires --replay hand");
   if (trajectory_is_npz()) {
     throw InputError("--trajectory: " + trajectory + ": NPZ requires --replay hand");
   }
+}
+
+void ValidateOptions::CheckConditions(const CLI::App& app) {
+  constexpr char kNominal[] = "nominal";
+  constexpr char kStandard[] = "standard";
+  if (!replay_by_hand) Refuse(app, {"--conditions", "--require"}, "requires --replay hand");
+  if (!require.empty()) {
+    const std::size_t sign = require.find('=');
+    const std::string word = require.substr(0, sign);
+    if (word != kStandard && word != kConditionsWord) {
+      throw InputError("--require: expected standard or conditions, found \"" + word + "\"");
+    }
+    required_conditions = sign == std::string::npos
+                              ? 1
+                              : ParseNumber("--require", require.substr(sign + 1),
+                                            {.lower = 0, .upper = 1, .lower_included = false});
+    if (word == kStandard && conditions.empty()) conditions = kStandard;
+    if (word == kStandard && conditions != kStandard) {
+      throw InputError("--require standard: cannot be used with --conditions " + conditions +
+                       ", expected --require conditions");
+    }
+    if (conditions.empty() || conditions == kNominal) {
+      throw InputError("--require conditions: requires --conditions FILE");
+    }
+  }
+  if (conditions.empty() || conditions == kNominal) return;
+  if (conditions == kStandard) {
+    condition_list = sim::StandardConditions();
+    return;
+  }
+  const std::string text = ReadFile(conditions);
+  conditions_sha256 = Sha256(text);
+  condition_list = sim::ReadConditions(text, conditions);
 }
 
 void ValidateOptions::Finish(const CLI::App& app) {
@@ -443,6 +534,7 @@ void ValidateOptions::Finish(const CLI::App& app) {
   }
   CheckPlans(app);
   CheckReplay(app);
+  CheckConditions(app);
   if (trials.count == 0) {
     Refuse(app, {"--trials"}, "the number of trials is required, as in --trials 20");
     Refuse(app, {"--seed"}, "requires --trials or --export-states");

@@ -14,6 +14,7 @@
 #include "planner/criteria/grasp_criteria.h"
 #include "render/frames/frame.h"
 #include "render/frames/overview_image.h"
+#include "sim/actuation/conditions.h"
 #include "sim/hand/check_hand.h"
 #include "sim/replay/trials.h"
 #include "sim/scene/settings.h"
@@ -68,7 +69,12 @@ struct ValidateOptions {
   std::optional<double> scale;
   sim::ReplayOptions replay;
   double joint_noise_deg = 0.5;
-  sim::TrialOptions trials;  ///< options of repeated replays; a count of 0: none
+  sim::TrialOptions trials;       ///< options of repeated replays; a count of 0: none
+  std::string conditions;         ///< nominal, standard or a file of conditions; empty: not given
+  std::string conditions_sha256;  ///< digest of that file; empty if there is none
+  std::vector<sim::HandCondition> condition_list;  ///< conditions; set by Finish
+  std::string require;                             ///< standard[=SHARE]; empty: not given
+  std::optional<double> required_conditions;  ///< required share of the conditions; set by Finish
   render::FrameOptions frame;
   int animation_width =
       0;  ///< width in pixels; Finish sets --size animation, or half of the frames' width
@@ -127,6 +133,7 @@ struct ValidateOptions {
               const std::string& why) const;
   void CheckPlans(const CLI::App& app);
   void CheckReplay(const CLI::App& app);
+  void CheckConditions(const CLI::App& app);
 };
 
 }  // namespace regrasp::apps

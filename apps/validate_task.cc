@@ -234,6 +234,9 @@ validation::ValidationOptions ValidationOptionsOf(const ValidateOptions& options
   given.hand.tip = options.tip;
   given.hand_check.clearance_m = options.clearance_m;
   given.trials = options.trials;
+  given.conditions = options.condition_list;
+  given.required_conditions = options.required_conditions;
+  given.condition_jobs = options.for_lines() ? 1 : options.jobs;
   return given;
 }
 

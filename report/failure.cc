@@ -8,6 +8,7 @@
 #include "planner/object/given_points.h"
 #include "planner/object/object.h"
 #include "planner/plan/locate.h"
+#include "report/condition_table.h"
 #include "report/report_table.h"
 
 namespace regrasp::report {
@@ -159,6 +160,9 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kSlipped:
     case Reason::kObjectMoved:
       return MendReplay(step, report);
+    case Reason::kNotStatic:
+      return "use a smaller --grasp-force or stiffer servos, or plan with more friction margin "
+             "(plan at less friction than you check)";
     case Reason::kStartDiffers:
       return "plan from the grasp of --start, or omit --start";
     case Reason::kGoalNotReached:
@@ -272,6 +276,11 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
     case Reason::kSlipped:
     case Reason::kObjectMoved:
       return ToleranceText(report);
+    case Reason::kNotStatic:
+      return "with constant controls the object must stay within " +
+             FormatLength(HandToleranceOf(report).frozen_m) + " and " +
+             FormatDegrees(Degrees(HandToleranceOf(report).frozen_rad)) +
+             " of its pose in the static grasp for one second";
     case Reason::kStartDiffers:
       return "the plan must begin with the grasp of --start";
     case Reason::kGoalNotReached:
@@ -303,6 +312,15 @@ std::optional<Failure> DescribeFailure(const Report& report) {
   const auto failed = std::ranges::find(report.steps, Verdict::kFail, &ReportStep::verdict);
   if (failed == report.steps.end()) {
     if (report.passed()) return std::nullopt;
+    if (!report.trials || report.trials->enough()) {
+      return Failure{plan::EntryIndex(),
+                     "conditions",
+                     kConditionsFailed,
+                     ConditionsFailureText(*report.conditions),
+                     ConditionsRequiredText(*report.conditions),
+                     "plan with larger friction margins (plan --optimize margin, or plan at less "
+                     "friction than you check), or with smaller in-hand motions"};
+    }
     return Failure{
         plan::EntryIndex(),
         "trials",
@@ -320,7 +338,11 @@ std::optional<Failure> DescribeFailure(const Report& report) {
 std::string VerdictHeadline(const Report& report) {
   if (const auto failure = DescribeFailure(report)) return failure->headline();
   const bool some = report.trials && report.trials->passed < report.trials->options.count;
-  return some ? "pass " + TrialsPassText(*report.trials) : "";
+  std::string text = some ? "pass " + TrialsPassText(*report.trials) : "";
+  if (report.conditions && report.conditions->passed() < report.conditions->applicable()) {
+    text += (text.empty() ? "pass " : ", ") + ConditionsPassText(*report.conditions);
+  }
+  return text;
 }
 
 std::string HeadingText(const Report& report) {

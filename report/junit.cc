@@ -74,6 +74,24 @@ JunitOutcome OutcomeOf(std::string_view verdict) {
   return verdict == "fail" ? JunitOutcome::kFailed : JunitOutcome::kSkipped;
 }
 
+namespace {
+
+/// Add a case for each condition. Without a required share their failures are information, and such
+/// cases are skipped.
+void AddConditionCases(const sim::ConditionSummary& summary, JunitSuite& suite) {
+  for (const sim::ConditionResult& result : summary.results) {
+    const bool counts = result.applies && summary.required.has_value();
+    JunitOutcome outcome = result.passed() ? JunitOutcome::kPassed : JunitOutcome::kSkipped;
+    if (counts && !result.passed() && !summary.enough()) outcome = JunitOutcome::kFailed;
+    suite.cases.push_back({.name = "condition " + result.condition.name,
+                           .outcome = outcome,
+                           .message = std::string(plan::ReasonName(result.reason)),
+                           .text = result.detail});
+  }
+}
+
+}  // namespace
+
 JunitSuite MakeJunitSuite(const Report& report, const std::filesystem::path& folder) {
   JunitSuite suite{report.plan_file, {}};
   const auto failure = DescribeFailure(report);
@@ -94,6 +112,7 @@ JunitSuite MakeJunitSuite(const Report& report, const std::filesystem::path& fol
          .message = enough ? "" : kTrialsFailed,
          .text = failure ? JunitText(failure->what, failure->why, failure->mend) : ""});
   }
+  if (report.conditions) AddConditionCases(*report.conditions, suite);
   return suite;
 }
 

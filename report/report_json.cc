@@ -9,6 +9,7 @@
 #include "planner/base/json.h"
 #include "planner/base/number.h"
 #include "planner/certificate/plan_proof.h"
+#include "report/condition_table.h"
 #include "report/failure.h"
 #include "report/report_table.h"
 #include "sim/measure/shake.h"
@@ -87,6 +88,8 @@ Json HandJson(const sim::HandMeasures& measures) {
           {"coupling_deg", Degrees(measures.coupling_rad)},
           {"tip_depth_m", measures.tip_depth_m},
           {"covered_depth_m", measures.covered_depth_m},
+          {"frozen_displacement_m", measures.frozen_off_m},
+          {"frozen_rotation_deg", Degrees(measures.frozen_off_rad)},
           {"simulated_s", measures.simulated_s}};
 }
 
@@ -153,6 +156,8 @@ Json HandSettingsJson(const sim::HandReplaySettings& settings) {
           {"limit_s", settings.tolerance.limit_s},
           {"joint_deg", Degrees(settings.tolerance.joint_rad)},
           {"depth_m", settings.tolerance.depth_m},
+          {"frozen_m", settings.tolerance.frozen_m},
+          {"frozen_deg", Degrees(settings.tolerance.frozen_rad)},
           {"feedback", settings.sensing.feedback == sim::PoseFeedback::kPose ? "pose" : "none"},
           {"tip", settings.tip == sim::TipShape::kBall ? "ball" : "geometry"},
           {"servo_stiffness_Nm_rad", {settings.least_stiffness, settings.largest_stiffness}},
@@ -388,13 +393,14 @@ Json ReportJson(const Report& report) {
   if (report.run) json["run"] = RunJson(*report.run);
   if (report.grasp) json["grasp"] = MakeGrasp(report);
   if (report.trials) json["trials"] = TrialsJson(*report.trials);
+  if (report.conditions) json["conditions"] = ConditionsJson(*report.conditions);
   json["weakest_step"] = IndexOrNull(report.weakest_step());
   json["margins"] = MakeMargins(report);
   json["steps"] = Json::array();
   for (const ReportStep& step : report.steps) json["steps"].push_back(MakeStep(step, report));
   if (const auto failure = DescribeFailure(report)) {
     const bool in_step = failure->entry.valid();
-    Json& failed = in_step ? json["steps"][failure->entry] : json["trials"];
+    Json& failed = in_step ? json["steps"][failure->entry] : json[failure->kind];
     if (!in_step) failed["detail"] = failure->what;
     failed["why"] = failure->why;
     failed["mend"] = failure->mend;

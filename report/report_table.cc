@@ -10,6 +10,7 @@
 #include "planner/base/random.h"
 #include "planner/base/text_table.h"
 #include "planner/grasp/quality.h"
+#include "report/condition_table.h"
 #include "report/failure.h"
 #include "report/report.h"
 #include "sim/measure/shake.h"
@@ -313,7 +314,11 @@ std::string FormatBody(const Report& report) {
 std::string FormatVerdict(const Report& report) {
   const auto failure = DescribeFailure(report);
   const std::string trials = report.trials ? " " + TrialsPassText(*report.trials) : "";
-  return "verdict: " + (failure ? "fail, " + failure->headline() : "pass" + trials) + "\n";
+  const std::string conditions =
+      report.conditions ? " " + ConditionsPassText(*report.conditions) : "";
+  const std::string between = report.trials && report.conditions ? "," : "";
+  return "verdict: " +
+         (failure ? "fail, " + failure->headline() : "pass" + trials + between + conditions) + "\n";
 }
 
 std::string FormatTrials(const Report& report) {
@@ -336,7 +341,8 @@ std::string FormatReportTable(const Report& report) {
   return FormatFailure(report) + FormatRows(rows) + FormatBody(report) + FormatCauses(report) +
          FormatEngines(report) + FormatUndecided(report) +
          (report.grasp ? FormatGraspLines(report) : FormatWeakestOfPlan(report)) +
-         FormatStressTable(report) + FormatTrials(report) + FormatVerdict(report);
+         FormatStressTable(report) + FormatTrials(report) + FormatConditionTable(report) +
+         FormatVerdict(report);
 }
 
 }  // namespace regrasp::report

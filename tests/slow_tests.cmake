@@ -52,11 +52,13 @@ set(regrasp_slow_tests
   ContourOracle.*
   Degenerate.*
   Discrimination.*
+  ConditionControlsTest.*
   DrawOnSurface.GivesGood*
   */EveryPlanner.Obeys/*Quality
   FileTest.AFileThatIsTooLarge*
   FindContactChain.*
   FrameTest.DrawsTheLargest*
+  FrozenGraspTest.*
   GraphOracle.*
   GraphProgram.*
   HandReplayTest.*

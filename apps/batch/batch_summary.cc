@@ -56,6 +56,7 @@ Json PlanJson(const PlanOutcome& plan) {
   json["failed_step"] = report::OrNull(plan.report->failed_step());
   json["report"] = plan.name + "/report.json";
   if (plan.report->trials) json["trials"] = TrialsJson(*plan.report->trials);
+  if (plan.report->conditions) json["conditions"] = TrialsJson(*plan.report->conditions);
   return json;
 }
 
@@ -108,12 +109,21 @@ report::JunitSuite MakeSuite(const PlanOutcome& plan, const std::filesystem::pat
   }
   if (plan.report->trials) {
     const auto failure = plan.report->failure();
-    const bool enough = !failure || failure->entry.valid();
+    const bool enough = !failure || failure->entry.valid() || plan.report->trials->enough;
     suite.cases.push_back(
         {.name = "trials",
          .outcome = enough ? report::JunitOutcome::kPassed : report::JunitOutcome::kFailed,
          .message = enough ? "" : failure->reason,
          .text = enough ? "" : report::JunitText(failure->what, failure->why, failure->mend)});
+  }
+  if (plan.report->conditions) {
+    const ReportSummary::Trials& conditions = *plan.report->conditions;
+    suite.cases.push_back(
+        {.name = "conditions",
+         .outcome =
+             conditions.enough ? report::JunitOutcome::kPassed : report::JunitOutcome::kFailed,
+         .message = conditions.enough ? "" : report::kConditionsFailed,
+         .text = report::JunitText(conditions.detail, conditions.why, conditions.mend)});
   }
   report::SetCaseTimes(plan.entry_seconds, suite);
   return suite;

@@ -46,6 +46,19 @@ ReportSummary::Trials ReadTrials(const plan::JsonReader& trials) {
   read.detail = TextOrNothing(trials, "detail");
   read.why = TextOrNothing(trials, "why");
   read.mend = TextOrNothing(trials, "mend");
+  read.enough = trials.Member("verdict").OneOf({"pass", "fail"}) == "pass";
+  return read;
+}
+
+ReportSummary::Trials ReadConditionCounts(const plan::JsonReader& conditions) {
+  constexpr int kMost = 1'000'000;
+  ReportSummary::Trials read;
+  read.count = conditions.Member("applicable").Integer(0, kMost);
+  read.passed = conditions.Member("passed").Integer(0, read.count);
+  read.detail = TextOrNothing(conditions, "detail");
+  read.why = TextOrNothing(conditions, "why");
+  read.mend = TextOrNothing(conditions, "mend");
+  read.enough = conditions.Member("verdict").OneOf({"pass", "fail"}) == "pass";
   return read;
 }
 
@@ -71,20 +84,32 @@ std::optional<report::Failure> ReportSummary::failure() const {
     return report::Failure{
         plan::EntryIndex(*step), entry.kind, entry.reason, entry.detail, entry.why, entry.mend};
   }
+  if (!passed && conditions && !conditions->enough && (!trials || trials->enough)) {
+    return report::Failure{plan::EntryIndex(), "conditions",    report::kConditionsFailed,
+                           conditions->detail, conditions->why, conditions->mend};
+  }
   if (passed || !trials) return std::nullopt;
   return report::Failure{plan::EntryIndex(), "trials",    report::kTrialsFailed,
                          trials->detail,     trials->why, trials->mend};
 }
 
 std::string ReportSummary::extent() const {
-  if (!trials) return "";
-  return "in " + std::to_string(trials->passed) + " of " + std::to_string(trials->count) +
-         " trials";
+  std::string text;
+  if (trials) {
+    text =
+        "in " + std::to_string(trials->passed) + " of " + std::to_string(trials->count) + " trials";
+  }
+  if (conditions) {
+    text += (text.empty() ? "under " : ", under ") + std::to_string(conditions->passed) + " of " +
+            std::to_string(conditions->count) + " conditions";
+  }
+  return text;
 }
 
 std::string ReportSummary::headline() const {
   if (const auto failed = failure()) return failed->headline();
-  return trials && trials->passed < trials->count ? "pass " + extent() : "";
+  const auto some = [](const std::optional<Trials>& of) { return of && of->passed < of->count; };
+  return some(trials) || some(conditions) ? "pass " + extent() : "";
 }
 
 ReportSummary SummarizeReport(const Json& json, const std::string& name) {
@@ -95,6 +120,9 @@ ReportSummary SummarizeReport(const Json& json, const std::string& name) {
   ReadSubject(root, summary);
   if (root.Has("run")) ReadRun(root.Member("run"), summary);
   if (root.Has("trials")) summary.trials = ReadTrials(root.Member("trials"));
+  if (root.Has("conditions")) {
+    summary.conditions = ReadConditionCounts(root.Member("conditions"));
+  }
   const plan::JsonReader list = root.Member("steps");
   const std::vector<plan::JsonReader> steps = list.Elements();
   if (steps.empty()) list.Fail("is empty");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/base/json.h"
+#include "report/condition_table.h"
 #include "report/failure.h"
 #include "report/report.h"
 
@@ -19,11 +20,12 @@ struct ReportSummary {
     std::string frame;                ///< name of the image file; empty if there is none
     std::string why = {}, mend = {};  ///< cause and suggested fix of a failed step
   };
-  /// Repeats of the replay with noise.
+  /// Repeats of the replay with noise, or replays under conditions.
   struct Trials {
     int count = 0;
     int passed = 0;
-    std::string detail = {}, why = {}, mend = {};  ///< if too few trials pass
+    std::string detail = {}, why = {}, mend = {};  ///< if too few pass
+    bool enough = true;
   };
   bool passed = false;
   std::string object;                    ///< name of the object file
@@ -37,13 +39,15 @@ struct ReportSummary {
   /// required friction angle of the weakest step, degrees
   std::optional<double> required_half_angle_deg;
   std::optional<Trials> trials = std::nullopt;
+  std::optional<Trials> conditions = std::nullopt;
 
   /// Return the index of the failed step; nullopt if all pass.
   [[nodiscard]] std::optional<int> failed_step() const;
   /// Return the failure, as described by the validation that wrote the report; nullopt if the plan
   /// passes.
   [[nodiscard]] std::optional<report::Failure> failure() const;
-  /// Return the text after "pass": "in 14 of 20 trials"; empty without trials.
+  /// Return the text after "pass": "in 14 of 20 trials, under 20 of 26 conditions"; empty without
+  /// both.
   [[nodiscard]] std::string extent() const;
   /// Return the verdict as one line if it is more than "pass" (report::VerdictHeadline).
   [[nodiscard]] std::string headline() const;

@@ -172,7 +172,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .about = "models of a hand"},
     {.name = "tip-penetrates",
      .check = kReplay,
-     .meaning = "With `--replay hand`: a fingertip is more than 0.5 mm inside the object, or its "
+     .meaning = "With `--replay hand`: a fingertip is more than 1 mm inside the object, or its "
                 "collision geometry, if a sphere represents it, by more than half the sphere's "
                 "radius.",
      .causes = "The fingertip sphere is larger than the model's geometry or not inside it.\n"
@@ -217,6 +217,18 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                "In a hand replay, the joints yield under the contact forces.",
      .remedies = "Plan grasps of higher quality (plan --min-quality above --disturbance).\n"
                  "Plan with a larger friction margin (plan --optimize margin)."},
+    {.name = "not-static",
+     .check = kReplay,
+     .meaning = "In a hand replay: with the controls of all actuators kept constant for one second "
+                "in a static grasp, the object moves by more than 1 mm or 2.5°. The grasp is held "
+                "by the controller and not by the servos alone.",
+     .causes = "The grasp force is large for the stiffness of the servos, so that opposed fingers "
+               "buckle.\n"
+               "The contact forces are close to the edges of their friction cones.",
+     .remedies = "Use a smaller grasp force (--grasp-force).\nUse stiffer servos.\n"
+                 "Plan with a larger friction margin (plan --optimize margin).",
+     .see = "hand_replay.md#static-grasps",
+     .about = "static grasps"},
     {.name = "trials-failed",
      .check = kTrials,
      .meaning = "The plan passes without noise, and fewer trials pass than --trials min-pass-rate "
@@ -226,6 +238,16 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                  "Reduce the errors of the real hand and object, and pass the smaller values.",
      .see = "robustness_trials.md",
      .about = "robustness trials"},
+    {.name = "conditions-failed",
+     .check = kTrials,
+     .meaning = "The plan passes in the nominal replay, and a smaller share of --conditions passes "
+                "than --require requires.",
+     .causes = "The plan has too little margin for errors of sensors, friction or contacts.\n"
+               "The controller depends on an accurate object pose.",
+     .remedies = "Plan with a larger friction margin (plan --optimize margin).\n"
+                 "Use smaller in-hand motions.",
+     .see = "conditions.md",
+     .about = "conditions"},
     {.name = "start-differs",
      .check = kAnalytic,
      .meaning = "Step 0: the plan's initial grasp is not the grasp of --start.",

@@ -52,6 +52,8 @@ std::string_view ReasonName(Reason reason) {
       return "slipped";
     case Reason::kObjectMoved:
       return "object-moved";
+    case Reason::kNotStatic:
+      return "not-static";
     case Reason::kStartDiffers:
       return "start-differs";
     case Reason::kGoalNotReached:

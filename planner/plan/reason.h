@@ -37,6 +37,7 @@ enum class Reason {
   kContactLost,
   kSlipped,
   kObjectMoved,
+  kNotStatic,
   kStartDiffers,
   kGoalNotReached,
 };

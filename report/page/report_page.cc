@@ -7,7 +7,9 @@
 
 #include "planner/base/number.h"
 #include "render/picture/caption.h"
+#include "report/condition_table.h"
 #include "report/failure.h"
+#include "report/page/condition_section.h"
 #include "report/page/facts.h"
 #include "report/page/findings.h"
 #include "report/page/html_page.h"
@@ -38,7 +40,7 @@ class Page {
     for (const Parts& parts :
          {Parts{Header()}, FailedFrame(), Parts{MakeFacts(report_, measures_)}, Plots(),
           MakeStepTable(report_, plan_, measures_, Anchors()), MakeFingerTable(report_),
-          MakeFindings(report_), Replay(), Frames()}) {
+          MakeFindings(report_), MakeConditionSection(report_), Replay(), Frames()}) {
       all.insert(all.end(), parts.begin(), parts.end());
     }
     const std::string extent = Extent();
@@ -57,7 +59,11 @@ class Page {
 
   /// Return the number of trials for the verdict; empty without trials.
   [[nodiscard]] std::string Extent() const {
-    if (!report_.trials) return "";
+    if (report_.passed() && report_.conditions) {
+      return (report_.trials ? TrialsPassText(*report_.trials) + ", " : "") +
+             ConditionsPassText(*report_.conditions);
+    }
+    if (!report_.trials || (report_.conditions && report_.trials->enough())) return "";
     const sim::TrialSummary& trials = *report_.trials;
     const int failed = trials.options.count - trials.passed;
     return report_.passed() ? TrialsPassText(trials)
@@ -71,7 +77,7 @@ class Page {
     const auto failure = DescribeFailure(report_);
     if (!failure) return StepsStatement();
     return Capitalized(failure->what) + "." + WhyAndMend(failure->why, failure->mend) +
-           " Without noise: " + StepsStatement();
+           " In the nominal replay: " + StepsStatement();
   }
 
   [[nodiscard]] std::string StepsStatement() const {

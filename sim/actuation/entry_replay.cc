@@ -60,6 +60,15 @@ double CarryingSpeed(const HandWorld& world) {
   return std::max(speed, kSlowest);
 }
 
+// The frozen hand and object count as still, and remain so, if no velocity (m/s, rad/s) exceeds
+// kFrozenStill for kFrozenStillTime (seconds) and the last one is smaller than the first.
+constexpr double kFrozenStill = 1e-5;
+constexpr double kFrozenStillTime = 0.1;
+/// Motion of an object that has certainly fallen, metres.
+constexpr double kFallen = 0.05;
+/// Distance of the object from its planned pose beyond which no further step is executed, metres.
+constexpr double kLost = 0.02;
+
 /// Exception that ends a failed step.
 struct StepFails {};
 
@@ -82,12 +91,14 @@ EntryReplay::EntryReplay(HandWorld& world, const object::Polyhedron& solid, cons
       plan_(plan),
       squeezes_(std::move(squeezes)),
       shake_(options.shake),
+      freeze_s_(options.freeze_s),
       radius_(plan.scale * solid.diameter() / 2),
       start_off_(options.start_shift_m.norm() + radius_ * options.start_turn_rad.norm()),
       observer_(observer),
       monitor_(world, solid, plan.scale, options.tolerance),
       control_(world, solid, plan.scale, control),
-      state_(plan.hand->initial) {}
+      state_(plan.hand->initial),
+      to_end_(options.to_end) {}
 
 void EntryReplay::GoOnFrom(const Rested& rest) {
   rest_ = rest.world;
@@ -105,12 +116,20 @@ StepReplay EntryReplay::Carry(plan::EntryIndex index) {
   try {
     Perform(index);
     Rest();
+    monitor_.SetComplete();
     step.snapshot = SnapshotNow();
     if (observer_.on_rest) observer_.on_rest(world_, index);
+    rest_ = world_.Save();
+    // The rest of the replay then depends on this state alone. It is saved only once, because the
+    // engine normalizes quaternions whenever it is restored.
+    world_.Restore(rest_);
+    Freeze();
     Shake();
   } catch (const StepFails&) {
+    has_ended_ = true;
     step.snapshot = SnapshotNow();
   } catch (const UnstableError& error) {
+    has_ended_ = true;
     step.reason = plan::Reason::kSimulationUnstable;
     step.detail = std::string("the simulation became unstable: ") + error.what();
   }
@@ -169,7 +188,14 @@ void EntryReplay::Tick() {
   control_.Steer(state_);
   control_.Step();
   monitor_.Watch(state_.pose);
-  if (monitor_.violation()) throw StepFails();
+  EndIfFailed();
+}
+
+void EntryReplay::EndIfFailed() const {
+  if (!monitor_.violation()) return;
+  const Vector3d& centre = world_.centroid_O();
+  const double off = (world_.object_pose() * centre - state_.pose * centre).norm();
+  if (!to_end_ || off > kLost) throw StepFails();
 }
 
 template <typename OnTick>
@@ -192,7 +218,7 @@ void EntryReplay::TakeHold() {
   Descend(state_, coming);
   for (const plan::FingerContact& held : plan_.initial) holding_.push_back(held.finger);
   monitor_.WatchContacts(plan_.initial, plan_.scale, start_off_);
-  if (monitor_.violation()) throw StepFails();
+  EndIfFailed();
   const Hold all = HeldWith(squeeze_);
   Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
   world_.PinObject(false);
@@ -344,7 +370,7 @@ void EntryReplay::Descend(const HandState& end, std::vector<Coming>& coming) {
     if (!finger.down) control_.Attach(finger.finger);
     monitor_.WatchPlaced(finger.finger);
   }
-  if (monitor_.violation()) throw StepFails();
+  EndIfFailed();
 }
 
 void EntryReplay::ReleaseFingers(const plan::Switch& change) {
@@ -371,15 +397,32 @@ void EntryReplay::Rest() {
   monitor_.SetSettling(false);
   monitor_.WatchRest(state_.pose);
   monitor_.WatchTipsAtRest();
-  if (monitor_.violation()) throw StepFails();
+  EndIfFailed();
+}
+
+void EntryReplay::Freeze() {
+  if (freeze_s_ == 0) return;
+  const Isometry3d start = world_.object_pose();
+  const auto steps = static_cast<int>(std::lround(freeze_s_ / world_.timestep()));
+  const auto still_steps = static_cast<int>(std::lround(kFrozenStillTime / world_.timestep()));
+  double first = 0;  // speed at the start of the time in which all is still
+  int still = 0;
+  for (int i = 0; i < steps && monitor_.measures().frozen_off_m < kFallen; ++i) {
+    world_.Step();
+    monitor_.WatchFrozen(start);
+    const double speed = world_.largest_speed();
+    if (still == 0) first = speed;
+    still = speed < kFrozenStill ? still + 1 : 0;
+    if (still >= still_steps && speed < first) break;
+  }
+  monitor_.CheckFrozen(start);
+  EndIfFailed();
+  world_.Restore(rest_);
 }
 
 void EntryReplay::Shake() {
-  rest_ = world_.Save();
-  // The rest of the replay then depends on this state alone.
-  world_.Restore(rest_);
   const double shake = shake_ * squeeze_;
-  if (shake == 0) return;
+  if (shake == 0 || monitor_.violation()) return;
   shaking_ = true;
   const HandControl control = control_;
   const ExecutionMonitor monitor = monitor_;

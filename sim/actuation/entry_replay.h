@@ -20,6 +20,8 @@ class EntryReplay {
 
   /// Execute the next step, wait for the static grasp, and disturb it.
   StepReplay Carry(plan::EntryIndex index);
+  /// Return whether no further step can be executed.
+  [[nodiscard]] bool has_ended() const { return has_ended_; }
 
   /// Complete state in the static grasp after a step that passed.
   struct Rested {
@@ -44,6 +46,8 @@ class EntryReplay {
   /// Return the state in the object's frame, for images.
   [[nodiscard]] plan::Snapshot SnapshotNow() const;
   void Tick();
+  /// End the step after a violation. With HandReplayOptions::to_end, end it if the object is lost.
+  void EndIfFailed() const;
   /// @param on_tick  callback with the elapsed share of the time.
   template <typename OnTick>
   void Run(double seconds, const OnTick& on_tick);
@@ -64,6 +68,8 @@ class EntryReplay {
   void Descend(const plan::HandState& end, std::vector<Coming>& coming);
   void ReleaseFingers(const plan::Switch& change);
   void Rest();
+  /// Keep all controls constant for a while, and return to the static grasp.
+  void Freeze();
   /// Apply disturbances in twelve directions, each from the same static grasp.
   void Shake();
 
@@ -71,6 +77,7 @@ class EntryReplay {
   const plan::Plan& plan_;
   std::vector<double> squeezes_;  ///< grasp force of the static grasp after each entry, newtons
   double shake_;                  ///< disturbance force over grasp force
+  double freeze_s_;               ///< HandReplayOptions::freeze_s
   double radius_;                 ///< half the object's diameter, metres
   double start_off_;              ///< upper bound on the initial offset of the object's points
   const ReplayObserver& observer_;
@@ -81,6 +88,8 @@ class EntryReplay {
   double squeeze_ = 0;                ///< grasp force after it
   std::vector<FingerIndex> holding_;  ///< holding fingers of the last static grasp
   HandWorld::State rest_;             ///< last static grasp
+  bool to_end_;
+  bool has_ended_ = false;
   bool shaking_ = false;
 };
 

@@ -134,6 +134,32 @@ void ExecutionMonitor::WatchObject(const Isometry3d& planned, double share, doub
        {.number = number, .pose = planned});
 }
 
+void ExecutionMonitor::WatchFrozen(const Isometry3d& start) {
+  const Isometry3d pose = world_.object_pose();
+  const Vector3d& centre = world_.centroid_O();
+  const double turned = Eigen::AngleAxisd(pose.linear().transpose() * start.linear()).angle();
+  measures_.frozen_off_m =
+      std::max(measures_.frozen_off_m, (pose * centre - start * centre).norm());
+  measures_.frozen_off_rad = std::max(measures_.frozen_off_rad, turned);
+}
+
+void ExecutionMonitor::CheckFrozen(const Isometry3d& start) {
+  const double share_m = measures_.frozen_off_m / tolerance_.frozen_m;
+  const double share_rad = measures_.frozen_off_rad / tolerance_.frozen_rad;
+  if (std::max(share_m, share_rad) <= 1) return;
+  const bool by_length = share_m >= share_rad;
+  const double degrees = Degrees(measures_.frozen_off_rad);
+  const std::string number =
+      (by_length ? FormatLength(measures_.frozen_off_m, 2) : FormatDegrees(degrees)) + " off";
+  const auto [value, limit] =
+      by_length ? FormatLengthWithLimit(measures_.frozen_off_m, tolerance_.frozen_m)
+                : FormatDegreesWithLimit(degrees, Degrees(tolerance_.frozen_rad));
+  Fail(Reason::kNotStatic,
+       "the object moves " + value + " within a second under constant controls, limit " + limit +
+           ",",
+       {.number = number, .pose = start});
+}
+
 void ExecutionMonitor::WatchContact(FingerIndex f) {
   Finger& state = fingers_[f];
   const double dt = world_.timestep();

@@ -41,6 +41,13 @@ class ExecutionMonitor {
   void Watch(const Eigen::Isometry3d& planned);
   /// Measure a static grasp. @param planned  pose of the object.
   void WatchRest(const Eigen::Isometry3d& planned);
+  /// Note that the step has reached its static grasp.
+  void SetComplete() { measures_.is_complete = true; }
+  /// Measure the motion of the object under constant controls.
+  /// @param start  its pose in the static grasp.
+  void WatchFrozen(const Eigen::Isometry3d& start);
+  /// Check that motion after the last time step.
+  void CheckFrozen(const Eigen::Isometry3d& start);
   /// Check that a finger that was placed is near the object.
   void WatchPlaced(FingerIndex finger);
   /// Set whether fingertips of the model may be in the object.

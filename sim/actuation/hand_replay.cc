@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
@@ -211,7 +212,8 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
   for (plan::EntryIndex index{0}; index < entries; ++index) {
     result.steps.push_back(replay.Carry(index));
     if (observer.on_progress) observer.on_progress(int{index} + 1, entries);
-    if (result.steps.back().reason != plan::Reason::kNone) break;
+    const bool fails = result.steps.back().reason != plan::Reason::kNone;
+    if (fails && (!options.to_end || replay.has_ended())) break;
   }
   return result;
 }
@@ -295,6 +297,12 @@ ReplayResult HandReplays::Replay(const plan::Plan& plan, const Deadline& deadlin
 
 namespace {
 
+/// Return the seed of the sensors in a trial, different for each trial.
+std::uint64_t SensingSeed(std::uint64_t nominal, std::uint64_t seed, int trial) {
+  constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15;  // odd, with well-mixed bits
+  return (nominal + kFactor * (seed + 1)) * kFactor + static_cast<std::uint64_t>(trial);
+}
+
 Eigen::Vector3d DrawVector(double deviation, RandomStream& random) {
   Eigen::Vector3d drawn;
   for (double& x : drawn) x = deviation * random.Normal();
@@ -321,6 +329,7 @@ TrialSummary RunHandTrials(const kinematics::HandFile& file, const object::Polyh
       kinematics::Posture& offsets = drawn.sensing.joint_offsets.emplace_back(finger.drives);
       for (double& offset : offsets) offset = trials.joint_noise.value_or(0) * random.Normal();
     }
+    drawn.sensing.seed = SensingSeed(options.sensing.seed, trials.seed, trial);
     return ReplayHand(file, solid, plan, drawn).steps.back();
   };
   return CountTrials(trials, replay, progress);

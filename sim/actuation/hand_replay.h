@@ -24,6 +24,8 @@ struct HandReplayOptions : ReplayConditions {
   HandPhysics physics;
   TipShape tip = TipShape::kBall;  ///< geometry of the fingertips that touches the object
   double force_factor = 1;         ///< factor on the force limits of all actuators
+  bool to_end = false;             ///< whether the replay continues after a failed step, to its end
+  double freeze_s = 1;  ///< time for which each static grasp must hold under constant controls
   /// Initial offset of the object's centroid from the plan, in the object's frame.
   Eigen::Vector3d start_shift_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d start_turn_rad =
@@ -31,7 +33,8 @@ struct HandReplayOptions : ReplayConditions {
 };
 
 /// Replay a plan for a hand on the hand's own model in MuJoCo (HandWorld) with HandControl.
-/// The hand grasps the object and executes each step. In each static grasp the object is disturbed.
+/// The hand grasps the object and executes each step. In each static grasp all controls are kept
+/// constant for a while, and then the object is disturbed.
 ///
 /// A pass is a statement about this friction and mass. The actuators of the hand's model move the
 /// object along the plan to within the tolerance, and only fingertips hold it. The replay uses no
@@ -71,9 +74,11 @@ class HandReplays {
 /// Replay a plan by its hand `trials.count` times in perturbed worlds.
 /// Friction and mass differ as in RunTrials. The initial object pose differs along and about each
 /// axis by a normal deviate (position_noise · D, and that over R in radians). Each measured joint
-/// angle has a constant error (joint_noise).
+/// angle has a constant error (joint_noise). The sensors have the noise of the nominal replay, with
+/// a different seed in each trial.
 ///
-/// Laws: trial k depends on the seed and k alone. Without errors every trial is the nominal replay.
+/// Laws: trial k depends on the seeds and k alone. Without errors and without noise of the sensors
+/// every trial is the nominal replay.
 /// @param options   options of the nominal replay, which passes.
 /// @param progress  callback after every trial; may be empty.
 /// @throws std::invalid_argument  as RunTrials. @throws InputError  as ReplayHand.

@@ -319,6 +319,14 @@ std::vector<double> HandWorld::joint_angles_of(FingerIndex finger) const {
 
 Isometry3d HandWorld::object_pose() const { return impl_->palm.inverse() * impl_->ObjectInWorld(); }
 
+double HandWorld::largest_speed() const {
+  double largest = 0;
+  for (int i = 0; i < impl_->model->nv; ++i) {
+    largest = std::max(largest, std::abs(impl_->data->qvel[i]));
+  }
+  return largest;
+}
+
 kinematics::Posture HandWorld::posture(FingerIndex finger) const {
   return impl_->PostureOf(finger);
 }

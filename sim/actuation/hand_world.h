@@ -83,6 +83,8 @@ class HandWorld {
   void Place(const plan::HandState& state);
   [[nodiscard]] plan::HandState state() const;
   [[nodiscard]] Eigen::Isometry3d object_pose() const;
+  /// Return the largest absolute velocity of hand and object, m/s or rad/s.
+  [[nodiscard]] double largest_speed() const;
   [[nodiscard]] kinematics::Posture posture(FingerIndex finger) const;
   /// Return the angles of the finger's joints, coupled joints included, radians.
   [[nodiscard]] std::vector<double> joint_angles_of(FingerIndex finger) const;

@@ -10,28 +10,11 @@
 
 #include "planner/base/error.h"
 #include "planner/plan/locate.h"
+#include "sim/actuation/condition_replays.h"
 #include "sim/actuation/hand_replay.h"
 
 namespace regrasp::sim {
 namespace {
-
-/// Return the smallest tolerance margin of a step, as a share of each limit. Disturbance tests do
-/// not count, nor do torques: the grasp force follows from their limits.
-double SpareOf(const HandMeasures& measures, const HandTolerance& tolerance) {
-  const double at_rest = tolerance.at_rest;
-  return 1 - std::max({measures.off_m / tolerance.length_m, measures.off_rad / tolerance.angle_rad,
-                       measures.rest_off_m / (at_rest * tolerance.length_m),
-                       measures.rest_off_rad / (at_rest * tolerance.angle_rad),
-                       measures.slip_m / tolerance.slip_m});
-}
-
-double SpareOf(const ReplayResult& result, const HandTolerance& tolerance) {
-  double least = 1;
-  for (const StepReplay& step : result.steps) {
-    least = std::min(least, SpareOf(*step.hand, tolerance));
-  }
-  return std::max(0.0, least);
-}
 
 /// Replays of each thread, one per condition, since successive plans of a thread have many steps in
 /// common.
@@ -68,7 +51,7 @@ planning::ExecutionResult ResultOf(const ReplayResult& result, const plan::Plan&
       .is_held = passed > 0,
       .steps = static_cast<int>(std::max<std::ptrdiff_t>(0, passed - 1)),
       .is_whole = is_whole,
-      .spare = is_whole ? SpareOf(result, tolerance) : 0,
+      .spare = is_whole ? std::max(0.0, ToleranceMargin(result, tolerance)) : 0,
       .is_cut_short = !fails && !is_whole};
   if (fails) {
     carried.reason = result.steps.back().reason;

@@ -7,7 +7,7 @@
 
 namespace regrasp::sim {
 
-/// What the controller of a hand measures of the object's pose.
+/// Measurement of the object's pose by the controller of a hand.
 enum class PoseFeedback {
   kPose,  ///< a camera that measures it with delay, noise and bias
   kNone,  ///< nothing: joints and touch only

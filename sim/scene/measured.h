@@ -65,8 +65,13 @@ struct HandMeasures {
   double tip_depth_m = 0;      ///< largest depth of a fingertip in the object
   /// Largest depth in static grasps of collision geometry of a fingertip that a sphere replaces.
   double covered_depth_m = 0;
-  double squeeze_N = 0;    ///< grasp force of the static grasp after the step
-  double simulated_s = 0;  ///< without the disturbance tests
+  /// Largest motion of the object's centroid, and rotation, in the static grasp under constant
+  /// controls.
+  double frozen_off_m = 0;
+  double frozen_off_rad = 0;
+  bool is_complete = false;  ///< whether the step reached its static grasp
+  double squeeze_N = 0;      ///< grasp force of the static grasp after the step
+  double simulated_s = 0;    ///< without the disturbance tests
 };
 
 /// A finger of a grasp, by its number in the hand, and the friction that it requires.

@@ -83,7 +83,9 @@ struct HandTolerance {
   double lost_s = 0.02;       ///< of a holding fingertip without a force
   double limit_s = 0.05;      ///< of an actuator at the limit of its force
   double joint_rad = 0.0175;  ///< of a joint outside its range, or off its coupling: 1°
-  double depth_m = 5e-4;      ///< of a fingertip in the object
+  double depth_m = 1e-3;      ///< of a fingertip in the object
+  double frozen_m = 1e-3;  ///< of the centroid's motion in a static grasp under constant controls
+  double frozen_rad = 0.0437;  ///< of the object's rotation in it: 2.5°
 };
 
 /// Limits of the hand model for one independent joint, on which a verdict depends.

@@ -157,21 +157,33 @@ void RunTrials(const ValidationRequest& request, const ValidationObserver& obser
   };
   const ValidationSettings& settings = result.settings;
   Report& report = result.report;
-  const double squeeze = report.settings->squeeze_N;
   if (settings.hand) {
-    sim::HandReplayOptions options = *settings.hand;
-    options.squeeze_N = squeeze;
-    report.trials = sim::RunHandTrials(*request.hand, SolidOf(request), settings.plan, options,
-                                       trials, progress);
+    report.trials = sim::RunHandTrials(*request.hand, SolidOf(request), settings.plan,
+                                       *settings.hand, trials, progress);
     return;
   }
   sim::ReplayOptions options = settings.replay;
   // With two engines MuJoCo decides.
   if (options.engine == sim::EngineChoice::kBoth) options.engine = sim::EngineChoice::kMujoco;
   // A hand does not know the noise.
-  if (options.hand_squeeze) options.squeeze_N = squeeze;
+  if (options.hand_squeeze) options.squeeze_N = report.settings->squeeze_N;
   report.trials = sim::RunTrials(request.object, settings.plan, options, trials,
                                  report.settings->fingertip_radius_m, progress);
+}
+
+/// Replay the plan by the hand under each condition.
+void ReplayUnderConditions(const ValidationRequest& request, const ValidationObserver& observer,
+                           ValidationResult& result) {
+  const ValidationOptions& options = request.options;
+  const auto progress = [&](int done) {
+    ReportStage(observer, "conditions: " + std::to_string(done) + " of " +
+                              std::to_string(options.conditions.size()));
+  };
+  const ValidationSettings& settings = result.settings;
+  result.report.conditions =
+      sim::RunConditions(*request.hand, SolidOf(request), settings.plan, *settings.hand,
+                         options.conditions, options.condition_jobs, progress);
+  result.report.conditions->required = options.required_conditions;
 }
 
 /// Prove force closure or its loss in each step up to the first with another fault.
@@ -230,6 +242,10 @@ ValidationResult Validate(const ValidationRequest& request, const ValidationObse
   SkipAfterFailure(report.steps);
   if (request.is_grasp) MeasureGrasp(request.object, plan, report);
   if (request.options.trials.count > 0 && report.passed()) RunTrials(request, observer, result);
+  if (!request.options.conditions.empty() && result.settings.hand &&
+      passing == std::ssize(report.steps)) {
+    ReplayUnderConditions(request, observer, result);
+  }
   if (request.options.certificates) AddProofs(plan, report);
   return result;
 }

@@ -11,6 +11,7 @@
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan.h"
+#include "sim/actuation/conditions.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/hand/check_hand.h"
 #include "sim/replay/trials.h"
@@ -32,6 +33,10 @@ struct ValidationOptions {
   sim::HandReplayOptions hand;       ///< settings of that replay, except ReplayConditions
   sim::HandCheckOptions hand_check;  ///< settings of the analytic check of the hand
   sim::TrialOptions trials;          ///< trials with noise; a count of 0: none
+  std::vector<sim::HandCondition> conditions;  ///< conditions of further replays by the hand
+  /// share of the conditions that must pass; nullopt: their results are information
+  std::optional<double> required_conditions;
+  int condition_jobs = 1;  ///< number of threads of these replays
 };
 
 /// A plan or a grasp to validate. All references and pointers must outlive the validation.
@@ -75,7 +80,8 @@ struct ValidationResult {
 
 /// Validate a plan or a grasp.
 /// It checks the hand, checks the plan analytically, and replays it up to the first failure. If the
-/// replay passes, it runs trials with noise.
+/// replay passes, it runs trials with noise. If the analytic check passes, it replays the plan by a
+/// hand under the conditions.
 ///
 /// A step that fails the analytic check is not replayed, and steps after a failure are skipped. The
 /// caller sets names and digests of files, the run record and names of images in the report.

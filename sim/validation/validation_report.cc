@@ -23,7 +23,9 @@ Verdict ReportStep::verdict() const {
   return reason() == plan::Reason::kNone ? Verdict::kPass : Verdict::kFail;
 }
 
-bool Report::passed() const { return steps_passed() && (!trials || trials->enough()); }
+bool Report::passed() const {
+  return steps_passed() && (!trials || trials->enough()) && (!conditions || conditions->enough());
+}
 
 bool Report::steps_passed() const {
   return std::all_of(steps.begin(), steps.end(),

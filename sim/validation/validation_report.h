@@ -10,6 +10,7 @@
 #include "planner/motion/motion_segment.h"
 #include "planner/plan/check.h"
 #include "planner/plan/contact_region.h"
+#include "sim/actuation/condition_replays.h"
 #include "sim/replay/disagreement.h"
 #include "sim/replay/replay.h"
 #include "sim/replay/trials.h"
@@ -88,9 +89,11 @@ struct Report {
   /// Trials with noise, if they were requested and the replay without noise passes. The plan passes
   /// if enough of them pass.
   std::optional<sim::TrialSummary> trials = std::nullopt;
+  /// Replays under other conditions, if they were requested and all steps pass the analytic check.
+  std::optional<sim::ConditionSummary> conditions = std::nullopt;
   std::optional<RunRecord> run = std::nullopt;
 
-  /// Return whether all steps pass, and enough trials if there are any.
+  /// Return whether all steps pass, and enough trials and conditions if there are any.
   [[nodiscard]] bool passed() const;
   /// Return whether all steps pass in the analytic check and the replay without noise.
   [[nodiscard]] bool steps_passed() const;

@@ -100,9 +100,20 @@ class Gait(ProgramCase):
         self.assertNotIn("hand", by_points["settings"])
         _, usual = self.validate(plan, "--hand", ring5, "--frames", "none")
         self.assertIn("hand", usual["settings"])
+        self.check_conditions(plan, by_hand)
         points = ("--hand", ring5, "--replay", "points")
         for more, words in ((("--replay", "hand"), "--replay hand: requires --hand"),
                             ((*points, "--replay", "feedback=none"), "--replay feedback: requires --replay hand"),
+                            ((*points, "--feedback", "none"), "--feedback: requires --replay hand"),
+                            ((*points, "--conditions", "standard"), "--conditions: requires --replay hand"),
+                            (("--hand", ring5, "--conditions", "none.json"), "none.json: "),
+                            (("--hand", ring5, "--require", "all"),
+                             '--require: expected standard or conditions, found "all"'),
+                            (("--hand", ring5, "--require", "standard=2"), "--require: "),
+                            (("--hand", ring5, "--require", "conditions"),
+                             "--require conditions: requires --conditions FILE"),
+                            (("--hand", ring5, "--feedback", "pose,delay=-1"), "--feedback delay: "),
+                            (("--hand", ring5, "--feedback", "late"), "--feedback: "),
                             ((*points, "--replay", "tip=geometry"), "--replay tip: requires --replay hand"),
                             (("--hand", ring5, "--replay", "tip=box"), "--replay tip: "),
                             (("--hand", ring5, "--replay"), "--replay"),
@@ -115,6 +126,27 @@ class Gait(ProgramCase):
                                     *more, program="validate")
             self.assertEqual(done.returncode, 2)
             self.assertIn(words, done.stderr)
+
+    def check_conditions(self, plan, by_hand):
+        """Conditions are rows of the report, and decide only if they are required."""
+        self.write("conditions.json", json.dumps([{"name": "heavy", "mass_factor": 1.1},
+                                                  {"name": "icy", "friction_factor": 0.1}]))
+        given = (*by_hand, "--frames", "none", "--conditions", "conditions.json")
+        done, report = self.validate(plan, *given, "--junit", "junit.xml")
+        self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
+        self.assertIn("verdict: pass under 1 of 2 conditions", done.stdout)
+        found = report["conditions"]
+        self.assertEqual((found["applicable"], found["passed"], found["required"]), (2, 1, None))
+        self.assertEqual([row["verdict"] for row in found["results"]], ["pass", "fail"])
+        self.assertEqual(found["results"][1]["changes"], {"friction_factor": 0.1})
+        self.assertIn('name="condition icy"', self.read("junit.xml"))
+        _, other = self.validate(plan, *given, "--jobs", "1")
+        self.assertEqual(other["conditions"], found)
+        done, report = self.validate(plan, *given, "--require", "conditions")
+        self.assertEqual((done.returncode, report["verdict"]), (1, "fail"))
+        self.assertIn("conditions-failed: 1 of 2 conditions fail: icy", done.stdout)
+        done, _ = self.validate(plan, *given, "--require", "conditions=0.5")
+        self.assertEqual(done.returncode, 0, done.stderr)
 
     def check_trajectory(self, plan, by_hand):
         """Both formats have the same content, and begin and end like the plan."""

@@ -214,12 +214,12 @@ class Help(ProgramCase):
         grasps = ["--object", "no.obj", "--mu", "0.3", "--grasps", "no.npz"]
         by_hand = [*usual["validate"], "--hand", "no.json"]
         other = {"--required-angle": grasps, "--quality": grasps, "--min-quality": states,
-                 "--feedback": by_hand, "--tip": by_hand, "--tolerance-mm": by_hand,
+                 "--tip": by_hand, "--tolerance-mm": by_hand,
                  "--tolerance-deg": by_hand, "--joint-noise": [*by_hand, "--trials", "2"],
                  "--reserve": [*usual["plan"][:4], "--output", "plan.json", "--hand", "no.json",
                                "--turn", "z,90"],
                  "--animate-size": [*usual["validate"], "--animate"]}
-        values = {"--spanning": "uniform", "--align": "slide", "--feedback": "none",
+        values = {"--spanning": "uniform", "--align": "slide",
                   "--tip": "geometry", "--animate-size": "64x64", "--reserve": "none",
                   "--out": "out", "--min-pass-rate": "0.5", "--min-quality": "0.5",
                   "--sheet-width": "500", "--width": "85"}

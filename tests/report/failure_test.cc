@@ -104,7 +104,7 @@ TEST(Failure, SaysForEveryReasonWhatItIsHeldAgainstAndWhatWouldMendIt) {
     EXPECT_NE(failure.mend, "") << failure.reason;
     said.insert(failure.reason);
   }
-  EXPECT_EQ(said.size(), 25u);
+  EXPECT_EQ(said.size(), 26u);
 }
 
 TEST(Failure, AsksForTheFrictionThatIsNeededRoundedUp) {

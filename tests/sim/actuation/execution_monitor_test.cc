@@ -26,7 +26,9 @@ HandTolerance AnyTolerance() {
           .lost_s = kAnything,
           .limit_s = kAnything,
           .joint_rad = kAnything,
-          .depth_m = kAnything};
+          .depth_m = kAnything,
+          .frozen_m = kAnything,
+          .frozen_rad = kAnything};
 }
 
 /// Share of a measured value. Replays are equal until one of them ends, so that any share decides.
@@ -62,6 +64,8 @@ TEST_F(ExecutionMonitorTest, EveryToleranceDecidesByWhatIsMeasured) {
   ExpectDecides(&HandTolerance::angle_rad, step.hand->off_rad, Reason::kObjectMoved);
   ExpectDecides(&HandTolerance::at_rest, step.hand->rest_off_rad, Reason::kObjectMoved);
   ExpectDecides(&HandTolerance::slip_m, step.hand->slip_m, Reason::kSlipped);
+  ExpectDecides(&HandTolerance::frozen_m, step.hand->frozen_off_m, Reason::kNotStatic);
+  ExpectDecides(&HandTolerance::frozen_rad, step.hand->frozen_off_rad, Reason::kNotStatic);
 }
 
 TEST_F(ExecutionMonitorTest, FingersWithoutForceLoseTheirContactsAndActuatorsStandAtTheirLimits) {

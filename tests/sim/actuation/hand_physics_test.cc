@@ -30,7 +30,7 @@ constexpr char kPlate[] = R"(<mujoco><worldbody>
       <geom type="box" size="0.1 0.1 0.005" mass="0.1" contype="0" conaffinity="0"/>
     </body></worldbody></mujoco>)";
 
-/// A plate that rests on a fixed fingertip at its centre, with the contact of the replay.
+/// A plate on top of a fixed fingertip at its centre, with the contact of the replay.
 /// It moves along all axes and about the vertical axis.
 class PlateOnTip {
  public:
