@@ -67,9 +67,11 @@ void ExecutionMonitor::WatchContacts(const plan::FingerGrasp& grasp, double scal
     // Contacts are planned for spheres. Fingertips of other shapes touch at other points.
     const std::optional<collision::NearPoint> near = world_.NearBall(held.finger);
     const double radius = world_.hand().fingers[held.finger].tip.radius;
-    const double off = near ? std::max((near->point - scale * held.contact.p).norm(),
-                                       std::abs(near->distance - radius))
-                            : std::numeric_limits<double>::infinity();
+    double off = std::numeric_limits<double>::infinity();
+    if (near) off = (near->point - scale * held.contact.p).norm();
+    if (near && world_.tip_shape() == TipShape::kBall) {
+      off = std::max(off, std::abs(near->distance - radius));
+    }
     // A hand places a fingertip only as well as it measures its joints.
     const Vector3d measured =
         kinematics::TipAt(world_.hand().fingers[held.finger], world_.measured_posture(held.finger))

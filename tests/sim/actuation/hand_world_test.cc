@@ -145,7 +145,7 @@ TEST_F(HandWorldTest, ControlsStayInTheRangesOfTheModel) {
         }
       }
     }
-    return std::array<double, 2>{range[0] - 0.05, range[1] + 0.05};
+    return std::array<double, 2>{range[0] - 0.03, range[1] + 0.03};
   };
   double outside = 0;
   ReplayObserver observer;

@@ -9,7 +9,7 @@ namespace regrasp::sim {
 namespace torque_squeeze_test {
 
 TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTheForce) {
-  constexpr double kMost = 100;
+  constexpr double kMost = 50;
   const auto squeeze = [&](double force_factor) {
     // Without gravity the torques depend on the grasp force alone.
     HandWorld world(hand_, solid(), kScale,
