@@ -25,7 +25,9 @@ TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTh
   // Ten bisections leave an error of 1/1000 of the maximum, once for one value and twice for the
   // other.
   EXPECT_NEAR(squeeze(2), 2 * usual, 3e-3 * kMost);
-  EXPECT_EQ(squeeze(1e6), kMost);
+  // Without a limit of actuators, stability and kMost limit the grasp force.
+  EXPECT_GE(squeeze(1e6), squeeze(2));
+  EXPECT_LE(squeeze(1e6), kMost);
 }
 
 TEST(TorqueSqueezeTest, TheLargestGraspForceIsAMultipleOfTheWeight) {
