@@ -16,8 +16,8 @@ Eigen::Vector3d ForceInHandover(HandWorld& world, const object::Polyhedron& soli
                                 const plan::Plan& plan, double share) {
   world.Place(plan.hand->initial);
   world.PinObject(true);
-  HandControl control(world, solid, plan.scale, {std::atan(0.8), 1, {}});
-  Hold before{.fingers = {}, .squeeze_N = 5};
+  HandControl control(world, solid, plan.scale, {std::atan(0.8), 1});
+  Hold before = {{}, 5};
   for (const plan::FingerContact& held : plan.initial) {
     control.Attach(held.finger);
     before.fingers.push_back(held.finger);

@@ -255,8 +255,8 @@ TEST_F(HandWorldTest, AControllerOfFingersFarFromTheObjectAsksForNoForce) {
     plan::HandState state = plan.hand->initial;
     if (far) state.pose.translation().z() += 1;
     world.Place(state);
-    HandControl control(world, solid(), kScale, {std::atan(kMu), 1.2, {}});
-    Hold hold{.fingers = {}, .squeeze_N = 5};
+    HandControl control(world, solid(), kScale, {std::atan(kMu), 1.2});
+    Hold hold = {{}, 5};
     for (const plan::FingerContact& held : plan.initial) {
       control.Attach(held.finger);
       hold.fingers.push_back(held.finger);

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "sim/actuation/hand_world.h"
 #include "tests/sim/actuation/held_in_hand.h"
 
@@ -25,14 +23,22 @@ TEST_F(HeldInHand, TheSqueezeIsWhatActuatorsBearAndTwiceThatOfActuatorsOfTwiceTh
   // Ten bisections leave an error of 1/1000 of the maximum, once for one value and twice for the
   // other.
   EXPECT_NEAR(squeeze(2), 2 * usual, 3e-3 * kMost);
-  // Without a limit of actuators, stability and kMost limit the grasp force.
-  EXPECT_GE(squeeze(1e6), squeeze(2));
-  EXPECT_LE(squeeze(1e6), kMost);
+  EXPECT_EQ(squeeze(1e6), kMost);
 }
 
-TEST(TorqueSqueezeTest, TheLargestGraspForceIsAMultipleOfTheWeight) {
-  EXPECT_EQ(MostSqueeze(10), kMostWeights * 10);
+TEST_F(HeldInHand, TheLargestGraspForceIsAMultipleOfTheWeightButEnoughForALightObject) {
+  EXPECT_EQ(MostSqueeze(10), 10 * kMostWeights);
   EXPECT_EQ(MostSqueeze(0.1), kEnough);
+}
+
+TEST_F(HeldInHand, AGraspForceThatTorquesAllowIsReducedUntilTheGraspIsStable) {
+  constexpr double kMost = 1000;
+  HandWorld world(hand_, solid(), kScale,
+                  {.mu = kMu, .mass_kg = kMass, .gravity_m_s2 = 0, .force_factor = 1e6});
+  const double stable = RestSqueeze(world, solid(), kScale, plan_.hand->initial, plan_.initial,
+                                    std::atan(kMu), 0, kMost);
+  EXPECT_LT(stable, kMost);
+  EXPECT_GT(stable, kEnough);
 }
 
 }  // namespace torque_squeeze_test
