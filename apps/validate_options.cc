@@ -492,10 +492,15 @@ void ValidateOptions::CheckConditions(const CLI::App& app) {
     if (word != kStandard && word != kConditionsWord) {
       throw InputError("--require: expected standard or conditions, found \"" + word + "\"");
     }
-    required_conditions = sign == std::string::npos
-                              ? 1
-                              : ParseNumber("--require", require.substr(sign + 1),
-                                            {.lower = 0, .upper = 1, .lower_included = false});
+    required_conditions = 1;
+    if (sign != std::string::npos) {
+      const std::string text = require.substr(sign + 1);
+      required_conditions = ParseDouble(text);
+      if (!(required_conditions && *required_conditions > 0 && *required_conditions <= 1)) {
+        throw InputError("--require: expected a share above 0 and of at most 1, found \"" + text +
+                         "\"");
+      }
+    }
     if (word == kStandard && conditions.empty()) conditions = kStandard;
     if (word == kStandard && conditions != kStandard) {
       throw InputError("--require standard: cannot be used with --conditions " + conditions +

@@ -139,7 +139,7 @@ class Gait(ProgramCase):
         self.assertEqual((found["applicable"], found["passed"], found["required"]), (2, 1, None))
         self.assertEqual([row["verdict"] for row in found["results"]], ["pass", "fail"])
         self.assertEqual(found["results"][1]["changes"], {"friction_factor": 0.1})
-        self.assertIn('name="condition icy"', self.read("junit.xml"))
+        self.assertIn(b'name="condition icy"', self.read("junit.xml"))
         _, other = self.validate(plan, *given, "--jobs", "1")
         self.assertEqual(other["conditions"], found)
         done, report = self.validate(plan, *given, "--require", "conditions")

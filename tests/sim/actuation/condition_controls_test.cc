@@ -25,7 +25,7 @@ const std::map<std::string, std::string>& Controls() {
       {"gain-plus-20", R"("gain_factor": 12)"},
       {"latency-10ms", R"("command_delay_s": 0.1)"},
       {"latency-20ms", R"("command_delay_s": 0.2)"},
-      {"pose-30ms", R"("pose_delay_s": 3, "pose_rate_Hz": 100, "pose_bias_mm": 10)"},
+      {"pose-30ms", R"("pose_delay_s": 0.3, "pose_rate_Hz": 100, "pose_bias_mm": 100)"},
       {"camera", R"("pose_delay_s": 0.5, "pose_rate_Hz": 30, "pose_noise_mm": 30,
                     "pose_noise_deg": 30)"},
       {"realistic", R"("pose_delay_s": 0.5, "pose_rate_Hz": 3, "pose_noise_mm": 3,

@@ -142,15 +142,14 @@ TEST_F(ConditionReplaysTest, AConditionWithoutChangesIsTheNominalReplay) {
 TEST_F(ConditionReplaysTest, AReplayContinuesAfterAViolation) {
   HandReplayOptions nominal;
   nominal.mass_kg = kMass;
-  nominal.tolerance.slip_m = 1e-6;
-  nominal.tolerance.depth_m = 1;
+  nominal.tolerance.depth_m = 1e-6;
   const ConditionSummary summary = RunConditions(
       hand_, solid(), plan_, nominal, ReadConditions(R"([{"name": "same"}])", "c.json"), 1);
   const ConditionResult& result = summary.results.front();
-  EXPECT_EQ(result.reason, plan::Reason::kSlipped) << result.detail;
+  EXPECT_EQ(result.reason, plan::Reason::kTipPenetrates) << result.detail;
+  EXPECT_EQ(result.failed, plan::EntryIndex(0));
   EXPECT_TRUE(result.reaches_end);
   EXPECT_TRUE(result.ends_within);
-  EXPECT_LT(result.margin, 0);
   EXPECT_EQ(summary.passed(), 0);
   EXPECT_EQ(summary.ended_within(), 1);
 }

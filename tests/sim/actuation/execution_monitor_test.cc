@@ -64,8 +64,6 @@ TEST_F(ExecutionMonitorTest, EveryToleranceDecidesByWhatIsMeasured) {
   ExpectDecides(&HandTolerance::angle_rad, step.hand->off_rad, Reason::kObjectMoved);
   ExpectDecides(&HandTolerance::at_rest, step.hand->rest_off_rad, Reason::kObjectMoved);
   ExpectDecides(&HandTolerance::slip_m, step.hand->slip_m, Reason::kSlipped);
-  ExpectDecides(&HandTolerance::frozen_m, step.hand->frozen_off_m, Reason::kNotStatic);
-  ExpectDecides(&HandTolerance::frozen_rad, step.hand->frozen_off_rad, Reason::kNotStatic);
 }
 
 TEST_F(ExecutionMonitorTest, FingersWithoutForceLoseTheirContactsAndActuatorsStandAtTheirLimits) {

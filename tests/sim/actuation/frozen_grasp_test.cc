@@ -15,23 +15,34 @@ using plan::Reason;
 
 class FrozenGraspTest : public EditedHandTest {
  protected:
-  /// Return the initial grasp of a plan for ring5, executed with other servos and no disturbance.
-  /// @param stiffness    stiffness of all servos, N m/rad.
-  /// @param grasp_force in weights of the object.
-  [[nodiscard]] StepReplay InitialGrasp(const std::string& stiffness, double grasp_force,
+  /// Return the initial grasp of a plan for ring5, without disturbance test.
+  /// Only `frozen` limits the object, so that a grasp that yields is still tested.
+  /// @param stiffness    true over nominal stiffness of the servos.
+  /// @param grasp_force  in weights of the object.
+  [[nodiscard]] StepReplay InitialGrasp(double stiffness, double grasp_force,
+                                        const HandTolerance& frozen = {},
                                         double freeze_s = 1) const {
-    const kinematics::HandFile hand = HandWith({{"kp=\"2.0\"", "kp=\"" + stiffness + "\""}});
+    const kinematics::HandFile hand = HandWith({});
     HandReplayOptions options;
     options.mass_kg = kMass;
     options.shake = 0;
     options.freeze_s = freeze_s;
     options.squeeze_N = grasp_force * kMass * 9.81;
+    options.physics.gain_factor = stiffness;
+    options.tolerance = {.length_m = 1,
+                         .angle_rad = 1,
+                         .at_rest = 1,
+                         .slip_m = 1,
+                         .limit_s = 10,
+                         .depth_m = 1,
+                         .frozen_m = frozen.frozen_m,
+                         .frozen_rad = frozen.frozen_rad};
     return ReplayHand(hand, solid(), PlanFor(hand), options, {}, 1).steps.back();
   }
 };
 
 TEST_F(FrozenGraspTest, AStaticGraspHoldsUnderConstantControls) {
-  const StepReplay step = InitialGrasp("2.0", 12);
+  const StepReplay step = InitialGrasp(1, 12);
   EXPECT_EQ(step.reason, Reason::kNone) << step.detail;
   ASSERT_TRUE(step.hand);
   EXPECT_LT(step.hand->frozen_off_m, 2e-4);
@@ -39,12 +50,24 @@ TEST_F(FrozenGraspTest, AStaticGraspHoldsUnderConstantControls) {
 
 /// Opposed fingers on soft servos buckle. Only the controller holds this grasp.
 TEST_F(FrozenGraspTest, ALargeGraspForceOnSoftServosIsNotStatic) {
-  const StepReplay step = InitialGrasp("0.2", 20);
+  const StepReplay step = InitialGrasp(0.05, 30);
   EXPECT_EQ(step.reason, Reason::kNotStatic) << step.detail;
   EXPECT_GT(step.hand->frozen_off_m, 1e-3);
   EXPECT_THAT(step.detail, testing::HasSubstr("under constant controls"));
-  EXPECT_EQ(InitialGrasp("0.2", 20, 0).reason, Reason::kNone);
-  EXPECT_EQ(InitialGrasp("2.0", 20).reason, Reason::kNone);
+  EXPECT_EQ(InitialGrasp(0.05, 30, {}, 0).reason, Reason::kNone);
+  EXPECT_EQ(InitialGrasp(1, 30).reason, Reason::kNone);
+}
+
+TEST_F(FrozenGraspTest, BothLimitsDecideByTheMeasuredMotion) {
+  const HandMeasures measures = *InitialGrasp(1, 12).hand;
+  ASSERT_GT(measures.frozen_off_m, 0);
+  ASSERT_GT(measures.frozen_off_rad, 0);
+  for (const double share : {0.99, 1.01}) {
+    const Reason expected = share < 1 ? Reason::kNotStatic : Reason::kNone;
+    EXPECT_EQ(InitialGrasp(1, 12, {.frozen_m = share * measures.frozen_off_m}).reason, expected);
+    EXPECT_EQ(InitialGrasp(1, 12, {.frozen_rad = share * measures.frozen_off_rad}).reason,
+              expected);
+  }
 }
 
 /// The further replay is the same with and without the test, to the bit.
