@@ -99,13 +99,18 @@ void HandOptions::AddTo(CLI::App& app) {
             "Minimum distance of links from each other, palm and object, metres "
             "[default: 0.001]",
             "M");
-  AddChoice<planning::RobustnessLevel>(
+  using Level = planning::RobustnessLevel;
+  AddChoice<Robustness>(
       app, "--robustness", robustness,
-      {{"preferred", planning::RobustnessLevel::kPreferred},
-       {"required", planning::RobustnessLevel::kRequired},
-       {"none", planning::RobustnessLevel::kNone}},
+      {{"preferred", {Level::kPreferred}},
+       {"required", {Level::kRequired}},
+       {"nominal", {Level::kRequired}},
+       {"standard", {Level::kRequired, sim::PlanningRobustness::kStandard}},
+       {"none", {Level::kNone}}},
       "Required robustness of a hand plan [default: required]\n"
-      "required: return only plans that execute in simulation on the hand's actuators\n"
+      "required, nominal: return only plans that execute in simulation on the hand's actuators\n"
+      "standard: return only plans that also execute with realistic sensors, joint errors of 0.5° "
+      "and 20 % less friction\n"
       "preferred: otherwise write the best plan with a warning\n"
       "none: no simulation, no extra margins");
   MarkRare(app, {"--clearance"});
@@ -131,7 +136,7 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
 }
 
 void HandOptions::AskFor(planning::InHandTask& task) const {
-  task.robustness = robustness;
+  task.robustness = robustness.level;
   task.margin = clearance_m;
   if (!turn.empty()) task.turn = ParseTurn(turn);
   if (!start_pose.empty()) task.start_pose = ParsePose("--start-pose", start_pose);

@@ -5,6 +5,7 @@
 
 #include "planner/base/deadline.h"
 #include "planner/planning/in_hand_task.h"
+#include "sim/actuation/simulate_execution.h"
 
 namespace regrasp::apps {
 
@@ -15,7 +16,12 @@ struct HandOptions {
   std::string start_pose;
   std::string goal_pose;
   double clearance_m = 1e-3;
-  planning::RobustnessLevel robustness = planning::RobustnessLevel::kRequired;
+  /// Required robustness, and the conditions of the simulated execution.
+  struct Robustness {
+    planning::RobustnessLevel level = planning::RobustnessLevel::kRequired;
+    sim::PlanningRobustness conditions = sim::PlanningRobustness::kNominal;
+  };
+  Robustness robustness;
 
   void AddTo(CLI::App& app);
 

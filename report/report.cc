@@ -50,6 +50,11 @@ void AddHandWarnings(const Report& report, std::vector<std::string>& warnings) {
                        ": the verdict takes their strength as unlimited, largest torque " +
                        TorqueText(torque) + " N·m");
   }
+  if (const auto& soft = report.settings->hand->soft_stiffness) {
+    warnings.push_back("the model's servos are softer than those of the replay, from " +
+                       FormatShort(*soft) + " N·m/rad: the hand requires a joint controller with " +
+                       FormatShort(report.settings->hand->least_stiffness) + " N·m/rad");
+  }
   if (covered > kMentionedDepth) {
     warnings.push_back("the collision geometry of a fingertip is up to " + FormatLength(covered) +
                        " inside the object when its sphere touches; help: validate with "

@@ -20,7 +20,7 @@ constexpr char kLong[] = "digest";
 
 void AddGrasp(const Report& report, FactList& facts) {
   const GraspReport& grasp = *report.grasp;
-  const std::optional<grasp::RequiredHalfAngle>& required = report.steps.front().check.required;
+  const std::optional<grasp::RequiredFrictionAngle>& required = report.steps.front().check.required;
   facts.Add("Needs",
             required ? FormatRequiredDegrees(Degrees(required->upper)) + "°" : "none is enough");
   if (grasp.fingers.empty()) return;
@@ -38,14 +38,13 @@ void AddTrials(const sim::TrialSummary& trials, FactList& facts) {
 void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
   facts.Add("Diameter", LengthText(settings.diameter_m));
   facts.Add("Mass", NumberText(settings.mass_kg) + " kg");
-  facts.Add("Grasp force", SqueezeText(settings));
-  facts.Add("Disturbance", NumberText(100 * settings.shake) + " % of the grasp force");
+  facts.Add("Grasp force", GraspForceText(settings));
+  facts.Add("Disturbance", NumberText(100 * settings.disturbance_ratio) + " % of the grasp force");
   if (settings.protocol == sim::Protocol::kFixed) facts.Add("Protocol", "fixed grasp force");
   if (settings.hand) {
     const sim::HandTolerance& tolerance = settings.hand->tolerance;
-    facts.Add("Replay", settings.hand->sensing.feedback == sim::PoseFeedback::kPose
-                            ? "by the hand's own actuators, corrected by the object's pose"
-                            : "by the hand's own actuators");
+    facts.Add("Replay", "by the hand's own actuators");
+    facts.Add("Feedback", FeedbackText(settings.hand->sensing));
     facts.Add("Fingertips", settings.hand->tip == sim::TipShape::kBall
                                 ? "balls"
                                 : "the model's own collision geometry");
@@ -67,8 +66,8 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
     facts.Add("Contacts", "at given points, at most " +
                               LengthText(*report.farthest_from_points * report.scale) + " off");
   }
-  facts.Add("Friction", FormatDegrees(Degrees(report.half_angle)) +
-                            " (μ = " + NumberText(std::tan(report.half_angle)) + ")");
+  facts.Add("Friction", FormatDegrees(Degrees(report.friction_angle)) +
+                            " (μ = " + NumberText(std::tan(report.friction_angle)) + ")");
   if (report.torsion > 0) {
     facts.Add("Soft fingers", "torsion " + LengthText(report.torsion * report.scale));
   }

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "planner/base/error.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "sim/actuation/condition_replays.h"
+#include "sim/actuation/conditions.h"
 #include "sim/actuation/hand_replay.h"
 
 namespace regrasp::sim {
@@ -51,7 +52,7 @@ planning::ExecutionResult ResultOf(const ReplayResult& result, const plan::Plan&
       .is_held = passed > 0,
       .steps = static_cast<int>(std::max<std::ptrdiff_t>(0, passed - 1)),
       .is_whole = is_whole,
-      .spare = is_whole ? std::max(0.0, ToleranceMargin(result, tolerance)) : 0,
+      .tolerance_margin = is_whole ? std::max(0.0, ToleranceMargin(result, tolerance)) : 0,
       .is_cut_short = !fails && !is_whole};
   if (fails) {
     carried.reason = result.steps.back().reason;
@@ -65,23 +66,16 @@ planning::ExecutionResult ResultOf(const ReplayResult& result, const plan::Plan&
 std::vector<HandReplayOptions> PlanningConditions(PlanningRobustness robustness) {
   const HandReplayOptions nominal;
   if (robustness == PlanningRobustness::kNominal) return {nominal};
-  HandReplayOptions sensors = nominal;
-  sensors.shake = 0;
-  sensors.friction_factor = 0.9;
-  sensors.mass_factor = 1.1;
-  sensors.physics.gain_factor = 0.9;
-  sensors.physics.joint_friction_Nm = 0.01;
-  sensors.sensing.pose_bias_m = 6e-4;
-  sensors.sensing.pose_bias_rad = 0.0105;
-  sensors.sensing.touch_N = 0.3;
-  sensors.sensing.command_delay_s = 0.01;
-  HandReplayOptions joints = nominal;
-  joints.shake = 0;
-  joints.sensing.joint_bias_rad = 0.0087;
-  HandReplayOptions friction = nominal;
-  friction.shake = 0;
-  friction.friction_factor = 0.8;
-  return {sensors, joints, friction, nominal};
+  std::vector<HandReplayOptions> conditions;
+  for (const char* name : {"realistic", "joints-0.5deg", "friction-minus-20"}) {
+    const auto found = std::ranges::find(StandardConditions(), name, &HandCondition::name);
+    HandReplayOptions& options = conditions.emplace_back(OptionsUnder(*found, nominal));
+    options.to_end = false;
+  }
+  // Errors of joints and of the other sensors together exceed what any plan tolerates.
+  conditions.front().sensing.joint_bias_rad = 0;
+  conditions.push_back(nominal);
+  return conditions;
 }
 
 std::function<std::optional<planning::ExecutionResult>(const plan::Plan&, const Deadline&)>
@@ -92,14 +86,16 @@ ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid,
   return [replays, &solid](const plan::Plan& plan,
                            const Deadline& deadline) -> std::optional<planning::ExecutionResult> {
     try {
-      const plan::Plan located = plan::LocatePlan(solid, plan);
+      const plan::Plan projected = plan::ProjectPlan(solid, plan);
       std::optional<planning::ExecutionResult> worst;
       for (std::size_t k = 0; k < replays->conditions().size(); ++k) {
-        planning::ExecutionResult found = ResultOf(replays->Own(k).Replay(located, deadline), plan,
-                                                   replays->conditions()[k].tolerance);
-        const double spare = worst ? std::min(worst->spare, found.spare) : found.spare;
+        planning::ExecutionResult found = ResultOf(replays->Own(k).Replay(projected, deadline),
+                                                   plan, replays->conditions()[k].tolerance);
+        const double tolerance_margin =
+            worst ? std::min(worst->tolerance_margin, found.tolerance_margin)
+                  : found.tolerance_margin;
         if (!worst || found.steps < worst->steps || !found.is_whole) worst = std::move(found);
-        worst->spare = spare;
+        worst->tolerance_margin = tolerance_margin;
         if (!worst->is_whole) break;
       }
       return worst;

@@ -25,9 +25,9 @@ class FrozenGraspTest : public EditedHandTest {
     const kinematics::HandFile hand = HandWith({});
     HandReplayOptions options;
     options.mass_kg = kMass;
-    options.shake = 0;
+    options.disturbance_ratio = 0;
     options.freeze_s = freeze_s;
-    options.squeeze_N = grasp_force * kMass * 9.81;
+    options.grasp_force_N = grasp_force * kMass * 9.81;
     options.physics.gain_factor = stiffness;
     options.tolerance = {.length_m = 1,
                          .angle_rad = 1,
