@@ -30,8 +30,10 @@ using GraspStiffness = Eigen::Matrix<double, 6, 6>;
 /// through moment arms that change: large grasp forces destabilize a grasp like a column under load
 /// (Cutkosky and Kao, Computing and controlling the compliance of a robotic hand, 1989).
 ///
-/// Laws: without forces symmetric and positive semidefinite; linear in stiffness and forces
-/// together; the eigenvalues do not change by rigid motion.
+/// Laws:
+/// - Without forces it is symmetric and positive semidefinite.
+/// - It is linear in stiffness and forces together.
+/// - Its eigenvalues do not change by rigid motion.
 /// @param centroid  centroid of the object.
 /// @param radius    metres, > 0.
 [[nodiscard]] GraspStiffness ComputeGraspStiffness(const std::vector<StiffFinger>& fingers,

@@ -99,7 +99,7 @@ class HandControl {
 
   /// Return whether the touch sensor of a fingertip detects a contact.
   [[nodiscard]] bool Touches(FingerIndex finger) const { return sensors_.Touches(finger); }
-  /// Return the centre of a fingertip sphere in the object's frame, as far as joints and plan tell.
+  /// Return the centre of a fingertip sphere in the object's frame, from joints and plan.
   [[nodiscard]] Eigen::Vector3d TipInObject(FingerIndex finger) const;
   /// Return the estimated distance of a fingertip from the surface, or infinity beyond 5 mm.
   [[nodiscard]] double GapOf(FingerIndex finger) const;
@@ -132,7 +132,7 @@ class HandControl {
     Eigen::Vector3d centre_O = Eigen::Vector3d::Zero();  ///< centre of the sphere
     Eigen::Vector3d point_O = Eigen::Vector3d::Zero();   ///< contact
     Eigen::Vector3d inward_O = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d turn_O = Eigen::Matrix3d::Identity();  ///< orientation of the tip's link
+    Eigen::Matrix3d turn_O = Eigen::Matrix3d::Identity();  ///< orientation of the fingertip's link
     bool is_near = false;  ///< whether the surface is near the sphere
   };
   struct Finger {
@@ -164,7 +164,7 @@ class HandControl {
   void Integrate(double share, const PoseDeviation& off);
   /// Move an anchor to a place near the surface, at a distance of the fingertip's radius.
   void PlaceAnchor(FingerIndex finger, const Eigen::Vector3d& centre_O);
-  /// Return the orientation of the tip's link in the object's frame, from joints and plan.
+  /// Return the orientation of the fingertip's link in the object's frame, from joints and plan.
   [[nodiscard]] Eigen::Matrix3d TipTurn(FingerIndex finger) const;
   /// Roll the fingertip along the surface as its joints have moved since the last time.
   void Roll(FingerIndex finger);

@@ -47,7 +47,7 @@ void SetRoom(int contacts, const HandPhysics& physics, mjModel& model) {
 }
 
 /// Compiled scenes that were used last. To compile a hand with large meshes takes seconds, and many
-/// replays differ only in what is set after that.
+/// replays differ only in later settings.
 class CompiledScenes {
  public:
   /// Return a copy of the compiled scene of a hand and an object.

@@ -20,7 +20,7 @@ class GraspStiffnessTest : public HeldInHand {
  protected:
   [[nodiscard]] double radius() const { return kScale * solid().diameter() / 2; }
 
-  /// @param squeeze  grasp force, newtons; at least the weight's.
+  /// @param grasp_force  newtons; at least the weight's.
   [[nodiscard]] std::vector<StiffFinger> Fingers(const HandWorld& world, double grasp_force,
                                                  double stiffness_factor = 1) const {
     const Eigen::Isometry3d pose = world.object_pose();
