@@ -55,6 +55,7 @@ struct HandArguments {
   std::optional<std::array<double, 7>> start_pose, goal_pose;
   double clearance = 1e-3;
   planning::RobustnessLevel robustness = planning::RobustnessLevel::kRequired;
+  bool is_standard = false;  ///< whether plans must execute under PlanningRobustness::kStandard
 };
 
 std::optional<Eigen::Isometry3d> PoseOf(const std::optional<std::array<double, 7>>& numbers) {
@@ -76,7 +77,9 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .start_pose = PoseOf(given.start_pose),
           .goal_pose = PoseOf(given.goal_pose),
           .simulate = sim::ExecutionSimulator(
-              hand.file, dynamic_cast<const object::Polyhedron&>(*object.file.object))};
+              hand.file, dynamic_cast<const object::Polyhedron&>(*object.file.object),
+              sim::PlanningConditions(given.is_standard ? sim::PlanningRobustness::kStandard
+                                                        : sim::PlanningRobustness::kNominal))};
 }
 
 planning::GraspChoice Choose(const char* name, const std::string& value, bool any,
@@ -188,7 +191,8 @@ void BindPlans(py::module_& module) {
       .def_readwrite("start_pose", &HandArguments::start_pose)
       .def_readwrite("goal_pose", &HandArguments::goal_pose)
       .def_readwrite("clearance", &HandArguments::clearance)
-      .def_readwrite("robustness", &HandArguments::robustness);
+      .def_readwrite("robustness", &HandArguments::robustness)
+      .def_readwrite("is_standard", &HandArguments::is_standard);
   module.def("find_plan_in_hand",
              [](const PythonObject& object, const PlanArguments& given, const PythonHand& hand,
                 const HandArguments& asked, py::object progress) {
