@@ -100,7 +100,10 @@ EntryReplay::EntryReplay(HandWorld& world, const object::Polyhedron& solid, cons
       monitor_(world, solid, plan.scale, options.tolerance),
       control_(world, solid, plan.scale, control),
       state_(plan.hand->initial),
-      to_end_(options.to_end) {}
+      to_end_(options.to_end) {
+  // The fingers start off the plan. That is not a motion of the plan.
+  control_.Steer(state_);
+}
 
 void EntryReplay::GoOnFrom(const Rested& rest) {
   rest_ = rest.world;
